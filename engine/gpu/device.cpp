@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/device.h"
+
+namespace candelabra::gpu
+{
+namespace
+{
+
+// The one list of features the engine uses: X(struct, member).
+#define CND_REQUIRED_FEATURES(X)                                                                   \
+    X(core10, multiDrawIndirect)                                                                   \
+    X(core10, drawIndirectFirstInstance)                                                           \
+    X(core10, independentBlend)                                                                    \
+    X(core12, scalarBlockLayout)                                                                   \
+    X(core13, synchronization2)                                                                    \
+    X(core13, dynamicRendering)                                                                    \
+    X(core13, maintenance4)                                                                        \
+    X(core13, shaderDemoteToHelperInvocation)
+
+struct FormatNeed {
+    VkFormat format;
+    const char* name;
+    VkFormatFeatureFlags optimal, buffer;
+};
+
+constexpr FormatNeed formatNeeds[] = {
+    {VK_FORMAT_R32G32B32A32_SFLOAT, "R32G32B32A32_SFLOAT",
+     VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+         VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
+     VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT},
+    {VK_FORMAT_R8G8B8A8_UNORM, "R8G8B8A8_UNORM", VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, 0},
+    {VK_FORMAT_D32_SFLOAT, "D32_SFLOAT",
+     VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, 0},
+};
+
+} // namespace
+
+Device::Device(const CndDeviceDesc& desc)
+    : instance(desc.instance),
+      physicalDevice(desc.physicalDevice),
+      handle(desc.device),
+      pipelineCache(desc.pipelineCache),
+      allocationCallbacks(desc.allocationCallbacks)
+{
+    if (!desc.instance || !desc.physicalDevice || !desc.device || !desc.getInstanceProcAddr)
+        failArgument("CndDeviceDesc: instance, physicalDevice, device and getInstanceProcAddr must "
+                     "not be null");
+#define X(f)                                                                                       \
+    f = reinterpret_cast<PFN_vk##f>(desc.getInstanceProcAddr(instance, "vk" #f));                  \
+    if (!f)                                                                                        \
+        failUnsupported("the host's vkGetInstanceProcAddr has no vk" #f);
+    CND_INSTANCE_FUNCTIONS(X)
+#undef X
+#define X(f)                                                                                       \
+    f = reinterpret_cast<PFN_vk##f>(GetDeviceProcAddr(handle, "vk" #f));                           \
+    if (!f)                                                                                        \
+        failUnsupported("the device has no vk" #f " (Vulkan 1.3 is needed)");
+    CND_DEVICE_FUNCTIONS(X)
+#undef X
+    if (desc.debugUtilsEnabled) {
+#define X(f)                                                                                       \
+    f = reinterpret_cast<PFN_vk##f>(desc.getInstanceProcAddr(instance, "vk" #f));
+        CND_DEBUG_FUNCTIONS(X)
+#undef X
+    }
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    GetPhysicalDeviceProperties2(physicalDevice, &properties);
+    limits = properties.properties.limits;
+    GetPhysicalDeviceMemoryProperties(physicalDevice, &memory);
+}
+
+void Device::name(VkObjectType type, uint64_t object, const std::string& text) const
+{
+    if (!SetDebugUtilsObjectNameEXT)
+        return;
+    const VkDebugUtilsObjectNameInfoEXT info{
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+        .objectType = type,
+        .objectHandle = object,
+        .pObjectName = text.c_str()};
+    SetDebugUtilsObjectNameEXT(handle, &info);
+}
+
+void Device::beginLabel(VkCommandBuffer cmd, const char* text) const
+{
+    if (!CmdBeginDebugUtilsLabelEXT)
+        return;
+    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                     .pLabelName = text};
+    CmdBeginDebugUtilsLabelEXT(cmd, &label);
+}
+
+void Device::endLabel(VkCommandBuffer cmd) const
+{
+    if (CmdEndDebugUtilsLabelEXT)
+        CmdEndDebugUtilsLabelEXT(cmd);
+}
+
+uint32_t Device::memoryType(uint32_t typeBits, VkMemoryPropertyFlags required,
+                            VkMemoryPropertyFlags preferred) const
+{
+    for (const VkMemoryPropertyFlags wanted : {required | preferred, required})
+        for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+            if ((typeBits >> i & 1) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted)
+                return i;
+    failUnsupported("the device has no memory type with property flags " +
+                    std::to_string(required));
+}
+
+std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice physicalDevice,
+                                         PFN_vkGetInstanceProcAddr getInstanceProcAddr)
+{
+    const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(
+        getInstanceProcAddr(instance, "vkGetPhysicalDeviceProperties"));
+    VkPhysicalDeviceProperties properties{};
+    getProperties(physicalDevice, &properties);
+    std::vector<std::string> missing;
+    if (properties.apiVersion < VK_API_VERSION_1_3)
+        return {"Vulkan 1.3 (the device has " +
+                std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
+                std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + ")"};
+
+    const auto getFeatures = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
+        getInstanceProcAddr(instance, "vkGetPhysicalDeviceFeatures2"));
+    VkPhysicalDeviceVulkan13Features core13{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features core12{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &core13};
+    VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                       .pNext = &core12};
+    getFeatures(physicalDevice, &features);
+    const VkPhysicalDeviceFeatures& core10 = features.features;
+#define X(which, member)                                                                           \
+    if (!which.member)                                                                             \
+        missing.emplace_back("feature " #member);
+    CND_REQUIRED_FEATURES(X)
+#undef X
+
+    const auto getFormat = reinterpret_cast<PFN_vkGetPhysicalDeviceFormatProperties>(
+        getInstanceProcAddr(instance, "vkGetPhysicalDeviceFormatProperties"));
+    for (const FormatNeed& need : formatNeeds) {
+        VkFormatProperties format{};
+        getFormat(physicalDevice, need.format, &format);
+        if ((format.optimalTilingFeatures & need.optimal) != need.optimal ||
+            (format.bufferFeatures & need.buffer) != need.buffer)
+            missing.push_back(std::string("usages of format ") + need.name);
+    }
+    return missing;
+}
+
+void requireFeatures(VkPhysicalDeviceFeatures& core10, VkPhysicalDeviceVulkan12Features& core12,
+                     VkPhysicalDeviceVulkan13Features& core13)
+{
+#define X(which, member) which.member = VK_TRUE;
+    CND_REQUIRED_FEATURES(X)
+#undef X
+}
+
+} // namespace candelabra::gpu

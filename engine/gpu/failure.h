@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// How creation fails inside the engine: one exception type, caught at the C ABI (guard), so that
+// nothing is thrown across it.
+#pragma once
+
+#include <exception>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "candelabra/candelabra.h"
+
+namespace candelabra::gpu
+{
+
+struct Failure {
+    CndResult code;
+    VkResult vkResult;
+    std::string message; // one sentence without the final full stop
+};
+
+// Throws a Failure when `result` is an error; `what` names the call and the object.
+void check(VkResult result, const std::string& what);
+
+[[noreturn]] void failArgument(std::string message);
+[[noreturn]] void failUnsupported(std::string message);
+
+CndResult report(CndError* error, CndResult code, VkResult vkResult, const char* message) noexcept;
+
+// Runs `body` and turns every way of failing into a result code and a sentence.
+template <typename Body>
+CndResult guard(CndError* error, Body&& body) noexcept
+{
+    try {
+        std::forward<Body>(body)();
+        return report(error, CND_SUCCESS, VK_SUCCESS, "");
+    } catch (const Failure& f) {
+        return report(error, f.code, f.vkResult, f.message.c_str());
+    } catch (const std::bad_alloc&) {
+        return report(error, CND_ERROR_OUT_OF_MEMORY, VK_ERROR_OUT_OF_HOST_MEMORY,
+                      "out of host memory");
+    } catch (const std::exception& e) {
+        return report(error, CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS, e.what());
+    }
+}
+
+} // namespace candelabra::gpu

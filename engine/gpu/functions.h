@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every Vulkan entry point the engine calls. The engine loads no Vulkan: the table is filled from the
+// host's vkGetInstanceProcAddr.
+#pragma once
+
+#define CND_INSTANCE_FUNCTIONS(X)                                                                  \
+    X(GetPhysicalDeviceProperties2)                                                                \
+    X(GetPhysicalDeviceFeatures2)                                                                  \
+    X(GetPhysicalDeviceFormatProperties)                                                           \
+    X(GetPhysicalDeviceMemoryProperties)                                                           \
+    X(GetPhysicalDeviceQueueFamilyProperties)                                                      \
+    X(GetDeviceProcAddr)
+
+#define CND_DEVICE_FUNCTIONS(X)                                                                    \
+    X(AllocateDescriptorSets)                                                                      \
+    X(AllocateMemory)                                                                              \
+    X(BindBufferMemory)                                                                            \
+    X(BindImageMemory)                                                                             \
+    X(CmdBeginRendering)                                                                           \
+    X(CmdBindDescriptorSets)                                                                       \
+    X(CmdBindIndexBuffer)                                                                          \
+    X(CmdBindPipeline)                                                                             \
+    X(CmdBindVertexBuffers)                                                                        \
+    X(CmdCopyBuffer)                                                                               \
+    X(CmdDispatch)                                                                                 \
+    X(CmdDraw)                                                                                     \
+    X(CmdDrawIndexed)                                                                              \
+    X(CmdDrawIndexedIndirect)                                                                      \
+    X(CmdEndRendering)                                                                             \
+    X(CmdFillBuffer)                                                                               \
+    X(CmdPipelineBarrier2)                                                                         \
+    X(CmdPushConstants)                                                                            \
+    X(CmdResetQueryPool)                                                                           \
+    X(CmdSetCullMode)                                                                              \
+    X(CmdSetScissor)                                                                               \
+    X(CmdSetViewport)                                                                              \
+    X(CmdWriteTimestamp2)                                                                          \
+    X(CreateBuffer)                                                                                \
+    X(CreateBufferView)                                                                            \
+    X(CreateComputePipelines)                                                                      \
+    X(CreateDescriptorPool)                                                                        \
+    X(CreateDescriptorSetLayout)                                                                   \
+    X(CreateGraphicsPipelines)                                                                     \
+    X(CreateImage)                                                                                 \
+    X(CreateImageView)                                                                             \
+    X(CreatePipelineLayout)                                                                        \
+    X(CreateQueryPool)                                                                             \
+    X(CreateSampler)                                                                               \
+    X(CreateShaderModule)                                                                          \
+    X(DestroyBuffer)                                                                               \
+    X(DestroyBufferView)                                                                           \
+    X(DestroyDescriptorPool)                                                                       \
+    X(DestroyDescriptorSetLayout)                                                                  \
+    X(DestroyImage)                                                                                \
+    X(DestroyImageView)                                                                            \
+    X(DestroyPipeline)                                                                             \
+    X(DestroyPipelineLayout)                                                                       \
+    X(DestroyQueryPool)                                                                            \
+    X(DestroySampler)                                                                              \
+    X(DestroyShaderModule)                                                                         \
+    X(FreeMemory)                                                                                  \
+    X(GetBufferMemoryRequirements)                                                                 \
+    X(GetImageMemoryRequirements)                                                                  \
+    X(GetQueryPoolResults)                                                                         \
+    X(MapMemory)                                                                                   \
+    X(UpdateDescriptorSets)
+
+// VK_EXT_debug_utils; null when the host did not enable it.
+#define CND_DEBUG_FUNCTIONS(X)                                                                     \
+    X(CmdBeginDebugUtilsLabelEXT)                                                                  \
+    X(CmdEndDebugUtilsLabelEXT)                                                                    \
+    X(SetDebugUtilsObjectNameEXT)

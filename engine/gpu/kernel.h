@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernel: one compute pipeline with its parameter struct, checked against the SPIR-V at creation.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "gpu/memory.h"
+#include "gpu/spirv.h"
+#include "gpu/timer.h"
+
+namespace candelabra::gpu
+{
+
+// What a pass may touch while recording.
+struct Frame {
+    const Device& device;
+    VkCommandBuffer cmd;
+    Timer& timer;
+    uint32_t slot; // frame in flight
+
+    // Makes shader and transfer writes so far visible to later shader work and transfers.
+    void barrier() const noexcept;
+};
+
+struct SpecConstant {
+    uint32_t id;
+    uint32_t value;
+};
+
+// One descriptor of a set: the binding number and what goes there.
+struct Binding {
+    uint32_t binding;
+    VkBuffer buffer = VK_NULL_HANDLE;   // whole buffer
+    VkImageView image = VK_NULL_HANDLE;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkBufferView texels = VK_NULL_HANDLE;
+    VkSampler sampler = VK_NULL_HANDLE;
+
+    static Binding of(uint32_t b, const Buffer& x) { return {.binding = b, .buffer = x.get()}; }
+    static Binding ofTexels(uint32_t b, const Buffer& x)
+    {
+        return {.binding = b, .texels = x.texels.get()};
+    }
+    static Binding sampled(uint32_t b, VkImageView view)
+    {
+        return {.binding = b,
+                .image = view,
+                .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    }
+    static Binding storage(uint32_t b, VkImageView view)
+    {
+        return {.binding = b, .image = view, .layout = VK_IMAGE_LAYOUT_GENERAL};
+    }
+};
+
+// Set 0 of a shader: its layout, one descriptor set per frame slot, and the way to fill one.
+class Bindings
+{
+public:
+    Bindings() = default;
+    Bindings(const Device& device, const char* name, std::vector<ReflectedBinding> bindings,
+             VkShaderStageFlags stages, uint32_t setCount);
+
+    VkDescriptorSetLayout layout() const { return layout_.get(); }
+    VkDescriptorSet set(uint32_t index) const { return sets_[index]; }
+    // Writes every binding of set `index`; the GPU must not be using it. All bindings of the layout
+    // must be given (a driver crashed on bindings left unwritten).
+    void write(uint32_t index, std::initializer_list<Binding> bindings) const;
+
+private:
+    const Device* device_ = nullptr;
+    const char* name_ = "";
+    std::vector<ReflectedBinding> bindings_;
+    Handle<VkDescriptorSetLayout> layout_;
+    Handle<VkDescriptorPool> pool_;
+    std::vector<VkDescriptorSet> sets_;
+};
+
+class KernelBase
+{
+public:
+    KernelBase() = default;
+    KernelBase(const Device& device, const Spirv& spirv, uint32_t paramsSize,
+               std::initializer_list<SpecConstant> constants);
+    const char* name() const { return name_; }
+    // One set per frame slot, for one user (view) of the kernel.
+    Bindings createBindings(uint32_t setCount) const;
+
+protected:
+    void dispatchRaw(const Frame& frame, VkDescriptorSet set, const void* params, uint32_t size,
+                     uint32_t x, uint32_t y, uint32_t z) const noexcept;
+
+private:
+    const Device* device_ = nullptr;
+    const char* name_ = "";
+    Reflection reflection_;
+    Handle<VkDescriptorSetLayout> setLayout_;
+    Handle<VkPipelineLayout> layout_;
+    Handle<VkPipeline> pipeline_;
+};
+
+// Params: the push constant struct of the shader, from shaders/shared.
+template <typename Params>
+class Kernel : public KernelBase
+{
+public:
+    Kernel() = default;
+    Kernel(const Device& device, const Spirv& spirv,
+           std::initializer_list<SpecConstant> constants = {})
+        : KernelBase(device, spirv, sizeof(Params), constants)
+    {
+    }
+    // Group counts; a zero count records nothing but the timer row.
+    void dispatch(const Frame& frame, VkDescriptorSet set, const Params& params, uint32_t x,
+                  uint32_t y = 1, uint32_t z = 1) const noexcept
+    {
+        dispatchRaw(frame, set, &params, sizeof params, x, y, z);
+    }
+};
+
+// Handles shared with pipelines that are not kernels (raster passes).
+Handle<VkShaderModule> createShaderModule(const Device& device, const Spirv& spirv);
+Handle<VkDescriptorSetLayout> createSetLayout(const Device& device, const char* name,
+                                              std::span<const ReflectedBinding> bindings,
+                                              VkShaderStageFlags stages);
+Handle<VkPipelineLayout> createPipelineLayout(const Device& device, const char* name,
+                                              std::span<const VkDescriptorSetLayout> sets,
+                                              VkShaderStageFlags stages, uint32_t pushConstantSize);
+
+constexpr uint32_t divideUp(uint32_t n, uint32_t d) { return n / d + (n % d != 0); }
+
+} // namespace candelabra::gpu

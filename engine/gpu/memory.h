@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Buffer and Image: rule-of-zero bundles of handles, each with its own allocation.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "gpu/handle.h"
+
+namespace candelabra::gpu
+{
+
+enum class MemoryUse {
+    Device,   // GPU only
+    Upload,   // host writes once in order, GPU reads; mapped and coherent
+    Readback, // GPU writes, host reads; mapped, coherent, cached where possible
+};
+
+struct Buffer {
+    // Members are destroyed in reverse order: the memory goes last.
+    Handle<VkDeviceMemory> memory;
+    Handle<VkBuffer> buffer;
+    Handle<VkBufferView> texels; // optional R32G32B32A32_SFLOAT view
+    VkDeviceSize size = 0;
+    std::byte* mapped = nullptr; // null for MemoryUse::Device
+
+    VkBuffer get() const { return buffer.get(); }
+    template <typename T>
+    std::span<T> as() const
+    {
+        return {reinterpret_cast<T*>(mapped), size_t(size / sizeof(T))};
+    }
+};
+
+// `size` 0 is rounded up to 16 bytes so that every binding can always be written.
+Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize size,
+                    VkBufferUsageFlags usage, MemoryUse use);
+
+// Adds a texel view over the first min(size, limit) bytes; needs UNIFORM_TEXEL_BUFFER usage.
+void createTexelView(const Device& device, Buffer& buffer);
+
+struct Image {
+    Handle<VkDeviceMemory> memory;
+    Handle<VkImage> image;
+    Handle<VkImageView> view;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    uint32_t width = 0, height = 0;
+    uint32_t mipLevels = 1;
+};
+
+// 2D image, optimal tiling, one layer, with a view of all mip levels and the given aspect.
+Image createImage(const Device& device, const std::string& name, VkFormat format, uint32_t width,
+                  uint32_t height, VkImageUsageFlags usage, VkImageAspectFlags aspect,
+                  uint32_t mipLevels = 1);
+
+} // namespace candelabra::gpu

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/spirv.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "gpu/failure.h"
+
+namespace candelabra::gpu
+{
+namespace
+{
+
+// Opcodes, decorations, storage classes and dimensions: SPIR-V specification 1.6, section 3.
+enum : uint32_t {
+    OpTypeInt = 21,
+    OpTypeFloat = 22,
+    OpTypeVector = 23,
+    OpTypeMatrix = 24,
+    OpTypeImage = 25,
+    OpTypeSampler = 26,
+    OpTypeSampledImage = 27,
+    OpTypeArray = 28,
+    OpTypeStruct = 30,
+    OpTypePointer = 32,
+    OpConstant = 43,
+    OpVariable = 59,
+    OpDecorate = 71,
+    OpMemberDecorate = 72,
+    DecorationArrayStride = 6,
+    DecorationMatrixStride = 7,
+    DecorationBinding = 33,
+    DecorationDescriptorSet = 34,
+    DecorationOffset = 35,
+    StorageUniformConstant = 0,
+    StorageUniform = 2,
+    StoragePushConstant = 9,
+    StorageStorageBuffer = 12,
+    DimBuffer = 5,
+};
+
+struct Decorations {
+    uint32_t binding = ~0u, set = 0, arrayStride = 0;
+    std::map<uint32_t, uint32_t> memberOffset, memberMatrixStride;
+};
+
+class Module
+{
+public:
+    explicit Module(const Spirv& spirv) : words_(spirv.words)
+    {
+        constexpr size_t headerWords = 5;
+        for (size_t i = headerWords; i < words_.size();) {
+            const uint32_t* at = &words_[i];
+            read(at[0] & 0xFFFFu, at);
+            i += at[0] >> 16;
+        }
+    }
+
+    Reflection reflection(const char* name) const
+    {
+        Reflection result;
+        for (const uint32_t* variable : variables_) {
+            const uint32_t storage = variable[3];
+            const uint32_t* type = definition(definition(variable[1])[3]);
+            if (storage == StoragePushConstant)
+                result.pushConstantSize = structSize(type[1]);
+            const auto found = decorations_.find(variable[2]);
+            if (found == decorations_.end() || found->second.binding == ~0u)
+                continue;
+            if (found->second.set != 0)
+                failUnsupported(std::string("shader ") + name + " uses a descriptor set above 0");
+            uint32_t count = 1;
+            if ((type[0] & 0xFFFFu) == OpTypeArray) {
+                count = definition(type[3])[3];
+                type = definition(type[2]);
+            }
+            result.bindings.push_back({found->second.binding, descriptorType(storage, type), count});
+        }
+        std::sort(result.bindings.begin(), result.bindings.end(),
+                  [](auto& a, auto& b) { return a.binding < b.binding; });
+        return result;
+    }
+
+private:
+    void read(uint32_t op, const uint32_t* at)
+    {
+        if (op >= OpTypeInt && op <= OpTypePointer)
+            definitions_[at[1]] = at;
+        else if (op == OpConstant)
+            definitions_[at[2]] = at;
+        else if (op == OpVariable)
+            variables_.push_back(at);
+        else if (op == OpDecorate && at[2] == DecorationBinding)
+            decorations_[at[1]].binding = at[3];
+        else if (op == OpDecorate && at[2] == DecorationDescriptorSet)
+            decorations_[at[1]].set = at[3];
+        else if (op == OpDecorate && at[2] == DecorationArrayStride)
+            decorations_[at[1]].arrayStride = at[3];
+        else if (op == OpMemberDecorate && at[3] == DecorationOffset)
+            decorations_[at[1]].memberOffset[at[2]] = at[4];
+        else if (op == OpMemberDecorate && at[3] == DecorationMatrixStride)
+            decorations_[at[1]].memberMatrixStride[at[2]] = at[4];
+    }
+
+    const uint32_t* definition(uint32_t id) const { return definitions_.at(id); }
+
+    uint32_t structSize(uint32_t id) const
+    {
+        const uint32_t* type = definition(id);
+        const uint32_t members = (type[0] >> 16) - 2;
+        const Decorations& layout = decorations_.at(id);
+        uint32_t size = 0;
+        for (uint32_t m = 0; m < members; ++m) {
+            const auto stride = layout.memberMatrixStride.find(m);
+            const uint32_t matrixStride =
+                stride == layout.memberMatrixStride.end() ? 0 : stride->second;
+            size = std::max(size, layout.memberOffset.at(m) + typeSize(type[2 + m], matrixStride));
+        }
+        return size;
+    }
+
+    uint32_t typeSize(uint32_t id, uint32_t matrixStride) const
+    {
+        const uint32_t* type = definition(id);
+        switch (type[0] & 0xFFFFu) {
+        case OpTypeInt:
+        case OpTypeFloat:
+            return type[2] / 8;
+        case OpTypeVector:
+            return typeSize(type[2], 0) * type[3];
+        case OpTypeMatrix:
+            return (type[3] - 1) * matrixStride + typeSize(type[2], 0);
+        case OpTypeArray:
+            return definition(type[3])[3] * decorations_.at(id).arrayStride;
+        default:
+            return structSize(id);
+        }
+    }
+
+    static VkDescriptorType descriptorType(uint32_t storage, const uint32_t* type)
+    {
+        if (storage == StorageStorageBuffer)
+            return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        if (storage == StorageUniform)
+            return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        switch (type[0] & 0xFFFFu) {
+        case OpTypeSampler:
+            return VK_DESCRIPTOR_TYPE_SAMPLER;
+        case OpTypeSampledImage:
+            return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        default: {
+            const bool sampled = type[7] == 1; // OpTypeImage operand "Sampled"
+            if (type[3] == DimBuffer)
+                return sampled ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                               : VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+            return sampled ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        }
+        }
+    }
+
+    std::span<const uint32_t> words_;
+    std::map<uint32_t, const uint32_t*> definitions_; // result id -> first word of the instruction
+    std::map<uint32_t, Decorations> decorations_;
+    std::vector<const uint32_t*> variables_;
+};
+
+} // namespace
+
+Reflection reflect(const Spirv& spirv)
+{
+    return Module(spirv).reflection(spirv.name);
+}
+
+} // namespace candelabra::gpu

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+// Candelabra: C ABI of the lighting and exposure modules.
+//
+// Conventions
+//   Units: metres, seconds, radians, photometric light units (lm, cd, lx, cd/m^2). Colours are linear
+//   Rec.709. Matrices are column-major (element [column*4 + row]), vectors are columns.
+//   Ownership: a module borrows every Vulkan handle it is given, owns only what it created, never
+//   creates a device or a queue, never submits and never waits. Recording allocates nothing.
+//   Threads: different objects may be used from different threads; calls on one object, or on a
+//   view and the CndLighting it came from, must not overlap.
+//   Errors: every function that can fail returns a CndResult and, when `error` is not NULL, one
+//   sentence naming the offending thing. Nothing is thrown.
+//   Versioning: every descriptor starts with structSize = sizeof(the struct).
+#ifndef CANDELABRA_CANDELABRA_H
+#define CANDELABRA_CANDELABRA_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <vulkan/vulkan_core.h>
+
+#define CND_VERSION_MAJOR 0
+#define CND_VERSION_MINOR 1
+#define CND_VERSION_PATCH 0
+#define CND_MAKE_VERSION(major, minor, patch) (((major) << 22) | ((minor) << 12) | (patch))
+#define CND_VERSION CND_MAKE_VERSION(CND_VERSION_MAJOR, CND_VERSION_MINOR, CND_VERSION_PATCH)
+
+#if defined(__GNUC__)
+#define CND_API __attribute__((visibility("default")))
+#else
+#define CND_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum CndResult {
+    CND_SUCCESS = 0,
+    CND_NOT_READY = 1,               // statistics: the GPU has not finished that frame yet
+    CND_ERROR_INVALID_ARGUMENT = -1, // a value outside its documented range
+    CND_ERROR_UNSUPPORTED = -2,      // the device lacks a feature, format or limit
+    CND_ERROR_OUT_OF_MEMORY = -3,
+    CND_ERROR_DEVICE = -4,           // a Vulkan call failed; vkResult tells which way
+    CND_RESULT_MAX_ENUM = 0x7FFFFFFF
+} CndResult;
+
+typedef struct CndError {
+    CndResult code;
+    VkResult vkResult;  // VK_SUCCESS when no Vulkan call was at fault
+    char message[512];  // one sentence, zero terminated
+} CndError;
+
+// Version of the library that was linked, as CND_MAKE_VERSION.
+CND_API uint32_t cndGetVersion(void);
+
+// --------------------------------------------------------------------------------------------
+// Device contract
+
+// Borrowed handles; they must outlive every object created from them.
+typedef struct CndDeviceDesc {
+    uint32_t structSize;
+    VkInstance instance;
+    VkPhysicalDevice physicalDevice;
+    VkDevice device;
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr;
+    VkPipelineCache pipelineCache;                   // may be VK_NULL_HANDLE
+    const VkAllocationCallbacks* allocationCallbacks; // may be NULL
+    VkBool32 debugUtilsEnabled; // VK_EXT_debug_utils is enabled on the instance: name and label objects
+} CndDeviceDesc;
+
+// Writes into `missing` (comma separated, zero terminated, truncated at missingSize) what the device
+// lacks; CND_SUCCESS when it lacks nothing, CND_ERROR_UNSUPPORTED otherwise.
+CND_API CndResult cndCheckDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
+                                 PFN_vkGetInstanceProcAddr getInstanceProcAddr, char* missing,
+                                 size_t missingSize);
+
+// Sets to VK_TRUE, in feature structs the host chains into VkDeviceCreateInfo, every feature that
+// the modules need. Other members are left alone. Pointers may not be NULL.
+CND_API void cndRequireFeatures(VkPhysicalDeviceFeatures* core10,
+                                VkPhysicalDeviceVulkan12Features* core12,
+                                VkPhysicalDeviceVulkan13Features* core13);
+
+// --------------------------------------------------------------------------------------------
+// Lights
+
+typedef enum CndLightType {
+    CND_LIGHT_POINT = 0,       // emission: luminous intensity, cd
+    CND_LIGHT_SPHERE = 1,      // emission: luminance, cd/m^2, constant over the sphere and directions
+    CND_LIGHT_SPOT = 2,        // emission: luminous intensity on the axis, cd
+    CND_LIGHT_DIRECTIONAL = 3, // emission: illuminance on a surface that faces it, lx
+    CND_LIGHT_TYPE_MAX_ENUM = 0x7FFFFFFF
+} CndLightType;
+
+// One light. Fields that a type does not use are ignored.
+// Window: a light is multiplied by (1 - (d/r)^4)^2 for d < r and is absent for d >= r, with d the
+// distance to its centre and r = influenceRadius (Lagarde and de Rousiers 2014, eq. 26, squared
+// window); with r = INFINITY it is neither windowed nor cut.
+typedef struct CndLight {
+    uint32_t type;           // CndLightType
+    float position[3];       // metres, relative to CndLightSet::origin; all but directional
+    float radius;            // metres, > 0; sphere
+    float direction[3];      // unit (1e-3), the way the light travels; spot and directional
+    float emission[3];       // >= 0, finite; unit by type, per Rec.709 channel
+    float influenceRadius;   // metres, > 0 (sphere: > radius), or INFINITY; all but directional
+    float innerConeAngle;    // radians, 0 <= inner < outer; spot: full intensity inside (half angle)
+    float outerConeAngle;    // radians, inner < outer <= pi/2; spot: no light outside (half angle)
+} CndLight;
+
+// A set of lights around an origin. The engine subtracts the camera from the origin in double, so
+// precision depends on the distance from a light to its origin only.
+typedef struct CndLightSet {
+    uint32_t structSize;
+    uint32_t count;
+    const CndLight* lights; // count elements, read before the call returns
+    double origin[3];       // world space, metres
+} CndLightSet;
+
+// Luminance (cd/m^2) of a sphere of `radius` metres that emits `luminousPower` lumens evenly:
+// Phi = 4 pi^2 R^2 L. Keeping the power while changing the radius keeps the far field.
+CND_API float cndSphereLuminanceFromPower(float luminousPower, float radius);
+// Luminance (cd/m^2) of a sphere of `radius` metres with the far field of a point light of
+// `intensity` candela: I = pi R^2 L.
+CND_API float cndSphereLuminanceFromIntensity(float intensity, float radius);
+// Luminous flux (lm) of `watts` of radiation at 555 nm: 683 lm/W (SI definition of the candela).
+CND_API float cndLuminousPowerFromWatts(float watts);
+
+// --------------------------------------------------------------------------------------------
+// Lighting
+
+typedef struct CndLighting_T* CndLighting;         // pipelines and one light set, shared by its views
+typedef struct CndLightingView_T* CndLightingView; // buffers of one view
+
+typedef enum CndSpecularMethod {
+    CND_SPECULAR_NONE = 0,  // diffuse only
+    CND_SPECULAR_KARIS = 1, // normalised representative point (Karis 2013)
+    CND_SPECULAR_METHOD_COUNT = 2,
+    CND_SPECULAR_METHOD_MAX_ENUM = 0x7FFFFFFF
+} CndSpecularMethod;
+
+typedef enum CndCulling {
+    CND_CULLING_CLUSTERED = 0, // exact lists per 8x8 tile
+    CND_CULLING_BRUTE = 1,     // every light at every pixel, no list, no bound; the check and baseline
+    CND_CULLING_MAX_ENUM = 0x7FFFFFFF
+} CndCulling;
+
+// G-buffer layouts the module can read. See shaders/lib/gbuffer.glsl for packing functions and
+// their declared error bounds.
+typedef enum CndGBufferLayout {
+    // normalRoughness R32G32_UINT: octahedral normal 24+24 bits, perceptual roughness unorm 16;
+    // albedo R16G16B16A16_SFLOAT: diffuse albedo (already scaled by 1 - metalness), a unused;
+    // specular R16G16B16A16_SFLOAT: F0, a = specular weight (Schlick F90; 0 = no specular lobe).
+    CND_GBUFFER_FULL = 0,
+    // normalRoughness R32_UINT: octahedral normal 12+12 bits, perceptual roughness unorm 8;
+    // albedo R8G8B8A8_SRGB: base colour, a = metalness; F0 = mix(0.04, base colour, metalness).
+    CND_GBUFFER_COMPACT = 1,
+    CND_GBUFFER_LAYOUT_MAX_ENUM = 0x7FFFFFFF
+} CndGBufferLayout;
+
+typedef struct CndLightingDesc {
+    uint32_t structSize;
+    uint32_t framesInFlight; // 1..8: frames the host may have recorded or submitted and not yet waited for
+    CndGBufferLayout gbufferLayout;
+    VkBool32 timestamps; // record a timestamp pair per kernel (about 50 us each on a software device)
+} CndLightingDesc;
+
+typedef struct CndLightingViewDesc {
+    uint32_t structSize;
+    uint32_t maxWidth, maxHeight; // pixels, 1..16384; frames may be smaller
+    // Bytes for light lists, 0 = default (64 MiB). Tiles whose list does not fit are shaded by
+    // walking all lights: slower, never wrong, and counted in CndLightingStats::unlistedTiles.
+    VkDeviceSize listBudget;
+} CndLightingViewDesc;
+
+// A camera. The world-from-view rotation and position are double; the projection is float.
+typedef struct CndCamera {
+    double viewFromWorld[16]; // rigid: rotation and translation only
+    float clipFromView[16];   // perspective (finite or infinite, reversed or not) or orthographic
+} CndCamera;
+
+// One frame of one view.
+// On entry: normalRoughness, albedo, specular and depth in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+// radiance in VK_IMAGE_LAYOUT_GENERAL, all made visible to COMPUTE_SHADER (SHADER_SAMPLED_READ, and
+// SHADER_STORAGE_READ | SHADER_STORAGE_WRITE for radiance). On exit: layouts unchanged, radiance
+// written by COMPUTE_SHADER / SHADER_STORAGE_WRITE, not yet made visible.
+typedef struct CndLightingFrame {
+    uint32_t structSize;
+    uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
+    uint32_t width, height;   // pixels, 1..max of the view
+    CndCamera camera;
+    float clearDepth;         // depth of pixels without a surface: 0 with reversed depth, else 1
+    VkImageView normalRoughness;
+    VkImageView albedo;
+    VkImageView specular;     // ignored by CND_GBUFFER_COMPACT (may be VK_NULL_HANDLE)
+    VkImageView depth;        // depth aspect, D32_SFLOAT
+    VkImageView radiance;     // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
+    CndSpecularMethod specularMethod;
+    CndCulling culling;
+    VkBool32 countPairs;      // also count evaluated and contributing (pixel, light) pairs: slower
+} CndLightingFrame;
+
+typedef struct CndKernelTime {
+    const char* name; // static storage
+    double ms;
+} CndKernelTime;
+
+#define CND_MAX_KERNEL_TIMES 16
+
+typedef struct CndLightingStats {
+    uint32_t structSize;
+    uint32_t lightCount;
+    uint32_t tileCount;          // 8x8 pixel tiles that hold a surface
+    uint32_t listEntries;        // entries of all tiles' lists
+    uint32_t maxListLength;
+    uint32_t unlistedTiles;      // tiles over the list budget, shaded by walking all lights
+    uint64_t evaluatedPairs;     // (pixel, light) pairs whose BRDF was evaluated; with countPairs
+    uint64_t contributingPairs;  // of those: inside influence, emitter not wholly below the horizon
+    uint32_t kernelTimeCount;    // 0 without timestamps
+    CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
+} CndLightingStats;
+
+CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLightingDesc* desc,
+                                    CndLighting* lighting, CndError* error);
+// The GPU must have finished all work recorded with the object or its views; views go first.
+CND_API void cndDestroyLighting(CndLighting lighting);
+
+// Validates and packs the lights; takes effect at the next recording. On error the previous set
+// stays. May allocate when the count grows.
+CND_API CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error);
+
+CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
+                                        CndLightingView* view, CndError* error);
+CND_API void cndDestroyLightingView(CndLightingView view);
+
+// Records culling and shading. Changes compute pipeline, compute descriptor set 0 and push
+// constants; must be outside a render pass.
+CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
+                                    const CndLightingFrame* frame, CndError* error);
+
+// Statistics of the last frame recorded in frameSlot; CND_NOT_READY until the GPU has finished it.
+CND_API CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot,
+                                      CndLightingStats* stats);
+
+// --------------------------------------------------------------------------------------------
+// Exposure: histogram eye adaptation and tone mapping
+
+typedef struct CndExposure_T* CndExposure; // one per view: holds the adaptation history
+
+typedef enum CndToneMap {
+    CND_TONEMAP_NONE = 0, // exposed radiance clipped to [0,1]
+    CND_TONEMAP_REINHARD = 1,
+    CND_TONEMAP_ACES = 2,
+    CND_TONEMAP_PBR_NEUTRAL = 3,
+    CND_TONEMAP_AGX = 4,
+    CND_TONEMAP_COUNT = 5,
+    CND_TONEMAP_MAX_ENUM = 0x7FFFFFFF
+} CndToneMap;
+
+typedef enum CndMetering {
+    CND_METERING_AVERAGE = 0,         // every pixel weighs 1
+    CND_METERING_CENTRE_WEIGHTED = 1, // integer weights 1..15, falling with distance to the centre
+    CND_METERING_MASK = 2,            // weights from cndSetExposureMask
+    CND_METERING_MAX_ENUM = 0x7FFFFFFF
+} CndMetering;
+
+typedef struct CndExposureDesc {
+    uint32_t structSize;
+    uint32_t framesInFlight; // 1..8
+    VkBool32 timestamps;
+} CndExposureDesc;
+
+// EV here is EV100 = log2(L * 100 / 12.5) for average luminance L in cd/m^2 (ISO 2720, K = 12.5).
+typedef struct CndExposureSettings {
+    VkBool32 manual;             // use manualEv100, build no histogram
+    float manualEv100;
+    float compensation;          // EV, added brightness: +1 doubles the image
+    float minEv100, maxEv100;    // clamp of the adapted value, min <= max
+    float lowPercentile;         // 0 <= low < high <= 1: share of the weighted histogram that is
+    float highPercentile;        //   ignored below low and above high
+    float speedUp, speedDown;    // 1/s, > 0: rate towards brighter / darker scenes;
+                                 //   ev(t+dt) = target + (ev(t) - target) exp(-dt * speed)
+    CndMetering metering;
+    CndToneMap toneMap;
+    VkBool32 dither;             // triangular noise of one output step before quantisation
+} CndExposureSettings;
+
+// Fills in the defaults: automatic, no compensation, EV100 -6..18, percentiles 0.10..0.90, speeds
+// 3 and 1 per second, centre-weighted, PBR Neutral, dithered.
+CND_API void cndDefaultExposureSettings(CndExposureSettings* settings);
+
+// EV100 of a camera: log2(N^2 / t * 100 / S), aperture N in f-stops, shutter t in s, sensitivity S ISO.
+CND_API float cndEv100FromCamera(float aperture, float shutterTime, float iso);
+// Factor from luminance (cd/m^2) to exposed value: 1 / (1.2 * 2^EV100) (saturation-based speed,
+// ISO 12232; Lagarde and de Rousiers 2014, eq. 85).
+CND_API float cndExposureFromEv100(float ev100);
+
+// On entry: radiance (R32G32B32A32_SFLOAT) in SHADER_READ_ONLY_OPTIMAL, visible to COMPUTE_SHADER
+// SAMPLED_READ; display (R8G8B8A8_UNORM, storage) in GENERAL, or VK_NULL_HANDLE to adapt only.
+// On exit: layouts unchanged, display written by COMPUTE_SHADER / SHADER_STORAGE_WRITE.
+typedef struct CndExposureFrame {
+    uint32_t structSize;
+    uint32_t frameSlot;
+    uint32_t width, height;  // pixels, 1..16384
+    VkImageView radiance;
+    VkImageView display;     // receives sRGB-encoded values
+    float deltaTime;         // s since the previous frame, >= 0
+    VkBool32 reset;          // jump to the converged value: first frame, camera cut, single image
+    uint32_t ditherSeed;     // same seed, same image
+    CndExposureSettings settings;
+} CndExposureFrame;
+
+#define CND_HISTOGRAM_BINS 256
+
+typedef struct CndExposureStats {
+    uint32_t structSize;
+    float targetEv100;     // of the histogram (or manualEv100), before adaptation
+    float adaptedEv100;    // in use, before compensation
+    float exposure;        // factor applied to luminance, compensation included
+    uint32_t invalidPixels; // NaN; left out of the histogram
+    uint32_t histogram[CND_HISTOGRAM_BINS]; // weighted counts; zero in manual mode
+    uint32_t kernelTimeCount;
+    CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
+} CndExposureStats;
+
+CND_API CndResult cndCreateExposure(const CndDeviceDesc* device, const CndExposureDesc* desc,
+                                    CndExposure* exposure, CndError* error);
+CND_API void cndDestroyExposure(CndExposure exposure);
+// Metering mask: width x height weights 0..15, row by row from the top, stretched over the frame
+// (nearest); at most 64 x 64. The GPU must not be using the object.
+CND_API CndResult cndSetExposureMask(CndExposure exposure, const uint8_t* weights, uint32_t width,
+                                     uint32_t height, CndError* error);
+CND_API CndResult cndRecordExposure(CndExposure exposure, VkCommandBuffer cmd,
+                                    const CndExposureFrame* frame, CndError* error);
+CND_API CndResult cndGetExposureStats(CndExposure exposure, uint32_t frameSlot,
+                                      CndExposureStats* stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

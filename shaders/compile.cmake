@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+# Compiles one shader: GLSL -> SPIR-V (warnings are errors) -> spirv-val -> C++ array.
+get_filename_component(dir ${OUTPUT} DIRECTORY)
+file(MAKE_DIRECTORY ${dir})
+set(spv ${OUTPUT}.spv)
+execute_process(
+    COMMAND ${GLSLANG} -V --target-env vulkan1.3 --quiet -I${INCLUDE} --depfile ${OUTPUT}.d.in
+        -o ${spv} ${INPUT}
+    OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
+if(failed OR log MATCHES "WARNING")
+    file(REMOVE ${OUTPUT})
+    message(FATAL_ERROR "${INPUT}:\n${log}")
+endif()
+execute_process(COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${spv}
+    OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
+if(failed)
+    message(FATAL_ERROR "spirv-val ${INPUT}:\n${log}")
+endif()
+# glslang names the .spv as the target; the build system wants the C++ file.
+file(READ ${OUTPUT}.d.in deps)
+string(REPLACE "${spv}" "${OUTPUT}" deps "${deps}")
+file(WRITE ${OUTPUT}.d "${deps}")
+
+file(READ ${spv} hex HEX)
+string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${hex}")
+string(REGEX REPLACE "((0x........,)(0x........,)(0x........,)(0x........,)(0x........,)(0x........,)(0x........,)(0x........,))" "\\1\n" words "${words}")
+file(WRITE ${OUTPUT} "#include \"gpu/spirv.h\"
+namespace candelabra::spirv
+{
+static const uint32_t words[] = {\n${words}};
+extern const gpu::Spirv ${SYMBOL};
+const gpu::Spirv ${SYMBOL}{\"${NAME}\", words};
+} // namespace candelabra::spirv
+")

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one entry point that turns what a user typed as SCENE into a Scene.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+// A scene that cannot be used. what() is one sentence: file, element, reason. Exit code 2.
+struct SceneError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct SceneOptions {
+    std::optional<uint32_t> lights;  // hall/field: number of sphere lights (default 4000);
+                                     // files: extra random sphere lights inside the bounds
+    uint32_t seed = 1;
+    std::optional<double> overlaps;  // mean lights whose influence covers a pixel (hall/field: 8)
+    bool moving = false;             // lights get a LightMotion
+    std::optional<double> punctualRadius; // metres: point lights without a radius become spheres
+};
+
+// `scene` is "hall", "field", or the path of a .gltf, .glb or .json file. Throws SceneError.
+Scene loadScene(const std::string& scene, const SceneOptions& options);
+
+// The pieces behind it.
+Scene generateHall(const SceneOptions& options);
+Scene generateField(const SceneOptions& options);
+Scene loadGltf(const std::string& path, const SceneOptions& options);
+Scene loadSceneJson(const std::string& path);
+// Adds options.lights random sphere lights inside the scene's bounds.
+void addRandomLights(Scene& scene, const SceneOptions& options);
+
+} // namespace candelabra::app
