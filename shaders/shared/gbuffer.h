@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// G-buffer packing: field widths and the declared error bounds that tests/gpu/test_gbuffer.cpp checks.
+//
+//   FULL     normalRoughness R32G32_UINT   x: [23..0] octahedral u, [31..24] roughness low byte
+//                                          y: [23..0] octahedral v, [31..24] roughness high byte
+//            albedo          RGBA16F       rgb: diffuse albedo
+//            specular        RGBA16F       rgb: F0, a: specular weight (Schlick F90)
+//   COMPACT  normalRoughness R32_UINT      [11..0] octahedral u, [23..12] v, [31..24] roughness
+//            albedo          RGBA8_SRGB    rgb: base colour, a: metalness (linear)
+//   16 + 8 + 8 (+ 4 depth) against 4 + 4 (+ 4 depth) bytes per pixel without radiance.
+#ifndef CND_SHARED_GBUFFER_H
+#define CND_SHARED_GBUFFER_H
+
+#include "shared/prelude.h"
+
+GPU_BEGIN
+
+// Octahedral coordinates are signed: k / (2^(bits-1) - 1). The most negative code is not a direction.
+const uint NORMAL_BITS_FULL = 24u;
+const uint NORMAL_BITS_COMPACT = 12u;
+
+// Largest angle between a unit normal and what unpacking returns, radians.
+const float NORMAL_ERROR_FULL = 4e-7f;
+const float NORMAL_ERROR_COMPACT = 9e-4f; // Cigolle et al. 2014, table 1: oct24 (0.0513 degrees)
+// Largest error of perceptual roughness in [0, 1]: half a unorm step.
+const float ROUGHNESS_ERROR_FULL = 7.7e-6f;
+const float ROUGHNESS_ERROR_COMPACT = 1.97e-3f;
+
+// normalRoughness of a COMPACT pixel that lighting must not touch (visible emitters): u holds the
+// code that is not a direction. FULL says the same with albedo, F0 and weight of 0.
+const uint NORMAL_ROUGHNESS_UNLIT_COMPACT = 0x800u;
+
+// F0 of the dielectric part in COMPACT (glTF 2.0, index of refraction 1.5).
+const float DIELECTRIC_F0 = 0.04f;
+
+GPU_END
+
+#endif
