@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the program fails: what() is one sentence for the user; the type decides the exit code.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "gpu/failure.h"
+
+namespace candelabra::app
+{
+
+constexpr int exitOk = 0;
+constexpr int exitFailed = 1; // something that should have worked did not, or a check failed
+constexpr int exitUsage = 2;  // arguments, files or an environment the program cannot work with
+
+// Arguments that cannot be used. Exit code 2.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// A failing call or check. Exit code 1.
+struct RunError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// Throws gpu::Failure when a Vulkan call failed; `what` says what was being done.
+using gpu::check;
+
+// Throws RunError when a call through the C ABI failed.
+inline void check(CndResult result, const CndError& error)
+{
+    if (result < 0)
+        throw RunError(error.message);
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/vulkan_instance.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <utility>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "candelabra/candelabra.h"
+#include "render/error.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                         VkDebugUtilsMessageTypeFlagsEXT,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                         void* user)
+{
+    static_cast<MessageLog*>(user)->add(
+        {data->pMessageIdName ? data->pMessageIdName : "", data->pMessage ? data->pMessage : ""});
+    return VK_FALSE;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(MessageLog& log)
+{
+    return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+            .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                               VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+            // Not GENERAL: those are the loader's own remarks about the machine's drivers.
+            .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                           VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+            .pfnUserCallback = onMessage,
+            .pUserData = &log};
+}
+
+bool hasLayer(const char* wanted)
+{
+    uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& layer) {
+        return std::strcmp(layer.layerName, wanted) == 0;
+    });
+}
+
+bool hasExtension(const char* layer, const char* wanted)
+{
+    uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& e) {
+        return std::strcmp(e.extensionName, wanted) == 0;
+    });
+}
+
+void addSurfaceExtensions(std::vector<const char*>& extensions)
+{
+    uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    if (!names)
+        throw RunError("the Vulkan installation cannot present to this display (no surface "
+                       "extension)");
+    extensions.insert(extensions.end(), names, names + count);
+}
+
+std::string lower(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+int preference(VkPhysicalDeviceType type)
+{
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return 3;
+    default:
+        return 4;
+    }
+}
+
+DeviceInfo describe(VkInstance instance, VkPhysicalDevice handle, uint32_t index)
+{
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    vkGetPhysicalDeviceProperties(handle, &properties.properties);
+    const uint32_t version = properties.properties.apiVersion;
+    if (version >= VK_API_VERSION_1_2) {
+        properties.pNext = &driver;
+        vkGetPhysicalDeviceProperties2(handle, &properties);
+    }
+    std::array<char, 1024> missing{};
+    cndCheckDevice(instance, handle, vkGetInstanceProcAddr, missing.data(), missing.size());
+    std::string driverText = driver.driverName;
+    if (driver.driverInfo[0])
+        driverText += std::string(driverText.empty() ? "" : " ") + driver.driverInfo;
+    return {.index = index,
+            .handle = handle,
+            .name = properties.properties.deviceName,
+            .type = properties.properties.deviceType,
+            .vulkanVersion = std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+                             std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+                             std::to_string(VK_API_VERSION_PATCH(version)),
+            .driver = driverText,
+            .missing = missing.data()};
+}
+
+bool isNumber(const std::string& text)
+{
+    return !text.empty() && text.size() < 6 &&
+           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
+}
+
+// The device that `wanted` names; throws UsageError when there is none.
+DeviceInfo findDevice(const std::vector<DeviceInfo>& devices, const std::string& wanted)
+{
+    if (isNumber(wanted)) {
+        const size_t index = std::stoul(wanted);
+        if (index >= devices.size())
+            throw UsageError("--device " + wanted + ": there are " +
+                             std::to_string(devices.size()) + " devices, numbered from 0");
+        return devices[index];
+    }
+    const auto match = std::find_if(devices.begin(), devices.end(), [&](const DeviceInfo& d) {
+        return lower(d.name).find(lower(wanted)) != std::string::npos;
+    });
+    if (match == devices.end())
+        throw UsageError("--device " + wanted +
+                         ": no device has that in its name (see: candelabra devices)");
+    return *match;
+}
+
+} // namespace
+
+void MessageLog::add(ValidationMessage message)
+{
+    const std::lock_guard lock(mutex_);
+    messages_.push_back(std::move(message));
+}
+
+std::vector<ValidationMessage> MessageLog::take()
+{
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
+}
+
+const char* deviceTypeName(VkPhysicalDeviceType type)
+{
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "CPU";
+    default:
+        return "other";
+    }
+}
+
+VulkanInstance::VulkanInstance(Validation validation, Presentation presentation)
+    : validation_(validation), presentation_(presentation)
+{
+    const bool validate = validation == Validation::On;
+    if (validate && !hasLayer(validationLayer))
+        throw RunError(std::string("the layer ") + validationLayer +
+                       " is not installed (Debian package vulkan-validationlayers)");
+    std::vector<const char*> extensions;
+    if (presentation == Presentation::Window)
+        addSurfaceExtensions(extensions);
+    debugUtils_ = hasExtension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
+                  (validate && hasExtension(validationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
+    if (debugUtils_)
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (validate)
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+
+    const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                        .pApplicationName = "candelabra",
+                                        .applicationVersion = CND_VERSION,
+                                        .pEngineName = "candelabra",
+                                        .engineVersion = CND_VERSION,
+                                        .apiVersion = VK_API_VERSION_1_3};
+    VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(*messages_);
+    const VkValidationFeatureEnableEXT enabled =
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                           .pNext = &messenger, // covers vkCreateInstance itself
+                                           .enabledValidationFeatureCount = 1,
+                                           .pEnabledValidationFeatures = &enabled};
+    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                    .pNext = validate ? &features : nullptr,
+                                    .pApplicationInfo = &application,
+                                    .enabledLayerCount = validate ? 1u : 0u,
+                                    .ppEnabledLayerNames = &validationLayer,
+                                    .enabledExtensionCount = uint32_t(extensions.size()),
+                                    .ppEnabledExtensionNames = extensions.data()};
+    check(vkCreateInstance(&info, nullptr, &instance_), "creating the Vulkan instance");
+    if (!validate)
+        return;
+    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+    if (!create || create(instance_, &messenger, nullptr, &messenger_) != VK_SUCCESS) {
+        vkDestroyInstance(instance_, nullptr);
+        throw RunError("the validation layer reports no messages (no debug messenger)");
+    }
+}
+
+VulkanInstance::~VulkanInstance()
+{
+    if (messenger_) {
+        const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
+        destroy(instance_, messenger_, nullptr);
+    }
+    vkDestroyInstance(instance_, nullptr);
+}
+
+std::vector<DeviceInfo> VulkanInstance::devices() const
+{
+    uint32_t count = 0;
+    check(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "listing the Vulkan devices");
+    std::vector<VkPhysicalDevice> handles(count);
+    check(vkEnumeratePhysicalDevices(instance_, &count, handles.data()),
+          "listing the Vulkan devices");
+    std::vector<DeviceInfo> devices;
+    for (uint32_t i = 0; i < count; ++i)
+        devices.push_back(describe(instance_, handles[i], i));
+    return devices;
+}
+
+DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& wanted)
+{
+    if (devices.empty())
+        throw RunError("there is no Vulkan device (Debian package mesa-vulkan-drivers has a "
+                       "software one)");
+    if (!wanted.empty()) {
+        const DeviceInfo device = findDevice(devices, wanted);
+        if (!device.missing.empty())
+            throw UsageError("device " + std::to_string(device.index) + " (" + device.name +
+                             ") lacks: " + device.missing);
+        return device;
+    }
+    const DeviceInfo* best = nullptr;
+    for (const DeviceInfo& d : devices)
+        if (d.missing.empty() && (!best || preference(d.type) < preference(best->type)))
+            best = &d;
+    if (!best)
+        throw RunError("no Vulkan device will do; " + devices[0].name +
+                       " lacks: " + devices[0].missing);
+    return *best;
+}
+
+} // namespace candelabra::app
