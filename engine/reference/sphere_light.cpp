@@ -89,7 +89,7 @@ SpecularResponse karisSphereSpecular(const SurfacePoint& surface, double alpha,
     const glm::dvec3& v = surface.toEye;
     const glm::dvec3 toCenter = center - surface.position;
     const double distance = glm::length(toCenter);
-    const glm::dvec3 mirror = 2 * glm::dot(n, v) * n - v;
+    const glm::dvec3 mirror = 2 * std::max(glm::dot(n, v), minNoV) * n - v;
     const glm::dvec3 centerToRay = glm::dot(toCenter, mirror) * mirror - toCenter;
     const double miss = glm::length(centerToRay);
     const double share = miss > radius ? radius / miss : 1;

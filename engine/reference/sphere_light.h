@@ -30,11 +30,12 @@ struct SpecularResponse {
     double b = 0;
 };
 
-// Karis 2013, "Real Shading in Unreal Engine 4", pp. 15-17: the point of the sphere next to the
+// Karis 2013, "Real Shading in Unreal Engine 4", area lights: the point of the sphere next to the
 // mirror ray, with the energy of the widened lobe alpha' = min(alpha + R / 2d, 1).
-// The mirror direction uses the true, unclamped NoV. 0 where the representative point lies at or
-// below the horizon, or in the shading point itself (receiver inside the sphere, mirror ray at a
-// right angle to the centre), where it has no direction.
+// The mirror direction is 2 NoV n - v with NoV clamped to minNoV like everywhere in the model
+// (brdf.h), so it is a unit vector only where the eye is above the horizon. 0 where the
+// representative point lies at or below the horizon, or in the shading point itself (receiver
+// inside the sphere, mirror ray at a right angle to the centre), where it has no direction.
 SpecularResponse karisSphereSpecular(const SurfacePoint& surface, double alpha,
                                      const glm::dvec3& center, double radius);
 
