@@ -15,6 +15,10 @@
 
 GPU_BEGIN
 
+// CndGBufferLayout.
+const uint GBUFFER_LAYOUT_FULL = 0u;
+const uint GBUFFER_LAYOUT_COMPACT = 1u;
+
 // Octahedral coordinates are signed: k / (2^(bits-1) - 1). The most negative code is not a direction.
 const uint NORMAL_BITS_FULL = 24u;
 const uint NORMAL_BITS_COMPACT = 12u;

@@ -147,7 +147,8 @@ typedef enum CndCulling {
 // G-buffer layouts the module can read. See shaders/lib/gbuffer.glsl for packing functions and
 // their declared error bounds.
 typedef enum CndGBufferLayout {
-    // normalRoughness R32G32_UINT: octahedral normal 24+24 bits, perceptual roughness unorm 16;
+    // normalRoughness R32G32_UINT: view-space octahedral normal 24+24 bits, perceptual roughness
+    // unorm 16 (below 0.0447, that is alpha below 0.002, specular is evaluated at alpha 0.002);
     // albedo R16G16B16A16_SFLOAT: diffuse albedo (already scaled by 1 - metalness), a unused;
     // specular R16G16B16A16_SFLOAT: F0, a = specular weight (Schlick F90; 0 = no specular lobe).
     CND_GBUFFER_FULL = 0,
@@ -196,7 +197,8 @@ typedef struct CndLightingFrame {
     VkImageView radiance;     // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
     CndSpecularMethod specularMethod;
     CndCulling culling;
-    VkBool32 countPairs;      // also count evaluated and contributing (pixel, light) pairs: slower
+    VkRect2D bruteRect;       // CND_CULLING_BRUTE: pixels to shade; zero extent: all
+    VkBool32 countPairs;      // also count (pixel, light) pairs: one more kernel; clustered only
 } CndLightingFrame;
 
 typedef struct CndKernelTime {
@@ -213,8 +215,10 @@ typedef struct CndLightingStats {
     uint32_t listEntries;        // entries of all tiles' lists
     uint32_t maxListLength;
     uint32_t unlistedTiles;      // tiles over the list budget, shaded by walking all lights
-    uint64_t evaluatedPairs;     // (pixel, light) pairs whose BRDF was evaluated; with countPairs
-    uint64_t contributingPairs;  // of those: inside influence, emitter not wholly below the horizon
+    // (pixel, light) pairs, with countPairs, else 0:
+    uint64_t listedPairs;        //   entries walked, summed over the surface pixels
+    uint64_t insidePairs;        //   of those, distance < influence radius
+    uint64_t evaluatedPairs;     //   of those, emitter not wholly below the horizon: BRDF evaluated
     uint32_t kernelTimeCount;    // 0 without timestamps
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
 } CndLightingStats;

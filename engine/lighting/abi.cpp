@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C ABI of the lighting module, the device contract and the unit conversions.
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+#include "lighting/lighting.h"
+
+using namespace candelabra;
+
+struct CndLighting_T {
+    lighting::Lighting impl;
+};
+struct CndLightingView_T {
+    lighting::View impl;
+};
+
+namespace
+{
+void checkPointers(const void* a, const void* b, const void* c, const char* function)
+{
+    if (!a || !b || !c)
+        gpu::failArgument(std::string(function) + ": an argument is null");
+}
+} // namespace
+
+uint32_t cndGetVersion(void)
+{
+    return CND_VERSION;
+}
+
+CndResult cndCheckDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
+                         PFN_vkGetInstanceProcAddr getInstanceProcAddr, char* missing,
+                         size_t missingSize)
+{
+    std::string text;
+    const CndResult result = gpu::guard(nullptr, [&] {
+        checkPointers(instance, physicalDevice,
+                      reinterpret_cast<const void*>(getInstanceProcAddr), "cndCheckDevice");
+        for (const std::string& m :
+             gpu::missingFeatures(instance, physicalDevice, getInstanceProcAddr))
+            text += (text.empty() ? "" : ", ") + m;
+    });
+    if (missing && missingSize)
+        std::snprintf(missing, missingSize, "%s", text.c_str());
+    return result == CND_SUCCESS && !text.empty() ? CND_ERROR_UNSUPPORTED : result;
+}
+
+void cndRequireFeatures(VkPhysicalDeviceFeatures* core10, VkPhysicalDeviceVulkan12Features* core12,
+                        VkPhysicalDeviceVulkan13Features* core13)
+{
+    gpu::requireFeatures(*core10, *core12, *core13);
+}
+
+float cndSphereLuminanceFromPower(float luminousPower, float radius)
+{
+    constexpr float pi = std::numbers::pi_v<float>;
+    return luminousPower / (4 * pi * pi * radius * radius);
+}
+
+float cndSphereLuminanceFromIntensity(float intensity, float radius)
+{
+    return intensity / (std::numbers::pi_v<float> * radius * radius);
+}
+
+float cndLuminousPowerFromWatts(float watts)
+{
+    return 683 * watts;
+}
+
+CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLightingDesc* desc,
+                            CndLighting* lighting, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        checkPointers(device, desc, lighting, "cndCreateLighting");
+        *lighting = new CndLighting_T{.impl = lighting::Lighting(*device, *desc)};
+    });
+}
+
+void cndDestroyLighting(CndLighting lighting)
+{
+    delete lighting;
+}
+
+CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        checkPointers(lighting, set, set, "cndSetLights");
+        lighting->impl.setLights(*set);
+    });
+}
+
+CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
+                                CndLightingView* view, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        checkPointers(lighting, desc, view, "cndCreateLightingView");
+        *view = new CndLightingView_T{.impl = lighting::View(lighting->impl, *desc)};
+    });
+}
+
+void cndDestroyLightingView(CndLightingView view)
+{
+    delete view;
+}
+
+CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
+                            const CndLightingFrame* frame, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        checkPointers(view, cmd, frame, "cndRecordLighting");
+        view->impl.record(cmd, *frame);
+    });
+}
+
+CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot, CndLightingStats* stats)
+{
+    return view && stats ? view->impl.stats(frameSlot, *stats) : CND_ERROR_INVALID_ARGUMENT;
+}

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lighting/lighting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "candelabra_shaders.h"
+#include "lighting/pack_lights.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+// Light buffers start with this capacity and grow by half, so that a growing scene reallocates
+// rarely; the smallest is 56 + 64 bytes per light.
+constexpr uint32_t minCapacity = 1024;
+
+constexpr VkBufferUsageFlags storageUse =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+uint32_t maxLights(const gpu::Device& device)
+{
+    return uint32_t(device.limits.maxStorageBufferRange / sizeof(gpu::LightRecord));
+}
+
+// Texel buffers when they can hold every light that the storage limit lets in.
+uint32_t lightsAsTexels(const gpu::Device& device)
+{
+    return device.limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >= maxLights(device);
+}
+
+void createShadeKernels(ShadeKernels& out, const gpu::Device& device, const gpu::Spirv& spirv,
+                        CndGBufferLayout layout)
+{
+    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
+        for (const bool onlySpheres : {false, true}) {
+            auto& kernels = onlySpheres ? out.onlySpheres : out.anyLights;
+            kernels[method] = gpu::Kernel<gpu::ShadeParams>(
+                device, spirv,
+                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
+                 {gpu::SPEC_SPECULAR_METHOD, method},
+                 {gpu::SPEC_ONLY_SPHERES, onlySpheres},
+                 {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}});
+        }
+}
+
+CndLightingDesc checked(const CndLightingDesc& desc)
+{
+    if (desc.structSize != sizeof desc)
+        gpu::failArgument("CndLightingDesc: structSize is " + std::to_string(desc.structSize) +
+                          ", this library expects " + std::to_string(sizeof desc));
+    if (desc.framesInFlight < 1 || desc.framesInFlight > 8)
+        gpu::failArgument("CndLightingDesc: framesInFlight must be 1..8, is " +
+                          std::to_string(desc.framesInFlight));
+    if (desc.gbufferLayout != CND_GBUFFER_FULL && desc.gbufferLayout != CND_GBUFFER_COMPACT)
+        gpu::failArgument("CndLightingDesc: gbufferLayout is not a CndGBufferLayout");
+    return desc;
+}
+
+} // namespace
+
+Kernels::Kernels(const gpu::Device& device, CndGBufferLayout layout)
+    : prepareLights(device, spirv::prepare_lights_comp),
+      tileBounds(device, spirv::tile_bounds_comp),
+      coarseBounds(device, spirv::coarse_bounds_comp),
+      coarseMasks(device, spirv::coarse_masks_comp,
+                  {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
+      tileLists(device, spirv::tile_lists_comp,
+                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
+      countPairs(device, spirv::count_pairs_comp,
+                 {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
+                  {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}})
+{
+    createShadeKernels(shadeTiles, device, spirv::shade_tiles_comp, layout);
+    createShadeKernels(shadeBrute, device, spirv::shade_brute_comp, layout);
+}
+
+Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
+    : device_(device), desc_(checked(desc)), kernels_(device_, desc_.gbufferLayout)
+{
+    grow(0);
+}
+
+void Lighting::setLights(const CndLightSet& set)
+{
+    if (set.structSize != sizeof set)
+        gpu::failArgument("CndLightSet: structSize is " + std::to_string(set.structSize) +
+                          ", this library expects " + std::to_string(sizeof set));
+    if (set.count && !set.lights)
+        gpu::failArgument("CndLightSet: lights is null but count is " + std::to_string(set.count));
+    if (set.count > maxLights(device_))
+        gpu::failUnsupported("CndLightSet: " + std::to_string(set.count) +
+                             " lights do not fit the device's maxStorageBufferRange (at most " +
+                             std::to_string(maxLights(device_)) + ")");
+    for (const double o : set.origin)
+        if (!std::isfinite(o))
+            gpu::failArgument("CndLightSet: origin must be finite");
+    const std::span lights(set.lights, set.count);
+    const bool onlySpheres = validateLights(lights);
+    freeRetired();
+    grow(set.count);
+    Staging& staging = freeStaging();
+    packLights(lights, staging.buffer.as<gpu::LightRecord>());
+    pending_ = &staging;
+    onlySpheres_ = onlySpheres;
+    lightCount_ = set.count;
+    std::copy_n(set.origin, 3, origin_);
+}
+
+Lighting::Staging& Lighting::freeStaging()
+{
+    if (pending_) // never recorded: overwrite in place
+        return *pending_;
+    const uint64_t oldest = oldestInFlight();
+    for (Staging& staging : staging_)
+        if (staging.recording < oldest)
+            return staging;
+    gpu::Buffer buffer =
+        gpu::createBuffer(device_, "light staging", lightCapacity_ * sizeof(gpu::LightRecord),
+                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryUse::Upload);
+    return staging_.emplace_back(std::move(buffer));
+}
+
+void Lighting::recordUpload(VkCommandBuffer cmd, uint64_t recording) noexcept
+{
+    if (!pending_)
+        return;
+    if (lightCount_) {
+        const VkBufferCopy copy{.size = lightCount_ * sizeof(gpu::LightRecord)};
+        device_.CmdCopyBuffer(cmd, pending_->buffer.get(), records_.get(), 1, &copy);
+    }
+    pending_->recording = recording;
+    pending_ = nullptr;
+}
+
+void Lighting::grow(uint32_t count)
+{
+    if (lightCapacity_ && count <= lightCapacity_)
+        return;
+    const uint32_t wanted = std::max({count, minCapacity, lightCapacity_ + lightCapacity_ / 2});
+    const uint32_t previous = lightCapacity_;
+    const uint32_t capacity = std::min(wanted, maxLights(device_));
+    // Everything is allocated before anything is replaced: a failure leaves the old set in place.
+    gpu::Buffer records =
+        gpu::createBuffer(device_, "light records", capacity * sizeof(gpu::LightRecord), storageUse,
+                          gpu::MemoryUse::Device);
+    try {
+        lightCapacity_ = capacity;
+        for (View* view : views_)
+            view->growLightBuffers();
+    } catch (...) {
+        lightCapacity_ = previous;
+        throw;
+    }
+    replace(records_, std::move(records));
+    for (Staging& staging : staging_)
+        replace(staging.buffer, {});
+    staging_.clear();
+    pending_ = nullptr;
+}
+
+void Lighting::replace(gpu::Buffer& buffer, gpu::Buffer&& with)
+{
+    if (buffer.buffer)
+        retired_.push_back({std::move(buffer), recordings_});
+    buffer = std::move(with);
+}
+
+uint64_t Lighting::oldestInFlight() const
+{
+    uint64_t oldest = recordings_ + 1;
+    for (const View* view : views_)
+        if (const uint64_t inFlight = view->oldestInFlight())
+            oldest = std::min(oldest, inFlight);
+    return oldest;
+}
+
+void Lighting::freeRetired()
+{
+    const uint64_t oldest = oldestInFlight();
+    std::erase_if(retired_, [&](const Retired& r) { return r.recording < oldest; });
+}
+
+} // namespace candelabra::lighting

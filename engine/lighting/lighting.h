@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lighting module behind the C ABI: Lighting holds pipelines and lights, View the buffers of one
+// view and the order of the passes.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "gpu/kernel.h"
+#include "shared/lighting.h"
+
+namespace candelabra::lighting
+{
+
+class View;
+
+// One pipeline per specular method, for sets that hold spheres only and for any set: a light type
+// that is absent costs nothing.
+struct ShadeKernels {
+    gpu::Kernel<gpu::ShadeParams> anyLights[CND_SPECULAR_METHOD_COUNT];
+    gpu::Kernel<gpu::ShadeParams> onlySpheres[CND_SPECULAR_METHOD_COUNT];
+};
+
+struct Kernels {
+    Kernels(const gpu::Device& device, CndGBufferLayout layout);
+    gpu::Kernel<gpu::PrepareLightsParams> prepareLights;
+    gpu::Kernel<gpu::TileBoundsParams> tileBounds;
+    gpu::Kernel<gpu::CoarseBoundsParams> coarseBounds;
+    gpu::Kernel<gpu::CoarseMasksParams> coarseMasks;
+    gpu::Kernel<gpu::TileListsParams> tileLists;
+    gpu::Kernel<gpu::ShadeParams> countPairs;
+    ShadeKernels shadeTiles, shadeBrute;
+};
+
+class Lighting
+{
+public:
+    Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc);
+
+    // Validates, packs into the staging slot of the next recording, grows buffers when needed.
+    void setLights(const CndLightSet& set);
+    // Copies a changed light set to the device; barriers before and after are the caller's.
+    void recordUpload(VkCommandBuffer cmd, uint64_t recording) noexcept;
+
+    // Views register to have their light-sized buffers grown with the set.
+    void add(View* view) { views_.push_back(view); }
+    void remove(View* view) { std::erase(views_, view); }
+    // Replaces a buffer; the old one stays alive until no frame in flight can use it.
+    void replace(gpu::Buffer& buffer, gpu::Buffer&& with);
+    // Numbers recordings of all views from 1.
+    uint64_t nextRecording() noexcept { return ++recordings_; }
+
+    const gpu::Device& device() const { return device_; }
+    const CndLightingDesc& desc() const { return desc_; }
+    const Kernels& kernels() const { return kernels_; }
+    const gpu::Buffer& records() const { return records_; }
+    uint32_t lightCount() const { return lightCount_; }
+    uint32_t lightCapacity() const { return lightCapacity_; }
+    bool onlySpheres() const { return onlySpheres_; }
+    const double* origin() const { return origin_; }
+
+private:
+    struct Retired {
+        gpu::Buffer buffer;
+        uint64_t recording; // number of the last recording that may use it
+    };
+    void grow(uint32_t count);
+    void freeRetired();
+    uint64_t oldestInFlight() const; // recordings_ + 1 when none is
+
+    gpu::Device device_;
+    CndLightingDesc desc_;
+    Kernels kernels_;
+    std::vector<View*> views_;
+    std::vector<Retired> retired_;
+    gpu::Buffer records_;              // device copy of the packed lights
+    struct Staging {
+        gpu::Buffer buffer;
+        uint64_t recording = 0; // number of the recording that copies from it, 0: none yet
+    };
+    Staging& freeStaging();
+
+    std::deque<Staging> staging_; // elements stay where they are when it grows
+    Staging* pending_ = nullptr; // written and not yet recorded
+    uint32_t lightCount_ = 0, lightCapacity_ = 0;
+    bool onlySpheres_ = true;
+    double origin_[3]{};
+    uint64_t recordings_ = 0;
+};
+
+class View
+{
+public:
+    View(Lighting& lighting, const CndLightingViewDesc& desc);
+    ~View() { lighting_.remove(this); }
+    View(const View&) = delete;
+    View& operator=(const View&) = delete;
+
+    // Throws gpu::Failure on arguments out of range; once recording starts nothing can fail.
+    void record(VkCommandBuffer cmd, const CndLightingFrame& frame);
+    CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
+    // Called by Lighting when the light capacity grows.
+    void growLightBuffers();
+    // Number of the oldest recording that the GPU has not finished, 0 when it has finished all.
+    uint64_t oldestInFlight() const;
+
+private:
+    struct Plan; // sizes derived from a frame
+    Plan plan(const CndLightingFrame& frame) const;
+    void validate(const CndLightingFrame& frame) const;
+    void writeBindings(const CndLightingFrame& frame, const Plan& plan) const;
+    void recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept;
+    void recordCulling(const gpu::Frame& f, const Plan& plan) const noexcept;
+    void recordShading(const gpu::Frame& f, const CndLightingFrame& frame,
+                       const Plan& plan) const noexcept;
+    void recordReadback(const gpu::Frame& f) const noexcept;
+
+    struct Sets {
+        gpu::Bindings prepareLights, tileBounds, coarseBounds, coarseMasks, tileLists, countPairs,
+            shadeTiles, shadeBrute;
+    };
+    struct SlotState {
+        uint64_t recording = 0; // 0: never used
+        uint32_t lightCount = 0;
+    };
+
+    Lighting& lighting_;
+    CndLightingViewDesc desc_;
+    gpu::Timer timer_;
+    Sets sets_;
+    gpu::Buffer core_, aux_;      // per light
+    gpu::Buffer masks_;           // per coarse tile and light
+    gpu::Buffer tileBounds_, coarseBounds_, lists_, entries_, counters_;
+    std::vector<gpu::Buffer> readback_; // per slot
+    std::vector<SlotState> slots_;
+};
+
+} // namespace candelabra::lighting

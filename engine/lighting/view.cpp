@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "lighting/lighting.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+using gpu::Binding;
+using gpu::divideUp;
+
+constexpr VkDeviceSize defaultListBudget = 64u << 20;
+// Bytes of coarse masks; when light count and resolution need more, coarse tiles get larger.
+constexpr VkDeviceSize maskBudget = 64u << 20;
+constexpr uint32_t maxGroupsPerDimension = 65535; // Vulkan's guaranteed maxComputeWorkGroupCount
+
+constexpr VkBufferUsageFlags storageUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+struct Readback {
+    gpu::LightingCounters counters;
+    uint32_t marker; // low half of the recording's number, written last
+};
+
+uint32_t tiles(uint32_t pixels)
+{
+    return divideUp(pixels, gpu::TILE_SIZE);
+}
+
+uint64_t join(glm::uvec2 lowHigh)
+{
+    return uint64_t(lowHigh.y) << 32 | lowHigh.x;
+}
+
+CndLightingViewDesc checked(const gpu::Device& device, CndLightingViewDesc desc)
+{
+    if (desc.structSize != sizeof desc)
+        gpu::failArgument("CndLightingViewDesc: structSize is " + std::to_string(desc.structSize) +
+                          ", this library expects " + std::to_string(sizeof desc));
+    for (const uint32_t side : {desc.maxWidth, desc.maxHeight})
+        if (side < 1 || side > 16384)
+            gpu::failArgument("CndLightingViewDesc: maxWidth and maxHeight must be 1..16384, are " +
+                              std::to_string(desc.maxWidth) + " and " +
+                              std::to_string(desc.maxHeight));
+    if (!desc.listBudget)
+        desc.listBudget =
+            std::min<VkDeviceSize>(defaultListBudget, device.limits.maxStorageBufferRange);
+    if (desc.listBudget > device.limits.maxStorageBufferRange)
+        gpu::failUnsupported("CndLightingViewDesc: listBudget " + std::to_string(desc.listBudget) +
+                             " exceeds the device's maxStorageBufferRange " +
+                             std::to_string(device.limits.maxStorageBufferRange));
+    return desc;
+}
+
+void checkCamera(const CndCamera& camera)
+{
+    for (const double x : camera.viewFromWorld)
+        if (!std::isfinite(x))
+            gpu::failArgument("CndCamera: viewFromWorld must be finite");
+    glm::dmat4 m;
+    std::memcpy(&m, camera.viewFromWorld, sizeof m);
+    const glm::dmat3 r(m);
+    const glm::dmat3 identity = glm::transpose(r) * r;
+    for (int c = 0; c < 3; ++c)
+        for (int row = 0; row < 3; ++row)
+            if (std::abs(identity[c][row] - (c == row)) > 1e-5) // float cameras reach 1e-6
+                gpu::failArgument("CndCamera: viewFromWorld must be a rotation and a translation");
+}
+
+gpu::Projection projectionOf(const float (&m)[16], float clearDepth)
+{
+    for (const int i : {1, 2, 3, 4, 6, 7})
+        if (m[i] != 0)
+            gpu::failArgument("CndCamera: clipFromView may only scale and shift x and y (element " +
+                              std::to_string(i) + " must be 0)");
+    for (const float x : m)
+        if (!std::isfinite(x))
+            gpu::failArgument("CndCamera: clipFromView must be finite");
+    gpu::Projection p{.m00 = m[0], .m11 = m[5], .m20 = m[8], .m21 = m[9], .m30 = m[12],
+                      .m31 = m[13], .m22 = m[10], .m32 = m[14], .m23 = m[11], .m33 = m[15]};
+    const bool perspective = p.m23 != 0 && p.m33 == 0 && p.m30 == 0 && p.m31 == 0 && p.m32 != 0;
+    const bool orthographic = p.m23 == 0 && p.m33 != 0 && p.m22 != 0;
+    if (p.m00 == 0 || p.m11 == 0 || perspective == orthographic)
+        gpu::failArgument("CndCamera: clipFromView is neither a perspective nor an orthographic "
+                          "projection");
+    p.eyeIsPoint = perspective ? 1.0f : 0.0f;
+    if (orthographic) {
+        // Depth grows along m22 z / m33; the eye looks from the near depth to clearDepth.
+        const bool depthGrowsWithZ = p.m22 / p.m33 > 0;
+        const bool farIsOne = clearDepth == 1;
+        p.eye = {0, 0, depthGrowsWithZ == farIsOne ? -1.0f : 1.0f};
+    }
+    return p;
+}
+
+} // namespace
+
+// Everything a frame's dispatches are sized with.
+struct View::Plan {
+    gpu::Projection projection;
+    glm::uvec2 size;
+    float clearDepth;
+    uint32_t lightCount, wordCount;
+    uint32_t tileCountX, tileCountY;
+    uint32_t factor, coarseCountX, coarseCount;
+    gpu::PrepareLightsParams prepare;
+};
+
+View::View(Lighting& lighting, const CndLightingViewDesc& desc)
+    : lighting_(lighting),
+      desc_(checked(lighting.device(), desc)),
+      timer_(lighting.device(), "lighting", lighting.desc().framesInFlight,
+             lighting.desc().timestamps),
+      slots_(lighting.desc().framesInFlight)
+{
+    const gpu::Device& device = lighting.device();
+    const uint32_t slots = lighting.desc().framesInFlight;
+    const Kernels& k = lighting.kernels();
+    sets_ = {.prepareLights = k.prepareLights.createBindings(slots),
+             .tileBounds = k.tileBounds.createBindings(slots),
+             .coarseBounds = k.coarseBounds.createBindings(slots),
+             .coarseMasks = k.coarseMasks.createBindings(slots),
+             .tileLists = k.tileLists.createBindings(slots),
+             .countPairs = k.countPairs.createBindings(slots),
+             .shadeTiles = k.shadeTiles.anyLights[0].createBindings(slots),
+             .shadeBrute = k.shadeBrute.anyLights[0].createBindings(slots)};
+    const VkDeviceSize tileCount = VkDeviceSize(tiles(desc_.maxWidth)) * tiles(desc_.maxHeight);
+    const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
+        return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Device);
+    };
+    tileBounds_ = make("tile bounds", tileCount * sizeof(gpu::TileBounds), storageUse);
+    coarseBounds_ = make("coarse bounds", tileCount * sizeof(gpu::TileBounds), storageUse);
+    lists_ = make("tile lists", tileCount * sizeof(gpu::TileList), storageUse);
+    entries_ = make("list entries", desc_.listBudget, storageUse);
+    counters_ = make("lighting counters", sizeof(gpu::LightingCounters),
+                     storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                         VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    for (uint32_t i = 0; i < slots; ++i)
+        readback_.push_back(gpu::createBuffer(device, "lighting statistics", sizeof(Readback),
+                                              VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                              gpu::MemoryUse::Readback));
+    growLightBuffers();
+    lighting.add(this);
+}
+
+void View::growLightBuffers()
+{
+    const gpu::Device& device = lighting_.device();
+    const VkDeviceSize lights = lighting_.lightCapacity();
+    gpu::Buffer core = gpu::createBuffer(
+        device, "light core", lights * gpu::LIGHT_CORE_STRIDE * sizeof(glm::vec4),
+        storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, gpu::MemoryUse::Device);
+    gpu::createTexelView(device, core);
+    gpu::Buffer aux =
+        gpu::createBuffer(device, "light aux", lights * gpu::LIGHT_AUX_STRIDE * sizeof(glm::vec4),
+                          storageUse, gpu::MemoryUse::Device);
+    const VkDeviceSize rowBytes = divideUp(uint32_t(lights), gpu::MASK_BITS) * sizeof(uint32_t);
+    const VkDeviceSize rows =
+        VkDeviceSize(divideUp(tiles(desc_.maxWidth), gpu::COARSE_FACTOR_MIN)) *
+        divideUp(tiles(desc_.maxHeight), gpu::COARSE_FACTOR_MIN);
+    const VkDeviceSize budget =
+        std::min<VkDeviceSize>(maskBudget, device.limits.maxStorageBufferRange);
+    gpu::Buffer masks = gpu::createBuffer(device, "coarse masks",
+                                          std::max(rowBytes, std::min(rowBytes * rows, budget)),
+                                          storageUse, gpu::MemoryUse::Device);
+    lighting_.replace(core_, std::move(core));
+    lighting_.replace(aux_, std::move(aux));
+    lighting_.replace(masks_, std::move(masks));
+}
+
+void View::validate(const CndLightingFrame& frame) const
+{
+    if (frame.structSize != sizeof frame)
+        gpu::failArgument("CndLightingFrame: structSize is " + std::to_string(frame.structSize) +
+                          ", this library expects " + std::to_string(sizeof frame));
+    if (frame.frameSlot >= slots_.size())
+        gpu::failArgument("CndLightingFrame: frameSlot is " + std::to_string(frame.frameSlot) +
+                          ", framesInFlight is " + std::to_string(slots_.size()));
+    if (!frame.width || !frame.height || frame.width > desc_.maxWidth ||
+        frame.height > desc_.maxHeight)
+        gpu::failArgument("CndLightingFrame: size " + std::to_string(frame.width) + "x" +
+                          std::to_string(frame.height) + " is outside 1x1.." +
+                          std::to_string(desc_.maxWidth) + "x" + std::to_string(desc_.maxHeight));
+    if (frame.clearDepth != 0 && frame.clearDepth != 1)
+        gpu::failArgument("CndLightingFrame: clearDepth must be 0 or 1");
+    if (uint32_t(frame.specularMethod) >= CND_SPECULAR_METHOD_COUNT)
+        gpu::failArgument("CndLightingFrame: specularMethod is not a CndSpecularMethod");
+    if (uint32_t(frame.culling) > CND_CULLING_BRUTE)
+        gpu::failArgument("CndLightingFrame: culling is not a CndCulling");
+    if (!frame.normalRoughness || !frame.albedo || !frame.depth || !frame.radiance ||
+        (lighting_.desc().gbufferLayout == CND_GBUFFER_FULL && !frame.specular))
+        gpu::failArgument("CndLightingFrame: a G-buffer or radiance view is null");
+    const VkRect2D& r = frame.bruteRect;
+    if (r.offset.x < 0 || r.offset.y < 0 || uint32_t(r.offset.x) + r.extent.width > frame.width ||
+        uint32_t(r.offset.y) + r.extent.height > frame.height)
+        gpu::failArgument("CndLightingFrame: bruteRect is not inside the frame");
+    checkCamera(frame.camera);
+}
+
+View::Plan View::plan(const CndLightingFrame& frame) const
+{
+    Plan p{.projection = projectionOf(frame.camera.clipFromView, frame.clearDepth),
+           .size = {frame.width, frame.height},
+           .clearDepth = frame.clearDepth,
+           .lightCount = lighting_.lightCount(),
+           .wordCount = divideUp(lighting_.lightCount(), gpu::MASK_BITS),
+           .tileCountX = tiles(frame.width),
+           .tileCountY = tiles(frame.height),
+           .factor = gpu::COARSE_FACTOR_MIN};
+    for (;; p.factor *= 2) {
+        p.coarseCountX = divideUp(p.tileCountX, p.factor);
+        p.coarseCount = p.coarseCountX * divideUp(p.tileCountY, p.factor);
+        const VkDeviceSize bytes = VkDeviceSize(p.coarseCount) * p.wordCount * sizeof(uint32_t);
+        if (p.coarseCount == 1 || (bytes <= masks_.size && p.coarseCount <= maxGroupsPerDimension))
+            break;
+    }
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
+    const double* o = lighting_.origin();
+    p.prepare = {.viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
+                 .originView = glm::vec3(viewFromWorld * glm::dvec4(o[0], o[1], o[2], 1)),
+                 .lightCount = p.lightCount};
+    return p;
+}
+
+void View::writeBindings(const CndLightingFrame& frame, const Plan&) const
+{
+    using namespace gpu;
+    const uint32_t slot = frame.frameSlot;
+    const VkImageView specular = frame.specular ? frame.specular : frame.albedo;
+    sets_.prepareLights.write(slot, {Binding::of(PREPARE_LIGHTS_RECORDS, lighting_.records()),
+                                     Binding::of(PREPARE_LIGHTS_CORE, core_),
+                                     Binding::of(PREPARE_LIGHTS_AUX, aux_)});
+    if (frame.culling == CND_CULLING_BRUTE) {
+        sets_.shadeBrute.write(
+            slot, {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
+                   Binding::of(SHADE_AUX, aux_),
+                   Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
+                   Binding::sampled(SHADE_ALBEDO, frame.albedo),
+                   Binding::sampled(SHADE_SPECULAR, specular),
+                   Binding::sampled(SHADE_DEPTH, frame.depth),
+                   Binding::storage(SHADE_RADIANCE, frame.radiance)});
+        return;
+    }
+    sets_.tileBounds.write(slot, {Binding::sampled(TILE_BOUNDS_DEPTH, frame.depth),
+                                  Binding::of(TILE_BOUNDS_BOUNDS, tileBounds_),
+                                  Binding::of(TILE_BOUNDS_COUNTERS, counters_)});
+    sets_.coarseBounds.write(slot, {Binding::of(COARSE_BOUNDS_TILES, tileBounds_),
+                                    Binding::of(COARSE_BOUNDS_COARSE, coarseBounds_)});
+    sets_.coarseMasks.write(slot, {Binding::ofTexels(COARSE_MASKS_CORE, core_),
+                                   Binding::of(COARSE_MASKS_CORE_WORDS, core_),
+                                   Binding::of(COARSE_MASKS_BOUNDS, coarseBounds_),
+                                   Binding::of(COARSE_MASKS_MASKS, masks_)});
+    sets_.tileLists.write(
+        slot, {Binding::ofTexels(TILE_LISTS_CORE, core_), Binding::of(TILE_LISTS_CORE_WORDS, core_),
+               Binding::of(TILE_LISTS_BOUNDS, tileBounds_), Binding::of(TILE_LISTS_MASKS, masks_),
+               Binding::of(TILE_LISTS_LISTS, lists_), Binding::of(TILE_LISTS_ENTRIES, entries_),
+               Binding::of(TILE_LISTS_COUNTERS, counters_)});
+    sets_.shadeTiles.write(
+        slot,
+        {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
+         Binding::of(SHADE_AUX, aux_),
+         Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
+         Binding::sampled(SHADE_ALBEDO, frame.albedo), Binding::sampled(SHADE_SPECULAR, specular),
+         Binding::sampled(SHADE_DEPTH, frame.depth),
+         Binding::storage(SHADE_RADIANCE, frame.radiance), Binding::of(SHADE_LISTS, lists_),
+         Binding::of(SHADE_ENTRIES, entries_)});
+    sets_.countPairs.write(
+        slot,
+        {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
+         Binding::of(SHADE_AUX, aux_),
+         Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
+         Binding::sampled(SHADE_ALBEDO, frame.albedo), Binding::sampled(SHADE_SPECULAR, specular),
+         Binding::sampled(SHADE_DEPTH, frame.depth), Binding::of(SHADE_LISTS, lists_),
+         Binding::of(SHADE_ENTRIES, entries_), Binding::of(SHADE_COUNTERS, counters_)});
+}
+
+void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
+{
+    validate(frame);
+    const Plan plan = this->plan(frame);
+    writeBindings(frame, plan);
+
+    const uint32_t slot = frame.frameSlot;
+    slots_[slot] = {lighting_.nextRecording(), plan.lightCount};
+    const gpu::Frame f{lighting_.device(), cmd, timer_, slot};
+    f.device.beginLabel(cmd, "candelabra lighting");
+    timer_.begin(cmd, slot);
+
+    f.barrier(); // against the frame before, which uses the same buffers
+    lighting_.recordUpload(cmd, slots_[slot].recording);
+    f.device.CmdFillBuffer(cmd, counters_.get(), 0, VK_WHOLE_SIZE, 0);
+    f.barrier();
+    if (plan.lightCount) {
+        recordPrepare(f, plan);
+        if (frame.culling == CND_CULLING_CLUSTERED)
+            recordCulling(f, plan);
+        f.barrier();
+        recordShading(f, frame, plan);
+    }
+    f.barrier();
+    recordReadback(f);
+    f.device.endLabel(cmd);
+}
+
+void View::recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept
+{
+    lighting_.kernels().prepareLights.dispatch(
+        f, sets_.prepareLights.set(f.slot), plan.prepare,
+        divideUp(plan.lightCount, gpu::PREPARE_LIGHTS_GROUP));
+}
+
+void View::recordCulling(const gpu::Frame& f, const Plan& p) const noexcept
+{
+    const Kernels& k = lighting_.kernels();
+    const uint32_t tileCount = p.tileCountX * p.tileCountY;
+    k.tileBounds.dispatch(f, sets_.tileBounds.set(f.slot),
+                          {.projection = p.projection,
+                           .size = p.size,
+                           .tileCountX = p.tileCountX,
+                           .tileCount = tileCount,
+                           .clearDepth = p.clearDepth},
+                          divideUp(tileCount, gpu::TILE_BOUNDS_GROUP));
+    f.barrier();
+    k.coarseBounds.dispatch(f, sets_.coarseBounds.set(f.slot),
+                            {.tileCountX = p.tileCountX,
+                             .tileCountY = p.tileCountY,
+                             .coarseCountX = p.coarseCountX,
+                             .coarseCount = p.coarseCount,
+                             .factor = p.factor},
+                            divideUp(p.coarseCount, gpu::COARSE_BOUNDS_GROUP));
+    f.barrier();
+    k.coarseMasks.dispatch(f, sets_.coarseMasks.set(f.slot), {p.lightCount, p.wordCount},
+                           divideUp(p.wordCount, gpu::COARSE_MASKS_GROUP), p.coarseCount);
+    f.barrier();
+    k.tileLists.dispatch(f, sets_.tileLists.set(f.slot),
+                         {.tileCountX = p.tileCountX,
+                          .tileCountY = p.tileCountY,
+                          .coarseCountX = p.coarseCountX,
+                          .factor = p.factor,
+                          .wordCount = p.wordCount,
+                          .lightCount = p.lightCount,
+                          .capacity = uint32_t(entries_.size / sizeof(uint32_t))},
+                         divideUp(p.tileCountX, gpu::TILE_LISTS_GROUP_X),
+                         divideUp(p.tileCountY, gpu::TILE_LISTS_GROUP_Y));
+}
+
+void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame,
+                         const Plan& p) const noexcept
+{
+    const Kernels& k = lighting_.kernels();
+    gpu::ShadeParams params{.projection = p.projection,
+                            .size = p.size,
+                            .origin = {0, 0},
+                            .lightCount = p.lightCount,
+                            .tileCountX = p.tileCountX,
+                            .clearDepth = p.clearDepth,
+                            .invImageSize = 1.0f / glm::vec2(p.size)};
+    const auto pick = [&](const ShadeKernels& kernels) -> const gpu::Kernel<gpu::ShadeParams>& {
+        return lighting_.onlySpheres() ? kernels.onlySpheres[frame.specularMethod]
+                                       : kernels.anyLights[frame.specularMethod];
+    };
+    if (frame.culling == CND_CULLING_BRUTE) {
+        const VkRect2D& r = frame.bruteRect;
+        if (r.extent.width && r.extent.height) {
+            params.origin = {r.offset.x, r.offset.y};
+            params.size = params.origin + glm::uvec2(r.extent.width, r.extent.height);
+        }
+        const glm::uvec2 pixels = params.size - params.origin;
+        pick(k.shadeBrute)
+            .dispatch(f, sets_.shadeBrute.set(f.slot), params, tiles(pixels.x), tiles(pixels.y));
+        return;
+    }
+    pick(k.shadeTiles)
+        .dispatch(f, sets_.shadeTiles.set(f.slot), params, p.tileCountX, p.tileCountY);
+    if (frame.countPairs)
+        k.countPairs.dispatch(f, sets_.countPairs.set(f.slot), params, p.tileCountX, p.tileCountY);
+}
+
+void View::recordReadback(const gpu::Frame& f) const noexcept
+{
+    const gpu::Device& d = f.device;
+    const VkBuffer target = readback_[f.slot].get();
+    const VkBufferCopy copy{.size = sizeof(gpu::LightingCounters)};
+    d.CmdCopyBuffer(f.cmd, counters_.get(), target, 1, &copy);
+    d.CmdFillBuffer(f.cmd, target, offsetof(Readback, marker), sizeof(uint32_t),
+                    uint32_t(slots_[f.slot].recording));
+    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                   .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .memoryBarrierCount = 1,
+                                .pMemoryBarriers = &barrier};
+    d.CmdPipelineBarrier2(f.cmd, &info);
+}
+
+uint64_t View::oldestInFlight() const
+{
+    uint64_t oldest = 0;
+    for (size_t i = 0; i < slots_.size(); ++i) {
+        const uint64_t recording = slots_[i].recording;
+        const bool finished =
+            !recording || readback_[i].as<Readback>()[0].marker == uint32_t(recording);
+        if (!finished && (!oldest || recording < oldest))
+            oldest = recording;
+    }
+    return oldest;
+}
+
+CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
+{
+    if (slot >= slots_.size() || !slots_[slot].recording || out.structSize != sizeof out)
+        return CND_ERROR_INVALID_ARGUMENT;
+    const Readback read = readback_[slot].as<Readback>()[0];
+    if (read.marker != uint32_t(slots_[slot].recording))
+        return CND_NOT_READY;
+    const gpu::LightingCounters& c = read.counters;
+    out.lightCount = slots_[slot].lightCount;
+    out.tileCount = c.surfaceTiles;
+    out.listEntries = c.listEntries;
+    out.maxListLength = c.maxListLength;
+    out.unlistedTiles = c.unlistedTiles;
+    out.listedPairs = join(c.listedPairs);
+    out.insidePairs = join(c.insidePairs);
+    out.evaluatedPairs = join(c.evaluatedPairs);
+    return timer_.read(slot, out.kernelTimes, out.kernelTimeCount) ? CND_SUCCESS : CND_NOT_READY;
+}
+
+} // namespace candelabra::lighting

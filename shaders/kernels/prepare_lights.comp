@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights from the light set's frame to view space, split into what every loop reads and the rest.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/lighting.h"
+
+layout(local_size_x = PREPARE_LIGHTS_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    PrepareLightsParams params;
+};
+layout(scalar, binding = PREPARE_LIGHTS_RECORDS) readonly buffer Records
+{
+    LightRecord records[];
+};
+layout(scalar, binding = PREPARE_LIGHTS_CORE) writeonly buffer Core
+{
+    vec4 core[];
+};
+layout(scalar, binding = PREPARE_LIGHTS_AUX) writeonly buffer Aux
+{
+    vec4 aux[];
+};
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= params.lightCount)
+        return;
+    const LightRecord light = records[i];
+    core[i * LIGHT_CORE_STRIDE] =
+        vec4(params.viewFromWorld * light.position + params.originView, light.radius);
+    core[i * LIGHT_CORE_STRIDE + 1u] =
+        vec4(light.emission, light.influenceRadius * light.influenceRadius);
+    aux[i * LIGHT_AUX_STRIDE] = vec4(params.viewFromWorld * light.direction, float(light.type));
+    aux[i * LIGHT_AUX_STRIDE + 1u] = vec4(light.spotScale, light.spotOffset, 0.0, 0.0);
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lambert and isotropic GGX with height-correlated Smith shadowing and Schlick Fresnel.
+#ifndef CND_LIB_BRDF
+#define CND_LIB_BRDF
+
+#include "lib/math.glsl"
+
+// One shaded point: everything that does not depend on the light. Directions are unit and point away
+// from the surface.
+struct ShadingPoint {
+    vec3 position; // view space, m
+    vec3 n;
+    vec3 v;
+    vec3 mirror;   // v reflected about n
+    float NoV;     // clamped to >= MIN_NOV
+    float alpha;   // GGX width, >= MIN_ALPHA
+    float smithV;  // sqrt(alpha^2 + (1 - alpha^2) NoV^2)
+    vec3 albedo;   // diffuse
+    vec3 F0;
+    float F90;     // 0: no specular lobe
+};
+
+// Interpolated and mapped normals can face away from the viewer; grazing there is as good as any.
+const float MIN_NOV = 1e-4;
+
+ShadingPoint makeShadingPoint(Surface surface, vec3 position, vec3 towardsEye)
+{
+    ShadingPoint p;
+    p.position = position;
+    p.n = surface.normal;
+    p.v = normalize(towardsEye);
+    p.NoV = max(dot(p.n, p.v), MIN_NOV);
+    p.mirror = 2.0 * p.NoV * p.n - p.v;
+    p.alpha = max(surface.perceptualRoughness * surface.perceptualRoughness, MIN_ALPHA);
+    const float a2 = p.alpha * p.alpha;
+    p.smithV = sqrt(a2 + (1.0 - a2) * p.NoV * p.NoV);
+    p.albedo = surface.albedo;
+    p.F0 = surface.F0;
+    p.F90 = surface.specularWeight;
+    return p;
+}
+
+// Response of the specular lobe with F = 1 (x) and F = (1 - VoH)^5 (y), times cosine:
+//   D G2 / (4 NoL NoV) NoL, per steradian.
+// D: Trowbridge and Reitz 1975, written with |n x h|^2 from the unnormalised half vector, because
+// NoH^2 (a2 - 1) + 1 cancels near the peak. G2 / (4 NoL NoV): Heitz 2014, eq. 99.
+vec2 specularResponse(ShadingPoint p, vec3 l)
+{
+    const float NoL = dot(p.n, l);
+    const vec3 h = p.v + l;
+    const float h2 = max(dot(h, h), MIN_LENGTH2);
+    const float a2 = p.alpha * p.alpha;
+    const vec3 nxh = cross(p.n, h);
+    const float noh = dot(p.n, h);
+    // = h2 (NoH^2 (a2 - 1) + 1) >= h2 a2; the max matters only for l = -v, where h vanishes.
+    const float width = max(dot(nxh, nxh) + noh * noh * a2, h2 * a2);
+    const float smithL = sqrt(a2 + (1.0 - a2) * NoL * NoL);
+    const float visibility = 0.5 / (NoL * p.smithV + p.NoV * smithL);
+    const float q = h2 / width;
+    const float d = a2 * INV_PI * q * q;
+    const float VoH = saturate(dot(p.v, h) * inversesqrt(h2));
+    const float a = NoL > 0.0 ? d * visibility * NoL : 0.0;
+    return vec2(a, a * pow5(1.0 - VoH));
+}
+
+// F0 (A - B) + F90 B: Schlick 1994 integrated over a light, with A and B the light's response to
+// F = 1 and F = (1 - VoH)^5.
+vec3 schlick(ShadingPoint p, vec2 response)
+{
+    return p.F0 * (response.x - response.y) + p.F90 * response.y;
+}
+
+#endif

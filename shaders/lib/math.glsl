@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef CND_LIB_MATH
+#define CND_LIB_MATH
+
+const float PI = 3.14159265358979;
+const float HALF_PI = 1.57079632679490;
+const float INV_PI = 0.318309886183791;
+
+// Smallest squared length that is inverted: keeps rsqrt finite for coincident points.
+const float MIN_LENGTH2 = 1e-30;
+
+float saturate(float x)
+{
+    return clamp(x, 0.0, 1.0);
+}
+
+float pow5(float x)
+{
+    const float x2 = x * x;
+    return x2 * x2 * x;
+}
+
+float length2(vec3 x)
+{
+    return dot(x, x);
+}
+
+#endif

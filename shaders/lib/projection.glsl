@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// From pixel and depth back to view space.
+#ifndef CND_LIB_PROJECTION
+#define CND_LIB_PROJECTION
+
+#include "shared/lighting.h"
+
+// View-space position of the centre of `pixel` at `depth`. Every kernel that compares positions must
+// get the same bits, so the arithmetic is precise (not contracted).
+// clip = clipFromView * (x, y, z, 1), ndc = clip / clip.w, depth = (m22 z + m32) / (m23 z + m33).
+vec3 viewPosition(Projection m, uvec2 pixel, vec2 invImageSize, float depth)
+{
+    precise float z = (m.m32 - depth * m.m33) / (depth * m.m23 - m.m22);
+    precise float w = m.m23 * z + m.m33;
+    precise vec2 ndc = vec2(2u * pixel + 1u) * invImageSize - 1.0;
+    precise float x = (ndc.x * w - m.m20 * z - m.m30) / m.m00;
+    precise float y = (ndc.y * w - m.m21 * z - m.m31) / m.m11;
+    return vec3(x, y, z);
+}
+
+// Towards the eye from `position`, not normalised.
+vec3 towardsEye(Projection m, vec3 position)
+{
+    return m.eye - m.eyeIsPoint * position;
+}
+
+#endif

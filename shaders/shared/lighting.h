@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that crosses between the lighting module and its kernels: records, parameters, binding
+// ids, group sizes. Positions are in view space, metres.
+#ifndef CND_SHARED_LIGHTING_H
+#define CND_SHARED_LIGHTING_H
+
+#include "shared/light_types.h"
+#include "shared/prelude.h"
+#include "shared/specular_methods.h"
+
+GPU_BEGIN
+
+// A light as the host sends it, relative to the light set's origin. Made by pack_lights.cpp.
+struct LightRecord {
+    vec3 position;  // m
+    float radius;   // m; sphere, else 0
+    vec3 emission;  // cd/m^2 (sphere), cd (point, spot), lx (directional)
+    float influenceRadius; // m, may be infinite
+    vec3 direction; // unit, the way the light travels; spot, directional
+    uint type;      // LIGHT_*
+    float spotScale, spotOffset; // attenuation = sat(cos(angle) * scale + offset)^2
+};
+GPU_SIZE(LightRecord, 56)
+
+// After prepare_lights, two vec4 per light, hot in every loop:
+//   core[2 i]     = position in view space, emitter radius (directional: infinite radius)
+//   core[2 i + 1] = emission, squared influence radius
+// and, read only by variants that know types other than SPHERE:
+//   aux[2 i]      = direction in view space, type (as float)
+//   aux[2 i + 1]  = spotScale, spotOffset, 0, 0
+const uint LIGHT_CORE_STRIDE = 2u;
+const uint LIGHT_AUX_STRIDE = 2u;
+
+// Non-zero elements of clipFromView (m<column><row>), enough for perspective and orthographic, and
+// the way back from pixel and depth to view space.
+struct Projection {
+    float m00, m11, m20, m21, m30, m31, m22, m32, m23, m33;
+    vec3 eye;        // position of the eye (perspective: 0) or direction towards it (orthographic)
+    float eyeIsPoint; // 1 perspective, 0 orthographic
+};
+GPU_SIZE(Projection, 56)
+
+const uint TILE_SIZE = 8u;        // pixels; one shading workgroup per tile
+const uint COARSE_FACTOR_MIN = 8u; // tiles per coarse tile side, a power of two >= this
+const uint MASK_BITS = 32u;       // lights per mask word
+
+// Bounds of the surface samples of a tile; min > max when there are none.
+struct TileBounds {
+    vec3 min;
+    vec3 max;
+};
+GPU_SIZE(TileBounds, 24)
+
+const uint UNLISTED = 0xFFFFFFFFu; // TileList.offset: the list did not fit, walk all lights
+struct TileList {
+    uint offset; // first entry in the list buffer
+    uint count;
+};
+GPU_SIZE(TileList, 8)
+
+// Counters of one frame, cleared before and read back after.
+struct LightingCounters {
+    uint listEntries;
+    uint maxListLength;
+    uint unlistedTiles;
+    uint surfaceTiles;
+    uvec2 listedPairs; // 64 bit: low, high
+    uvec2 insidePairs;
+    uvec2 evaluatedPairs;
+};
+GPU_SIZE(LightingCounters, 40)
+
+// --- prepare_lights: world -> view, one lane per light
+const uint PREPARE_LIGHTS_GROUP = 64u;
+const uint PREPARE_LIGHTS_RECORDS = 0u;
+const uint PREPARE_LIGHTS_CORE = 1u;
+const uint PREPARE_LIGHTS_AUX = 2u;
+struct PrepareLightsParams {
+    mat3 viewFromWorld; // rotation
+    vec3 originView;    // the light set's origin in view space, subtracted in double
+    uint lightCount;
+};
+GPU_SIZE(PrepareLightsParams, 52)
+
+// --- tile_bounds: bounds of the surface samples of each tile, one lane per tile
+const uint TILE_BOUNDS_GROUP = 64u;
+const uint TILE_BOUNDS_DEPTH = 0u;
+const uint TILE_BOUNDS_BOUNDS = 1u;
+const uint TILE_BOUNDS_COUNTERS = 2u;
+struct TileBoundsParams {
+    Projection projection;
+    uvec2 size; // pixels
+    uint tileCountX, tileCount;
+    float clearDepth;
+};
+GPU_SIZE(TileBoundsParams, 76)
+
+// --- coarse_bounds: union over a block of tiles, one lane per coarse tile
+const uint COARSE_BOUNDS_GROUP = 64u;
+const uint COARSE_BOUNDS_TILES = 0u;
+const uint COARSE_BOUNDS_COARSE = 1u;
+struct CoarseBoundsParams {
+    uint tileCountX, tileCountY;
+    uint coarseCountX, coarseCount;
+    uint factor;
+};
+GPU_SIZE(CoarseBoundsParams, 20)
+
+// --- coarse_masks: one bit per light and coarse tile; one lane per word, y = coarse tile
+const uint COARSE_MASKS_GROUP = 64u;
+const uint COARSE_MASKS_CORE = 0u;       // texel buffer
+const uint COARSE_MASKS_CORE_WORDS = 1u; // the same data as a storage buffer
+const uint COARSE_MASKS_BOUNDS = 2u;
+const uint COARSE_MASKS_MASKS = 3u;
+struct CoarseMasksParams {
+    uint lightCount;
+    uint wordCount;
+};
+GPU_SIZE(CoarseMasksParams, 8)
+
+// --- tile_lists: mask -> exact ordered list per tile; one lane per tile, 8x8 tiles per group
+const uint TILE_LISTS_GROUP_X = 8u;
+const uint TILE_LISTS_GROUP_Y = 8u;
+const uint TILE_LISTS_CORE = 0u;
+const uint TILE_LISTS_CORE_WORDS = 1u;
+const uint TILE_LISTS_BOUNDS = 2u;
+const uint TILE_LISTS_MASKS = 3u;
+const uint TILE_LISTS_LISTS = 4u;
+const uint TILE_LISTS_ENTRIES = 5u;
+const uint TILE_LISTS_COUNTERS = 6u;
+struct TileListsParams {
+    uint tileCountX, tileCountY;
+    uint coarseCountX;
+    uint factor;
+    uint wordCount;
+    uint lightCount;
+    uint capacity; // entries that fit the list buffer
+};
+GPU_SIZE(TileListsParams, 28)
+
+// --- shade_tiles, shade_brute, count_pairs: 8x8 pixels per group, one lane per pixel
+const uint SHADE_CORE = 0u;
+const uint SHADE_CORE_WORDS = 1u;
+const uint SHADE_AUX = 2u;
+const uint SHADE_NORMAL_ROUGHNESS = 3u;
+const uint SHADE_ALBEDO = 4u;
+const uint SHADE_SPECULAR = 5u;
+const uint SHADE_DEPTH = 6u;
+const uint SHADE_RADIANCE = 7u;
+const uint SHADE_LISTS = 8u;    // not in shade_brute
+const uint SHADE_ENTRIES = 9u;  // not in shade_brute
+const uint SHADE_COUNTERS = 10u; // count_pairs
+struct ShadeParams {
+    Projection projection;
+    uvec2 size;
+    uvec2 origin; // shade_brute: first pixel of the rectangle (size: its end)
+    uint lightCount;
+    uint tileCountX;
+    float clearDepth;
+    vec2 invImageSize; // 1 / pixels of the whole image
+};
+GPU_SIZE(ShadeParams, 92)
+
+// Specialisation constants of the kernels above.
+const uint SPEC_LIGHTS_AS_TEXELS = 0u; // read core as a texel buffer (else as a storage buffer)
+const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
+const uint SPEC_ONLY_SPHERES = 2u;     // every light is LIGHT_SPHERE: aux is not read
+const uint SPEC_GBUFFER_LAYOUT = 3u;   // CndGBufferLayout
+
+// Specular is evaluated at alpha >= this: below it float32 NoH loses the peak (measured: relative
+// error of D up to 7e-5 at 0.002, growing as 1/alpha^2).
+const float MIN_ALPHA = 0.002f;
+
+GPU_END
+
+#endif

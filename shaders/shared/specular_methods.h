@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one list of specular methods for sphere lights: id, NAME, name on the command line. Ids are
+// CndSpecularMethod and appear in recorded results.
+#ifndef CND_SHARED_SPECULAR_METHODS_H
+#define CND_SHARED_SPECULAR_METHODS_H
+
+#include "shared/prelude.h"
+
+#define CND_SPECULAR_METHODS(X)                                                                    \
+    X(0, NONE, none)                                                                               \
+    X(1, KARIS, karis)
+
+GPU_BEGIN
+#define X(id, NAME, name) const uint SPECULAR_##NAME = id;
+CND_SPECULAR_METHODS(X)
+#undef X
+GPU_END
+
+#endif
