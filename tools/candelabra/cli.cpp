@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "commands/commands.h"
+#include "io/report.h"
+#include "render/error.h"
+#include "scene/load.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+int complain(int exitCode, const std::string& sentence) noexcept
+{
+    std::fprintf(stderr, "candelabra: %s\n", sentence.c_str());
+    return exitCode;
+}
+
+void setUpLogging(bool quiet)
+{
+    static const auto logger = spdlog::stderr_logger_mt("candelabra");
+    logger->set_pattern("%v");
+    logger->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+    spdlog::set_default_logger(logger);
+}
+
+void describe(CLI::App& app, ProgramContext& context)
+{
+    app.require_subcommand(1);
+    app.fallthrough(); // --quiet may stand after the command, too
+    app.add_flag("-q,--quiet", context.quiet, "no progress and no remarks on stderr, only errors");
+    const uint32_t version = cndGetVersion();
+    app.set_version_flag("--version", fmt::format("candelabra {}.{}.{}", version >> 22,
+                                                  (version >> 12) & 0x3ff, version & 0xfff));
+    app.footer("SCENE is hall or field (generated, with --lights N --seed S --overlaps K), or a "
+               "file:\nglTF 2.0 (.gltf, .glb) or a small scene description (.json).\n\n"
+               "Examples:\n"
+               "  candelabra stress                        sweep the number of lights, into out/\n"
+               "  candelabra render hall --lights 16000 -o hall.png\n"
+               "  candelabra view hall --lights 4000       fly through it\n"
+               "  candelabra render --help                 options of one command");
+}
+
+int parseAndRun(int argc, const char* const* argv)
+{
+    ProgramContext context{.commandLine = commandLine(argc, argv)};
+    CLI::App app("Lights scenes with thousands of physically sized sphere lights.", "candelabra");
+    Run run;
+    describe(app, context);
+    addRenderCommand(app, run);
+    addStressCommand(app, run);
+    addViewCommand(app, run);
+    addDevicesCommand(app, run);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help) { // --help, --version
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        return complain(exitUsage, std::string(error.what()) + " (see: candelabra --help)");
+    }
+    setUpLogging(context.quiet);
+    return run(context);
+}
+
+} // namespace
+
+int runProgram(int argc, const char* const* argv) noexcept
+{
+    try {
+        return parseAndRun(argc, argv);
+    } catch (const SceneError& error) {
+        return complain(exitUsage, error.what());
+    } catch (const UsageError& error) {
+        return complain(exitUsage, error.what());
+    } catch (const gpu::Failure& failure) {
+        return complain(exitFailed, failure.message);
+    } catch (const std::bad_alloc&) {
+        return complain(exitFailed, "out of memory");
+    } catch (const std::exception& error) {
+        return complain(exitFailed, error.what());
+    }
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of the program. Each function adds its subcommand to `app`; when that is the one the
+// user chose, `run` becomes the work to do, which returns the exit code and may throw.
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+#include "commands/options.h"
+
+namespace candelabra::app
+{
+
+using Run = std::function<int(const ProgramContext&)>;
+
+void addDevicesCommand(CLI::App& app, Run& run);
+void addRenderCommand(CLI::App& app, Run& run);
+void addStressCommand(CLI::App& app, Run& run);
+void addViewCommand(CLI::App& app, Run& run);
+
+} // namespace candelabra::app

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/options.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "render/error.h"
+#include "shared/specular_methods.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+template <typename T>
+struct Choice {
+    const char* name;
+    T value;
+};
+
+constexpr Choice<CndSpecularMethod> specularChoices[] = {
+#define X(id, NAME, name) {#name, CND_SPECULAR_##NAME},
+    CND_SPECULAR_METHODS(X)
+#undef X
+};
+constexpr Choice<CndCulling> cullingChoices[] = {{"clustered", CND_CULLING_CLUSTERED},
+                                                 {"brute", CND_CULLING_BRUTE}};
+constexpr Choice<CndGBufferLayout> gbufferChoices[] = {{"full", CND_GBUFFER_FULL},
+                                                       {"compact", CND_GBUFFER_COMPACT}};
+constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NONE},
+                                                 {"reinhard", CND_TONEMAP_REINHARD},
+                                                 {"aces", CND_TONEMAP_ACES},
+                                                 {"neutral", CND_TONEMAP_PBR_NEUTRAL},
+                                                 {"agx", CND_TONEMAP_AGX}};
+constexpr Choice<CndMetering> meteringChoices[] = {{"average", CND_METERING_AVERAGE},
+                                                   {"centre", CND_METERING_CENTRE_WEIGHTED}};
+constexpr Choice<bool> onOffChoices[] = {{"on", true}, {"off", false}};
+
+template <typename T>
+std::string names(std::span<const Choice<T>> choices)
+{
+    std::string out;
+    for (const Choice<T>& choice : choices)
+        out += (out.empty() ? "" : ", ") + std::string(choice.name);
+    return out;
+}
+
+template <typename T, size_t N>
+T choose(const std::string& option, const std::string& text, const Choice<T> (&choices)[N])
+{
+    for (const Choice<T>& choice : choices)
+        if (text == choice.name)
+            return choice.value;
+    throw UsageError(fmt::format("{} \"{}\": choose one of {}", option, text,
+                                 names<T>(std::span<const Choice<T>>(choices))));
+}
+
+template <typename T, size_t N>
+const char* nameOf(T value, const Choice<T> (&choices)[N])
+{
+    for (const Choice<T>& choice : choices)
+        if (choice.value == value)
+            return choice.name;
+    return "unknown";
+}
+
+template <typename T, size_t N>
+void addChoice(CLI::App& command, const std::string& option, std::string& text,
+               const Choice<T> (&choices)[N], const std::string& what)
+{
+    command.add_option(option, text, what + ": " + names<T>(std::span<const Choice<T>>(choices)))
+        ->type_name("NAME")
+        ->capture_default_str();
+}
+
+} // namespace
+
+const char* specularName(CndSpecularMethod method)
+{
+    return nameOf(method, specularChoices);
+}
+const char* cullingName(CndCulling culling)
+{
+    return nameOf(culling, cullingChoices);
+}
+const char* toneMapName(CndToneMap toneMap)
+{
+    return nameOf(toneMap, toneMapChoices);
+}
+const char* gbufferName(CndGBufferLayout layout)
+{
+    return nameOf(layout, gbufferChoices);
+}
+
+uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,
+                        uint32_t max)
+{
+    const auto value = parseUnsigned(text);
+    if (!value || *value < min || *value > max)
+        throw UsageError(
+            fmt::format("{} \"{}\": must be a whole number from {} to {}", option, text, min, max));
+    return *value;
+}
+
+double numberOption(const std::string& option, const std::string& text, double min, double max)
+{
+    const auto value = parseNumber(text);
+    if (!value || *value < min || *value > max)
+        throw UsageError(
+            fmt::format("{} \"{}\": must be a number from {:g} to {:g}", option, text, min, max));
+    return *value;
+}
+
+std::vector<uint32_t> unsignedListOption(const std::string& option, const std::string& text,
+                                         uint32_t min, uint32_t max)
+{
+    std::vector<uint32_t> out;
+    for (size_t start = 0; start <= text.size();) {
+        const size_t end = std::min(text.find(',', start), text.size());
+        out.push_back(unsignedOption(option, text.substr(start, end - start), min, max));
+        start = end + 1;
+    }
+    return out;
+}
+
+void DeviceArguments::addTo(CLI::App& command)
+{
+    command
+        .add_option("--device", device,
+                    "Vulkan device: an index or a part of the name (candelabra devices lists "
+                    "them); default: discrete, then integrated, then CPU")
+        ->type_name("INDEX|NAME");
+    command.add_flag("--validate", validate,
+                     "run with the Vulkan validation layers; any message goes to stderr and makes "
+                     "the exit code 1");
+}
+
+ContextOptions DeviceArguments::contextOptions(Presentation presentation) const
+{
+    return {.device = device,
+            .validation = validate ? Validation::On : Validation::Off,
+            .presentation = presentation};
+}
+
+void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
+{
+    scene = fallback;
+    CLI::Option* option = command
+                              .add_option(fallback.empty() ? "scene" : "scene,--scene", scene,
+                                          "hall, field, or a .gltf, .glb or scene .json file")
+                              ->type_name("SCENE");
+    if (fallback.empty())
+        option->required();
+    else
+        option->capture_default_str();
+    command.add_option("--seed", seed, "seed of everything random in the scene")
+        ->type_name("S")
+        ->capture_default_str();
+    command
+        .add_option("--overlaps", overlaps,
+                    "mean number of lights whose influence covers a pixel (hall, field: 8)")
+        ->type_name("K");
+    command.add_flag("--moving", moving, "lights move");
+    command
+        .add_option("--punctual-radius", punctualRadius,
+                    "files: point lights without a radius become spheres of this radius (m)")
+        ->type_name("METRES");
+}
+
+SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
+{
+    SceneOptions out;
+    out.lights = lights;
+    out.seed = unsignedOption("--seed", seed, 0, UINT32_MAX);
+    if (!overlaps.empty())
+        out.overlaps = numberOption("--overlaps", overlaps, 1e-3, 1e6);
+    out.moving = moving;
+    if (!punctualRadius.empty())
+        out.punctualRadius = numberOption("--punctual-radius", punctualRadius, 1e-6, 1e6);
+    return out;
+}
+
+void FrameArguments::addTo(CLI::App& command)
+{
+    specular = specularName(static_cast<CndSpecularMethod>(CND_SPECULAR_METHOD_COUNT - 1));
+    command.add_option("--size", size, "image size in pixels; default: the scene's, else 1280x720")
+        ->type_name("WxH");
+    command
+        .add_option("--camera", camera,
+                    "camera of the scene by name or index, or position and target in metres and "
+                    "vertical field of view in degrees; default: the first")
+        ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
+    command.add_option("--exposure", exposure, "auto, or a fixed EV100")
+        ->type_name("auto|EV")
+        ->capture_default_str();
+    command.add_option("--compensation", compensation, "brighter by this many EV")
+        ->type_name("EV")
+        ->capture_default_str();
+    addChoice(command, "--metering", metering, meteringChoices, "weights of automatic exposure");
+    addChoice(command, "--tonemap", toneMap, toneMapChoices, "tone map of display images");
+    addChoice(command, "--specular", specular, specularChoices, "specular method");
+    addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "G-buffer layout");
+    addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
+              "draw sphere lights as emitters (default: as the scene says)");
+}
+
+void FrameArguments::addCullingTo(CLI::App& command)
+{
+    addChoice(command, "--culling", culling, cullingChoices, "which lights a pixel looks at");
+}
+
+PixelSize FrameArguments::pixelSize(const Scene& scene, const Camera& chosen) const
+{
+    PixelSize out{1280, 720};
+    if (!size.empty()) {
+        const auto parsed = parseSize(size);
+        if (!parsed)
+            throw UsageError("--size \"" + size + "\": expected WIDTHxHEIGHT such as 1280x720");
+        out = *parsed;
+    } else if (scene.resolution) {
+        out = {scene.resolution->x, scene.resolution->y};
+    } else if (chosen.aspect) {
+        // Square pixels at the default height.
+        const double width = std::round(out.height * *chosen.aspect);
+        out.width = uint32_t(std::clamp(width, 1.0, double(maxImageSize)));
+    }
+    if (out.width > maxImageSize || out.height > maxImageSize)
+        throw UsageError(fmt::format("image size {}x{}: at most {} pixels per side", out.width,
+                                     out.height, maxImageSize));
+    return out;
+}
+
+CndGBufferLayout FrameArguments::gbufferLayout() const
+{
+    return choose("--gbuffer", gbuffer, gbufferChoices);
+}
+
+CndSpecularMethod FrameArguments::specularMethod() const
+{
+    return choose("--specular", specular, specularChoices);
+}
+
+CndCulling FrameArguments::cullingMode() const
+{
+    return choose("--culling", culling, cullingChoices);
+}
+
+std::optional<bool> FrameArguments::lightsVisibleOverride() const
+{
+    if (lightsVisible.empty())
+        return std::nullopt;
+    return choose("--lights-visible", lightsVisible, onOffChoices);
+}
+
+CndExposureSettings FrameArguments::exposureSettings() const
+{
+    CndExposureSettings out{};
+    cndDefaultExposureSettings(&out);
+    if (exposure != "auto") {
+        const auto ev = parseNumber(exposure);
+        if (!ev || std::abs(*ev) > 40)
+            throw UsageError("--exposure \"" + exposure +
+                             "\": must be auto or an EV100 from -40 to 40");
+        out.manual = VK_TRUE;
+        out.manualEv100 = float(*ev);
+    }
+    out.compensation = float(numberOption("--compensation", compensation, -20, 20));
+    out.metering = choose("--metering", metering, meteringChoices);
+    out.toneMap = choose("--tonemap", toneMap, toneMapChoices);
+    return out;
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options that several commands share, described and checked once.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "candelabra/candelabra.h"
+#include "io/parse.h"
+#include "render/vulkan_context.h"
+#include "scene/load.h"
+
+namespace candelabra::app
+{
+
+// What every command gets from main.
+struct ProgramContext {
+    std::string commandLine;
+    bool quiet = false;
+};
+
+struct DeviceArguments {
+    std::string device;
+    bool validate = false;
+
+    void addTo(CLI::App& command);
+    ContextOptions contextOptions(Presentation presentation = Presentation::Headless) const;
+};
+
+// SCENE and what shapes it. The number of lights is the command's: one for `render`, a list for
+// `stress`.
+struct SceneArguments {
+    std::string scene;
+    std::string seed = "1";
+    std::string overlaps, punctualRadius;
+    bool moving = false;
+
+    // With a `fallback` the scene may be left out and named with --scene as well.
+    void addTo(CLI::App& command, const std::string& fallback = "");
+    // Throws UsageError.
+    SceneOptions options(std::optional<uint32_t> lights) const;
+};
+
+// How a frame is made.
+struct FrameArguments {
+    std::string size, camera;
+    std::string gbuffer = "full", specular, culling = "clustered";
+    std::string lightsVisible;
+    std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
+
+    void addTo(CLI::App& command);
+    void addCullingTo(CLI::App& command);
+
+    // All throw UsageError for what they cannot read.
+    PixelSize pixelSize(const Scene& scene, const Camera& camera) const;
+    CndGBufferLayout gbufferLayout() const;
+    CndSpecularMethod specularMethod() const;
+    CndCulling cullingMode() const;
+    std::optional<bool> lightsVisibleOverride() const;
+    CndExposureSettings exposureSettings() const;
+};
+
+// Names on the command line, as they appear in results.
+const char* specularName(CndSpecularMethod method);
+const char* cullingName(CndCulling culling);
+const char* toneMapName(CndToneMap toneMap);
+const char* gbufferName(CndGBufferLayout layout);
+
+// Numbers of options: a sentence that names the option, its text and the range otherwise.
+uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,
+                        uint32_t max);
+double numberOption(const std::string& option, const std::string& text, double min, double max);
+std::vector<uint32_t> unsignedListOption(const std::string& option, const std::string& text,
+                                         uint32_t min, uint32_t max);
+
+// Largest number of lights that options accept: 2^24, beyond it float cannot count them.
+constexpr uint32_t maxLights = 1u << 24;
+constexpr uint32_t maxImageSize = 16384; // pixels per side: the modules' limit
+
+} // namespace candelabra::app

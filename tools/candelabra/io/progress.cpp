@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/progress.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace candelabra::app
+{
+namespace
+{
+constexpr int barWidth = 30; // characters; the whole line stays under 80
+} // namespace
+
+Progress::Progress(double steps, bool visible)
+    : steps_(std::max(steps, 1.0)), visible_(visible && isatty(STDERR_FILENO))
+{
+}
+
+Progress::~Progress()
+{
+    if (visible_)
+        std::fputs("\r\x1b[K", stderr); // leaves no trace
+}
+
+void Progress::doing(const std::string& what)
+{
+    what_ = what;
+    draw();
+}
+
+void Progress::advance(double steps)
+{
+    done_ = std::min(done_ + steps, steps_);
+    draw();
+}
+
+void Progress::draw()
+{
+    if (!visible_)
+        return;
+    const int filled = static_cast<int>(barWidth * done_ / steps_);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const std::string line =
+        fmt::format("\r[{}{}] {:3.0f}% {:4.0f} s  {:.32}\x1b[K", std::string(filled, '#'),
+                    std::string(barWidth - filled, ' '), 100 * done_ / steps_, seconds, what_);
+    std::fputs(line.c_str(), stderr);
+    std::fflush(stderr);
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/report.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "candelabra/candelabra.h"
+#include "candelabra_commit.h"
+#include "render/error.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+std::string directoryOf(const std::string& path)
+{
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    return parent.empty() ? "." : parent.string();
+}
+
+std::string quoted(const std::string& argument)
+{
+    constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                  "-_=+,./:@%";
+    if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos)
+        return argument;
+    std::string out = "'";
+    for (const char c : argument)
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+} // namespace
+
+void writeText(const std::string& path, const std::string& text)
+{
+    if (path == "-") {
+        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout))
+            throw RunError(std::string("cannot write to standard output: ") + std::strerror(errno));
+        return;
+    }
+    const std::string temporary = fmt::format("{}.{}.tmp", path, getpid());
+    std::FILE* file = std::fopen(temporary.c_str(), "wb");
+    if (!file)
+        throw RunError("cannot write " + path + ": " + std::strerror(errno));
+    const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    const bool closed = std::fclose(file) == 0;
+    if (!written || !closed || std::rename(temporary.c_str(), path.c_str())) {
+        const std::string reason = std::strerror(errno);
+        std::remove(temporary.c_str());
+        throw RunError("cannot write " + path + ": " + reason);
+    }
+}
+
+void writeJson(const std::string& path, const Json& json)
+{
+    writeText(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void requireWritable(const std::string& option, const std::string& path)
+{
+    if (path == "-")
+        return;
+    std::error_code error;
+    if (path.empty() || std::filesystem::is_directory(path, error))
+        throw UsageError(fmt::format("{} \"{}\": is not the name of a file", option, path));
+    const std::string directory = directoryOf(path);
+    if (!std::filesystem::is_directory(directory, error))
+        throw UsageError(fmt::format("{} {}: there is no directory {}", option, path, directory));
+    if (access(directory.c_str(), W_OK))
+        throw UsageError(fmt::format("{} {}: cannot write into {}: {}", option, path, directory,
+                                     std::strerror(errno)));
+}
+
+Json provenance(const DeviceInfo& device, const std::string& commandLine)
+{
+    const uint32_t version = cndGetVersion();
+    const std::time_t now = std::time(nullptr);
+    return {{"candelabra",
+             fmt::format("{}.{}.{}", version >> 22, (version >> 12) & 0x3ff, version & 0xfff)},
+            {"commit", commit},
+            {"utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))},
+            {"device", device.name},
+            {"deviceType", deviceTypeName(device.type)},
+            {"driver", device.driver},
+            {"vulkan", device.vulkanVersion},
+            {"commandLine", commandLine}};
+}
+
+std::string commandLine(int argc, const char* const* argv)
+{
+    std::string out = "candelabra";
+    for (int i = 1; i < argc; ++i)
+        out += " " + quoted(argv[i]);
+    return out;
+}
+
+} // namespace candelabra::app

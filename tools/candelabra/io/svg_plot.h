@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// A line plot with logarithmic axes as an SVG file.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace candelabra::app
+{
+
+struct PlotSeries {
+    std::string name;
+    std::vector<std::pair<double, double>> points; // values <= 0 or not finite are left out
+    bool emphasised = false;                       // drawn thicker
+};
+
+struct PlotText {
+    std::string title, subtitle, xAxis, yAxis; // axes with their unit
+};
+
+// A complete SVG document. Series are told apart by colour, marker shape and a label at the end of
+// the line. With no drawable point the plot says so.
+std::string logLogPlot(const PlotText& text, const std::vector<PlotSeries>& series);
+
+} // namespace candelabra::app

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/pass_times.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace candelabra::app
+{
+namespace
+{
+
+PassSummary summarise(const std::string& name, std::vector<double> ms)
+{
+    if (ms.empty())
+        return {.name = name};
+    std::sort(ms.begin(), ms.end());
+    const size_t n = ms.size();
+    const size_t rank = size_t(std::ceil(0.95 * double(n)));
+    return {.name = name,
+            .minMs = ms.front(),
+            .medianMs = n % 2 ? ms[n / 2] : (ms[n / 2 - 1] + ms[n / 2]) / 2,
+            .p95Ms = ms[rank - 1]};
+}
+
+} // namespace
+
+std::string passName(const char* kernelName)
+{
+    std::string name = kernelName;
+    return name.ends_with(".comp") ? name.substr(0, name.size() - 5) : name;
+}
+
+void PassTimes::add(std::span<const PassTime> frame)
+{
+    double total = 0;
+    for (Pass& pass : passes_)
+        pass.ms.push_back(0);
+    for (const PassTime& time : frame) {
+        auto pass = std::find_if(passes_.begin(), passes_.end(),
+                                 [&](const Pass& p) { return p.name == time.name; });
+        if (pass == passes_.end()) {
+            passes_.push_back({time.name, std::vector<double>(totals_.size() + 1)});
+            pass = passes_.end() - 1;
+        }
+        pass->ms.back() += time.ms;
+        total += time.ms;
+    }
+    totals_.push_back(total);
+}
+
+std::vector<PassSummary> PassTimes::summary() const
+{
+    std::vector<PassSummary> out;
+    for (const Pass& pass : passes_)
+        out.push_back(summarise(pass.name, pass.ms));
+    return out;
+}
+
+PassSummary PassTimes::total() const
+{
+    return summarise("total", totals_);
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: Apache-2.0
+# Writes OUTPUT, a header with the commit that SOURCE is at, when it changed.
+execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12
+    OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+if(failed)
+    set(commit "unknown") # not a git checkout
+endif()
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#pragma once
+namespace candelabra::app
+{
+constexpr const char* commit = \"${commit}\";
+} // namespace candelabra::app
+")
