@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/field.h"
+
+#include <utility>
+
+namespace candelabra::app
+{
+
+Scene generateField(const SceneOptions& options)
+{
+    const uint32_t count = options.lights.value_or(kDefaultLightCount);
+    checkLightOptions("field", count, options);
+    field::Kit kit{};
+    kit.builder.scene.name = "field";
+    Random random(options.seed);
+    field::addMeshes(kit);
+    field::addMaterials(kit, random);
+    field::addCity(kit, random);
+    field::addLandmarks(kit, random);
+
+    Scene& scene = kit.builder.scene;
+    // Blue hour: the sky about as bright as the streets.
+    scene.background = field::kSkyLuminance;
+    // In the middle of what the default camera sees near by, where precision is wanted most.
+    scene.lightOrigin = {0, 0, 1100};
+    Camera terrace;
+    terrace.name = "terrace";
+    terrace.position = field::kCameraPosition;
+    terrace.forward = glm::normalize(glm::dvec3(-0.09, -0.155, -1));
+    terrace.verticalFov = glm::radians(46.0);
+    terrace.nearPlane = 0.5;
+    Camera overview;
+    overview.name = "overview";
+    overview.position = {-1500, 620, 1900};
+    overview.forward = glm::normalize(glm::dvec3(0.75, -0.38, -1));
+    overview.verticalFov = glm::radians(50.0);
+    overview.nearPlane = 0.5;
+    scene.cameras = {terrace, overview};
+    addSphereLights(scene, field::lightSites(kit, count, options), options);
+    return std::move(kit.builder.scene);
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The generators' random numbers: equal on every platform, which std:: distributions are not.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+namespace candelabra::app
+{
+
+// PCG32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms
+// for Random Number Generation", pcg32_random_r). Draws must be sequenced: keep two calls out of
+// one expression, except between the braces of an initialiser list.
+class Random
+{
+public:
+    // Different streams of one seed are independent sequences.
+    explicit Random(uint64_t seed, uint64_t stream = 0) : increment_(stream << 1u | 1u)
+    {
+        bits();
+        state_ += seed;
+        bits();
+    }
+
+    uint32_t bits()
+    {
+        const uint64_t old = state_;
+        state_ = old * 6364136223846793005ull + increment_;
+        const uint32_t xorShifted = static_cast<uint32_t>(((old >> 18u) ^ old) >> 27u);
+        const uint32_t rotation = static_cast<uint32_t>(old >> 59u);
+        return xorShifted >> rotation | xorShifted << ((0u - rotation) & 31u);
+    }
+
+    // [0, 1): 24 bits, so that the float is exact and never rounds to 1.
+    float uniform() { return static_cast<float>(bits() >> 8u) * 0x1p-24f; }
+
+    float uniform(float low, float high) { return low + (high - low) * uniform(); }
+
+    // 0 .. count-1; the bias of the multiplication (count / 2^32) does not matter here.
+    uint32_t below(uint32_t count)
+    {
+        return static_cast<uint32_t>(static_cast<uint64_t>(bits()) * count >> 32u);
+    }
+
+    bool chance(float probability) { return uniform() < probability; }
+
+    // Roughly normal, mean 0, standard deviation 1/3, within (-1, 1): mean of three uniforms.
+    float bell()
+    {
+        float sum = uniform();
+        sum += uniform();
+        sum += uniform();
+        return sum * (2.0f / 3.0f) - 1.0f;
+    }
+
+    glm::vec2 uniform2() { return glm::vec2{uniform(), uniform()}; }
+
+    glm::vec3 uniform3() { return glm::vec3{uniform(), uniform(), uniform()}; }
+
+private:
+    uint64_t state_ = 0;
+    uint64_t increment_;
+};
+
+} // namespace candelabra::app

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays against a scene, on the CPU in double: what a camera sees without a renderer. Ignores alpha
+// masks and normal maps.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+struct Ray {
+    glm::dvec3 origin{0};
+    glm::dvec3 direction{0, 0, -1}; // unit
+};
+
+struct RayHit {
+    double distance = 0;
+    glm::dvec3 position{0};
+    glm::dvec3 normal{0, 1, 0}; // unit, interpolated, on the side that the ray comes from
+    uint32_t material = 0;
+};
+
+// A binary tree over boxes, for any kind of content.
+class BoxTree
+{
+public:
+    BoxTree() = default;
+    explicit BoxTree(const std::vector<Bounds>& boxes);
+
+    // Calls visit(item, nearest) for boxes that the ray meets before `nearest`; visit may lower
+    // `nearest`.
+    template <typename Visit>
+    void traverse(const Ray& ray, double& nearest, Visit&& visit) const;
+
+private:
+    struct Node {
+        Bounds box;
+        uint32_t first = 0; // leaf: first of order_; else: right child (the left one follows)
+        uint32_t count = 0; // leaf: items; else 0
+    };
+
+    void build(const std::vector<Bounds>& boxes, uint32_t first, uint32_t count);
+
+    std::vector<Node> nodes_;
+    std::vector<uint32_t> order_;
+};
+
+// Keeps a reference to the scene, which must not change meanwhile.
+class RayCaster
+{
+public:
+    explicit RayCaster(const Scene& scene);
+
+    // The nearest surface; back faces count too.
+    std::optional<RayHit> cast(const Ray& ray);
+
+private:
+    void hitInstance(uint32_t instance, const Ray& ray, RayHit& best);
+    void hitAnalytic(const AnalyticObject& object, const Ray& ray, RayHit& best) const;
+    const BoxTree& meshTree(uint32_t mesh);
+
+    const Scene& scene_;
+    BoxTree instances_;
+    std::vector<uint32_t> instanceIds_;             // of the tree's items
+    std::vector<glm::dmat4> objectFromWorld_;       // of the tree's items
+    std::vector<std::optional<BoxTree>> meshTrees_; // built when first needed
+};
+
+// Through the centre of pixel (x, y), counted from the top left, of a width x height image.
+Ray cameraRay(const Camera& camera, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
+
+} // namespace candelabra::app

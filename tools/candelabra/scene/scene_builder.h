@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the procedural scenes are put together with.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+struct SceneBuilder {
+    Scene scene;
+
+    uint32_t addMesh(Mesh mesh)
+    {
+        scene.meshes.push_back(std::move(mesh));
+        return static_cast<uint32_t>(scene.meshes.size() - 1);
+    }
+
+    uint32_t addMaterial(Material material)
+    {
+        scene.materials.push_back(std::move(material));
+        return static_cast<uint32_t>(scene.materials.size() - 1);
+    }
+
+    // baseColor is the reflectance at normal incidence (F0) of the metal, linear Rec.709.
+    uint32_t addMetal(std::string name, const glm::vec3& baseColor, float perceptualRoughness)
+    {
+        return addMaterial({.name = std::move(name),
+                            .baseColor = baseColor,
+                            .metalness = 1,
+                            .perceptualRoughness = perceptualRoughness});
+    }
+
+    // baseColor is the diffuse albedo, linear Rec.709.
+    uint32_t addDielectric(std::string name, const glm::vec3& baseColor, float perceptualRoughness)
+    {
+        return addMaterial({.name = std::move(name),
+                            .baseColor = baseColor,
+                            .perceptualRoughness = perceptualRoughness});
+    }
+
+    void place(uint32_t mesh, uint32_t material, const glm::dmat4& worldFromObject)
+    {
+        scene.instances.push_back({mesh, material, worldFromObject});
+    }
+
+    // Scaled, then turned by `yaw` radians about y, then moved.
+    void place(uint32_t mesh, uint32_t material, const glm::dvec3& position,
+               const glm::dvec3& scale = glm::dvec3(1), double yaw = 0)
+    {
+        glm::dmat4 worldFromObject = glm::translate(glm::dmat4(1), position);
+        if (yaw != 0) {
+            worldFromObject = glm::rotate(worldFromObject, yaw, glm::dvec3(0, 1, 0));
+        }
+        place(mesh, material, glm::scale(worldFromObject, scale));
+    }
+
+    // A mesh with radius 1 that reaches from y = 0 to y = 1, laid from `from` to `to`.
+    void placeRod(uint32_t mesh, uint32_t material, const glm::dvec3& from, const glm::dvec3& to,
+                  double radius)
+    {
+        const glm::dvec3 axis = to - from;
+        const glm::dvec3 other = axis.x * axis.x < 0.5 * glm::dot(axis, axis) ? glm::dvec3(1, 0, 0)
+                                                                              : glm::dvec3(0, 0, 1);
+        const glm::dvec3 side = glm::normalize(glm::cross(axis, other));
+        const glm::dvec3 front = glm::cross(side, glm::normalize(axis));
+        place(mesh, material,
+              glm::dmat4(glm::dvec4(side * radius, 0), glm::dvec4(axis, 0),
+                         glm::dvec4(front * radius, 0), glm::dvec4(from, 1)));
+    }
+};
+
+} // namespace candelabra::app
