@@ -58,8 +58,7 @@ Device::Device(const CndDeviceDesc& desc)
     CND_DEVICE_FUNCTIONS(X)
 #undef X
     if (desc.debugUtilsEnabled) {
-#define X(f)                                                                                       \
-    f = reinterpret_cast<PFN_vk##f>(desc.getInstanceProcAddr(instance, "vk" #f));
+#define X(f) f = reinterpret_cast<PFN_vk##f>(desc.getInstanceProcAddr(instance, "vk" #f));
         CND_DEBUG_FUNCTIONS(X)
 #undef X
     }
@@ -73,11 +72,11 @@ void Device::name(VkObjectType type, uint64_t object, const std::string& text) c
 {
     if (!SetDebugUtilsObjectNameEXT)
         return;
-    const VkDebugUtilsObjectNameInfoEXT info{
-        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
-        .objectType = type,
-        .objectHandle = object,
-        .pObjectName = text.c_str()};
+    const VkDebugUtilsObjectNameInfoEXT info{.sType =
+                                                 VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                             .objectType = type,
+                                             .objectHandle = object,
+                                             .pObjectName = text.c_str()};
     SetDebugUtilsObjectNameEXT(handle, &info);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every Vulkan entry point the engine calls. The engine loads no Vulkan: the table is filled from the
-// host's vkGetInstanceProcAddr.
+// Every Vulkan entry point the engine calls. The engine loads no Vulkan: the table is filled from
+// the host's vkGetInstanceProcAddr.
 #pragma once
 
 #define CND_INSTANCE_FUNCTIONS(X)                                                                  \
@@ -22,6 +22,7 @@
     X(CmdBindPipeline)                                                                             \
     X(CmdBindVertexBuffers)                                                                        \
     X(CmdCopyBuffer)                                                                               \
+    X(CmdCopyBufferToImage)                                                                        \
     X(CmdDispatch)                                                                                 \
     X(CmdDraw)                                                                                     \
     X(CmdDrawIndexed)                                                                              \
@@ -32,6 +33,8 @@
     X(CmdPushConstants)                                                                            \
     X(CmdResetQueryPool)                                                                           \
     X(CmdSetCullMode)                                                                              \
+    X(CmdSetDepthCompareOp)                                                                        \
+    X(CmdSetFrontFace)                                                                             \
     X(CmdSetScissor)                                                                               \
     X(CmdSetViewport)                                                                              \
     X(CmdWriteTimestamp2)                                                                          \

@@ -13,12 +13,14 @@ void Frame::barrier() const noexcept
         .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
         .srcStageMask =
             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-        .srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+        .srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
                          VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
                          VK_ACCESS_2_TRANSFER_WRITE_BIT,
         .dstStageMask =
             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-        .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+        .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
                          VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT |
                          VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
@@ -52,9 +54,9 @@ Handle<VkDescriptorSetLayout> createSetLayout(const Device& device, const char* 
         .bindingCount = uint32_t(entries.size()),
         .pBindings = entries.data()};
     VkDescriptorSetLayout layout{};
-    check(device.CreateDescriptorSetLayout(device.handle, &info, device.allocationCallbacks,
-                                           &layout),
-          std::string("creating the set layout of ") + name);
+    check(
+        device.CreateDescriptorSetLayout(device.handle, &info, device.allocationCallbacks, &layout),
+        std::string("creating the set layout of ") + name);
     Handle<VkDescriptorSetLayout> owner(device, layout);
     device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, name);
     return owner;
@@ -98,11 +100,11 @@ Bindings::Bindings(const Device& device, const char* name, std::vector<Reflected
           std::string("creating the descriptor pool of ") + name);
     pool_ = Handle(device, pool);
     const std::vector<VkDescriptorSetLayout> layouts(setCount, layout_.get());
-    const VkDescriptorSetAllocateInfo allocation{
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-        .descriptorPool = pool,
-        .descriptorSetCount = setCount,
-        .pSetLayouts = layouts.data()};
+    const VkDescriptorSetAllocateInfo allocation{.sType =
+                                                     VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                                 .descriptorPool = pool,
+                                                 .descriptorSetCount = setCount,
+                                                 .pSetLayouts = layouts.data()};
     check(device.AllocateDescriptorSets(device.handle, &allocation, sets_.data()),
           std::string("allocating descriptor sets of ") + name);
     for (VkDescriptorSet set : sets_)

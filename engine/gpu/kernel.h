@@ -33,7 +33,7 @@ struct SpecConstant {
 // One descriptor of a set: the binding number and what goes there.
 struct Binding {
     uint32_t binding;
-    VkBuffer buffer = VK_NULL_HANDLE;   // whole buffer
+    VkBuffer buffer = VK_NULL_HANDLE; // whole buffer
     VkImageView image = VK_NULL_HANDLE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkBufferView texels = VK_NULL_HANDLE;
@@ -46,9 +46,7 @@ struct Binding {
     }
     static Binding sampled(uint32_t b, VkImageView view)
     {
-        return {.binding = b,
-                .image = view,
-                .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        return {.binding = b, .image = view, .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     }
     static Binding storage(uint32_t b, VkImageView view)
     {
@@ -130,6 +128,9 @@ Handle<VkPipelineLayout> createPipelineLayout(const Device& device, const char* 
                                               std::span<const VkDescriptorSetLayout> sets,
                                               VkShaderStageFlags stages, uint32_t pushConstantSize);
 
-constexpr uint32_t divideUp(uint32_t n, uint32_t d) { return n / d + (n % d != 0); }
+constexpr uint32_t divideUp(uint32_t n, uint32_t d)
+{
+    return n / d + (n % d != 0);
+}
 
 } // namespace candelabra::gpu

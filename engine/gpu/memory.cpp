@@ -31,11 +31,10 @@ Handle<VkDeviceMemory> allocate(const Device& device, const VkMemoryRequirements
                                 MemoryUse use, const std::string& name)
 {
     const MemoryFlags flags = flagsOf(use);
-    const VkMemoryAllocateInfo info{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-        .allocationSize = needs.size,
-        .memoryTypeIndex =
-            device.memoryType(needs.memoryTypeBits, flags.required, flags.preferred)};
+    const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                    .allocationSize = needs.size,
+                                    .memoryTypeIndex = device.memoryType(
+                                        needs.memoryTypeBits, flags.required, flags.preferred)};
     VkDeviceMemory memory{};
     check(device.AllocateMemory(device.handle, &info, device.allocationCallbacks, &memory),
           "allocating " + std::to_string(needs.size) + " bytes for " + name);
@@ -51,9 +50,8 @@ Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize 
 {
     Buffer result;
     result.size = std::max<VkDeviceSize>(size, 16);
-    const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                  .size = result.size,
-                                  .usage = usage};
+    const VkBufferCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = result.size, .usage = usage};
     VkBuffer buffer{};
     check(device.CreateBuffer(device.handle, &info, device.allocationCallbacks, &buffer),
           "creating buffer " + name);
@@ -76,8 +74,8 @@ Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize 
 void createTexelView(const Device& device, Buffer& buffer)
 {
     constexpr VkDeviceSize texelBytes = 16;
-    const VkDeviceSize texels = std::min<VkDeviceSize>(buffer.size / texelBytes,
-                                                       device.limits.maxTexelBufferElements);
+    const VkDeviceSize texels =
+        std::min<VkDeviceSize>(buffer.size / texelBytes, device.limits.maxTexelBufferElements);
     const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                       .buffer = buffer.get(),
                                       .format = VK_FORMAT_R32G32B32A32_SFLOAT,

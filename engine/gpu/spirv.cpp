@@ -76,7 +76,8 @@ public:
                 count = definition(type[3])[3];
                 type = definition(type[2]);
             }
-            result.bindings.push_back({found->second.binding, descriptorType(storage, type), count});
+            result.bindings.push_back(
+                {found->second.binding, descriptorType(storage, type), count});
         }
         std::sort(result.bindings.begin(), result.bindings.end(),
                   [](auto& a, auto& b) { return a.binding < b.binding; });
@@ -90,7 +91,7 @@ private:
             definitions_[at[1]] = at;
         else if (op == OpConstant)
             definitions_[at[2]] = at;
-        else if (op == OpVariable)
+        else if (op == OpVariable && isInterface(at[3]))
             variables_.push_back(at);
         else if (op == OpDecorate && at[2] == DecorationBinding)
             decorations_[at[1]].binding = at[3];
@@ -102,6 +103,12 @@ private:
             decorations_[at[1]].memberOffset[at[2]] = at[4];
         else if (op == OpMemberDecorate && at[3] == DecorationMatrixStride)
             decorations_[at[1]].memberMatrixStride[at[2]] = at[4];
+    }
+
+    static bool isInterface(uint32_t storage)
+    {
+        return storage == StorageUniformConstant || storage == StorageUniform ||
+               storage == StoragePushConstant || storage == StorageStorageBuffer;
     }
 
     const uint32_t* definition(uint32_t id) const { return definitions_.at(id); }

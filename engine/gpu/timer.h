@@ -9,9 +9,9 @@
 namespace candelabra::gpu
 {
 
-// One stamp at the start of a frame and one after each scope, so a scope's time runs from the end of
-// the one before it: n scopes cost n + 1 stamps and their times add up to the total. A disabled timer
-// records nothing.
+// One stamp at the start of a frame and one after each scope, so a scope's time runs from the end
+// of the one before it: n scopes cost n + 1 stamps and their times add up to the total. A disabled
+// timer records nothing.
 class Timer
 {
 public:
@@ -24,7 +24,8 @@ public:
     // Ends the scope `name` (static storage). Outside a render pass.
     void stamp(VkCommandBuffer cmd, const char* name) noexcept;
 
-    // Writes the times of the last frame in `slot`; returns false while the GPU has not finished it.
+    // Writes the times of the last frame in `slot`; returns false while the GPU has not finished
+    // it.
     bool read(uint32_t slot, CndKernelTime* times, uint32_t& count) const noexcept;
 
 private:

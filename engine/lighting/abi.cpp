@@ -35,8 +35,8 @@ CndResult cndCheckDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
 {
     std::string text;
     const CndResult result = gpu::guard(nullptr, [&] {
-        checkPointers(instance, physicalDevice,
-                      reinterpret_cast<const void*>(getInstanceProcAddr), "cndCheckDevice");
+        checkPointers(instance, physicalDevice, reinterpret_cast<const void*>(getInstanceProcAddr),
+                      "cndCheckDevice");
         for (const std::string& m :
              gpu::missingFeatures(instance, physicalDevice, getInstanceProcAddr))
             text += (text.empty() ? "" : ", ") + m;

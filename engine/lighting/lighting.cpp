@@ -36,12 +36,12 @@ void createShadeKernels(ShadeKernels& out, const gpu::Device& device, const gpu:
     for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
         for (const bool onlySpheres : {false, true}) {
             auto& kernels = onlySpheres ? out.onlySpheres : out.anyLights;
-            kernels[method] = gpu::Kernel<gpu::ShadeParams>(
-                device, spirv,
-                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
-                 {gpu::SPEC_SPECULAR_METHOD, method},
-                 {gpu::SPEC_ONLY_SPHERES, onlySpheres},
-                 {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}});
+            kernels[method] =
+                gpu::Kernel<gpu::ShadeParams>(device, spirv,
+                                              {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
+                                               {gpu::SPEC_SPECULAR_METHOD, method},
+                                               {gpu::SPEC_ONLY_SPHERES, onlySpheres},
+                                               {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}});
         }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lighting module behind the C ABI: Lighting holds pipelines and lights, View the buffers of one
-// view and the order of the passes.
+// The lighting module behind the C ABI: Lighting holds pipelines and lights, View the buffers of
+// one view and the order of the passes.
 #pragma once
 
 #include <deque>
@@ -73,7 +73,7 @@ private:
     Kernels kernels_;
     std::vector<View*> views_;
     std::vector<Retired> retired_;
-    gpu::Buffer records_;              // device copy of the packed lights
+    gpu::Buffer records_; // device copy of the packed lights
     struct Staging {
         gpu::Buffer buffer;
         uint64_t recording = 0; // number of the recording that copies from it, 0: none yet
@@ -81,7 +81,7 @@ private:
     Staging& freeStaging();
 
     std::deque<Staging> staging_; // elements stay where they are when it grows
-    Staging* pending_ = nullptr; // written and not yet recorded
+    Staging* pending_ = nullptr;  // written and not yet recorded
     uint32_t lightCount_ = 0, lightCapacity_ = 0;
     bool onlySpheres_ = true;
     double origin_[3]{};
@@ -128,8 +128,8 @@ private:
     CndLightingViewDesc desc_;
     gpu::Timer timer_;
     Sets sets_;
-    gpu::Buffer core_, aux_;      // per light
-    gpu::Buffer masks_;           // per coarse tile and light
+    gpu::Buffer core_, aux_; // per light
+    gpu::Buffer masks_;      // per coarse tile and light
     gpu::Buffer tileBounds_, coarseBounds_, lists_, entries_, counters_;
     std::vector<gpu::Buffer> readback_; // per slot
     std::vector<SlotState> slots_;

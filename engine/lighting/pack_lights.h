@@ -10,8 +10,8 @@
 namespace candelabra::lighting
 {
 
-// Throws gpu::Failure naming the first light and field outside its documented range. Returns whether
-// every light is a sphere.
+// Throws gpu::Failure naming the first light and field outside its documented range. Returns
+// whether every light is a sphere.
 bool validateLights(std::span<const CndLight> lights);
 
 // Packs valid lights; `out` has at least lights.size() elements.

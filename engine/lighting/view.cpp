@@ -82,8 +82,16 @@ gpu::Projection projectionOf(const float (&m)[16], float clearDepth)
     for (const float x : m)
         if (!std::isfinite(x))
             gpu::failArgument("CndCamera: clipFromView must be finite");
-    gpu::Projection p{.m00 = m[0], .m11 = m[5], .m20 = m[8], .m21 = m[9], .m30 = m[12],
-                      .m31 = m[13], .m22 = m[10], .m32 = m[14], .m23 = m[11], .m33 = m[15]};
+    gpu::Projection p{.m00 = m[0],
+                      .m11 = m[5],
+                      .m20 = m[8],
+                      .m21 = m[9],
+                      .m30 = m[12],
+                      .m31 = m[13],
+                      .m22 = m[10],
+                      .m32 = m[14],
+                      .m23 = m[11],
+                      .m33 = m[15]};
     const bool perspective = p.m23 != 0 && p.m33 == 0 && p.m30 == 0 && p.m31 == 0 && p.m32 != 0;
     const bool orthographic = p.m23 == 0 && p.m33 != 0 && p.m22 != 0;
     if (p.m00 == 0 || p.m11 == 0 || perspective == orthographic)
@@ -138,9 +146,9 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     coarseBounds_ = make("coarse bounds", tileCount * sizeof(gpu::TileBounds), storageUse);
     lists_ = make("tile lists", tileCount * sizeof(gpu::TileList), storageUse);
     entries_ = make("list entries", desc_.listBudget, storageUse);
-    counters_ = make("lighting counters", sizeof(gpu::LightingCounters),
-                     storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                         VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    counters_ =
+        make("lighting counters", sizeof(gpu::LightingCounters),
+             storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     for (uint32_t i = 0; i < slots; ++i)
         readback_.push_back(gpu::createBuffer(device, "lighting statistics", sizeof(Readback),
                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -238,14 +246,14 @@ void View::writeBindings(const CndLightingFrame& frame, const Plan&) const
                                      Binding::of(PREPARE_LIGHTS_CORE, core_),
                                      Binding::of(PREPARE_LIGHTS_AUX, aux_)});
     if (frame.culling == CND_CULLING_BRUTE) {
-        sets_.shadeBrute.write(
-            slot, {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
-                   Binding::of(SHADE_AUX, aux_),
-                   Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
-                   Binding::sampled(SHADE_ALBEDO, frame.albedo),
-                   Binding::sampled(SHADE_SPECULAR, specular),
-                   Binding::sampled(SHADE_DEPTH, frame.depth),
-                   Binding::storage(SHADE_RADIANCE, frame.radiance)});
+        sets_.shadeBrute.write(slot,
+                               {Binding::ofTexels(SHADE_CORE, core_),
+                                Binding::of(SHADE_CORE_WORDS, core_), Binding::of(SHADE_AUX, aux_),
+                                Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
+                                Binding::sampled(SHADE_ALBEDO, frame.albedo),
+                                Binding::sampled(SHADE_SPECULAR, specular),
+                                Binding::sampled(SHADE_DEPTH, frame.depth),
+                                Binding::storage(SHADE_RADIANCE, frame.radiance)});
         return;
     }
     sets_.tileBounds.write(slot, {Binding::sampled(TILE_BOUNDS_DEPTH, frame.depth),

@@ -26,7 +26,7 @@ void main()
         const vec3 n = readSurface(readable).normal;
         pairs.x = list.count;
         for (uint k = 0u; k < list.count; ++k) {
-            const uint light = list.offset == UNLISTED ? k : entries[list.offset + k];
+            const uint light = listedLight(list, k);
             const vec4 centreRadius = lightCentre(light);
             const float influence2 = lightEmission(light).w;
             const bool inside = length2(centreRadius.xyz - position) < influence2;

@@ -14,24 +14,21 @@ void main()
     const uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, params.size)))
         return;
-    Walk walk;
-    walk.list = lists[gl_WorkGroupID.y * params.tileCountX + gl_WorkGroupID.x];
+    const TileList list = lists[gl_WorkGroupID.y * params.tileCountX + gl_WorkGroupID.x];
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (walk.list.count == 0u || depth == params.clearDepth)
+    if (list.count == 0u || depth == params.clearDepth)
         return;
     const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
     const ShadingPoint p = makeShadingPoint(readSurface(ivec2(pixel)), position,
                                             towardsEye(params.projection, position));
     vec3 sum = vec3(0.0);
-    walk.k = 0u;
-    seek(walk, position, p.n);
-    if (walk.k < walk.list.count) {
-        do { // a do-while runs n bodies where a for-loop runs n + 1 masked ones on lavapipe
-            sum += evaluateLight(p, walk.light, walk.centreRadius, walk.emissionInfluence);
-            ++walk.k;
-            seek(walk, position, p.n);
-        } while (walk.k < walk.list.count);
-        const vec4 before = imageLoad(radianceImage, ivec2(pixel));
-        imageStore(radianceImage, ivec2(pixel), before + vec4(sum, 0.0));
+    // Not a do-while, which would save a masked trip on lavapipe: Mesa 22.3 runs lanes that have left
+    // a do-while around a divergent loop once more (found by comparing with shade_brute).
+    for (uint k = seek(list, 0u, position, p.n); k < list.count;
+         k = seek(list, k + 1u, position, p.n)) {
+        const uint light = listedLight(list, k);
+        sum += evaluateLight(p, light, lightCentre(light), lightEmission(light));
     }
+    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
+    imageStore(radianceImage, ivec2(pixel), before + vec4(sum, 0.0));
 }

@@ -10,26 +10,20 @@ layout(scalar, binding = SHADE_ENTRIES) readonly buffer Entries
     uint entries[];
 };
 
-// A position in a list and the light found there.
-struct Walk {
-    TileList list;
-    uint k; // list.count at the end
-    uint light;
-    vec4 centreRadius;
-    vec4 emissionInfluence;
-};
-
-// Moves to the first entry at or after walk.k whose light reaches the point.
-void seek(inout Walk walk, vec3 position, vec3 n)
+// Light at entry k of a list.
+uint listedLight(TileList list, uint k)
 {
-    const uint last = walk.list.count - 1u;
-    bool reaches = false;
-    while (walk.k < walk.list.count && !reaches) {
-        const uint k = min(walk.k, last);
-        walk.light = walk.list.offset == UNLISTED ? k : entries[walk.list.offset + k];
-        walk.centreRadius = lightCentre(walk.light);
-        walk.emissionInfluence = lightEmission(walk.light);
-        reaches = lightReaches(position, n, walk.centreRadius, walk.emissionInfluence.w);
-        walk.k += reaches ? 0u : 1u;
+    return list.offset == UNLISTED ? k : entries[list.offset + k];
+}
+
+// First entry at or after k whose light reaches the point; list.count when there is none.
+uint seek(TileList list, uint k, vec3 position, vec3 n)
+{
+    while (k < list.count) {
+        const uint light = listedLight(list, k);
+        if (lightReaches(position, n, lightCentre(light), lightEmission(light).w))
+            break;
+        ++k;
     }
+    return k;
 }

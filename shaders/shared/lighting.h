@@ -12,12 +12,12 @@ GPU_BEGIN
 
 // A light as the host sends it, relative to the light set's origin. Made by pack_lights.cpp.
 struct LightRecord {
-    vec3 position;  // m
-    float radius;   // m; sphere, else 0
-    vec3 emission;  // cd/m^2 (sphere), cd (point, spot), lx (directional)
-    float influenceRadius; // m, may be infinite
-    vec3 direction; // unit, the way the light travels; spot, directional
-    uint type;      // LIGHT_*
+    vec3 position;               // m
+    float radius;                // m; sphere, else 0
+    vec3 emission;               // cd/m^2 (sphere), cd (point, spot), lx (directional)
+    float influenceRadius;       // m, may be infinite
+    vec3 direction;              // unit, the way the light travels; spot, directional
+    uint type;                   // LIGHT_*
     float spotScale, spotOffset; // attenuation = sat(cos(angle) * scale + offset)^2
 };
 GPU_SIZE(LightRecord, 56)
@@ -35,14 +35,14 @@ const uint LIGHT_AUX_STRIDE = 2u;
 // the way back from pixel and depth to view space.
 struct Projection {
     float m00, m11, m20, m21, m30, m31, m22, m32, m23, m33;
-    vec3 eye;        // position of the eye (perspective: 0) or direction towards it (orthographic)
+    vec3 eye;         // position of the eye (perspective: 0) or direction towards it (orthographic)
     float eyeIsPoint; // 1 perspective, 0 orthographic
 };
 GPU_SIZE(Projection, 56)
 
-const uint TILE_SIZE = 8u;        // pixels; one shading workgroup per tile
+const uint TILE_SIZE = 8u;         // pixels; one shading workgroup per tile
 const uint COARSE_FACTOR_MIN = 8u; // tiles per coarse tile side, a power of two >= this
-const uint MASK_BITS = 32u;       // lights per mask word
+const uint MASK_BITS = 32u;        // lights per mask word
 
 // Bounds of the surface samples of a tile; min > max when there are none.
 struct TileBounds {
@@ -147,8 +147,8 @@ const uint SHADE_ALBEDO = 4u;
 const uint SHADE_SPECULAR = 5u;
 const uint SHADE_DEPTH = 6u;
 const uint SHADE_RADIANCE = 7u;
-const uint SHADE_LISTS = 8u;    // not in shade_brute
-const uint SHADE_ENTRIES = 9u;  // not in shade_brute
+const uint SHADE_LISTS = 8u;     // not in shade_brute
+const uint SHADE_ENTRIES = 9u;   // not in shade_brute
 const uint SHADE_COUNTERS = 10u; // count_pairs
 struct ShadeParams {
     Projection projection;

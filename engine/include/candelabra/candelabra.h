@@ -2,8 +2,8 @@
 // Candelabra: C ABI of the lighting and exposure modules.
 //
 // Conventions
-//   Units: metres, seconds, radians, photometric light units (lm, cd, lx, cd/m^2). Colours are linear
-//   Rec.709. Matrices are column-major (element [column*4 + row]), vectors are columns.
+//   Units: metres, seconds, radians, photometric light units (lm, cd, lx, cd/m^2). Colours are
+//   linear Rec.709. Matrices are column-major (element [column*4 + row]), vectors are columns.
 //   Ownership: a module borrows every Vulkan handle it is given, owns only what it created, never
 //   creates a device or a queue, never submits and never waits. Recording allocates nothing.
 //   Threads: different objects may be used from different threads; calls on one object, or on a
@@ -41,14 +41,14 @@ typedef enum CndResult {
     CND_ERROR_INVALID_ARGUMENT = -1, // a value outside its documented range
     CND_ERROR_UNSUPPORTED = -2,      // the device lacks a feature, format or limit
     CND_ERROR_OUT_OF_MEMORY = -3,
-    CND_ERROR_DEVICE = -4,           // a Vulkan call failed; vkResult tells which way
+    CND_ERROR_DEVICE = -4, // a Vulkan call failed; vkResult tells which way
     CND_RESULT_MAX_ENUM = 0x7FFFFFFF
 } CndResult;
 
 typedef struct CndError {
     CndResult code;
-    VkResult vkResult;  // VK_SUCCESS when no Vulkan call was at fault
-    char message[512];  // one sentence, zero terminated
+    VkResult vkResult; // VK_SUCCESS when no Vulkan call was at fault
+    char message[512]; // one sentence, zero terminated
 } CndError;
 
 // Version of the library that was linked, as CND_MAKE_VERSION.
@@ -64,13 +64,14 @@ typedef struct CndDeviceDesc {
     VkPhysicalDevice physicalDevice;
     VkDevice device;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr;
-    VkPipelineCache pipelineCache;                   // may be VK_NULL_HANDLE
+    VkPipelineCache pipelineCache;                    // may be VK_NULL_HANDLE
     const VkAllocationCallbacks* allocationCallbacks; // may be NULL
-    VkBool32 debugUtilsEnabled; // VK_EXT_debug_utils is enabled on the instance: name and label objects
+    VkBool32
+        debugUtilsEnabled; // VK_EXT_debug_utils is enabled on the instance: name and label objects
 } CndDeviceDesc;
 
-// Writes into `missing` (comma separated, zero terminated, truncated at missingSize) what the device
-// lacks; CND_SUCCESS when it lacks nothing, CND_ERROR_UNSUPPORTED otherwise.
+// Writes into `missing` (comma separated, zero terminated, truncated at missingSize) what the
+// device lacks; CND_SUCCESS when it lacks nothing, CND_ERROR_UNSUPPORTED otherwise.
 CND_API CndResult cndCheckDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
                                  PFN_vkGetInstanceProcAddr getInstanceProcAddr, char* missing,
                                  size_t missingSize);
@@ -85,9 +86,9 @@ CND_API void cndRequireFeatures(VkPhysicalDeviceFeatures* core10,
 // Lights
 
 typedef enum CndLightType {
-    CND_LIGHT_POINT = 0,       // emission: luminous intensity, cd
-    CND_LIGHT_SPHERE = 1,      // emission: luminance, cd/m^2, constant over the sphere and directions
-    CND_LIGHT_SPOT = 2,        // emission: luminous intensity on the axis, cd
+    CND_LIGHT_POINT = 0,  // emission: luminous intensity, cd
+    CND_LIGHT_SPHERE = 1, // emission: luminance, cd/m^2, constant over the sphere and directions
+    CND_LIGHT_SPOT = 2,   // emission: luminous intensity on the axis, cd
     CND_LIGHT_DIRECTIONAL = 3, // emission: illuminance on a surface that faces it, lx
     CND_LIGHT_TYPE_MAX_ENUM = 0x7FFFFFFF
 } CndLightType;
@@ -97,14 +98,14 @@ typedef enum CndLightType {
 // distance to its centre and r = influenceRadius (Lagarde and de Rousiers 2014, eq. 26, squared
 // window); with r = INFINITY it is neither windowed nor cut.
 typedef struct CndLight {
-    uint32_t type;           // CndLightType
-    float position[3];       // metres, relative to CndLightSet::origin; all but directional
-    float radius;            // metres, > 0; sphere
-    float direction[3];      // unit (1e-3), the way the light travels; spot and directional
-    float emission[3];       // >= 0, finite; unit by type, per Rec.709 channel
-    float influenceRadius;   // metres, > 0 (sphere: > radius), or INFINITY; all but directional
-    float innerConeAngle;    // radians, 0 <= inner < outer; spot: full intensity inside (half angle)
-    float outerConeAngle;    // radians, inner < outer <= pi/2; spot: no light outside (half angle)
+    uint32_t type;         // CndLightType
+    float position[3];     // metres, relative to CndLightSet::origin; all but directional
+    float radius;          // metres, > 0; sphere
+    float direction[3];    // unit (1e-3), the way the light travels; spot and directional
+    float emission[3];     // >= 0, finite; unit by type, per Rec.709 channel
+    float influenceRadius; // metres, > 0 (sphere: > radius), or INFINITY; all but directional
+    float innerConeAngle;  // radians, 0 <= inner < outer; spot: full intensity inside (half angle)
+    float outerConeAngle;  // radians, inner < outer <= pi/2; spot: no light outside (half angle)
 } CndLight;
 
 // A set of lights around an origin. The engine subtracts the camera from the origin in double, so
@@ -128,7 +129,7 @@ CND_API float cndLuminousPowerFromWatts(float watts);
 // --------------------------------------------------------------------------------------------
 // Lighting
 
-typedef struct CndLighting_T* CndLighting;         // pipelines and one light set, shared by its views
+typedef struct CndLighting_T* CndLighting; // pipelines and one light set, shared by its views
 typedef struct CndLightingView_T* CndLightingView; // buffers of one view
 
 typedef enum CndSpecularMethod {
@@ -140,7 +141,7 @@ typedef enum CndSpecularMethod {
 
 typedef enum CndCulling {
     CND_CULLING_CLUSTERED = 0, // exact lists per 8x8 tile
-    CND_CULLING_BRUTE = 1,     // every light at every pixel, no list, no bound; the check and baseline
+    CND_CULLING_BRUTE = 1, // every light at every pixel, no list, no bound; the check and baseline
     CND_CULLING_MAX_ENUM = 0x7FFFFFFF
 } CndCulling;
 
@@ -160,9 +161,11 @@ typedef enum CndGBufferLayout {
 
 typedef struct CndLightingDesc {
     uint32_t structSize;
-    uint32_t framesInFlight; // 1..8: frames the host may have recorded or submitted and not yet waited for
+    uint32_t framesInFlight; // 1..8: frames the host may have recorded or submitted and not yet
+                             // waited for
     CndGBufferLayout gbufferLayout;
-    VkBool32 timestamps; // record a timestamp pair per kernel (about 50 us each on a software device)
+    VkBool32
+        timestamps; // record a timestamp pair per kernel (about 50 us each on a software device)
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -180,25 +183,26 @@ typedef struct CndCamera {
 } CndCamera;
 
 // One frame of one view.
-// On entry: normalRoughness, albedo, specular and depth in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-// radiance in VK_IMAGE_LAYOUT_GENERAL, all made visible to COMPUTE_SHADER (SHADER_SAMPLED_READ, and
-// SHADER_STORAGE_READ | SHADER_STORAGE_WRITE for radiance). On exit: layouts unchanged, radiance
-// written by COMPUTE_SHADER / SHADER_STORAGE_WRITE, not yet made visible.
+// On entry: normalRoughness, albedo, specular and depth in
+// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, radiance in VK_IMAGE_LAYOUT_GENERAL, all made visible
+// to COMPUTE_SHADER (SHADER_SAMPLED_READ, and SHADER_STORAGE_READ | SHADER_STORAGE_WRITE for
+// radiance). On exit: layouts unchanged, radiance written by COMPUTE_SHADER / SHADER_STORAGE_WRITE,
+// not yet made visible.
 typedef struct CndLightingFrame {
     uint32_t structSize;
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
-    uint32_t width, height;   // pixels, 1..max of the view
+    uint32_t width, height; // pixels, 1..max of the view
     CndCamera camera;
-    float clearDepth;         // depth of pixels without a surface: 0 with reversed depth, else 1
+    float clearDepth; // depth of pixels without a surface: 0 with reversed depth, else 1
     VkImageView normalRoughness;
     VkImageView albedo;
-    VkImageView specular;     // ignored by CND_GBUFFER_COMPACT (may be VK_NULL_HANDLE)
-    VkImageView depth;        // depth aspect, D32_SFLOAT
-    VkImageView radiance;     // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
+    VkImageView specular; // ignored by CND_GBUFFER_COMPACT (may be VK_NULL_HANDLE)
+    VkImageView depth;    // depth aspect, D32_SFLOAT
+    VkImageView radiance; // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
     CndSpecularMethod specularMethod;
     CndCulling culling;
-    VkRect2D bruteRect;       // CND_CULLING_BRUTE: pixels to shade; zero extent: all
-    VkBool32 countPairs;      // also count (pixel, light) pairs: one more kernel; clustered only
+    VkRect2D bruteRect;  // CND_CULLING_BRUTE: pixels to shade; zero extent: all
+    VkBool32 countPairs; // also count (pixel, light) pairs: one more kernel; clustered only
 } CndLightingFrame;
 
 typedef struct CndKernelTime {
@@ -211,15 +215,15 @@ typedef struct CndKernelTime {
 typedef struct CndLightingStats {
     uint32_t structSize;
     uint32_t lightCount;
-    uint32_t tileCount;          // 8x8 pixel tiles that hold a surface
-    uint32_t listEntries;        // entries of all tiles' lists
+    uint32_t tileCount;   // 8x8 pixel tiles that hold a surface
+    uint32_t listEntries; // entries of all tiles' lists
     uint32_t maxListLength;
-    uint32_t unlistedTiles;      // tiles over the list budget, shaded by walking all lights
+    uint32_t unlistedTiles; // tiles over the list budget, shaded by walking all lights
     // (pixel, light) pairs, with countPairs, else 0:
-    uint64_t listedPairs;        //   entries walked, summed over the surface pixels
-    uint64_t insidePairs;        //   of those, distance < influence radius
-    uint64_t evaluatedPairs;     //   of those, emitter not wholly below the horizon: BRDF evaluated
-    uint32_t kernelTimeCount;    // 0 without timestamps
+    uint64_t listedPairs;     //   entries walked, summed over the surface pixels
+    uint64_t insidePairs;     //   of those, distance < influence radius
+    uint64_t evaluatedPairs;  //   of those, emitter not wholly below the horizon: BRDF evaluated
+    uint32_t kernelTimeCount; // 0 without timestamps
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
 } CndLightingStats;
 
@@ -275,24 +279,25 @@ typedef struct CndExposureDesc {
 
 // EV here is EV100 = log2(L * 100 / 12.5) for average luminance L in cd/m^2 (ISO 2720, K = 12.5).
 typedef struct CndExposureSettings {
-    VkBool32 manual;             // use manualEv100, build no histogram
+    VkBool32 manual; // use manualEv100, build no histogram
     float manualEv100;
-    float compensation;          // EV, added brightness: +1 doubles the image
-    float minEv100, maxEv100;    // clamp of the adapted value, min <= max
-    float lowPercentile;         // 0 <= low < high <= 1: share of the weighted histogram that is
-    float highPercentile;        //   ignored below low and above high
-    float speedUp, speedDown;    // 1/s, > 0: rate towards brighter / darker scenes;
-                                 //   ev(t+dt) = target + (ev(t) - target) exp(-dt * speed)
+    float compensation;       // EV, added brightness: +1 doubles the image
+    float minEv100, maxEv100; // clamp of the adapted value, min <= max
+    float lowPercentile;      // 0 <= low < high <= 1: share of the weighted histogram that is
+    float highPercentile;     //   ignored below low and above high
+    float speedUp, speedDown; // 1/s, > 0: rate towards brighter / darker scenes;
+                              //   ev(t+dt) = target + (ev(t) - target) exp(-dt * speed)
     CndMetering metering;
     CndToneMap toneMap;
-    VkBool32 dither;             // triangular noise of one output step before quantisation
+    VkBool32 dither; // triangular noise of one output step before quantisation
 } CndExposureSettings;
 
 // Fills in the defaults: automatic, no compensation, EV100 -6..18, percentiles 0.10..0.90, speeds
 // 3 and 1 per second, centre-weighted, PBR Neutral, dithered.
 CND_API void cndDefaultExposureSettings(CndExposureSettings* settings);
 
-// EV100 of a camera: log2(N^2 / t * 100 / S), aperture N in f-stops, shutter t in s, sensitivity S ISO.
+// EV100 of a camera: log2(N^2 / t * 100 / S), aperture N in f-stops, shutter t in s, sensitivity S
+// ISO.
 CND_API float cndEv100FromCamera(float aperture, float shutterTime, float iso);
 // Factor from luminance (cd/m^2) to exposed value: 1 / (1.2 * 2^EV100) (saturation-based speed,
 // ISO 12232; Lagarde and de Rousiers 2014, eq. 85).
@@ -304,12 +309,12 @@ CND_API float cndExposureFromEv100(float ev100);
 typedef struct CndExposureFrame {
     uint32_t structSize;
     uint32_t frameSlot;
-    uint32_t width, height;  // pixels, 1..16384
+    uint32_t width, height; // pixels, 1..16384
     VkImageView radiance;
-    VkImageView display;     // receives sRGB-encoded values
-    float deltaTime;         // s since the previous frame, >= 0
-    VkBool32 reset;          // jump to the converged value: first frame, camera cut, single image
-    uint32_t ditherSeed;     // same seed, same image
+    VkImageView display; // receives sRGB-encoded values
+    float deltaTime;     // s since the previous frame, >= 0
+    VkBool32 reset;      // jump to the converged value: first frame, camera cut, single image
+    uint32_t ditherSeed; // same seed, same image
     CndExposureSettings settings;
 } CndExposureFrame;
 
@@ -317,10 +322,10 @@ typedef struct CndExposureFrame {
 
 typedef struct CndExposureStats {
     uint32_t structSize;
-    float targetEv100;     // of the histogram (or manualEv100), before adaptation
-    float adaptedEv100;    // in use, before compensation
-    float exposure;        // factor applied to luminance, compensation included
-    uint32_t invalidPixels; // NaN; left out of the histogram
+    float targetEv100;                      // of the histogram (or manualEv100), before adaptation
+    float adaptedEv100;                     // in use, before compensation
+    float exposure;                         // factor applied to luminance, compensation included
+    uint32_t invalidPixels;                 // NaN; left out of the histogram
     uint32_t histogram[CND_HISTOGRAM_BINS]; // weighted counts; zero in manual mode
     uint32_t kernelTimeCount;
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];

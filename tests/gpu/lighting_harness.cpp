@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/lighting_harness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/packing.hpp>
+
+namespace candelabra::test
+{
+namespace
+{
+
+void setIdentityView(CndCamera& camera)
+{
+    for (int i = 0; i < 16; ++i)
+        camera.viewFromWorld[i] = i % 5 == 0;
+}
+
+// Octahedral, 24 bits a side: independent of the shader's packing.
+glm::uvec2 packNormal(glm::dvec3 n, double roughness)
+{
+    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    glm::dvec2 p(n);
+    if (n.z < 0)
+        p = {(1 - std::abs(n.y)) * (n.x < 0 ? -1 : 1), (1 - std::abs(n.x)) * (n.y < 0 ? -1 : 1)};
+    constexpr double scale = (1 << 23) - 1;
+    const uint32_t u = uint32_t(int32_t(std::lround(p.x * scale))) & 0xFFFFFF;
+    const uint32_t v = uint32_t(int32_t(std::lround(p.y * scale))) & 0xFFFFFF;
+    const uint32_t r = uint32_t(std::lround(roughness * 65535));
+    return {u | (r & 0xFF) << 24, v | (r >> 8) << 24};
+}
+
+glm::uvec2 packHalf4(const glm::vec4& v)
+{
+    return {glm::packHalf2x16({v.x, v.y}), glm::packHalf2x16({v.z, v.w})};
+}
+
+double uniform(std::mt19937& random)
+{
+    return double(random()) / 4294967296.0;
+}
+
+} // namespace
+
+void setPerspective(CndCamera& camera, double verticalFov, double aspect, double nearPlane,
+                    double farPlane, bool reversed)
+{
+    setIdentityView(camera);
+    float* m = camera.clipFromView;
+    std::fill_n(m, 16, 0.0f);
+    const double f = 1 / std::tan(verticalFov / 2);
+    m[0] = float(f / aspect);
+    m[5] = float(-f);
+    m[11] = -1;
+    // depth = (m[10] z + m[14]) / -z with z = -near, -far at the ends.
+    const double near = reversed ? 1 : 0, far = reversed ? 0 : 1;
+    if (farPlane == 0) {
+        m[10] = float(-far);
+        m[14] = float(nearPlane * (near - far));
+    } else {
+        m[10] = float((nearPlane * near - farPlane * far) / (farPlane - nearPlane));
+        m[14] = float(nearPlane * farPlane * (near - far) / (farPlane - nearPlane));
+    }
+}
+
+void setOrthographic(CndCamera& camera, double height, double aspect, double nearPlane,
+                     double farPlane, bool reversed)
+{
+    setIdentityView(camera);
+    float* m = camera.clipFromView;
+    std::fill_n(m, 16, 0.0f);
+    m[0] = float(2 / (height * aspect));
+    m[5] = float(-2 / height);
+    const double sign = reversed ? 1 : -1;
+    m[10] = float(sign / (farPlane - nearPlane));
+    m[14] =
+        float(reversed ? farPlane / (farPlane - nearPlane) : -nearPlane / (farPlane - nearPlane));
+    m[15] = 1;
+}
+
+float depthAt(const CndCamera& camera, double distance)
+{
+    const float* m = camera.clipFromView;
+    return float((m[10] * -distance + m[14]) / (m[11] * -distance + m[15]));
+}
+
+glm::dvec3 viewPosition(const CpuGBuffer& g, uint32_t x, uint32_t y)
+{
+    const float* m = g.camera.clipFromView;
+    const double depth = g.depth[size_t(y) * g.width + x];
+    const double z = (m[14] - depth * m[15]) / (depth * m[11] - m[10]);
+    const double w = m[11] * z + m[15];
+    const double ndcX = (2.0 * x + 1) / g.width - 1, ndcY = (2.0 * y + 1) / g.height - 1;
+    return {(ndcX * w - m[8] * z - m[12]) / m[0], (ndcY * w - m[9] * z - m[13]) / m[5], z};
+}
+
+glm::dvec3 storedNormal(const CpuGBuffer& g, size_t pixel)
+{
+    const auto coordinate = [](uint32_t code) {
+        return double(int32_t(code << 8) >> 8) / ((1 << 23) - 1);
+    };
+    const glm::uvec2 code = g.normalRoughness[pixel];
+    const double u = coordinate(code.x), v = coordinate(code.y);
+    glm::dvec3 n(u, v, 1 - std::abs(u) - std::abs(v));
+    if (n.z < 0) {
+        n.x = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
+        n.y = (1 - std::abs(u)) * (v < 0 ? -1 : 1);
+    }
+    return glm::normalize(n);
+}
+
+double storedRoughness(const CpuGBuffer& g, size_t pixel)
+{
+    const glm::uvec2 code = g.normalRoughness[pixel];
+    return double(code.x >> 24 | (code.y >> 24) << 8) / 65535;
+}
+
+glm::vec4 storedHalf4(glm::uvec2 packed)
+{
+    return glm::vec4(glm::unpackHalf2x16(packed.x), glm::unpackHalf2x16(packed.y));
+}
+
+CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camera, float clearDepth,
+                         uint32_t seed)
+{
+    std::mt19937 random(seed);
+    CpuGBuffer g{.width = width, .height = height, .camera = camera, .clearDepth = clearDepth};
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            // Vertical walls 11 pixels wide at 3..33 m, with bumps of a few centimetres.
+            const uint32_t wall = (x / 11 * 7 + seed) % 5;
+            const double distance = 3 + 6 * wall + y * 0.01 + 0.05 * uniform(random);
+            const bool hole = (x / 5 + y / 7) % 9 == 0;
+            g.depth.push_back(hole ? clearDepth : depthAt(camera, distance));
+            glm::dvec3 n(uniform(random) - 0.5, uniform(random) - 0.5, 0.4 + uniform(random));
+            const double roughness = 0.1 + 0.9 * uniform(random);
+            g.normalRoughness.push_back(packNormal(glm::normalize(n), roughness));
+            const float metal = uniform(random) < 0.3 ? 1.0f : 0.0f;
+            const glm::vec3 base(uniform(random), uniform(random), uniform(random));
+            g.albedo.push_back(packHalf4(glm::vec4(base * (1 - metal), 0)));
+            g.specular.push_back(packHalf4(glm::vec4(glm::mix(glm::vec3(0.04f), base, metal), 1)));
+        }
+    return g;
+}
+
+std::vector<CndLight> randomSpheres(const CpuGBuffer& g, uint32_t count, uint32_t seed)
+{
+    std::mt19937 random(seed);
+    std::vector<CndLight> lights;
+    while (lights.size() < count) {
+        const uint32_t x = uint32_t(random() % g.width), y = uint32_t(random() % g.height);
+        const bool hole = g.depth[size_t(y) * g.width + x] == g.clearDepth;
+        glm::dvec3 p = hole ? glm::dvec3(0, 0, -10) : viewPosition(g, x, y);
+        for (int i = 0; i < 3; ++i)
+            p[i] += 3 * (uniform(random) - 0.5);
+        CndLight light{.type = CND_LIGHT_SPHERE,
+                       .position = {float(p.x), float(p.y), float(p.z)},
+                       .radius = float(0.01 + 0.5 * std::pow(uniform(random), 3))};
+        for (float& e : light.emission)
+            e = float(1000 * uniform(random));
+        light.influenceRadius = light.radius * 1.5f + float(3 * uniform(random));
+        lights.push_back(light);
+    }
+    return lights;
+}
+
+LightingTest::Images LightingTest::uploadImages(const CpuGBuffer& g)
+{
+    constexpr VkImageUsageFlags use = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    const auto make = [&](const char* name, VkFormat format, VkImageUsageFlags more,
+                          VkImageAspectFlags aspect) {
+        return gpu::createImage(device(), name, format, g.width, g.height, use | more, aspect);
+    };
+    constexpr VkImageAspectFlags colour = VK_IMAGE_ASPECT_COLOR_BIT;
+    Images images{make("normalRoughness", VK_FORMAT_R32G32_UINT, 0, colour),
+                  make("albedo", VK_FORMAT_R16G16B16A16_SFLOAT, 0, colour),
+                  make("specular", VK_FORMAT_R16G16B16A16_SFLOAT, 0, colour),
+                  make("depth", VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                       VK_IMAGE_ASPECT_DEPTH_BIT),
+                  make("radiance", VK_FORMAT_R32G32B32A32_SFLOAT,
+                       VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, colour)};
+    const gpu::Buffer sources[] = {
+        upload("normalRoughness data", g.normalRoughness), upload("albedo data", g.albedo),
+        upload("specular data", g.specular), upload("depth data", g.depth)};
+    const gpu::Image* targets[] = {&images.normalRoughness, &images.albedo, &images.specular,
+                                   &images.depth};
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        for (size_t i = 0; i < 4; ++i) {
+            const VkImageAspectFlags aspect =
+                i == 3 ? VkImageAspectFlags(VK_IMAGE_ASPECT_DEPTH_BIT) : colour;
+            const VkImage image = targets[i]->image.get();
+            transition(cmd, image, aspect, VK_IMAGE_LAYOUT_UNDEFINED,
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+            const VkBufferImageCopy copy{.imageSubresource = {aspect, 0, 0, 1},
+                                         .imageExtent = {g.width, g.height, 1}};
+            vkCmdCopyBufferToImage(cmd, sources[i].get(), image,
+                                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+            transition(cmd, image, aspect, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        }
+        transition(cmd, images.radiance.image.get(), colour, VK_IMAGE_LAYOUT_UNDEFINED,
+                   VK_IMAGE_LAYOUT_GENERAL);
+    });
+    return images;
+}
+
+void LightingTest::clearRadiance(VkCommandBuffer cmd, const Images& images)
+{
+    const VkClearColorValue zero{};
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(cmd, images.radiance.image.get(), VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
+    fullBarrier(cmd);
+}
+
+CndLightingFrame LightingTest::frameOf(const CpuGBuffer& g, const Images& images,
+                                       const RunOptions& options)
+{
+    return {.structSize = sizeof(CndLightingFrame),
+            .width = g.width,
+            .height = g.height,
+            .camera = g.camera,
+            .clearDepth = g.clearDepth,
+            .normalRoughness = images.normalRoughness.view.get(),
+            .albedo = images.albedo.view.get(),
+            .specular = images.specular.view.get(),
+            .depth = images.depth.view.get(),
+            .radiance = images.radiance.view.get(),
+            .specularMethod = options.specular,
+            .culling = options.culling,
+            .countPairs = options.countPairs};
+}
+
+LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
+                                 const RunOptions& options)
+{
+    const Images images = uploadImages(g);
+    CndError error{};
+    const CndLightingDesc desc{.structSize = sizeof desc, .framesInFlight = 2, .timestamps = true};
+    CndLighting lighting{};
+    EXPECT_EQ(
+        cndCreateLighting(options.host ? options.host : &deviceDesc(), &desc, &lighting, &error),
+        CND_SUCCESS)
+        << error.message;
+    const CndLightingViewDesc viewDesc{.structSize = sizeof viewDesc,
+                                       .maxWidth = g.width,
+                                       .maxHeight = g.height,
+                                       .listBudget = options.listBudget};
+    CndLightingView view{};
+    EXPECT_EQ(cndCreateLightingView(lighting, &viewDesc, &view, &error), CND_SUCCESS)
+        << error.message;
+    CndLightSet set{
+        .structSize = sizeof set, .count = uint32_t(lights.size()), .lights = lights.data()};
+    std::copy_n(options.lightOrigin, 3, set.origin);
+    EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+
+    CndLightingFrame frame = frameOf(g, images, options);
+    LightingResult result;
+    result.stats.structSize = sizeof result.stats;
+    for (int i = 0; i < options.frames; ++i) {
+        frame.frameSlot = uint32_t(i) % desc.framesInFlight;
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            clearRadiance(cmd, images);
+            EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_SUCCESS) << error.message;
+        });
+    }
+    EXPECT_EQ(cndGetLightingStats(view, frame.frameSlot, &result.stats), CND_SUCCESS);
+    const std::vector<std::byte> bytes = readImage(images.radiance, VK_IMAGE_ASPECT_COLOR_BIT,
+                                                   VK_IMAGE_LAYOUT_GENERAL, sizeof(glm::vec4));
+    result.radiance.resize(bytes.size() / sizeof(glm::vec4));
+    std::memcpy(result.radiance.data(), bytes.data(), bytes.size());
+    cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+    return result;
+}
+
+double maxRelativeDifference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    double largest = 0, peak = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double difference = std::abs(double(a[i][c]) - b[i][c]);
+            // Written so that a NaN is the largest difference there is.
+            largest = !(difference <= largest) ? difference : largest;
+            peak = std::max(peak, double(b[i][c]));
+        }
+    return peak > 0 ? largest / peak : largest;
+}
+
+} // namespace candelabra::test

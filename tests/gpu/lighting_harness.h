@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hand-made host of the lighting module: G-buffers filled on the CPU, lights in, radiance out.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "harness/gpu_fixture.h"
+
+namespace candelabra::test
+{
+
+// A FULL layout G-buffer on the CPU, rows from the top, and the camera it belongs to.
+struct CpuGBuffer {
+    uint32_t width = 0, height = 0;
+    CndCamera camera{};
+    float clearDepth = 0;
+    std::vector<glm::uvec2> normalRoughness;
+    std::vector<glm::uvec2> albedo, specular; // 4 x half
+    std::vector<float> depth;                 // clearDepth: no surface
+};
+
+// Perspective with reversed depth; infinite when farPlane is 0. View looks down -z, y up.
+void setPerspective(CndCamera& camera, double verticalFov, double aspect, double nearPlane,
+                    double farPlane = 0, bool reversed = true);
+void setOrthographic(CndCamera& camera, double height, double aspect, double nearPlane,
+                     double farPlane, bool reversed = true);
+
+// Depth of a point `distance` metres along -z under the camera's projection.
+float depthAt(const CndCamera& camera, double distance);
+// The view-space position that a pixel and its depth stand for, in double.
+glm::dvec3 viewPosition(const CpuGBuffer& g, uint32_t x, uint32_t y);
+// The surface normal and roughness as stored.
+glm::dvec3 storedNormal(const CpuGBuffer& g, size_t pixel);
+double storedRoughness(const CpuGBuffer& g, size_t pixel);
+glm::vec4 storedHalf4(glm::uvec2 packed);
+
+// Bumpy walls at several depths with random materials, holes to the background among them.
+CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camera, float clearDepth,
+                         uint32_t seed);
+
+// Lights near the surfaces of `g` (world = view when viewFromWorld is the identity).
+std::vector<CndLight> randomSpheres(const CpuGBuffer& g, uint32_t count, uint32_t seed);
+
+struct LightingResult {
+    std::vector<glm::vec4> radiance;
+    CndLightingStats stats{};
+};
+
+struct RunOptions {
+    CndSpecularMethod specular = CND_SPECULAR_KARIS;
+    CndCulling culling = CND_CULLING_CLUSTERED;
+    VkDeviceSize listBudget = 0;
+    bool countPairs = false;
+    const CndDeviceDesc* host = nullptr; // instead of the fixture's, for interposed functions
+    double lightOrigin[3] = {0, 0, 0};
+    int frames = 1; // record this many times; the last one is read back
+};
+
+class LightingTest : public GpuTest
+{
+protected:
+    LightingResult run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
+                       const RunOptions& options = {});
+
+    // The images of one G-buffer on the device.
+    struct Images {
+        gpu::Image normalRoughness, albedo, specular, depth, radiance;
+    };
+    Images uploadImages(const CpuGBuffer& g);
+    void clearRadiance(VkCommandBuffer cmd, const Images& images);
+    CndLightingFrame frameOf(const CpuGBuffer& g, const Images& images, const RunOptions& options);
+};
+
+// Largest |a - b| over all channels, divided by the largest value of b.
+double maxRelativeDifference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b);
+
+} // namespace candelabra::test
