@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// C++20 face of the C ABI: owning handles, results instead of out-parameters, structSize filled in.
+// Units, ranges, ownership and thread rules are those of candelabra.h. Nothing throws.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "candelabra/candelabra.h"
+
+namespace candelabra
+{
+
+// A value, or the error that prevented it.
+template <typename T>
+class [[nodiscard]] Result
+{
+public:
+    Result(T value) : value_(std::move(value)) {}
+    Result(const CndError& error) : error_(error) {}
+    explicit operator bool() const { return value_.has_value(); }
+    // Aborts when there is none: check first.
+    T& value()
+    {
+        if (!value_)
+            std::abort();
+        return *value_;
+    }
+    const CndError& error() const { return error_; }
+
+private:
+    std::optional<T> value_;
+    CndError error_{};
+};
+
+// Success, or an error.
+template <>
+class [[nodiscard]] Result<void>
+{
+public:
+    Result() = default;
+    Result(const CndError& error) : error_(error) {}
+    explicit operator bool() const { return error_.code >= CND_SUCCESS; }
+    const CndError& error() const { return error_; }
+
+private:
+    CndError error_{};
+};
+
+namespace detail
+{
+
+// Calls an ABI function with an error to fill in as its last argument.
+template <typename Function, typename... Arguments>
+Result<void> call(Function function, Arguments... arguments) noexcept
+{
+    CndError error{};
+    function(arguments..., &error);
+    return error;
+}
+
+// Move-only owner of one ABI object.
+template <typename H, void (*destroy)(H)>
+class Owner
+{
+public:
+    Owner() = default;
+    explicit Owner(H handle) : handle_(handle) {}
+    Owner(Owner&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+    Owner& operator=(Owner&& other) noexcept
+    {
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Owner()
+    {
+        if (handle_)
+            destroy(handle_);
+    }
+    H get() const { return handle_; }
+
+protected:
+    H handle_ = nullptr;
+};
+
+} // namespace detail
+
+// One view of a Lighting; destroyed before it.
+class LightingView : public detail::Owner<CndLightingView, cndDestroyLightingView>
+{
+public:
+    using Owner::Owner;
+
+    Result<void> record(VkCommandBuffer cmd, CndLightingFrame frame) const noexcept
+    {
+        frame.structSize = sizeof frame;
+        return detail::call(cndRecordLighting, handle_, cmd, &frame);
+    }
+    // Empty until the GPU has finished the slot's frame.
+    std::optional<CndLightingStats> stats(uint32_t frameSlot) const noexcept
+    {
+        CndLightingStats stats{};
+        stats.structSize = sizeof stats;
+        if (cndGetLightingStats(handle_, frameSlot, &stats) != CND_SUCCESS)
+            return std::nullopt;
+        return stats;
+    }
+};
+
+// Pipelines and one light set.
+class Lighting : public detail::Owner<CndLighting, cndDestroyLighting>
+{
+public:
+    using Owner::Owner;
+
+    static Result<Lighting> create(const CndDeviceDesc& device, CndLightingDesc desc) noexcept
+    {
+        desc.structSize = sizeof desc;
+        CndLighting handle = nullptr;
+        CndError error{};
+        if (cndCreateLighting(&device, &desc, &handle, &error) != CND_SUCCESS)
+            return error;
+        return Lighting(handle);
+    }
+    // `origin`: what the lights' positions are relative to, world space.
+    Result<void> setLights(std::span<const CndLight> lights, const double (&origin)[3]) noexcept
+    {
+        const CndLightSet set{
+            sizeof set, uint32_t(lights.size()), lights.data(), {origin[0], origin[1], origin[2]}};
+        return detail::call(cndSetLights, handle_, &set);
+    }
+    Result<LightingView> createView(CndLightingViewDesc desc) const noexcept
+    {
+        desc.structSize = sizeof desc;
+        CndLightingView view = nullptr;
+        CndError error{};
+        if (cndCreateLightingView(handle_, &desc, &view, &error) != CND_SUCCESS)
+            return error;
+        return LightingView(view);
+    }
+};
+
+// Eye adaptation and tone mapping of one view.
+class Exposure : public detail::Owner<CndExposure, cndDestroyExposure>
+{
+public:
+    using Owner::Owner;
+
+    static Result<Exposure> create(const CndDeviceDesc& device, CndExposureDesc desc) noexcept
+    {
+        desc.structSize = sizeof desc;
+        CndExposure handle = nullptr;
+        CndError error{};
+        if (cndCreateExposure(&device, &desc, &handle, &error) != CND_SUCCESS)
+            return error;
+        return Exposure(handle);
+    }
+    Result<void> setMask(std::span<const uint8_t> weights, uint32_t width, uint32_t height) noexcept
+    {
+        if (weights.size() != size_t(width) * height)
+            return CndError{CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS,
+                            "Exposure::setMask: weights must have width * height elements"};
+        return detail::call(cndSetExposureMask, handle_, weights.data(), width, height);
+    }
+    Result<void> record(VkCommandBuffer cmd, CndExposureFrame frame) const noexcept
+    {
+        frame.structSize = sizeof frame;
+        return detail::call(cndRecordExposure, handle_, cmd, &frame);
+    }
+    std::optional<CndExposureStats> stats(uint32_t frameSlot) const noexcept
+    {
+        CndExposureStats stats{};
+        stats.structSize = sizeof stats;
+        if (cndGetExposureStats(handle_, frameSlot, &stats) != CND_SUCCESS)
+            return std::nullopt;
+        return stats;
+    }
+};
+
+inline CndExposureSettings defaultExposureSettings() noexcept
+{
+    CndExposureSettings settings{};
+    cndDefaultExposureSettings(&settings);
+    return settings;
+}
+
+} // namespace candelabra
