@@ -226,11 +226,11 @@ PixelSize FrameArguments::pixelSize(const Scene& scene, const Camera& chosen) co
     } else if (chosen.aspect) {
         // Square pixels at the default height.
         const double width = std::round(out.height * *chosen.aspect);
-        out.width = uint32_t(std::clamp(width, 1.0, double(maxImageSize)));
+        out.width = uint32_t(std::clamp(width, 1.0, double(maxSide)));
     }
-    if (out.width > maxImageSize || out.height > maxImageSize)
+    if (out.width > maxSide || out.height > maxSide)
         throw UsageError(fmt::format("image size {}x{}: at most {} pixels per side", out.width,
-                                     out.height, maxImageSize));
+                                     out.height, maxSide));
     return out;
 }
 

@@ -78,6 +78,6 @@ std::vector<uint32_t> unsignedListOption(const std::string& option, const std::s
 
 // Largest number of lights that options accept: 2^24, beyond it float cannot count them.
 constexpr uint32_t maxLights = 1u << 24;
-constexpr uint32_t maxImageSize = 16384; // pixels per side: the modules' limit
+constexpr uint32_t maxSide = 16384; // pixels of an image: the modules' limit
 
 } // namespace candelabra::app

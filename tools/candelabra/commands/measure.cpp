@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/measure.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "commands/options.h"
+#include "io/table.h"
+#include "render/frame_ring.h"
+
+namespace candelabra::app
+{
+
+MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
+                            const FrameOptions& options, FrameCounts counts, bool moving,
+                            const std::function<void()>& onFrame)
+{
+    FrameRing ring(context, 2);
+    MeasuredFrames out;
+    FrameOptions frame = options;
+    const uint32_t total = counts.warmUp + counts.measured;
+    uint32_t collected = 0;
+    const auto collect = [&](uint32_t slot) {
+        out.last = renderer.stats(slot);
+        if (collected++ >= counts.warmUp)
+            out.times.add(out.last.passes);
+    };
+    uint32_t lastSlot = 0;
+    for (uint32_t i = 0; i < total; ++i) {
+        const auto [cmd, slot, reused] = ring.begin();
+        if (reused)
+            collect(slot);
+        renderer.record(cmd, slot, frame);
+        ring.submit();
+        lastSlot = slot;
+        onFrame();
+        if (moving) {
+            frame.time += frameTime;
+            frame.deltaTime = float(frameTime);
+            frame.resetExposure = false;
+        }
+    }
+    ring.wait();
+    if (total > 1)
+        collect(1 - lastSlot);
+    collect(lastSlot);
+    return out;
+}
+
+CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, FrameOptions options)
+{
+    options.countPairs = true;
+    options.culling = CND_CULLING_CLUSTERED;
+    context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
+    return renderer.stats(0).lighting;
+}
+
+size_t printValidationMessages(const VulkanContext& context)
+{
+    const auto messages = context.instance().messages().take();
+    for (const ValidationMessage& message : messages)
+        std::fprintf(stderr, "candelabra: validation: %s: %s\n", message.id.c_str(),
+                     message.text.c_str());
+    return messages.size();
+}
+
+std::string passTable(const PassTimes& times)
+{
+    Table table({"GPU pass", "min ms", "median ms", "p95 ms"});
+    const auto add = [&](const PassSummary& pass) {
+        table.add({pass.name, threeDigits(pass.minMs), threeDigits(pass.medianMs),
+                   threeDigits(pass.p95Ms)});
+    };
+    for (const PassSummary& pass : times.summary())
+        add(pass);
+    table.rule();
+    add(times.total());
+    return table.text();
+}
+
+Json toJson(const PassTimes& times)
+{
+    const auto one = [](const PassSummary& pass) {
+        return Json{{"name", pass.name},
+                    {"minMs", pass.minMs},
+                    {"medianMs", pass.medianMs},
+                    {"p95Ms", pass.p95Ms}};
+    };
+    Json passes = Json::array();
+    for (const PassSummary& pass : times.summary())
+        passes.push_back(one(pass));
+    return {{"frames", times.frames()}, {"passes", passes}, {"total", one(times.total())}};
+}
+
+Json toJson(const CndLightingStats& stats)
+{
+    const double tiles = std::max(stats.tileCount, 1u);
+    Json out{{"lights", stats.lightCount},           {"tiles", stats.tileCount},
+             {"listEntries", stats.listEntries},     {"meanListLength", stats.listEntries / tiles},
+             {"maxListLength", stats.maxListLength}, {"unlistedTiles", stats.unlistedTiles}};
+    if (stats.listedPairs) {
+        out["listedPairs"] = stats.listedPairs;
+        out["insidePairs"] = stats.insidePairs;
+        out["evaluatedPairs"] = stats.evaluatedPairs;
+    }
+    return out;
+}
+
+Json toJson(const CndExposureStats& stats)
+{
+    return {{"targetEv100", stats.targetEv100},
+            {"adaptedEv100", stats.adaptedEv100},
+            {"exposurePerCandelaPerSquareMetre", stats.exposure},
+            {"invalidPixels", stats.invalidPixels}};
+}
+
+Json toJson(const FrameOptions& options, CndGBufferLayout layout)
+{
+    const glm::dvec3& p = options.camera.position;
+    const glm::dvec3& f = options.camera.forward;
+    return {{"camera",
+             {{"name", options.camera.name},
+              {"positionMetres", {p.x, p.y, p.z}},
+              {"forward", {f.x, f.y, f.z}}}},
+            {"timeSeconds", options.time},
+            {"specular", specularName(options.specular)},
+            {"culling", cullingName(options.culling)},
+            {"gbuffer", gbufferName(layout)},
+            {"toneMap", toneMapName(options.exposure.toneMap)},
+            {"lightsVisible", options.lightsVisible},
+            {"exposure", options.exposure.manual ? "manual" : "auto"},
+            {"compensationEv", options.exposure.compensation}};
+}
+
+Json sceneJson(const Scene& scene, const Renderer& renderer)
+{
+    return {{"name", scene.name},
+            {"lights", scene.lights.size()},
+            {"instances", scene.instances.size()},
+            {"triangles", renderer.triangleCount()},
+            {"textures", scene.textures.size()},
+            {"warnings", scene.warnings}};
+}
+
+void logWarnings(const Scene& scene)
+{
+    constexpr size_t shown = 10; // a broken file can have thousands
+    for (size_t i = 0; i < scene.warnings.size() && i < shown; ++i)
+        spdlog::warn("warning: {}", scene.warnings[i]);
+    if (scene.warnings.size() > shown)
+        spdlog::warn("warning: {} more like these", scene.warnings.size() - shown);
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra render: one image of one scene.
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "commands/commands.h"
+#include "commands/measure.h"
+#include "io/progress.h"
+#include "io/table.h"
+#include "render/camera.h"
+#include "render/error.h"
+#include "render/readback.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct RenderArguments {
+    DeviceArguments device;
+    SceneArguments scene;
+    FrameArguments frame;
+    std::string lights, frames = "1", time = "0", json;
+    std::vector<std::string> outputs;
+};
+
+// What the arguments say, checked before anything is loaded.
+struct RenderPlan {
+    SceneOptions scene;
+    FrameOptions frame;
+    CndGBufferLayout gbufferLayout;
+    FrameCounts counts;
+};
+
+RenderPlan plan(const RenderArguments& a)
+{
+    if (a.outputs.empty() && a.json.empty())
+        throw UsageError("render: nothing to write; give -o FILE (.png, .exr, .hdr, .pfm) or "
+                         "--json FILE");
+    for (const std::string& output : a.outputs) {
+        requireImageExtension("-o", output);
+        requireWritable("-o", output);
+    }
+    if (!a.json.empty())
+        requireWritable("--json", a.json);
+    std::optional<uint32_t> lights;
+    if (!a.lights.empty())
+        lights = unsignedOption("--lights", a.lights, 0, maxLights);
+    const uint32_t frames = unsignedOption("--frames", a.frames, 1, 1'000'000);
+    return {.scene = a.scene.options(lights),
+            .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
+                      .specular = a.frame.specularMethod(),
+                      .culling = a.frame.cullingMode(),
+                      .exposure = a.frame.exposureSettings()},
+            .gbufferLayout = a.frame.gbufferLayout(),
+            .counts = {.warmUp = frames > 1 ? 1u : 0u, .measured = std::max(frames - 1, 1u)}};
+}
+
+Json describe(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
+              const VulkanContext& context, const Scene& scene, Renderer& renderer,
+              const MeasuredFrames& frames)
+{
+    const PixelSize size = renderer.size();
+    FrameOptions again = p.frame;
+    again.exposure.manual = VK_TRUE; // the count must not disturb adaptation
+    const CndLightingStats lighting = p.frame.culling == CND_CULLING_CLUSTERED
+                                          ? countPairs(context, renderer, again)
+                                          : frames.last.lighting;
+    return {{"provenance", provenance(context.info(), program.commandLine)},
+            {"scene", sceneJson(scene, renderer)},
+            {"image", {{"widthPixels", size.width}, {"heightPixels", size.height}}},
+            {"settings", toJson(p.frame, p.gbufferLayout)},
+            {"warmUpFrames", p.counts.warmUp},
+            {"gpuTime", toJson(frames.times)},
+            {"lighting", toJson(lighting)},
+            {"exposure", toJson(frames.last.exposure)},
+            {"outputs", a.outputs}};
+}
+
+int render(const ProgramContext& program, const RenderArguments& a)
+{
+    RenderPlan p = plan(a);
+    const Scene scene = loadScene(a.scene.scene, p.scene);
+    logWarnings(scene);
+    p.frame.camera = selectCamera(scene, a.frame.camera);
+    p.frame.lightsVisible = a.frame.lightsVisibleOverride().value_or(scene.lightsVisible);
+    const PixelSize size = a.frame.pixelSize(scene, p.frame.camera);
+    makeCamera(p.frame.camera, double(size.width) / size.height); // refuses before the GPU is asked
+
+    const VulkanContext context(a.device.contextOptions());
+    spdlog::info("{}: {} lights, {} objects, {}x{}, on {}", scene.name,
+                 grouped(scene.lights.size()),
+                 grouped(scene.instances.size() + scene.analyticObjects.size()), size.width,
+                 size.height, context.info().name);
+    Renderer renderer(context, scene, {.size = size, .gbufferLayout = p.gbufferLayout});
+    const bool moving = !scene.lightMotions.empty();
+    MeasuredFrames frames;
+    {
+        Progress progress(p.counts.warmUp + p.counts.measured, !program.quiet);
+        progress.doing("rendering");
+        frames = renderFrames(context, renderer, p.frame, p.counts, moving,
+                              [&] { progress.advance(1); });
+    }
+    for (const std::string& output : a.outputs) {
+        saveFrame(context, renderer, output);
+        spdlog::info("wrote {}", output);
+    }
+    if (a.json != "-" && !program.quiet)
+        writeText("-", passTable(frames.times));
+    if (!a.json.empty())
+        writeJson(a.json, describe(program, a, p, context, scene, renderer, frames));
+    return printValidationMessages(context) ? exitFailed : exitOk;
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& app, Run& run)
+{
+    CLI::App* command = app.add_subcommand("render", "Render a scene into image files");
+    const auto a = std::make_shared<RenderArguments>();
+    a->scene.addTo(*command);
+    command
+        ->add_option("--lights", a->lights,
+                     "hall, field: number of sphere lights (4000); files: extra random ones")
+        ->type_name("N");
+    command
+        ->add_option("-o,--output", a->outputs,
+                     "image file: .png for display, .exr, .hdr or .pfm for linear scene "
+                     "radiance (cd/m^2) before exposure; may be repeated")
+        ->type_name("FILE");
+    command
+        ->add_option("--frames", a->frames,
+                     "frames to render; with more than one, times leave out the first")
+        ->type_name("N")
+        ->capture_default_str();
+    command->add_option("--time", a->time, "scene time of the first frame, for --moving (s)")
+        ->type_name("SECONDS")
+        ->capture_default_str();
+    command
+        ->add_option("--json", a->json,
+                     "timings, statistics and where they come from; - is standard output")
+        ->type_name("FILE");
+    a->frame.addTo(*command);
+    a->frame.addCullingTo(*command);
+    a->device.addTo(*command);
+    command->footer("Examples:\n"
+                    "  candelabra render hall --lights 16000 -o hall.png\n"
+                    "  candelabra render field --moving --frames 60 -o last.png --json times.json\n"
+                    "  candelabra render model.glb --lights 500 --camera 0 -o m.png -o m.exr\n"
+                    "  candelabra render hall --camera 0,2,10,0,1,0,60 --exposure 8 -o e.png");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return render(program, *a); }; });
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra stress: a sweep over light counts, timed and checked.
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "commands/commands.h"
+#include "commands/stress_point.h"
+#include "commands/stress_report.h"
+#include "render/error.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct StressArguments {
+    DeviceArguments device;
+    SceneArguments scene;
+    FrameArguments frame;
+    std::string lights = "1000,4000,16000", frames = "10", check = "auto";
+    std::string directory = "out", json;
+};
+
+CheckExtent checkExtent(const std::string& text)
+{
+    if (text == "auto")
+        return CheckExtent::Auto;
+    if (text == "full")
+        return CheckExtent::Full;
+    if (text == "none")
+        return CheckExtent::None;
+    throw UsageError("--check \"" + text + "\": choose one of auto, full, none");
+}
+
+StressSettings settingsOf(const StressArguments& a)
+{
+    const auto size = parseSize(a.frame.size);
+    if (!size || size->width > maxSide || size->height > maxSide)
+        throw UsageError(fmt::format("--size \"{}\": expected WIDTHxHEIGHT up to {} pixels a side",
+                                     a.frame.size, maxSide));
+    return {.scene = a.scene.scene,
+            .sceneOptions = a.scene.options(std::nullopt),
+            .camera = a.frame.camera,
+            .size = *size,
+            .gbufferLayout = a.frame.gbufferLayout(),
+            .frame = {.specular = a.frame.specularMethod(), .exposure = a.frame.exposureSettings()},
+            .lightsVisible = a.frame.lightsVisibleOverride(),
+            .counts = {.warmUp = 2, .measured = unsignedOption("--frames", a.frames, 1, 1'000'000)},
+            .check = checkExtent(a.check),
+            .directory = a.directory};
+}
+
+void makeDirectory(const std::string& path)
+{
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (!std::filesystem::is_directory(path))
+        throw UsageError("--out " + path + ": cannot make this directory: " +
+                         (error ? error.message() : "a file has its name"));
+    requireWritable("--out", path + "/stress.json");
+}
+
+// Every path that may be typed is checked here, before the long part.
+std::string jsonPath(const StressArguments& a)
+{
+    const std::string path =
+        a.json.empty() ? (std::filesystem::path(a.directory) / "stress.json").string() : a.json;
+    requireWritable("--json", path);
+    return path;
+}
+
+std::string advice(const StressArguments& a, const std::vector<StressPoint>& points,
+                   const std::string& svg, const std::string& json)
+{
+    std::string images;
+    for (const StressPoint& p : points)
+        images += "  " + p.image + "\n";
+    return fmt::format(
+        "\nLook at\n{}  {}  (GPU time against lights)\n  {}  (all figures)\n"
+        "Try next\n"
+        "  candelabra view {} --lights {}         (fly through it; needs a display)\n"
+        "  candelabra render {} --lights 2000 --overlaps 30 -o dense.png\n"
+        "  candelabra stress field --lights 1000,10000,100000 --out {}/field\n",
+        images, svg, json, a.scene.scene, points.back().lights, a.scene.scene, a.directory);
+}
+
+int stress(const ProgramContext& program, const StressArguments& a)
+{
+    StressSettings settings = settingsOf(a);
+    const std::vector<uint32_t> counts = unsignedListOption("--lights", a.lights, 1, maxLights);
+    makeDirectory(a.directory);
+    const std::string json = jsonPath(a);
+    const VulkanContext context(a.device.contextOptions());
+    spdlog::info("{} at {}x{} on {}", settings.scene, settings.size.width, settings.size.height,
+                 context.info().name);
+
+    double seconds = 0;
+    for (const uint32_t count : counts)
+        seconds += estimatedSeconds(settings, count);
+    std::vector<StressPoint> points;
+    {
+        Progress progress(seconds, !program.quiet);
+        for (const uint32_t count : counts)
+            points.push_back(measureStressPoint(context, settings, count, progress));
+    }
+    const std::string svg = (std::filesystem::path(a.directory) / "stress.svg").string();
+    writeText(svg, stressPlot(settings, context.info(), points));
+    Json document{{"provenance", provenance(context.info(), program.commandLine)}};
+    document.update(stressJson(settings, points));
+    writeJson(json, document);
+    if (json != "-")
+        writeText("-", stressTables(points) + advice(a, points, svg, json));
+
+    const std::vector<std::string> failures = failedChecks(points);
+    for (const std::string& failure : failures)
+        spdlog::error("candelabra: {}", failure);
+    return printValidationMessages(context) || !failures.empty() ? exitFailed : exitOk;
+}
+
+} // namespace
+
+void addStressCommand(CLI::App& app, Run& run)
+{
+    CLI::App* command = app.add_subcommand(
+        "stress", "Time and check a sweep over light counts; pictures, plot and figures");
+    const auto a = std::make_shared<StressArguments>();
+    a->scene.addTo(*command, "hall");
+    command->add_option("--lights", a->lights, "light counts to measure")
+        ->type_name("N,N,...")
+        ->capture_default_str();
+    command->add_option("--frames", a->frames, "measured frames per count, after 2 to warm up")
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        ->add_option("--check", a->check,
+                     "pixels compared with brute force: auto (all up to 16384 lights, beyond "
+                     "that sampled tiles), full, none")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_option("--out", a->directory, "directory for everything; made if missing")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command
+        ->add_option("--json", a->json,
+                     "file of all figures (DIR/stress.json); - is standard "
+                     "output")
+        ->type_name("FILE");
+    a->frame.size = "1280x720";
+    a->frame.addTo(*command);
+    a->device.addTo(*command);
+    command->footer("Exit code 1 when clustered lighting differs from brute force by more than "
+                    "1e-6 of\nthe largest radiance, or when two runs differ in any bit.\n\n"
+                    "Examples:\n"
+                    "  candelabra stress\n"
+                    "  candelabra stress field --lights 1000,10000,100000 --overlaps 12\n"
+                    "  candelabra stress --size 1920x1080 --frames 100 --check none --json t.json");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return stress(program, *a); }; });
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/readback.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "render/error.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+// All texels of a colour image that is in GENERAL and visible to transfers.
+gpu::Buffer read(const VulkanContext& context, const gpu::Image& image, uint32_t texelBytes)
+{
+    gpu::Buffer buffer = createBuffer(context.device(), "readback",
+                                      VkDeviceSize(image.width) * image.height * texelBytes,
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::Readback);
+    context.submitAndWait([&](VkCommandBuffer cmd) {
+        const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                       .imageExtent = {image.width, image.height, 1}};
+        vkCmdCopyImageToBuffer(cmd, image.image.get(), VK_IMAGE_LAYOUT_GENERAL, buffer.get(), 1,
+                               &region);
+        const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                       .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                       .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                       .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                       .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+        const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                    .memoryBarrierCount = 1,
+                                    .pMemoryBarriers = &barrier};
+        vkCmdPipelineBarrier2(cmd, &info);
+    });
+    return buffer;
+}
+
+// The first three of every four values.
+template <typename T>
+std::vector<T> dropAlpha(std::span<const T> rgba, size_t texels)
+{
+    std::vector<T> out(texels * 3);
+    for (size_t i = 0; i < texels; ++i)
+        for (size_t c = 0; c < 3; ++c)
+            out[i * 3 + c] = rgba[i * 4 + c];
+    return out;
+}
+
+std::string extensionOf(const std::string& path)
+{
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+} // namespace
+
+Image readRadiance(const VulkanContext& context, const Renderer& renderer)
+{
+    const gpu::Image& image = renderer.radiance();
+    const gpu::Buffer buffer = read(context, image, 4 * sizeof(float));
+    return {.width = image.width,
+            .height = image.height,
+            .channels = 3,
+            .pixels =
+                dropAlpha<float>(buffer.as<const float>(), size_t(image.width) * image.height)};
+}
+
+std::vector<uint8_t> readDisplay(const VulkanContext& context, const Renderer& renderer)
+{
+    const gpu::Image& image = renderer.display();
+    const gpu::Buffer buffer = read(context, image, 4);
+    return dropAlpha<uint8_t>(buffer.as<const uint8_t>(), size_t(image.width) * image.height);
+}
+
+void saveFrame(const VulkanContext& context, const Renderer& renderer, const std::string& path)
+{
+    if (extensionOf(path) == ".png")
+        savePng(path, renderer.size().width, renderer.size().height,
+                readDisplay(context, renderer));
+    else
+        saveImageByExtension(path, readRadiance(context, renderer));
+}
+
+void requireImageExtension(const std::string& option, const std::string& path)
+{
+    const std::string extension = extensionOf(path);
+    for (const char* known : {".png", ".exr", ".hdr", ".pfm"})
+        if (extension == known)
+            return;
+    throw UsageError(option + " " + path +
+                     ": the name must end in .png (display) or .exr, .hdr, .pfm (linear radiance)");
+}
+
+} // namespace candelabra::app

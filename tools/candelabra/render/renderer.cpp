@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/renderer.h"
+
+#include <algorithm>
+
+#include "gbuffer/gbuffer.h"
+#include "render/camera.h"
+#include "render/modules.h"
+#include "render/scene_geometry.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+gpu::Image createDisplay(const gpu::Device& device, PixelSize size)
+{
+    return gpu::createImage(device, "display", VK_FORMAT_R8G8B8A8_UNORM, size.width, size.height,
+                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                            VK_IMAGE_ASPECT_COLOR_BIT);
+}
+
+struct Access {
+    VkPipelineStageFlags2 stage;
+    VkAccessFlags2 access;
+    VkImageLayout layout;
+};
+constexpr Access shaderWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
+constexpr Access shaderRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                            VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+constexpr Access transferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+                              VK_IMAGE_LAYOUT_GENERAL};
+// The frame before may still be copying from it; its contents are not wanted.
+constexpr Access discarded{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE,
+                           VK_IMAGE_LAYOUT_UNDEFINED};
+
+void transition(const gpu::Device& device, VkCommandBuffer cmd, const gpu::Image& image,
+                const Access& from, const Access& to)
+{
+    const VkImageMemoryBarrier2 barrier{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+        .srcStageMask = from.stage,
+        .srcAccessMask = from.access,
+        .dstStageMask = to.stage,
+        .dstAccessMask = to.access,
+        .oldLayout = from.layout,
+        .newLayout = to.layout,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = image.image.get(),
+        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .imageMemoryBarrierCount = 1,
+                                .pImageMemoryBarriers = &barrier};
+    device.CmdPipelineBarrier2(cmd, &info);
+}
+
+void append(std::vector<PassTime>& out, const CndKernelTime* times, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; ++i)
+        out.push_back({passName(times[i].name), times[i].ms});
+}
+
+} // namespace
+
+struct Renderer::State {
+    const VulkanContext& context;
+    const Scene& scene;
+    RendererOptions options;
+    gbuffer::Geometry geometry;
+    gbuffer::GBuffer gbuffer;
+    gbuffer::Targets targets;
+    gpu::Image display;
+    Lighting lighting; // outlives its view
+    LightingView view;
+    Exposure exposure;
+    std::vector<CndLight> lights;
+    double lightTime = 0;
+
+    State(const VulkanContext& c, const Scene& s, const RendererOptions& o)
+        : context(c),
+          scene(s),
+          options(o),
+          geometry(uploadGeometry(c, s)),
+          gbuffer(
+              c.device(),
+              {.framesInFlight = o.framesInFlight, .layout = o.gbufferLayout, .timestamps = true})
+    {
+    }
+    double aspect() const { return double(options.size.width) / options.size.height; }
+    void setLights(double time);
+    void createSized();
+    void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
+    CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& frame) const;
+};
+
+void Renderer::State::setLights(double time)
+{
+    lightsAtTime(scene, time, lights);
+    lightTime = time;
+    const CndLightSet set{
+        .structSize = sizeof set,
+        .count = uint32_t(lights.size()),
+        .lights = lights.data(),
+        .origin = {scene.lightOrigin.x, scene.lightOrigin.y, scene.lightOrigin.z}};
+    call(cndSetLights, lighting.get(), &set);
+    gbuffer.setEmitters(lights, set.origin);
+}
+
+void Renderer::State::createSized()
+{
+    const gpu::Device& device = context.device();
+    const auto [width, height] = options.size;
+    // The old ones go first, so that both never take memory at once.
+    view = LightingView();
+    targets = {};
+    display = {};
+    targets = gbuffer::createTargets(device, options.gbufferLayout, width, height);
+    display = createDisplay(device, options.size);
+    view = create<LightingView>(cndCreateLightingView, lighting.get(),
+                                CndLightingViewDesc{.structSize = sizeof(CndLightingViewDesc),
+                                                    .maxWidth = width,
+                                                    .maxHeight = height});
+}
+
+Renderer::Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options)
+    : state_(std::make_unique<State>(context, scene, options))
+{
+    State& s = *state_;
+    s.lighting = create<Lighting>(cndCreateLighting, &context.desc(),
+                                  CndLightingDesc{.structSize = sizeof(CndLightingDesc),
+                                                  .framesInFlight = options.framesInFlight,
+                                                  .gbufferLayout = options.gbufferLayout,
+                                                  .timestamps = VK_TRUE});
+    s.exposure = create<Exposure>(cndCreateExposure, &context.desc(),
+                                  CndExposureDesc{.structSize = sizeof(CndExposureDesc),
+                                                  .framesInFlight = options.framesInFlight,
+                                                  .timestamps = VK_TRUE});
+    s.setLights(0);
+    s.createSized();
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::resize(PixelSize size)
+{
+    state_->options.size = size;
+    state_->createSized();
+}
+
+PixelSize Renderer::size() const
+{
+    return state_->options.size;
+}
+
+void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
+{
+    if (!scene.lightMotions.empty() && frame.time != lightTime)
+        setLights(frame.time);
+    gbuffer.record(cmd, geometry,
+                   {.slot = slot,
+                    .camera = makeCamera(frame.camera, aspect()),
+                    .clearDepth = clearDepth,
+                    .background = {scene.background.x, scene.background.y, scene.background.z},
+                    .attachments = targets.attachments(),
+                    .width = options.size.width,
+                    .height = options.size.height,
+                    .drawEmitters = frame.lightsVisible});
+}
+
+CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOptions& frame) const
+{
+    return {.structSize = sizeof(CndLightingFrame),
+            .frameSlot = slot,
+            .width = options.size.width,
+            .height = options.size.height,
+            .camera = makeCamera(frame.camera, aspect()),
+            .clearDepth = clearDepth,
+            .normalRoughness = targets.normalRoughness.view.get(),
+            .albedo = targets.albedo.view.get(),
+            .specular = targets.specular.view.get(),
+            .depth = targets.depth.view.get(),
+            .radiance = targets.radiance.view.get(),
+            .specularMethod = frame.specular,
+            .culling = frame.culling,
+            .countPairs = frame.countPairs};
+}
+
+void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
+{
+    State& s = *state_;
+    const gpu::Device& device = s.context.device();
+    s.recordGBuffer(cmd, slot, frame);
+
+    const CndLightingFrame lighting = s.lightingFrame(slot, frame);
+    call(cndRecordLighting, s.view.get(), cmd, &lighting);
+
+    transition(device, cmd, s.targets.radiance, shaderWrite, shaderRead);
+    transition(device, cmd, s.display, discarded, shaderWrite);
+    const CndExposureFrame exposure{.structSize = sizeof exposure,
+                                    .frameSlot = slot,
+                                    .width = s.options.size.width,
+                                    .height = s.options.size.height,
+                                    .radiance = s.targets.radiance.view.get(),
+                                    .display = s.display.view.get(),
+                                    .deltaTime = frame.deltaTime,
+                                    .reset = frame.resetExposure,
+                                    .ditherSeed = frame.ditherSeed,
+                                    .settings = frame.exposure};
+    call(cndRecordExposure, s.exposure.get(), cmd, &exposure);
+
+    transition(device, cmd, s.targets.radiance, shaderRead, transferRead);
+    transition(device, cmd, s.display, shaderWrite, transferRead);
+}
+
+void Renderer::recordUnlit(VkCommandBuffer cmd, const FrameOptions& frame)
+{
+    state_->recordGBuffer(cmd, 0, frame);
+}
+
+void Renderer::recordBruteRect(VkCommandBuffer cmd, const FrameOptions& frame, const VkRect2D& rect)
+{
+    CndLightingFrame lighting = state_->lightingFrame(0, frame);
+    lighting.culling = CND_CULLING_BRUTE;
+    lighting.bruteRect = rect;
+    lighting.countPairs = VK_FALSE;
+    call(cndRecordLighting, state_->view.get(), cmd, &lighting);
+    transition(state_->context.device(), cmd, state_->targets.radiance, shaderWrite, transferRead);
+}
+
+CndLightingStats Renderer::lightingStats(uint32_t slot) const
+{
+    CndLightingStats out{.structSize = sizeof out};
+    if (cndGetLightingStats(state_->view.get(), slot, &out) != CND_SUCCESS)
+        throw RunError("the lighting statistics of a finished frame are not there");
+    return out;
+}
+
+FrameStats Renderer::stats(uint32_t slot) const
+{
+    FrameStats out;
+    out.lighting = lightingStats(slot);
+    out.exposure.structSize = sizeof out.exposure;
+    std::vector<CndKernelTime> raster(CND_MAX_KERNEL_TIMES);
+    uint32_t count = 0;
+    if (state_->gbuffer.times(slot, raster.data(), count))
+        append(out.passes, raster.data(), count);
+    if (cndGetExposureStats(state_->exposure.get(), slot, &out.exposure) != CND_SUCCESS)
+        throw RunError("the exposure statistics of a finished frame are not there");
+    append(out.passes, out.lighting.kernelTimes, out.lighting.kernelTimeCount);
+    append(out.passes, out.exposure.kernelTimes, out.exposure.kernelTimeCount);
+    return out;
+}
+
+const gpu::Image& Renderer::radiance() const
+{
+    return state_->targets.radiance;
+}
+
+const gpu::Image& Renderer::display() const
+{
+    return state_->display;
+}
+
+uint64_t Renderer::triangleCount() const
+{
+    return state_->geometry.counts().triangles;
+}
+
+} // namespace candelabra::app

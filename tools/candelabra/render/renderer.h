@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Renderer: one scene at one image size, from G-buffer to display image. Uses the lighting and
+// exposure modules through their public C ABI only.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "candelabra/candelabra.h"
+#include "gpu/memory.h"
+#include "io/parse.h"
+#include "render/pass_times.h"
+#include "render/vulkan_context.h"
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+struct RendererOptions {
+    PixelSize size{1280, 720};
+    CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
+    uint32_t framesInFlight = 2;
+};
+
+struct FrameOptions {
+    Camera camera;
+    double time = 0;           // s: where moving lights are
+    float deltaTime = 0;       // s since the previous frame, for exposure
+    bool resetExposure = true; // jump to the converged exposure
+    bool lightsVisible = true;
+    bool countPairs = false;
+    uint32_t ditherSeed = 0;
+    CndSpecularMethod specular = CND_SPECULAR_KARIS;
+    CndCulling culling = CND_CULLING_CLUSTERED;
+    CndExposureSettings exposure{};
+};
+
+// Of one finished frame.
+struct FrameStats {
+    std::vector<PassTime> passes; // in order; empty without timestamps
+    CndLightingStats lighting{};
+    CndExposureStats exposure{};
+};
+
+class Renderer
+{
+public:
+    // `context` and `scene` must outlive it. Throws UsageError, RunError or gpu::Failure.
+    Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    // Keeps the history of exposure. The GPU must be done with all frames.
+    void resize(PixelSize size);
+    PixelSize size() const;
+
+    // A whole frame; the GPU must be done with the slot's previous one. Leaves radiance and display
+    // in GENERAL, visible to transfers.
+    void record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options);
+    // The same up to the G-buffer (no lighting); then lighting of `rect` alone, by brute force,
+    // onto it. For checks that spread one frame over many submissions. Slot 0 only.
+    void recordUnlit(VkCommandBuffer cmd, const FrameOptions& options);
+    void recordBruteRect(VkCommandBuffer cmd, const FrameOptions& options, const VkRect2D& rect);
+
+    // Of the last frame recorded in `slot`, which the GPU must have finished.
+    FrameStats stats(uint32_t slot) const;
+    CndLightingStats lightingStats(uint32_t slot) const;
+
+    const gpu::Image& radiance() const; // R32G32B32A32_SFLOAT, cd/m^2
+    const gpu::Image& display() const;  // R8G8B8A8_UNORM, sRGB-encoded
+
+    uint64_t triangleCount() const; // of all instances
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace candelabra::app

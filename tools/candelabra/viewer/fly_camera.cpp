@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/fly_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr double radiansPerPixel = 0.0025; // about 800 pixels for a half turn
+constexpr double fastFactor = 6;
+constexpr double pitchLimit = std::numbers::pi / 2 - 0.01; // never parallel to up
+
+glm::dvec3 direction(double yaw, double pitch)
+{
+    return {-std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
+}
+
+} // namespace
+
+FlyCamera::FlyCamera(const Camera& camera, double speed)
+    : lens_(camera), position_(camera.position), speed_(speed)
+{
+    const glm::dvec3 f = glm::normalize(camera.forward);
+    pitch_ = std::clamp(std::asin(std::clamp(f.y, -1.0, 1.0)), -pitchLimit, pitchLimit);
+    // Straight up or down, the top of the image says where north is.
+    const glm::dvec3 level = std::abs(f.y) < 0.9999 ? f : camera.up * (f.y > 0 ? -1.0 : 1.0);
+    yaw_ = std::atan2(-level.x, -level.z);
+    lens_.aspect.reset(); // the window's
+}
+
+void FlyCamera::update(const FlyInput& input, double seconds)
+{
+    yaw_ = std::remainder(yaw_ - input.look.x * radiansPerPixel, 2 * std::numbers::pi);
+    pitch_ = std::clamp(pitch_ - input.look.y * radiansPerPixel, -pitchLimit, pitchLimit);
+    const double distance = speed_ * (input.fast ? fastFactor : 1) * seconds;
+    const glm::dvec3 forward = direction(yaw_, pitch_);
+    const glm::dvec3 right{std::cos(yaw_), 0, -std::sin(yaw_)};
+    position_ += distance * (input.move.x * right + input.move.y * glm::dvec3(0, 1, 0) +
+                             input.move.z * forward);
+}
+
+void FlyCamera::scaleSpeed(double notches)
+{
+    speed_ = std::clamp(speed_ * std::pow(1.25, notches), 1e-3, 1e5);
+}
+
+Camera FlyCamera::camera() const
+{
+    Camera out = lens_;
+    out.position = position_;
+    out.forward = direction(yaw_, pitch_);
+    out.up = {0, 1, 0};
+    return out;
+}
+
+} // namespace candelabra::app

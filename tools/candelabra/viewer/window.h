@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A GLFW window.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <vulkan/vulkan.h>
+
+#include "io/parse.h"
+
+struct GLFWwindow;
+
+namespace candelabra::app
+{
+
+// GLFW itself, which must be up before a Vulkan instance for windows is made. Throws UsageError
+// with one sentence when there is no display.
+class WindowSystem
+{
+public:
+    WindowSystem();
+    ~WindowSystem();
+    WindowSystem(const WindowSystem&) = delete;
+    WindowSystem& operator=(const WindowSystem&) = delete;
+};
+
+class Window
+{
+public:
+    Window(const WindowSystem& system, const std::string& title, PixelSize size);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    GLFWwindow* get() const { return window_; }
+    PixelSize framebufferSize() const; // 0x0 while minimised
+    bool wantsToClose() const;
+    void close();
+    void setTitle(const std::string& title);
+
+    // Called from poll().
+    std::function<void(int key)> onKey;          // GLFW_KEY_*, presses and repeats
+    std::function<void(double notches)> onWheel; // up is positive
+    void poll();
+    // Waits for events; for minimised windows.
+    void wait();
+
+private:
+    GLFWwindow* window_ = nullptr;
+};
+
+} // namespace candelabra::app
