@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gbuffer/batches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "gbuffer/camera.h"
+
+namespace candelabra::gbuffer
+{
+namespace
+{
+
+struct BatchKey {
+    Variant variant;
+    bool doubleSided, mirrored;
+    uint32_t textureSet;
+    uint32_t mesh;
+
+    auto state() const { return std::tuple(variant, doubleSided, mirrored, textureSet); }
+    bool operator<(const BatchKey& o) const
+    {
+        return std::tuple_cat(state(), std::tuple(mesh)) <
+               std::tuple_cat(o.state(), std::tuple(o.mesh));
+    }
+    bool operator==(const BatchKey& o) const { return state() == o.state() && mesh == o.mesh; }
+};
+
+struct Keyed {
+    BatchKey key;
+    uint32_t instance;
+};
+
+void checkIndex(const std::string& what, size_t index, size_t count, const char* list)
+{
+    if (index >= count)
+        gpu::failArgument(what + " " + std::to_string(index) + " is not below the number of " +
+                          list + ", " + std::to_string(count));
+}
+
+TextureSet textureSetOf(const Material& m)
+{
+    TextureSet set{};
+    set[gpu::TEXTURE_BASE_COLOR] = m.baseColorTexture.texture;
+    set[gpu::TEXTURE_METALLIC_ROUGHNESS] = m.metallicRoughnessTexture.texture;
+    set[gpu::TEXTURE_NORMAL] = m.normalTexture.texture;
+    set[gpu::TEXTURE_EMISSIVE] = m.emissiveTexture.texture;
+    return set;
+}
+
+// Index of each material's texture set; fills `sets`.
+std::vector<uint32_t> collectTextureSets(const GeometryDesc& desc, std::vector<TextureSet>& sets)
+{
+    TextureSet none;
+    none.fill(-1);
+    sets = {none};
+    std::map<TextureSet, uint32_t> known{{none, 0}};
+    std::vector<uint32_t> setOfMaterial;
+    for (size_t i = 0; i < desc.materials.size(); ++i) {
+        const TextureSet set = textureSetOf(desc.materials[i]);
+        for (const int32_t texture : set)
+            if (texture != -1)
+                checkIndex("material " + std::to_string(i) + ": texture", size_t(texture),
+                           desc.textures.size(), "textures");
+        const auto [entry, isNew] = known.try_emplace(set, uint32_t(sets.size()));
+        if (isNew)
+            sets.push_back(set);
+        setOfMaterial.push_back(entry->second);
+    }
+    return setOfMaterial;
+}
+
+Variant variantOf(const Material& material, uint32_t textureSet, const PackedMesh& mesh)
+{
+    if (material.masked)
+        return Variant::Masked;
+    return textureSet == 0 && !mesh.colored ? Variant::Plain : Variant::Detailed;
+}
+
+std::vector<Keyed> sortInstances(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
+                                 const std::vector<uint32_t>& setOfMaterial)
+{
+    std::vector<Keyed> sorted;
+    sorted.reserve(desc.instances.size());
+    for (uint32_t i = 0; i < desc.instances.size(); ++i) {
+        const Instance& instance = desc.instances[i];
+        const std::string name = "instance " + std::to_string(i);
+        checkIndex(name + ": mesh", instance.mesh, meshes.size(), "meshes");
+        checkIndex(name + ": material", instance.material, desc.materials.size(), "materials");
+        if (!meshes[instance.mesh].indexCount)
+            continue;
+        const Material& material = desc.materials[instance.material];
+        const uint32_t set = setOfMaterial[instance.material];
+        const bool mirrored =
+            glm::determinant(glm::dmat3(glm::make_mat4(instance.worldFromObject))) < 0;
+        sorted.push_back({{variantOf(material, set, meshes[instance.mesh]), material.doubleSided,
+                           mirrored, set, instance.mesh},
+                          i});
+    }
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
+    return sorted;
+}
+
+gpu::InstanceRecord instanceRecord(const glm::dmat4& worldFromObject, uint32_t material)
+{
+    const DoubleSingle position(worldFromObject[3]);
+    return {worldFromObject[0], position.hi.x, worldFromObject[1], position.hi.y,
+            worldFromObject[2], position.hi.z, position.lo,        float(material)};
+}
+
+gpu::InstanceBounds instanceBounds(const glm::dmat4& worldFromObject, const PackedMesh& mesh)
+{
+    const glm::dvec3 low = glm::make_vec3(mesh.min), high = glm::make_vec3(mesh.max);
+    const DoubleSingle center(worldFromObject * glm::dvec4((low + high) * 0.5, 1));
+    const glm::dvec3 half = (high - low) * 0.5;
+    glm::dvec3 extent(0);
+    for (int column = 0; column < 3; ++column)
+        extent += glm::abs(glm::dvec3(worldFromObject[column])) * half[column];
+    // Rounding to float may shrink it by 2^-24, the vertex shader's own rounding is of that size
+    // too.
+    constexpr double growth = 1 + 4 * std::numeric_limits<float>::epsilon();
+    return {center.hi, center.lo, glm::vec3(extent * growth)};
+}
+
+// Chunks of one batch of `count` instances that starts at `first`.
+void addChunks(std::vector<gpu::Chunk>& chunks, uint32_t first, uint32_t count, uint32_t batch)
+{
+    const uint32_t firstChunk = uint32_t(chunks.size());
+    const uint32_t lastChunk = firstChunk + (count - 1) / gpu::CHUNK_SIZE;
+    for (uint32_t done = 0; done < count; done += gpu::CHUNK_SIZE)
+        chunks.push_back(
+            {first + done, std::min(gpu::CHUNK_SIZE, count - done), firstChunk, lastChunk, batch});
+}
+
+void setRow(gpu::MaterialRecord& record, uint32_t texture, const TextureRef& ref)
+{
+    record.uvRows[2 * texture] = glm::vec4(glm::make_vec3(ref.uRow), ref.uvSet ? 1.f : 0.f);
+    record.uvRows[2 * texture + 1] = glm::vec4(glm::make_vec3(ref.vRow), 0.f);
+}
+
+} // namespace
+
+Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
+                     uint32_t maxDraws)
+{
+    Batches b;
+    const std::vector<uint32_t> setOfMaterial = collectTextureSets(desc, b.textureSets);
+    const std::vector<Keyed> sorted = sortInstances(desc, meshes, setOfMaterial);
+    BatchKey last{};
+    for (size_t begin = 0; begin < sorted.size();) {
+        const BatchKey key = sorted[begin].key;
+        size_t end = begin;
+        while (end < sorted.size() && end - begin < maxBatchInstances && sorted[end].key == key)
+            ++end;
+
+        const uint32_t batch = uint32_t(b.commands.size());
+        if (b.runs.empty() || key.state() != last.state() || b.runs.back().commandCount == maxDraws)
+            b.runs.push_back(
+                {key.variant, key.doubleSided, key.mirrored, key.textureSet, batch, 0});
+        ++b.runs.back().commandCount;
+        const PackedMesh& mesh = meshes[key.mesh];
+        b.commands.push_back(
+            {mesh.indexCount, 0, mesh.firstIndex, mesh.vertexOffset, uint32_t(begin)});
+        addChunks(b.chunks, uint32_t(begin), uint32_t(end - begin), batch);
+        for (; begin < end; ++begin) {
+            const Instance& instance = desc.instances[sorted[begin].instance];
+            const glm::dmat4 worldFromObject = glm::make_mat4(instance.worldFromObject);
+            b.instances.push_back(instanceRecord(worldFromObject, instance.material));
+            b.bounds.push_back(instanceBounds(worldFromObject, mesh));
+        }
+        last = key;
+    }
+    return b;
+}
+
+gpu::MaterialRecord materialRecord(const Material& m)
+{
+    gpu::MaterialRecord r{};
+    r.baseColor = glm::make_vec3(m.baseColor);
+    r.alpha = m.alpha;
+    r.metalness = m.metalness;
+    r.perceptualRoughness = m.perceptualRoughness;
+    r.normalScale = m.normalTexture.texture == -1 ? 0.f : m.normalScale;
+    r.alphaCutoff = m.alphaCutoff;
+    r.dielectricF0 = glm::make_vec3(m.dielectricF0);
+    r.diffuseWeight = m.diffuseWeight;
+    r.emission = glm::make_vec3(m.emission);
+    r.specularWeight = m.specularWeight;
+    setRow(r, gpu::TEXTURE_BASE_COLOR, m.baseColorTexture);
+    setRow(r, gpu::TEXTURE_METALLIC_ROUGHNESS, m.metallicRoughnessTexture);
+    setRow(r, gpu::TEXTURE_NORMAL, m.normalTexture);
+    setRow(r, gpu::TEXTURE_EMISSIVE, m.emissiveTexture);
+    return r;
+}
+
+} // namespace candelabra::gbuffer

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gbuffer/camera.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/matrix.hpp>
+
+namespace candelabra::gbuffer
+{
+
+CameraTerms::CameraTerms(const CndCamera& camera, float clearDepth)
+    : clipFromView(glm::make_mat4(camera.clipFromView)),
+      viewFromWorld(glm::dmat3(glm::make_mat4(camera.viewFromWorld))),
+      position(glm::transpose(viewFromWorld) * -glm::dvec3(camera.viewFromWorld[12],
+                                                           camera.viewFromWorld[13],
+                                                           camera.viewFromWorld[14])),
+      reversedDepth(clearDepth == 0)
+{
+    const glm::dmat4 clip(clipFromView);
+    const glm::dvec4 x = glm::row(clip, 0), y = glm::row(clip, 1);
+    const glm::dvec4 z = glm::row(clip, 2), w = glm::row(clip, 3);
+    perspective = glm::dvec3(w) != glm::dvec3(0);
+    forward = glm::normalize(perspective ? glm::dvec3(w) : glm::dvec3(reversedDepth ? -z : z));
+
+    // Perspective: points p of the ray satisfy x.p = ndc.x w.p and y.p = ndc.y w.p, so p - eye is a
+    // multiple of m^-1 (ndc, 1). Orthographic: the same with a constant w and parallel rays.
+    const glm::dvec3 third = perspective ? glm::dvec3(w) : forward;
+    const glm::dmat3 m = glm::transpose(glm::dmat3(glm::dvec3(x), glm::dvec3(y), third));
+    const glm::dmat3 inverse = glm::inverse(m);
+    if (perspective) {
+        rayOrigin = {-(inverse * glm::dvec3(x.w, y.w, w.w)), glm::dvec3(0), glm::dvec3(0)};
+        rayDirection = {inverse[2], inverse[0], inverse[1]};
+    } else {
+        rayOrigin = {-(inverse * glm::dvec3(x.w, y.w, 0)), inverse[0] * w.w, inverse[1] * w.w};
+        rayDirection = {forward, glm::dvec3(0), glm::dvec3(0)};
+    }
+    // Right-handed view space with x right and y up looks along -z; Vulkan's clip y points down.
+    mirrored = glm::determinant(m) < 0;
+
+    const std::array<glm::dvec4, 6> clipPlanes{w + x, w - x, w + y, w - y, z, w - z};
+    for (size_t i = 0; i < planes.size(); ++i) {
+        const double length = glm::length(glm::dvec3(clipPlanes[i]));
+        // An infinite far plane has no direction (up to the rounding of the float matrix).
+        constexpr double noDirection = 1e-12;
+        if (length <= noDirection * glm::length(clipPlanes[i]))
+            planes[i] = {0, 0, 0, clipPlanes[i].w < 0 ? -1 : 1};
+        else
+            planes[i] = glm::dvec4(glm::transpose(viewFromWorld) * glm::dvec3(clipPlanes[i]),
+                                   clipPlanes[i].w) /
+                        length;
+    }
+}
+
+} // namespace candelabra::gbuffer

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gbuffer/gbuffer.h"
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "candelabra_shaders.h"
+#include "gbuffer/camera.h"
+#include "gbuffer/emitters.h"
+#include "gbuffer/geometry_impl.h"
+#include "gbuffer/pass_barriers.h"
+#include "gbuffer/pipelines.h"
+#include "gpu/kernel.h"
+
+namespace candelabra::gbuffer
+{
+namespace
+{
+
+using GeometryImpl = Geometry::Impl;
+
+constexpr uint32_t maxFramesInFlight = 8; // as in the C ABI
+
+gpu::RasterFrame rasterFrame(const CameraTerms& camera, const FrameInputs& in,
+                             const std::array<double, 3>& emitterOrigin)
+{
+    gpu::RasterFrame f{};
+    f.clipFromView = camera.clipFromView;
+    f.viewFromWorld = glm::mat3(camera.viewFromWorld);
+    f.emitterOrigin = glm::vec3(camera.viewFrom(glm::make_vec3(emitterOrigin.data())));
+    for (size_t i = 0; i < 3; ++i) {
+        f.rayOrigin[i] = glm::vec3(camera.rayOrigin[i]);
+        f.rayDirection[i] = glm::vec3(camera.rayDirection[i]);
+    }
+    f.size = {float(in.width), float(in.height)};
+    f.perspective = camera.perspective ? 1.f : 0.f;
+    f.nearDepth = camera.reversedDepth ? 1.f : 0.f;
+    f.forward = glm::vec3(camera.forward);
+    return f;
+}
+
+gpu::AnalyticParams analyticParams(const AnalyticObject& object, const Material& material,
+                                   const CameraTerms& camera)
+{
+    gpu::AnalyticParams p{};
+    const glm::dvec3 point = camera.viewFrom(glm::make_vec3(object.point));
+    if (object.type == AnalyticObject::Type::Plane) {
+        const glm::dvec3 normal = camera.viewFromWorld * glm::make_vec3(object.normal);
+        p.normalOrCenter = glm::vec3(normal);
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 origin = camera.rayOrigin[i] - (i == 0 ? point : glm::dvec3(0));
+            p.height[i] = float(glm::dot(normal, origin));
+            p.slope[i] = float(glm::dot(normal, camera.rayDirection[i]));
+        }
+    } else {
+        const glm::dvec3 toCenter = point - camera.rayOrigin[0];
+        p.normalOrCenter = glm::vec3(point);
+        p.radius = float(object.radius);
+        p.power = float(glm::dot(toCenter, toCenter) - object.radius * object.radius);
+    }
+    p.baseColor = glm::make_vec3(material.baseColor);
+    p.metalness = material.metalness;
+    p.perceptualRoughness = material.perceptualRoughness;
+    p.dielectricF0 = glm::make_vec3(material.dielectricF0);
+    p.diffuseWeight = material.diffuseWeight;
+    p.specularWeight = material.specularWeight;
+    p.emission = glm::make_vec3(material.emission);
+    return p;
+}
+
+} // namespace
+
+struct GBuffer::Impl {
+    const gpu::Device& device;
+    GBufferDesc desc;
+    gpu::Timer timer;
+    gpu::Kernel<gpu::CullInstancesParams> cullInstances;
+    gpu::Kernel<gpu::CompactInstancesParams> compactInstances;
+    Pipelines pipelines;
+    std::vector<gpu::Buffer> rasterFrames; // one RasterFrame per slot
+    gpu::Bindings raySets;                 // per slot
+    Emitters emitters;
+
+    Impl(const gpu::Device& d, const GBufferDesc& g);
+
+    void recordCulling(const gpu::Frame& frame, const GeometryImpl& geometry,
+                       const CameraTerms& camera, const FrameInputs& in) const noexcept;
+    void beginRendering(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
+    void drawMeshes(VkCommandBuffer cmd, const GeometryImpl& geometry,
+                    const CameraTerms& camera) const noexcept;
+    void drawAnalytic(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
+                      uint32_t slot) const noexcept;
+    void drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records,
+                      uint32_t slot) const noexcept;
+    void bindRays(VkCommandBuffer cmd, VkPipelineLayout layout, uint32_t slot) const noexcept
+    {
+        const VkDescriptorSet set = raySets.set(slot);
+        device.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &set, 0,
+                                     nullptr);
+    }
+};
+
+GBuffer::Impl::Impl(const gpu::Device& d, const GBufferDesc& g)
+    : device(d),
+      desc(g),
+      timer(d, "gbuffer", g.framesInFlight, g.timestamps),
+      cullInstances(d, spirv::cull_instances_comp),
+      compactInstances(d, spirv::compact_instances_comp),
+      pipelines(d, g.layout),
+      raySets(d, "rays", rayBindings(), VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
+              g.framesInFlight),
+      emitters(d, g.framesInFlight)
+{
+    for (uint32_t slot = 0; slot < g.framesInFlight; ++slot) {
+        rasterFrames.push_back(gpu::createBuffer(d, "raster frame", sizeof(gpu::RasterFrame),
+                                                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                                 gpu::MemoryUse::Upload));
+        raySets.write(slot, {gpu::Binding::of(gpu::RAY_FRAME, rasterFrames.back())});
+    }
+}
+
+void GBuffer::Impl::recordCulling(const gpu::Frame& frame, const GeometryImpl& geometry,
+                                  const CameraTerms& camera, const FrameInputs& in) const noexcept
+{
+    const uint32_t chunks = in.drawInstances ? geometry.chunkCount : 0;
+    gpu::CullInstancesParams cull{};
+    for (size_t i = 0; i < camera.planes.size(); ++i)
+        cull.planes[i] = in.cullInstances ? glm::vec4(camera.planes[i]) : glm::vec4(0, 0, 0, 1);
+    const DoubleSingle position(camera.position);
+    cull.cameraHi = position.hi;
+    cull.cameraLo = position.lo;
+    cull.chunkCount = chunks;
+    cullInstances.dispatch(frame, geometry.cullSet.set(0), cull,
+                           gpu::divideUp(chunks, gpu::CULL_INSTANCES_GROUP));
+    frame.barrier();
+    compactInstances.dispatch(frame, geometry.compactSet.set(0), {chunks},
+                              gpu::divideUp(chunks, gpu::COMPACT_INSTANCES_GROUP));
+}
+
+void GBuffer::Impl::beginRendering(VkCommandBuffer cmd, const FrameInputs& in) const noexcept
+{
+    const auto attachment = [](const Attachment& a, VkImageLayout layout, VkClearValue clear) {
+        return VkRenderingAttachmentInfo{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                         .imageView = a.view,
+                                         .imageLayout = layout,
+                                         .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                         .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                         .clearValue = clear};
+    };
+    constexpr VkImageLayout color = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    const VkClearValue zero{};
+    const auto& b = in.background;
+    const VkClearValue background{.color = {.float32 = {b[0], b[1], b[2], 1}}};
+    const Attachments& a = in.attachments;
+    // By fragment output location (shaders/gbuffer/output.glsl).
+    const VkRenderingAttachmentInfo colors[] = {
+        attachment(a.normalRoughness, color, zero), attachment(a.albedo, color, zero),
+        attachment(a.radiance, color, background), attachment(a.specular, color, zero)};
+    const VkRenderingAttachmentInfo depth =
+        attachment(a.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                   {.depthStencil = {.depth = in.clearDepth}});
+    const VkRect2D area{{0, 0}, {in.width, in.height}};
+    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                               .renderArea = area,
+                               .layerCount = 1,
+                               .colorAttachmentCount = desc.layout == CND_GBUFFER_FULL ? 4u : 3u,
+                               .pColorAttachments = colors,
+                               .pDepthAttachment = &depth};
+    device.CmdBeginRendering(cmd, &info);
+    const VkViewport viewport{0, 0, float(in.width), float(in.height), 0, 1};
+    device.CmdSetViewport(cmd, 0, 1, &viewport);
+    device.CmdSetScissor(cmd, 0, 1, &area);
+    device.CmdSetDepthCompareOp(cmd,
+                                in.clearDepth == 0 ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS);
+    device.CmdSetCullMode(cmd, VK_CULL_MODE_NONE);
+    device.CmdSetFrontFace(cmd, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+}
+
+void GBuffer::Impl::drawMeshes(VkCommandBuffer cmd, const GeometryImpl& g,
+                               const CameraTerms& camera) const noexcept
+{
+    const DoubleSingle position(camera.position);
+    const gpu::MeshParams params{glm::mat3(camera.viewFromWorld), camera.clipFromView, position.hi,
+                                 position.lo};
+    const VkPipelineLayout layout = pipelines.meshLayout.get();
+    device.CmdPushConstants(cmd, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof params, &params);
+    const VkBuffer streams[StreamCount] = {g.vertices.get(), g.vertices.get(), g.visible.get()};
+    const VkDeviceSize offsets[StreamCount] = {0, g.detailOffset, 0};
+    device.CmdBindVertexBuffers(cmd, 0, StreamCount, streams, offsets);
+    device.CmdBindIndexBuffer(cmd, g.indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    for (const Run& run : g.runs) {
+        device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                               pipelines.mesh[size_t(run.variant)].get());
+        const VkDescriptorSet set = g.meshSets.set(run.textureSet);
+        device.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &set, 0,
+                                     nullptr);
+        device.CmdSetCullMode(cmd, run.doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+        device.CmdSetFrontFace(cmd, run.mirrored != camera.mirrored
+                                        ? VK_FRONT_FACE_CLOCKWISE
+                                        : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        device.CmdDrawIndexedIndirect(cmd, g.commands.get(),
+                                      run.firstCommand * sizeof(gpu::DrawCommand), run.commandCount,
+                                      sizeof(gpu::DrawCommand));
+    }
+    device.CmdSetCullMode(cmd, VK_CULL_MODE_NONE);
+}
+
+void GBuffer::Impl::drawAnalytic(VkCommandBuffer cmd, const GeometryImpl& g,
+                                 const CameraTerms& camera, uint32_t slot) const noexcept
+{
+    bindRays(cmd, pipelines.analyticLayout.get(), slot);
+    for (const AnalyticObject& object : g.analyticObjects) {
+        const uint32_t shape =
+            object.type == AnalyticObject::Type::Plane ? gpu::ANALYTIC_PLANE : gpu::ANALYTIC_BALL;
+        const gpu::AnalyticParams params =
+            analyticParams(object, g.materialFactors[object.material], camera);
+        device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                               pipelines.analytic[shape].get());
+        device.CmdPushConstants(cmd, pipelines.analyticLayout.get(), VK_SHADER_STAGE_FRAGMENT_BIT,
+                                0, sizeof params, &params);
+        device.CmdDraw(cmd, 3, 1, 0, 0);
+    }
+}
+
+void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records,
+                                 uint32_t slot) const noexcept
+{
+    bindRays(cmd, pipelines.emitterLayout.get(), slot);
+    device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.emitter.get());
+    const VkBuffer buffer = records.get();
+    const VkDeviceSize offset = 0;
+    device.CmdBindVertexBuffers(cmd, 0, 1, &buffer, &offset);
+    device.CmdDraw(cmd, 4, emitters.count(), 0, 0); // a quad each, triangle strip
+}
+
+GBuffer::GBuffer(const gpu::Device& device, const GBufferDesc& desc)
+{
+    if (desc.framesInFlight < 1 || desc.framesInFlight > maxFramesInFlight)
+        gpu::failArgument("GBufferDesc: framesInFlight is " + std::to_string(desc.framesInFlight) +
+                          ", not 1 to " + std::to_string(maxFramesInFlight));
+    impl_ = std::make_unique<Impl>(device, desc);
+}
+
+GBuffer::~GBuffer() = default;
+GBuffer::GBuffer(GBuffer&&) noexcept = default;
+GBuffer& GBuffer::operator=(GBuffer&&) noexcept = default;
+
+void GBuffer::setEmitters(std::span<const CndLight> lights, const double origin[3])
+{
+    impl_->emitters.set(lights, origin);
+}
+
+void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameInputs& in) noexcept
+{
+    Impl& s = *impl_;
+    const GeometryImpl& g = geometry.impl();
+    const CameraTerms camera(in.camera, in.clearDepth);
+    const gpu::RasterFrame rays = rasterFrame(camera, in, s.emitters.origin());
+    std::memcpy(s.rasterFrames[in.slot].mapped, &rays, sizeof rays);
+    const gpu::Buffer& emitters = s.emitters.update(in.slot);
+
+    s.timer.begin(cmd, in.slot);
+    waitForEarlierDraws(s.device, cmd); // they read what culling writes
+    s.recordCulling({s.device, cmd, s.timer, in.slot}, g, camera, in);
+
+    s.device.beginLabel(cmd, "gbuffer_raster");
+    prepareAttachments(s.device, cmd, in.attachments);
+    s.beginRendering(cmd, in);
+    if (in.drawInstances && g.chunkCount)
+        s.drawMeshes(cmd, g, camera);
+    if (in.drawAnalytic && !g.analyticObjects.empty())
+        s.drawAnalytic(cmd, g, camera, in.slot);
+    if (in.drawEmitters && s.emitters.count())
+        s.drawEmitters(cmd, emitters, in.slot);
+    s.device.CmdEndRendering(cmd);
+    handToCompute(s.device, cmd, in.attachments);
+    s.device.endLabel(cmd);
+    s.timer.stamp(cmd, "gbuffer_raster");
+}
+
+bool GBuffer::times(uint32_t slot, CndKernelTime* times, uint32_t& count) const noexcept
+{
+    return impl_->timer.read(slot, times, count);
+}
+
+} // namespace candelabra::gbuffer

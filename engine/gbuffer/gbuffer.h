@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// GBuffer: the default raster pass. Culls and draws a Geometry, exact planes and balls, and visible
+// sphere lights into the G-buffer that the lighting module reads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "candelabra/candelabra.h"
+#include "gbuffer/geometry.h"
+#include "gbuffer/targets.h"
+#include "gpu/device.h"
+
+namespace candelabra::gbuffer
+{
+
+struct GBufferDesc {
+    uint32_t framesInFlight = 2; // 1..8
+    CndGBufferLayout layout = CND_GBUFFER_FULL;
+    bool timestamps = false; // rows: cull_instances, compact_instances, gbuffer_raster
+};
+
+struct FrameInputs {
+    uint32_t slot = 0; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
+    CndCamera camera;
+    float clearDepth = 0;         // 0: reversed depth, compared with GREATER; else 1, with LESS
+    float background[3]{0, 0, 0}; // luminance of pixels without a surface, cd/m^2
+    Attachments attachments;
+    uint32_t width = 0, height = 0; // pixels, at most those of the images
+    bool cullInstances = true;      // false: draw every instance (to check the culling)
+    bool drawInstances = true;
+    bool drawAnalytic = true;
+    bool drawEmitters = true;
+};
+
+// One frame per slot: use one GBuffer per view. All frames go to one queue.
+class GBuffer
+{
+public:
+    // Throws gpu::Failure. Compiles every pipeline.
+    GBuffer(const gpu::Device& device, const GBufferDesc& desc);
+    ~GBuffer();
+    GBuffer(GBuffer&&) noexcept;
+    GBuffer& operator=(GBuffer&&) noexcept;
+
+    // Sphere lights to show, others are skipped; positions are relative to `origin`. Takes effect
+    // at the next recording; read before the call returns. May allocate when the count grows;
+    // throws gpu::Failure, and then the previous set stays.
+    void setEmitters(std::span<const CndLight> lights, const double origin[3]);
+
+    // Records one frame. On entry the attachments may be in any state: their contents are
+    // discarded, and all earlier work is waited for. On exit normalRoughness, albedo, specular and
+    // depth are in SHADER_READ_ONLY_OPTIMAL and radiance in GENERAL, visible to COMPUTE_SHADER as
+    // CndLightingFrame wants them. Outside a render pass. Changes the graphics and compute state.
+    void record(VkCommandBuffer cmd, const Geometry& geometry, const FrameInputs& in) noexcept;
+
+    // Times of the last frame recorded in `slot` into an array of CND_MAX_KERNEL_TIMES; false until
+    // the GPU has finished it.
+    bool times(uint32_t slot, CndKernelTime* times, uint32_t& count) const noexcept;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace candelabra::gbuffer

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gbuffer/pipelines.h"
+
+#include <span>
+#include <string>
+
+#include "candelabra_shaders.h"
+#include "gbuffer/geometry_impl.h"
+#include "gbuffer/targets.h"
+
+namespace candelabra::gbuffer
+{
+namespace
+{
+
+constexpr VkShaderStageFlags bothStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
+struct PipelineDesc {
+    const char* name;
+    const gpu::Spirv& vertex;
+    const gpu::Spirv& fragment;
+    std::span<const gpu::SpecConstant> constants;
+    std::span<const VkVertexInputBindingDescription> streams;
+    std::span<const VkVertexInputAttributeDescription> attributes;
+    VkPrimitiveTopology topology;
+    VkPipelineLayout layout;
+};
+
+// Colour formats by fragment output location; returns how many.
+uint32_t colorFormats(CndGBufferLayout layout, std::array<VkFormat, 4>& formats)
+{
+    const TargetFormats f = targetFormats(layout);
+    formats = {f.normalRoughness, f.albedo, f.radiance, f.specular};
+    return f.specular == VK_FORMAT_UNDEFINED ? 3 : 4;
+}
+
+class Specialization
+{
+public:
+    explicit Specialization(std::span<const gpu::SpecConstant> constants)
+    {
+        for (const gpu::SpecConstant& c : constants) {
+            entries_.push_back(
+                {c.id, uint32_t(values_.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+            values_.push_back(c.value);
+        }
+        info = {uint32_t(entries_.size()), entries_.data(), values_.size() * sizeof(uint32_t),
+                values_.data()};
+    }
+    Specialization(const Specialization&) = delete;
+    Specialization& operator=(const Specialization&) = delete;
+    VkSpecializationInfo info;
+
+private:
+    std::vector<VkSpecializationMapEntry> entries_;
+    std::vector<uint32_t> values_;
+};
+
+gpu::Handle<VkPipeline> createPipeline(const gpu::Device& device, CndGBufferLayout layout,
+                                       const PipelineDesc& desc)
+{
+    const gpu::Handle<VkShaderModule> vertex = gpu::createShaderModule(device, desc.vertex);
+    const gpu::Handle<VkShaderModule> fragment = gpu::createShaderModule(device, desc.fragment);
+    const Specialization constants(desc.constants);
+    const auto stage = [&](VkShaderStageFlagBits bit, VkShaderModule module) {
+        return VkPipelineShaderStageCreateInfo{
+            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+            .stage = bit,
+            .module = module,
+            .pName = "main",
+            .pSpecializationInfo = &constants.info};
+    };
+    const std::array stages{stage(VK_SHADER_STAGE_VERTEX_BIT, vertex.get()),
+                            stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get())};
+    const VkPipelineVertexInputStateCreateInfo vertexInput{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = uint32_t(desc.streams.size()),
+        .pVertexBindingDescriptions = desc.streams.data(),
+        .vertexAttributeDescriptionCount = uint32_t(desc.attributes.size()),
+        .pVertexAttributeDescriptions = desc.attributes.data()};
+    const VkPipelineInputAssemblyStateCreateInfo assembly{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = desc.topology};
+    const VkPipelineViewportStateCreateInfo viewport{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .viewportCount = 1,
+        .scissorCount = 1};
+    const VkPipelineRasterizationStateCreateInfo rasterization{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
+    const VkPipelineMultisampleStateCreateInfo multisample{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
+    const VkPipelineDepthStencilStateCreateInfo depth{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+        .depthTestEnable = VK_TRUE,
+        .depthWriteEnable = VK_TRUE};
+    std::array<VkFormat, 4> formats;
+    const uint32_t colors = colorFormats(layout, formats);
+    std::array<VkPipelineColorBlendAttachmentState, 4> writes{};
+    for (VkPipelineColorBlendAttachmentState& w : writes)
+        w.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                           VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    const VkPipelineColorBlendStateCreateInfo blend{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = colors,
+        .pAttachments = writes.data()};
+    constexpr VkDynamicState dynamicStates[] = {
+        VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE,
+        VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_DEPTH_COMPARE_OP};
+    const VkPipelineDynamicStateCreateInfo dynamic{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+        .dynamicStateCount = std::size(dynamicStates),
+        .pDynamicStates = dynamicStates};
+    const VkPipelineRenderingCreateInfo rendering{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+        .colorAttachmentCount = colors,
+        .pColorAttachmentFormats = formats.data(),
+        .depthAttachmentFormat = targetFormats(layout).depth};
+    const VkGraphicsPipelineCreateInfo info{.sType =
+                                                VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                            .pNext = &rendering,
+                                            .stageCount = uint32_t(stages.size()),
+                                            .pStages = stages.data(),
+                                            .pVertexInputState = &vertexInput,
+                                            .pInputAssemblyState = &assembly,
+                                            .pViewportState = &viewport,
+                                            .pRasterizationState = &rasterization,
+                                            .pMultisampleState = &multisample,
+                                            .pDepthStencilState = &depth,
+                                            .pColorBlendState = &blend,
+                                            .pDynamicState = &dynamic,
+                                            .layout = desc.layout};
+    VkPipeline pipeline{};
+    gpu::check(device.CreateGraphicsPipelines(device.handle, device.pipelineCache, 1, &info,
+                                              device.allocationCallbacks, &pipeline),
+               std::string("creating pipeline ") + desc.name);
+    device.name(VK_OBJECT_TYPE_PIPELINE, pipeline, desc.name);
+    return {device, pipeline};
+}
+
+constexpr VkVertexInputBindingDescription meshStreams[] = {
+    {StreamCore, sizeof(VertexCore), VK_VERTEX_INPUT_RATE_VERTEX},
+    {StreamDetail, sizeof(VertexDetail), VK_VERTEX_INPUT_RATE_VERTEX},
+    {StreamInstance, sizeof(uint32_t), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr VkVertexInputAttributeDescription meshAttributes[] = {
+    {gpu::MESH_POSITION, StreamCore, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexCore, position)},
+    {gpu::MESH_NORMAL_IN, StreamCore, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexCore, normal)},
+    {gpu::MESH_TANGENT, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT,
+     offsetof(VertexDetail, tangent)},
+    {gpu::MESH_UV, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexDetail, uv)},
+    {gpu::MESH_COLOR, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexDetail, color)},
+    {gpu::MESH_INSTANCE, StreamInstance, VK_FORMAT_R32_UINT, 0}};
+
+constexpr VkVertexInputBindingDescription emitterStreams[] = {
+    {0, sizeof(gpu::EmitterRecord), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr VkVertexInputAttributeDescription emitterAttributes[] = {
+    {gpu::EMITTER_SPHERE, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
+     offsetof(gpu::EmitterRecord, position)}, // with the radius that follows it
+    {gpu::EMITTER_LUMINANCE, 0, VK_FORMAT_R32G32B32_SFLOAT,
+     offsetof(gpu::EmitterRecord, luminance)}};
+
+} // namespace
+
+std::vector<gpu::ReflectedBinding> rayBindings()
+{
+    return gpu::reflect(spirv::analytic_frag).bindings;
+}
+
+Pipelines::Pipelines(const gpu::Device& device, CndGBufferLayout layout)
+    : meshSet(gpu::createSetLayout(device, "mesh", meshBindings(), bothStages)),
+      raySet(gpu::createSetLayout(device, "rays", rayBindings(), bothStages))
+{
+    const VkDescriptorSetLayout meshSets[] = {meshSet.get()}, raySets[] = {raySet.get()};
+    meshLayout = gpu::createPipelineLayout(device, "mesh", meshSets, VK_SHADER_STAGE_VERTEX_BIT,
+                                           sizeof(gpu::MeshParams));
+    analyticLayout = gpu::createPipelineLayout(
+        device, "analytic", raySets, VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(gpu::AnalyticParams));
+    emitterLayout = gpu::createPipelineLayout(device, "emitter", raySets, bothStages, 0);
+
+    const gpu::SpecConstant layoutConstant{gpu::RASTER_LAYOUT, uint32_t(layout)};
+    const auto createMesh = [&](Variant variant, const char* name, bool detailed, bool masked) {
+        const std::array constants{layoutConstant,
+                                   gpu::SpecConstant{gpu::RASTER_DETAILED, detailed},
+                                   gpu::SpecConstant{gpu::RASTER_MASKED, masked}};
+        mesh[size_t(variant)] =
+            createPipeline(device, layout,
+                           {name, spirv::mesh_vert, spirv::mesh_frag, constants, meshStreams,
+                            meshAttributes, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST, meshLayout.get()});
+    };
+    createMesh(Variant::Plain, "mesh plain", false, false);
+    createMesh(Variant::Detailed, "mesh detailed", true, false);
+    createMesh(Variant::Masked, "mesh masked", true, true);
+
+    const auto createAnalytic = [&](uint32_t shape, const char* name) {
+        const std::array constants{layoutConstant, gpu::SpecConstant{gpu::RASTER_SHAPE, shape}};
+        analytic[shape] = createPipeline(device, layout,
+                                         {name,
+                                          spirv::analytic_vert,
+                                          spirv::analytic_frag,
+                                          constants,
+                                          {},
+                                          {},
+                                          VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+                                          analyticLayout.get()});
+    };
+    createAnalytic(gpu::ANALYTIC_PLANE, "analytic plane");
+    createAnalytic(gpu::ANALYTIC_BALL, "analytic ball");
+
+    const std::array constants{layoutConstant};
+    emitter = createPipeline(device, layout,
+                             {"emitter", spirv::emitter_vert, spirv::emitter_frag, constants,
+                              emitterStreams, emitterAttributes,
+                              VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP, emitterLayout.get()});
+}
+
+} // namespace candelabra::gbuffer

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// One triangle that covers the screen.
+#version 460
+
+void main()
+{
+    const vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
+    gl_Position = vec4(corner * 4.0 - 1.0, 0.5, 1.0); // any depth: the fragment shader writes its own
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Instanced triangle meshes. View-space positions come from a difference of double-single positions,
+// so they are as good 1000 km from the world's origin as at it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/raster.h"
+
+layout(constant_id = RASTER_DETAILED) const bool detailed = false;
+
+layout(push_constant, scalar) uniform Push
+{
+    MeshParams params;
+};
+layout(binding = MESH_INSTANCES) uniform textureBuffer instances;
+
+layout(location = MESH_POSITION) in vec3 position; // object space
+layout(location = MESH_NORMAL_IN) in vec3 normal;
+layout(location = MESH_TANGENT) in vec4 tangent; // w: handedness
+layout(location = MESH_UV) in vec4 uv;           // both sets
+layout(location = MESH_COLOR) in vec4 color;
+layout(location = MESH_INSTANCE) in uint instance;
+
+layout(location = 0) out vec3 outNormal; // view space, not normalised
+layout(location = 1) flat out uint outMaterial;
+layout(location = 2) out vec4 outTangent;
+layout(location = 3) out vec4 outUv;
+layout(location = 4) out vec4 outColor;
+
+// Exact difference of the high parts (Knuth's TwoSum), then everything that was lost before.
+vec3 cameraRelative(vec3 hi, vec3 lo)
+{
+    precise vec3 difference = hi - params.cameraHi;
+    precise vec3 back = difference - hi;
+    precise vec3 lost = (hi - (difference - back)) - (params.cameraHi + back);
+    precise vec3 result = difference + (lost + (lo - params.cameraLo));
+    return result;
+}
+
+// A zero vector stays zero.
+vec3 safeNormalize(vec3 v)
+{
+    return v * inversesqrt(max(dot(v, v), 1e-38)); // 1e-38: next to the smallest normal float
+}
+
+void main()
+{
+    const int texel = int(instance * INSTANCE_TEXELS);
+    const vec4 x = texelFetch(instances, texel);
+    const vec4 y = texelFetch(instances, texel + 1);
+    const vec4 z = texelFetch(instances, texel + 2);
+    const vec4 last = texelFetch(instances, texel + 3);
+    outMaterial = uint(last.w);
+
+    const mat3 worldFromObject = mat3(x.xyz, y.xyz, z.xyz);
+    const vec3 origin = cameraRelative(vec3(x.w, y.w, z.w), last.xyz);
+    const vec3 positionView = params.viewFromWorld * (origin + worldFromObject * position);
+    gl_Position = params.clipFromView * vec4(positionView, 1.0);
+
+    // Normals transform by the inverse transpose = cofactors / determinant; only the sign of the
+    // determinant (mirrored instances) matters for the direction.
+    const mat3 cofactors = mat3(cross(y.xyz, z.xyz), cross(z.xyz, x.xyz), cross(x.xyz, y.xyz));
+    const float handedness = dot(x.xyz, cofactors[0]) < 0.0 ? -1.0 : 1.0;
+    outNormal = params.viewFromWorld * safeNormalize(handedness * (cofactors * normal));
+    if (detailed) {
+        const vec3 tangentWorld = safeNormalize(worldFromObject * tangent.xyz);
+        outTangent = vec4(params.viewFromWorld * tangentWorld, tangent.w * handedness);
+        outUv = uv;
+        outColor = color;
+    } else {
+        outTangent = vec4(0);
+        outUv = vec4(0);
+        outColor = vec4(0);
+    }
+}

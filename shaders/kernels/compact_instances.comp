@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ids of the visible instances of each batch, densely and in their old order, and the draw's instance
+// count. One lane per chunk sums the counts of the chunks before it in the batch (batches are split on
+// the host so that this sum stays short): the result does not depend on scheduling.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/raster.h"
+
+layout(local_size_x = COMPACT_INSTANCES_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    CompactInstancesParams params;
+};
+layout(scalar, binding = COMPACT_INSTANCES_CHUNKS) readonly buffer Chunks
+{
+    Chunk chunks[];
+};
+layout(scalar, binding = COMPACT_INSTANCES_BITS) readonly buffer Bits
+{
+    uvec2 bits[];
+};
+layout(scalar, binding = COMPACT_INSTANCES_COUNTS) readonly buffer Counts
+{
+    uint counts[];
+};
+layout(scalar, binding = COMPACT_INSTANCES_VISIBLE) writeonly buffer Visible
+{
+    uint visible[];
+};
+layout(scalar, binding = COMPACT_INSTANCES_COMMANDS) writeonly buffer Commands
+{
+    DrawCommand commands[];
+};
+
+void main()
+{
+    const uint index = gl_GlobalInvocationID.x;
+    if (index >= params.chunkCount)
+        return;
+    const Chunk chunk = chunks[index];
+    uint count = 0;
+    for (uint i = chunk.firstChunk; i < index; ++i)
+        count += counts[i];
+
+    // All chunks of a batch but the last are full.
+    const uint first = chunk.firstInstance - (index - chunk.firstChunk) * CHUNK_SIZE;
+    const uvec2 words = bits[index];
+    for (uint word = 0; word < 2u; ++word) {
+        uint left = words[word];
+        while (left != 0u) {
+            visible[first + count] = chunk.firstInstance + word * 32u + findLSB(left);
+            left &= left - 1u;
+            ++count;
+        }
+    }
+    if (index == chunk.lastChunk)
+        commands[chunk.batch].instanceCount = count;
+}

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that crosses between the default raster pass (engine/gbuffer) and its shaders.
+#ifndef CND_SHARED_RASTER_H
+#define CND_SHARED_RASTER_H
+
+#include "shared/gbuffer.h"
+
+GPU_BEGIN
+
+// --- Records in texel buffers (vec4), which every vertex or pixel reads
+
+// One instance. Columns of the world-from-object matrix; the translation is hi + lo (double-single).
+struct InstanceRecord {
+    vec3 axisX;
+    float positionHiX;
+    vec3 axisY;
+    float positionHiY;
+    vec3 axisZ;
+    float positionHiZ;
+    vec3 positionLo;
+    float material; // index, exact up to 2^24
+};
+GPU_SIZE(InstanceRecord, 64)
+const uint INSTANCE_TEXELS = 4u;
+
+const uint TEXTURE_BASE_COLOR = 0u;
+const uint TEXTURE_METALLIC_ROUGHNESS = 1u;
+const uint TEXTURE_NORMAL = 2u;
+const uint TEXTURE_EMISSIVE = 3u;
+const uint TEXTURES_PER_MATERIAL = 4u;
+
+// One material, fields in the units of geometry.h. The first MATERIAL_PLAIN_TEXELS suffice without
+// textures.
+struct MaterialRecord {
+    vec3 baseColor;
+    float alpha;
+    float metalness;
+    float perceptualRoughness;
+    float normalScale; // 0 without a normal texture
+    float alphaCutoff;
+    vec3 dielectricF0;
+    float diffuseWeight;
+    vec3 emission; // cd/m^2
+    float specularWeight;
+    vec4 uvRows[8]; // per texture: (uRow, uv set), (vRow, 0)
+};
+GPU_SIZE(MaterialRecord, 192)
+const uint MATERIAL_TEXELS = 12u;
+const uint MATERIAL_PLAIN_TEXELS = 4u;
+
+// --- Culling
+
+const uint CHUNK_SIZE = 64u; // instances per chunk, all of one batch
+
+struct InstanceBounds {
+    vec3 centerHi; // world space, hi + lo
+    vec3 centerLo;
+    vec3 extent;   // half size along the world axes, m
+};
+GPU_SIZE(InstanceBounds, 36)
+
+struct Chunk {
+    uint firstInstance;
+    uint count;
+    uint firstChunk; // of the batch
+    uint lastChunk;  // of the batch
+    uint batch;
+};
+GPU_SIZE(Chunk, 20)
+
+// VkDrawIndexedIndirectCommand
+struct DrawCommand {
+    uint indexCount;
+    uint instanceCount;
+    uint firstIndex;
+    uint vertexOffset;
+    uint firstInstance;
+};
+GPU_SIZE(DrawCommand, 20)
+
+// cull_instances: tests the bounds of each instance, one lane per chunk
+const uint CULL_INSTANCES_GROUP = 64u;
+const uint CULL_INSTANCES_CHUNKS = 0u;
+const uint CULL_INSTANCES_BOUNDS = 1u;
+const uint CULL_INSTANCES_BITS = 2u;   // uvec2 per chunk: bit i = instance i is drawn
+const uint CULL_INSTANCES_COUNTS = 3u; // uint per chunk
+struct CullInstancesParams {
+    vec4 planes[6];  // inside: dot(xyz, p - camera) + w >= 0, unit normals, world axes
+    vec3 cameraHi;
+    vec3 cameraLo;
+    uint chunkCount;
+};
+GPU_SIZE(CullInstancesParams, 124)
+
+// compact_instances: ids of drawn instances in their old order, one lane per chunk
+const uint COMPACT_INSTANCES_GROUP = 64u;
+const uint COMPACT_INSTANCES_CHUNKS = 0u;
+const uint COMPACT_INSTANCES_BITS = 1u;
+const uint COMPACT_INSTANCES_COUNTS = 2u;
+const uint COMPACT_INSTANCES_VISIBLE = 3u;  // uint per instance, each batch at its own place
+const uint COMPACT_INSTANCES_COMMANDS = 4u; // DrawCommand per batch
+struct CompactInstancesParams {
+    uint chunkCount;
+};
+GPU_SIZE(CompactInstancesParams, 4)
+
+// --- Meshes
+
+const uint MESH_POSITION = 0u; // vertex attribute locations
+const uint MESH_NORMAL_IN = 1u;
+const uint MESH_TANGENT = 2u;
+const uint MESH_UV = 3u;
+const uint MESH_COLOR = 4u;
+const uint MESH_INSTANCE = 5u;
+
+const uint MESH_INSTANCES = 0u; // bindings
+const uint MESH_MATERIALS = 1u;
+const uint MESH_TEXTURES = 2u; // 2, 3, 4, 5: TEXTURE_*
+
+struct MeshParams {
+    mat3 viewFromWorld; // rotation
+    mat4 clipFromView;
+    vec3 cameraHi; // world position, hi + lo
+    vec3 cameraLo;
+};
+GPU_SIZE(MeshParams, 124)
+
+// --- Ray-cast surfaces: analytic planes and balls, visible sphere lights
+
+struct RasterFrame {
+    mat4 clipFromView;
+    mat3 viewFromWorld;    // rotation
+    vec3 emitterOrigin;    // origin of the light set in view space, subtracted in double
+    vec3 rayOrigin[3];     // view space, affine in ndc: [0] + x [1] + y [2]; perspective: [0] = eye
+    vec3 rayDirection[3];  // the same; towards the scene, not normalised
+    vec2 size;             // pixels
+    float perspective;     // 1, or 0: orthographic
+    float nearDepth;       // depth of the near plane: 1 reversed, else 0
+    vec3 forward;          // unit viewing direction; orthographic: of every ray
+};
+GPU_SIZE(RasterFrame, 212)
+const uint RAY_FRAME = 0u; // uniform buffer binding of both
+
+const uint ANALYTIC_PLANE = 0u;
+const uint ANALYTIC_BALL = 1u;
+
+struct AnalyticParams {
+    vec3 normalOrCenter; // plane: unit normal; ball: centre. View space, relative to the camera
+    float radius;        // ball
+    vec3 height;         // plane: height of the ray origin, affine in ndc, computed in double
+    vec3 slope;          // plane: dot(normal, ray direction), affine in ndc, computed in double
+    float power;         // ball: |centre - eye|^2 - radius^2, computed in double; perspective
+    vec3 baseColor;      // factors of the material
+    float metalness;
+    float perceptualRoughness;
+    vec3 dielectricF0;
+    float diffuseWeight;
+    float specularWeight;
+    vec3 emission; // cd/m^2
+};
+GPU_SIZE(AnalyticParams, 96)
+
+const uint EMITTER_SPHERE = 0u; // vertex attribute locations
+const uint EMITTER_LUMINANCE = 1u;
+struct EmitterRecord {
+    vec3 position; // relative to the light set's origin, m
+    float radius;  // m
+    vec3 luminance; // cd/m^2
+};
+GPU_SIZE(EmitterRecord, 28)
+
+// --- Specialisation constants
+const uint RASTER_LAYOUT = 0u;   // CndGBufferLayout
+const uint RASTER_DETAILED = 1u; // meshes: textures, tangents and vertex colours
+const uint RASTER_MASKED = 2u;   // meshes: alpha mask
+const uint RASTER_SHAPE = 1u;    // analytic: ANALYTIC_*
+
+GPU_END
+
+#endif
