@@ -23,19 +23,12 @@ Scene generateField(const SceneOptions& options)
     scene.background = field::kSkyLuminance;
     // In the middle of what the default camera sees near by, where precision is wanted most.
     scene.lightOrigin = {0, 0, 1100};
-    Camera terrace;
-    terrace.name = "terrace";
-    terrace.position = field::kCameraPosition;
-    terrace.forward = glm::normalize(glm::dvec3(-0.09, -0.155, -1));
-    terrace.verticalFov = glm::radians(46.0);
-    terrace.nearPlane = 0.5;
-    Camera overview;
-    overview.name = "overview";
-    overview.position = {-1500, 620, 1900};
-    overview.forward = glm::normalize(glm::dvec3(0.75, -0.38, -1));
-    overview.verticalFov = glm::radians(50.0);
-    overview.nearPlane = 0.5;
-    scene.cameras = {terrace, overview};
+    scene.cameras = {
+        makeCamera("terrace", field::kCameraPosition, {-0.09, -0.155, -1}, glm::radians(46.0)),
+        makeCamera("overview", {-1500, 620, 1900}, {0.75, -0.38, -1}, glm::radians(50.0))};
+    for (Camera& camera : scene.cameras) {
+        camera.nearPlane = 0.5;
+    }
     addSphereLights(scene, field::lightSites(kit, count, options), options);
     return std::move(kit.builder.scene);
 }

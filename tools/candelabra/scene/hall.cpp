@@ -177,17 +177,9 @@ Scene generateHall(const SceneOptions& options)
     hall::addFurnishings(kit, random);
 
     Scene scene = std::move(kit.builder.scene);
-    Camera nave;
-    nave.name = "nave";
-    nave.position = {-28.2, 2.6, 1.4};
-    nave.forward = glm::normalize(glm::dvec3(1, 0.035, -0.065));
-    nave.verticalFov = glm::radians(58.0);
-    Camera gallery;
-    gallery.name = "gallery";
-    gallery.position = {27.5, 9.8, -4.6};
-    gallery.forward = glm::normalize(glm::dvec3(-1, -0.22, 0.16));
-    gallery.verticalFov = glm::radians(62.0);
-    scene.cameras = {nave, gallery};
+    scene.cameras = {
+        makeCamera("nave", {-28.2, 2.6, 1.4}, {1, 0.035, -0.065}, glm::radians(58.0)),
+        makeCamera("gallery", {27.5, 9.8, -4.6}, {-1, -0.22, 0.16}, glm::radians(62.0))};
     addSphereLights(scene, hall::lightSites(count, options), options);
     return scene;
 }

@@ -157,10 +157,11 @@ double unlimitedScale(const std::vector<SurfaceSample>& samples,
 
 std::vector<SurfaceSample> thinned(const std::vector<SurfaceSample>& samples, double overlaps)
 {
-    const size_t wanted = std::max(kMinSamples, static_cast<size_t>(kMaxPairs / overlaps));
-    if (wanted >= samples.size()) {
+    const double affordable = kMaxPairs / overlaps;
+    if (affordable >= static_cast<double>(samples.size()) || samples.size() <= kMinSamples) {
         return samples;
     }
+    const size_t wanted = std::max(kMinSamples, static_cast<size_t>(affordable));
     std::vector<SurfaceSample> some;
     for (size_t i = 0; i < wanted; ++i) {
         some.push_back(samples[i * samples.size() / wanted]);

@@ -183,9 +183,12 @@ void addRandomLights(Scene& scene, const SceneOptions& options)
     const Bounds bounds = sceneBounds(scene);
     const glm::dvec3 size = bounds.max - bounds.min;
     const double diagonal = glm::length(size);
-    if (!std::isfinite(diagonal) || diagonal <= 0) {
+    // Below a micrometre, squares of the lights' sizes leave the range of floats.
+    if (!std::isfinite(diagonal) || diagonal < 1e-6) {
         throw SceneError(scene.name +
-                         ": lights: random lights need the bounds of meshes, and there are none");
+                         ": lights: random lights need meshes that span at least "
+                         "a micrometre, these span " +
+                         number(diagonal) + " m");
     }
     if (scene.lights.empty()) {
         scene.lightOrigin = 0.5 * (bounds.min + bounds.max);

@@ -12,6 +12,20 @@
 namespace candelabra::app
 {
 
+// A camera that looks along `direction` (of any length, not vertical) and stands upright.
+inline Camera makeCamera(std::string name, const glm::dvec3& position, const glm::dvec3& direction,
+                         double verticalFov)
+{
+    Camera camera;
+    camera.name = std::move(name);
+    camera.position = position;
+    camera.forward = glm::normalize(direction);
+    const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, glm::dvec3(0, 1, 0)));
+    camera.up = glm::cross(right, camera.forward);
+    camera.verticalFov = verticalFov;
+    return camera;
+}
+
 struct SceneBuilder {
     Scene scene;
 

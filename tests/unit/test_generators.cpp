@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+// The procedural scenes and their lights.
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "scene/lights.h"
+#include "scene/load.h"
+#include "scene/ray_caster.h"
+#include "scene/shapes.h"
+#include "unit/scene_invariants.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+SceneOptions withLights(uint32_t lights, uint32_t seed = 1)
+{
+    SceneOptions options;
+    options.lights = lights;
+    options.seed = seed;
+    return options;
+}
+
+// FNV-1a over what a generator makes.
+uint64_t fingerprint(const Scene& scene)
+{
+    uint64_t hash = 0xcbf29ce484222325ull;
+    const auto add = [&hash](const void* data, size_t size) {
+        for (size_t i = 0; i < size; ++i) {
+            hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3ull;
+        }
+    };
+    for (const Instance& instance : scene.instances) {
+        add(&instance.mesh, sizeof(instance.mesh));
+        add(&instance.material, sizeof(instance.material));
+        add(&instance.worldFromObject, sizeof(instance.worldFromObject));
+    }
+    for (const Mesh& mesh : scene.meshes) {
+        add(mesh.vertices.data(), mesh.vertices.size() * sizeof(Vertex));
+        add(mesh.indices.data(), mesh.indices.size() * sizeof(uint32_t));
+    }
+    for (const Texture& texture : scene.textures) {
+        add(texture.rgba.data(), texture.rgba.size());
+    }
+    add(scene.lights.data(), scene.lights.size() * sizeof(CndLight));
+    add(scene.lightMotions.data(), scene.lightMotions.size() * sizeof(LightMotion));
+    return hash;
+}
+
+struct Seen {
+    glm::dvec3 position{0}, normal{0}; // relative to the lights' origin
+};
+
+// What camera 0 sees on a grid other than the generators' own.
+std::vector<Seen> seenPoints(const Scene& scene, uint32_t columns, uint32_t rows)
+{
+    std::vector<Seen> points;
+    RayCaster caster(scene);
+    for (uint32_t y = 0; y < rows; ++y) {
+        for (uint32_t x = 0; x < columns; ++x) {
+            const auto hit = caster.cast(cameraRay(scene.cameras[0], x, y, columns, rows));
+            if (hit) {
+                points.push_back({hit->position - scene.lightOrigin, hit->normal});
+            }
+        }
+    }
+    return points;
+}
+
+// Mean over the points of lights inside whose influence they lie and which are not wholly below
+// their horizon; lights from index `first` on.
+double meanContributing(const Scene& scene, const std::vector<Seen>& points, size_t first = 0)
+{
+    std::vector<CndLight> lights;
+    lightsAtTime(scene, 0, lights);
+    uint64_t pairs = 0;
+    for (const Seen& point : points) {
+        for (size_t i = first; i < lights.size(); ++i) {
+            const CndLight& light = lights[i];
+            const glm::dvec3 toLight =
+                glm::dvec3(light.position[0], light.position[1], light.position[2]) -
+                point.position;
+            const double influence = light.influenceRadius;
+            pairs += glm::dot(toLight, toLight) < influence * influence &&
+                     glm::dot(toLight, point.normal) > -light.radius;
+        }
+    }
+    return static_cast<double>(pairs) / static_cast<double>(points.size());
+}
+
+void expectSphereLights(const Scene& scene, size_t count)
+{
+    ASSERT_EQ(scene.lights.size(), count);
+    for (const CndLight& light : scene.lights) {
+        ASSERT_EQ(light.type, static_cast<uint32_t>(CND_LIGHT_SPHERE));
+        ASSERT_GT(light.radius, 0);
+        ASSERT_GT(light.influenceRadius, 2 * light.radius);
+        float brightest = 0;
+        for (int i = 0; i < 3; ++i) {
+            ASSERT_TRUE(std::isfinite(light.position[i]));
+            ASSERT_TRUE(std::isfinite(light.emission[i]) && light.emission[i] >= 0);
+            brightest = std::max(brightest, light.emission[i]);
+        }
+        ASSERT_GT(brightest, 0);
+    }
+}
+
+std::string errorOf(const std::function<void()>& act)
+{
+    try {
+        act();
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+// A room of 10 x 4 x 6 m seen from inside, with a ball in it.
+Scene makeRoom()
+{
+    Scene scene;
+    scene.name = "room";
+    scene.meshes = {makeBox(), makeSphere(16, 8)};
+    scene.materials.resize(1);
+    const auto wall = [&](const glm::dvec3& at, const glm::dvec3& size) {
+        scene.instances.push_back({0, 0, glm::scale(glm::translate(glm::dmat4(1), at), size)});
+    };
+    wall({100, -0.1, 0}, {10, 0.2, 6});
+    wall({100, 4.1, 0}, {10, 0.2, 6});
+    wall({100, 2, -3.1}, {10, 4, 0.2});
+    wall({105.1, 2, 0}, {0.2, 4, 6});
+    scene.instances.push_back({1, 0, glm::translate(glm::dmat4(1), {102, 1, 0})});
+    scene.cameras.push_back({.position = {96, 2, 0}, .forward = {1, 0, 0}});
+    return scene;
+}
+
+// By name, so that the tests' names are readable and the same in every run.
+class GeneratedScene : public testing::TestWithParam<std::string>
+{
+protected:
+    static Scene make(const SceneOptions& options)
+    {
+        return GetParam() == "hall" ? generateHall(options) : generateField(options);
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, GeneratedScene, testing::Values("hall", "field"));
+
+TEST_P(GeneratedScene, DependsOnTheSeedAlone)
+{
+    SceneOptions options = withLights(500);
+    options.moving = true;
+    const uint64_t once = fingerprint(make(options));
+    EXPECT_EQ(once, fingerprint(make(options)));
+    options.seed = 2;
+    EXPECT_NE(once, fingerprint(make(options)));
+}
+
+TEST_P(GeneratedScene, HoldsWhatTheLoadersPromise)
+{
+    const Scene scene = make({});
+    EXPECT_EQ(test::brokenInvariant(scene), "");
+    expectSphereLights(scene, kDefaultLightCount);
+    EXPECT_GE(scene.instances.size(), 3000u);
+    EXPECT_LE(scene.instances.size(), 40000u);
+    EXPECT_LE(scene.meshes.size(), 20u);
+    size_t triangles = 0;
+    for (const Instance& instance : scene.instances) {
+        triangles += scene.meshes[instance.mesh].indices.size() / 3;
+        // Mirrored instances would turn their triangles inside out.
+        ASSERT_GT(glm::determinant(glm::dmat3(instance.worldFromObject)), 0);
+    }
+    EXPECT_LE(triangles, 1500000u);
+}
+
+TEST_P(GeneratedScene, IsTheSamePlaceForAnyNumberOfLights)
+{
+    Scene none = make(withLights(0)), some = make(withLights(100));
+    EXPECT_TRUE(none.lights.empty());
+    EXPECT_TRUE(none.lightMotions.empty());
+    some.lights.clear();
+    EXPECT_EQ(fingerprint(none), fingerprint(some));
+}
+
+TEST_P(GeneratedScene, MixesMirrorsAndRoughMetalsAndDielectrics)
+{
+    const Scene scene = make(withLights(0));
+    float smoothest = 1, roughest = 0;
+    size_t metals = 0, dielectrics = 0;
+    for (const Material& material : scene.materials) {
+        smoothest = std::min(smoothest, material.perceptualRoughness);
+        roughest = std::max(roughest, material.perceptualRoughness);
+        (material.metalness == 1 ? metals : dielectrics) += 1;
+    }
+    EXPECT_LT(smoothest, 0.1f);
+    EXPECT_GT(roughest, 0.8f);
+    EXPECT_GE(metals, 3u);
+    EXPECT_GE(dielectrics, 8u);
+}
+
+TEST_P(GeneratedScene, ReachesTheDefaultOverlapsForAnyNumberOfLights)
+{
+    const std::vector<Seen> points = seenPoints(make(withLights(0)), 83, 47);
+    ASSERT_GT(points.size(), 2000u);
+    for (const uint32_t count : {1000u, 4000u, 30000u}) {
+        const Scene scene = make(withLights(count));
+        expectSphereLights(scene, count);
+        EXPECT_NEAR(meanContributing(scene, points), 8, 0.5) << count;
+    }
+}
+
+TEST_P(GeneratedScene, ReachesOtherOverlapsAndSeeds)
+{
+    const std::vector<Seen> points = seenPoints(make(withLights(0, 9)), 83, 47);
+    for (const double overlaps : {0.5, 3.0, 100.0}) {
+        SceneOptions options = withLights(2000, 9);
+        options.overlaps = overlaps;
+        options.moving = true;
+        EXPECT_NEAR(meanContributing(make(options), points), overlaps, 0.07 * overlaps);
+    }
+}
+
+TEST_P(GeneratedScene, MakesAMillionLights)
+{
+    const Scene scene = make(withLights(1000000));
+    expectSphereLights(scene, 1000000);
+    // Few points, because every light is tried: 5 standard errors of a mean of 8 (spread below 8).
+    EXPECT_NEAR(meanContributing(scene, seenPoints(scene, 19, 11)), 8, 3);
+}
+
+TEST_P(GeneratedScene, MovingLightsStayOverTheFloor)
+{
+    SceneOptions options = withLights(3000);
+    options.moving = true;
+    const Scene scene = make(options);
+    ASSERT_EQ(scene.lightMotions.size(), 3000u);
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const LightMotion& motion = scene.lightMotions[i];
+        // The lowest point of the ellipse that the circle's heights make.
+        const float dip = std::hypot(motion.axisU.y, motion.axisV.y);
+        const double height = scene.lightOrigin.y + scene.lights[i].position[1];
+        ASSERT_GT(height - dip, 0) << i;
+        ASSERT_GT(std::abs(motion.angularSpeed), 0);
+        ASSERT_GE(glm::length(motion.axisU), 0.19f);
+    }
+    // They start where the resting lights are, but for the circle.
+    options.moving = false;
+    const Scene resting = make(options);
+    EXPECT_TRUE(resting.lightMotions.empty());
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        ASSERT_EQ(
+            0, std::memcmp(scene.lights[i].position, resting.lights[i].position, sizeof(float[3])));
+    }
+}
+
+TEST_P(GeneratedScene, RefusesOptionsThatMakeNoSense)
+{
+    SceneOptions options = withLights(100);
+    for (const double bad : {0.0, -1.0, 101.0, std::nan(""), HUGE_VAL}) {
+        options.overlaps = bad;
+        EXPECT_NE(errorOf([&] { make(options); }).find(": overlaps: "), std::string::npos)
+            << bad << ": " << errorOf([&] { make(options); });
+    }
+    // Some lights are always behind a surface.
+    options.overlaps = 100;
+    EXPECT_NE(errorOf([&] { make(options); }).find("cannot be reached with 100 lights"),
+              std::string::npos);
+    options = withLights(0xffffffffu);
+    EXPECT_NE(errorOf([&] { make(options); }).find(": lights: "), std::string::npos);
+    // Without explicit overlaps, few lights are no error.
+    EXPECT_EQ(make(withLights(1)).lights.size(), 1u);
+    EXPECT_EQ(make(withLights(5)).lights.size(), 5u);
+}
+
+TEST(LightColours, HaveUnitLuminance)
+{
+    const glm::vec3 weights(0.2126f, 0.7152f, 0.0722f);
+    for (const float kelvin : {1700.0f, 2222.0f, 2700.0f, 4000.0f, 6504.0f, 20000.0f}) {
+        EXPECT_NEAR(glm::dot(blackbodyColour(kelvin), weights), 1, 1e-5f);
+    }
+    for (const float hue : {0.0f, 0.2f, 0.5f, 0.9f, -1.3f, 7.25f}) {
+        EXPECT_NEAR(glm::dot(hueColour(hue, 0.7f), weights), 1, 1e-5f);
+    }
+    // 6504 K is close to the white of D65, 2000 K far to the red, 20000 K to the blue.
+    const glm::vec3 white = blackbodyColour(6504);
+    EXPECT_NEAR(white.r / white.b, 1, 0.1f);
+    EXPECT_GT(blackbodyColour(2000).r, 5 * blackbodyColour(2000).b);
+    EXPECT_GT(blackbodyColour(20000).b, 1.5f * blackbodyColour(20000).r);
+    EXPECT_EQ(hueColour(1.0f / 3.0f, 1).r, 0);
+}
+
+TEST(RandomLights, FillTheBoundsAndReachTheOverlaps)
+{
+    for (const bool moving : {false, true}) {
+        Scene scene = makeRoom();
+        SceneOptions options = withLights(700);
+        options.moving = moving;
+        addRandomLights(scene, options);
+        expectSphereLights(scene, 700);
+        EXPECT_EQ(scene.lightMotions.size(), moving ? 700u : 0u);
+        const Bounds bounds = sceneBounds(scene);
+        for (const CndLight& light : scene.lights) {
+            const glm::dvec3 p =
+                scene.lightOrigin +
+                glm::dvec3(light.position[0], light.position[1], light.position[2]);
+            ASSERT_TRUE(glm::all(glm::greaterThan(p, bounds.min - 1e-3)) &&
+                        glm::all(glm::lessThan(p, bounds.max + 1e-3)));
+        }
+        EXPECT_NEAR(meanContributing(scene, seenPoints(scene, 83, 47)), 8, 0.4);
+    }
+}
+
+TEST(RandomLights, LeaveTheLightsOfTheSceneAlone)
+{
+    Scene scene = makeRoom();
+    CndLight own{};
+    own.type = CND_LIGHT_POINT;
+    own.position[0] = 3;
+    own.emission[1] = 20;
+    own.influenceRadius = std::numeric_limits<float>::infinity();
+    scene.lights = {own};
+    scene.lightOrigin = {98, 1, 0};
+    SceneOptions options = withLights(300);
+    options.moving = true;
+    options.overlaps = 20;
+    addRandomLights(scene, options);
+    ASSERT_EQ(scene.lights.size(), 301u);
+    EXPECT_EQ(scene.lightOrigin, glm::dvec3(98, 1, 0));
+    EXPECT_EQ(0, std::memcmp(&scene.lights[0], &own, sizeof(own)));
+    ASSERT_EQ(scene.lightMotions.size(), 301u);
+    EXPECT_EQ(scene.lightMotions[0].axisU, glm::vec3(0));
+    EXPECT_NEAR(meanContributing(scene, seenPoints(scene, 83, 47), 1), 20, 1);
+}
+
+TEST(RandomLights, NeedMeshesToLight)
+{
+    Scene empty;
+    empty.name = "empty.gltf";
+    EXPECT_EQ(
+        errorOf([&] { addRandomLights(empty, withLights(10)); }),
+        "empty.gltf: lights: random lights need meshes that span at least a micrometre, these "
+        "span 0 m");
+    EXPECT_NO_THROW(addRandomLights(empty, {}));
+    EXPECT_TRUE(empty.lights.empty());
+}
+
+TEST(RandomLights, WorkWhenTheCameraSeesNothing)
+{
+    Scene scene = makeRoom();
+    scene.cameras[0].forward = {-1, 0, 0};
+    addRandomLights(scene, withLights(200));
+    expectSphereLights(scene, 200);
+    scene = makeRoom();
+    scene.cameras.clear();
+    addRandomLights(scene, withLights(200));
+    expectSphereLights(scene, 200);
+}
+
+} // namespace
+} // namespace candelabra::app
