@@ -24,8 +24,9 @@ Scene generateField(const SceneOptions& options)
     // In the middle of what the default camera sees near by, where precision is wanted most.
     scene.lightOrigin = {0, 0, 1100};
     scene.cameras = {
-        makeCamera("terrace", field::kCameraPosition, {-0.09, -0.155, -1}, glm::radians(46.0)),
-        makeCamera("overview", {-1500, 620, 1900}, {0.75, -0.38, -1}, glm::radians(50.0))};
+        makeUprightCamera("terrace", field::kCameraPosition, {-0.09, -0.155, -1},
+                          glm::radians(46.0)),
+        makeUprightCamera("overview", {-1500, 620, 1900}, {0.75, -0.38, -1}, glm::radians(50.0))};
     for (Camera& camera : scene.cameras) {
         camera.nearPlane = 0.5;
     }

@@ -178,8 +178,8 @@ Scene generateHall(const SceneOptions& options)
 
     Scene scene = std::move(kit.builder.scene);
     scene.cameras = {
-        makeCamera("nave", {-28.2, 2.6, 1.4}, {1, 0.035, -0.065}, glm::radians(58.0)),
-        makeCamera("gallery", {27.5, 9.8, -4.6}, {-1, -0.22, 0.16}, glm::radians(62.0))};
+        makeUprightCamera("nave", {-28.2, 2.6, 1.4}, {1, 0.035, -0.065}, glm::radians(58.0)),
+        makeUprightCamera("gallery", {27.5, 9.8, -4.6}, {-1, -0.22, 0.16}, glm::radians(62.0))};
     addSphereLights(scene, hall::lightSites(count, options), options);
     return scene;
 }

@@ -13,8 +13,8 @@ namespace candelabra::app
 {
 
 // A camera that looks along `direction` (of any length, not vertical) and stands upright.
-inline Camera makeCamera(std::string name, const glm::dvec3& position, const glm::dvec3& direction,
-                         double verticalFov)
+inline Camera makeUprightCamera(std::string name, const glm::dvec3& position,
+                                const glm::dvec3& direction, double verticalFov)
 {
     Camera camera;
     camera.name = std::move(name);
