@@ -22,6 +22,13 @@ void failArgument(std::string message)
     throw Failure{CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS, std::move(message)};
 }
 
+void requireNotNull(const char* function, std::initializer_list<const void*> pointers)
+{
+    for (const void* pointer : pointers)
+        if (!pointer)
+            failArgument(std::string(function) + ": an argument is null");
+}
+
 void failUnsupported(std::string message)
 {
     throw Failure{CND_ERROR_UNSUPPORTED, VK_SUCCESS, std::move(message)};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <exception>
+#include <initializer_list>
 #include <new>
 #include <string>
 #include <utility>
@@ -23,6 +24,8 @@ struct Failure {
 void check(VkResult result, const std::string& what);
 
 [[noreturn]] void failArgument(std::string message);
+// Fails when one of the pointers an ABI function was given is null.
+void requireNotNull(const char* function, std::initializer_list<const void*> pointers);
 [[noreturn]] void failUnsupported(std::string message);
 
 CndResult report(CndError* error, CndResult code, VkResult vkResult, const char* message) noexcept;

@@ -29,6 +29,19 @@ void Frame::barrier() const noexcept
     device.CmdPipelineBarrier2(cmd, &info);
 }
 
+void Frame::hostBarrier() const noexcept
+{
+    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                   .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .memoryBarrierCount = 1,
+                                .pMemoryBarriers = &barrier};
+    device.CmdPipelineBarrier2(cmd, &info);
+}
+
 Handle<VkShaderModule> createShaderModule(const Device& device, const Spirv& spirv)
 {
     const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,

@@ -23,6 +23,8 @@ struct Frame {
 
     // Makes shader and transfer writes so far visible to later shader work and transfers.
     void barrier() const noexcept;
+    // Makes transfer writes so far visible to the host once it has waited for the frame.
+    void hostBarrier() const noexcept;
 };
 
 struct SpecConstant {

@@ -15,15 +15,6 @@ struct CndLightingView_T {
     lighting::View impl;
 };
 
-namespace
-{
-void checkPointers(const void* a, const void* b, const void* c, const char* function)
-{
-    if (!a || !b || !c)
-        gpu::failArgument(std::string(function) + ": an argument is null");
-}
-} // namespace
-
 uint32_t cndGetVersion(void)
 {
     return CND_VERSION;
@@ -35,8 +26,8 @@ CndResult cndCheckDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
 {
     std::string text;
     const CndResult result = gpu::guard(nullptr, [&] {
-        checkPointers(instance, physicalDevice, reinterpret_cast<const void*>(getInstanceProcAddr),
-                      "cndCheckDevice");
+        gpu::requireNotNull("cndCheckDevice", {instance, physicalDevice,
+                                               reinterpret_cast<const void*>(getInstanceProcAddr)});
         for (const std::string& m :
              gpu::missingFeatures(instance, physicalDevice, getInstanceProcAddr))
             text += (text.empty() ? "" : ", ") + m;
@@ -72,7 +63,7 @@ CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLightingDesc* 
                             CndLighting* lighting, CndError* error)
 {
     return gpu::guard(error, [&] {
-        checkPointers(device, desc, lighting, "cndCreateLighting");
+        gpu::requireNotNull("cndCreateLighting", {device, desc, lighting});
         *lighting = new CndLighting_T{.impl = lighting::Lighting(*device, *desc)};
     });
 }
@@ -85,7 +76,7 @@ void cndDestroyLighting(CndLighting lighting)
 CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error)
 {
     return gpu::guard(error, [&] {
-        checkPointers(lighting, set, set, "cndSetLights");
+        gpu::requireNotNull("cndSetLights", {lighting, set});
         lighting->impl.setLights(*set);
     });
 }
@@ -94,7 +85,7 @@ CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc*
                                 CndLightingView* view, CndError* error)
 {
     return gpu::guard(error, [&] {
-        checkPointers(lighting, desc, view, "cndCreateLightingView");
+        gpu::requireNotNull("cndCreateLightingView", {lighting, desc, view});
         *view = new CndLightingView_T{.impl = lighting::View(lighting->impl, *desc)};
     });
 }
@@ -108,7 +99,7 @@ CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
                             const CndLightingFrame* frame, CndError* error)
 {
     return gpu::guard(error, [&] {
-        checkPointers(view, cmd, frame, "cndRecordLighting");
+        gpu::requireNotNull("cndRecordLighting", {view, cmd, frame});
         view->impl.record(cmd, *frame);
     });
 }

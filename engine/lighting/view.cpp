@@ -399,15 +399,7 @@ void View::recordReadback(const gpu::Frame& f) const noexcept
     d.CmdCopyBuffer(f.cmd, counters_.get(), target, 1, &copy);
     d.CmdFillBuffer(f.cmd, target, offsetof(Readback, marker), sizeof(uint32_t),
                     uint32_t(slots_[f.slot].recording));
-    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                   .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .memoryBarrierCount = 1,
-                                .pMemoryBarriers = &barrier};
-    d.CmdPipelineBarrier2(f.cmd, &info);
+    f.hostBarrier();
 }
 
 uint64_t View::oldestInFlight() const

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exposure/exposure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "candelabra_shaders.h"
+
+namespace candelabra::exposure
+{
+namespace
+{
+
+using gpu::Binding;
+using gpu::divideUp;
+
+static_assert(gpu::HISTOGRAM_BINS == CND_HISTOGRAM_BINS);
+static_assert(gpu::METERING_CENTRE_WEIGHTED == CND_METERING_CENTRE_WEIGHTED);
+static_assert(gpu::METERING_MASK == CND_METERING_MASK);
+static_assert(gpu::TONEMAP_REINHARD == CND_TONEMAP_REINHARD);
+static_assert(gpu::TONEMAP_ACES == CND_TONEMAP_ACES);
+static_assert(gpu::TONEMAP_PBR_NEUTRAL == CND_TONEMAP_PBR_NEUTRAL);
+static_assert(gpu::TONEMAP_AGX == CND_TONEMAP_AGX);
+
+constexpr VkDeviceSize maskBytes = 64 * 64 * sizeof(uint32_t); // largest mask
+
+struct Readback {
+    gpu::HistogramData data;
+    gpu::ExposureState state;
+    uint32_t marker; // written last
+};
+
+CndExposureDesc checked(const CndExposureDesc& desc)
+{
+    if (desc.structSize != sizeof desc)
+        gpu::failArgument("CndExposureDesc: structSize is " + std::to_string(desc.structSize) +
+                          ", this library expects " + std::to_string(sizeof desc));
+    if (desc.framesInFlight < 1 || desc.framesInFlight > 8)
+        gpu::failArgument("CndExposureDesc: framesInFlight must be 1..8, is " +
+                          std::to_string(desc.framesInFlight));
+    return desc;
+}
+
+} // namespace
+
+Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
+    : device_(device),
+      timer_(device_, "exposure", checked(desc).framesInFlight, desc.timestamps),
+      histogram_(device_, spirv::luminance_histogram_comp),
+      adapt_(device_, spirv::adapt_exposure_comp),
+      markers_(desc.framesInFlight)
+{
+    for (uint32_t curve = 0; curve < CND_TONEMAP_COUNT; ++curve)
+        toneMap_[curve] = gpu::Kernel<gpu::ToneMapParams>(device_, spirv::tone_map_comp,
+                                                          {{gpu::SPEC_TONE_MAP, curve}});
+    const uint32_t slots = desc.framesInFlight;
+    sets_ = {histogram_.createBindings(slots), adapt_.createBindings(slots),
+             toneMap_[0].createBindings(slots)};
+    constexpr VkBufferUsageFlags use = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    data_ = gpu::createBuffer(device_, "luminance histogram", sizeof(gpu::HistogramData), use,
+                              gpu::MemoryUse::Device);
+    state_ = gpu::createBuffer(device_, "exposure state", sizeof(gpu::ExposureState), use,
+                               gpu::MemoryUse::Device);
+    mask_ = gpu::createBuffer(device_, "metering mask", maskBytes,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Upload);
+    for (uint32_t i = 0; i < slots; ++i)
+        readback_.push_back(gpu::createBuffer(device_, "exposure statistics", sizeof(Readback),
+                                              VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                              gpu::MemoryUse::Readback));
+}
+
+void Exposure::setMask(const uint8_t* weights, uint32_t width, uint32_t height)
+{
+    validateMask(weights, width, height);
+    std::copy_n(weights, width * height, mask_.as<uint32_t>().begin());
+    maskSize_ = {width, height};
+}
+
+void Exposure::validate(const CndExposureFrame& frame) const
+{
+    if (frame.structSize != sizeof frame)
+        gpu::failArgument("CndExposureFrame: structSize is " + std::to_string(frame.structSize) +
+                          ", this library expects " + std::to_string(sizeof frame));
+    if (frame.frameSlot >= markers_.size())
+        gpu::failArgument("CndExposureFrame: frameSlot is " + std::to_string(frame.frameSlot) +
+                          ", framesInFlight is " + std::to_string(markers_.size()));
+    for (const uint32_t side : {frame.width, frame.height})
+        if (side < 1 || side > 16384)
+            gpu::failArgument("CndExposureFrame: size " + std::to_string(frame.width) + "x" +
+                              std::to_string(frame.height) + " is outside 1x1..16384x16384");
+    if (!frame.radiance)
+        gpu::failArgument("CndExposureFrame: radiance is null");
+    if (!(frame.deltaTime >= 0 && std::isfinite(frame.deltaTime)))
+        gpu::failArgument("CndExposureFrame: deltaTime must be finite and >= 0");
+    validateSettings(frame.settings);
+    if (frame.settings.metering == CND_METERING_MASK && !frame.settings.manual && !maskSize_.x)
+        gpu::failArgument("CndExposureFrame: metering by mask without cndSetExposureMask");
+}
+
+void Exposure::writeBindings(const CndExposureFrame& frame) const
+{
+    using namespace gpu;
+    const uint32_t slot = frame.frameSlot;
+    sets_.histogram.write(slot,
+                          {Binding::sampled(HISTOGRAM_RADIANCE, frame.radiance),
+                           Binding::of(HISTOGRAM_MASK, mask_), Binding::of(HISTOGRAM_DATA, data_)});
+    sets_.adapt.write(slot, {Binding::of(ADAPT_DATA, data_), Binding::of(ADAPT_STATE, state_)});
+    if (frame.display)
+        sets_.toneMap.write(slot, {Binding::sampled(TONE_MAP_RADIANCE, frame.radiance),
+                                   Binding::of(TONE_MAP_STATE, state_),
+                                   Binding::storage(TONE_MAP_DISPLAY, frame.display)});
+}
+
+void Exposure::record(VkCommandBuffer cmd, const CndExposureFrame& frame)
+{
+    validate(frame);
+    writeBindings(frame);
+    if (!++recordings_) // 0 means unused
+        ++recordings_;
+    markers_[frame.frameSlot] = recordings_;
+
+    const gpu::Frame f{device_, cmd, timer_, frame.frameSlot};
+    device_.beginLabel(cmd, "candelabra exposure");
+    timer_.begin(cmd, frame.frameSlot);
+    f.barrier(); // against the frame before, which uses the same buffers
+    device_.CmdFillBuffer(cmd, data_.get(), 0, VK_WHOLE_SIZE, 0);
+    f.barrier();
+    if (!frame.settings.manual) {
+        recordHistogram(f, frame);
+        f.barrier();
+    }
+    recordAdaptation(f, frame);
+    f.barrier();
+    if (frame.display)
+        recordToneMap(f, frame);
+    recordReadback(f);
+    device_.endLabel(cmd);
+}
+
+void Exposure::recordHistogram(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept
+{
+    histogram_.dispatch(
+        f, sets_.histogram.set(f.slot),
+        {.size = {frame.width, frame.height},
+         .maskSize = maskSize_,
+         .metering = uint32_t(frame.settings.metering)},
+        divideUp(frame.width, gpu::HISTOGRAM_GROUP_X),
+        divideUp(frame.height, gpu::HISTOGRAM_GROUP_Y * gpu::HISTOGRAM_ROWS_PER_LANE));
+}
+
+void Exposure::recordAdaptation(const gpu::Frame& f, const CndExposureFrame& frame) noexcept
+{
+    const CndExposureSettings& s = frame.settings;
+    // In double: exp(-dt speed) of many short steps must multiply to that of a long one.
+    const auto keep = [&](float speed) {
+        return float(std::exp(-double(frame.deltaTime) * double(speed)));
+    };
+    adapt_.dispatch(f, sets_.adapt.set(f.slot),
+                    {.manual = s.manual ? 1u : 0u,
+                     .reset = frame.reset || !hasHistory_ ? 1u : 0u,
+                     .manualEv100 = s.manualEv100,
+                     .compensation = s.compensation,
+                     .minEv100 = s.minEv100,
+                     .maxEv100 = s.maxEv100,
+                     .lowPercentile = s.lowPercentile,
+                     .highPercentile = s.highPercentile,
+                     .keepUp = keep(s.speedUp),
+                     .keepDown = keep(s.speedDown)},
+                    1);
+    hasHistory_ = true;
+}
+
+void Exposure::recordToneMap(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept
+{
+    toneMap_[frame.settings.toneMap].dispatch(f, sets_.toneMap.set(f.slot),
+                                              {.size = {frame.width, frame.height},
+                                               .dither = frame.settings.dither ? 1u : 0u,
+                                               .ditherSeed = frame.ditherSeed},
+                                              divideUp(frame.width, gpu::TONE_MAP_GROUP),
+                                              divideUp(frame.height, gpu::TONE_MAP_GROUP));
+}
+
+void Exposure::recordReadback(const gpu::Frame& f) const noexcept
+{
+    const VkBuffer target = readback_[f.slot].get();
+    const VkBufferCopy data{.size = sizeof(gpu::HistogramData)};
+    device_.CmdCopyBuffer(f.cmd, data_.get(), target, 1, &data);
+    const VkBufferCopy state{.dstOffset = offsetof(Readback, state),
+                             .size = sizeof(gpu::ExposureState)};
+    device_.CmdCopyBuffer(f.cmd, state_.get(), target, 1, &state);
+    device_.CmdFillBuffer(f.cmd, target, offsetof(Readback, marker), sizeof(uint32_t),
+                          markers_[f.slot]);
+    f.hostBarrier();
+}
+
+CndResult Exposure::stats(uint32_t slot, CndExposureStats& out) const noexcept
+{
+    if (slot >= markers_.size() || !markers_[slot] || out.structSize != sizeof out)
+        return CND_ERROR_INVALID_ARGUMENT;
+    const Readback& read = readback_[slot].as<Readback>()[0];
+    if (read.marker != markers_[slot])
+        return CND_NOT_READY;
+    out.targetEv100 = read.state.targetEv100;
+    out.adaptedEv100 = read.state.adaptedEv100;
+    out.exposure = read.state.exposure;
+    out.invalidPixels = read.data.invalidPixels;
+    std::copy_n(read.data.counts, CND_HISTOGRAM_BINS, out.histogram);
+    return timer_.read(slot, out.kernelTimes, out.kernelTimeCount) ? CND_SUCCESS : CND_NOT_READY;
+}
+
+} // namespace candelabra::exposure

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exposure module behind the C ABI: histogram, adaptation, tone mapping of one view.
+#pragma once
+
+#include <vector>
+
+#include "gpu/kernel.h"
+#include "shared/exposure.h"
+
+namespace candelabra::exposure
+{
+
+// Throw gpu::Failure naming the field that is out of its documented range.
+void validateSettings(const CndExposureSettings& settings);
+void validateMask(const uint8_t* weights, uint32_t width, uint32_t height);
+
+class Exposure
+{
+public:
+    Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc);
+
+    void setMask(const uint8_t* weights, uint32_t width, uint32_t height);
+    // Throws gpu::Failure on arguments out of range; once recording starts nothing can fail.
+    void record(VkCommandBuffer cmd, const CndExposureFrame& frame);
+    CndResult stats(uint32_t slot, CndExposureStats& stats) const noexcept;
+
+private:
+    void validate(const CndExposureFrame& frame) const;
+    void writeBindings(const CndExposureFrame& frame) const;
+    void recordHistogram(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept;
+    void recordAdaptation(const gpu::Frame& f, const CndExposureFrame& frame) noexcept;
+    void recordToneMap(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept;
+    void recordReadback(const gpu::Frame& f) const noexcept;
+
+    struct Sets {
+        gpu::Bindings histogram, adapt, toneMap;
+    };
+
+    gpu::Device device_;
+    gpu::Timer timer_;
+    gpu::Kernel<gpu::LuminanceHistogramParams> histogram_;
+    gpu::Kernel<gpu::AdaptExposureParams> adapt_;
+    gpu::Kernel<gpu::ToneMapParams> toneMap_[CND_TONEMAP_COUNT];
+    Sets sets_;
+    gpu::Buffer data_, state_, mask_;
+    std::vector<gpu::Buffer> readback_; // per slot
+    std::vector<uint32_t> markers_;     // per slot: what the GPU writes when it is done, 0: unused
+    glm::uvec2 maskSize_{0};
+    uint32_t recordings_ = 0;
+    bool hasHistory_ = false;
+};
+
+} // namespace candelabra::exposure

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tone mapping curves (exposed linear Rec.709 -> display linear [0, 1]) and the sRGB encoding.
+#ifndef CND_LIB_TONE_MAP
+#define CND_LIB_TONE_MAP
+
+#include "shared/exposure.h"
+
+// Where every curve has long reached white; its square is still a finite float.
+const float WHITE_BEYOND = 1e15;
+
+// Reinhard, Stark, Shirley, Ferwerda 2002, eq. 3, per channel.
+vec3 toneMapReinhard(vec3 c)
+{
+    return c / (1.0 + c);
+}
+
+// Stephen Hill's fit of the ACES RRT and sRGB ODT (2017). Rows as published, hence v * M.
+vec3 toneMapAces(vec3 c)
+{
+    const mat3 rrt = mat3(0.59719, 0.35458, 0.04823, 0.07600, 0.90834, 0.01566, 0.02840, 0.13383,
+                          0.83777);
+    const mat3 odt = mat3(1.60475, -0.53108, -0.07367, -0.10208, 1.10813, -0.00605, -0.00327,
+                          -0.07276, 1.07602);
+    const vec3 v = c * rrt;
+    const vec3 fit = (v * (v + 0.0245786) - 0.000090537) /
+                     (v * (0.983729 * v + 0.4329510) + 0.238081);
+    return clamp(fit * odt, 0.0, 1.0);
+}
+
+// Khronos PBR Neutral tone mapper specification, 2024: identity minus Fresnel below 0.8 - F90, then
+// compression and desaturation of highlights.
+vec3 toneMapPbrNeutral(vec3 c)
+{
+    const float f90 = 0.04;
+    const float start = 0.8 - f90;
+    const float desaturation = 0.15;
+    const float lowest = min(c.r, min(c.g, c.b));
+    c -= lowest <= 2.0 * f90 ? lowest - lowest * lowest / (4.0 * f90) : f90;
+    const float peak = max(c.r, max(c.g, c.b));
+    if (peak <= start)
+        return clamp(c, 0.0, 1.0);
+    const float span = 1.0 - start;
+    const float compressed = 1.0 - span * span / (peak + span - start);
+    const float keep = 1.0 / (desaturation * (peak - compressed) + 1.0);
+    return clamp(mix(vec3(compressed), c * (compressed / peak), keep), 0.0, 1.0);
+}
+
+// Troy Sobotka's AgX, base look, with Benjamin Wrensch's sixth-order fit of its curve (2023); the
+// result is linearised with the exponent 2.2 of its display.
+vec3 toneMapAgx(vec3 c)
+{
+    const mat3 inset =
+        mat3(0.842479062253094, 0.0423282422610123, 0.0423756549057051, 0.0784335999999992,
+             0.878468636469772, 0.0784336, 0.0792237451477643, 0.0791661274605434,
+             0.879142973793104);
+    const mat3 outset =
+        mat3(1.19687900512017, -0.0528968517574562, -0.0529716355144438, -0.0980208811401368,
+             1.15190312990417, -0.0980434501171241, -0.0990297440797205, -0.0989611768448433,
+             1.15107367264116);
+    const float minEv = -12.47393; // middle grey 0.18: 10 stops below, 6.5 above
+    const float maxEv = 4.026069;
+    const vec3 ev = clamp(log2(max(inset * c, 1e-10)), minEv, maxEv);
+    const vec3 x = (ev - minEv) / (maxEv - minEv);
+    vec3 y = vec3(15.5);
+    y = y * x - 40.14;
+    y = y * x + 31.96;
+    y = y * x - 6.868;
+    y = y * x + 0.4298;
+    y = y * x + 0.1191;
+    y = y * x - 0.00232;
+    return pow(clamp(outset * y, 0.0, 1.0), vec3(2.2));
+}
+
+// NaN and negative channels become 0, infinity white.
+vec3 toneMap(uint curve, vec3 exposed)
+{
+    vec3 c;
+    for (int i = 0; i < 3; ++i)
+        c[i] = exposed[i] > 0.0 ? min(exposed[i], WHITE_BEYOND) : 0.0;
+    switch (curve) {
+    case TONEMAP_REINHARD:
+        return toneMapReinhard(c);
+    case TONEMAP_ACES:
+        return toneMapAces(c);
+    case TONEMAP_PBR_NEUTRAL:
+        return toneMapPbrNeutral(c);
+    case TONEMAP_AGX:
+        return toneMapAgx(c);
+    default:
+        return min(c, 1.0);
+    }
+}
+
+// IEC 61966-2-1, exact piecewise form.
+vec3 encodeSrgb(vec3 c)
+{
+    const vec3 low = 12.92 * c;
+    const vec3 high = 1.055 * pow(max(c, 0.0031308), vec3(1.0 / 2.4)) - 0.055;
+    return mix(high, low, lessThanEqual(c, vec3(0.0031308)));
+}
+
+#endif

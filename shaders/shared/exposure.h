@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that crosses between the exposure module and its kernels.
+#ifndef CND_SHARED_EXPOSURE_H
+#define CND_SHARED_EXPOSURE_H
+
+#include "shared/prelude.h"
+
+GPU_BEGIN
+
+// Bins come from the bits of a float: exponent and 3 bits of mantissa make 8 bins per octave, of
+// equal width inside the octave, over 32 octaves from 2^-12 to 2^20 cd/m^2 (EV100 -9 to 23). Four
+// more bits of mantissa are summed per bin, so that the mean inside a bin is known too.
+const uint HISTOGRAM_BINS = 256u;
+const uint HISTOGRAM_BIN_SHIFT = 20u;
+const uint HISTOGRAM_FRACTION_SHIFT = 16u;
+const uint HISTOGRAM_FRACTIONS = 16u;
+const uint HISTOGRAM_FIRST_CODE = 920u; // (127 - 12) * 8
+const int HISTOGRAM_MIN_EXPONENT = -12;
+const float HISTOGRAM_MIN_LUMINANCE = 0.000244140625f; // 2^-12
+const float HISTOGRAM_MAX_LUMINANCE = 1048576.0f;      // 2^20
+const uint MAX_METERING_WEIGHT = 15u;
+
+const uint METERING_AVERAGE = 0u; // CndMetering
+const uint METERING_CENTRE_WEIGHTED = 1u;
+const uint METERING_MASK = 2u;
+
+struct HistogramData {
+    uint counts[HISTOGRAM_BINS];     // sums of weights
+    uvec2 fractions[HISTOGRAM_BINS]; // sums of weight * fraction, 64 bit: low, high
+    uint invalidPixels;              // NaN luminance
+};
+GPU_SIZE(HistogramData, 3076)
+
+struct ExposureState {
+    float targetEv100;
+    float adaptedEv100;
+    float exposure; // factor on luminance, compensation included
+};
+GPU_SIZE(ExposureState, 12)
+
+// --- luminance_histogram: one group per block of pixels. A group packs count and fraction sum of a
+// bin into one word: 1024 pixels * weight 15 < 2^14, times fraction 15 < 2^18.
+const uint HISTOGRAM_GROUP_X = 32u;
+const uint HISTOGRAM_GROUP_Y = 8u;
+const uint HISTOGRAM_ROWS_PER_LANE = 4u;
+const uint HISTOGRAM_COUNT_SHIFT = 18u;
+const uint HISTOGRAM_RADIANCE = 0u;
+const uint HISTOGRAM_MASK = 1u;
+const uint HISTOGRAM_DATA = 2u;
+struct LuminanceHistogramParams {
+    uvec2 size;
+    uvec2 maskSize;
+    uint metering;
+};
+GPU_SIZE(LuminanceHistogramParams, 20)
+
+// --- adapt_exposure: one lane
+const uint ADAPT_DATA = 0u;
+const uint ADAPT_STATE = 1u;
+struct AdaptExposureParams {
+    uint manual; // 0 or 1
+    uint reset;  // 0 or 1
+    float manualEv100;
+    float compensation;
+    float minEv100, maxEv100;
+    float lowPercentile, highPercentile;
+    float keepUp, keepDown; // exp(-dt speed): share of the distance to the target that is left
+};
+GPU_SIZE(AdaptExposureParams, 40)
+
+// --- tone_map: one lane per pixel
+const uint TONE_MAP_GROUP = 8u; // x and y
+const uint TONE_MAP_RADIANCE = 0u;
+const uint TONE_MAP_STATE = 1u;
+const uint TONE_MAP_DISPLAY = 2u;
+struct ToneMapParams {
+    uvec2 size;
+    uint dither; // 0 or 1
+    uint ditherSeed;
+};
+GPU_SIZE(ToneMapParams, 16)
+
+const uint TONEMAP_NONE = 0u; // CndToneMap
+const uint TONEMAP_REINHARD = 1u;
+const uint TONEMAP_ACES = 2u;
+const uint TONEMAP_PBR_NEUTRAL = 3u;
+const uint TONEMAP_AGX = 4u;
+const uint SPEC_TONE_MAP = 0u;
+
+GPU_END
+
+#endif
