@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// Image files: what is written comes back, nothing half-written stays, errors are one sentence.
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include <gtest/gtest.h>
+#include <stb/stb_image.h>
+#include <sys/resource.h>
+
+#include "io/image.h"
+#include "unit/gltf_builder.h"
+
+namespace candelabra::test
+{
+
+namespace
+{
+
+using namespace candelabra::app;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+// Every value differs; magnitudes from 2^-20 to 2^20.
+Image testImage(uint32_t width, uint32_t height, uint32_t channels)
+{
+    Image image{width, height, channels, {}};
+    for (size_t i = 0; i < size_t{width} * height * channels; ++i)
+        image.pixels.push_back(
+            std::ldexp(1 + static_cast<float>(i % 1000) / 1000, static_cast<int>(i % 41) - 20));
+    return image;
+}
+
+// Bit by bit, so that NaN equals itself and -0 differs from 0.
+void expectSame(const Image& a, const Image& b)
+{
+    ASSERT_EQ(a.width, b.width);
+    ASSERT_EQ(a.height, b.height);
+    ASSERT_EQ(a.channels, b.channels);
+    ASSERT_EQ(a.pixels.size(), b.pixels.size());
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        ASSERT_EQ(std::bit_cast<uint32_t>(a.pixels[i]), std::bit_cast<uint32_t>(b.pixels[i])) << i;
+}
+
+template <typename F>
+std::string errorOf(F&& action)
+{
+    try {
+        action();
+    } catch (const ImageError& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+constexpr uint32_t sizes[][2] = {{1, 1}, {17, 3}, {8, 1}, {3, 33}, {200, 100}};
+
+TEST(ImageFiles, PfmAndExrKeepEveryBit)
+{
+    const TemporaryFolder folder;
+    for (const auto& [width, height] : sizes)
+        for (const uint32_t channels : {1u, 3u}) {
+            SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
+            Image image = testImage(width, height, channels);
+            image.pixels[0] = nan;
+            image.pixels.back() = -infinity;
+            image.pixels[image.pixels.size() / 2] = -0.0f;
+            for (const char* name : {"image.pfm", "image.exr", "UPPER.EXR"})
+                saveImageByExtension(folder.path(name), image);
+            expectSame(loadPfm(folder.path("image.pfm")), image);
+            expectSame(loadExr(folder.path("image.exr")), image);
+            expectSame(loadExr(folder.path("UPPER.EXR")), image);
+        }
+}
+
+TEST(ImageFiles, PfmIsLittleEndianFromTheBottom)
+{
+    const TemporaryFolder folder;
+    const Image image{1, 2, 1, {1, 2}};
+    savePfm(folder.path("image.pfm"), image);
+    const std::string header = "Pf\n1 2\n-1.0\n";
+    Bytes expected(header.begin(), header.end());
+    const uint8_t littleEndian[] = {0, 0, 0, 0x40, 0, 0, 0x80, 0x3f}; // 2, then 1
+    expected.insert(expected.end(), std::begin(littleEndian), std::end(littleEndian));
+    EXPECT_EQ(readBytes(folder.path("image.pfm")), expected);
+    // The same image written by a big-endian machine.
+    const std::string bigHeader = "Pf\n1 2\n1.0\n";
+    Bytes big(bigHeader.begin(), bigHeader.end());
+    const uint8_t bigEndian[] = {0x40, 0, 0, 0, 0x3f, 0x80, 0, 0};
+    big.insert(big.end(), std::begin(bigEndian), std::end(bigEndian));
+    expectSame(loadPfm(folder.write("big.pfm", big)), image);
+}
+
+TEST(ImageFiles, ExrHasZipScanlinesOfFloats)
+{
+    const TemporaryFolder folder;
+    saveExr(folder.path("image.exr"), testImage(64, 64, 3));
+    const Bytes bytes = readBytes(folder.path("image.exr"));
+    const std::string text(bytes.begin(), bytes.end());
+    const auto attribute = [&](const std::string& name, const std::string& type, size_t offset) {
+        const size_t at = text.find(name + '\0' + type + '\0');
+        return at == std::string::npos ? -1
+                                       : int{bytes[at + name.size() + type.size() + 6 + offset]};
+    };
+    EXPECT_EQ(attribute("compression", "compression", 0), 3); // ZIP, 16 rows a block
+    EXPECT_EQ(attribute("channels", "chlist", 0), 'B');       // alphabetical
+    EXPECT_EQ(attribute("channels", "chlist", 2), 2);         // float
+    EXPECT_EQ(bytes[5], 0);                                   // neither tiled nor deep
+}
+
+TEST(ImageFiles, HdrKeepsEightBits)
+{
+    const TemporaryFolder folder;
+    for (const auto& [width, height] : sizes)
+        for (const uint32_t channels : {1u, 3u}) {
+            const Image image = testImage(width, height, channels);
+            saveImageByExtension(folder.path("image.hdr"), image);
+            int w = 0, h = 0, n = 0;
+            const std::unique_ptr<float, void (*)(void*)> pixels(
+                stbi_loadf(folder.path("image.hdr").c_str(), &w, &h, &n, 3), stbi_image_free);
+            ASSERT_TRUE(pixels);
+            ASSERT_EQ(w, static_cast<int>(width));
+            ASSERT_EQ(h, static_cast<int>(height));
+            for (size_t p = 0; p < size_t{width} * height; ++p) {
+                const auto in = [&](size_t c) {
+                    return image.pixels[p * channels + (channels == 3 ? c : 0)];
+                };
+                // Truncated to 8 bits of the largest channel, whose own mantissa has its top bit
+                // set.
+                const float step = std::max({in(0), in(1), in(2)}) / 128;
+                for (size_t c = 0; c < 3; ++c)
+                    ASSERT_NEAR(pixels.get()[3 * p + c], in(c), step) << p;
+            }
+        }
+}
+
+TEST(ImageFiles, HdrRefusesWhatItCannotHold)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path("image.hdr");
+    for (const float x : {nan, infinity, -1.0f, 0x1p127f}) {
+        Image image = testImage(5, 4, 3);
+        image.pixels[3 * (2 * 5 + 1) + 2] = x;
+        const std::string message = errorOf([&] { saveHdr(path, image); });
+        EXPECT_EQ(message.find("cannot write " + path + ": pixel (1, 2) is "), 0u) << message;
+    }
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(ImageFiles, PngKeepsEveryByte)
+{
+    const TemporaryFolder folder;
+    std::vector<uint8_t> rgb(97 * 31 * 3);
+    for (size_t i = 0; i < rgb.size(); ++i)
+        rgb[i] = static_cast<uint8_t>(i * 7 % 251);
+    savePng(folder.path("image.png"), 97, 31, rgb);
+    int w = 0, h = 0, n = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load(folder.path("image.png").c_str(), &w, &h, &n, 0), stbi_image_free);
+    ASSERT_TRUE(pixels);
+    ASSERT_EQ(w, 97);
+    ASSERT_EQ(h, 31);
+    ASSERT_EQ(n, 3);
+    EXPECT_EQ(std::vector<uint8_t>(pixels.get(), pixels.get() + rgb.size()), rgb);
+}
+
+TEST(ImageFiles, ErrorsNameTheFile)
+{
+    const TemporaryFolder folder;
+    const Image image = testImage(4, 4, 3);
+    for (const char* name : {"none/x.exr", "none/x.hdr", "none/x.pfm"}) {
+        const std::string path = folder.path(name);
+        EXPECT_EQ(errorOf([&] { saveImageByExtension(path, image); }),
+                  "cannot write " + path + ": No such file or directory");
+    }
+    EXPECT_EQ(errorOf([&] { saveImageByExtension("x.jpg", image); }),
+              "cannot write x.jpg: the extension must be .exr, .hdr or .pfm for linear images");
+    std::filesystem::create_directory(folder.path("folder.pfm"));
+    EXPECT_EQ(errorOf([&] { savePfm(folder.path("folder.pfm"), image); }),
+              "cannot write " + folder.path("folder.pfm") + ": is a directory");
+    EXPECT_EQ(errorOf([&] { savePfm("/dev/full", image); }),
+              "cannot write /dev/full: is not a regular file");
+    EXPECT_EQ(errorOf([&] { savePng("x.png", 2, 2, {}); }),
+              "cannot write x.png: the image has 2 x 2 pixels in 0 bytes");
+    Image broken = image;
+    broken.pixels.pop_back();
+    EXPECT_EQ(errorOf([&] { saveExr("x.exr", broken); }),
+              "cannot write x.exr: the image has 4 x 4 pixels of 3 channels in 47 values");
+}
+
+TEST(ImageFiles, AFullDiskLeavesTheOldFile)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path("image.pfm");
+    const Image before = testImage(2, 2, 3);
+    savePfm(path, before);
+
+    rlimit old = {};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN); // fail like a full disk instead
+    const rlimit small = {1000, old.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const std::string message = errorOf([&] { savePfm(path, testImage(100, 100, 3)); });
+    setrlimit(RLIMIT_FSIZE, &old);
+    std::signal(SIGXFSZ, handler);
+
+    EXPECT_EQ(message, "cannot write " + path + ": File too large");
+    expectSame(loadPfm(path), before);
+    size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
+        files += entry.is_regular_file();
+    EXPECT_EQ(files, 1u); // nothing temporary is left
+}
+
+TEST(ImageFiles, BrokenFilesAreRefused)
+{
+    const TemporaryFolder folder;
+    EXPECT_EQ(errorOf([&] { loadPfm(folder.path("none.pfm")); }),
+              "cannot read " + folder.path("none.pfm") + ": No such file or directory");
+    for (const char* text : {"", "P6\n1 1\n-1\n", "PF\n", "PF\n1\n-1\n", "PF\n0 1\n-1\n",
+                             "PF\n99999999 99999999\n-1\n", "PF\n-1 1\n-1\n", "PF\n1 1\nx\n",
+                             "PF\n1 1\n0\n", "PF\n1 1\n-1\nshort"}) {
+        const std::string path = folder.write("broken.pfm", std::string(text));
+        const std::string message = errorOf([&] { loadPfm(path); });
+        EXPECT_EQ(message.find("cannot read " + path + ": "), 0u) << text << ": " << message;
+    }
+    saveExr(folder.path("image.exr"), testImage(40, 40, 3));
+    const Bytes whole = readBytes(folder.path("image.exr"));
+    for (const size_t size : {size_t{0}, size_t{4}, size_t{100}, whole.size() / 2}) {
+        const std::string path = folder.write(
+            "cut.exr", Bytes(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size)));
+        const std::string message = errorOf([&] { loadExr(path); });
+        EXPECT_EQ(message.find("cannot read " + path + ": "), 0u) << size << ": " << message;
+    }
+}
+
+} // namespace
+
+} // namespace candelabra::test
