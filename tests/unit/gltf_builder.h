@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes small glTF files for the loader's tests, as text with base64 data or as binary glTF.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace candelabra::test
+{
+
+using Json = nlohmann::json;
+using Bytes = std::vector<uint8_t>;
+
+// A folder that exists as long as the object.
+class TemporaryFolder
+{
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string write(const std::string& name, const std::string& text) const;
+    std::string write(const std::string& name, const Bytes& bytes) const;
+
+private:
+    std::filesystem::path folder_;
+};
+
+Bytes readBytes(const std::string& path);
+std::string encodeBase64(const Bytes& bytes);
+
+// The bytes of a binary glTF file with these chunks.
+Bytes makeGlb(const std::string& json, const Bytes& binary);
+
+constexpr int componentByte = 5120, componentUnsignedByte = 5121, componentShort = 5122,
+              componentUnsignedShort = 5123, componentUnsignedInt = 5125, componentFloat = 5126;
+
+// Everything lives in buffer 0. Edit `json` freely before saving.
+struct GltfBuilder {
+    Json json = {{"asset", {{"version", "2.0"}}}};
+    Bytes binary;
+
+    // Index of a new buffer view over these bytes.
+    template <typename T>
+    int view(const std::vector<T>& values, int byteStride = 0)
+    {
+        binary.resize((binary.size() + 3) / 4 * 4);
+        Json v = {{"buffer", 0},
+                  {"byteOffset", binary.size()},
+                  {"byteLength", values.size() * sizeof(T)}};
+        if (byteStride)
+            v["byteStride"] = byteStride;
+        const size_t at = binary.size();
+        binary.resize(at + values.size() * sizeof(T));
+        std::memcpy(binary.data() + at, values.data(), values.size() * sizeof(T));
+        json["bufferViews"].push_back(v);
+        return static_cast<int>(json["bufferViews"].size()) - 1;
+    }
+
+    // Index of a new accessor; `extra` is merged into it.
+    int accessor(int view, int componentType, const char* type, size_t count,
+                 const Json& extra = Json::object());
+
+    int floats(const std::vector<float>& values, const char* type);
+    int indices(const std::vector<uint16_t>& values);
+
+    // Index of a new mesh with one primitive.
+    int mesh(const Json& primitive);
+    // Index of a new node, which also becomes a root of scene 0.
+    int rootNode(const Json& node);
+
+    std::string text() const; // .gltf
+    Bytes glb() const;
+};
+
+// One node with one triangle (0,0,0), (1,0,0), (0,1,0), normals +z, no lights, no camera.
+GltfBuilder triangleScene();
+
+} // namespace candelabra::test

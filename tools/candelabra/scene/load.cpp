@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/load.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/scene_file.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+enum class SceneFormat { Gltf, SceneJson };
+
+std::string lowerExtension(const std::string& path)
+{
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+// A file whose name says nothing: binary glTF by its magic, else JSON with or without the "asset"
+// object that every glTF file has.
+SceneFormat formatFromContent(const std::string& path)
+{
+    const std::vector<uint8_t> bytes = readSceneFile(path);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.substr(0, 4) == "glTF")
+        return SceneFormat::Gltf;
+    const size_t start = text.find_first_not_of(" \t\r\n");
+    if (start == std::string_view::npos || text[start] != '{')
+        failScene(path, "", "is neither glTF (.gltf, .glb) nor a scene description (.json)");
+    return parseSceneJson(path, text).contains("asset") ? SceneFormat::Gltf
+                                                        : SceneFormat::SceneJson;
+}
+
+SceneFormat fileFormat(const std::string& path)
+{
+    const std::string extension = lowerExtension(path);
+    if (extension == ".gltf" || extension == ".glb")
+        return SceneFormat::Gltf;
+    if (extension == ".json")
+        return SceneFormat::SceneJson;
+    std::error_code ignored;
+    if (path.find('\0') != std::string::npos || !std::filesystem::exists(path, ignored))
+        throw SceneError("unknown scene \"" + printable(path, 4096) +
+                         "\": use hall, field, or the path of a .gltf, .glb or .json file");
+    return formatFromContent(path);
+}
+
+} // namespace
+
+Scene loadScene(const std::string& scene, const SceneOptions& options)
+{
+    if (scene == "hall")
+        return generateHall(options);
+    if (scene == "field")
+        return generateField(options);
+    Scene loaded =
+        fileFormat(scene) == SceneFormat::Gltf ? loadGltf(scene, options) : loadSceneJson(scene);
+    if (options.lights)
+        addRandomLights(loaded, options);
+    return loaded;
+}
+
+} // namespace candelabra::app

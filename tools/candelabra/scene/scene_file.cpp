@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <limits>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/load.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+// nlohmann::json needs up to 16 bytes per two bytes of text: 2 GiB for the largest accepted file.
+constexpr size_t maxJsonBytes = size_t{256} << 20;
+// glTF and scene files nest about 8 deep; extras may add a few levels.
+constexpr int maxJsonDepth = 64;
+
+class FileDescriptor
+{
+public:
+    explicit FileDescriptor(int fd) : fd_(fd) {}
+    ~FileDescriptor()
+    {
+        if (fd_ >= 0)
+            close(fd_);
+    }
+    FileDescriptor(const FileDescriptor&) = delete;
+    FileDescriptor& operator=(const FileDescriptor&) = delete;
+    int get() const { return fd_; }
+
+private:
+    int fd_;
+};
+
+// Greatest nesting of arrays and objects, ignoring brackets inside strings.
+int jsonDepth(std::string_view text)
+{
+    int depth = 0, deepest = 0;
+    bool inString = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (inString) {
+            if (c == '\\')
+                ++i;
+            else if (c == '"')
+                inString = false;
+        } else if (c == '"') {
+            inString = true;
+        } else if (c == '[' || c == '{') {
+            deepest = std::max(deepest, ++depth);
+        } else if (c == ']' || c == '}') {
+            --depth;
+        }
+    }
+    return deepest;
+}
+
+// "[json.exception.parse_error.101] parse error at line 1, ..." -> "line 1, ..."
+std::string jsonErrorText(const char* what)
+{
+    std::string_view text = what;
+    const size_t bracket = text.find("] ");
+    if (bracket != std::string_view::npos)
+        text.remove_prefix(bracket + 2);
+    for (const std::string_view prefix : {"parse error at ", "parse error: "})
+        if (text.substr(0, prefix.size()) == prefix)
+            text.remove_prefix(prefix.size());
+    return printable(text, 300);
+}
+
+} // namespace
+
+void failScene(const std::string& file, const std::string& element, const std::string& reason)
+{
+    throw SceneError(printable(file, 4096) + ": " + (element.empty() ? "" : element + ": ") +
+                     reason);
+}
+
+std::string printable(std::string_view text, size_t maxLength)
+{
+    std::string out(text.substr(0, maxLength));
+    for (char& c : out)
+        if (c < 0x20 || c > 0x7e)
+            c = '?';
+    if (text.size() > maxLength)
+        out += "...";
+    return out;
+}
+
+std::vector<uint8_t> readSceneFile(const std::string& path)
+{
+    if (path.empty() || path.find('\0') != std::string::npos)
+        failScene(path, "", "not a file name");
+    // O_NONBLOCK: opening a pipe must not wait for its writer.
+    const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    struct stat info = {};
+    if (file.get() < 0 || fstat(file.get(), &info) != 0)
+        failScene(path, "", std::string("cannot be opened: ") + std::strerror(errno));
+    if (S_ISDIR(info.st_mode))
+        failScene(path, "", "is a directory, not a file");
+    if (!S_ISREG(info.st_mode))
+        failScene(path, "", "is not a regular file");
+    if (info.st_size == 0)
+        failScene(path, "", "is empty");
+    if (info.st_size > std::numeric_limits<uint32_t>::max())
+        failScene(path, "", "is larger than 4 GiB");
+
+    std::vector<uint8_t> bytes(static_cast<size_t>(info.st_size));
+    size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t n = read(file.get(), bytes.data() + done, bytes.size() - done);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            failScene(path, "", std::string("cannot be read: ") + std::strerror(errno));
+        if (n == 0)
+            failScene(path, "", "became shorter while it was read");
+        done += static_cast<size_t>(n);
+    }
+    return bytes;
+}
+
+nlohmann::json parseSceneJson(const std::string& file, std::string_view text)
+{
+    if (text.size() > maxJsonBytes)
+        failScene(file, "", "has more than 256 MiB of JSON");
+    if (jsonDepth(text) > maxJsonDepth)
+        failScene(file, "", "nests JSON deeper than " + std::to_string(maxJsonDepth) + " levels");
+    try {
+        return nlohmann::json::parse(text.begin(), text.end());
+    } catch (const nlohmann::json::exception& e) {
+        failScene(file, "", "is not valid JSON: " + jsonErrorText(e.what()));
+    }
+}
+
+} // namespace candelabra::app
