@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Common ground of the glTF tests: load what a GltfBuilder made, look at warnings and geometry.
+#pragma once
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "scene/load.h"
+#include "unit/gltf_builder.h"
+#include "unit/scene_invariants.h"
+
+namespace candelabra::test
+{
+
+class GltfTest : public testing::Test
+{
+protected:
+    // Also checks the invariants of every scene.
+    app::Scene load(const GltfBuilder& builder, const app::SceneOptions& options = {})
+    {
+        app::Scene scene = app::loadScene(folder_.write("scene.gltf", builder.text()), options);
+        EXPECT_EQ(brokenInvariant(scene), "");
+        return scene;
+    }
+
+    // The message of the SceneError, or "no error".
+    std::string error(const GltfBuilder& builder, const app::SceneOptions& options = {})
+    {
+        try {
+            app::loadScene(folder_.write("scene.gltf", builder.text()), options);
+        } catch (const app::SceneError& e) {
+            return e.what();
+        }
+        return "no error";
+    }
+
+    static bool warns(const app::Scene& scene, const std::string& text)
+    {
+        for (const std::string& warning : scene.warnings)
+            if (warning.find(text) != std::string::npos)
+                return true;
+        return false;
+    }
+
+    static glm::dvec3 worldPosition(const app::Scene& scene, const app::Instance& instance,
+                                    size_t corner)
+    {
+        const app::Mesh& mesh = scene.meshes[instance.mesh];
+        const glm::vec3 p = mesh.vertices[mesh.indices[corner]].position;
+        return glm::dvec3(instance.worldFromObject * glm::dvec4(p, 1));
+    }
+
+    // Normal of the counter-clockwise side of a triangle, its length twice the area.
+    static glm::dvec3 worldAreaNormal(const app::Scene& scene, const app::Instance& instance,
+                                      size_t triangle)
+    {
+        const glm::dvec3 a = worldPosition(scene, instance, 3 * triangle);
+        const glm::dvec3 b = worldPosition(scene, instance, 3 * triangle + 1);
+        const glm::dvec3 c = worldPosition(scene, instance, 3 * triangle + 2);
+        return glm::cross(b - a, c - a);
+    }
+
+    // Vertex normal as a renderer transforms it: by the inverse transpose.
+    static glm::dvec3 worldNormal(const app::Scene& scene, const app::Instance& instance,
+                                  size_t corner)
+    {
+        const app::Mesh& mesh = scene.meshes[instance.mesh];
+        const glm::dmat3 m = glm::transpose(glm::inverse(glm::dmat3(instance.worldFromObject)));
+        return glm::normalize(m * glm::dvec3(mesh.vertices[mesh.indices[corner]].normal));
+    }
+
+    TemporaryFolder folder_;
+};
+
+} // namespace candelabra::test

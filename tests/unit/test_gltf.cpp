@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF containers, nodes, scenes and cameras.
+#include <cmath>
+
+#include "unit/gltf_fixture.h"
+
+namespace candelabra::test
+{
+
+namespace
+{
+
+using namespace candelabra::app;
+
+using Gltf = GltfTest;
+
+TEST_F(Gltf, TextAndBinaryGiveTheSameMesh)
+{
+    const GltfBuilder builder = triangleScene();
+    const Scene fromText = load(builder);
+    const Scene fromBinary = loadScene(folder_.write("scene.glb", builder.glb()), {});
+    const Scene byContent = loadScene(folder_.write("scene.bytes", builder.glb()), {});
+    for (const Scene* scene : {&fromText, &fromBinary, &byContent}) {
+        EXPECT_EQ(brokenInvariant(*scene), "");
+        ASSERT_EQ(scene->instances.size(), 1u);
+        const Mesh& mesh = scene->meshes.at(0);
+        ASSERT_EQ(mesh.vertices.size(), 3u);
+        EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 1, 2}));
+        EXPECT_EQ(mesh.vertices[1].position, glm::vec3(1, 0, 0));
+        EXPECT_EQ(mesh.vertices[1].normal, glm::vec3(0, 0, 1));
+    }
+    EXPECT_TRUE(warns(fromText, "has no lights"));
+    EXPECT_EQ(fromText.materials.at(0).metalness, 1); // glTF's default material
+}
+
+TEST_F(Gltf, BuffersInFilesMayBeLargerThanDeclared)
+{
+    GltfBuilder builder = triangleScene();
+    Bytes data = builder.binary;
+    const size_t declared = data.size();
+    data.push_back(7);
+    folder_.write("sub dir/data.bin", data);
+    Json json = builder.json;
+    json["buffers"] = {{{"byteLength", declared}, {"uri", "sub%20dir/data.bin"}}};
+    const Scene scene = loadScene(folder_.write("scene.gltf", json.dump()), {});
+    EXPECT_EQ(scene.meshes.at(0).vertices.size(), 3u);
+}
+
+TEST_F(Gltf, HierarchiesMultiplyInDouble)
+{
+    GltfBuilder builder = triangleScene();
+    // 1e7 + 1/64 does not fit into a float.
+    builder.json["nodes"][0]["translation"] = {0, 0, 0.015625};
+    builder.json["nodes"].push_back(
+        {{"children", {0}}, {"translation", {0, 0, 1e7}}, {"scale", {2, 2, 1}}});
+    builder.json["nodes"].push_back(
+        {{"children", {1}}, {"matrix", {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}});
+    builder.json["scenes"][0]["nodes"] = {2};
+    const Scene scene = load(builder);
+    ASSERT_EQ(scene.instances.size(), 1u);
+    // corner (1, 0, 0) -> (2, 0, 1e7 + 1/64) -> rotated by 90 degrees about z, then moved
+    EXPECT_EQ(worldPosition(scene, scene.instances[0], 1), glm::dvec3(5, 8, 1e7 + 7 + 0.015625));
+}
+
+TEST_F(Gltf, RotationsAreNormalised)
+{
+    GltfBuilder builder = triangleScene();
+    builder.json["nodes"][0]["rotation"] = {0, 0, 0.6, 0.6}; // 90 degrees about z
+    const Scene scene = load(builder);
+    const glm::dvec3 p = worldPosition(scene, scene.instances[0], 1);
+    EXPECT_NEAR(glm::distance(p, glm::dvec3(0, 1, 0)), 0, 1e-15);
+}
+
+TEST_F(Gltf, MirroredNodesKeepFrontFacesAndTangentFrames)
+{
+    GltfBuilder builder = triangleScene();
+    const int uv = builder.floats({0, 1, 1, 1, 0, 0}, "VEC2");
+    const int tangents = builder.floats({1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1}, "VEC4");
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = uv;
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = tangents;
+    builder.rootNode({{"mesh", 0}, {"scale", {-2, 3, 1}}, {"rotation", {0.5, 0.5, 0.5, 0.5}}});
+    builder.rootNode({{"mesh", 0}, {"scale", {1, -1, 1}}});
+    const Scene scene = load(builder);
+    ASSERT_EQ(scene.instances.size(), 3u);
+    EXPECT_EQ(scene.meshes.size(), 2u); // one mirrored copy serves both
+    for (const Instance& instance : scene.instances) {
+        EXPECT_GT(glm::determinant(glm::dmat3(instance.worldFromObject)), 0);
+        const glm::dvec3 face = glm::normalize(worldAreaNormal(scene, instance, 0));
+        EXPECT_NEAR(glm::distance(face, worldNormal(scene, instance, 0)), 0, 1e-6);
+    }
+    // (x, y, z) -> (-2x, 3y, z) -> (z, -2x, 3y): corners, normal, tangent and bitangent by hand
+    const Instance& turned = scene.instances[1];
+    EXPECT_NEAR(glm::distance(worldNormal(scene, turned, 0), glm::dvec3(1, 0, 0)), 0, 1e-6);
+    const Vertex& v = scene.meshes[turned.mesh].vertices[0];
+    const glm::dmat3 m(turned.worldFromObject);
+    const glm::vec3 bitangent = glm::cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w;
+    EXPECT_NEAR(glm::distance(m * glm::dvec3(v.tangent), glm::dvec3(0, -2, 0)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(m * glm::dvec3(bitangent), glm::dvec3(0, 0, -3)), 0, 1e-6);
+}
+
+TEST_F(Gltf, FlattenedMeshesAreLeftOut)
+{
+    GltfBuilder builder = triangleScene();
+    builder.json["nodes"][0]["scale"] = {1, 0, 1};
+    const Scene scene = load(builder);
+    EXPECT_TRUE(scene.instances.empty());
+    EXPECT_TRUE(warns(scene, "nodes[0]"));
+}
+
+TEST_F(Gltf, WhatIsLeftOutIsReported)
+{
+    GltfBuilder b = triangleScene();
+    const int positions = b.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+    b.mesh({{"attributes", {{"POSITION", positions}}}, {"mode", 0}});
+    b.mesh({{"attributes", Json::object()}});
+    b.rootNode({{"mesh", 1}});
+    b.rootNode({{"mesh", 2}});
+    b.json["animations"] = {Json::object()};
+    b.json["extensionsUsed"] = {"EXT_nothing", "KHR_lights_punctual"};
+    const Scene scene = load(b);
+    EXPECT_EQ(scene.instances.size(), 1u);
+    for (const char* text : {"meshes[1].primitives[0]: consists of points or lines",
+                             "meshes[2].primitives[0]: has no POSITION", "animations",
+                             "\"EXT_nothing\" is not supported"})
+        EXPECT_TRUE(warns(scene, text)) << text;
+    EXPECT_FALSE(warns(scene, "KHR_lights_punctual"));
+}
+
+TEST_F(Gltf, TheDefaultSceneIsUsed)
+{
+    GltfBuilder b = triangleScene();
+    b.json["nodes"].push_back({{"mesh", 0}, {"translation", {7, 0, 0}}});
+    b.json["scenes"].push_back({{"nodes", {1}}});
+    b.json["scene"] = 1;
+    const Scene second = load(b);
+    ASSERT_EQ(second.instances.size(), 1u);
+    EXPECT_EQ(second.instances[0].worldFromObject[3].x, 7);
+    b.json.erase("scene");
+    EXPECT_EQ(load(b).instances.at(0).worldFromObject[3].x, 0);
+    b.json.erase("scenes");
+    const Scene all = load(b);
+    EXPECT_EQ(all.instances.size(), 2u);
+    EXPECT_TRUE(warns(all, "no scene"));
+}
+
+TEST_F(Gltf, DeepHierarchiesDoNotRecurse)
+{
+    GltfBuilder b = triangleScene();
+    constexpr int depth = 100000;
+    b.json["scenes"][0]["nodes"] = {1};
+    for (int i = 1; i <= depth; ++i)
+        b.json["nodes"].push_back(
+            {{"children", {i < depth ? i + 1 : 0}}, {"translation", {0, 0, 1}}});
+    EXPECT_EQ(load(b).instances.at(0).worldFromObject[3].z, depth);
+}
+
+TEST_F(Gltf, CamerasFollowTheirNodes)
+{
+    GltfBuilder b = triangleScene();
+    b.json["cameras"] = Json::parse(R"([
+        {"type": "perspective", "name": "wide", "perspective": {"yfov": 1.2, "znear": 0.25}},
+        {"type": "perspective",
+         "perspective": {"yfov": 0.5, "znear": 0.1, "zfar": 50, "aspectRatio": 2}},
+        {"type": "orthographic",
+         "orthographic": {"xmag": 6, "ymag": 3, "znear": 0, "zfar": 20}}])");
+    // turned by 90 degrees about y: looks along -x; scale does not matter
+    const double s = std::sqrt(0.5);
+    b.rootNode({{"camera", 0},
+                {"rotation", {0, s, 0, s}},
+                {"translation", {1, 2, 3}},
+                {"scale", {2, 5, 3}}});
+    b.rootNode({{"camera", 1}, {"name", "far"}});
+    b.rootNode({{"camera", 2}});
+    const Scene scene = load(b);
+    ASSERT_EQ(scene.cameras.size(), 3u);
+    const Camera& wide = scene.cameras[0];
+    EXPECT_EQ(wide.name, "wide");
+    EXPECT_EQ(wide.position, glm::dvec3(1, 2, 3));
+    EXPECT_NEAR(glm::distance(wide.forward, glm::dvec3(-1, 0, 0)), 0, 1e-15);
+    EXPECT_NEAR(glm::distance(wide.up, glm::dvec3(0, 1, 0)), 0, 1e-15);
+    EXPECT_EQ(wide.verticalFov, 1.2);
+    EXPECT_EQ(wide.nearPlane, 0.25);
+    EXPECT_EQ(wide.farPlane, 0);
+    EXPECT_FALSE(wide.aspect);
+    EXPECT_EQ(scene.cameras[1].name, "far");
+    EXPECT_EQ(scene.cameras[1].farPlane, 50);
+    EXPECT_EQ(scene.cameras[1].aspect, 2);
+    EXPECT_TRUE(scene.cameras[2].orthographic);
+    EXPECT_EQ(scene.cameras[2].orthographicHeight, 6);
+    EXPECT_EQ(scene.cameras[2].aspect, 2);
+    EXPECT_EQ(scene.cameras[2].farPlane, 20);
+}
+
+TEST_F(Gltf, WithoutCameraEverythingIsInView)
+{
+    GltfBuilder b = triangleScene();
+    b.json["nodes"][0]["translation"] = {1000, -500, 30};
+    b.json["nodes"][0]["scale"] = {300, 1, 7};
+    const Scene scene = load(b);
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    const Camera& camera = scene.cameras[0];
+    const double slope = std::tan(0.5 * camera.verticalFov);
+    const glm::dvec3 right = glm::cross(camera.forward, camera.up);
+    for (size_t corner = 0; corner < 3; ++corner) {
+        const glm::dvec3 d = worldPosition(scene, scene.instances[0], corner) - camera.position;
+        const double depth = glm::dot(d, camera.forward);
+        EXPECT_GT(depth, camera.nearPlane);
+        EXPECT_LT(std::abs(glm::dot(d, camera.up)), slope * depth);
+        EXPECT_LT(std::abs(glm::dot(d, right)), slope * depth); // square image
+    }
+}
+
+} // namespace
+
+} // namespace candelabra::test

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// KHR_lights_punctual and KHR_lights_area: units, directions, radii, influence.
+#include <cmath>
+
+#include "unit/gltf_fixture.h"
+
+namespace candelabra::test
+{
+
+namespace
+{
+
+using namespace candelabra::app;
+
+constexpr double pi = 3.14159265358979323846;
+
+class GltfLights : public GltfTest
+{
+protected:
+    // A scene of these lights alone, light i at (i, 2, 3).
+    static GltfBuilder scene(const char* extension, const char* lights)
+    {
+        GltfBuilder b;
+        b.json["extensionsUsed"] = {extension};
+        b.json["extensions"][extension]["lights"] = Json::parse(lights);
+        for (size_t i = 0; i < b.json["extensions"][extension]["lights"].size(); ++i)
+            b.rootNode({{"translation", {i, 2, 3}}, {"extensions", {{extension, {{"light", i}}}}}});
+        return b;
+    }
+};
+
+TEST_F(GltfLights, PunctualUnits)
+{
+    const Scene s = load(scene("KHR_lights_punctual", R"([
+        {"type": "point", "intensity": 5000000000, "color": [1, 0.5, 0], "range": 4},
+        {"type": "spot", "intensity": 100, "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.5}},
+        {"type": "spot", "spot": {}},
+        {"type": "directional", "intensity": 10000}])"));
+    ASSERT_EQ(s.lights.size(), 4u);
+    EXPECT_EQ(s.lights[0].type, uint32_t{CND_LIGHT_POINT});
+    EXPECT_EQ(s.lights[0].emission[0], 5e9f); // cd
+    EXPECT_EQ(s.lights[0].emission[1], 2.5e9f);
+    EXPECT_EQ(s.lights[0].influenceRadius, 4);
+    EXPECT_EQ(s.lights[1].type, uint32_t{CND_LIGHT_SPOT});
+    EXPECT_EQ(s.lights[1].emission[2], 100); // cd on the axis
+    EXPECT_TRUE(std::isinf(s.lights[1].influenceRadius));
+    EXPECT_EQ(s.lights[1].innerConeAngle, 0.1f);
+    EXPECT_EQ(s.lights[1].outerConeAngle, 0.5f);
+    EXPECT_EQ(s.lights[1].position[0], 1);
+    EXPECT_EQ(s.lights[1].position[1], 2);
+    EXPECT_EQ(s.lights[1].position[2], 3);
+    EXPECT_EQ(s.lights[2].emission[0], 1); // the extension's defaults
+    EXPECT_EQ(s.lights[2].innerConeAngle, 0);
+    EXPECT_FLOAT_EQ(s.lights[2].outerConeAngle, static_cast<float>(pi / 4));
+    EXPECT_EQ(s.lights[3].type, uint32_t{CND_LIGHT_DIRECTIONAL});
+    EXPECT_EQ(s.lights[3].emission[0], 10000); // lx
+    EXPECT_EQ(s.lights[3].direction[2], -1);
+    EXPECT_TRUE(s.warnings.empty());
+}
+
+TEST_F(GltfLights, DirectionsFollowNodesAndIgnoreScale)
+{
+    GltfBuilder b = scene("KHR_lights_punctual",
+                          R"([{"type": "spot", "intensity": 7, "spot": {"outerConeAngle": 0.5}}])");
+    const double s = std::sqrt(0.5);
+    b.json["nodes"][0]["scale"] = {3, 4, 5};
+    b.json["nodes"].push_back({{"children", {0}}, {"rotation", {-s, 0, 0, s}}}); // -z -> -y
+    b.json["scenes"][0]["nodes"] = {1};
+    const Scene loaded = load(b);
+    const CndLight& light = loaded.lights.at(0);
+    EXPECT_NEAR(light.direction[1], -1, 1e-6);
+    EXPECT_EQ(light.emission[0], 7);
+    EXPECT_NEAR(light.position[0], 0, 1e-6);
+    EXPECT_NEAR(light.position[1], 3, 1e-6); // (0, 2, 3) -> (0, 3, -2)
+    EXPECT_NEAR(light.position[2], -2, 1e-6);
+}
+
+TEST_F(GltfLights, RadiusMakesASphereOfTheSameIntensity)
+{
+    const char* lights = R"([
+        {"type": "point", "intensity": 50, "range": 9, "extras": {"radius": 0.25}},
+        {"type": "point", "intensity": 50},
+        {"type": "point", "extras": "radius"},
+        {"type": "spot", "spot": {}, "extras": {"radius": 1}}])";
+    const Scene plain = load(scene("KHR_lights_punctual", lights));
+    EXPECT_EQ(plain.lights[0].type, uint32_t{CND_LIGHT_SPHERE});
+    EXPECT_EQ(plain.lights[0].radius, 0.25f);
+    EXPECT_EQ(plain.lights[0].influenceRadius, 9);
+    // I = pi R^2 L
+    EXPECT_NEAR(plain.lights[0].emission[0] * pi * 0.25 * 0.25, 50, 1e-4);
+    EXPECT_EQ(plain.lights[1].type, uint32_t{CND_LIGHT_POINT});
+    EXPECT_EQ(plain.lights[2].type, uint32_t{CND_LIGHT_POINT});
+    EXPECT_EQ(plain.lights[3].type, uint32_t{CND_LIGHT_SPOT});
+    EXPECT_EQ(plain.warnings.size(), 1u); // a spot light has no radius
+
+    SceneOptions options;
+    options.punctualRadius = 0.5;
+    const Scene sized = load(scene("KHR_lights_punctual", lights), options);
+    EXPECT_EQ(sized.lights[0].radius, 0.25f); // its own
+    EXPECT_EQ(sized.lights[1].type, uint32_t{CND_LIGHT_SPHERE});
+    EXPECT_EQ(sized.lights[1].radius, 0.5f);
+    EXPECT_NEAR(sized.lights[1].emission[0] * pi * 0.25, 50, 1e-4);
+    EXPECT_EQ(sized.lights[3].type, uint32_t{CND_LIGHT_SPOT});
+}
+
+TEST_F(GltfLights, AreaSpheresScaleWithTheirNodes)
+{
+    GltfBuilder b = scene("KHR_lights_area", R"([
+        {"shape": "sphere", "intensity": 3000000000, "radius": 0.5, "color": [1, 0.5, 0],
+         "range": 20},
+        {"type": "sphere"},
+        {"shape": "rect", "width": 2}])");
+    b.json["nodes"][0]["scale"] = {4, 4, 4};
+    const Scene s = load(b);
+    ASSERT_EQ(s.lights.size(), 2u);
+    EXPECT_EQ(s.lights[0].type, uint32_t{CND_LIGHT_SPHERE});
+    EXPECT_FLOAT_EQ(s.lights[0].radius, 2);
+    EXPECT_EQ(s.lights[0].emission[0], 3e9f); // cd/m^2
+    EXPECT_EQ(s.lights[0].emission[1], 1.5e9f);
+    EXPECT_EQ(s.lights[0].influenceRadius, 20);
+    EXPECT_EQ(s.lights[1].radius, 1); // the proposal's defaults
+    EXPECT_EQ(s.lights[1].emission[0], 1);
+    EXPECT_TRUE(std::isinf(s.lights[1].influenceRadius));
+    ASSERT_EQ(s.warnings.size(), 1u);
+    EXPECT_NE(s.warnings[0].find("lights[2]: rect lights are not supported"), std::string::npos);
+}
+
+TEST_F(GltfLights, FarFromTheOriginNothingIsRounded)
+{
+    GltfBuilder b = scene("KHR_lights_punctual", R"([{"type": "point"}, {"type": "point"}])");
+    b.json["nodes"][0]["translation"] = {5e8, 1, 2};
+    b.json["nodes"][1]["translation"] = {500000000.125, 1, 2};
+    const Scene s = load(b);
+    for (size_t i = 0; i < 2; ++i)
+        EXPECT_EQ(s.lightOrigin.x + static_cast<double>(s.lights[i].position[0]),
+                  5e8 + 0.125 * static_cast<double>(i));
+}
+
+TEST_F(GltfLights, RandomLightsCanBeAskedForInstead)
+{
+    SceneOptions options;
+    options.lights = 7;
+    const Scene s = load(triangleScene(), options);
+    EXPECT_EQ(s.lights.size(), 7u);
+    for (const std::string& warning : s.warnings)
+        EXPECT_EQ(warning.find("has no lights"), std::string::npos);
+}
+
+TEST_F(GltfLights, ErrorsNameTheLight)
+{
+    const auto punctual = [&](const char* light, const SceneOptions& options = {}) {
+        return error(scene("KHR_lights_punctual", light), options);
+    };
+    const auto contains = [](const std::string& message, const char* part) {
+        return message.find(part) != std::string::npos ? testing::AssertionSuccess()
+                                                       : testing::AssertionFailure() << message;
+    };
+    EXPECT_TRUE(contains(punctual(R"([{"type": "tube"}])"),
+                         "KHR_lights_punctual.lights[0].type: must be one of directional, point"));
+    EXPECT_TRUE(contains(punctual(R"([{"type": "point", "extras": {"radius": 0}}])"),
+                         "lights[0].extras.radius: must be > 0"));
+    EXPECT_TRUE(contains(punctual(R"([{"type": "point", "range": 1, "extras": {"radius": 2}}])"),
+                         "lights[0]: range 1.000000 must be greater than the light's radius"));
+    EXPECT_TRUE(contains(punctual(R"([{"type": "spot"}])"), "lights[0]: \"spot\" is missing"));
+    EXPECT_TRUE(contains(
+        punctual(R"([{"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 1}}])"),
+        "lights[0].spot: angles must satisfy"));
+    EXPECT_TRUE(contains(punctual(R"([{"type": "point", "intensity": 3e38, "color": [9, 9, 9]}])"),
+                         "lights[0]: emits more than single precision holds"));
+    SceneOptions options;
+    options.punctualRadius = -1;
+    EXPECT_TRUE(contains(punctual(R"([{"type": "point"}])", options), "must be > 0"));
+    EXPECT_TRUE(contains(error(scene("KHR_lights_area", R"([{"shape": "cube"}])")),
+                         "KHR_lights_area.lights[0].shape: must be sphere, disk or rect"));
+    EXPECT_TRUE(contains(error(scene("KHR_lights_area", "[{}]")), "\"shape\" is missing"));
+}
+
+} // namespace
+
+} // namespace candelabra::test

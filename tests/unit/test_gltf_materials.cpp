@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF materials, textures, texture transforms, and the tangents that normal maps need.
+#include <cmath>
+
+#include "io/image.h"
+#include "unit/gltf_fixture.h"
+
+namespace candelabra::test
+{
+
+namespace
+{
+
+using namespace candelabra::app;
+
+class GltfMaterials : public GltfTest
+{
+protected:
+    // 2 x 1 pixels: the first (10, 20, 30), the second white.
+    Bytes png()
+    {
+        const uint8_t rgb[] = {10, 20, 30, 255, 255, 255};
+        savePng(folder_.path("pixels.png"), 2, 1, rgb);
+        return readBytes(folder_.path("pixels.png"));
+    }
+
+    // The triangle scene with a material, and textures 0.. all of that image.
+    GltfBuilder withMaterial(const char* material, size_t textures = 0)
+    {
+        GltfBuilder b = triangleScene();
+        b.json["meshes"][0]["primitives"][0]["material"] = 0;
+        b.json["materials"] = {Json::parse(material)};
+        for (size_t i = 0; i < textures; ++i)
+            b.json["textures"].push_back({{"source", 0}});
+        if (textures)
+            b.json["images"] = {{{"uri", "data:image/png;base64," + encodeBase64(png())}}};
+        return b;
+    }
+};
+
+TEST_F(GltfMaterials, Factors)
+{
+    const Scene scene = load(withMaterial(R"({
+        "name": "paint", "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.25,
+        "emissiveFactor": [1, 0.5, 0],
+        "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4],
+                                 "metallicFactor": 0.5, "roughnessFactor": 0.75},
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 5000000000}}})"));
+    ASSERT_EQ(scene.materials.size(), 1u);
+    const Material& m = scene.materials[0];
+    EXPECT_EQ(m.name, "paint");
+    EXPECT_TRUE(m.doubleSided);
+    EXPECT_EQ(m.alphaMode, AlphaMode::Mask);
+    EXPECT_EQ(m.alphaCutoff, 0.25f);
+    EXPECT_EQ(m.baseColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.alpha, 0.4f);
+    EXPECT_EQ(m.metalness, 0.5f);
+    EXPECT_EQ(m.perceptualRoughness, 0.75f);
+    EXPECT_EQ(m.emission, glm::vec3(5e9f, 2.5e9f, 0)); // cd/m^2; the integer exceeds 32 bits
+    EXPECT_EQ(m.dielectricF0, glm::vec3(0.04f));
+    EXPECT_EQ(m.specularWeight, 1);
+    EXPECT_TRUE(scene.textures.empty());
+}
+
+TEST_F(GltfMaterials, IorAndSpecularSetTheDielectric)
+{
+    const Material glass = load(withMaterial(R"({"pbrMetallicRoughness": {"metallicFactor": 0},
+                              "extensions": {"KHR_materials_ior": {"ior": 2}}})"))
+                               .materials.at(0);
+    EXPECT_FLOAT_EQ(glass.dielectricF0.x, 1 / 9.0f);
+    const Material dull =
+        load(withMaterial(R"({"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {
+            "KHR_materials_ior": {"ior": 3},
+            "KHR_materials_specular": {"specularFactor": 0.5,
+                                       "specularColorFactor": [1, 0.5, 8]}}})"))
+            .materials.at(0);
+    // F0 = min(0.25 colour, 1) * 0.5
+    EXPECT_EQ(dull.dielectricF0, glm::vec3(0.125f, 0.0625f, 0.5f));
+    EXPECT_EQ(dull.specularWeight, 0.5f);
+    EXPECT_EQ(load(withMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})"))
+                  .materials.at(0)
+                  .dielectricF0,
+              glm::vec3(1));
+}
+
+TEST_F(GltfMaterials, TexturesKnowTheirColourSpaceAndSampler)
+{
+    GltfBuilder b = withMaterial(R"({
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
+                                 "metallicRoughnessTexture": {"index": 1, "texCoord": 1}},
+        "normalTexture": {"index": 2, "scale": -0.5}, "emissiveTexture": {"index": 0},
+        "occlusionTexture": {"index": 0}})",
+                                 3);
+    b.json["samplers"] = Json::parse(R"([{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}])");
+    b.json["textures"][2]["sampler"] = 0;
+    const Scene scene = load(b);
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(scene.textures.size(), 3u); // base colour and emission share one
+    EXPECT_EQ(m.baseColorTexture.texture, m.emissiveTexture.texture);
+    const Texture& base = scene.textures.at(static_cast<size_t>(m.baseColorTexture.texture));
+    EXPECT_TRUE(base.srgb && base.repeatU && base.repeatV && !base.mirrorU && !base.nearest);
+    ASSERT_EQ(base.width, 2u);
+    EXPECT_EQ(base.rgba, (std::vector<uint8_t>{10, 20, 30, 255, 255, 255, 255, 255}));
+    EXPECT_EQ(m.metallicRoughnessTexture.uvSet, 1u);
+    const Texture& rough =
+        scene.textures.at(static_cast<size_t>(m.metallicRoughnessTexture.texture));
+    EXPECT_FALSE(rough.srgb);
+    const Texture& normal = scene.textures.at(static_cast<size_t>(m.normalTexture.texture));
+    EXPECT_TRUE(!normal.srgb && !normal.repeatU && normal.repeatV && normal.mirrorV);
+    EXPECT_TRUE(normal.nearest && !normal.mirrorU);
+    EXPECT_EQ(m.normalScale, -0.5f);
+}
+
+TEST_F(GltfMaterials, ImagesComeFromUrisFilesAndBufferViews)
+{
+    const char* material = R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})";
+    GltfBuilder fromFile = withMaterial(material, 1);
+    folder_.write("textures/a b.png", png());
+    fromFile.json["images"] = {{{"uri", "textures/a%20b.png"}}};
+    GltfBuilder fromView = withMaterial(material, 1);
+    fromView.json["images"] = {{{"bufferView", fromView.view(png())}, {"mimeType", "image/png"}}};
+    for (const GltfBuilder& b : {withMaterial(material, 1), fromFile, fromView})
+        EXPECT_EQ(load(b).textures.at(0).rgba[2], 30);
+    const Scene binary = loadScene(folder_.write("scene.glb", fromView.glb()), {});
+    EXPECT_EQ(binary.textures.at(0).rgba[2], 30);
+}
+
+TEST_F(GltfMaterials, TextureTransform)
+{
+    const Scene scene = load(withMaterial(R"({"pbrMetallicRoughness": {"baseColorTexture": {
+        "index": 0, "texCoord": 0, "extensions": {"KHR_texture_transform": {
+            "offset": [0.5, 0.25], "rotation": 1.5707963267948966, "scale": [2, 3],
+            "texCoord": 1}}}}})",
+                                          1));
+    const TextureRef& ref = scene.materials.at(0).baseColorTexture;
+    EXPECT_EQ(ref.uvSet, 1u);
+    // Scaling (1, 0) gives (2, 0); a quarter turn counter-clockwise with v pointing down leads up
+    // the image, to (0, -2). Likewise (0, 1) -> (0, 3) -> (3, 0).
+    const glm::vec3 u(1, 0, 1), v(0, 1, 1);
+    EXPECT_NEAR(glm::dot(ref.uRow, u), 0.5, 1e-6);
+    EXPECT_NEAR(glm::dot(ref.vRow, u), 0.25 - 2, 1e-6);
+    EXPECT_NEAR(glm::dot(ref.uRow, v), 0.5 + 3, 1e-6);
+    EXPECT_NEAR(glm::dot(ref.vRow, v), 0.25, 1e-6);
+}
+
+TEST_F(GltfMaterials, WhatIsLeftOutIsReported)
+{
+    const Scene scene = load(withMaterial(R"({"alphaMode": "BLEND",
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 2}},
+        "extensions": {"KHR_materials_unlit": {}}})",
+                                          1));
+    EXPECT_EQ(scene.materials.at(0).baseColorTexture.texture, -1);
+    EXPECT_EQ(scene.materials.at(0).alphaMode, AlphaMode::Opaque);
+    for (const char* text : {"blended", "TEXCOORD_2", "unlit"})
+        EXPECT_TRUE(warns(scene, text)) << text;
+}
+
+// Two triangles of a square in z = 0 with the image upright (v down), and two beside it with the
+// image mirrored; the middle corners are shared by both.
+TEST_F(GltfMaterials, TangentsFollowTheNormalMap)
+{
+    GltfBuilder b = withMaterial(R"({"normalTexture": {"index": 0}})", 1);
+    const int positions = b.floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0}, "VEC3");
+    const int uvs = b.floats({0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC2");
+    const int normals = b.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    Json& primitive = b.json["meshes"][0]["primitives"][0];
+    primitive["attributes"] = {{"POSITION", positions}, {"TEXCOORD_0", uvs}, {"NORMAL", normals}};
+    primitive["indices"] = b.indices({0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2});
+    const Mesh mesh = load(b).meshes.at(0);
+    ASSERT_EQ(mesh.vertices.size(), 8u); // corners 1 and 2 are split
+    for (size_t corner = 0; corner < 12; ++corner) {
+        const Vertex& v = mesh.vertices[mesh.indices[corner]];
+        const bool upright = corner < 6;
+        EXPECT_EQ(v.tangent, glm::vec4(upright ? 1 : -1, 0, 0, upright ? 1 : -1)) << corner;
+        // Green of a normal map points up the image, here +y everywhere.
+        EXPECT_EQ(glm::cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w, glm::vec3(0, 1, 0));
+    }
+}
+
+TEST_F(GltfMaterials, TangentsFollowTheTextureTransform)
+{
+    GltfBuilder b = withMaterial(R"({"normalTexture": {"index": 0, "extensions": {
+        "KHR_texture_transform": {"rotation": 1.5707963267948966}}}})",
+                                 1);
+    b.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+        b.floats({0, 1, 1, 1, 0, 0}, "VEC2");
+    const Scene scene = load(b);
+    for (const Vertex& v : scene.meshes.at(0).vertices) {
+        // u' = v, which grows downwards; v' = -u
+        EXPECT_NEAR(glm::distance(glm::vec3(v.tangent), glm::vec3(0, -1, 0)), 0, 1e-6f);
+        EXPECT_EQ(v.tangent.w, 1);
+    }
+}
+
+TEST_F(GltfMaterials, UvsWithoutDirectionStillGiveAFrame)
+{
+    GltfBuilder b = withMaterial(R"({"normalTexture": {"index": 0}})", 1);
+    b.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+        b.floats({0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f}, "VEC2");
+    const Scene scene = load(b); // the invariants ask for unit tangents perpendicular to normals
+    EXPECT_EQ(scene.meshes.at(0).vertices.size(), 3u);
+}
+
+} // namespace
+
+} // namespace candelabra::test

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// KHR_lights_punctual and KHR_lights_area -> CndLight. Internal to the glTF loader.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/gltf_document.h"
+#include "scene/load.h"
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+// Lights found while walking the nodes; positions in world space, to be placed by placeLights.
+struct GltfLights {
+    std::vector<CndLight> lights;
+    std::vector<glm::dvec3> positions;
+};
+
+// Adds the light of node `node` under its world transform, if it has one.
+//   KHR_lights_punctual: point and spot in cd, directional in lx, `range` is the influence radius
+//   (without it: INFINITY). A point light with extras.radius (metres, > 0), else with
+//   options.punctualRadius, becomes a sphere of that radius and the same intensity, L = I / (pi
+//   R^2). Scale does not change any of these. KHR_lights_area (glTF pull request 1948, never
+//   ratified; ours): shape "sphere", intensity in cd/m^2, radius in metres (default 1) times the
+//   node's scale, and, as an addition, `range`. Other shapes are left out with a warning.
+void addGltfLights(const GltfDocument& document, size_t node, const glm::dmat4& worldFromNode,
+                   const SceneOptions& options, GltfLights& out);
+
+} // namespace candelabra::app
