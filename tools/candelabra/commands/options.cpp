@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "candelabra/candelabra.hpp"
 #include "render/error.h"
 #include "shared/specular_methods.h"
 
@@ -258,8 +259,7 @@ std::optional<bool> FrameArguments::lightsVisibleOverride() const
 
 CndExposureSettings FrameArguments::exposureSettings() const
 {
-    CndExposureSettings out{};
-    cndDefaultExposureSettings(&out);
+    CndExposureSettings out = defaultExposureSettings();
     if (exposure != "auto") {
         const auto ev = parseNumber(exposure);
         if (!ev || std::abs(*ev) > 40)

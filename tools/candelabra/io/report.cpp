@@ -33,9 +33,14 @@ std::string quoted(const std::string& argument)
     if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos)
         return argument;
     std::string out = "'";
-    for (const char c : argument)
-        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
+    for (const char c : argument) {
+        if (c == '\'')
+            out += "'\\''";
+        else
+            out += c;
+    }
+    out += "'";
+    return out;
 }
 
 } // namespace
@@ -99,7 +104,7 @@ std::string commandLine(int argc, const char* const* argv)
 {
     std::string out = "candelabra";
     for (int i = 1; i < argc; ++i)
-        out += " " + quoted(argv[i]);
+        out.append(" ").append(quoted(argv[i]));
     return out;
 }
 

@@ -42,7 +42,7 @@ std::string Table::text() const
         for (size_t i = 0; i < widths.size(); ++i) {
             const char* gap = i ? "  " : "";
             if (row.empty())
-                out += gap + std::string(widths[i], '-');
+                out.append(gap).append(widths[i], '-');
             else
                 out +=
                     fmt::format(fmt::runtime(i ? "{}{:>{}}" : "{}{:<{}}"), gap, row[i], widths[i]);

@@ -4,7 +4,10 @@
 
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 
+#include "candelabra/candelabra.hpp"
 #include "gpu/failure.h"
 
 namespace candelabra::app
@@ -27,11 +30,14 @@ struct RunError : std::runtime_error {
 // Throws gpu::Failure when a Vulkan call failed; `what` says what was being done.
 using gpu::check;
 
-// Throws RunError when a call through the C ABI failed.
-inline void check(CndResult result, const CndError& error)
+// The value of a result of the engine, or its error as a RunError.
+template <typename T>
+T take(Result<T> result)
 {
-    if (result < 0)
-        throw RunError(error.message);
+    if (!result)
+        throw RunError(result.error().message);
+    if constexpr (!std::is_void_v<T>)
+        return std::move(result.value());
 }
 
 } // namespace candelabra::app

@@ -5,7 +5,7 @@
 
 #include "gbuffer/gbuffer.h"
 #include "render/camera.h"
-#include "render/modules.h"
+#include "render/error.h"
 #include "render/scene_geometry.h"
 
 namespace candelabra::app
@@ -100,13 +100,9 @@ void Renderer::State::setLights(double time)
 {
     lightsAtTime(scene, time, lights);
     lightTime = time;
-    const CndLightSet set{
-        .structSize = sizeof set,
-        .count = uint32_t(lights.size()),
-        .lights = lights.data(),
-        .origin = {scene.lightOrigin.x, scene.lightOrigin.y, scene.lightOrigin.z}};
-    call(cndSetLights, lighting.get(), &set);
-    gbuffer.setEmitters(lights, set.origin);
+    const double origin[3] = {scene.lightOrigin.x, scene.lightOrigin.y, scene.lightOrigin.z};
+    take(lighting.setLights(lights, origin));
+    gbuffer.setEmitters(lights, origin);
 }
 
 void Renderer::State::createSized()
@@ -119,25 +115,18 @@ void Renderer::State::createSized()
     display = {};
     targets = gbuffer::createTargets(device, options.gbufferLayout, width, height);
     display = createDisplay(device, options.size);
-    view = create<LightingView>(cndCreateLightingView, lighting.get(),
-                                CndLightingViewDesc{.structSize = sizeof(CndLightingViewDesc),
-                                                    .maxWidth = width,
-                                                    .maxHeight = height});
+    view = take(lighting.createView({.maxWidth = width, .maxHeight = height}));
 }
 
 Renderer::Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options)
     : state_(std::make_unique<State>(context, scene, options))
 {
     State& s = *state_;
-    s.lighting = create<Lighting>(cndCreateLighting, &context.desc(),
-                                  CndLightingDesc{.structSize = sizeof(CndLightingDesc),
-                                                  .framesInFlight = options.framesInFlight,
-                                                  .gbufferLayout = options.gbufferLayout,
-                                                  .timestamps = VK_TRUE});
-    s.exposure = create<Exposure>(cndCreateExposure, &context.desc(),
-                                  CndExposureDesc{.structSize = sizeof(CndExposureDesc),
-                                                  .framesInFlight = options.framesInFlight,
-                                                  .timestamps = VK_TRUE});
+    s.lighting = take(Lighting::create(context.desc(), {.framesInFlight = options.framesInFlight,
+                                                        .gbufferLayout = options.gbufferLayout,
+                                                        .timestamps = VK_TRUE}));
+    s.exposure = take(Exposure::create(
+        context.desc(), {.framesInFlight = options.framesInFlight, .timestamps = VK_TRUE}));
     s.setLights(0);
     s.createSized();
 }
@@ -172,8 +161,7 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
 
 CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOptions& frame) const
 {
-    return {.structSize = sizeof(CndLightingFrame),
-            .frameSlot = slot,
+    return {.frameSlot = slot,
             .width = options.size.width,
             .height = options.size.height,
             .camera = makeCamera(frame.camera, aspect()),
@@ -194,22 +182,19 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
     const gpu::Device& device = s.context.device();
     s.recordGBuffer(cmd, slot, frame);
 
-    const CndLightingFrame lighting = s.lightingFrame(slot, frame);
-    call(cndRecordLighting, s.view.get(), cmd, &lighting);
+    take(s.view.record(cmd, s.lightingFrame(slot, frame)));
 
     transition(device, cmd, s.targets.radiance, shaderWrite, shaderRead);
     transition(device, cmd, s.display, discarded, shaderWrite);
-    const CndExposureFrame exposure{.structSize = sizeof exposure,
-                                    .frameSlot = slot,
-                                    .width = s.options.size.width,
-                                    .height = s.options.size.height,
-                                    .radiance = s.targets.radiance.view.get(),
-                                    .display = s.display.view.get(),
-                                    .deltaTime = frame.deltaTime,
-                                    .reset = frame.resetExposure,
-                                    .ditherSeed = frame.ditherSeed,
-                                    .settings = frame.exposure};
-    call(cndRecordExposure, s.exposure.get(), cmd, &exposure);
+    take(s.exposure.record(cmd, {.frameSlot = slot,
+                                 .width = s.options.size.width,
+                                 .height = s.options.size.height,
+                                 .radiance = s.targets.radiance.view.get(),
+                                 .display = s.display.view.get(),
+                                 .deltaTime = frame.deltaTime,
+                                 .reset = frame.resetExposure,
+                                 .ditherSeed = frame.ditherSeed,
+                                 .settings = frame.exposure}));
 
     transition(device, cmd, s.targets.radiance, shaderRead, transferRead);
     transition(device, cmd, s.display, shaderWrite, transferRead);
@@ -226,29 +211,30 @@ void Renderer::recordBruteRect(VkCommandBuffer cmd, const FrameOptions& frame, c
     lighting.culling = CND_CULLING_BRUTE;
     lighting.bruteRect = rect;
     lighting.countPairs = VK_FALSE;
-    call(cndRecordLighting, state_->view.get(), cmd, &lighting);
+    take(state_->view.record(cmd, lighting));
     transition(state_->context.device(), cmd, state_->targets.radiance, shaderWrite, transferRead);
 }
 
 CndLightingStats Renderer::lightingStats(uint32_t slot) const
 {
-    CndLightingStats out{.structSize = sizeof out};
-    if (cndGetLightingStats(state_->view.get(), slot, &out) != CND_SUCCESS)
+    const auto stats = state_->view.stats(slot);
+    if (!stats)
         throw RunError("the lighting statistics of a finished frame are not there");
-    return out;
+    return *stats;
 }
 
 FrameStats Renderer::stats(uint32_t slot) const
 {
     FrameStats out;
     out.lighting = lightingStats(slot);
-    out.exposure.structSize = sizeof out.exposure;
     std::vector<CndKernelTime> raster(CND_MAX_KERNEL_TIMES);
     uint32_t count = 0;
     if (state_->gbuffer.times(slot, raster.data(), count))
         append(out.passes, raster.data(), count);
-    if (cndGetExposureStats(state_->exposure.get(), slot, &out.exposure) != CND_SUCCESS)
+    const auto exposure = state_->exposure.stats(slot);
+    if (!exposure)
         throw RunError("the exposure statistics of a finished frame are not there");
+    out.exposure = *exposure;
     append(out.passes, out.lighting.kernelTimes, out.lighting.kernelTimeCount);
     append(out.passes, out.exposure.kernelTimes, out.exposure.kernelTimeCount);
     return out;

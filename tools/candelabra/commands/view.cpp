@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra view: a window.
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "commands/commands.h"
+#include "commands/measure.h"
+#include "io/table.h"
+#include "render/camera.h"
+#include "render/error.h"
+#include "viewer/viewer.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct ViewArguments {
+    DeviceArguments device;
+    SceneArguments scene;
+    FrameArguments frame;
+    std::string lights, frames = "0", screenshot;
+    bool noOverlay = false;
+};
+
+ViewerOptions optionsOf(const ViewArguments& a)
+{
+    std::optional<uint32_t> lights;
+    if (!a.lights.empty())
+        lights = unsignedOption("--lights", a.lights, 0, maxLights);
+    ViewerOptions out{.scene = a.scene.scene,
+                      .sceneOptions = a.scene.options(lights),
+                      .camera = a.frame.camera,
+                      .gbufferLayout = a.frame.gbufferLayout(),
+                      .frame = {.specular = a.frame.specularMethod(),
+                                .culling = a.frame.cullingMode(),
+                                .exposure = a.frame.exposureSettings()},
+                      .lightsVisible = a.frame.lightsVisibleOverride(),
+                      .overlay = !a.noOverlay,
+                      .frames = unsignedOption("--frames", a.frames, 0, 1'000'000),
+                      .screenshot = a.screenshot};
+    if (!out.screenshot.empty()) {
+        if (!out.frames)
+            throw UsageError("--screenshot needs --frames N: it shows the last of them");
+        if (!out.screenshot.ends_with(".png"))
+            throw UsageError("--screenshot " + out.screenshot + ": the name must end in .png");
+        requireWritable("--screenshot", out.screenshot);
+    }
+    return out;
+}
+
+int view(const ViewArguments& a)
+{
+    ViewerOptions options = optionsOf(a);
+    const WindowSystem system; // before the scene: without a display nothing else matters
+    Scene scene = loadScene(options.scene, options.sceneOptions);
+    logWarnings(scene);
+    const Camera camera = selectCamera(scene, options.camera);
+    options.size = a.frame.pixelSize(scene, camera);
+    Viewer viewer(options, a.device.contextOptions(Presentation::Window), system, std::move(scene));
+    spdlog::info("on {}; keys are listed in the window", viewer.context().info().name);
+    viewer.run();
+    return printValidationMessages(viewer.context()) ? exitFailed : exitOk;
+}
+
+} // namespace
+
+void addViewCommand(CLI::App& app, Run& run)
+{
+    CLI::App* command = app.add_subcommand("view", "Fly through a scene in a window");
+    const auto a = std::make_shared<ViewArguments>();
+    a->scene.addTo(*command, "hall");
+    command
+        ->add_option("--lights", a->lights,
+                     "hall, field: number of sphere lights (4000); files: extra random ones")
+        ->type_name("N");
+    command->add_option("--frames", a->frames, "stop after N frames, 1/60 s apart; 0: run on")
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        ->add_option("--screenshot", a->screenshot, "PNG of the window after the last of --frames")
+        ->type_name("FILE");
+    command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
+    a->frame.addTo(*command);
+    a->frame.addCullingTo(*command);
+    a->device.addTo(*command);
+    command->footer("Keys: W A S D fly, Q E down and up, Shift fast, drag to look, wheel changes "
+                    "the speed,\n[ ] half and double the lights, - = exposure, F1 panel, Esc "
+                    "quits.\n\n"
+                    "Examples:\n"
+                    "  candelabra view hall --lights 4000 --moving\n"
+                    "  candelabra view model.glb --lights 200\n"
+                    "  xvfb-run -a candelabra view hall --frames 30 --screenshot view.png");
+    command->callback([&run, a] { run = [a](const ProgramContext&) { return view(*a); }; });
+}
+
+} // namespace candelabra::app

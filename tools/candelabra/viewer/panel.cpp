@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <imgui.h>
+
+#include "commands/options.h"
+#include "io/table.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+// EV100 of the lower edge of a histogram bin: 8 bins per octave from 2^-12 cd/m^2, and
+// EV100 = log2(L * 100 / 12.5).
+constexpr float firstBinEv = -12 + 3, evPerBin = 1.0f / 8;
+
+template <typename T>
+void combo(const char* label, T& value, int count, const char* (*name)(T))
+{
+    if (!ImGui::BeginCombo(label, name(value)))
+        return;
+    for (int i = 0; i < count; ++i)
+        if (ImGui::Selectable(name(T(i)), value == T(i)))
+            value = T(i);
+    ImGui::EndCombo();
+}
+
+void drawTimes(const PanelFigures& figures)
+{
+    PassTimes times;
+    for (const auto& frame : figures.passes)
+        times.add(frame);
+    if (!times.frames() || !ImGui::BeginTable("times", 3, ImGuiTableFlags_RowBg))
+        return;
+    ImGui::TableSetupColumn("GPU pass", ImGuiTableColumnFlags_WidthStretch, 2);
+    ImGui::TableSetupColumn("median ms");
+    ImGui::TableSetupColumn("p95 ms");
+    ImGui::TableHeadersRow();
+    const auto row = [](const PassSummary& pass) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(pass.name.c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(threeDigits(pass.medianMs).c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(threeDigits(pass.p95Ms).c_str());
+    };
+    for (const PassSummary& pass : times.summary())
+        row(pass);
+    row(times.total());
+    ImGui::EndTable();
+}
+
+void drawLights(PanelState& state, const PanelFigures& figures)
+{
+    const CndLightingStats& s = figures.lighting;
+    if (s.tileCount && state.frame.culling == CND_CULLING_CLUSTERED)
+        ImGui::Text("lights per tile: %.1f mean, %u max%s",
+                    double(s.listEntries) / double(s.tileCount), s.maxListLength,
+                    s.unlistedTiles ? " (some tiles over budget)" : "");
+    ImGui::Text("%s lights", grouped(figures.lights).c_str());
+    ImGui::SameLine();
+    if (ImGui::SmallButton("half"))
+        state.wantedLights = std::max(figures.lights / 2, 1u);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("double"))
+        state.wantedLights = std::min(figures.lights * 2, maxLights);
+    if (figures.moving)
+        ImGui::Checkbox("move lights", &state.animate);
+    ImGui::Checkbox("show lights as emitters", &state.frame.lightsVisible);
+    combo("specular", state.frame.specular, CND_SPECULAR_METHOD_COUNT, specularName);
+    combo("culling", state.frame.culling, 2, cullingName);
+}
+
+void drawHistogram(const CndExposureStats& stats)
+{
+    std::array<float, CND_HISTOGRAM_BINS> heights{};
+    for (size_t i = 0; i < heights.size(); ++i)
+        heights[i] = std::sqrt(float(stats.histogram[i])); // small counts stay visible
+    const float width = ImGui::GetContentRegionAvail().x;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float height = 80;
+    ImGui::PlotHistogram("##histogram", heights.data(), int(heights.size()), 0, nullptr, 0, FLT_MAX,
+                         {width, height});
+    const auto mark = [&](float ev, ImU32 colour) {
+        const float x = (ev - firstBinEv) / (evPerBin * CND_HISTOGRAM_BINS);
+        if (x >= 0 && x <= 1)
+            ImGui::GetWindowDrawList()->AddLine({corner.x + x * width, corner.y},
+                                                {corner.x + x * width, corner.y + height}, colour,
+                                                2);
+    };
+    mark(stats.targetEv100, IM_COL32(90, 200, 255, 255));
+    mark(stats.adaptedEv100, IM_COL32(255, 160, 60, 255));
+    ImGui::Text("luminance, EV100 %.0f to %.0f: target %.2f, in use %.2f", double(firstBinEv),
+                double(firstBinEv + evPerBin * CND_HISTOGRAM_BINS), double(stats.targetEv100),
+                double(stats.adaptedEv100));
+}
+
+void drawExposure(PanelState& state, const PanelFigures& figures)
+{
+    CndExposureSettings& e = state.frame.exposure;
+    bool manual = e.manual;
+    if (ImGui::Checkbox("manual exposure", &manual)) {
+        e.manual = manual;
+        e.manualEv100 = figures.exposure.adaptedEv100;
+    }
+    if (e.manual) {
+        ImGui::SliderFloat("EV100", &e.manualEv100, firstBinEv, 23, "%.2f");
+    } else {
+        drawHistogram(figures.exposure);
+        bool centre = e.metering == CND_METERING_CENTRE_WEIGHTED;
+        if (ImGui::Checkbox("centre-weighted", &centre))
+            e.metering = centre ? CND_METERING_CENTRE_WEIGHTED : CND_METERING_AVERAGE;
+        ImGui::SliderFloat("low share", &e.lowPercentile, 0, 0.45f, "%.2f");
+        ImGui::SliderFloat("high share", &e.highPercentile, 0.55f, 1, "%.2f");
+        ImGui::SliderFloat("speed to bright", &e.speedUp, 0.1f, 20, "%.1f 1/s");
+        ImGui::SliderFloat("speed to dark", &e.speedDown, 0.1f, 20, "%.1f 1/s");
+    }
+    ImGui::SliderFloat("compensation", &e.compensation, -8, 8, "%+.1f EV");
+    combo("tone map", e.toneMap, CND_TONEMAP_COUNT, toneMapName);
+    bool dither = e.dither;
+    ImGui::Checkbox("dither", &dither);
+    e.dither = dither;
+}
+
+} // namespace
+
+void drawPanel(PanelState& state, const PanelFigures& figures)
+{
+    if (!state.visible)
+        return;
+    ImGui::SetNextWindowPos({12, 12}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({360, 0}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowBgAlpha(0.85f);
+    if (ImGui::Begin("candelabra")) {
+        ImGui::TextWrapped("%s, %ux%u, %s", figures.scene.c_str(), figures.size.width,
+                           figures.size.height, figures.device.c_str());
+        ImGui::Text("%.1f ms between frames", figures.wallMs);
+        drawTimes(figures);
+        if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen))
+            drawLights(state, figures);
+        if (ImGui::CollapsingHeader("Exposure", ImGuiTreeNodeFlags_DefaultOpen))
+            drawExposure(state, figures);
+        ImGui::Separator();
+        ImGui::TextWrapped("W A S D fly, Q E down and up, Shift fast, drag to look, wheel: %.1f "
+                           "m/s, [ ] lights, - = exposure, F1 hides this, Esc quits",
+                           figures.speed);
+    }
+    ImGui::End();
+}
+
+} // namespace candelabra::app

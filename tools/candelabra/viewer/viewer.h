@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Viewer: a window that flies through a scene.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "render/frame_ring.h"
+#include "render/renderer.h"
+#include "scene/load.h"
+#include "viewer/fly_camera.h"
+#include "viewer/overlay.h"
+#include "viewer/panel.h"
+#include "viewer/swapchain.h"
+#include "viewer/window.h"
+
+namespace candelabra::app
+{
+
+struct ViewerOptions {
+    std::string scene; // as for loadScene
+    SceneOptions sceneOptions;
+    std::string camera; // as for selectCamera
+    PixelSize size;
+    CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
+    FrameOptions frame;
+    std::optional<bool> lightsVisible;
+    bool overlay = true;
+    // Stop after as many frames, 1/60 s apart whatever the clock says; 0: until closed.
+    uint32_t frames = 0;
+    std::string screenshot; // PNG of the window's last frame; needs `frames`
+};
+
+class Viewer
+{
+public:
+    // `scene` is what `options` describe, loaded already.
+    Viewer(const ViewerOptions& options, const ContextOptions& contextOptions,
+           const WindowSystem& system, Scene scene);
+    void run();
+    const VulkanContext& context() const { return context_; }
+
+private:
+    static constexpr uint32_t slotCount = 2;
+
+    void onKey(int key);
+    void rebuild(uint32_t lights);
+    void fitToWindow();
+    void collectStats(const FrameRing::Frame& frame);
+    void moveCamera(double seconds);
+    Swapchain::Target acquire(uint32_t slot);
+    void drawFrame(double seconds, bool screenshot);
+    void recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target);
+    gpu::Buffer recordScreenshot(VkCommandBuffer cmd, VkImage image) const;
+    void saveScreenshot(const gpu::Buffer& pixels) const;
+
+    ViewerOptions options_;
+    // Destroyed in reverse order: everything that uses the device before the context.
+    Window window_;
+    VulkanContext context_;
+    Scene scene_;
+    std::unique_ptr<Renderer> renderer_;
+    Swapchain swapchain_;
+    Overlay overlay_;
+    FrameRing ring_;
+
+    FlyCamera camera_;
+    PanelState panel_;
+    PanelFigures figures_;
+    std::array<bool, slotCount> recorded_{}; // by the renderer there is now
+    bool staleWindow_ = false;
+    bool resetExposure_ = true;
+    double time_ = 0;
+    double lastX_ = 0, lastY_ = 0;
+    bool looking_ = false;
+};
+
+} // namespace candelabra::app
