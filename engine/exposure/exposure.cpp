@@ -2,6 +2,7 @@
 #include "exposure/exposure.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -71,6 +72,8 @@ Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
         readback_.push_back(gpu::createBuffer(device_, "exposure statistics", sizeof(Readback),
                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                               gpu::MemoryUse::Readback));
+    for (const gpu::Buffer& buffer : readback_)
+        buffer.as<Readback>()[0].marker = 0;
 }
 
 void Exposure::setMask(const uint8_t* weights, uint32_t width, uint32_t height)
@@ -105,9 +108,10 @@ void Exposure::writeBindings(const CndExposureFrame& frame) const
 {
     using namespace gpu;
     const uint32_t slot = frame.frameSlot;
-    sets_.histogram.write(slot,
-                          {Binding::sampled(HISTOGRAM_RADIANCE, frame.radiance),
-                           Binding::of(HISTOGRAM_MASK, mask_), Binding::of(HISTOGRAM_DATA, data_)});
+    if (!frame.settings.manual)
+        sets_.histogram.write(slot, {Binding::sampled(HISTOGRAM_RADIANCE, frame.radiance),
+                                     Binding::of(HISTOGRAM_MASK, mask_),
+                                     Binding::of(HISTOGRAM_DATA, data_)});
     sets_.adapt.write(slot, {Binding::of(ADAPT_DATA, data_), Binding::of(ADAPT_STATE, state_)});
     if (frame.display)
         sets_.toneMap.write(slot, {Binding::sampled(TONE_MAP_RADIANCE, frame.radiance),
@@ -152,26 +156,10 @@ void Exposure::recordHistogram(const gpu::Frame& f, const CndExposureFrame& fram
         divideUp(frame.height, gpu::HISTOGRAM_GROUP_Y * gpu::HISTOGRAM_ROWS_PER_LANE));
 }
 
-void Exposure::recordAdaptation(const gpu::Frame& f, const CndExposureFrame& frame) noexcept
+void Exposure::recordAdaptation(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept
 {
-    const CndExposureSettings& s = frame.settings;
-    // In double: exp(-dt speed) of many short steps must multiply to that of a long one.
-    const auto keep = [&](float speed) {
-        return float(std::exp(-double(frame.deltaTime) * double(speed)));
-    };
     adapt_.dispatch(f, sets_.adapt.set(f.slot),
-                    {.manual = s.manual ? 1u : 0u,
-                     .reset = frame.reset || !hasHistory_ ? 1u : 0u,
-                     .manualEv100 = s.manualEv100,
-                     .compensation = s.compensation,
-                     .minEv100 = s.minEv100,
-                     .maxEv100 = s.maxEv100,
-                     .lowPercentile = s.lowPercentile,
-                     .highPercentile = s.highPercentile,
-                     .keepUp = keep(s.speedUp),
-                     .keepDown = keep(s.speedDown)},
-                    1);
-    hasHistory_ = true;
+                    adaptParams(frame.settings, frame.deltaTime, frame.reset), 1);
 }
 
 void Exposure::recordToneMap(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept
@@ -192,6 +180,7 @@ void Exposure::recordReadback(const gpu::Frame& f) const noexcept
     const VkBufferCopy state{.dstOffset = offsetof(Readback, state),
                              .size = sizeof(gpu::ExposureState)};
     device_.CmdCopyBuffer(f.cmd, state_.get(), target, 1, &state);
+    f.barrier(); // the marker says that all of the frame is done
     device_.CmdFillBuffer(f.cmd, target, offsetof(Readback, marker), sizeof(uint32_t),
                           markers_[f.slot]);
     f.hostBarrier();
@@ -201,8 +190,8 @@ CndResult Exposure::stats(uint32_t slot, CndExposureStats& out) const noexcept
 {
     if (slot >= markers_.size() || !markers_[slot] || out.structSize != sizeof out)
         return CND_ERROR_INVALID_ARGUMENT;
-    const Readback& read = readback_[slot].as<Readback>()[0];
-    if (read.marker != markers_[slot])
+    Readback& read = readback_[slot].as<Readback>()[0];
+    if (std::atomic_ref(read.marker).load(std::memory_order_acquire) != markers_[slot])
         return CND_NOT_READY;
     out.targetEv100 = read.state.targetEv100;
     out.adaptedEv100 = read.state.adaptedEv100;

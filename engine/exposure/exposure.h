@@ -13,11 +13,16 @@ namespace candelabra::exposure
 // Throw gpu::Failure naming the field that is out of its documented range.
 void validateSettings(const CndExposureSettings& settings);
 void validateMask(const uint8_t* weights, uint32_t width, uint32_t height);
+// Settings and time step, both valid, as the kernel takes them.
+gpu::AdaptExposureParams adaptParams(const CndExposureSettings& settings, float deltaTime,
+                                     bool reset) noexcept;
 
 class Exposure
 {
 public:
     Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc);
+    Exposure(const Exposure&) = delete; // its objects point to device_
+    Exposure& operator=(const Exposure&) = delete;
 
     void setMask(const uint8_t* weights, uint32_t width, uint32_t height);
     // Throws gpu::Failure on arguments out of range; once recording starts nothing can fail.
@@ -28,7 +33,7 @@ private:
     void validate(const CndExposureFrame& frame) const;
     void writeBindings(const CndExposureFrame& frame) const;
     void recordHistogram(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept;
-    void recordAdaptation(const gpu::Frame& f, const CndExposureFrame& frame) noexcept;
+    void recordAdaptation(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept;
     void recordToneMap(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept;
     void recordReadback(const gpu::Frame& f) const noexcept;
 
@@ -47,7 +52,6 @@ private:
     std::vector<uint32_t> markers_;     // per slot: what the GPU writes when it is done, 0: unused
     glm::uvec2 maskSize_{0};
     uint32_t recordings_ = 0;
-    bool hasHistory_ = false;
 };
 
 } // namespace candelabra::exposure

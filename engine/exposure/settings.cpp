@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defaults, ranges and camera arithmetic of the exposure module.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,26 +11,57 @@ namespace candelabra::exposure
 namespace
 {
 
+// Starlight is EV -16, the sun's disk EV 33; with any compensation the factor 1 / (1.2 * 2^EV) is a
+// normal float.
+constexpr float maxEv100 = 64;
+constexpr float maxCompensation = 32;
+// Shares travel in units of 2^-32 of the histogram: this window is thousands of them wide.
+constexpr double minPercentileWindow = 1e-6;
+
 void require(bool condition, const char* sentence)
 {
     if (!condition)
         gpu::failArgument(sentence);
 }
 
+// Written so that NaN fails.
+void requireWithin(const char* field, float value, float limit)
+{
+    if (!(std::abs(value) <= limit))
+        gpu::failArgument(std::string("CndExposureSettings: ") + field + " must be within -" +
+                          std::to_string(int(limit)) + ".." + std::to_string(int(limit)) + ", is " +
+                          std::to_string(value));
+}
+
+void requirePositive(const char* field, float value)
+{
+    if (!(value > 0 && std::isfinite(value)))
+        gpu::failArgument(std::string("CndExposureSettings: ") + field +
+                          " must be finite and > 0, is " + std::to_string(value));
+}
+
+// `share` in [0, 1) as a multiple of 2^-32.
+uint32_t fixedPoint(double share)
+{
+    constexpr double one = 4294967296.0;
+    return uint32_t(std::min(std::round(share * one), one - 1));
+}
+
 } // namespace
 
 void validateSettings(const CndExposureSettings& s)
 {
-    for (const float ev : {s.manualEv100, s.compensation, s.minEv100, s.maxEv100})
-        require(std::isfinite(ev) && std::abs(ev) <= 64,
-                "CndExposureSettings: manualEv100, compensation, minEv100 and maxEv100 must be "
-                "finite and within +-64");
+    requireWithin("manualEv100", s.manualEv100, maxEv100);
+    requireWithin("compensation", s.compensation, maxCompensation);
+    requireWithin("minEv100", s.minEv100, maxEv100);
+    requireWithin("maxEv100", s.maxEv100, maxEv100);
     require(s.minEv100 <= s.maxEv100, "CndExposureSettings: minEv100 must not exceed maxEv100");
-    require(s.lowPercentile >= 0 && s.lowPercentile < s.highPercentile && s.highPercentile <= 1,
-            "CndExposureSettings: percentiles must satisfy 0 <= low < high <= 1");
-    require(s.speedUp > 0 && std::isfinite(s.speedUp) && s.speedDown > 0 &&
-                std::isfinite(s.speedDown),
-            "CndExposureSettings: speedUp and speedDown must be finite and > 0");
+    const double low = s.lowPercentile, high = s.highPercentile;
+    require(low >= 0 && high <= 1 && high - low >= minPercentileWindow,
+            "CndExposureSettings: percentiles must satisfy 0 <= low, low + 0.000001 <= high, "
+            "high <= 1");
+    requirePositive("speedUp", s.speedUp);
+    requirePositive("speedDown", s.speedDown);
     require(uint32_t(s.metering) <= CND_METERING_MASK,
             "CndExposureSettings: metering is not a CndMetering");
     require(uint32_t(s.toneMap) < CND_TONEMAP_COUNT,
@@ -46,6 +78,23 @@ void validateMask(const uint8_t* weights, uint32_t width, uint32_t height)
         if (weights[i] > gpu::MAX_METERING_WEIGHT)
             gpu::failArgument("cndSetExposureMask: weights[" + std::to_string(i) + "] is " +
                               std::to_string(weights[i]) + ", the largest weight is 15");
+}
+
+gpu::AdaptExposureParams adaptParams(const CndExposureSettings& s, float deltaTime,
+                                     bool reset) noexcept
+{
+    // In double: exp(-dt speed) of many short steps must multiply to that of a long one.
+    const auto keep = [&](float speed) { return float(std::exp(-double(deltaTime) * speed)); };
+    return {.manual = s.manual ? 1u : 0u,
+            .reset = reset ? 1u : 0u,
+            .manualEv100 = s.manualEv100,
+            .compensation = s.compensation,
+            .minEv100 = s.minEv100,
+            .maxEv100 = s.maxEv100,
+            .lowShare = fixedPoint(s.lowPercentile),
+            .highShare = fixedPoint(1.0 - s.highPercentile),
+            .keepUp = keep(s.speedUp),
+            .keepDown = keep(s.speedDown)};
 }
 
 } // namespace candelabra::exposure

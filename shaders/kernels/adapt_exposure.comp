@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histogram -> target EV100 -> adapted EV100 -> exposure. One lane: 256 bins are a few microseconds.
+// Histogram -> target EV100 -> adapted EV100 -> exposure. Counts go up to 15 * 2^28: a place in the
+// sorted pixels is an integer and a fraction, so nothing is lost to float32 before two of them are
+// subtracted.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/exposure.h"
 
-layout(local_size_x = 1) in;
+layout(local_size_x = HISTOGRAM_BINS) in;
 layout(push_constant, scalar) uniform Push
 {
     AdaptExposureParams params;
@@ -18,6 +20,9 @@ layout(scalar, binding = ADAPT_STATE) buffer State
     ExposureState state;
 };
 
+shared uint prefixes[HISTOGRAM_BINS];
+shared vec2 sums[HISTOGRAM_BINS];
+
 // log2 of the mean luminance inside a bin.
 float binLog2Luminance(uint bin, float meanFraction)
 {
@@ -25,45 +30,96 @@ float binLog2Luminance(uint bin, float meanFraction)
     return float(int(bin / 8u) + HISTOGRAM_MIN_EXPONENT) + log2(1.0 + step / 8.0);
 }
 
-// Mean of log2 luminance between the two percentiles; bins on the border count with the part inside.
-// Returns false without counts. Cumulative counts are exact integers; as floats their error is 6e-8
-// of the total, so of the mean.
-bool percentileMean(out float meanLog2)
+// Inclusive, into `prefixes`. Hillis and Steele 1986.
+void addPrefixes(uint value)
 {
-    uint total = 0u;
-    for (uint bin = 0u; bin < HISTOGRAM_BINS; ++bin)
-        total += data.counts[bin];
-    const float first = params.lowPercentile * float(total);
-    const float last = params.highPercentile * float(total);
-    uint below = 0u;
-    float mass = 0.0;
-    float sum = 0.0;
-    for (uint bin = 0u; bin < HISTOGRAM_BINS; ++bin) {
-        const uint count = data.counts[bin];
-        const float inside = min(float(below + count), last) - max(float(below), first);
-        below += count;
-        if (count != 0u && inside > 0.0) {
-            const uvec2 fractions = data.fractions[bin];
-            const float fraction = float(fractions.y) * 4294967296.0 + float(fractions.x);
-            mass += inside;
-            sum += inside * binLog2Luminance(bin, fraction / float(count));
-        }
+    const uint lane = gl_LocalInvocationIndex;
+    prefixes[lane] = value;
+    barrier();
+    for (uint reach = 1u; reach < HISTOGRAM_BINS; reach *= 2u) {
+        const uint left = lane >= reach ? prefixes[lane - reach] : 0u;
+        barrier();
+        prefixes[lane] += left;
+        barrier();
     }
-    meanLog2 = mass > 0.0 ? sum / mass : 0.0;
-    return mass > 0.0;
+}
+
+// Over all lanes, pairwise; the result is lane 0's.
+vec2 sumOverLanes(vec2 value)
+{
+    const uint lane = gl_LocalInvocationIndex;
+    sums[lane] = value;
+    barrier();
+    for (uint count = HISTOGRAM_BINS / 2u; count > 0u; count /= 2u) {
+        if (lane < count)
+            sums[lane] += sums[lane + count];
+        barrier();
+    }
+    return sums[0];
+}
+
+struct Place {
+    uint whole;
+    float fraction; // [0, 1]
+};
+
+// total * share / 2^32.
+Place placeFromBottom(uint total, uint share)
+{
+    uint whole, rest;
+    umulExtended(total, share, whole, rest);
+    return Place(whole, float(rest) * exp2(-32.0));
+}
+
+Place placeFromTop(uint total, uint share)
+{
+    const Place p = placeFromBottom(total, share);
+    return p.fraction > 0.0 ? Place(total - p.whole - 1u, 1.0 - p.fraction)
+                            : Place(total - p.whole, 0.0);
+}
+
+// How much of the counts from `below` to `above` lies between the two places.
+float countInside(uint below, uint above, Place first, Place last)
+{
+    if (below > first.whole)
+        first = Place(below, 0.0);
+    if (above <= last.whole)
+        last = Place(above, 0.0);
+    if (last.whole < first.whole)
+        return 0.0;
+    return max(float(last.whole - first.whole) + (last.fraction - first.fraction), 0.0);
+}
+
+// Lane 0: (sum of log2 luminance, mass) between the two percentiles.
+vec2 measure()
+{
+    const uint bin = gl_LocalInvocationIndex;
+    const uint count = data.counts[bin];
+    addPrefixes(count);
+    const uint total = prefixes[HISTOGRAM_BINS - 1u];
+    const uint above = prefixes[bin];
+    const float inside = countInside(above - count, above, placeFromBottom(total, params.lowShare),
+                                     placeFromTop(total, params.highShare));
+    const uvec2 fractions = data.fractions[bin];
+    const float fraction = (float(fractions.y) * 4294967296.0 + float(fractions.x)) /
+                           float(max(count, 1u));
+    return sumOverLanes(inside * vec2(binLog2Luminance(bin, fraction), 1.0));
 }
 
 void main()
 {
-    const float previous = state.adaptedEv100;
+    const vec2 measured = measure();
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    const bool reset = params.reset != 0u || state.initialized != EXPOSURE_INITIALIZED;
+    const float previous = reset ? 0.0 : state.adaptedEv100;
     float target = params.manualEv100;
     float adapted = target;
     if (params.manual == 0u) {
-        float meanLog2;
-        // EV100 = log2(L 100 / 12.5) = log2(L) + 3.
-        target = percentileMean(meanLog2) ? meanLog2 + 3.0 : params.reset != 0u ? 0.0 : previous;
+        // EV100 = log2(L 100 / 12.5) = log2(L) + 3. Nothing measured: stay.
+        target = measured.y > 0.0 ? measured.x / measured.y + 3.0 : previous;
         target = clamp(target, params.minEv100, params.maxEv100);
-        const float start = params.reset != 0u ? target : previous;
+        const float start = reset ? target : previous;
         const float keep = target > start ? params.keepUp : params.keepDown;
         adapted = clamp(target + (start - target) * keep, params.minEv100, params.maxEv100);
     }
@@ -71,4 +127,5 @@ void main()
     state.adaptedEv100 = adapted;
     // Saturation-based speed, ISO 12232; Lagarde and de Rousiers 2014, eq. 85.
     state.exposure = 1.0 / (1.2 * exp2(adapted - params.compensation));
+    state.initialized = EXPOSURE_INITIALIZED;
 }

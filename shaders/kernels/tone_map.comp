@@ -32,21 +32,15 @@ uvec3 hash(uvec3 v)
     return v;
 }
 
-// Triangular in (-1, 1), mean 0: the sum of two uniforms makes the error independent of the signal.
-vec3 triangularNoise(uvec2 pixel)
-{
-    const uvec3 h = hash(uvec3(pixel, params.ditherSeed));
-    return (vec3(h & 0xFFFFu) + vec3(h >> 16u) + 1.0) / 65536.0 - 1.0;
-}
-
 void main()
 {
     const uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, params.size)))
         return;
     const vec3 radiance = texelFetch(radianceImage, ivec2(pixel), 0).rgb;
-    const vec3 encoded = encodeSrgb(toneMap(curve, radiance * state.exposure));
-    const vec3 noise = params.dither != 0u ? triangularNoise(pixel) : vec3(0.0);
-    const vec3 steps = floor(clamp(encoded * 255.0 + noise, 0.0, 255.0) + 0.5);
+    const vec3 exposed = expose(radiance, state.exposure);
+    const vec3 encoded = encodeSrgb(toneMap(curve, exposed));
+    const vec3 steps = params.dither != 0u ? quantize(encoded, hash(uvec3(pixel, params.ditherSeed)))
+                                           : quantize(encoded);
     imageStore(displayImage, ivec2(pixel), vec4(steps / 255.0, 1.0));
 }

@@ -71,12 +71,19 @@ vec3 toneMapAgx(vec3 c)
     return pow(clamp(outset * y, 0.0, 1.0), vec3(2.2));
 }
 
-// NaN and negative channels become 0, infinity white.
-vec3 toneMap(uint curve, vec3 exposed)
+// Exposed radiance for any bits: NaN and negative channels become 0, infinity WHITE_BEYOND. By the
+// bits, since comparisons may be compiled as if there were no NaN.
+vec3 expose(vec3 radiance, float exposure)
 {
-    vec3 c;
-    for (int i = 0; i < 3; ++i)
-        c[i] = exposed[i] > 0.0 ? min(exposed[i], WHITE_BEYOND) : 0.0;
+    const uvec3 bits = floatBitsToUint(radiance);
+    const vec3 finite = uintBitsToFloat(min(bits, 0x7F7FFFFFu));
+    const bvec3 unusable = greaterThan(bits, uvec3(0x7F800000u)); // sign set, or NaN
+    return mix(min(finite * exposure, WHITE_BEYOND), vec3(0.0), unusable);
+}
+
+// `c` as expose() gives it.
+vec3 toneMap(uint curve, vec3 c)
+{
     switch (curve) {
     case TONEMAP_REINHARD:
         return toneMapReinhard(c);
@@ -97,6 +104,24 @@ vec3 encodeSrgb(vec3 c)
     const vec3 low = 12.92 * c;
     const vec3 high = 1.055 * pow(max(c, 0.0031308), vec3(1.0 / 2.4)) - 0.055;
     return mix(high, low, lessThanEqual(c, vec3(0.0031308)));
+}
+
+// Encoded [0, 1] to whole steps 0..255. The noise is triangular over two steps, which makes mean and
+// variance of the error independent of the signal; within half a step of the ends, where clipping it
+// would shift the mean, it is uniform over one step, so that black and white stay exact.
+vec3 quantize(vec3 encoded, uvec3 random)
+{
+    const vec3 value = 255.0 * encoded;
+    const vec3 u = (vec3(random & 0xFFFFu) + 0.5) / 65536.0;
+    const vec3 v = (vec3(random >> 16u) + 0.5) / 65536.0;
+    const bvec3 atEnd = greaterThan(abs(value - 127.5), vec3(127.0));
+    const vec3 noise = mix(u + v - 1.0, u - 0.5, atEnd);
+    return clamp(floor(value + noise + 0.5), 0.0, 255.0);
+}
+
+vec3 quantize(vec3 encoded)
+{
+    return floor(255.0 * encoded + 0.5);
 }
 
 #endif

@@ -34,9 +34,13 @@ GPU_SIZE(HistogramData, 3076)
 struct ExposureState {
     float targetEv100;
     float adaptedEv100;
-    float exposure; // factor on luminance, compensation included
+    float exposure;   // factor on luminance, compensation included
+    uint initialized; // EXPOSURE_INITIALIZED once adapt_exposure has run
 };
-GPU_SIZE(ExposureState, 12)
+GPU_SIZE(ExposureState, 16)
+// A value that memory fresh from a driver hardly holds: whatever was recorded but never submitted,
+// the first frame that runs finds no history.
+const uint EXPOSURE_INITIALIZED = 0xE5C0F10Eu;
 
 // --- luminance_histogram: one group per block of pixels. A group packs count and fraction sum of a
 // bin into one word: 1024 pixels * weight 15 < 2^14, times fraction 15 < 2^18.
@@ -54,7 +58,7 @@ struct LuminanceHistogramParams {
 };
 GPU_SIZE(LuminanceHistogramParams, 20)
 
-// --- adapt_exposure: one lane
+// --- adapt_exposure: one group, one lane per bin
 const uint ADAPT_DATA = 0u;
 const uint ADAPT_STATE = 1u;
 struct AdaptExposureParams {
@@ -63,8 +67,8 @@ struct AdaptExposureParams {
     float manualEv100;
     float compensation;
     float minEv100, maxEv100;
-    float lowPercentile, highPercentile;
-    float keepUp, keepDown; // exp(-dt speed): share of the distance to the target that is left
+    uint lowShare, highShare; // shares ignored at the dark and the bright end, times 2^32
+    float keepUp, keepDown;   // exp(-dt speed): share of the distance to the target that is left
 };
 GPU_SIZE(AdaptExposureParams, 40)
 
