@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Rules about the tree that no compiler checks: who may include whom, how large a file may be, what
+every file starts with. Usage: test_structure.py REPOSITORY"""
+import pathlib
+import re
+import sys
+
+root = pathlib.Path(sys.argv[1])
+failures = []
+
+
+def fail(path, why):
+    failures.append(f"{path.relative_to(root)}: {why}")
+
+
+# Folder -> what its quoted includes may start with. The first match wins.
+ALLOWED = [
+    ("engine/include", ["candelabra/"]),
+    ("engine/gpu", ["gpu/", "candelabra/"]),
+    ("engine/reference", ["reference/", "candelabra/candelabra.h"]),
+    ("engine/lighting", ["lighting/", "gpu/", "shared/", "candelabra/", "candelabra_shaders.h"]),
+    ("engine/exposure", ["exposure/", "gpu/", "shared/", "candelabra/", "candelabra_shaders.h"]),
+    ("engine/gbuffer", ["gbuffer/", "gpu/", "shared/", "candelabra/", "candelabra_shaders.h"]),
+    # The program draws its frames through the public face; of the engine's inside it may use the gpu
+    # floor and the raster pass, both of which are made to be used alone.
+    ("tools/candelabra", ["commands/", "io/", "render/", "scene/", "viewer/", "cli.h",
+                          "candelabra/", "gpu/", "gbuffer/", "shared/specular_methods.h",
+                          "candelabra_commit.h"]),
+    ("shaders/shared", ["shared/"]),
+    ("shaders/lib", ["shared/", "lib/"]),
+    ("shaders/kernels", ["shared/", "lib/"]),
+    ("shaders/gbuffer", ["shared/", "lib/", "gbuffer/"]),
+]
+# Standard library and Vulkan only, in what hosts include.
+PUBLIC_SYSTEM = re.compile(r"^(vulkan/vulkan_core\.h|[a-z_]+(\.h)?)$")
+
+MAX_LINES = {".cpp": 450, ".h": 450, ".hpp": 450, ".comp": 140, ".glsl": 300}
+# Tables and the one ABI header read top to bottom.
+LONG_FILES = {"engine/include/candelabra/candelabra.h"}
+
+SOURCES = [p for folder in ("engine", "shaders", "tools", "tests")
+           for p in sorted((root / folder).rglob("*"))
+           if p.suffix in (".cpp", ".h", ".hpp", ".comp", ".glsl", ".vert", ".frag")]
+
+for path in SOURCES:
+    text = path.read_text(encoding="utf-8")
+    name = path.relative_to(root).as_posix()
+    if not text.startswith("// SPDX-License-Identifier: Apache-2.0\n"):
+        fail(path, "does not start with the SPDX line")
+    if path.suffix in (".h",) and "#pragma once" not in text and "#ifndef CND_" not in text \
+            and "#ifndef CANDELABRA_" not in text:
+        fail(path, "has no include guard")
+    lines = text.count("\n")
+    if lines > MAX_LINES.get(path.suffix, 450) and name not in LONG_FILES:
+        fail(path, f"has {lines} lines, at most {MAX_LINES.get(path.suffix, 450)}")
+    for number, line in enumerate(text.split("\n"), 1):
+        columns = 104 if name.startswith("shaders/") else 100  # no formatter wraps GLSL for us
+        if len(line) > columns:
+            fail(path, f"line {number} has {len(line)} columns, at most {columns}")
+    for folder, allowed in ALLOWED:
+        if not name.startswith(folder + "/"):
+            continue
+        for include in re.findall(r'#include "([^"]+)"', text):
+            if not any(include.startswith(a) for a in allowed):
+                fail(path, f'may not include "{include}"')
+        if folder == "engine/include":
+            for include in re.findall(r"#include <([^>]+)>", text):
+                if not PUBLIC_SYSTEM.match(include):
+                    fail(path, f"may not include <{include}>")
+        break
+    if re.search(r"\b(TODO|FIXME|XXX)\b", text):
+        fail(path, "holds an unfinished mark")
+
+# The engine loads no Vulkan itself: prototypes may only be called above it.
+for path in SOURCES:
+    if path.relative_to(root).as_posix().startswith("engine/"):
+        if re.search(r"\bvk[A-Z]\w+\(", re.sub(r"//.*", "", path.read_text())):
+            fail(path, "calls a Vulkan prototype instead of the host's function table")
+
+# One #ifdef __cplusplus in shaders: prelude.h.
+for path in SOURCES:
+    name = path.relative_to(root).as_posix()
+    if name.startswith("shaders/") and name != "shaders/shared/prelude.h":
+        if "__cplusplus" in path.read_text():
+            fail(path, "only shaders/shared/prelude.h may ask for the language")
+
+# Every kernel is in the build, and every file the build names exists.
+listed = re.findall(r"(?:kernels|gbuffer|probes)/\w+\.\w+", (root / "shaders/CMakeLists.txt").read_text())
+for folder in ("kernels", "gbuffer", "probes"):
+    for path in sorted((root / "shaders" / folder).glob("*")):
+        if path.suffix != ".glsl" and f"{folder}/{path.name}" not in listed:
+            fail(path, "is not in shaders/CMakeLists.txt")
+
+# Names that are banned because they do not say which quantity is meant.
+BANNED = re.compile(r"\bfloat (brightness|roughness|color)\b\s*[;=]")
+for path in SOURCES:
+    name = path.relative_to(root).as_posix()
+    if name.startswith(("engine/include", "shaders/lib")) and BANNED.search(path.read_text()):
+        fail(path, "uses a banned quantity name (brightness, roughness, color)")
+
+TOP_LEVEL = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "engine", "samples",
+             "shaders", "tests", "tools", "build", "out"}
+for path in root.iterdir():
+    if path.name not in TOP_LEVEL and not path.name.startswith("."):
+        fail(path, "does not belong at the top level")
+
+print("\n".join(failures) or f"{len(SOURCES)} files keep the rules")
+sys.exit(1 if failures else 0)
