@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "render/readback.h"
@@ -86,7 +85,7 @@ double shadingMs(const CndLightingStats& stats)
 {
     double ms = 0;
     for (uint32_t i = 0; i < stats.kernelTimeCount; ++i)
-        if (std::strcmp(stats.kernelTimes[i].name, "shade_brute.comp") == 0)
+        if (passName(stats.kernelTimes[i].name) == "shade_brute")
             ms += stats.kernelTimes[i].ms;
     return ms;
 }
@@ -119,6 +118,7 @@ BruteCheck compareWithBruteForce(const VulkanContext& context, Renderer& rendere
         out.pixels += pixels;
         onPairs(double(pixels) * double(lights));
     }
+    context.submitAndWait([&](VkCommandBuffer cmd) { renderer.recordBruteEnd(cmd); });
     const Image brute = readRadiance(context, renderer);
     for (const VkRect2D& r : rects)
         out.maxDifference = std::max(out.maxDifference, maxDifference(clustered, brute, r));

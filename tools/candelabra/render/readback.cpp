@@ -12,7 +12,7 @@ namespace candelabra::app
 namespace
 {
 
-// All texels of a colour image that is in GENERAL and visible to transfers.
+// All texels of a colour image that is in TRANSFER_SRC_OPTIMAL and visible to transfers.
 gpu::Buffer read(const VulkanContext& context, const gpu::Image& image, uint32_t texelBytes)
 {
     gpu::Buffer buffer = createBuffer(context.device(), "readback",
@@ -21,8 +21,8 @@ gpu::Buffer read(const VulkanContext& context, const gpu::Image& image, uint32_t
     context.submitAndWait([&](VkCommandBuffer cmd) {
         const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                        .imageExtent = {image.width, image.height, 1}};
-        vkCmdCopyImageToBuffer(cmd, image.image.get(), VK_IMAGE_LAYOUT_GENERAL, buffer.get(), 1,
-                               &region);
+        vkCmdCopyImageToBuffer(cmd, image.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                               buffer.get(), 1, &region);
         const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                                        .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,

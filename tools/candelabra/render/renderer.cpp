@@ -31,7 +31,7 @@ constexpr Access shaderRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                             VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 constexpr Access transferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
-                              VK_IMAGE_LAYOUT_GENERAL};
+                              VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
 // The frame before may still be copying from it; its contents are not wanted.
 constexpr Access discarded{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE,
                            VK_IMAGE_LAYOUT_UNDEFINED};
@@ -212,6 +212,10 @@ void Renderer::recordBruteRect(VkCommandBuffer cmd, const FrameOptions& frame, c
     lighting.bruteRect = rect;
     lighting.countPairs = VK_FALSE;
     take(state_->view.record(cmd, lighting));
+}
+
+void Renderer::recordBruteEnd(VkCommandBuffer cmd)
+{
     transition(state_->context.device(), cmd, state_->targets.radiance, shaderWrite, transferRead);
 }
 

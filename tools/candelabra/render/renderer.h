@@ -57,12 +57,14 @@ public:
     PixelSize size() const;
 
     // A whole frame; the GPU must be done with the slot's previous one. Leaves radiance and display
-    // in GENERAL, visible to transfers.
+    // in TRANSFER_SRC_OPTIMAL, visible to transfers.
     void record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options);
-    // The same up to the G-buffer (no lighting); then lighting of `rect` alone, by brute force,
-    // onto it. For checks that spread one frame over many submissions. Slot 0 only.
+    // A frame in pieces, for checks that spread it over many submissions: the G-buffer; lighting of
+    // rectangles that do not overlap, by brute force; the end, which leaves radiance (not display)
+    // like record(). Slot 0 only.
     void recordUnlit(VkCommandBuffer cmd, const FrameOptions& options);
     void recordBruteRect(VkCommandBuffer cmd, const FrameOptions& options, const VkRect2D& rect);
+    void recordBruteEnd(VkCommandBuffer cmd);
 
     // Of the last frame recorded in `slot`, which the GPU must have finished.
     FrameStats stats(uint32_t slot) const;

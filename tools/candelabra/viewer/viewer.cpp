@@ -237,8 +237,9 @@ void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
         .dstSubresource = layers,
         .dstOffsets = {{0, 0, 0}, {int32_t(to.width), int32_t(to.height), 1}}};
     // A blit and not a copy: the window may order its channels differently.
-    vkCmdBlitImage(cmd, renderer_->display().image.get(), VK_IMAGE_LAYOUT_GENERAL, target.image,
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+    vkCmdBlitImage(cmd, renderer_->display().image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                   target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                   VK_FILTER_NEAREST);
     transition(cmd, target.image, blitTarget, attachment);
     overlay_.record(cmd, swapchain_, target);
 }
