@@ -204,6 +204,12 @@ std::vector<BrokenCase> brokenGltfCases()
     for (const Edit& edit : bufferEdits)
         cases.push_back(
             {edit.name, "scene.gltf", bytesOf(edited(withBuffers, edit).dump()), edit.element});
+    Json longName = valid.json;
+    longName["images"][0] = {{"uri", std::string(5000, 'x') + ".png"}};
+    GltfBuilder b = valid;
+    b.json = longName;
+    cases.push_back(
+        {"image name too long", "scene.gltf", bytesOf(b.text()), "images[0].uri: \"xxx"});
     addDataCases(cases);
     return cases;
 }

@@ -261,11 +261,8 @@ std::vector<uint8_t> readGltfUri(const GltfDocument& document, const std::string
     }
     const std::string relative = relativePath(document, uri, element);
     const std::filesystem::path folder = std::filesystem::path(document.file).parent_path();
-    try {
-        return readSceneFile((folder / relative).string());
-    } catch (const std::exception& e) {
-        document.fail(element, e.what());
-    }
+    return readSceneFile((folder / relative).string(), document.file,
+                         element + ": \"" + printable(uri, 80) + "\"");
 }
 
 GltfDocument openGltf(const std::string& path)

@@ -98,32 +98,38 @@ std::string printable(std::string_view text, size_t maxLength)
 
 std::vector<uint8_t> readSceneFile(const std::string& path)
 {
+    return readSceneFile(path, path, "");
+}
+
+std::vector<uint8_t> readSceneFile(const std::string& path, const std::string& file,
+                                   const std::string& element)
+{
     if (path.empty() || path.find('\0') != std::string::npos)
-        failScene(path, "", "not a file name");
+        failScene(file, element, "not a file name");
     // O_NONBLOCK: opening a pipe must not wait for its writer.
-    const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    const FileDescriptor input(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     struct stat info = {};
-    if (file.get() < 0 || fstat(file.get(), &info) != 0)
-        failScene(path, "", std::string("cannot be opened: ") + std::strerror(errno));
+    if (input.get() < 0 || fstat(input.get(), &info) != 0)
+        failScene(file, element, std::string("cannot be opened: ") + std::strerror(errno));
     if (S_ISDIR(info.st_mode))
-        failScene(path, "", "is a directory, not a file");
+        failScene(file, element, "is a directory, not a file");
     if (!S_ISREG(info.st_mode))
-        failScene(path, "", "is not a regular file");
+        failScene(file, element, "is not a regular file");
     if (info.st_size == 0)
-        failScene(path, "", "is empty");
+        failScene(file, element, "is empty");
     if (info.st_size > std::numeric_limits<uint32_t>::max())
-        failScene(path, "", "is larger than 4 GiB");
+        failScene(file, element, "is larger than 4 GiB");
 
     std::vector<uint8_t> bytes(static_cast<size_t>(info.st_size));
     size_t done = 0;
     while (done < bytes.size()) {
-        const ssize_t n = read(file.get(), bytes.data() + done, bytes.size() - done);
+        const ssize_t n = read(input.get(), bytes.data() + done, bytes.size() - done);
         if (n < 0 && errno == EINTR)
             continue;
         if (n < 0)
-            failScene(path, "", std::string("cannot be read: ") + std::strerror(errno));
+            failScene(file, element, std::string("cannot be read: ") + std::strerror(errno));
         if (n == 0)
-            failScene(path, "", "became shorter while it was read");
+            failScene(file, element, "became shorter while it was read");
         done += static_cast<size_t>(n);
     }
     return bytes;

@@ -26,6 +26,9 @@ std::string printable(std::string_view text, size_t maxLength = 160);
 
 // The bytes of a regular file of 1..4294967295 bytes.
 std::vector<uint8_t> readSceneFile(const std::string& path);
+// The same for a file that `file` refers to in `element`: complaints are about those two.
+std::vector<uint8_t> readSceneFile(const std::string& path, const std::string& file,
+                                   const std::string& element);
 
 // Parses UTF-8 JSON; refuses more than 256 MiB of text and nesting deeper than 64, so that memory
 // and recursion stay bounded. `file` is used in messages only.
