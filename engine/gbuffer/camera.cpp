@@ -9,6 +9,24 @@
 namespace candelabra::gbuffer
 {
 
+namespace
+{
+
+// x minus what a float keeps of it. g++ 12.2 vectorises double(float(x)) of neighbouring members to
+// x and so returns 0 (-O2, x86-64); volatile keeps the rounding.
+float remainder(double x)
+{
+    const volatile float kept = float(x);
+    return float(x - double(kept));
+}
+
+} // namespace
+
+DoubleSingle::DoubleSingle(const glm::dvec3& x)
+    : hi(x), lo(remainder(x.x), remainder(x.y), remainder(x.z))
+{
+}
+
 CameraTerms::CameraTerms(const CndCamera& camera, float clearDepth)
     : clipFromView(glm::make_mat4(camera.clipFromView)),
       viewFromWorld(glm::dmat3(glm::make_mat4(camera.viewFromWorld))),

@@ -17,7 +17,7 @@ namespace candelabra::gbuffer
 // A position as two floats: x = hi + lo to 2^-48 relative.
 struct DoubleSingle {
     glm::vec3 hi, lo;
-    explicit DoubleSingle(const glm::dvec3& x) : hi(x), lo(x - glm::dvec3(hi)) {}
+    explicit DoubleSingle(const glm::dvec3& x);
 };
 
 struct CameraTerms {

@@ -241,8 +241,10 @@ Geometry::Geometry(const gpu::Device& device, const GeometryDesc& desc)
     g.materials = uploads.buffer("materials", materials, texels);
     g.bounds = uploads.buffer("instance bounds", batches.bounds, storage);
     g.chunks = uploads.buffer("chunks", batches.chunks, storage);
-    g.commands = uploads.buffer("draw commands", batches.commands,
-                                storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    g.commands =
+        uploads.buffer("draw commands", batches.commands,
+                       storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT); // hosts may count what was drawn
     g.chunkCount = uint32_t(batches.chunks.size());
     createTexels(g, g.instances, "instances");
     createTexels(g, g.materials, "materials");

@@ -23,9 +23,10 @@ const uint GBUFFER_LAYOUT_COMPACT = 1u;
 const uint NORMAL_BITS_FULL = 24u;
 const uint NORMAL_BITS_COMPACT = 12u;
 
-// Largest angle between a unit normal and what unpacking returns, radians.
-const float NORMAL_ERROR_FULL = 4e-7f;
-const float NORMAL_ERROR_COMPACT = 9e-4f; // Cigolle et al. 2014, table 1: oct24 (0.0513 degrees)
+// Largest angle between a unit normal and what unpacking returns, radians. At the middle of a face a
+// half step in both coordinates turns the normal by sqrt(18) half steps; FULL adds float rounding.
+const float NORMAL_ERROR_FULL = 6e-7f;     // sqrt(18) / 2 / (2^23 - 1) = 2.53e-7
+const float NORMAL_ERROR_COMPACT = 1.04e-3f; // sqrt(18) / 2 / (2^11 - 1) = 1.036e-3
 // Largest error of perceptual roughness in [0, 1]: half a unorm step.
 const float ROUGHNESS_ERROR_FULL = 7.7e-6f;
 const float ROUGHNESS_ERROR_COMPACT = 1.97e-3f;
