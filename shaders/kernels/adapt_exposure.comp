@@ -23,10 +23,10 @@ layout(scalar, binding = ADAPT_STATE) buffer State
 shared uint prefixes[HISTOGRAM_BINS];
 shared vec2 sums[HISTOGRAM_BINS];
 
-// log2 of the middle of a bin, which stands for all its members.
-float binLog2Luminance(uint bin)
+// log2 of the mean luminance inside a bin.
+float binLog2Luminance(uint bin, float meanFraction)
 {
-    const float step = float(bin % 8u) + 0.5;
+    const float step = float(bin % 8u) + (meanFraction + 0.5) / float(HISTOGRAM_FRACTIONS);
     return float(int(bin / 8u) + HISTOGRAM_MIN_EXPONENT) + log2(1.0 + step / 8.0);
 }
 
@@ -100,7 +100,10 @@ vec2 measure()
     const uint above = prefixes[bin];
     const float inside = countInside(above - count, above, placeFromBottom(total, params.lowShare),
                                      placeFromTop(total, params.highShare));
-    return sumOverLanes(inside * vec2(binLog2Luminance(bin), 1.0));
+    const uvec2 fractions = data.fractions[bin];
+    const float fraction = (float(fractions.y) * 4294967296.0 + float(fractions.x)) /
+                           float(max(count, 1u));
+    return sumOverLanes(inside * vec2(binLog2Luminance(bin, fraction), 1.0));
 }
 
 void main()

@@ -25,15 +25,14 @@ const uint GROUP = HISTOGRAM_GROUP_X * HISTOGRAM_GROUP_Y; // one lane per bin wh
 shared uint bins[HISTOGRAM_BINS];
 shared uint invalidPixels;
 
-// Integer weight of a pixel; the products (14 * 16383 * 16384) fit 32 bits up to 16384 x 16384.
+// Integer weight of a pixel; the products fit 32 bits up to 16384 x 16384.
 uint weightOf(uvec2 pixel)
 {
     const uvec2 size = params.size;
     if (params.metering == METERING_CENTRE_WEIGHTED) {
         const uvec2 d = uvec2(abs(ivec2(2u * pixel + 1u) - ivec2(size)));
-        const uint most = MAX_METERING_WEIGHT - 1u; // the weight falls from 15 towards 1
-        const uint fall = most * max(d.x * size.y, d.y * size.x) / (size.x * size.y);
-        return MAX_METERING_WEIGHT - min(most, fall);
+        const uint fall = MAX_METERING_WEIGHT * max(d.x * size.y, d.y * size.x) / (size.x * size.y);
+        return MAX_METERING_WEIGHT - min(MAX_METERING_WEIGHT - 1u, fall);
     }
     if (params.metering == METERING_MASK) {
         const uvec2 texel = pixel * params.maskSize / size;
@@ -62,11 +61,16 @@ void count(uvec2 pixel)
         return;
     }
     uint bin = (bits >> HISTOGRAM_BIN_SHIFT) - HISTOGRAM_FIRST_CODE;
-    if (!(y >= HISTOGRAM_MIN_LUMINANCE))
+    uint fraction = (bits >> HISTOGRAM_FRACTION_SHIFT) & (HISTOGRAM_FRACTIONS - 1u);
+    if (!(y >= HISTOGRAM_MIN_LUMINANCE)) {
         bin = 0u;
-    else if (y >= HISTOGRAM_MAX_LUMINANCE)
+        fraction = 0u;
+    } else if (y >= HISTOGRAM_MAX_LUMINANCE) {
         bin = HISTOGRAM_BINS - 1u;
-    atomicAdd(bins[bin], weightOf(pixel));
+        fraction = HISTOGRAM_FRACTIONS - 1u;
+    }
+    const uint weight = weightOf(pixel);
+    atomicAdd(bins[bin], (weight << HISTOGRAM_COUNT_SHIFT) | weight * fraction);
 }
 
 void main()
@@ -87,8 +91,14 @@ void main()
     }
     barrier();
     for (uint bin = lane; bin < HISTOGRAM_BINS; bin += GROUP) {
-        if (bins[bin] != 0u)
-            atomicAdd(data.counts[bin], bins[bin]);
+        const uint packed = bins[bin];
+        if (packed == 0u)
+            continue;
+        atomicAdd(data.counts[bin], packed >> HISTOGRAM_COUNT_SHIFT);
+        const uint fraction = packed & ((1u << HISTOGRAM_COUNT_SHIFT) - 1u);
+        // 64-bit sum: the addition that wraps carries.
+        if (atomicAdd(data.fractions[bin].x, fraction) + fraction < fraction)
+            atomicAdd(data.fractions[bin].y, 1u);
     }
     if (lane == 0u && invalidPixels != 0u)
         atomicAdd(data.invalidPixels, invalidPixels);

@@ -8,9 +8,12 @@
 GPU_BEGIN
 
 // Bins come from the bits of a float: exponent and 3 bits of mantissa make 8 bins per octave, of
-// equal width inside the octave, over 32 octaves from 2^-12 to 2^20 cd/m^2 (EV100 -9 to 23).
+// equal width inside the octave, over 32 octaves from 2^-12 to 2^20 cd/m^2 (EV100 -9 to 23). Four
+// more bits of mantissa are summed per bin, so that the mean inside a bin is known too.
 const uint HISTOGRAM_BINS = 256u;
 const uint HISTOGRAM_BIN_SHIFT = 20u;
+const uint HISTOGRAM_FRACTION_SHIFT = 16u;
+const uint HISTOGRAM_FRACTIONS = 16u;
 const uint HISTOGRAM_FIRST_CODE = 920u; // (127 - 12) * 8
 const int HISTOGRAM_MIN_EXPONENT = -12;
 const float HISTOGRAM_MIN_LUMINANCE = 0.000244140625f; // 2^-12
@@ -22,10 +25,11 @@ const uint METERING_CENTRE_WEIGHTED = 1u;
 const uint METERING_MASK = 2u;
 
 struct HistogramData {
-    uint counts[HISTOGRAM_BINS]; // sums of weights
-    uint invalidPixels;          // NaN luminance
+    uint counts[HISTOGRAM_BINS];     // sums of weights
+    uvec2 fractions[HISTOGRAM_BINS]; // sums of weight * fraction, 64 bit: low, high
+    uint invalidPixels;              // NaN luminance
 };
-GPU_SIZE(HistogramData, 1028)
+GPU_SIZE(HistogramData, 3076)
 
 struct ExposureState {
     float targetEv100;
@@ -38,10 +42,12 @@ GPU_SIZE(ExposureState, 16)
 // the first frame that runs finds no history.
 const uint EXPOSURE_INITIALIZED = 0xE5C0F10Eu;
 
-// --- luminance_histogram: one group per block of pixels
+// --- luminance_histogram: one group per block of pixels. A group packs count and fraction sum of a
+// bin into one word: 1024 pixels * weight 15 < 2^14, times fraction 15 < 2^18.
 const uint HISTOGRAM_GROUP_X = 32u;
 const uint HISTOGRAM_GROUP_Y = 8u;
 const uint HISTOGRAM_ROWS_PER_LANE = 4u;
+const uint HISTOGRAM_COUNT_SHIFT = 18u;
 const uint HISTOGRAM_RADIANCE = 0u;
 const uint HISTOGRAM_MASK = 1u;
 const uint HISTOGRAM_DATA = 2u;

@@ -265,11 +265,9 @@ typedef enum CndToneMap {
 } CndToneMap;
 
 typedef enum CndMetering {
-    CND_METERING_AVERAGE = 0, // every pixel weighs 1
-    // 15 - min(14, floor(14 d)), d = max(|2x + 1 - w| / w, |2y + 1 - h| / h): 15 in the centre, 2
-    // at the border.
-    CND_METERING_CENTRE_WEIGHTED = 1,
-    CND_METERING_MASK = 2, // weights from cndSetExposureMask
+    CND_METERING_AVERAGE = 0,         // every pixel weighs 1
+    CND_METERING_CENTRE_WEIGHTED = 1, // integer weights 1..15, falling with distance to the centre
+    CND_METERING_MASK = 2,            // weights from cndSetExposureMask
     CND_METERING_MAX_ENUM = 0x7FFFFFFF
 } CndMetering;
 
