@@ -16,6 +16,8 @@ constexpr int minExponent = -12; // lower edge of bin 0, log2 of cd/m^2
 constexpr int maxExponent = 20;  // upper edge of bin 255
 constexpr uint32_t binsPerOctave = 8;
 constexpr uint32_t mantissaShift = 20; // leaves three bits of the mantissa: 2^3 = binsPerOctave
+constexpr uint32_t fractionShift = 16; // the next four bits say where in the bin
+constexpr uint32_t fractions = 16;
 constexpr uint32_t exponentBias = 127; // IEEE 754 binary32
 static_assert(binsPerOctave * (maxExponent - minExponent) == CND_HISTOGRAM_BINS);
 
@@ -59,9 +61,18 @@ std::optional<uint32_t> histogramBin(float luminance)
     return (bits >> mantissaShift) - (exponentBias + minExponent) * binsPerOctave;
 }
 
-double binLog2Luminance(uint32_t bin)
+uint32_t binFraction(float luminance)
 {
-    const double step = bin % binsPerOctave + 0.5;
+    if (luminance < std::ldexp(1.0f, minExponent))
+        return 0;
+    if (luminance >= std::ldexp(1.0f, maxExponent))
+        return fractions - 1;
+    return std::bit_cast<uint32_t>(luminance) >> fractionShift & (fractions - 1);
+}
+
+double binLog2Luminance(uint32_t bin, double meanFraction)
+{
+    const double step = bin % binsPerOctave + (meanFraction + 0.5) / fractions;
     return minExponent + static_cast<int>(bin / binsPerOctave) +
            std::log2(1 + step / binsPerOctave);
 }
@@ -71,7 +82,7 @@ uint32_t centreWeight(uint32_t x, uint32_t y, uint32_t width, uint32_t height)
     const int64_t w = width, h = height;
     const int64_t dx = std::abs(2 * int64_t{x} + 1 - w);
     const int64_t dy = std::abs(2 * int64_t{y} + 1 - h);
-    const int64_t fall = 14 * std::max(dx * h, dy * w) / (w * h);
+    const int64_t fall = 15 * std::max(dx * h, dy * w) / (w * h);
     return static_cast<uint32_t>(15 - std::min<int64_t>(14, fall));
 }
 
@@ -95,11 +106,15 @@ Histogram buildHistogram(std::span<const float> rgba, uint32_t width, uint32_t h
     const float* pixel = rgba.data();
     for (uint32_t y = 0; y < height; ++y) {
         for (uint32_t x = 0; x < width; ++x, pixel += 4) {
-            const auto bin = histogramBin(histogramLuminance(pixel[0], pixel[1], pixel[2]));
-            if (bin)
-                histogram.counts[*bin] += pixelWeight(metering, mask, x, y, width, height);
-            else
+            const float luminance = histogramLuminance(pixel[0], pixel[1], pixel[2]);
+            const auto bin = histogramBin(luminance);
+            if (!bin) {
                 ++histogram.invalidPixels;
+                continue;
+            }
+            const uint32_t weight = pixelWeight(metering, mask, x, y, width, height);
+            histogram.counts[*bin] += weight;
+            histogram.fractions[*bin] += uint64_t{weight} * binFraction(luminance);
         }
     }
     return histogram;
@@ -117,8 +132,10 @@ std::optional<double> percentileMeanLog2(const Histogram& histogram, double low,
         const double above = below + histogram.counts[bin];
         const double inside = std::min(above, last) - std::max(below, first);
         if (inside > 0) {
+            const double meanFraction =
+                double(histogram.fractions[bin]) / double(histogram.counts[bin]);
             mass += inside;
-            sum += inside * binLog2Luminance(bin);
+            sum += inside * binLog2Luminance(bin, meanFraction);
         }
         below = above;
     }

@@ -23,11 +23,16 @@ float histogramLuminance(float r, float g, float b);
 // everything above (+infinity) in bin 255.
 std::optional<uint32_t> histogramBin(float luminance);
 
-// log2 of the middle of a bin's interval, which stands for all its members; bins 0 and 255 alike.
-double binLog2Luminance(uint32_t bin);
+// Where in its bin a luminance lies, in sixteenths of the bin's interval, rounded down; 0 below the
+// range and 15 above. Not for NaN.
+uint32_t binFraction(float luminance);
+
+// log2 of the luminance at `meanFraction` sixteenths (0..15) of a bin's interval, plus half a
+// sixteenth: what the members of the bin have on average.
+double binLog2Luminance(uint32_t bin, double meanFraction);
 
 // Weight of pixel (x, y): with dx = |2x + 1 - width| and dy = |2y + 1 - height|,
-// 15 - min(14, 14 max(dx height, dy width) / (width height)), integer division. Fits 32 bits up to
+// 15 - min(14, 15 max(dx height, dy width) / (width height)), integer division. Fits 32 bits up to
 // 16384 x 16384.
 uint32_t centreWeight(uint32_t x, uint32_t y, uint32_t width, uint32_t height);
 
@@ -42,7 +47,8 @@ uint32_t maskWeight(const ExposureMask& mask, uint32_t x, uint32_t y, uint32_t w
                     uint32_t height);
 
 struct Histogram {
-    std::array<uint32_t, CND_HISTOGRAM_BINS> counts{}; // sums of weights
+    std::array<uint32_t, CND_HISTOGRAM_BINS> counts{};    // sums of weights
+    std::array<uint64_t, CND_HISTOGRAM_BINS> fractions{}; // sums of weight * binFraction
     uint32_t invalidPixels = 0; // NaN luminance, whatever its weight; in no bin
 };
 

@@ -89,10 +89,18 @@ TEST(ReferenceHistogram, edgesAreExactFloats)
         const float edge = std::ldexp(1.0f + static_cast<float>(bin % 8) / 8.0f, bin / 8 - 12);
         ASSERT_EQ(histogramBin(edge), static_cast<uint32_t>(bin));
         ASSERT_EQ(histogramBin(std::nextafter(edge, 0.0f)), static_cast<uint32_t>(bin - 1));
-        const double middle = std::exp2(binLog2Luminance(static_cast<uint32_t>(bin)));
-        ASSERT_EQ(histogramBin(static_cast<float>(middle)), static_cast<uint32_t>(bin));
+        ASSERT_EQ(binFraction(edge), 0u);
+        ASSERT_EQ(binFraction(std::nextafter(edge, 0.0f)), 15u);
+        for (const double fraction : {0.0, 7.5, 15.0}) {
+            const double inside = std::exp2(binLog2Luminance(static_cast<uint32_t>(bin), fraction));
+            ASSERT_EQ(histogramBin(static_cast<float>(inside)), static_cast<uint32_t>(bin));
+        }
     }
-    EXPECT_NEAR(binLog2Luminance(96), std::log2(1 + 0.5 / 8), 1e-15);
+    // 7.5 sixteenths and a half are the middle.
+    EXPECT_NEAR(binLog2Luminance(96, 7.5), std::log2(1 + 0.5 / 8), 1e-15);
+    EXPECT_EQ(binFraction(0), 0u);
+    EXPECT_EQ(binFraction(inf), 15u);
+    EXPECT_EQ(binFraction(1 + 3.0f / 128), 3u);
 }
 
 TEST(ReferenceHistogram, luminanceIsRoundedAfterEveryOperation)
@@ -135,9 +143,9 @@ TEST(ReferenceHistogram, centreWeightsFallFromTheCentre)
 {
     EXPECT_EQ(centreWeight(0, 0, 1, 1), 15u);
     EXPECT_EQ(centreWeight(1, 1, 3, 3), 15u);
-    EXPECT_EQ(centreWeight(0, 1, 3, 3), 15u - 9u); // 14 * 2/3 = 9.3
-    EXPECT_EQ(centreWeight(0, 0, 2, 2), 15u - 7u); // 14 * 1/2
-    EXPECT_EQ(centreWeight(0, 0, 16384, 16384), 2u);
+    EXPECT_EQ(centreWeight(0, 1, 3, 3), 15u - 10u); // 15 * 2/3 = 10
+    EXPECT_EQ(centreWeight(0, 0, 2, 2), 15u - 7u);  // 15 * 1/2 = 7.5
+    EXPECT_EQ(centreWeight(0, 0, 16384, 16384), 1u);
     EXPECT_EQ(centreWeight(8192, 8192, 16384, 16384), 15u);
     for (uint32_t x = 0; x < 1921; ++x) {
         const uint32_t weight = centreWeight(x, 540, 1921, 1081);
@@ -145,7 +153,7 @@ TEST(ReferenceHistogram, centreWeightsFallFromTheCentre)
         ASSERT_EQ(weight, centreWeight(1920 - x, 540, 1921, 1081));
         // The formula as it is evaluated in 32 bits.
         const uint32_t dx = x < 960 ? 1920 - 2 * x : 2 * x - 1920;
-        ASSERT_EQ(weight, 15 - std::min(14u, 14u * dx * 1081u / (1921u * 1081u)));
+        ASSERT_EQ(weight, 15 - std::min(14u, 15u * dx * 1081u / (1921u * 1081u)));
     }
 }
 
@@ -172,7 +180,9 @@ TEST(ReferenceExposure, percentilesCutFractionsOfBins)
     histogram.counts[10] = 4;
     histogram.counts[20] = 4;
     histogram.counts[200] = 2;
-    const double a = binLog2Luminance(10), b = binLog2Luminance(20), c = binLog2Luminance(200);
+    histogram.fractions[20] = 4 * 6; // each six sixteenths into its bin
+    const double a = binLog2Luminance(10, 0), b = binLog2Luminance(20, 6),
+                 c = binLog2Luminance(200, 0);
     EXPECT_NEAR(*percentileMeanLog2(histogram, 0, 1), (4 * a + 4 * b + 2 * c) / 10, 1e-13);
     EXPECT_NEAR(*percentileMeanLog2(histogram, 0.1, 0.7), (3 * a + 3 * b) / 6, 1e-13);
     EXPECT_NEAR(*percentileMeanLog2(histogram, 0.8, 0.9), c, 1e-13);
@@ -223,14 +233,14 @@ TEST(ReferenceExposure, rampGivesMonotoneContinuousEv)
     EXPECT_LT(largest, 0.03);
 }
 
-// Even a flat picture is never off by more than half a bin, and never turns back.
-TEST(ReferenceExposure, flatPictureIsWithinHalfABin)
+// Even a flat picture is never off by more than half a sixteenth of a bin, and never turns back.
+TEST(ReferenceExposure, flatPictureIsWithinAHundredthOfAStop)
 {
     double previous = -100;
     for (double stops = -8; stops < 14; stops += 0.013) {
         const double ev = targetEv({static_cast<float>(std::exp2(stops))});
         ASSERT_GE(ev, previous);
-        ASSERT_NEAR(ev, stops + 3, std::log2(1 + 0.5 / 8) + 1e-6);
+        ASSERT_NEAR(ev, stops + 3, std::log2(1 + 0.5 / 8 / 16) + 1e-6);
         previous = ev;
     }
 }
