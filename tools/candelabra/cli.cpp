@@ -52,6 +52,19 @@ void describe(CLI::App& app, ProgramContext& context)
                "  candelabra render --help                 options of one command");
 }
 
+// The sentence for a command line that does not parse.
+std::string parseSentence(const CLI::App& app, int argc, const char* const* argv,
+                          const CLI::ParseError& error)
+{
+    const std::string first = argc > 1 ? argv[1] : "-";
+    const auto commands =
+        app.get_subcommands([&](const CLI::App* c) { return c->get_name() == first; });
+    if (first[0] != '-' && commands.empty())
+        return fmt::format("\"{}\" is no command; there are render, stress, view and devices",
+                           first);
+    return std::string(error.what()) + " (see: candelabra --help)";
+}
+
 int parseAndRun(int argc, const char* const* argv)
 {
     ProgramContext context{.commandLine = commandLine(argc, argv)};
@@ -67,7 +80,7 @@ int parseAndRun(int argc, const char* const* argv)
     } catch (const CLI::Success& help) { // --help, --version
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
-        return complain(exitUsage, std::string(error.what()) + " (see: candelabra --help)");
+        return complain(exitUsage, parseSentence(app, argc, argv, error));
     }
     setUpLogging(context.quiet);
     return run(context);

@@ -57,11 +57,13 @@ std::vector<VkRect2D> sampledTiles(PixelSize size, uint64_t lights)
     return out;
 }
 
+// Of the finite ones: one infinite pixel must not make every difference look small.
 double maxChannel(const Image& image)
 {
     double out = 0;
     for (const float x : image.pixels)
-        out = std::isfinite(x) ? std::max(out, double(x)) : std::numeric_limits<double>::infinity();
+        if (std::isfinite(x))
+            out = std::max(out, double(x));
     return out;
 }
 

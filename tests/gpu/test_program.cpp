@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// The built program, as a user runs it: files, exit codes, the window under Xvfb.
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+#include <stb_image.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/gpu_fixture.h"
+#include "io/image.h"
+
+using namespace candelabra;
+
+namespace
+{
+
+class ProgramTest : public test::GpuTest
+{
+protected:
+    struct Outcome {
+        int exitCode;
+        std::string out, err;
+    };
+    void SetUp() override
+    {
+        GpuTest::SetUp();
+        std::filesystem::create_directories(dir_);
+    }
+    void TearDown() override
+    {
+        GpuTest::TearDown();
+        std::filesystem::remove_all(dir_);
+    }
+    std::string path(const std::string& name) const { return (dir_ / name).string(); }
+    std::string text(const std::string& name) const
+    {
+        std::ifstream file(dir_ / name);
+        std::stringstream content;
+        content << file.rdbuf();
+        return content.str();
+    }
+    // Through a shell, as typed; `before` stands in front of the program.
+    Outcome run(const std::string& arguments, const std::string& before = "") const
+    {
+        const char* device = std::getenv("CANDELABRA_TEST_DEVICE");
+        const std::string command =
+            "cd '" + dir_.string() + "' && " + before + " '" + CANDELABRA_PROGRAM + "' " +
+            arguments +
+            (device && arguments.rfind("devices", 0) ? " --device '" + std::string(device) + "'"
+                                                     : "") +
+            " >out.txt 2>err.txt";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("out.txt"), text("err.txt")};
+    }
+    const std::filesystem::path dir_ =
+        std::filesystem::temp_directory_path() / ("candelabra_program_" + std::to_string(getpid()));
+};
+
+struct Png {
+    int width = 0, height = 0;
+    double mean = 0;
+    int distinct = 0; // different values of the red channel
+};
+
+Png readPng(const std::string& path)
+{
+    Png out;
+    int channels = 0;
+    stbi_uc* pixels = stbi_load(path.c_str(), &out.width, &out.height, &channels, 3);
+    if (!pixels)
+        return out;
+    std::array<bool, 256> seen{};
+    const size_t count = size_t(out.width) * out.height;
+    for (size_t i = 0; i < count; ++i) {
+        out.mean += pixels[3 * i] / double(count);
+        seen[pixels[3 * i]] = true;
+    }
+    out.distinct = int(std::count(seen.begin(), seen.end(), true));
+    stbi_image_free(pixels);
+    return out;
+}
+
+} // namespace
+
+TEST_F(ProgramTest, RenderWritesImagesAndFigures)
+{
+    const Outcome outcome = run("render hall --lights 150 --size 96x54 --frames 3 --moving -q "
+                                "-o a.png -o a.exr -o a.pfm --json - --validate");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["scene"]["lights"], 150);
+    EXPECT_EQ(json["image"]["widthPixels"], 96);
+    EXPECT_EQ(json["gpuTime"]["frames"], 2);
+    EXPECT_GT(json["gpuTime"]["total"]["medianMs"], 0.0);
+    EXPECT_GT(json["lighting"]["evaluatedPairs"], 0);
+    EXPECT_EQ(json["exposure"]["invalidPixels"], 0);
+
+    const Png png = readPng(path("a.png"));
+    EXPECT_EQ(png.width, 96);
+    EXPECT_EQ(png.height, 54);
+    EXPECT_GT(png.mean, 20);
+    EXPECT_LT(png.mean, 235);
+    EXPECT_GT(png.distinct, 50);
+    EXPECT_EQ(app::loadExr(path("a.exr")).pixels, app::loadPfm(path("a.pfm")).pixels);
+}
+
+TEST_F(ProgramTest, CullingAndFrameCountDoNotChangeTheImage)
+{
+    ASSERT_EQ(run("render hall --lights 150 --size 96x54 -q -o a.pfm").exitCode, 0);
+    ASSERT_EQ(run("render hall --lights 150 --size 96x54 -q -o b.pfm --culling brute").exitCode, 0);
+    ASSERT_EQ(run("render hall --lights 150 --size 96x54 -q -o c.pfm --frames 3").exitCode, 0);
+    const auto a = app::loadPfm(path("a.pfm")).pixels, b = app::loadPfm(path("b.pfm")).pixels;
+    double largest = 0, difference = 0;
+    ASSERT_EQ(a.size(), b.size());
+    for (size_t i = 0; i < a.size(); ++i) {
+        largest = std::max(largest, double(a[i]));
+        difference = std::max(difference, std::abs(double(a[i]) - double(b[i])));
+    }
+    EXPECT_GT(largest, 0);
+    EXPECT_LE(difference, 1e-6 * largest);
+    EXPECT_EQ(a, app::loadPfm(path("c.pfm")).pixels);
+}
+
+TEST_F(ProgramTest, StressWritesEverythingItPromises)
+{
+    const Outcome outcome =
+        run("stress --lights 50,200 --size 128x72 --frames 2 --out o --json s.json --validate");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    for (const char* word : {"shade_tiles", "p95 ms", "lights per tile", "identical", "Try next"})
+        EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+    const auto json = nlohmann::json::parse(text("s.json"));
+    ASSERT_EQ(json["points"].size(), 2u);
+    for (const auto& point : json["points"]) {
+        EXPECT_LE(point["bruteForce"]["maxDifferenceOverMaxRadiance"], 1e-6);
+        EXPECT_EQ(point["bruteForce"]["pixelsCompared"], 128 * 72);
+        EXPECT_GT(point["bruteForce"]["shadingMs"], 0.0);
+        EXPECT_EQ(point["twoRunsIdentical"], true);
+    }
+    EXPECT_GT(readPng(path("o/hall_50.png")).mean, 5);
+    EXPECT_EQ(readPng(path("o/hall_200.png")).width, 128);
+    EXPECT_NE(text("o/stress.svg").find("shade_tiles"), std::string::npos);
+}
+
+TEST_F(ProgramTest, DevicesListsTheOneUnderTest)
+{
+    const Outcome outcome = run("devices --json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    bool found = false;
+    for (const auto& device : nlohmann::json::parse(outcome.out))
+        found |= device["name"] == context().info().name && device["missing"] == "";
+    EXPECT_TRUE(found) << outcome.out;
+}
+
+TEST_F(ProgramTest, UnknownDeviceIsRefused)
+{
+    for (const char* wanted : {"99", "no-such-device"}) {
+        const std::string command = "cd '" + dir_.string() + "' && '" + CANDELABRA_PROGRAM +
+                                    "' render hall -o a.png --device " + wanted + " 2>err.txt";
+        const int status = std::system(command.c_str());
+        EXPECT_EQ(WEXITSTATUS(status), 2) << wanted;
+        EXPECT_EQ(text("err.txt").rfind("candelabra: --device ", 0), 0u) << text("err.txt");
+    }
+}
+
+TEST_F(ProgramTest, WindowShowsTheSceneAndItsPanel)
+{
+    if (std::system("command -v xvfb-run >/dev/null") != 0)
+        GTEST_SKIP() << "xvfb-run is not installed";
+    const Outcome panel = run("view hall --lights 150 --size 480x320 --frames 6 --moving "
+                              "--screenshot panel.png --validate",
+                              "xvfb-run -a");
+    ASSERT_EQ(panel.exitCode, 0) << panel.err;
+    const Outcome bare = run("view hall --lights 150 --size 480x320 --frames 6 --moving "
+                             "--screenshot bare.png --no-overlay --validate",
+                             "xvfb-run -a");
+    ASSERT_EQ(bare.exitCode, 0) << bare.err;
+    const Png with = readPng(path("panel.png")), without = readPng(path("bare.png"));
+    EXPECT_EQ(with.width, 480);
+    EXPECT_EQ(with.height, 320);
+    EXPECT_GT(without.mean, 20);
+    EXPECT_GT(without.distinct, 50);
+    EXPECT_GT(std::abs(with.mean - without.mean), 1); // the panel darkens a third of the window
+}
+
+TEST_F(ProgramTest, ViewWithoutDisplaySaysSo)
+{
+    const Outcome outcome = run("view hall", "env -u DISPLAY -u WAYLAND_DISPLAY");
+    EXPECT_EQ(outcome.exitCode, 2);
+    EXPECT_NE(outcome.err.find("needs a display"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}

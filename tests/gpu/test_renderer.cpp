@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole frames of the program's renderer: clustered against brute force, repeatability, resizing,
+// moving lights. Validation must stay silent (fixture).
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "commands/brute_check.h"
+#include "commands/measure.h"
+#include "harness/gpu_fixture.h"
+#include "render/camera.h"
+#include "render/readback.h"
+#include "scene/load.h"
+
+using namespace candelabra;
+using namespace candelabra::app;
+
+namespace
+{
+
+class RendererTest : public test::GpuTest
+{
+protected:
+    static Scene hall(uint32_t lights, bool moving = false)
+    {
+        return generateHall({.lights = lights, .moving = moving});
+    }
+    static FrameOptions frameOf(const Scene& scene)
+    {
+        FrameOptions frame{.camera = selectCamera(scene, ""), .lightsVisible = false};
+        cndDefaultExposureSettings(&frame.exposure);
+        return frame;
+    }
+    FrameStats draw(Renderer& renderer, const FrameOptions& frame) const
+    {
+        context().submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });
+        return renderer.stats(0);
+    }
+    Image radiance(Renderer& renderer, const FrameOptions& frame) const
+    {
+        draw(renderer, frame);
+        return readRadiance(context(), renderer);
+    }
+};
+
+// Index of the first value whose bits differ, or -1.
+long firstDifference(const Image& a, const Image& b)
+{
+    if (a.pixels.size() != b.pixels.size())
+        return 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        if (std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(float)) != 0)
+            return long(i);
+    return -1;
+}
+
+} // namespace
+
+TEST_F(RendererTest, ClusteredIsBruteForceAtOddSizes)
+{
+    const Scene scene = hall(300);
+    const FrameOptions frame = frameOf(scene);
+    for (const PixelSize size : {PixelSize{1, 1}, {17, 3}, {161, 91}}) {
+        Renderer renderer(context(), scene, {.size = size});
+        const Image clustered = radiance(renderer, frame);
+        const BruteCheck check =
+            compareWithBruteForce(context(), renderer, frame, clustered,
+                                  checkRects(size, scene.lights.size(), CheckExtent::Full),
+                                  scene.lights.size(), [](double) {});
+        EXPECT_TRUE(check.allPixels) << size.width << "x" << size.height;
+        EXPECT_GT(check.maxRadiance, 0) << size.width << "x" << size.height;
+        EXPECT_LE(check.relative(), BruteCheck::bound) << size.width << "x" << size.height;
+    }
+}
+
+// The comparison itself must be able to fail.
+TEST_F(RendererTest, BruteForceCheckNoticesOneWrongPixel)
+{
+    const Scene scene = hall(100);
+    const FrameOptions frame = frameOf(scene);
+    const PixelSize size{64, 40};
+    Renderer renderer(context(), scene, {.size = size});
+    const Image clustered = radiance(renderer, frame);
+    const auto check = [&](const Image& image) {
+        return compareWithBruteForce(context(), renderer, frame, image,
+                                     checkRects(size, 100, CheckExtent::Full), 100, [](double) {});
+    };
+    ASSERT_TRUE(check(clustered).passed());
+    Image changed = clustered;
+    const double largest = check(clustered).maxRadiance;
+    changed.pixels[3 * (64 * 17 + 5)] += float(2e-6 * largest);
+    EXPECT_FALSE(check(changed).passed());
+    changed = clustered;
+    changed.pixels.back() = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(check(changed).passed());
+}
+
+TEST_F(RendererTest, TwoRenderersGiveTheSameBits)
+{
+    const Scene scene = hall(400, true);
+    FrameOptions frame = frameOf(scene);
+    frame.time = 1.25;
+    frame.lightsVisible = true;
+    Renderer first(context(), scene, {.size = {160, 90}});
+    Renderer second(context(), scene, {.size = {160, 90}});
+    draw(second, frameOf(scene)); // another time before: no trace of it may stay
+    EXPECT_EQ(firstDifference(radiance(first, frame), radiance(second, frame)), -1);
+    EXPECT_EQ(readDisplay(context(), first), readDisplay(context(), second));
+}
+
+TEST_F(RendererTest, MovingLightsMove)
+{
+    const Scene scene = hall(200, true);
+    FrameOptions frame = frameOf(scene);
+    Renderer renderer(context(), scene, {.size = {160, 90}});
+    const Image before = radiance(renderer, frame);
+    frame.time = 0.5;
+    EXPECT_NE(firstDifference(before, radiance(renderer, frame)), -1);
+    frame.time = 0;
+    EXPECT_EQ(firstDifference(before, radiance(renderer, frame)), -1);
+}
+
+TEST_F(RendererTest, ResizeGivesTheFrameOfThatSizeAndKeepsExposure)
+{
+    const Scene scene = hall(200);
+    FrameOptions frame = frameOf(scene);
+    Renderer renderer(context(), scene, {.size = {200, 120}});
+    const float converged = draw(renderer, frame).exposure.adaptedEv100;
+    renderer.resize({96, 64});
+    frame.camera.forward = -frame.camera.forward; // another view would have another exposure
+    frame.resetExposure = false;
+    frame.deltaTime = 0;
+    EXPECT_EQ(draw(renderer, frame).exposure.adaptedEv100, converged);
+
+    frame = frameOf(scene);
+    Renderer fresh(context(), scene, {.size = {96, 64}});
+    EXPECT_EQ(firstDifference(radiance(renderer, frame), radiance(fresh, frame)), -1);
+    EXPECT_EQ(readDisplay(context(), renderer), readDisplay(context(), fresh));
+}
+
+TEST_F(RendererTest, EmittersAreBrighterThanWhatTheyLight)
+{
+    const Scene scene = hall(200);
+    FrameOptions frame = frameOf(scene);
+    Renderer renderer(context(), scene, {.size = {320, 180}});
+    const Image without = radiance(renderer, frame);
+    frame.lightsVisible = true;
+    const Image with = radiance(renderer, frame);
+    size_t brighter = 0;
+    for (size_t i = 0; i < with.pixels.size(); ++i)
+        brighter += with.pixels[i] > without.pixels[i];
+    EXPECT_GT(brighter, 0u);
+    EXPECT_LT(brighter, with.pixels.size() / 4);
+}
+
+TEST_F(RendererTest, CompactGBufferIsCloseToFull)
+{
+    const Scene scene = hall(200);
+    const FrameOptions frame = frameOf(scene);
+    const auto mean = [&](CndGBufferLayout layout) {
+        Renderer renderer(context(), scene, {.size = {160, 90}, .gbufferLayout = layout});
+        const Image image = radiance(renderer, frame);
+        double sum = 0;
+        for (const float x : image.pixels)
+            sum += x;
+        return sum / double(image.pixels.size());
+    };
+    const double full = mean(CND_GBUFFER_FULL);
+    EXPECT_NEAR(mean(CND_GBUFFER_COMPACT), full, 0.03 * full); // 8-bit colours and F0
+}
+
+TEST_F(RendererTest, FramesInFlightAreTimedAndCounted)
+{
+    const Scene scene = hall(300, true);
+    Renderer renderer(context(), scene, {.size = {160, 90}});
+    uint32_t calls = 0;
+    const MeasuredFrames frames = renderFrames(
+        context(), renderer, frameOf(scene), {.warmUp = 2, .measured = 5}, true, [&] { ++calls; });
+    EXPECT_EQ(calls, 7u);
+    EXPECT_EQ(frames.times.frames(), 5u);
+    const auto passes = frames.times.summary();
+    for (const char* wanted : {"gbuffer_raster", "shade_tiles", "tone_map"})
+        EXPECT_TRUE(std::any_of(passes.begin(), passes.end(), [&](const PassSummary& p) {
+            return p.name == wanted && p.minMs > 0 && p.minMs <= p.medianMs &&
+                   p.medianMs <= p.p95Ms;
+        })) << wanted;
+
+    const CndLightingStats stats = countPairs(context(), renderer, frameOf(scene));
+    EXPECT_EQ(stats.lightCount, 300u);
+    EXPECT_GT(stats.evaluatedPairs, 0u);
+    EXPECT_LE(stats.evaluatedPairs, stats.insidePairs);
+    EXPECT_LE(stats.insidePairs, stats.listedPairs);
+    EXPECT_GE(stats.maxListLength, stats.listEntries / std::max(stats.tileCount, 1u));
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line: what is refused, how, and with which exit code. Nothing here reaches Vulkan.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cli.h"
+#include "commands/brute_check.h"
+#include "commands/options.h"
+#include "render/error.h"
+
+using namespace candelabra::app;
+
+namespace
+{
+
+struct Outcome {
+    int exitCode;
+    std::string out, err;
+};
+
+Outcome runWith(std::vector<const char*> arguments)
+{
+    arguments.insert(arguments.begin(), "candelabra");
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const int exitCode = runProgram(int(arguments.size()), arguments.data());
+    std::fflush(stdout);
+    return {exitCode, testing::internal::GetCapturedStdout(),
+            testing::internal::GetCapturedStderr()};
+}
+
+} // namespace
+
+TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)
+{
+    const struct {
+        std::vector<const char*> arguments;
+        const char* named;
+    } cases[] = {
+        {{}, "subcommand"},
+        {{"paint"}, "paint"},
+        {{"render"}, "scene"},
+        {{"render", "hall"}, "-o"},
+        {{"render", "hall", "-o", "x.bmp"}, ".png"},
+        {{"render", "hall", "-o", "no/such/dir/x.png"}, "no/such/dir"},
+        {{"render", "hall", "-o", "x.png", "--json", "no/such/x.json"}, "--json"},
+        {{"render", "hall", "-o", "x.png", "--lights", "many"}, "--lights"},
+        {{"render", "hall", "-o", "x.png", "--lights", "-5"}, "--lights"},
+        {{"render", "hall", "-o", "x.png", "--lights", "99999999999"}, "--lights"},
+        {{"render", "hall", "-o", "x.png", "--frames", "0"}, "--frames"},
+        {{"render", "hall", "-o", "x.png", "--time", "nan"}, "--time"},
+        {{"render", "hall", "-o", "x.png", "--seed", "0x1"}, "--seed"},
+        {{"render", "hall", "-o", "x.png", "--overlaps", "0"}, "--overlaps"},
+        {{"render", "hall", "-o", "x.png", "--punctual-radius", "inf"}, "--punctual-radius"},
+        {{"render", "hall", "-o", "x.png", "--exposure", "bright"}, "--exposure"},
+        {{"render", "hall", "-o", "x.png", "--compensation", "1e9"}, "--compensation"},
+        {{"render", "hall", "-o", "x.png", "--tonemap", "filmic"}, "aces"},
+        {{"render", "hall", "-o", "x.png", "--specular", "phong"}, "karis"},
+        {{"render", "hall", "-o", "x.png", "--culling", "none"}, "clustered"},
+        {{"render", "hall", "-o", "x.png", "--gbuffer", "thin"}, "compact"},
+        {{"render", "no_such_file.glb", "-o", "x.png"}, "no_such_file.glb"},
+        {{"render", "hall", "extra", "-o", "x.png"}, "extra"},
+        {{"stress", "--lights", "100,,200"}, "--lights"},
+        {{"stress", "--lights", "0"}, "--lights"},
+        {{"stress", "--size", "wide"}, "--size"},
+        {{"stress", "--size", "99999x1"}, "--size"},
+        {{"stress", "--check", "some"}, "--check"},
+        {{"stress", "--out", "/dev/null/x"}, "--out"},
+        {{"view", "hall", "--screenshot", "x.png"}, "--frames"},
+        {{"view", "hall", "--frames", "2", "--screenshot", "x.jpg"}, ".png"},
+        {{"devices", "--all"}, "--all"},
+    };
+    for (const auto& [arguments, named] : cases) {
+        const Outcome outcome = runWith(arguments);
+        const std::string typed = arguments.empty() ? "nothing" : arguments.back();
+        EXPECT_EQ(outcome.exitCode, exitUsage) << typed << ": " << outcome.err;
+        EXPECT_EQ(outcome.out, "") << typed;
+        EXPECT_EQ(outcome.err.rfind("candelabra: ", 0), 0u) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find(named), std::string::npos) << typed << ": " << outcome.err;
+    }
+}
+
+TEST(Cli, HelpHasExamplesAtEveryLevel)
+{
+    for (const std::vector<const char*>& arguments : {std::vector<const char*>{"--help"},
+                                                      {"render", "--help"},
+                                                      {"stress", "--help"},
+                                                      {"view", "--help"},
+                                                      {"devices", "--help"}}) {
+        const Outcome outcome = runWith(arguments);
+        EXPECT_EQ(outcome.exitCode, exitOk);
+        EXPECT_NE(outcome.out.find("Examples:\n  candelabra "), std::string::npos) << arguments[0];
+        EXPECT_EQ(outcome.err, "");
+    }
+}
+
+TEST(Cli, VersionIsTheLibrarys)
+{
+    const Outcome outcome = runWith({"--version"});
+    EXPECT_EQ(outcome.exitCode, exitOk);
+    EXPECT_EQ(outcome.out.rfind("candelabra " + std::to_string(CND_VERSION_MAJOR) + ".", 0), 0u)
+        << outcome.out;
+}
+
+TEST(Options, ImageSizeComesFromTheOptionTheSceneOrTheCamera)
+{
+    FrameArguments arguments;
+    Scene scene;
+    Camera camera;
+    const auto size = [&] {
+        const PixelSize s = arguments.pixelSize(scene, camera);
+        return std::pair(s.width, s.height);
+    };
+    EXPECT_EQ(size(), std::pair(1280u, 720u));
+    camera.aspect = 1.0; // square pixels
+    EXPECT_EQ(size(), std::pair(720u, 720u));
+    scene.resolution = {256, 128};
+    EXPECT_EQ(size(), std::pair(256u, 128u));
+    arguments.size = "17x3";
+    EXPECT_EQ(size(), std::pair(17u, 3u));
+    arguments.size = "20000x3";
+    EXPECT_THROW(size(), UsageError);
+}
+
+// Every pixel is in at most one rectangle, and none is outside the image.
+TEST(BruteCheck, RectanglesCoverTheImageOnceOrSampleIt)
+{
+    for (const PixelSize size : {PixelSize{1, 1}, {17, 3}, {641, 359}, {1280, 720}})
+        for (const uint64_t lights : {uint64_t(1), uint64_t(16384), uint64_t(1'000'000)})
+            for (const CheckExtent extent : {CheckExtent::Auto, CheckExtent::Full}) {
+                std::vector<uint8_t> covered(size_t(size.width) * size.height);
+                for (const VkRect2D& r : checkRects(size, lights, extent))
+                    for (uint32_t y = 0; y < r.extent.height; ++y)
+                        for (uint32_t x = 0; x < r.extent.width; ++x) {
+                            const uint32_t px = r.offset.x + x, py = r.offset.y + y;
+                            ASSERT_LT(px, size.width);
+                            ASSERT_LT(py, size.height);
+                            ++covered[size_t(py) * size.width + px];
+                        }
+                EXPECT_EQ(*std::max_element(covered.begin(), covered.end()), 1);
+                const size_t count = size_t(std::count(covered.begin(), covered.end(), 1));
+                if (extent == CheckExtent::Full || lights <= 16384)
+                    EXPECT_EQ(count, covered.size());
+                else // about 1.5e10 pairs, but at least 16 tiles
+                    EXPECT_GE(count, std::min<size_t>(covered.size(), 16 * 64 / 4));
+            }
+    EXPECT_TRUE(checkRects({64, 64}, 100, CheckExtent::None).empty());
+}

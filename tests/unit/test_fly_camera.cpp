@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The viewer's camera.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "viewer/fly_camera.h"
+
+using namespace candelabra::app;
+
+namespace
+{
+
+Camera looking(const glm::dvec3& forward)
+{
+    Camera camera;
+    camera.position = {1, 2, 3};
+    camera.forward = glm::normalize(forward);
+    camera.aspect = 2.0;
+    camera.verticalFov = 0.7;
+    return camera;
+}
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b)
+{
+    EXPECT_LT(glm::length(a - b), 1e-9)
+        << a.x << " " << a.y << " " << a.z << " against " << b.x << " " << b.y << " " << b.z;
+}
+
+} // namespace
+
+TEST(FlyCamera, StartsWhereTheSceneCameraIs)
+{
+    for (const glm::dvec3 f : {glm::dvec3(0, 0, -1), {1, 0, 0}, {-1, 0.5, 2}, {0.2, -0.9, 0.1}}) {
+        const Camera start = looking(f);
+        const Camera now = FlyCamera(start, 1).camera();
+        expectNear(now.position, start.position);
+        expectNear(now.forward, start.forward);
+        EXPECT_EQ(now.verticalFov, start.verticalFov);
+        EXPECT_FALSE(now.aspect.has_value()); // the window's counts
+    }
+}
+
+TEST(FlyCamera, LookingStraightDownStaysUsable)
+{
+    const Camera now = FlyCamera(looking({0, -1, 0}), 1).camera();
+    EXPECT_GT(glm::length(glm::cross(now.forward, now.up)), 1e-3);
+}
+
+TEST(FlyCamera, MovesAlongItsAxes)
+{
+    FlyCamera camera(looking({1, 0, 0}), 2);
+    camera.update({.move = {0, 0, 1}}, 0.5);
+    expectNear(camera.camera().position, {2, 2, 3}); // forward is +x
+    camera.update({.move = {1, 0, 0}}, 0.5);
+    expectNear(camera.camera().position, {2, 2, 4}); // right of +x is +z
+    camera.update({.move = {0, 1, 0}, .fast = true}, 0.5);
+    EXPECT_GT(camera.camera().position.y, 4);
+}
+
+TEST(FlyCamera, LooksRightAndDownWithTheMouse)
+{
+    FlyCamera camera(looking({0, 0, -1}), 1);
+    camera.update({.look = {10, 10}}, 0.1);
+    EXPECT_GT(camera.camera().forward.x, 0);
+    EXPECT_LT(camera.camera().forward.y, 0);
+    camera.update({.look = {0, -1e9}}, 0.1); // stops short of straight up
+    EXPECT_GT(camera.camera().forward.y, 0.99);
+    EXPECT_GT(glm::length(glm::cross(camera.camera().forward, glm::dvec3(0, 1, 0))), 1e-3);
+}
+
+TEST(FlyCamera, WheelScalesSpeedWithinBounds)
+{
+    FlyCamera camera(looking({0, 0, -1}), 1);
+    camera.scaleSpeed(2);
+    EXPECT_NEAR(camera.speed(), 1.25 * 1.25, 1e-12);
+    camera.scaleSpeed(-1e6);
+    EXPECT_GT(camera.speed(), 0);
+    camera.scaleSpeed(1e6);
+    EXPECT_TRUE(std::isfinite(camera.speed()));
+}
