@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A visible sphere light, ray-cast at the pixel centre. A light that holds the camera, or is cut by the
-// near plane, fills its pixels all the same: its luminance is that of every ray that meets it.
+// A visible sphere light, ray-cast at the pixel centre. In perspective the near plane does not cut
+// lights: one that holds the camera, or is very close, has its luminance along every ray that meets it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gbuffer/output.glsl"
@@ -20,10 +20,10 @@ void main()
     const float farDepth = depthOf(ray.origin + sphere.far * ray.direction);
     float depth = inside ? farDepth : depthOf(ray.origin + sphere.near * ray.direction);
     const bool reversed = frame.nearDepth > 0.5;
-    const bool reachesNear = reversed ? farDepth <= 1.0 : farDepth >= 0.0;
     depth = reversed ? min(depth, 1.0) : max(depth, 0.0);
-    const bool behind = perspective && sphere.far <= 0.0;
-    if (!(sphere.hit && reachesNear && !behind && depth >= 0.0 && depth <= 1.0))
+    const bool inFront = perspective ? sphere.far > 0.0
+                                     : (reversed ? farDepth <= 1.0 : farDepth >= 0.0);
+    if (!(sphere.hit && inFront && depth >= 0.0 && depth <= 1.0))
         discard;
     gl_FragDepth = depth;
     writeEmitter(sphere.normal, inLuminance);

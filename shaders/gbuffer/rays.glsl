@@ -43,7 +43,8 @@ struct SphereHit {
     vec3 normal;     // at near, outwards
 };
 
-// `power` = |center - eye|^2 - radius^2; only used in perspective.
+// `power` = |center - rayOrigin[0]|^2 - radius^2, of the middle of the screen: the caller may have it
+// in higher precision.
 SphereHit intersectSphere(Ray ray, vec3 center, float radius, float power)
 {
     const vec3 toCenter = center - ray.origin;
@@ -51,10 +52,13 @@ SphereHit intersectSphere(Ray ray, vec3 center, float radius, float power)
     const vec3 across = toCenter - along * ray.direction;
     const float distanceToAxis = length(across);
     const float halfChord = sqrt(max((radius - distanceToAxis) * (radius + distanceToAxis), 0.0));
+    // Power of this ray's origin; in perspective all rays share one.
+    const vec3 shift = ray.origin - frame.rayOrigin[0];
+    const float rayPower = power - dot(2.0 * (center - frame.rayOrigin[0]) - shift, shift);
     SphereHit s;
     s.hit = distanceToAxis <= radius;
     s.far = along + halfChord;
-    s.near = frame.perspective > 0.5 && along > 0.0 ? power / s.far : along - halfChord;
+    s.near = along > 0.0 ? rayPower / s.far : along - halfChord;
     s.normal = normalize(-across - halfChord * ray.direction);
     return s;
 }

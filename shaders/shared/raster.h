@@ -149,7 +149,7 @@ struct AnalyticParams {
     float radius;        // ball
     vec3 height;         // plane: height of the ray origin, affine in ndc, computed in double
     vec3 slope;          // plane: dot(normal, ray direction), affine in ndc, computed in double
-    float power;         // ball: |centre - eye|^2 - radius^2, computed in double; perspective
+    float power;         // ball: |centre - rayOrigin[0]|^2 - radius^2, computed in double
     vec3 baseColor;      // factors of the material
     float metalness;
     float perceptualRoughness;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The G-buffer: packing bounds, depth and material factors of meshes, transforms.
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <glm/gtc/matrix_inverse.hpp>

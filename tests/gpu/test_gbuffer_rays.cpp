@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ray-cast surfaces against double precision: planes, balls and visible sphere lights.
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "gpu/gbuffer_harness.h"
+#include "shared/gbuffer.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Ray {
+    glm::dvec3 origin, direction; // world space, direction unit
+    glm::dvec3 at(double t) const { return origin + t * direction; }
+};
+
+// Through the pixel centre, from the float projection in double.
+Ray pixelRay(const RasterOptions& o, uint32_t x, uint32_t y)
+{
+    const float* m = o.camera.clipFromView;
+    const double ndcX = (2.0 * x + 1) / o.width - 1, ndcY = (2.0 * y + 1) / o.height - 1;
+    const glm::dmat4 worldFromView = glm::inverse(viewFromWorld(o.camera));
+    if (m[15] == 0)
+        return {glm::dvec3(worldFromView[3]),
+                glm::normalize(glm::dmat3(worldFromView) *
+                               glm::dvec3((ndcX + m[8]) / m[0], (ndcY + m[9]) / m[5], -1))};
+    const glm::dvec4 origin((ndcX - m[12]) / m[0], (ndcY - m[13]) / m[5], 0, 1);
+    return {glm::dvec3(worldFromView * origin), -glm::dvec3(worldFromView[2])};
+}
+
+double hitPlane(const Ray& ray, const glm::dvec3& point, const glm::dvec3& normal)
+{
+    const double height = glm::dot(ray.origin - point, normal);
+    const double slope = glm::dot(ray.direction, normal);
+    return height > 0 && slope < 0 ? -height / slope : infinity;
+}
+
+struct SphereHit {
+    double near = infinity, far = infinity;
+    double axisDistance; // of the ray from the centre
+};
+
+SphereHit hitSphere(const Ray& ray, const glm::dvec3& center, double radius)
+{
+    const glm::dvec3 toCenter = center - ray.origin;
+    const double along = glm::dot(toCenter, ray.direction);
+    SphereHit hit;
+    hit.axisDistance = glm::length(toCenter - along * ray.direction);
+    if (hit.axisDistance <= radius) {
+        const double half = std::sqrt(radius * radius - hit.axisDistance * hit.axisDistance);
+        hit.near = along - half;
+        hit.far = along + half;
+    }
+    return hit;
+}
+
+constexpr double nearPlane = 0.1, farPlane = 1e4, orthographicRange = 200;
+
+// What two roundings of depth move a point at distance `distance`, relative to the distance.
+double depthStep(int kind, double distance)
+{
+    constexpr double step = 2.0 / (1 << 24);
+    if (kind == 2)
+        return distance / nearPlane * step;
+    return kind == 3 ? orthographicRange / distance * step : step;
+}
+
+// Between the near and far planes for certain: the pictures end there.
+bool insideDepthRange(const RasterOptions& o, const glm::dvec3& p)
+{
+    const double distance = -(viewFromWorld(o.camera) * glm::dvec4(p, 1)).z;
+    const double end = o.camera.clipFromView[15] == 0 ? farPlane : orthographicRange;
+    return distance > 1.01 * nearPlane && distance < 0.95 * end;
+}
+
+// Perspective infinite and finite, not reversed, and orthographic.
+void setProjection(RasterOptions& o, int kind)
+{
+    const double aspect = double(o.width) / o.height;
+    o.clearDepth = kind == 2 ? 1.f : 0.f;
+    if (kind == 3)
+        setOrthographic(o.camera, 5, aspect, nearPlane, orthographicRange);
+    else
+        setPerspective(o.camera, 0.9, aspect, nearPlane, kind == 0 ? 0 : farPlane, kind != 2);
+}
+
+// The shader's positions in the world.
+glm::dvec3 worldPosition(const RasterImage& image, uint32_t x, uint32_t y)
+{
+    return glm::dvec3(glm::inverse(viewFromWorld(image.camera)) *
+                      glm::dvec4(viewPosition(image, x, y), 1));
+}
+
+gbuffer::AnalyticObject plane(const glm::dvec3& point, const glm::dvec3& normal)
+{
+    gbuffer::AnalyticObject o{.type = gbuffer::AnalyticObject::Type::Plane};
+    std::copy_n(glm::value_ptr(point), 3, o.point);
+    std::copy_n(glm::value_ptr(normal), 3, o.normal);
+    return o;
+}
+
+gbuffer::AnalyticObject ball(const glm::dvec3& center, double radius)
+{
+    gbuffer::AnalyticObject o{.type = gbuffer::AnalyticObject::Type::Ball, .radius = radius};
+    std::copy_n(glm::value_ptr(center), 3, o.point);
+    return o;
+}
+
+CndLight sphereLight(const glm::dvec3& position, double radius, const glm::vec3& luminance)
+{
+    CndLight light{.type = CND_LIGHT_SPHERE, .radius = float(radius)};
+    for (int i = 0; i < 3; ++i) {
+        light.position[i] = float(position[i]);
+        light.emission[i] = luminance[i];
+    }
+    light.influenceRadius = std::numeric_limits<float>::infinity();
+    return light;
+}
+
+glm::dvec3 positionOf(const CndLight& light)
+{
+    return glm::make_vec3(light.position);
+}
+
+} // namespace
+
+class GBufferRays : public RasterTest
+{
+};
+
+// Relative error 4e-7 and a step of the depth format, also 1e6 m from the origin. Near the horizon
+// the error along the ray grows with the inverse of the slope.
+TEST_F(GBufferRays, PlaneReconstructsToTheExactPoint)
+{
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.1, 1, -0.05));
+    for (const double shift : {0.0, 1e6 + 0.3})
+        for (int kind = 0; kind < 4; ++kind) {
+            SCOPED_TRACE(kind);
+            RasterOptions options = perspectiveOptions();
+            setProjection(options, kind);
+            const glm::dvec3 offset(shift, -shift, shift);
+            lookAt(options.camera, offset + glm::dvec3(1, 1.5, 4), offset + glm::dvec3(0, 0, -2));
+            RasterScene scene;
+            scene.addMaterial(testMaterial());
+            scene.analyticObjects.push_back(plane(offset, normal));
+            const RasterImage image = render(scene, options);
+            double worst = 0;
+            size_t mismatches = 0;
+            for (uint32_t y = 0; y < image.height; ++y)
+                for (uint32_t x = 0; x < image.width; ++x) {
+                    const Ray ray = pixelRay(options, x, y);
+                    const double t = hitPlane(ray, offset, normal);
+                    const double slope = -glm::dot(ray.direction, normal);
+                    const bool covered = image.covered(size_t(y) * image.width + x);
+                    if (t != infinity && !insideDepthRange(options, ray.at(t)))
+                        continue;
+                    mismatches += covered != (t != infinity);
+                    if (!covered)
+                        continue;
+                    const double error = glm::length(worldPosition(image, x, y) - ray.at(t)) /
+                                         glm::length(ray.at(t) - ray.origin);
+                    worst = std::max(worst, error * slope - depthStep(kind, t));
+                    ASSERT_LE(angleBetween(storedNormal(image, size_t(y) * image.width + x),
+                                           glm::dmat3(viewFromWorld(options.camera)) * normal),
+                              gpu::NORMAL_ERROR_FULL + 1e-7);
+                }
+            EXPECT_EQ(mismatches, 0u);
+            EXPECT_GT(image.coveredCount(), 5000u);
+            std::printf(
+                "plane, projection %d, shift %g: worst relative error x slope %.3g + step\n", kind,
+                shift, worst);
+            EXPECT_LE(worst, 4e-7);
+        }
+}
+
+TEST_F(GBufferRays, OnlyTheUpperSideOfAPlaneIsSeen)
+{
+    RasterScene scene;
+    scene.addMaterial(testMaterial());
+    scene.analyticObjects.push_back(plane({0, 0, 0}, {0, 1, 0}));
+    RasterOptions options = perspectiveOptions();
+    lookAt(options.camera, {0, -1, 4}, {0, 0, 0});
+    EXPECT_EQ(render(scene, options).coveredCount(), 0u);
+}
+
+// Small and far, large and near (a planet under the feet), and at the rim.
+TEST_F(GBufferRays, BallReconstructsToTheExactPoint)
+{
+    struct Case {
+        double radius, distance; // from the surface
+    };
+    for (const Case& c : {Case{1, 3}, {0.02, 5}, {6.4e6, 2}, {1e3, 0.5}})
+        for (int kind = 0; kind < 4; ++kind) {
+            SCOPED_TRACE(::testing::Message() << "radius " << c.radius << ", projection " << kind);
+            RasterOptions options = perspectiveOptions();
+            setProjection(options, kind);
+            if (c.radius < 0.1) // zoom in
+                options.camera.clipFromView[0] *= 100, options.camera.clipFromView[5] *= 100;
+            const glm::dvec3 center(0, -c.radius, 0);
+            lookAt(options.camera, {0, c.distance, 0.3 * std::min(c.radius, 1.0)},
+                   {0.1 * std::min(c.radius, 1.0), 0, 0});
+            RasterScene scene;
+            scene.addMaterial(testMaterial());
+            scene.analyticObjects.push_back(ball(center, c.radius));
+            const RasterImage image = render(scene, options);
+            double worst = 0, worstNormal = 0;
+            size_t mismatches = 0;
+            for (uint32_t y = 0; y < image.height; ++y)
+                for (uint32_t x = 0; x < image.width; ++x) {
+                    const size_t i = size_t(y) * image.width + x;
+                    const Ray ray = pixelRay(options, x, y);
+                    const SphereHit hit = hitSphere(ray, center, c.radius);
+                    const bool exact = hit.near != infinity;
+                    if (exact && !insideDepthRange(options, ray.at(hit.near)))
+                        continue;
+                    mismatches += image.covered(i) != exact;
+                    if (!image.covered(i) || !exact)
+                        continue;
+                    const glm::dvec3 p = ray.at(hit.near);
+                    const glm::dvec3 normal = (p - center) / c.radius;
+                    const double slope = -glm::dot(ray.direction, normal);
+                    const double scale = glm::length(p - ray.origin);
+                    const double error = glm::length(worldPosition(image, x, y) - p) / scale;
+                    worst = std::max(worst, error * slope - depthStep(kind, scale));
+                    const double angle = angleBetween(
+                        storedNormal(image, i), glm::dmat3(viewFromWorld(options.camera)) * normal);
+                    // A step along the ray turns the normal by step / radius.
+                    worstNormal =
+                        std::max(worstNormal, angle * slope / std::max(1.0, scale / c.radius));
+                }
+            std::printf("ball r %g, projection %d: position x slope %.3g + step, normal %.3g\n",
+                        c.radius, kind, worst, worstNormal);
+            EXPECT_LE(mismatches, 2u); // pixel centres on the rim
+            EXPECT_GT(image.coveredCount(), 1000u);
+            EXPECT_LE(worst, 4e-7);
+            EXPECT_LE(worstNormal, 2e-6);
+        }
+}
+
+class GBufferEmitters : public RasterTest
+{
+protected:
+    // Per pixel the nearest light, in double; compares coverage, luminance, depth.
+    void expectRayCast(const RasterImage& image, const RasterOptions& options)
+    {
+        size_t onRim = 0, shown = 0;
+        for (uint32_t y = 0; y < image.height; ++y)
+            for (uint32_t x = 0; x < image.width; ++x) {
+                const size_t i = size_t(y) * image.width + x;
+                const Ray ray = pixelRay(options, x, y);
+                double nearest = infinity;
+                const CndLight* winner = nullptr;
+                bool rim = false;
+                for (const CndLight& light : options.emitters) {
+                    const glm::dvec3 center = options.emitterOrigin + positionOf(light);
+                    const SphereHit hit = hitSphere(ray, center, double(light.radius));
+                    rim |= std::abs(hit.axisDistance - double(light.radius)) <
+                           2e-6 * glm::length(center - ray.origin);
+                    const double t = hit.near > 0 ? hit.near : hit.far;
+                    if (hit.near != infinity && t > 0 && t < nearest) {
+                        nearest = t;
+                        winner = &light;
+                    }
+                }
+                onRim += rim;
+                if (rim)
+                    continue;
+                ASSERT_EQ(image.covered(i), winner != nullptr) << x << " " << y;
+                if (!winner)
+                    continue;
+                ++shown;
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_EQ(image.radiance[i][c], winner->emission[c]) << x << " " << y;
+                const glm::dvec3 p = ray.at(nearest);
+                if (insideDepthRange(options, p)) { // closer ones are drawn at the near plane
+                    ASSERT_LE(glm::length(worldPosition(image, x, y) - p),
+                              1e-4 * glm::length(p - ray.origin));
+                }
+                // Lighting finds nothing to light.
+                if (options.layout == CND_GBUFFER_COMPACT) {
+                    ASSERT_EQ(image.normalRoughness[i].x, gpu::NORMAL_ROUGHNESS_UNLIT_COMPACT);
+                } else {
+                    ASSERT_EQ(image.albedo[i], glm::uvec2(0));
+                    ASSERT_EQ(image.specular[i], glm::uvec2(0));
+                }
+            }
+        EXPECT_LE(onRim, image.depth.size() / 200);
+        EXPECT_GT(shown, 100u);
+    }
+
+    static std::vector<CndLight> randomLights(uint32_t count, double size, uint32_t seed)
+    {
+        Random random(seed);
+        std::vector<CndLight> lights;
+        for (uint32_t i = 0; i < count; ++i)
+            lights.push_back(sphereLight(random.box(size), std::pow(10, random.uniform(-2, 0.2)),
+                                         {float(i), 1, 2}));
+        return lights;
+    }
+};
+
+TEST_F(GBufferEmitters, SilhouettesAreThoseOfTheRayCast)
+{
+    for (const CndGBufferLayout layout : {CND_GBUFFER_FULL, CND_GBUFFER_COMPACT})
+        for (int kind = 0; kind < 4; ++kind) {
+            SCOPED_TRACE(::testing::Message() << layout << " projection " << kind);
+            RasterOptions options = perspectiveOptions();
+            options.layout = layout;
+            options.emitterOrigin = {3e5, 200, -7e5};
+            options.emitters = randomLights(300, 8, uint32_t(kind));
+            setProjection(options, kind);
+            lookAt(options.camera, options.emitterOrigin + glm::dvec3(1, 14, 9),
+                   options.emitterOrigin);
+            expectRayCast(render(RasterScene{}, options), options);
+        }
+}
+
+// Wide lenses, lights that touch the near plane, that almost touch the eye, and that hold it.
+TEST_F(GBufferEmitters, CloseAndAroundTheCamera)
+{
+    gbuffer::GBuffer pass(device(), {.framesInFlight = 1});
+    const gbuffer::Geometry geometry = uploadGeometry({});
+    for (const double gap : {0.5, 0.05, 1e-3, 1e-5, -0.1, -0.9})
+        for (const double fov : {0.5, 1.5, 2.6})
+            for (const double side : {0.0, 0.7, 1.5, 2.5}) {
+                SCOPED_TRACE(::testing::Message()
+                             << "gap " << gap << " fov " << fov << " side " << side);
+                RasterOptions options = perspectiveOptions();
+                setPerspective(options.camera, fov, double(options.width) / options.height, 0.1);
+                const glm::dvec3 direction(std::sin(side), 0.1, -std::cos(side));
+                options.emitters = {
+                    sphereLight(glm::normalize(direction) * (1 + gap), 1, {5, 6, 7}),
+                    sphereLight({0, 0.4, -9}, 3, {8, 9, 10})};
+                lookAt(options.camera, {0, 0, 0}, {0, 0, -1});
+                expectRayCast(renderWith(pass, geometry, options), options);
+            }
+}
+
+TEST_F(GBufferEmitters, HideAndAreHidden)
+{
+    RasterScene scene;
+    scene.addMaterial(testMaterial());
+    scene.analyticObjects.push_back(plane({0, 0, 0}, {0, 1, 0}));
+    RasterOptions options = perspectiveOptions();
+    lookAt(options.camera, {0, 2, 6}, {0, 0, 0});
+    options.emitters = {sphereLight({0, 0, 0}, 1, {50, 60, 70})};
+    const RasterImage image = render(scene, options);
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x) {
+            const Ray ray = pixelRay(options, x, y);
+            const double onPlane = hitPlane(ray, {0, 0, 0}, {0, 1, 0});
+            const double onLight = hitSphere(ray, {0, 0, 0}, 1).near;
+            if (std::abs(onPlane - onLight) < 1e-4)
+                continue;
+            const bool light = onLight < onPlane;
+            ASSERT_EQ(image.radiance[size_t(y) * image.width + x].r,
+                      light                ? 50
+                      : onPlane < infinity ? testMaterial().emission[0]
+                                           : 0);
+        }
+}
+
+// Other types are not drawn, sets grow and shrink between frames of two slots.
+TEST_F(GBufferEmitters, SetsFollowTheFrames)
+{
+    gbuffer::GBuffer pass(device(), {.framesInFlight = 2});
+    const gbuffer::Geometry geometry = uploadGeometry({});
+    RasterOptions options = perspectiveOptions();
+    lookAt(options.camera, {0, 1, 20}, {0, 0, 0});
+    uint32_t frame = 0;
+    for (const uint32_t count : {3u, 400u, 1u, 0u, 900u, 900u, 20u}) {
+        SCOPED_TRACE(count);
+        options.emitters = randomLights(count, 6, frame);
+        if (count > 2)
+            options.emitters[1].type = CND_LIGHT_SPOT;
+        const RasterImage image = renderWith(pass, geometry, options, frame % 2);
+        ++frame;
+        if (count > 2)
+            options.emitters.erase(options.emitters.begin() + 1);
+        expectSameImage(image, render(RasterScene{}, options));
+    }
+    options.emitters = {sphereLight({0, 0, 0}, 0, {1, 1, 1})};
+    const double origin[3] = {0, 0, 0};
+    EXPECT_THROW(pass.setEmitters(options.emitters, origin), gpu::Failure);
+}
+
+} // namespace candelabra::test
