@@ -56,22 +56,51 @@ private:
     std::vector<uint32_t> values_;
 };
 
+// State that all pipelines share.
+constexpr VkPipelineViewportStateCreateInfo viewportState{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+    .viewportCount = 1,
+    .scissorCount = 1};
+constexpr VkPipelineRasterizationStateCreateInfo rasterizationState{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
+constexpr VkPipelineMultisampleStateCreateInfo multisampleState{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+    .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
+constexpr VkPipelineDepthStencilStateCreateInfo depthState{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+    .depthTestEnable = VK_TRUE,
+    .depthWriteEnable = VK_TRUE};
+constexpr VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                            VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE,
+                                            VK_DYNAMIC_STATE_DEPTH_COMPARE_OP};
+constexpr VkPipelineDynamicStateCreateInfo dynamicState{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+    .dynamicStateCount = std::size(dynamicStates),
+    .pDynamicStates = dynamicStates};
+constexpr VkPipelineColorBlendAttachmentState writeAll{
+    .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                      VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
+constexpr VkPipelineColorBlendAttachmentState writes[4] = {writeAll, writeAll, writeAll, writeAll};
+
+VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage,
+                                            const gpu::Handle<VkShaderModule>& module,
+                                            const Specialization& constants)
+{
+    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+            .stage = stage,
+            .module = module.get(),
+            .pName = "main",
+            .pSpecializationInfo = &constants.info};
+}
+
 gpu::Handle<VkPipeline> createPipeline(const gpu::Device& device, CndGBufferLayout layout,
                                        const PipelineDesc& desc)
 {
     const gpu::Handle<VkShaderModule> vertex = gpu::createShaderModule(device, desc.vertex);
     const gpu::Handle<VkShaderModule> fragment = gpu::createShaderModule(device, desc.fragment);
     const Specialization constants(desc.constants);
-    const auto stage = [&](VkShaderStageFlagBits bit, VkShaderModule module) {
-        return VkPipelineShaderStageCreateInfo{
-            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-            .stage = bit,
-            .module = module,
-            .pName = "main",
-            .pSpecializationInfo = &constants.info};
-    };
-    const std::array stages{stage(VK_SHADER_STAGE_VERTEX_BIT, vertex.get()),
-                            stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get())};
+    const std::array stages{shaderStage(VK_SHADER_STAGE_VERTEX_BIT, vertex, constants),
+                            shaderStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, constants)};
     const VkPipelineVertexInputStateCreateInfo vertexInput{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
         .vertexBindingDescriptionCount = uint32_t(desc.streams.size()),
@@ -81,36 +110,12 @@ gpu::Handle<VkPipeline> createPipeline(const gpu::Device& device, CndGBufferLayo
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = desc.topology};
-    const VkPipelineViewportStateCreateInfo viewport{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-        .viewportCount = 1,
-        .scissorCount = 1};
-    const VkPipelineRasterizationStateCreateInfo rasterization{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo multisample{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineDepthStencilStateCreateInfo depth{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = VK_TRUE,
-        .depthWriteEnable = VK_TRUE};
-    std::array<VkFormat, 4> formats;
+    std::array<VkFormat, std::size(writes)> formats;
     const uint32_t colors = colorFormats(layout, formats);
-    std::array<VkPipelineColorBlendAttachmentState, 4> writes{};
-    for (VkPipelineColorBlendAttachmentState& w : writes)
-        w.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                           VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     const VkPipelineColorBlendStateCreateInfo blend{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = colors,
-        .pAttachments = writes.data()};
-    constexpr VkDynamicState dynamicStates[] = {
-        VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE,
-        VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_DEPTH_COMPARE_OP};
-    const VkPipelineDynamicStateCreateInfo dynamic{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-        .dynamicStateCount = std::size(dynamicStates),
-        .pDynamicStates = dynamicStates};
+        .pAttachments = writes};
     const VkPipelineRenderingCreateInfo rendering{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
         .colorAttachmentCount = colors,
@@ -123,12 +128,12 @@ gpu::Handle<VkPipeline> createPipeline(const gpu::Device& device, CndGBufferLayo
                                             .pStages = stages.data(),
                                             .pVertexInputState = &vertexInput,
                                             .pInputAssemblyState = &assembly,
-                                            .pViewportState = &viewport,
-                                            .pRasterizationState = &rasterization,
-                                            .pMultisampleState = &multisample,
-                                            .pDepthStencilState = &depth,
+                                            .pViewportState = &viewportState,
+                                            .pRasterizationState = &rasterizationState,
+                                            .pMultisampleState = &multisampleState,
+                                            .pDepthStencilState = &depthState,
                                             .pColorBlendState = &blend,
-                                            .pDynamicState = &dynamic,
+                                            .pDynamicState = &dynamicState,
                                             .layout = desc.layout};
     VkPipeline pipeline{};
     gpu::check(device.CreateGraphicsPipelines(device.handle, device.pipelineCache, 1, &info,
