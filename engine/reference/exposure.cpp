@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace candelabra::reference
@@ -114,6 +115,8 @@ Histogram buildHistogram(std::span<const float> rgba, uint32_t width, uint32_t h
             }
             const uint32_t weight = pixelWeight(metering, mask, x, y, width, height);
             histogram.counts[*bin] += weight;
+            if (luminance < std::numeric_limits<float>::min())
+                histogram.blackWeight += weight;
             histogram.fractions[*bin] += uint64_t{weight} * binFraction(luminance);
         }
     }
@@ -125,11 +128,13 @@ std::optional<double> percentileMeanLog2(const Histogram& histogram, double low,
     double total = 0; // at most 15 * 2^28, exact in double
     for (const uint32_t count : histogram.counts)
         total += count;
+    const double black = histogram.blackWeight < total ? histogram.blackWeight : 0;
+    total -= black;
     const double first = low * total;
     const double last = high * total;
     double below = 0, mass = 0, sum = 0;
     for (uint32_t bin = 0; bin < CND_HISTOGRAM_BINS; ++bin) {
-        const double above = below + histogram.counts[bin];
+        const double above = below + histogram.counts[bin] - (bin == 0 ? black : 0);
         const double inside = std::min(above, last) - std::max(below, first);
         if (inside > 0) {
             const double meanFraction =

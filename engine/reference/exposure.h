@@ -49,6 +49,9 @@ uint32_t maskWeight(const ExposureMask& mask, uint32_t x, uint32_t y, uint32_t w
 struct Histogram {
     std::array<uint32_t, CND_HISTOGRAM_BINS> counts{};    // sums of weights
     std::array<uint64_t, CND_HISTOGRAM_BINS> fractions{}; // sums of weight * binFraction
+    // The part of counts[0] without any light (luminance below the smallest normal float): left out
+    // of the mean unless there is nothing else.
+    uint32_t blackWeight = 0;
     uint32_t invalidPixels = 0; // NaN luminance, whatever its weight; in no bin
 };
 

@@ -94,9 +94,12 @@ float countInside(uint below, uint above, Place first, Place last)
 vec2 measure()
 {
     const uint bin = gl_LocalInvocationIndex;
-    const uint count = data.counts[bin];
+    const uint black = data.blackWeight;
+    const uint count = data.counts[bin] - (bin == 0u ? black : 0u);
     addPrefixes(count);
     const uint total = prefixes[HISTOGRAM_BINS - 1u];
+    if (total == 0u && black != 0u)
+        return vec2(binLog2Luminance(0u, 0.0), 1.0);
     const uint above = prefixes[bin];
     const float inside = countInside(above - count, above, placeFromBottom(total, params.lowShare),
                                      placeFromTop(total, params.highShare));

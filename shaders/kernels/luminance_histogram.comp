@@ -24,6 +24,7 @@ layout(scalar, binding = HISTOGRAM_DATA) buffer Data
 const uint GROUP = HISTOGRAM_GROUP_X * HISTOGRAM_GROUP_Y; // one lane per bin when merging
 shared uint bins[HISTOGRAM_BINS];
 shared uint invalidPixels;
+shared uint blackWeight;
 
 // Integer weight of a pixel; the products fit 32 bits up to 16384 x 16384.
 uint weightOf(uvec2 pixel)
@@ -60,6 +61,11 @@ void count(uvec2 pixel)
         atomicAdd(invalidPixels, 1u);
         return;
     }
+    const uint weight = weightOf(pixel);
+    if (!(y >= HISTOGRAM_BLACK)) {
+        atomicAdd(blackWeight, weight);
+        return;
+    }
     uint bin = (bits >> HISTOGRAM_BIN_SHIFT) - HISTOGRAM_FIRST_CODE;
     uint fraction = (bits >> HISTOGRAM_FRACTION_SHIFT) & (HISTOGRAM_FRACTIONS - 1u);
     if (!(y >= HISTOGRAM_MIN_LUMINANCE)) {
@@ -69,7 +75,6 @@ void count(uvec2 pixel)
         bin = HISTOGRAM_BINS - 1u;
         fraction = HISTOGRAM_FRACTIONS - 1u;
     }
-    const uint weight = weightOf(pixel);
     atomicAdd(bins[bin], (weight << HISTOGRAM_COUNT_SHIFT) | weight * fraction);
 }
 
@@ -78,8 +83,10 @@ void main()
     const uint lane = gl_LocalInvocationIndex;
     for (uint bin = lane; bin < HISTOGRAM_BINS; bin += GROUP)
         bins[bin] = 0u;
-    if (lane == 0u)
+    if (lane == 0u) {
         invalidPixels = 0u;
+        blackWeight = 0u;
+    }
     barrier();
     const uvec2 first = gl_WorkGroupID.xy * uvec2(HISTOGRAM_GROUP_X,
                                                   HISTOGRAM_GROUP_Y * HISTOGRAM_ROWS_PER_LANE) +
@@ -102,4 +109,8 @@ void main()
     }
     if (lane == 0u && invalidPixels != 0u)
         atomicAdd(data.invalidPixels, invalidPixels);
+    if (lane == 0u && blackWeight != 0u) {
+        atomicAdd(data.counts[0], blackWeight);
+        atomicAdd(data.blackWeight, blackWeight);
+    }
 }

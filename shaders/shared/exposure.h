@@ -18,6 +18,9 @@ const uint HISTOGRAM_FIRST_CODE = 920u; // (127 - 12) * 8
 const int HISTOGRAM_MIN_EXPONENT = -12;
 const float HISTOGRAM_MIN_LUMINANCE = 0.000244140625f; // 2^-12
 const float HISTOGRAM_MAX_LUMINANCE = 1048576.0f;      // 2^20
+// Pixels below the smallest normal float (zero, negative) have no light at all: an empty background,
+// say. They are counted but do not take part in the average, unless there is nothing else.
+const float HISTOGRAM_BLACK = 1.17549435e-38f; // 2^-126; devices may flush what is smaller
 const uint MAX_METERING_WEIGHT = 15u;
 
 const uint METERING_AVERAGE = 0u; // CndMetering
@@ -28,8 +31,9 @@ struct HistogramData {
     uint counts[HISTOGRAM_BINS];     // sums of weights
     uvec2 fractions[HISTOGRAM_BINS]; // sums of weight * fraction, 64 bit: low, high
     uint invalidPixels;              // NaN luminance
+    uint blackWeight;                // the part of counts[0] that has no light at all
 };
-GPU_SIZE(HistogramData, 3076)
+GPU_SIZE(HistogramData, 3080)
 
 struct ExposureState {
     float targetEv100;

@@ -245,6 +245,15 @@ TEST(ReferenceExposure, flatPictureIsWithinAHundredthOfAStop)
     }
 }
 
+// A lit object on an empty background is exposed for the object.
+TEST(ReferenceExposure, blackBackgroundIsLeftOut)
+{
+    const double object = targetEv({100, 200});
+    EXPECT_EQ(targetEv({100, 200, 0, 0, 0, 0, -1, 0}), object);
+    EXPECT_LT(targetEv({100, 200, 1e-20f, 1e-20f}), object);
+    EXPECT_EQ(targetEv({0, 0}), automatic().minEv100);
+}
+
 TEST(ReferenceExposure, extremeInputsStayFinite)
 {
     const CndExposureSettings settings = automatic();

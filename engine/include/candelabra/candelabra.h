@@ -280,7 +280,8 @@ typedef struct CndExposureDesc {
 // EV here is EV100 = log2(L * 100 / 12.5) for average luminance L in cd/m^2 (ISO 2720, K = 12.5).
 // The average is the mean of log2 luminance between two percentiles of a histogram with 8 bins per
 // octave from 2^-12 to 2^20 cd/m^2; darker pixels count in the first bin, brighter ones in the
-// last.
+// last. Pixels without any light (zero or negative luminance: an empty background) are counted in
+// the first bin but left out of the mean, unless there is nothing else.
 typedef struct CndExposureSettings {
     VkBool32 manual;          // use manualEv100, build no histogram
     float manualEv100;        // -64..64
