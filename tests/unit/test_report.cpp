@@ -153,6 +153,7 @@ TEST_F(FileTest, UnwritablePlacesAreFoundBeforeTheWork)
     EXPECT_THROW(requireWritable("-o", dir_), UsageError);
     EXPECT_THROW(requireWritable("-o", dir_ / "missing" / "a.png"), UsageError);
     EXPECT_THROW(requireWritable("-o", ""), UsageError);
+    EXPECT_THROW(requireWritable("--json", "/dev/null"), UsageError); // would be replaced
 }
 
 TEST(Report, CommandLineCanBePastedBack)

@@ -37,8 +37,7 @@ int listDevices(bool json)
         return exitOk;
     }
     if (devices.empty())
-        throw RunError("there is no Vulkan device (Debian package mesa-vulkan-drivers has a "
-                       "software one)");
+        chooseDevice(devices, ""); // says so
     Table table({"device", "type", "Vulkan", "driver", "lacks"});
     for (const DeviceInfo& device : devices)
         table.add({fmt::format("{} {}", device.index, device.name), deviceTypeName(device.type),

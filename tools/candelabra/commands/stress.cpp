@@ -84,7 +84,7 @@ std::string advice(const StressArguments& a, const std::vector<StressPoint>& poi
         "  candelabra view {} --lights {}         (fly through it; needs a display)\n"
         "  candelabra render {} --lights 2000 --overlaps 30 -o dense.png\n"
         "  candelabra stress field --lights 1000,10000,100000 --out {}/field\n",
-        images, svg, json, a.scene.scene, points.back().lights, a.scene.scene, a.directory);
+        images, svg, json, a.scene.scene, points.front().lights, a.scene.scene, a.directory);
 }
 
 int stress(const ProgramContext& program, const StressArguments& a)

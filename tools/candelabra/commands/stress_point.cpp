@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/stress_point.h"
 
+#include <cctype>
 #include <cstring>
 #include <filesystem>
 
@@ -26,6 +27,15 @@ double pairs(const std::vector<VkRect2D>& rects, uint32_t lights)
     for (const VkRect2D& r : rects)
         pixels += double(r.extent.width) * r.extent.height;
     return pixels * lights;
+}
+
+// A scene may be called anything.
+std::string fileName(const std::string& sceneName)
+{
+    std::string out;
+    for (const char c : sceneName)
+        out += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
+    return out.empty() ? "scene" : out.substr(0, 64);
 }
 
 struct Pictures {
@@ -84,7 +94,7 @@ StressPoint measureStressPoint(const VulkanContext& context, const StressSetting
     progress.doing(label + ": two runs");
     const Pictures first = renderOnce(context, renderer, frame);
     out.image = (std::filesystem::path(settings.directory) /
-                 fmt::format("{}_{}.png", scene.name, out.lights))
+                 fmt::format("{}_{}.png", fileName(scene.name), out.lights))
                     .string();
     savePng(out.image, settings.size.width, settings.size.height, first.display);
     Renderer second(context, scene, rendererOptions);

@@ -75,7 +75,9 @@ void requireWritable(const std::string& option, const std::string& path)
     if (path == "-")
         return;
     std::error_code error;
-    if (path.empty() || std::filesystem::is_directory(path, error))
+    // Not a device either: a file renamed to its name would take its place.
+    if (path.empty() ||
+        (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)))
         throw UsageError(fmt::format("{} \"{}\": is not the name of a file", option, path));
     const std::string directory = directoryOf(path);
     if (!std::filesystem::is_directory(directory, error))

@@ -39,6 +39,10 @@ void FrameRing::createSlot(Slot& slot) const
     check(vkAllocateCommandBuffers(device, &allocate, &slot.cmd), "allocating a command buffer");
     const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     check(vkCreateFence(device, &fence, nullptr, &slot.done), "creating a fence");
+    const gpu::Device& names = context_.device();
+    names.name(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, "frame commands");
+    names.name(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.cmd, "frame");
+    names.name(VK_OBJECT_TYPE_FENCE, slot.done, "frame done");
 }
 
 void FrameRing::destroy() noexcept

@@ -57,6 +57,8 @@ VulkanContext::VulkanContext(const ContextOptions& options)
     try {
         gpu_ = std::make_unique<gpu::Device>(desc_);
         check(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "creating a command pool");
+        gpu_->name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, "one-time commands");
+        gpu_->name(VK_OBJECT_TYPE_QUEUE, queue_, "queue");
     } catch (...) {
         vkDestroyDevice(device_, nullptr);
         throw;

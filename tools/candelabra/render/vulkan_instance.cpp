@@ -18,6 +18,8 @@ namespace candelabra::app
 namespace
 {
 
+constexpr const char* noDevice = "there is no Vulkan device (Debian package mesa-vulkan-drivers "
+                                 "has a software one)";
 constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
@@ -215,7 +217,10 @@ VulkanInstance::VulkanInstance(Validation validation, Presentation presentation)
                                     .ppEnabledLayerNames = &validationLayer,
                                     .enabledExtensionCount = uint32_t(extensions.size()),
                                     .ppEnabledExtensionNames = extensions.data()};
-    check(vkCreateInstance(&info, nullptr, &instance_), "creating the Vulkan instance");
+    const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+        throw RunError(noDevice);
+    check(result, "creating the Vulkan instance");
     if (!validate)
         return;
     const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
@@ -252,8 +257,7 @@ std::vector<DeviceInfo> VulkanInstance::devices() const
 DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& wanted)
 {
     if (devices.empty())
-        throw RunError("there is no Vulkan device (Debian package mesa-vulkan-drivers has a "
-                       "software one)");
+        throw RunError(noDevice);
     if (!wanted.empty()) {
         const DeviceInfo device = findDevice(devices, wanted);
         if (!device.missing.empty())

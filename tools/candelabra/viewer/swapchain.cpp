@@ -51,6 +51,7 @@ VkSemaphore Swapchain::createSemaphore() const
     VkSemaphore semaphore{};
     check(vkCreateSemaphore(context_.desc().device, &info, nullptr, &semaphore),
           "creating a semaphore");
+    context_.device().name(VK_OBJECT_TYPE_SEMAPHORE, semaphore, "window image");
     return semaphore;
 }
 
@@ -103,6 +104,7 @@ void Swapchain::createRenderPass()
                                       .pDependencies = &after};
     check(vkCreateRenderPass(context_.desc().device, &info, nullptr, &renderPass_),
           "creating the overlay's render pass");
+    context_.device().name(VK_OBJECT_TYPE_RENDER_PASS, renderPass_, "overlay");
 }
 
 void Swapchain::createImages(VkSwapchainKHR old)
@@ -144,7 +146,12 @@ void Swapchain::createImages(VkSwapchainKHR old)
                                         .oldSwapchain = old};
     check(vkCreateSwapchainKHR(device, &info, nullptr, &swapchain_), "creating the swapchain");
     vkDestroySwapchainKHR(device, old, nullptr);
+    createViews();
+}
 
+void Swapchain::createViews()
+{
+    const VkDevice device = context_.desc().device;
     uint32_t count = 0;
     check(vkGetSwapchainImagesKHR(device, swapchain_, &count, nullptr), "listing window images");
     images_.resize(count);
@@ -171,6 +178,10 @@ void Swapchain::createImages(VkSwapchainKHR old)
         check(vkCreateFramebuffer(device, &framebuffer, nullptr, &framebuffers_.back()),
               "creating a framebuffer");
         presented_.push_back(createSemaphore());
+        const gpu::Device& names = context_.device();
+        names.name(VK_OBJECT_TYPE_IMAGE, image, "window");
+        names.name(VK_OBJECT_TYPE_IMAGE_VIEW, views_.back(), "window");
+        names.name(VK_OBJECT_TYPE_FRAMEBUFFER, framebuffers_.back(), "window");
     }
 }
 

@@ -48,6 +48,7 @@ private:
     void chooseFormat();
     void createRenderPass();
     void createImages(VkSwapchainKHR old);
+    void createViews();
     void destroyImages() noexcept;
     void destroyAll() noexcept;
     VkSemaphore createSemaphore() const;
