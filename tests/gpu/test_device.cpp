@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Devices that lack something: the host's functions are interposed to hide a feature or a limit.
+#include "gpu/lighting_harness.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+// Vulkan's function pointers carry no context.
+PFN_vkGetInstanceProcAddr realGetInstanceProcAddr = nullptr;
+PFN_vkGetPhysicalDeviceFeatures2 realGetFeatures = nullptr;
+PFN_vkGetPhysicalDeviceProperties2 realGetProperties = nullptr;
+
+void VKAPI_CALL featuresWithoutScalarLayout(VkPhysicalDevice device,
+                                            VkPhysicalDeviceFeatures2* features)
+{
+    realGetFeatures(device, features);
+    for (auto* s = static_cast<VkBaseOutStructure*>(features->pNext); s; s = s->pNext)
+        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES)
+            reinterpret_cast<VkPhysicalDeviceVulkan12Features*>(s)->scalarBlockLayout = VK_FALSE;
+}
+
+void VKAPI_CALL propertiesWithSmallTexelBuffers(VkPhysicalDevice device,
+                                                VkPhysicalDeviceProperties2* properties)
+{
+    realGetProperties(device, properties);
+    properties->properties.limits.maxTexelBufferElements = 65536; // Vulkan's guaranteed minimum
+}
+
+template <typename F>
+F find(const CndDeviceDesc& desc, const char* name)
+{
+    return reinterpret_cast<F>(desc.getInstanceProcAddr(desc.instance, name));
+}
+
+PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name)
+{
+    const std::string function = name;
+    if (function == "vkGetPhysicalDeviceFeatures2")
+        return reinterpret_cast<PFN_vkVoidFunction>(featuresWithoutScalarLayout);
+    if (function == "vkGetPhysicalDeviceProperties2")
+        return reinterpret_cast<PFN_vkVoidFunction>(propertiesWithSmallTexelBuffers);
+    return realGetInstanceProcAddr(instance, name);
+}
+
+CndDeviceDesc interpose(const CndDeviceDesc& host)
+{
+    realGetInstanceProcAddr = host.getInstanceProcAddr;
+    realGetFeatures = find<PFN_vkGetPhysicalDeviceFeatures2>(host, "vkGetPhysicalDeviceFeatures2");
+    realGetProperties =
+        find<PFN_vkGetPhysicalDeviceProperties2>(host, "vkGetPhysicalDeviceProperties2");
+    CndDeviceDesc desc = host;
+    desc.getInstanceProcAddr = getInstanceProcAddr;
+    return desc;
+}
+
+} // namespace
+
+TEST_F(LightingTest, MissingFeatureIsNamed)
+{
+    const CndDeviceDesc& host = deviceDesc();
+    char missing[256];
+    EXPECT_EQ(cndCheckDevice(host.instance, host.physicalDevice, host.getInstanceProcAddr, missing,
+                             sizeof missing),
+              CND_SUCCESS)
+        << missing;
+    EXPECT_STREQ(missing, "");
+    const CndDeviceDesc poor = interpose(host);
+    EXPECT_EQ(cndCheckDevice(poor.instance, poor.physicalDevice, poor.getInstanceProcAddr, missing,
+                             sizeof missing),
+              CND_ERROR_UNSUPPORTED);
+    EXPECT_STREQ(missing, "feature scalarBlockLayout");
+}
+
+// Devices with small texel buffers read lights as storage: another way to the same bits.
+TEST_F(LightingTest, SmallTexelBuffersChangeNothing)
+{
+    CndCamera camera;
+    setPerspective(camera, 1.0, 1.5, 0.1);
+    const CpuGBuffer g = randomGBuffer(96, 64, camera, 0, 12);
+    const auto lights = randomSpheres(g, 500, 12);
+    const CndDeviceDesc poor = interpose(deviceDesc());
+    const LightingResult texels = run(g, lights);
+    const LightingResult words = run(g, lights, {.host = &poor});
+    EXPECT_EQ(maxRelativeDifference(words.radiance, texels.radiance), 0);
+}
+
+} // namespace candelabra::test
