@@ -22,12 +22,14 @@ void main()
     const ShadingPoint p = makeShadingPoint(readSurface(ivec2(pixel)), position,
                                             towardsEye(params.projection, position));
     vec3 sum = vec3(0.0);
-    // Not a do-while, which would save a masked trip on lavapipe: Mesa 22.3 runs lanes that have left
-    // a do-while around a divergent loop once more (found by comparing with shade_brute).
-    for (uint k = seek(list, 0u, position, p.n); k < list.count;
-         k = seek(list, k + 1u, position, p.n)) {
-        const uint light = listedLight(list, k);
-        sum += evaluateLight(p, light, lightCentre(light), lightEmission(light));
+    // Test a block of the list with all lanes in step, then let each lane shade what it found.
+    for (uint first = 0u; first < list.count; first += WALK_BLOCK) {
+        uint found = findReaching(list, first, position, p.n);
+        while (found != 0u) {
+            const uint light = listedLight(list, first + findLSB(found));
+            found &= found - 1u;
+            sum += evaluateLight(p, light, lightCentre(light), lightEmission(light));
+        }
     }
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
     imageStore(radianceImage, ivec2(pixel), before + vec4(sum, 0.0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks a tile's light list. The seek loop runs per lane, so lanes that skip a light do not wait for
-// lanes that shade it: nearly free of divergence on wide and on 8-lane devices alike.
+// Walks a tile's light list in blocks: testing is in step, so its cost is one pass over the list; what
+// the lanes found differs little between neighbours, so shading it diverges little.
 layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
 {
     TileList lists[];
@@ -16,14 +16,17 @@ uint listedLight(TileList list, uint k)
     return list.offset == UNLISTED ? k : entries[list.offset + k];
 }
 
-// First entry at or after k whose light reaches the point; list.count when there is none.
-uint seek(TileList list, uint k, vec3 position, vec3 n)
+const uint WALK_BLOCK = 32u; // entries tested together: bits of a word
+
+// One bit per entry of a block, set when the light reaches the point.
+uint findReaching(TileList list, uint first, vec3 position, vec3 n)
 {
-    while (k < list.count) {
-        const uint light = listedLight(list, k);
+    const uint count = min(WALK_BLOCK, list.count - first);
+    uint found = 0u;
+    for (uint i = 0u; i < count; ++i) {
+        const uint light = listedLight(list, first + i);
         if (lightReaches(position, n, lightCentre(light), lightEmission(light).w))
-            break;
-        ++k;
+            found |= 1u << i;
     }
-    return k;
+    return found;
 }
