@@ -20,6 +20,10 @@ constexpr VkDeviceSize defaultListBudget = 64u << 20;
 // Bytes of coarse masks; when light count and resolution need more, coarse tiles get larger.
 constexpr VkDeviceSize maskBudget = 64u << 20;
 constexpr uint32_t maxGroupsPerDimension = 65535; // Vulkan's guaranteed maxComputeWorkGroupCount
+constexpr uint32_t maxSide = 16384;               // pixels, of a view
+constexpr uint32_t maxTilesPerSide = maxSide / gpu::TILE_SIZE;
+static_assert(divideUp(maxTilesPerSide * maxTilesPerSide, gpu::TILE_BOUNDS_GROUP) <=
+              maxGroupsPerDimension);
 
 constexpr VkBufferUsageFlags storageUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
@@ -44,7 +48,7 @@ CndLightingViewDesc checked(const gpu::Device& device, CndLightingViewDesc desc)
         gpu::failArgument("CndLightingViewDesc: structSize is " + std::to_string(desc.structSize) +
                           ", this library expects " + std::to_string(sizeof desc));
     for (const uint32_t side : {desc.maxWidth, desc.maxHeight})
-        if (side < 1 || side > 16384)
+        if (side < 1 || side > maxSide)
             gpu::failArgument("CndLightingViewDesc: maxWidth and maxHeight must be 1..16384, are " +
                               std::to_string(desc.maxWidth) + " and " +
                               std::to_string(desc.maxHeight));
@@ -113,6 +117,7 @@ gpu::Projection projectionOf(const float (&m)[16], float clearDepth)
 struct View::Plan {
     gpu::Projection projection;
     glm::uvec2 size;
+    glm::vec2 invImageSize; // one value for all kernels: GPU divisions may differ in the last bit
     float clearDepth;
     uint32_t lightCount, wordCount;
     uint32_t tileCountX, tileCountY;
@@ -149,10 +154,13 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     counters_ =
         make("lighting counters", sizeof(gpu::LightingCounters),
              storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    for (uint32_t i = 0; i < slots; ++i)
+    for (uint32_t i = 0; i < slots; ++i) {
         readback_.push_back(gpu::createBuffer(device, "lighting statistics", sizeof(Readback),
                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                               gpu::MemoryUse::Readback));
+        // Reused memory may hold the marker of an earlier view's recording.
+        readback_.back().as<Readback>()[0].marker = 0;
+    }
     growLightBuffers();
     lighting.add(this);
 }
@@ -204,9 +212,12 @@ void View::validate(const CndLightingFrame& frame) const
     if (!frame.normalRoughness || !frame.albedo || !frame.depth || !frame.radiance ||
         (lighting_.desc().gbufferLayout == CND_GBUFFER_FULL && !frame.specular))
         gpu::failArgument("CndLightingFrame: a G-buffer or radiance view is null");
+    const auto isInside = [](int32_t offset, uint32_t extent, uint32_t size) {
+        return offset >= 0 && uint32_t(offset) <= size && extent <= size - uint32_t(offset);
+    };
     const VkRect2D& r = frame.bruteRect;
-    if (r.offset.x < 0 || r.offset.y < 0 || uint32_t(r.offset.x) + r.extent.width > frame.width ||
-        uint32_t(r.offset.y) + r.extent.height > frame.height)
+    if (!isInside(r.offset.x, r.extent.width, frame.width) ||
+        !isInside(r.offset.y, r.extent.height, frame.height))
         gpu::failArgument("CndLightingFrame: bruteRect is not inside the frame");
     checkCamera(frame.camera);
 }
@@ -215,6 +226,7 @@ View::Plan View::plan(const CndLightingFrame& frame) const
 {
     Plan p{.projection = projectionOf(frame.camera.clipFromView, frame.clearDepth),
            .size = {frame.width, frame.height},
+           .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
            .clearDepth = frame.clearDepth,
            .lightCount = lighting_.lightCount(),
            .wordCount = divideUp(lighting_.lightCount(), gpu::MASK_BITS),
@@ -333,7 +345,8 @@ void View::recordCulling(const gpu::Frame& f, const Plan& p) const noexcept
                            .size = p.size,
                            .tileCountX = p.tileCountX,
                            .tileCount = tileCount,
-                           .clearDepth = p.clearDepth},
+                           .clearDepth = p.clearDepth,
+                           .invImageSize = p.invImageSize},
                           divideUp(tileCount, gpu::TILE_BOUNDS_GROUP));
     f.barrier();
     k.coarseBounds.dispatch(f, sets_.coarseBounds.set(f.slot),
@@ -369,7 +382,7 @@ void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame,
                             .lightCount = p.lightCount,
                             .tileCountX = p.tileCountX,
                             .clearDepth = p.clearDepth,
-                            .invImageSize = 1.0f / glm::vec2(p.size)};
+                            .invImageSize = p.invImageSize};
     const auto pick = [&](const ShadeKernels& kernels) -> const gpu::Kernel<gpu::ShadeParams>& {
         return lighting_.onlySpheres() ? kernels.onlySpheres[frame.specularMethod]
                                        : kernels.anyLights[frame.specularMethod];
@@ -397,6 +410,7 @@ void View::recordReadback(const gpu::Frame& f) const noexcept
     const VkBuffer target = readback_[f.slot].get();
     const VkBufferCopy copy{.size = sizeof(gpu::LightingCounters)};
     d.CmdCopyBuffer(f.cmd, counters_.get(), target, 1, &copy);
+    f.barrier(); // the marker says that all of the frame is done
     d.CmdFillBuffer(f.cmd, target, offsetof(Readback, marker), sizeof(uint32_t),
                     uint32_t(slots_[f.slot].recording));
     f.hostBarrier();

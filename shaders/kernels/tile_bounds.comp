@@ -28,13 +28,12 @@ void main()
         return;
     const uvec2 first = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX);
     const uvec2 end = min(first + TILE_SIZE, params.size);
-    const vec2 invImageSize = 1.0 / vec2(params.size);
     vec3 lowest = vec3(uintBitsToFloat(0x7F800000u)); // +infinity
     vec3 highest = -lowest;
     for (uint y = first.y; y < end.y; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const float depth = texelFetch(depthImage, ivec2(x, y), 0).x;
-            const vec3 p = viewPosition(params.projection, uvec2(x, y), invImageSize, depth);
+            const vec3 p = viewPosition(params.projection, uvec2(x, y), params.invImageSize, depth);
             const bool surface = depth != params.clearDepth;
             lowest = surface ? min(lowest, p) : lowest;
             highest = surface ? max(highest, p) : highest;

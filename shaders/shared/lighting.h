@@ -82,8 +82,9 @@ struct PrepareLightsParams {
 };
 GPU_SIZE(PrepareLightsParams, 52)
 
-// --- tile_bounds: bounds of the surface samples of each tile, one lane per tile
-const uint TILE_BOUNDS_GROUP = 64u;
+// --- tile_bounds: bounds of the surface samples of each tile, one lane per tile. 128: 16384 x 16384
+// pixels are 32768 groups, of 65535 that every device allows.
+const uint TILE_BOUNDS_GROUP = 128u;
 const uint TILE_BOUNDS_DEPTH = 0u;
 const uint TILE_BOUNDS_BOUNDS = 1u;
 const uint TILE_BOUNDS_COUNTERS = 2u;
@@ -92,8 +93,9 @@ struct TileBoundsParams {
     uvec2 size; // pixels
     uint tileCountX, tileCount;
     float clearDepth;
+    vec2 invImageSize; // 1 / size; bit for bit that of ShadeParams
 };
-GPU_SIZE(TileBoundsParams, 76)
+GPU_SIZE(TileBoundsParams, 84)
 
 // --- coarse_bounds: union over a block of tiles, one lane per coarse tile
 const uint COARSE_BOUNDS_GROUP = 64u;
