@@ -145,7 +145,7 @@ TEST(BruteCheck, RectanglesCoverTheImageOnceOrSampleIt)
                 const size_t count = size_t(std::count(covered.begin(), covered.end(), 1));
                 if (extent == CheckExtent::Full || lights <= 16384)
                     EXPECT_EQ(count, covered.size());
-                else // about 1.5e10 pairs, but at least 16 tiles
+                else // about 8e9 pairs, but at least 16 tiles
                     EXPECT_GE(count, std::min<size_t>(covered.size(), 16 * 64 / 4));
             }
     EXPECT_TRUE(checkRects({64, 64}, 100, CheckExtent::None).empty());

@@ -96,8 +96,9 @@ void drawHistogram(const CndExposureStats& stats)
     };
     mark(stats.targetEv100, IM_COL32(90, 200, 255, 255));
     mark(stats.adaptedEv100, IM_COL32(255, 160, 60, 255));
-    ImGui::Text("luminance, EV100 %.0f to %.0f: target %.2f, in use %.2f", double(firstBinEv),
-                double(firstBinEv + evPerBin * CND_HISTOGRAM_BINS), double(stats.targetEv100),
+    ImGui::Text("luminance, EV100 %.0f to %.0f", double(firstBinEv),
+                double(firstBinEv + evPerBin * CND_HISTOGRAM_BINS));
+    ImGui::Text("target %.2f (blue), in use %.2f (orange)", double(stats.targetEv100),
                 double(stats.adaptedEv100));
 }
 
@@ -135,9 +136,10 @@ void drawPanel(PanelState& state, const PanelFigures& figures)
     if (!state.visible)
         return;
     ImGui::SetNextWindowPos({12, 12}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({360, 0}, ImGuiCond_FirstUseEver);
+    constexpr float width = 360;
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, ImGui::GetIO().DisplaySize.y - 24});
     ImGui::SetNextWindowBgAlpha(0.85f);
-    if (ImGui::Begin("candelabra")) {
+    if (ImGui::Begin("candelabra", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::TextWrapped("%s, %ux%u, %s", figures.scene.c_str(), figures.size.width,
                            figures.size.height, figures.device.c_str());
         ImGui::Text("%.1f ms between frames", figures.wallMs);
