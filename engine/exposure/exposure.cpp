@@ -33,6 +33,13 @@ struct Readback {
     uint32_t marker; // written last
 };
 
+// Different for every object of the process.
+uint32_t nextOwner() noexcept
+{
+    static std::atomic<uint32_t> next{gpu::EXPOSURE_FIRST_OWNER};
+    return next++;
+}
+
 CndExposureDesc checked(const CndExposureDesc& desc)
 {
     if (desc.structSize != sizeof desc)
@@ -51,7 +58,8 @@ Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
       timer_(device_, "exposure", checked(desc).framesInFlight, desc.timestamps),
       histogram_(device_, spirv::luminance_histogram_comp),
       adapt_(device_, spirv::adapt_exposure_comp),
-      markers_(desc.framesInFlight)
+      markers_(desc.framesInFlight),
+      owner_(nextOwner())
 {
     for (uint32_t curve = 0; curve < CND_TONEMAP_COUNT; ++curve)
         toneMap_[curve] = gpu::Kernel<gpu::ToneMapParams>(device_, spirv::tone_map_comp,
@@ -158,8 +166,9 @@ void Exposure::recordHistogram(const gpu::Frame& f, const CndExposureFrame& fram
 
 void Exposure::recordAdaptation(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept
 {
-    adapt_.dispatch(f, sets_.adapt.set(f.slot),
-                    adaptParams(frame.settings, frame.deltaTime, frame.reset), 1);
+    gpu::AdaptExposureParams params = adaptParams(frame.settings, frame.deltaTime, frame.reset);
+    params.owner = owner_;
+    adapt_.dispatch(f, sets_.adapt.set(f.slot), params, 1);
 }
 
 void Exposure::recordToneMap(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept

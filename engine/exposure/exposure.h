@@ -13,7 +13,7 @@ namespace candelabra::exposure
 // Throw gpu::Failure naming the field that is out of its documented range.
 void validateSettings(const CndExposureSettings& settings);
 void validateMask(const uint8_t* weights, uint32_t width, uint32_t height);
-// Settings and time step, both valid, as the kernel takes them.
+// Settings and time step, both valid, as the kernel takes them; owner is left 0.
 gpu::AdaptExposureParams adaptParams(const CndExposureSettings& settings, float deltaTime,
                                      bool reset) noexcept;
 
@@ -52,6 +52,7 @@ private:
     std::vector<uint32_t> markers_;     // per slot: what the GPU writes when it is done, 0: unused
     glm::uvec2 maskSize_{0};
     uint32_t recordings_ = 0;
+    uint32_t owner_; // see EXPOSURE_FIRST_OWNER
 };
 
 } // namespace candelabra::exposure

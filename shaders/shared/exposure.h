@@ -38,13 +38,14 @@ GPU_SIZE(HistogramData, 3080)
 struct ExposureState {
     float targetEv100;
     float adaptedEv100;
-    float exposure;   // factor on luminance, compensation included
-    uint initialized; // EXPOSURE_INITIALIZED once adapt_exposure has run
+    float exposure; // factor on luminance, compensation included
+    uint owner;     // AdaptExposureParams::owner of the frame that wrote it
 };
 GPU_SIZE(ExposureState, 16)
-// A value that memory fresh from a driver hardly holds: whatever was recorded but never submitted,
-// the first frame that runs finds no history.
-const uint EXPOSURE_INITIALIZED = 0xE5C0F10Eu;
+// Owners count up from a value that fresh memory hardly holds, and no two are equal, since memory may
+// come back from an object destroyed before: whatever was recorded but never submitted, the first
+// frame of an object that runs finds no history.
+const uint EXPOSURE_FIRST_OWNER = 0xE5C0F10Eu;
 
 // --- luminance_histogram: one group per block of pixels. A group packs count and fraction sum of a
 // bin into one word: 1024 pixels * weight 15 < 2^14, times fraction 15 < 2^18.
@@ -73,8 +74,9 @@ struct AdaptExposureParams {
     float minEv100, maxEv100;
     uint lowShare, highShare; // shares ignored at the dark and the bright end, times 2^32
     float keepUp, keepDown;   // exp(-dt speed): share of the distance to the target that is left
+    uint owner;               // id of the exposure object
 };
-GPU_SIZE(AdaptExposureParams, 40)
+GPU_SIZE(AdaptExposureParams, 44)
 
 // --- tone_map: one lane per pixel
 const uint TONE_MAP_GROUP = 8u; // x and y
