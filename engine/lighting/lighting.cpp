@@ -19,12 +19,18 @@ constexpr uint32_t minCapacity = 1024;
 constexpr VkBufferUsageFlags storageUse =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
+// What the record buffer, one dispatch of prepare_lights and the 32-bit sums of count_pairs over
+// the 64 pixels of a tile can take.
 uint32_t maxLights(const gpu::Device& device)
 {
-    return uint32_t(device.limits.maxStorageBufferRange / sizeof(gpu::LightRecord));
+    constexpr uint64_t countable = UINT32_MAX / (gpu::TILE_SIZE * gpu::TILE_SIZE);
+    const uint64_t stored = device.limits.maxStorageBufferRange / sizeof(gpu::LightRecord);
+    const uint64_t dispatched =
+        uint64_t(device.limits.maxComputeWorkGroupCount[0]) * gpu::PREPARE_LIGHTS_GROUP;
+    return uint32_t(std::min({countable, stored, dispatched}));
 }
 
-// Texel buffers when they can hold every light that the storage limit lets in.
+// Texel buffers when they can hold every light that the other limits let in.
 uint32_t lightsAsTexels(const gpu::Device& device)
 {
     return device.limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >= maxLights(device);
@@ -91,8 +97,8 @@ void Lighting::setLights(const CndLightSet& set)
         gpu::failArgument("CndLightSet: lights is null but count is " + std::to_string(set.count));
     if (set.count > maxLights(device_))
         gpu::failUnsupported("CndLightSet: " + std::to_string(set.count) +
-                             " lights do not fit the device's maxStorageBufferRange (at most " +
-                             std::to_string(maxLights(device_)) + ")");
+                             " lights are more than the device can take, " +
+                             std::to_string(maxLights(device_)));
     for (const double o : set.origin)
         if (!std::isfinite(o))
             gpu::failArgument("CndLightSet: origin must be finite");
@@ -116,10 +122,13 @@ Lighting::Staging& Lighting::freeStaging()
     for (Staging& staging : staging_)
         if (staging.recording < oldest)
             return staging;
-    gpu::Buffer buffer =
-        gpu::createBuffer(device_, "light staging", lightCapacity_ * sizeof(gpu::LightRecord),
-                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryUse::Upload);
-    return staging_.emplace_back(std::move(buffer));
+    return staging_.emplace_back(createStaging(lightCapacity_));
+}
+
+gpu::Buffer Lighting::createStaging(uint32_t capacity) const
+{
+    return gpu::createBuffer(device_, "light staging", capacity * sizeof(gpu::LightRecord),
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryUse::Upload);
 }
 
 void Lighting::recordUpload(VkCommandBuffer cmd, uint64_t recording) noexcept
@@ -145,6 +154,8 @@ void Lighting::grow(uint32_t count)
     gpu::Buffer records =
         gpu::createBuffer(device_, "light records", capacity * sizeof(gpu::LightRecord), storageUse,
                           gpu::MemoryUse::Device);
+    std::deque<Staging> staging;
+    staging.emplace_back(createStaging(capacity)); // what fills the new records
     try {
         lightCapacity_ = capacity;
         for (View* view : views_)
@@ -154,9 +165,9 @@ void Lighting::grow(uint32_t count)
         throw;
     }
     replace(records_, std::move(records));
-    for (Staging& staging : staging_)
-        replace(staging.buffer, {});
-    staging_.clear();
+    for (Staging& old : staging_)
+        replace(old.buffer, {});
+    staging_ = std::move(staging);
     pending_ = nullptr;
 }
 

@@ -65,6 +65,7 @@ private:
         uint64_t recording; // number of the last recording that may use it
     };
     void grow(uint32_t count);
+    gpu::Buffer createStaging(uint32_t capacity) const;
     void freeRetired();
     uint64_t oldestInFlight() const; // recordings_ + 1 when none is
 

@@ -21,9 +21,8 @@ constexpr VkDeviceSize defaultListBudget = 64u << 20;
 constexpr VkDeviceSize maskBudget = 64u << 20;
 constexpr uint32_t maxGroupsPerDimension = 65535; // Vulkan's guaranteed maxComputeWorkGroupCount
 constexpr uint32_t maxSide = 16384;               // pixels, of a view
-constexpr uint32_t maxTilesPerSide = maxSide / gpu::TILE_SIZE;
-static_assert(divideUp(maxTilesPerSide * maxTilesPerSide, gpu::TILE_BOUNDS_GROUP) <=
-              maxGroupsPerDimension);
+static_assert(maxSide / gpu::TILE_SIZE * (maxSide / gpu::TILE_SIZE) <=
+              maxGroupsPerDimension * gpu::TILE_BOUNDS_GROUP);
 
 constexpr VkBufferUsageFlags storageUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
