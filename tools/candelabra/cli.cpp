@@ -62,7 +62,8 @@ std::string parseSentence(const CLI::App& app, int argc, const char* const* argv
     if (first[0] != '-' && commands.empty())
         return fmt::format("\"{}\" is no command; there are render, stress, view and devices",
                            first);
-    return std::string(error.what()) + " (see: candelabra --help)";
+    const std::string command = commands.empty() ? "" : first + " ";
+    return fmt::format("{} (see: candelabra {}--help)", error.what(), command);
 }
 
 int parseAndRun(int argc, const char* const* argv)
