@@ -10,12 +10,17 @@ namespace
 #define CND_REQUIRED_FEATURES(X)                                                                   \
     X(core10, multiDrawIndirect)                                                                   \
     X(core10, drawIndirectFirstInstance)                                                           \
-    X(core10, independentBlend)                                                                    \
     X(core12, scalarBlockLayout)                                                                   \
     X(core13, synchronization2)                                                                    \
     X(core13, dynamicRendering)                                                                    \
     X(core13, maintenance4)                                                                        \
-    X(core13, shaderDemoteToHelperInvocation)
+    X(core13, shaderTerminateInvocation)
+
+// Limits that the engine needs above Vulkan's guaranteed minimum: X(limit, least).
+#define CND_REQUIRED_LIMITS(X)                                                                     \
+    X(maxComputeWorkGroupInvocations, 256) /* exposure: a lane per histogram bin */                \
+    X(maxComputeWorkGroupSize[0], 256)                                                             \
+    X(maxPerStageDescriptorStorageBuffers, 6) /* tile_lists */
 
 struct FormatNeed {
     VkFormat format;
@@ -111,6 +116,10 @@ std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice p
 {
     const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(
         getInstanceProcAddr(instance, "vkGetPhysicalDeviceProperties"));
+    const auto getFeatures = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
+        getInstanceProcAddr(instance, "vkGetPhysicalDeviceFeatures2"));
+    if (!getProperties || !getFeatures)
+        return {"an instance of Vulkan 1.1 or newer"};
     VkPhysicalDeviceProperties properties{};
     getProperties(physicalDevice, &properties);
     std::vector<std::string> missing;
@@ -119,8 +128,6 @@ std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice p
                 std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
                 std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + ")"};
 
-    const auto getFeatures = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
-        getInstanceProcAddr(instance, "vkGetPhysicalDeviceFeatures2"));
     VkPhysicalDeviceVulkan13Features core13{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     VkPhysicalDeviceVulkan12Features core12{
@@ -133,6 +140,11 @@ std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice p
     if (!which.member)                                                                             \
         missing.emplace_back("feature " #member);
     CND_REQUIRED_FEATURES(X)
+#undef X
+#define X(limit, least)                                                                            \
+    if (properties.limits.limit < least)                                                           \
+        missing.emplace_back(#limit " of at least " #least);
+    CND_REQUIRED_LIMITS(X)
 #undef X
 
     const auto getFormat = reinterpret_cast<PFN_vkGetPhysicalDeviceFormatProperties>(
