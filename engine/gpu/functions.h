@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every Vulkan entry point the engine calls. The engine loads no Vulkan: the table is filled from
-// the host's vkGetInstanceProcAddr.
+// Every Vulkan entry point the engine calls, but for those that cndCheckDevice looks up before
+// there is a device. The engine loads no Vulkan: the table is filled from the host's
+// vkGetInstanceProcAddr.
 #pragma once
 
 #define CND_INSTANCE_FUNCTIONS(X)                                                                  \
     X(GetPhysicalDeviceProperties2)                                                                \
-    X(GetPhysicalDeviceFeatures2)                                                                  \
-    X(GetPhysicalDeviceFormatProperties)                                                           \
     X(GetPhysicalDeviceMemoryProperties)                                                           \
     X(GetPhysicalDeviceQueueFamilyProperties)                                                      \
     X(GetDeviceProcAddr)
@@ -25,7 +24,6 @@
     X(CmdCopyBufferToImage)                                                                        \
     X(CmdDispatch)                                                                                 \
     X(CmdDraw)                                                                                     \
-    X(CmdDrawIndexed)                                                                              \
     X(CmdDrawIndexedIndirect)                                                                      \
     X(CmdEndRendering)                                                                             \
     X(CmdFillBuffer)                                                                               \

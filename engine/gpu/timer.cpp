@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/timer.h"
 
+#include <algorithm>
 #include <array>
 
 namespace candelabra::gpu
@@ -8,6 +9,21 @@ namespace candelabra::gpu
 namespace
 {
 constexpr uint32_t stampsPerSlot = CND_MAX_KERNEL_TIMES + 1;
+
+// Bits of a timestamp that count on every queue one can dispatch on: which queue it will be is the
+// host's business. Differences are taken modulo these bits, since narrow counters wrap.
+uint64_t validBits(const Device& device)
+{
+    uint32_t count = 0;
+    device.GetPhysicalDeviceQueueFamilyProperties(device.physicalDevice, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    device.GetPhysicalDeviceQueueFamilyProperties(device.physicalDevice, &count, families.data());
+    uint32_t bits = 64;
+    for (const VkQueueFamilyProperties& f : families)
+        if (f.queueFlags & (VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT))
+            bits = std::min(bits, f.timestampValidBits);
+    return bits < 64 ? (uint64_t(1) << bits) - 1 : ~uint64_t(0);
+}
 } // namespace
 
 Timer::Timer(const Device& device, const char* name, uint32_t slots, bool enabled)
@@ -15,6 +31,7 @@ Timer::Timer(const Device& device, const char* name, uint32_t slots, bool enable
 {
     if (!enabled || !device.limits.timestampComputeAndGraphics)
         return;
+    tickMask_ = validBits(device);
     const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                      .queryCount = slots * stampsPerSlot};
@@ -59,7 +76,7 @@ bool Timer::read(uint32_t slotIndex, CndKernelTime* times, uint32_t& count) cons
         return false;
     const double msPerTick = double(device_->limits.timestampPeriod) * 1e-6;
     for (uint32_t i = 0; i < count; ++i)
-        times[i] = {slot.names[i], double(ticks[i + 1] - ticks[i]) * msPerTick};
+        times[i] = {slot.names[i], double((ticks[i + 1] - ticks[i]) & tickMask_) * msPerTick};
     return true;
 }
 

@@ -37,6 +37,7 @@ private:
     Handle<VkQueryPool> pool_;
     std::vector<Slot> slots_;
     uint32_t current_ = 0;
+    uint64_t tickMask_ = 0;
 };
 
 } // namespace candelabra::gpu
