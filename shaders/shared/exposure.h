@@ -18,8 +18,9 @@ const uint HISTOGRAM_FIRST_CODE = 920u; // (127 - 12) * 8
 const int HISTOGRAM_MIN_EXPONENT = -12;
 const float HISTOGRAM_MIN_LUMINANCE = 0.000244140625f; // 2^-12
 const float HISTOGRAM_MAX_LUMINANCE = 1048576.0f;      // 2^20
-// Pixels below the smallest normal float (zero, negative) have no light at all: an empty background,
-// say. They are counted but do not take part in the average, unless there is nothing else.
+// Pixels below the smallest normal float (zero, negative) have no light at all: an empty
+// background, say. They are counted but do not take part in the average, unless there is nothing
+// else.
 const float HISTOGRAM_BLACK = 1.17549435e-38f; // 2^-126; devices may flush what is smaller
 const uint MAX_METERING_WEIGHT = 15u;
 
@@ -42,9 +43,9 @@ struct ExposureState {
     uint owner;     // AdaptExposureParams::owner of the frame that wrote it
 };
 GPU_SIZE(ExposureState, 16)
-// Owners count up from a value that fresh memory hardly holds, and no two are equal, since memory may
-// come back from an object destroyed before: whatever was recorded but never submitted, the first
-// frame of an object that runs finds no history.
+// Owners count up from a value that fresh memory hardly holds, and no two are equal, since memory
+// may come back from an object destroyed before: whatever was recorded but never submitted, the
+// first frame of an object that runs finds no history.
 const uint EXPOSURE_FIRST_OWNER = 0xE5C0F10Eu;
 
 // --- luminance_histogram: one group per block of pixels. A group packs count and fraction sum of a

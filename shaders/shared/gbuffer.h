@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// G-buffer packing: field widths and the declared error bounds that tests/gpu/test_gbuffer.cpp checks.
+// G-buffer packing: field widths and the declared error bounds that tests/gpu/test_gbuffer.cpp
+// checks.
 //
 //   FULL     normalRoughness R32G32_UINT   x: [23..0] octahedral u, [31..24] roughness low byte
 //                                          y: [23..0] octahedral v, [31..24] roughness high byte
@@ -19,13 +20,15 @@ GPU_BEGIN
 const uint GBUFFER_LAYOUT_FULL = 0u;
 const uint GBUFFER_LAYOUT_COMPACT = 1u;
 
-// Octahedral coordinates are signed: k / (2^(bits-1) - 1). The most negative code is not a direction.
+// Octahedral coordinates are signed: k / (2^(bits-1) - 1). The most negative code is not a
+// direction.
 const uint NORMAL_BITS_FULL = 24u;
 const uint NORMAL_BITS_COMPACT = 12u;
 
-// Largest angle between a unit normal and what unpacking returns, radians. At the middle of a face a
-// half step in both coordinates turns the normal by sqrt(18) half steps; FULL adds float rounding.
-const float NORMAL_ERROR_FULL = 6e-7f;     // sqrt(18) / 2 / (2^23 - 1) = 2.53e-7
+// Largest angle between a unit normal and what unpacking returns, radians. At the middle of a face
+// a half step in both coordinates turns the normal by sqrt(18) half steps; FULL adds float
+// rounding.
+const float NORMAL_ERROR_FULL = 6e-7f;       // sqrt(18) / 2 / (2^23 - 1) = 2.53e-7
 const float NORMAL_ERROR_COMPACT = 1.04e-3f; // sqrt(18) / 2 / (2^11 - 1) = 1.036e-3
 // Largest error of perceptual roughness in [0, 1]: half a unorm step.
 const float ROUGHNESS_ERROR_FULL = 7.7e-6f;

@@ -82,8 +82,8 @@ struct PrepareLightsParams {
 };
 GPU_SIZE(PrepareLightsParams, 52)
 
-// --- tile_bounds: bounds of the surface samples of each tile, one lane per tile. 128: 16384 x 16384
-// pixels are 32768 groups, of 65535 that every device allows.
+// --- tile_bounds: bounds of the surface samples of each tile, one lane per tile. 128: 16384 x
+// 16384 pixels are 32768 groups, of 65535 that every device allows.
 const uint TILE_BOUNDS_GROUP = 128u;
 const uint TILE_BOUNDS_DEPTH = 0u;
 const uint TILE_BOUNDS_BOUNDS = 1u;

@@ -9,7 +9,8 @@ GPU_BEGIN
 
 // --- Records in texel buffers (vec4), which every vertex or pixel reads
 
-// One instance. Columns of the world-from-object matrix; the translation is hi + lo (double-single).
+// One instance. Columns of the world-from-object matrix; the translation is hi + lo
+// (double-single).
 struct InstanceRecord {
     vec3 axisX;
     float positionHiX;
@@ -55,7 +56,7 @@ const uint CHUNK_SIZE = 64u; // instances per chunk, all of one batch
 struct InstanceBounds {
     vec3 centerHi; // world space, hi + lo
     vec3 centerLo;
-    vec3 extent;   // half size along the world axes, m
+    vec3 extent; // half size along the world axes, m
 };
 GPU_SIZE(InstanceBounds, 36)
 
@@ -85,7 +86,7 @@ const uint CULL_INSTANCES_BOUNDS = 1u;
 const uint CULL_INSTANCES_BITS = 2u;   // uvec2 per chunk: bit i = instance i is drawn
 const uint CULL_INSTANCES_COUNTS = 3u; // uint per chunk
 struct CullInstancesParams {
-    vec4 planes[6];  // inside: dot(xyz, p - camera) + w >= 0, unit normals, world axes
+    vec4 planes[6]; // inside: dot(xyz, p - camera) + w >= 0, unit normals, world axes
     vec3 cameraHi;
     vec3 cameraLo;
     uint chunkCount;
@@ -129,14 +130,14 @@ GPU_SIZE(MeshParams, 124)
 
 struct RasterFrame {
     mat4 clipFromView;
-    mat3 viewFromWorld;    // rotation
-    vec3 emitterOrigin;    // origin of the light set in view space, subtracted in double
-    vec3 rayOrigin[3];     // view space, affine in ndc: [0] + x [1] + y [2]; perspective: [0] = eye
-    vec3 rayDirection[3];  // the same; towards the scene, not normalised
-    vec2 size;             // pixels
-    float perspective;     // 1, or 0: orthographic
-    float nearDepth;       // depth of the near plane: 1 reversed, else 0
-    vec3 forward;          // unit viewing direction; orthographic: of every ray
+    mat3 viewFromWorld;   // rotation
+    vec3 emitterOrigin;   // origin of the light set in view space, subtracted in double
+    vec3 rayOrigin[3];    // view space, affine in ndc: [0] + x [1] + y [2]; perspective: [0] = eye
+    vec3 rayDirection[3]; // the same; towards the scene, not normalised
+    vec2 size;            // pixels
+    float perspective;    // 1, or 0: orthographic
+    float nearDepth;      // depth of the near plane: 1 reversed, else 0
+    vec3 forward;         // unit viewing direction; orthographic: of every ray
 };
 GPU_SIZE(RasterFrame, 212)
 const uint RAY_FRAME = 0u; // uniform buffer binding of both
@@ -163,8 +164,8 @@ GPU_SIZE(AnalyticParams, 96)
 const uint EMITTER_SPHERE = 0u; // vertex attribute locations
 const uint EMITTER_LUMINANCE = 1u;
 struct EmitterRecord {
-    vec3 position; // relative to the light set's origin, m
-    float radius;  // m
+    vec3 position;  // relative to the light set's origin, m
+    float radius;   // m
     vec3 luminance; // cd/m^2
 };
 GPU_SIZE(EmitterRecord, 28)

@@ -18,8 +18,8 @@ namespace
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-// Of EV100, to the double reference: float32 sums of 256 products relative to the total (256 * 6e-8)
-// of values up to 20. A hundredth of what could be seen (0.01 EV).
+// Of EV100, to the double reference: float32 sums of 256 products relative to the total (256 *
+// 6e-8) of values up to 20. A hundredth of what could be seen (0.01 EV).
 constexpr double evTolerance = 1e-4;
 
 void expectSameHistogram(const CndExposureStats& stats, const reference::Histogram& expected,

@@ -99,6 +99,11 @@ for path in SOURCES:
     if name.startswith(("engine/include", "shaders/lib")) and BANNED.search(path.read_text()):
         fail(path, "uses a banned quantity name (brightness, roughness, color)")
 
+# The README's embedding listing is the one that is compiled.
+listing = (root / "tests/unit/readme_listing.cpp").read_text().split("// [readme]\n")[1]
+if listing.strip() not in (root / "README.md").read_text():
+    fail(root / "README.md", "does not hold the listing of tests/unit/readme_listing.cpp")
+
 TOP_LEVEL = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "engine", "samples",
              "shaders", "tests", "tools", "build", "out"}
 for path in root.iterdir():

@@ -18,13 +18,13 @@ struct SceneError : std::runtime_error {
 };
 
 struct SceneOptions {
-    std::optional<uint32_t> lights;  // hall/field: number of sphere lights (default 4000);
-                                     // files: extra random sphere lights inside the bounds
+    std::optional<uint32_t> lights; // hall/field: number of sphere lights (default 4000);
+                                    // files: extra random sphere lights inside the bounds
     uint32_t seed = 1;
-    std::optional<double> overlaps;  // mean lights that contribute to a pixel that shows a surface:
-                                     // inside their influence, not wholly below its horizon
-                                     // (default 8, with few lights half of what is possible)
-    bool moving = false;             // lights get a LightMotion
+    std::optional<double> overlaps; // mean lights that contribute to a pixel that shows a surface:
+                                    // inside their influence, not wholly below its horizon
+                                    // (default 8, with few lights half of what is possible)
+    bool moving = false;            // lights get a LightMotion
     std::optional<double> punctualRadius; // metres: point lights without a radius become spheres
 };
 

@@ -21,7 +21,7 @@ struct Vertex {
     glm::vec3 normal{0, 1, 0};
     glm::vec4 tangent{1, 0, 0, 1}; // w: handedness of the bitangent
     glm::vec2 uv[2]{};
-    glm::vec4 color{1};            // multiplies the base colour; linear
+    glm::vec4 color{1}; // multiplies the base colour; linear
 };
 
 struct Mesh {
@@ -88,17 +88,18 @@ struct Camera {
     glm::dvec3 forward{0, 0, -1}; // unit
     glm::dvec3 up{0, 1, 0};       // unit, not parallel to forward
     bool orthographic = false;
-    double verticalFov = 0.9;          // radians, perspective
-    double orthographicHeight = 1;     // full height in metres, orthographic
-    std::optional<double> aspect;      // width / height; empty: that of the image
-    double nearPlane = 0.05;           // metres
-    double farPlane = 0;               // metres; 0: infinite (perspective only)
+    double verticalFov = 0.9;      // radians, perspective
+    double orthographicHeight = 1; // full height in metres, orthographic
+    std::optional<double> aspect;  // width / height; empty: that of the image
+    double nearPlane = 0.05;       // metres
+    double farPlane = 0;           // metres; 0: infinite (perspective only)
 };
 
 // How a light moves, as a function of time alone: position + offset on a circle.
 struct LightMotion {
-    glm::vec3 axisU{0}, axisV{0}; // metres; offset = axisU cos(phase + w t) + axisV sin(phase + w t)
-    float angularSpeed = 0;       // w, rad/s
+    glm::vec3 axisU{0},
+        axisV{0};           // metres; offset = axisU cos(phase + w t) + axisV sin(phase + w t)
+    float angularSpeed = 0; // w, rad/s
     float phase = 0;
 };
 
@@ -109,7 +110,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Instance> instances;
     std::vector<AnalyticObject> analyticObjects;
-    glm::dvec3 lightOrigin{0};           // light positions are relative to it
+    glm::dvec3 lightOrigin{0}; // light positions are relative to it
     std::vector<CndLight> lights;
     std::vector<LightMotion> lightMotions; // empty or one per light
     std::vector<Camera> cameras;           // at least one after loading; [0] is the default
