@@ -134,11 +134,11 @@ std::optional<double> percentileMeanLog2(const Histogram& histogram, double low,
     const double last = high * total;
     double below = 0, mass = 0, sum = 0;
     for (uint32_t bin = 0; bin < CND_HISTOGRAM_BINS; ++bin) {
-        const double above = below + histogram.counts[bin] - (bin == 0 ? black : 0);
+        const double count = histogram.counts[bin] - (bin == 0 ? black : 0);
+        const double above = below + count;
         const double inside = std::min(above, last) - std::max(below, first);
         if (inside > 0) {
-            const double meanFraction =
-                double(histogram.fractions[bin]) / double(histogram.counts[bin]);
+            const double meanFraction = double(histogram.fractions[bin]) / count;
             mass += inside;
             sum += inside * binLog2Luminance(bin, meanFraction);
         }

@@ -4,7 +4,6 @@
 // subtracted.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/math.glsl"
 #include "shared/exposure.h"
 
 layout(local_size_x = HISTOGRAM_BINS) in;
@@ -28,7 +27,7 @@ shared vec2 sums[HISTOGRAM_BINS];
 float binLog2Luminance(uint bin, float meanFraction)
 {
     const float step = float(bin % 8u) + (meanFraction + 0.5) / float(HISTOGRAM_FRACTIONS);
-    return float(int(bin / 8u) + HISTOGRAM_MIN_EXPONENT) + log2Mantissa(1.0 + step / 8.0);
+    return float(int(bin / 8u) + HISTOGRAM_MIN_EXPONENT) + log2(1.0 + step / 8.0);
 }
 
 // Inclusive, into `prefixes`. Hillis and Steele 1986.
