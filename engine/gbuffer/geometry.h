@@ -55,7 +55,7 @@ struct Material {
     float perceptualRoughness = 1;
     float dielectricF0[3]{0.04f, 0.04f, 0.04f};
     float diffuseWeight = 1;
-    float specularWeight = 1;   // Schlick F90; 0 removes the specular lobe
+    float specularWeight = 1;   // Schlick F90; 0 with dielectricF0 = 0: no specular lobe
     float emission[3]{0, 0, 0}; // cd/m^2
     float normalScale = 1;
     bool masked = false; // drop what has coverage below alphaCutoff; without mip levels no better

@@ -151,7 +151,7 @@ typedef enum CndGBufferLayout {
     // normalRoughness R32G32_UINT: view-space octahedral normal 24+24 bits, perceptual roughness
     // unorm 16 (below 0.0447, that is alpha below 0.002, specular is evaluated at alpha 0.002);
     // albedo R16G16B16A16_SFLOAT: diffuse albedo (already scaled by 1 - metalness), a unused;
-    // specular R16G16B16A16_SFLOAT: F0, a = specular weight (Schlick F90; 0 = no specular lobe).
+    // specular R16G16B16A16_SFLOAT: F0, a = Schlick F90 (with F0 = 0 as well: no specular lobe).
     CND_GBUFFER_FULL = 0,
     // normalRoughness R32_UINT: octahedral normal 12+12 bits, perceptual roughness unorm 8;
     // albedo R8G8B8A8_SRGB: base colour, a = metalness; F0 = mix(0.04, base colour, metalness).
@@ -176,7 +176,7 @@ typedef struct CndLightingViewDesc {
     VkDeviceSize listBudget;
 } CndLightingViewDesc;
 
-// A camera. The world-from-view rotation and position are double; the projection is float.
+// A camera. The view transform is double; the projection is float.
 typedef struct CndCamera {
     double viewFromWorld[16]; // rigid: rotation and translation only
     float clipFromView[16];   // perspective (finite or infinite, reversed or not) or orthographic
@@ -241,7 +241,9 @@ CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingV
 CND_API void cndDestroyLightingView(CndLightingView view);
 
 // Records culling and shading. Changes compute pipeline, compute descriptor set 0 and push
-// constants; must be outside a render pass.
+// constants; must be outside a render pass. Lights travel in the first recording after
+// cndSetLights, so recordings of all views of one CndLighting are submitted once each, in their
+// order, to one queue.
 CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
                                     const CndLightingFrame* frame, CndError* error);
 
