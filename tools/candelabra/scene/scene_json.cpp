@@ -93,7 +93,10 @@ Material readMaterial(const JsonValue& json)
     const auto diffuse = json.find("diffuse");
     const auto specular = json.find("specular");
     material.diffuseWeight = diffuse && !diffuse->boolean() ? 0.0f : 1.0f;
-    material.specularWeight = specular && !specular->boolean() ? 0.0f : 1.0f;
+    if (specular && !specular->boolean()) {
+        material.specularWeight = 0;
+        material.dielectricF0 = glm::vec3(0); // F90 = 0 alone leaves F0 (1 - (1 - VoH)^5)
+    }
     return material;
 }
 
