@@ -67,9 +67,14 @@ Device::Device(const CndDeviceDesc& desc)
         CND_DEBUG_FUNCTIONS(X)
 #undef X
     }
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    VkPhysicalDeviceDriverProperties driver{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           .pNext = &driver};
     GetPhysicalDeviceProperties2(physicalDevice, &properties);
     limits = properties.properties.limits;
+    if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE)
+        maxLoopIterations = 65535;
     GetPhysicalDeviceMemoryProperties(physicalDevice, &memory);
 }
 

@@ -31,6 +31,10 @@ public:
     VkPipelineCache pipelineCache;
     const VkAllocationCallbacks* allocationCallbacks;
     VkPhysicalDeviceLimits limits{};
+    // Loop iterations that one shader invocation may do, all its loops together. llvmpipe ends
+    // loops silently after 65535 (LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm); no limit
+    // elsewhere.
+    uint32_t maxLoopIterations = UINT32_MAX;
     VkPhysicalDeviceMemoryProperties memory{};
 
     // Debug-utils name; nothing when the extension is off.

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace candelabra::gpu
 {
 namespace
 {
-constexpr uint32_t stampsPerSlot = CND_MAX_KERNEL_TIMES + 1;
+constexpr uint32_t stampsPerSlot = Timer::maxScopes + 1;
 
 // Bits of a timestamp that count on every queue one can dispatch on: which queue it will be is the
 // host's business. Differences are taken modulo these bits, since narrow counters wrap.
@@ -56,7 +57,7 @@ void Timer::begin(VkCommandBuffer cmd, uint32_t slot) noexcept
 void Timer::stamp(VkCommandBuffer cmd, const char* name) noexcept
 {
     Slot& slot = slots_[current_];
-    if (!pool_ || slot.count == CND_MAX_KERNEL_TIMES)
+    if (!pool_ || slot.count == maxScopes)
         return;
     slot.names[slot.count++] = name;
     device_->CmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
@@ -66,17 +67,25 @@ void Timer::stamp(VkCommandBuffer cmd, const char* name) noexcept
 bool Timer::read(uint32_t slotIndex, CndKernelTime* times, uint32_t& count) const noexcept
 {
     const Slot& slot = slots_[slotIndex];
-    count = slot.count;
-    if (!pool_ || !count)
+    count = 0;
+    if (!pool_ || !slot.count)
         return true;
     std::array<uint64_t, stampsPerSlot> ticks{};
     if (device_->GetQueryPoolResults(device_->handle, pool_.get(), slotIndex * stampsPerSlot,
-                                     count + 1, sizeof ticks, ticks.data(), sizeof ticks[0],
+                                     slot.count + 1, sizeof ticks, ticks.data(), sizeof ticks[0],
                                      VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
         return false;
     const double msPerTick = double(device_->limits.timestampPeriod) * 1e-6;
-    for (uint32_t i = 0; i < count; ++i)
-        times[i] = {slot.names[i], double((ticks[i + 1] - ticks[i]) & tickMask_) * msPerTick};
+    for (uint32_t i = 0; i < slot.count; ++i) {
+        const double ms = double((ticks[i + 1] - ticks[i]) & tickMask_) * msPerTick;
+        const auto row = std::find_if(times, times + count, [&](const CndKernelTime& t) {
+            return std::strcmp(t.name, slot.names[i]) == 0;
+        });
+        if (row != times + count)
+            row->ms += ms;
+        else if (count < CND_MAX_KERNEL_TIMES)
+            times[count++] = {slot.names[i], ms};
+    }
     return true;
 }
 

@@ -10,13 +10,15 @@ namespace candelabra::gpu
 {
 
 // One stamp at the start of a frame and one after each scope, so a scope's time runs from the end
-// of the one before it: n scopes cost n + 1 stamps and their times add up to the total. A disabled
-// timer records nothing.
+// of the one before it: n scopes cost n + 1 stamps and their times add up to the total. Scopes of
+// the same name are summed into one row, in order of first use. A disabled timer records nothing.
 class Timer
 {
 public:
     Timer() = default;
-    // `slots` frames in flight, at most CND_MAX_KERNEL_TIMES scopes each.
+    // `slots` frames in flight, each at most maxScopes scopes with CND_MAX_KERNEL_TIMES names;
+    // scopes beyond that are not timed.
+    static constexpr uint32_t maxScopes = 511;
     Timer(const Device& device, const char* name, uint32_t slots, bool enabled);
 
     // Starts a frame; outside a render pass. The GPU must have finished the slot's previous frame.
@@ -30,7 +32,7 @@ public:
 
 private:
     struct Slot {
-        const char* names[CND_MAX_KERNEL_TIMES];
+        const char* names[maxScopes];
         uint32_t count = 0;
     };
     const Device* device_ = nullptr;

@@ -51,6 +51,20 @@ void createShadeKernels(ShadeKernels& out, const gpu::Device& device, const gpu:
         }
 }
 
+// The hungriest kernel is tile_lists: it may walk every light and every mask word twice, and adds
+// up the 64 lists of a group twice. shade_tiles walks a list and its blocks, then every light it
+// found.
+uint32_t batchSize(const gpu::Device& device)
+{
+    if (device.maxLoopIterations == UINT32_MAX)
+        return UINT32_MAX;
+    constexpr uint32_t fixedIterations = 1024; // sums over the group and retries of the reservation
+    constexpr uint32_t multiple = 1024;
+    const uint64_t lights = uint64_t(device.maxLoopIterations - fixedIterations) * gpu::MASK_BITS /
+                            (2 * (gpu::MASK_BITS + 1));
+    return uint32_t(lights / multiple * multiple);
+}
+
 CndLightingDesc checked(const CndLightingDesc& desc)
 {
     if (desc.structSize != sizeof desc)
@@ -83,7 +97,10 @@ Kernels::Kernels(const gpu::Device& device, CndGBufferLayout layout)
 }
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
-    : device_(device), desc_(checked(desc)), kernels_(device_, desc_.gbufferLayout)
+    : device_(device),
+      desc_(checked(desc)),
+      kernels_(device_, desc_.gbufferLayout),
+      lightsPerBatch_(batchSize(device_))
 {
     grow(0);
 }

@@ -58,6 +58,8 @@ public:
     uint32_t lightCapacity() const { return lightCapacity_; }
     bool onlySpheres() const { return onlySpheres_; }
     const double* origin() const { return origin_; }
+    // Lights that are culled and shaded together: all, unless the device limits loops.
+    uint32_t lightsPerBatch() const { return lightsPerBatch_; }
 
 private:
     struct Retired {
@@ -84,6 +86,7 @@ private:
     std::deque<Staging> staging_; // elements stay where they are when it grows
     Staging* pending_ = nullptr;  // written and not yet recorded
     uint32_t lightCount_ = 0, lightCapacity_ = 0;
+    uint32_t lightsPerBatch_;
     bool onlySpheres_ = true;
     double origin_[3]{};
     uint64_t recordings_ = 0;
@@ -107,13 +110,18 @@ public:
 
 private:
     struct Plan; // sizes derived from a frame
+    VkDeviceSize maskRowBytes(uint32_t lights) const;
     Plan plan(const CndLightingFrame& frame) const;
     void validate(const CndLightingFrame& frame) const;
     void writeBindings(const CndLightingFrame& frame, const Plan& plan) const;
+    struct Batch { // consecutive lights
+        uint32_t first, count;
+    };
     void recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept;
-    void recordCulling(const gpu::Frame& f, const Plan& plan) const noexcept;
-    void recordShading(const gpu::Frame& f, const CndLightingFrame& frame,
-                       const Plan& plan) const noexcept;
+    void recordBounds(const gpu::Frame& f, const Plan& plan) const noexcept;
+    void recordLists(const gpu::Frame& f, const Plan& plan, Batch batch) const noexcept;
+    void recordShading(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& plan,
+                       Batch batch) const noexcept;
     void recordReadback(const gpu::Frame& f) const noexcept;
 
     struct Sets {

@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "lighting/camera.h"
 #include "lighting/lighting.h"
 
 namespace candelabra::lighting
@@ -61,55 +62,6 @@ CndLightingViewDesc checked(const gpu::Device& device, CndLightingViewDesc desc)
     return desc;
 }
 
-void checkCamera(const CndCamera& camera)
-{
-    for (const double x : camera.viewFromWorld)
-        if (!std::isfinite(x))
-            gpu::failArgument("CndCamera: viewFromWorld must be finite");
-    glm::dmat4 m;
-    std::memcpy(&m, camera.viewFromWorld, sizeof m);
-    const glm::dmat3 r(m);
-    const glm::dmat3 identity = glm::transpose(r) * r;
-    for (int c = 0; c < 3; ++c)
-        for (int row = 0; row < 3; ++row)
-            if (std::abs(identity[c][row] - (c == row)) > 1e-5) // float cameras reach 1e-6
-                gpu::failArgument("CndCamera: viewFromWorld must be a rotation and a translation");
-}
-
-gpu::Projection projectionOf(const float (&m)[16], float clearDepth)
-{
-    for (const int i : {1, 2, 3, 4, 6, 7})
-        if (m[i] != 0)
-            gpu::failArgument("CndCamera: clipFromView may only scale and shift x and y (element " +
-                              std::to_string(i) + " must be 0)");
-    for (const float x : m)
-        if (!std::isfinite(x))
-            gpu::failArgument("CndCamera: clipFromView must be finite");
-    gpu::Projection p{.m00 = m[0],
-                      .m11 = m[5],
-                      .m20 = m[8],
-                      .m21 = m[9],
-                      .m30 = m[12],
-                      .m31 = m[13],
-                      .m22 = m[10],
-                      .m32 = m[14],
-                      .m23 = m[11],
-                      .m33 = m[15]};
-    const bool perspective = p.m23 != 0 && p.m33 == 0 && p.m30 == 0 && p.m31 == 0 && p.m32 != 0;
-    const bool orthographic = p.m23 == 0 && p.m33 != 0 && p.m22 != 0;
-    if (p.m00 == 0 || p.m11 == 0 || perspective == orthographic)
-        gpu::failArgument("CndCamera: clipFromView is neither a perspective nor an orthographic "
-                          "projection");
-    p.eyeIsPoint = perspective ? 1.0f : 0.0f;
-    if (orthographic) {
-        // Depth grows along m22 z / m33; the eye looks from the near depth to clearDepth.
-        const bool depthGrowsWithZ = p.m22 / p.m33 > 0;
-        const bool farIsOne = clearDepth == 1;
-        p.eye = {0, 0, depthGrowsWithZ == farIsOne ? -1.0f : 1.0f};
-    }
-    return p;
-}
-
 } // namespace
 
 // Everything a frame's dispatches are sized with.
@@ -118,7 +70,7 @@ struct View::Plan {
     glm::uvec2 size;
     glm::vec2 invImageSize; // one value for all kernels: GPU divisions may differ in the last bit
     float clearDepth;
-    uint32_t lightCount, wordCount;
+    uint32_t lightCount;
     uint32_t tileCountX, tileCountY;
     uint32_t factor, coarseCountX, coarseCount;
     gpu::PrepareLightsParams prepare;
@@ -164,6 +116,13 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     lighting.add(this);
 }
 
+// Mask words of one coarse tile and one batch of at most `lights`.
+VkDeviceSize View::maskRowBytes(uint32_t lights) const
+{
+    const uint32_t batch = std::min(lights, lighting_.lightsPerBatch());
+    return VkDeviceSize(divideUp(batch, gpu::MASK_BITS)) * sizeof(uint32_t);
+}
+
 void View::growLightBuffers()
 {
     const gpu::Device& device = lighting_.device();
@@ -175,7 +134,7 @@ void View::growLightBuffers()
     gpu::Buffer aux =
         gpu::createBuffer(device, "light aux", lights * gpu::LIGHT_AUX_STRIDE * sizeof(glm::vec4),
                           storageUse, gpu::MemoryUse::Device);
-    const VkDeviceSize rowBytes = divideUp(uint32_t(lights), gpu::MASK_BITS) * sizeof(uint32_t);
+    const VkDeviceSize rowBytes = maskRowBytes(uint32_t(lights));
     const VkDeviceSize rows =
         VkDeviceSize(divideUp(tiles(desc_.maxWidth), gpu::COARSE_FACTOR_MIN)) *
         divideUp(tiles(desc_.maxHeight), gpu::COARSE_FACTOR_MIN);
@@ -228,15 +187,15 @@ View::Plan View::plan(const CndLightingFrame& frame) const
            .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
            .clearDepth = frame.clearDepth,
            .lightCount = lighting_.lightCount(),
-           .wordCount = divideUp(lighting_.lightCount(), gpu::MASK_BITS),
            .tileCountX = tiles(frame.width),
            .tileCountY = tiles(frame.height),
            .factor = gpu::COARSE_FACTOR_MIN};
+    const VkDeviceSize rowBytes = maskRowBytes(p.lightCount);
     for (;; p.factor *= 2) {
         p.coarseCountX = divideUp(p.tileCountX, p.factor);
         p.coarseCount = p.coarseCountX * divideUp(p.tileCountY, p.factor);
-        const VkDeviceSize bytes = VkDeviceSize(p.coarseCount) * p.wordCount * sizeof(uint32_t);
-        if (p.coarseCount == 1 || (bytes <= masks_.size && p.coarseCount <= maxGroupsPerDimension))
+        if (p.coarseCount == 1 ||
+            (p.coarseCount * rowBytes <= masks_.size && p.coarseCount <= maxGroupsPerDimension))
             break;
     }
     glm::dmat4 viewFromWorld;
@@ -319,11 +278,16 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     if (plan.lightCount) {
         recordPrepare(f, plan);
         if (frame.culling == CND_CULLING_CLUSTERED)
-            recordCulling(f, plan);
+            recordBounds(f, plan);
         f.barrier();
-        recordShading(f, frame, plan);
+        for (Batch b{0, 0}; b.first < plan.lightCount; b.first += b.count) {
+            b.count = std::min(lighting_.lightsPerBatch(), plan.lightCount - b.first);
+            if (frame.culling == CND_CULLING_CLUSTERED)
+                recordLists(f, plan, b);
+            recordShading(f, frame, plan, b);
+            f.barrier();
+        }
     }
-    f.barrier();
     recordReadback(f);
     f.device.endLabel(cmd);
 }
@@ -335,7 +299,7 @@ void View::recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept
         divideUp(plan.lightCount, gpu::PREPARE_LIGHTS_GROUP));
 }
 
-void View::recordCulling(const gpu::Frame& f, const Plan& p) const noexcept
+void View::recordBounds(const gpu::Frame& f, const Plan& p) const noexcept
 {
     const Kernels& k = lighting_.kernels();
     const uint32_t tileCount = p.tileCountX * p.tileCountY;
@@ -355,30 +319,41 @@ void View::recordCulling(const gpu::Frame& f, const Plan& p) const noexcept
                              .coarseCount = p.coarseCount,
                              .factor = p.factor},
                             divideUp(p.coarseCount, gpu::COARSE_BOUNDS_GROUP));
-    f.barrier();
-    k.coarseMasks.dispatch(f, sets_.coarseMasks.set(f.slot), {p.lightCount, p.wordCount},
-                           divideUp(p.wordCount, gpu::COARSE_MASKS_GROUP), p.coarseCount);
+}
+
+void View::recordLists(const gpu::Frame& f, const Plan& p, Batch batch) const noexcept
+{
+    const Kernels& k = lighting_.kernels();
+    const uint32_t wordCount = divideUp(batch.count, gpu::MASK_BITS);
+    if (batch.first) // the whole of the counters was cleared before the first
+        f.device.CmdFillBuffer(f.cmd, counters_.get(), offsetof(gpu::LightingCounters, listCursor),
+                               sizeof(uint32_t), 0);
+    k.coarseMasks.dispatch(f, sets_.coarseMasks.set(f.slot), {batch.first, batch.count, wordCount},
+                           divideUp(wordCount, gpu::COARSE_MASKS_GROUP), p.coarseCount);
     f.barrier();
     k.tileLists.dispatch(f, sets_.tileLists.set(f.slot),
                          {.tileCountX = p.tileCountX,
                           .tileCountY = p.tileCountY,
                           .coarseCountX = p.coarseCountX,
                           .factor = p.factor,
-                          .wordCount = p.wordCount,
-                          .lightCount = p.lightCount,
+                          .wordCount = wordCount,
+                          .firstLight = batch.first,
+                          .lightCount = batch.count,
                           .capacity = uint32_t(entries_.size / sizeof(uint32_t))},
                          divideUp(p.tileCountX, gpu::TILE_LISTS_GROUP_X),
                          divideUp(p.tileCountY, gpu::TILE_LISTS_GROUP_Y));
+    f.barrier();
 }
 
-void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame,
-                         const Plan& p) const noexcept
+void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
+                         Batch batch) const noexcept
 {
     const Kernels& k = lighting_.kernels();
     gpu::ShadeParams params{.projection = p.projection,
                             .size = p.size,
                             .origin = {0, 0},
-                            .lightCount = p.lightCount,
+                            .firstLight = batch.first,
+                            .lightCount = batch.count,
                             .tileCountX = p.tileCountX,
                             .clearDepth = p.clearDepth,
                             .invImageSize = p.invImageSize};

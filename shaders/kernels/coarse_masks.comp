@@ -34,7 +34,7 @@ void main()
     const uint count = isEmpty(bounds) ? 0u : min(MASK_BITS, params.lightCount - first);
     uint mask = 0u;
     for (uint bit = 0u; bit < count; ++bit) {
-        const uint light = first + bit;
+        const uint light = params.firstLight + first + bit;
         if (sphereTouches(bounds, lightCentre(light).xyz, lightEmission(light).w))
             mask |= 1u << bit;
     }

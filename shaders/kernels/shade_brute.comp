@@ -21,7 +21,7 @@ void main()
     const ShadingPoint p = makeShadingPoint(readSurface(ivec2(pixel)), position,
                                             towardsEye(params.projection, position));
     vec3 sum = vec3(0.0);
-    for (uint light = 0u; light < params.lightCount; ++light)
+    for (uint light = params.firstLight; light < params.firstLight + params.lightCount; ++light)
         sum += evaluateLight(p, light, lightCentre(light), lightEmission(light));
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
     imageStore(radianceImage, ivec2(pixel), before + vec4(sum, 0.0));

@@ -24,7 +24,7 @@ layout(scalar, binding = TILE_LISTS_MASKS) readonly buffer Masks
 {
     uint masks[];
 };
-layout(scalar, binding = TILE_LISTS_LISTS) writeonly buffer Lists
+layout(scalar, binding = TILE_LISTS_LISTS) buffer Lists
 {
     TileList lists[];
 };
@@ -45,9 +45,9 @@ shared uint starts[GROUP];
 // passes the capacity and cannot wrap.
 uint reserve(uint total)
 {
-    uint start = atomicAdd(counters.listEntries, 0u);
+    uint start = atomicAdd(counters.listCursor, 0u);
     while (total <= params.capacity - start) {
-        const uint seen = atomicCompSwap(counters.listEntries, start, start + total);
+        const uint seen = atomicCompSwap(counters.listCursor, start, start + total);
         if (seen == start)
             return start;
         start = seen;
@@ -71,7 +71,7 @@ void main()
     uint count = 0u;
     for (uint word = 0u; word < params.wordCount; ++word)
         for (uint mask = masks[firstWord + word]; mask != 0u; mask &= mask - 1u) {
-            const uint light = word * MASK_BITS + findLSB(mask);
+            const uint light = params.firstLight + word * MASK_BITS + findLSB(mask);
             count += sphereTouches(box, lightCentre(light).xyz, lightEmission(light).w) ? 1u : 0u;
         }
     count = empty ? 0u : count;
@@ -82,6 +82,7 @@ void main()
         for (uint i = 0u; i < GROUP; ++i)
             total += counts[i];
         uint start = reserve(total);
+        atomicAdd(counters.listEntries, start == UNLISTED ? 0u : total);
         for (uint i = 0u; i < GROUP; ++i) {
             starts[i] = start;
             start += start == UNLISTED ? 0u : counts[i];
@@ -92,16 +93,23 @@ void main()
         return;
     const uint start = starts[lane];
     const bool listed = start != UNLISTED || empty;
-    lists[tile] = TileList(listed ? start : UNLISTED, listed ? count : params.lightCount);
-    atomicMax(counters.maxListLength, count);
-    if (!listed)
+    TileList list = lists[tile];
+    if (params.firstLight == 0u)
+        list.total = list.everUnlisted = 0u;
+    if (!listed && list.everUnlisted == 0u)
         atomicAdd(counters.unlistedTiles, 1u);
+    list.offset = listed ? start : UNLISTED;
+    list.count = listed ? count : params.lightCount;
+    list.total += count;
+    list.everUnlisted |= listed ? 0u : 1u;
+    lists[tile] = list;
+    atomicMax(counters.maxListLength, list.total);
     if (empty || !listed)
         return;
     uint at = start;
     for (uint word = 0u; word < params.wordCount; ++word)
         for (uint mask = masks[firstWord + word]; mask != 0u; mask &= mask - 1u) {
-            const uint light = word * MASK_BITS + findLSB(mask);
+            const uint light = params.firstLight + word * MASK_BITS + findLSB(mask);
             if (sphereTouches(box, lightCentre(light).xyz, lightEmission(light).w)) {
                 entries[at] = light;
                 ++at;

@@ -13,7 +13,7 @@ layout(scalar, binding = SHADE_ENTRIES) readonly buffer Entries
 // Light at entry k of a list.
 uint listedLight(TileList list, uint k)
 {
-    return list.offset == UNLISTED ? k : entries[list.offset + k];
+    return list.offset == UNLISTED ? params.firstLight + k : entries[list.offset + k];
 }
 
 const uint WALK_BLOCK = 32u; // entries tested together: bits of a word

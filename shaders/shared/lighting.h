@@ -52,14 +52,19 @@ struct TileBounds {
 GPU_SIZE(TileBounds, 24)
 
 const uint UNLISTED = 0xFFFFFFFFu; // TileList.offset: the list did not fit, walk all lights
+// Lights are culled and shaded in batches (one, unless the device limits loops); a list is that of
+// the batch at hand.
 struct TileList {
     uint offset; // first entry in the list buffer
     uint count;
+    uint total;        // count over the frame's batches so far
+    uint everUnlisted; // 0 or 1
 };
-GPU_SIZE(TileList, 8)
+GPU_SIZE(TileList, 16)
 
 // Counters of one frame, cleared before and read back after.
 struct LightingCounters {
+    uint listCursor; // first free entry of the list buffer; back to 0 for every batch
     uint listEntries;
     uint maxListLength;
     uint unlistedTiles;
@@ -68,7 +73,7 @@ struct LightingCounters {
     uvec2 insidePairs;
     uvec2 evaluatedPairs;
 };
-GPU_SIZE(LightingCounters, 40)
+GPU_SIZE(LightingCounters, 44)
 
 // --- prepare_lights: world -> view, one lane per light
 const uint PREPARE_LIGHTS_GROUP = 64u;
@@ -115,10 +120,11 @@ const uint COARSE_MASKS_CORE_WORDS = 1u; // the same data as a storage buffer
 const uint COARSE_MASKS_BOUNDS = 2u;
 const uint COARSE_MASKS_MASKS = 3u;
 struct CoarseMasksParams {
-    uint lightCount;
+    uint firstLight; // of the batch
+    uint lightCount; // of the batch
     uint wordCount;
 };
-GPU_SIZE(CoarseMasksParams, 8)
+GPU_SIZE(CoarseMasksParams, 12)
 
 // --- tile_lists: mask -> exact ordered list per tile; one lane per tile, 8x8 tiles per group
 const uint TILE_LISTS_GROUP_X = 8u;
@@ -135,10 +141,11 @@ struct TileListsParams {
     uint coarseCountX;
     uint factor;
     uint wordCount;
-    uint lightCount;
-    uint capacity; // entries that fit the list buffer
+    uint firstLight; // of the batch
+    uint lightCount; // of the batch
+    uint capacity;   // entries that fit the list buffer
 };
-GPU_SIZE(TileListsParams, 28)
+GPU_SIZE(TileListsParams, 32)
 
 // --- shade_tiles, shade_brute, count_pairs: 8x8 pixels per group, one lane per pixel
 const uint SHADE_CORE = 0u;
@@ -155,13 +162,14 @@ const uint SHADE_COUNTERS = 10u; // count_pairs
 struct ShadeParams {
     Projection projection;
     uvec2 size;
-    uvec2 origin; // shade_brute: first pixel of the rectangle (size: its end)
-    uint lightCount;
+    uvec2 origin;    // shade_brute: first pixel of the rectangle (size: its end)
+    uint firstLight; // of the batch
+    uint lightCount; // of the batch
     uint tileCountX;
     float clearDepth;
     vec2 invImageSize; // 1 / pixels of the whole image
 };
-GPU_SIZE(ShadeParams, 92)
+GPU_SIZE(ShadeParams, 96)
 
 // Specialisation constants of the kernels above.
 const uint SPEC_LIGHTS_AS_TEXELS = 0u; // read core as a texel buffer (else as a storage buffer)

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// More lights than a driver's loops survive: llvmpipe ends every loop of a shader invocation after
+// 65535 iterations in all (LP_MAX_TGSI_LOOP_ITERATIONS), without a word. Only the last light
+// shines, so losing the end of any walk leaves a black image; the expected one has that light
+// alone.
+#include "gpu/lighting_harness.h"
+
+#include <limits>
+
+namespace candelabra::test
+{
+
+TEST_F(LightingTest, TheLastOfManyLightsIsNotLost)
+{
+    CndCamera camera;
+    setPerspective(camera, 1.0, 1.0, 0.1);
+    const CpuGBuffer g = randomGBuffer(24, 16, camera, 0, 5);
+    for (const uint32_t count : {20000u, 40000u, 70000u, 300000u}) {
+        std::vector<CndLight> lights = randomSpheres(g, 1, 5);
+        // Uncut: every light is in every list.
+        lights[0].influenceRadius = std::numeric_limits<float>::infinity();
+        const CndLight bright = lights[0];
+        CndLight dark = bright;
+        dark.emission[0] = dark.emission[1] = dark.emission[2] = 0;
+        const LightingResult expected = run(g, {bright}, {.culling = CND_CULLING_BRUTE});
+        lights.assign(count, dark);
+        lights.back() = bright;
+        for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
+            const LightingResult all = run(g, lights, {.culling = culling});
+            EXPECT_LE(maxRelativeDifference(all.radiance, expected.radiance), 1e-6)
+                << count << " lights, culling " << culling;
+        }
+        // Lists that do not fit are walked as a whole.
+        const LightingResult unlisted = run(g, lights, {.listBudget = 4096});
+        EXPECT_LE(maxRelativeDifference(unlisted.radiance, expected.radiance), 1e-6) << count;
+    }
+    // Influence so short that no tile lists more than the last light: long masks, short lists.
+    const uint32_t count = 1200000;
+    std::vector<CndLight> lights = randomSpheres(g, 1, 5);
+    lights[0].influenceRadius = std::numeric_limits<float>::infinity();
+    const CndLight bright = lights[0];
+    CndLight away = bright;
+    away.position[2] = 1e4f; // far behind the camera
+    away.influenceRadius = 2 * away.radius;
+    lights.assign(count, away);
+    lights.back() = bright;
+    const LightingResult expected = run(g, {bright}, {.culling = CND_CULLING_BRUTE});
+    EXPECT_LE(maxRelativeDifference(run(g, lights).radiance, expected.radiance), 1e-6);
+}
+
+} // namespace candelabra::test

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole frames of the program, from scene description to radiance: against an independent path
+// tracer (Lambert) and against the double-precision reference of the same model (every material).
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <span>
+
+#include "harness/gpu_fixture.h"
+#include "reference/render.h"
+#include "render/camera.h"
+#include "render/readback.h"
+#include "scene/load.h"
+
+using namespace candelabra;
+using namespace candelabra::app;
+
+namespace
+{
+
+struct GreyPixel {
+    uint32_t column, row;
+    double luminance[1];
+};
+constexpr GreyPixel planeAbove[] = {
+#include "../data/s01_diffuse_plane_above.inc"
+};
+constexpr GreyPixel planeCrossing[] = {
+#include "../data/s03_diffuse_plane_cross_lo.inc"
+};
+
+// A scene in the small JSON description; `object` and `lights` are JSON fragments.
+std::string sceneJson(const std::string& camera, const std::string& object,
+                      const std::string& material, const std::string& lights)
+{
+    return R"({"camera": )" + camera + R"(, "object": )" + object + R"(, "material": )" + material +
+           R"(, "lights": )" + lights +
+           R"(, "resolution": [256, 256], "lights_visible_to_camera": false})";
+}
+
+constexpr const char* lambert = R"({"albedo": [0.8, 0.8, 0.8], "diffuse": true, "specular": false,
+    "F0": [0, 0, 0], "alpha": 1, "metalness": 0})";
+constexpr const char* ground = R"({"type": "plane", "point": [0, 0, 0], "normal": [0, 1, 0]})";
+constexpr const char* ball = R"({"type": "sphere", "center": [0, 0, 0], "radius": 1})";
+
+class WholeFrame : public test::GpuTest
+{
+protected:
+    Scene load(const std::string& json)
+    {
+        const std::string path = ::testing::TempDir() + "whole_frame.json";
+        std::ofstream(path) << json;
+        return loadSceneJson(path);
+    }
+    Image draw(const Scene& scene, PixelSize size)
+    {
+        FrameOptions frame{.camera = selectCamera(scene, ""), .lightsVisible = false};
+        cndDefaultExposureSettings(&frame.exposure);
+        Renderer renderer(context(), scene, {.size = size});
+        context().submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });
+        return readRadiance(context(), renderer);
+    }
+};
+
+double meanRelativeError(const Image& image, std::span<const GreyPixel> truth)
+{
+    double sum = 0;
+    for (const GreyPixel& pixel : truth) {
+        const double value = image.pixels[3 * (size_t(pixel.row) * image.width + pixel.column) + 1];
+        sum += std::abs(value - pixel.luminance[0]) / pixel.luminance[0];
+    }
+    return sum / double(truth.size());
+}
+
+reference::Scene toReference(const Scene& scene)
+{
+    const Camera& camera = scene.cameras[0];
+    reference::Scene out;
+    out.camera = {camera.position, camera.forward, camera.up, camera.verticalFov,
+                  camera.aspect.value_or(1)};
+    for (const Material& m : scene.materials)
+        out.materials.push_back(
+            {.diffuseAlbedo = glm::dvec3(m.baseColor) * double((1 - m.metalness) * m.diffuseWeight),
+             .f0 =
+                 glm::mix(glm::dvec3(m.dielectricF0), glm::dvec3(m.baseColor), double(m.metalness)),
+             .specularWeight = m.specularWeight,
+             .alpha = double(m.perceptualRoughness) * m.perceptualRoughness});
+    for (const AnalyticObject& o : scene.analyticObjects)
+        out.objects.push_back({.type = o.type == AnalyticObject::Type::Plane
+                                           ? reference::Object::Type::Plane
+                                           : reference::Object::Type::Ball,
+                               .point = o.point,
+                               .normal = o.normal,
+                               .radius = o.radius,
+                               .material = o.material});
+    out.lights = scene.lights;
+    out.lightOrigin = scene.lightOrigin;
+    return out;
+}
+
+} // namespace
+
+TEST_F(WholeFrame, LambertPlaneMatchesThePathTracer)
+{
+    const Scene above = load(sceneJson(
+        R"({"position": [0, 2, 4], "look_at": [0, 0, 0], "up": [0, 1, 0],
+            "vertical_fov_degrees": 45, "aspect": 1})",
+        ground, lambert, R"([{"position": [0, 3, 0], "radius": 0.5, "radiance": [10, 10, 10]}])"));
+    const double aboveError = meanRelativeError(draw(above, {256, 256}), planeAbove);
+    const Scene cut = load(sceneJson(
+        R"({"position": [3.1, 4, 0], "look_at": [3.1, 0, 0], "up": [0, 0, -1],
+            "vertical_fov_degrees": 56, "aspect": 1})",
+        ground, lambert, R"([{"position": [0, -0.4, 0], "radius": 1, "radiance": [10, 10, 10]}])"));
+    const double cutError = meanRelativeError(draw(cut, {256, 256}), planeCrossing);
+    std::cout << "mean relative error to the path tracer: above " << aboveError << ", cut by the "
+              << "plane " << cutError << "\n";
+    // 0.3% plus 0.8 of the reference's own rms noise (0.0278% and 0.446%).
+    EXPECT_LE(aboveError, 0.003 + 0.8 * 0.000278);
+    EXPECT_LE(cutError, 0.003 + 0.8 * 0.00446);
+}
+
+// Plane and ball, rough to smooth, metal to dielectric, lights above, crossing and below the
+// horizon.
+TEST_F(WholeFrame, EveryMaterialMatchesTheDoubleReference)
+{
+    const std::string camera = R"({"position": [0.3, 1.6, 3.2], "look_at": [0, 0, 0],
+        "up": [0, 1, 0], "vertical_fov_degrees": 40, "aspect": 1})";
+    const std::string lights = R"([
+        {"position": [1.5, 2, 1], "radius": 0.4, "radiance": [20, 10, 5]},
+        {"position": [-2, 0.3, -1], "radius": 0.6, "radiance": [3, 12, 30]},
+        {"position": [2.5, -1.2, 0], "radius": 0.7, "radiance": [10, 10, 10]}])";
+    // Values that half floats hold exactly, so that G-buffer rounding is not judged here.
+    const char* materials[] = {
+        R"({"albedo": [0.75, 0.5, 0.25], "diffuse": true, "specular": true,
+            "F0": [0.0625, 0.0625, 0.0625], "alpha": 0.25, "metalness": 0})",
+        R"({"albedo": [0, 0, 0], "diffuse": false, "specular": true, "F0": [1, 0.75, 0.25],
+            "alpha": 0.04, "metalness": 1})",
+        R"({"albedo": [0.5, 0.5, 0.5], "diffuse": true, "specular": true,
+            "F0": [0.0625, 0.0625, 0.0625], "alpha": 0.01, "metalness": 0})"};
+    for (const char* object : {ground, ball})
+        for (const char* material : materials) {
+            const Scene scene = load(sceneJson(camera, object, material, lights));
+            const Image image = draw(scene, {128, 128});
+            const reference::Image expected =
+                reference::render(toReference(scene), 128, 128, CND_SPECULAR_KARIS);
+            double peak = 0, worst = 0;
+            for (const glm::dvec3& pixel : expected.pixels)
+                peak = std::max({peak, pixel.x, pixel.y, pixel.z});
+            size_t worstPixel = 0;
+            for (size_t i = 0; i < expected.pixels.size(); ++i)
+                for (int c = 0; c < 3; ++c) {
+                    const double value = image.pixels[3 * i + size_t(c)];
+                    const double truth = expected.pixels[i][c];
+                    // Relative where lit; a thousandth of the peak where dark.
+                    const double error = std::abs(value - truth) / (truth + 1e-3 * peak);
+                    if (!(error <= worst)) {
+                        worst = error;
+                        worstPixel = i;
+                    }
+                }
+            ASSERT_GT(peak, 0);
+            std::cout << "largest relative error to double: " << worst << "\n";
+            // Roughness is stored in 16 bits: 1.5e-5 / roughness twice; positions 2e-7 / alpha.
+            EXPECT_LE(worst, 2e-3)
+                << object << material << " pixel " << worstPixel % 128 << "," << worstPixel / 128;
+        }
+}
