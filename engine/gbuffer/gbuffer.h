@@ -55,8 +55,8 @@ public:
     // CndLightingFrame wants them. Outside a render pass. Changes the graphics and compute state.
     void record(VkCommandBuffer cmd, const Geometry& geometry, const FrameInputs& in) noexcept;
 
-    // Times of the last frame recorded in `slot` into an array of CND_MAX_KERNEL_TIMES; false until
-    // the GPU has finished it.
+    // Times of the last frame recorded in `slot` into an array of CND_MAX_KERNEL_TIMES. The host
+    // must have waited for that frame; false when the device cannot tell.
     bool times(uint32_t slot, CndKernelTime* times, uint32_t& count) const noexcept;
 
 private:

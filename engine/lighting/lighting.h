@@ -110,6 +110,7 @@ public:
 
 private:
     struct Plan; // sizes derived from a frame
+    VkDeviceSize maxCoarseTiles() const;
     VkDeviceSize maskRowBytes(uint32_t lights) const;
     Plan plan(const CndLightingFrame& frame) const;
     void validate(const CndLightingFrame& frame) const;

@@ -25,9 +25,21 @@ glm::vec3 vec(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-bool isFinite(const float (&v)[3])
+// cos(inner) - cos(outer), which float cosines would lose for narrow cones.
+double cosBetween(const CndLight& light)
 {
-    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+    return std::cos(double(light.innerConeAngle)) - std::cos(double(light.outerConeAngle));
+}
+
+// Farther from their origin than this, squared distances are not finite floats.
+constexpr float maxCoordinate = 1e15f;
+// Between the cones of a spot light: what the device's float cosines can still resolve.
+constexpr double minCosBetween = 1e-6;
+
+bool isNear(const float (&v)[3])
+{
+    return std::abs(v[0]) <= maxCoordinate && std::abs(v[1]) <= maxCoordinate &&
+           std::abs(v[2]) <= maxCoordinate; // false for NaN
 }
 
 // Why a light cannot be used, or null. Kept free of allocation: it runs a million times a frame.
@@ -39,8 +51,8 @@ const char* whyInvalid(const CndLight& light)
         if (!(e >= 0 && e < infinity))
             return "emission must be finite and >= 0";
     const bool placed = light.type != CND_LIGHT_DIRECTIONAL;
-    if (placed && !isFinite(light.position))
-        return "position must be finite";
+    if (placed && !isNear(light.position))
+        return "position must be finite and within 1e15 m of the origin";
     if (placed && !(light.influenceRadius > 0))
         return "influenceRadius must be > 0 (INFINITY for uncut)";
     if (light.type == CND_LIGHT_SPHERE) {
@@ -60,6 +72,9 @@ const char* whyInvalid(const CndLight& light)
         if (!(light.innerConeAngle >= 0 && light.innerConeAngle < light.outerConeAngle &&
               light.outerConeAngle <= quarterTurn))
             return "cone angles must satisfy 0 <= inner < outer <= pi/2";
+        if (cosBetween(light) < minCosBetween)
+            return "cone angles are too close or too narrow (their cosines differ by less than "
+                   "1e-6)";
     }
     return nullptr;
 }
@@ -85,10 +100,9 @@ gpu::LightRecord pack(const CndLight& light)
     }
     if (light.type == CND_LIGHT_SPOT) {
         // KHR_lights_punctual: attenuation is linear in the cosine between the cones, then squared.
-        const float cosInner = std::cos(light.innerConeAngle);
-        const float cosOuter = std::cos(light.outerConeAngle);
-        r.spotScale = 1 / std::max(cosInner - cosOuter, 1e-6f);
-        r.spotOffset = -cosOuter * r.spotScale;
+        const double cosOuter = std::cos(double(light.outerConeAngle));
+        r.spotScale = float(1 / cosBetween(light));
+        r.spotOffset = float(-cosOuter / cosBetween(light));
     }
     return r;
 }

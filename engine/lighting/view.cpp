@@ -99,7 +99,7 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
         return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Device);
     };
     tileBounds_ = make("tile bounds", tileCount * sizeof(gpu::TileBounds), storageUse);
-    coarseBounds_ = make("coarse bounds", tileCount * sizeof(gpu::TileBounds), storageUse);
+    coarseBounds_ = make("coarse bounds", maxCoarseTiles() * sizeof(gpu::TileBounds), storageUse);
     lists_ = make("tile lists", tileCount * sizeof(gpu::TileList), storageUse);
     entries_ = make("list entries", desc_.listBudget, storageUse);
     counters_ =
@@ -114,6 +114,13 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     }
     growLightBuffers();
     lighting.add(this);
+}
+
+// Coarse tiles of the largest frame when they are as small as they get.
+VkDeviceSize View::maxCoarseTiles() const
+{
+    return VkDeviceSize(divideUp(tiles(desc_.maxWidth), gpu::COARSE_FACTOR_MIN)) *
+           divideUp(tiles(desc_.maxHeight), gpu::COARSE_FACTOR_MIN);
 }
 
 // Mask words of one coarse tile and one batch of at most `lights`.
@@ -135,14 +142,11 @@ void View::growLightBuffers()
         gpu::createBuffer(device, "light aux", lights * gpu::LIGHT_AUX_STRIDE * sizeof(glm::vec4),
                           storageUse, gpu::MemoryUse::Device);
     const VkDeviceSize rowBytes = maskRowBytes(uint32_t(lights));
-    const VkDeviceSize rows =
-        VkDeviceSize(divideUp(tiles(desc_.maxWidth), gpu::COARSE_FACTOR_MIN)) *
-        divideUp(tiles(desc_.maxHeight), gpu::COARSE_FACTOR_MIN);
     const VkDeviceSize budget =
         std::min<VkDeviceSize>(maskBudget, device.limits.maxStorageBufferRange);
-    gpu::Buffer masks = gpu::createBuffer(device, "coarse masks",
-                                          std::max(rowBytes, std::min(rowBytes * rows, budget)),
-                                          storageUse, gpu::MemoryUse::Device);
+    gpu::Buffer masks = gpu::createBuffer(
+        device, "coarse masks", std::max(rowBytes, std::min(rowBytes * maxCoarseTiles(), budget)),
+        storageUse, gpu::MemoryUse::Device);
     lighting_.replace(core_, std::move(core));
     lighting_.replace(aux_, std::move(aux));
     lighting_.replace(masks_, std::move(masks));
@@ -174,6 +178,8 @@ void View::validate(const CndLightingFrame& frame) const
         return offset >= 0 && uint32_t(offset) <= size && extent <= size - uint32_t(offset);
     };
     const VkRect2D& r = frame.bruteRect;
+    if (!r.extent.width != !r.extent.height)
+        gpu::failArgument("CndLightingFrame: bruteRect has only one side of 0 (both mean all)");
     if (!isInside(r.offset.x, r.extent.width, frame.width) ||
         !isInside(r.offset.y, r.extent.height, frame.height))
         gpu::failArgument("CndLightingFrame: bruteRect is not inside the frame");

@@ -99,7 +99,7 @@ typedef enum CndLightType {
 // window); with r = INFINITY it is neither windowed nor cut.
 typedef struct CndLight {
     uint32_t type;         // CndLightType
-    float position[3];     // metres, relative to CndLightSet::origin; all but directional
+    float position[3];     // metres, within 1e15 of CndLightSet::origin; all but directional
     float radius;          // metres, > 0; sphere
     float direction[3];    // unit (1e-3), the way the light travels; spot and directional
     float emission[3];     // >= 0, finite; unit by type, per Rec.709 channel
@@ -164,8 +164,9 @@ typedef struct CndLightingDesc {
     uint32_t framesInFlight; // 1..8: frames the host may have recorded or submitted and not yet
                              // waited for
     CndGBufferLayout gbufferLayout;
-    VkBool32
-        timestamps; // record a timestamp pair per kernel (about 50 us each on a software device)
+    // Time every kernel: one timestamp more than there are dispatches, about 50 us each on a
+    // software device; off records none.
+    VkBool32 timestamps;
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -215,7 +216,7 @@ typedef struct CndKernelTime {
 typedef struct CndLightingStats {
     uint32_t structSize;
     uint32_t lightCount;
-    uint32_t tileCount;   // 8x8 pixel tiles that hold a surface
+    uint32_t tileCount;   // 8x8 pixel tiles that hold a surface; 0 without lights
     uint32_t listEntries; // entries of all tiles' lists
     uint32_t maxListLength;
     uint32_t unlistedTiles; // tiles over the list budget, shaded by walking all lights
