@@ -96,7 +96,8 @@ TEST_F(ProgramTest, RenderWritesImagesAndFigures)
     const auto json = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(json["scene"]["lights"], 150);
     EXPECT_EQ(json["image"]["widthPixels"], 96);
-    EXPECT_EQ(json["gpuTime"]["frames"], 2);
+    EXPECT_EQ(json["gpuTime"]["frames"], 3);
+    EXPECT_EQ(json["warmUpFrames"], 1);
     EXPECT_GT(json["gpuTime"]["total"]["medianMs"], 0.0);
     EXPECT_GT(json["lighting"]["evaluatedPairs"], 0);
     EXPECT_EQ(json["exposure"]["invalidPixels"], 0);

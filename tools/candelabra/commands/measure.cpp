@@ -36,7 +36,7 @@ MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
         ring.submit();
         lastSlot = slot;
         onFrame();
-        if (moving) {
+        if (moving && i >= counts.warmUp) {
             frame.time += frameTime;
             frame.deltaTime = float(frameTime);
             frame.resetExposure = false;
@@ -97,15 +97,15 @@ Json toJson(const PassTimes& times)
 Json toJson(const CndLightingStats& stats)
 {
     const double tiles = std::max(stats.tileCount, 1u);
-    Json out{{"lights", stats.lightCount},           {"tiles", stats.tileCount},
-             {"listEntries", stats.listEntries},     {"meanListLength", stats.listEntries / tiles},
-             {"maxListLength", stats.maxListLength}, {"unlistedTiles", stats.unlistedTiles}};
-    if (stats.listedPairs) {
-        out["listedPairs"] = stats.listedPairs;
-        out["insidePairs"] = stats.insidePairs;
-        out["evaluatedPairs"] = stats.evaluatedPairs;
-    }
-    return out;
+    return {{"lights", stats.lightCount},
+            {"tiles", stats.tileCount},
+            {"listEntries", stats.listEntries},
+            {"meanListLength", stats.listEntries / tiles},
+            {"maxListLength", stats.maxListLength},
+            {"unlistedTiles", stats.unlistedTiles},
+            {"listedPairs", stats.listedPairs},
+            {"insidePairs", stats.insidePairs},
+            {"evaluatedPairs", stats.evaluatedPairs}};
 }
 
 Json toJson(const CndExposureStats& stats)

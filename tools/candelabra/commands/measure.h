@@ -17,7 +17,9 @@ namespace candelabra::app
 constexpr double frameTime = 1.0 / 60; // s
 
 struct FrameCounts {
-    uint32_t warmUp = 0; // not measured: the first frame of a pipeline includes its compilation
+    // Drawn before the measured ones and like the first of them, not measured: the first frame of
+    // a pipeline includes its compilation.
+    uint32_t warmUp = 1;
     uint32_t measured = 1;
 };
 
@@ -26,8 +28,9 @@ struct MeasuredFrames {
     FrameStats last;
 };
 
-// All frames go through two slots of a frame ring. The first shows `options`; with
-// `moving`, later ones are frameTime apart and exposure adapts, else all are the same.
+// All frames go through two slots of a frame ring. Warm-up frames and the first measured one show
+// `options`; with `moving`, later ones are frameTime apart and exposure adapts, else all are the
+// same. With a converged exposure (resetExposure), warm-up frames leave no trace in any image.
 // `onFrame` is called after each. Returns when the GPU is done.
 MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
                             const FrameOptions& options, FrameCounts counts, bool moving,
@@ -42,7 +45,7 @@ size_t printValidationMessages(const VulkanContext& context);
 std::string passTable(const PassTimes& times);
 
 Json toJson(const PassTimes& times);
-Json toJson(const CndLightingStats& stats); // with pairs when they were counted
+Json toJson(const CndLightingStats& stats); // pairs are 0 when they were not counted
 Json toJson(const CndExposureStats& stats);
 Json toJson(const FrameOptions& options, CndGBufferLayout layout);
 Json sceneJson(const Scene& scene, const Renderer& renderer);

@@ -48,14 +48,13 @@ RenderPlan plan(const RenderArguments& a)
     std::optional<uint32_t> lights;
     if (!a.lights.empty())
         lights = unsignedOption("--lights", a.lights, 0, maxLights);
-    const uint32_t frames = unsignedOption("--frames", a.frames, 1, 1'000'000);
     return {.scene = a.scene.options(lights),
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
                       .specular = a.frame.specularMethod(),
                       .culling = a.frame.cullingMode(),
                       .exposure = a.frame.exposureSettings()},
             .gbufferLayout = a.frame.gbufferLayout(),
-            .counts = {.warmUp = frames > 1 ? 1u : 0u, .measured = std::max(frames - 1, 1u)}};
+            .counts = {.measured = unsignedOption("--frames", a.frames, 1, 1'000'000)}};
 }
 
 Json describe(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
@@ -132,7 +131,7 @@ void addRenderCommand(CLI::App& app, Run& run)
         ->type_name("FILE");
     command
         ->add_option("--frames", a->frames,
-                     "frames to render; with more than one, times leave out the first")
+                     "frames to render and time, after one like the first to warm up")
         ->type_name("N")
         ->capture_default_str();
     command->add_option("--time", a->time, "scene time of the first frame, for --moving (s)")
