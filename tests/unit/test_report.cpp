@@ -40,6 +40,9 @@ TEST(Table, ThreeDigits)
     EXPECT_EQ(grouped(7), "7");
     EXPECT_EQ(grouped(1000), "1,000");
     EXPECT_EQ(grouped(123456789), "123,456,789");
+    EXPECT_EQ(counted(0, "light"), "0 lights");
+    EXPECT_EQ(counted(1, "light"), "1 light");
+    EXPECT_EQ(counted(1000, "light"), "1,000 lights");
 }
 
 TEST(PassTimes, SummariesAreOrderStatistics)

@@ -15,9 +15,7 @@ namespace
 constexpr uint64_t fullCheckLights = 16384;
 // About two seconds on two CPU cores, milliseconds on a GPU: no watchdog minds.
 constexpr uint64_t pairsPerSubmission = 500'000'000;
-// Of a sampled check: less than a minute on two CPU cores.
-constexpr uint64_t sampledPairs = 8'000'000'000;
-constexpr uint32_t tile = 8;
+constexpr uint32_t workgroup = 8; // pixels a side
 
 VkRect2D rect(uint32_t x, uint32_t y, uint32_t width, uint32_t height)
 {
@@ -27,8 +25,8 @@ VkRect2D rect(uint32_t x, uint32_t y, uint32_t width, uint32_t height)
 std::vector<VkRect2D> bands(PixelSize size, uint64_t lights)
 {
     const uint64_t perRow = std::max<uint64_t>(size.width * lights, 1);
-    const uint64_t rows =
-        std::clamp<uint64_t>(pairsPerSubmission / perRow / tile * tile, tile, size.height);
+    const uint64_t rows = std::clamp<uint64_t>(pairsPerSubmission / perRow / workgroup * workgroup,
+                                               workgroup, size.height);
     std::vector<VkRect2D> out;
     for (uint64_t y = 0; y < size.height; y += rows)
         out.push_back(
@@ -39,9 +37,11 @@ std::vector<VkRect2D> bands(PixelSize size, uint64_t lights)
 // Tiles spread evenly: multiples of the golden ratio fill an interval without gaps or clumps.
 std::vector<VkRect2D> sampledTiles(PixelSize size, uint64_t lights)
 {
+    constexpr uint32_t tile = sampledTile;
     const uint32_t columns = (size.width + tile - 1) / tile, rows = (size.height + tile - 1) / tile;
     const uint64_t total = uint64_t(columns) * rows;
-    const uint64_t wanted = std::clamp<uint64_t>(sampledPairs / (tile * tile * lights), 16, total);
+    const uint64_t wanted =
+        std::max<uint64_t>(sampledPairs / (tile * tile * lights), minSampledTiles);
     constexpr double golden = 0.6180339887498949;
     std::vector<bool> taken(total);
     std::vector<VkRect2D> out;
@@ -108,7 +108,7 @@ BruteCheck compareWithBruteForce(const VulkanContext& context, Renderer& rendere
                                  const std::vector<VkRect2D>& rects, uint64_t lights,
                                  const std::function<void(double)>& onPairs)
 {
-    BruteCheck out{.maxRadiance = maxChannel(clustered)};
+    BruteCheck out{.rects = rects.size(), .maxRadiance = maxChannel(clustered)};
     if (rects.empty())
         return out;
     context.submitAndWait([&](VkCommandBuffer cmd) { renderer.recordUnlit(cmd, options); });

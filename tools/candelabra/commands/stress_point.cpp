@@ -69,7 +69,7 @@ double estimatedSeconds(const StressSettings& s, uint32_t lights)
 StressPoint measureStressPoint(const VulkanContext& context, const StressSettings& settings,
                                uint32_t lights, Progress& progress)
 {
-    const std::string label = grouped(lights) + " lights";
+    const std::string label = counted(lights, "light");
     progress.doing(label + ": building");
     SceneOptions sceneOptions = settings.sceneOptions;
     sceneOptions.lights = lights;

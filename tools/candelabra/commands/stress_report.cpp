@@ -30,6 +30,13 @@ std::string checkText(const BruteCheck& check)
     return check.pixels ? fmt::format("{:.1e}", check.relative()) : "not checked";
 }
 
+std::string pixelsText(const BruteCheck& check)
+{
+    if (!check.pixels || check.allPixels)
+        return check.pixels ? "all" : "none";
+    return grouped(check.pixels) + " in " + counted(check.rects, "tile");
+}
+
 std::string listTable(const std::vector<StressPoint>& points)
 {
     Table table({"lights", "tiles", "lights per tile", "max", "pairs listed", "in influence",
@@ -48,9 +55,8 @@ std::string checkTable(const std::vector<StressPoint>& points)
                  "max difference / max radiance", "two runs"});
     for (const StressPoint& p : points)
         table.add({grouped(p.lights), threeDigits(p.times.total().medianMs),
-                   p.check.allPixels ? threeDigits(p.check.bruteMs) : "-",
-                   p.check.allPixels ? "all" : grouped(p.check.pixels), checkText(p.check),
-                   p.identical ? "identical" : "DIFFERENT"});
+                   p.check.allPixels ? threeDigits(p.check.bruteMs) : "-", pixelsText(p.check),
+                   checkText(p.check), p.identical ? "identical" : "DIFFERENT"});
     return table.text();
 }
 
@@ -103,8 +109,8 @@ std::string stressTables(const std::vector<StressPoint>& points)
 {
     std::string out;
     for (const StressPoint& p : points)
-        out += fmt::format("{} lights, GPU time per pass over {} frames\n{}\n", grouped(p.lights),
-                           p.times.frames(), passTable(p.times));
+        out += fmt::format("{}, GPU time per pass over {}\n{}\n", counted(p.lights, "light"),
+                           counted(p.times.frames(), "frame"), passTable(p.times));
     return out + "Lists and (pixel, light) pairs\n" + listTable(points) +
            "\nAgainst brute force, and between two runs\n" + checkTable(points);
 }
@@ -121,6 +127,7 @@ Json stressJson(const StressSettings& settings, const std::vector<StressPoint>& 
                         {"bruteForce",
                          {{"pixelsCompared", p.check.pixels},
                           {"allPixels", p.check.allPixels},
+                          {"tilesSampled", p.check.allPixels ? 0 : p.check.rects},
                           {"maxDifferenceOverMaxRadiance", p.check.relative()},
                           {"bound", BruteCheck::bound},
                           {"shadingMs", p.check.bruteMs}}},
@@ -143,7 +150,8 @@ std::string stressPlot(const StressSettings& settings, const DeviceInfo& device,
     return logLogPlot(
         {.title = fmt::format("GPU time per frame against lights: {}, {}x{}", settings.scene,
                               settings.size.width, settings.size.height),
-         .subtitle = fmt::format("{}; median of {} frames", device.name, settings.counts.measured),
+         .subtitle = fmt::format("{}; median of {}", device.name,
+                                 counted(settings.counts.measured, "frame")),
          .xAxis = "sphere lights",
          .yAxis = "GPU time (ms)"},
         plotSeries(points));
@@ -154,11 +162,12 @@ std::vector<std::string> failedChecks(const std::vector<StressPoint>& points)
     std::vector<std::string> out;
     for (const StressPoint& p : points) {
         if (!p.check.passed())
-            out.push_back(fmt::format("{} lights: clustered and brute-force radiance differ by "
+            out.push_back(fmt::format("{}: clustered and brute-force radiance differ by "
                                       "{:.2e} of the maximum, the bound is {:.0e}",
-                                      grouped(p.lights), p.check.relative(), BruteCheck::bound));
+                                      counted(p.lights, "light"), p.check.relative(),
+                                      BruteCheck::bound));
         if (!p.identical)
-            out.push_back(grouped(p.lights) + " lights: two runs gave different images");
+            out.push_back(counted(p.lights, "light") + ": two runs gave different images");
     }
     return out;
 }

@@ -75,4 +75,9 @@ std::string grouped(unsigned long long value)
     return digits;
 }
 
+std::string counted(unsigned long long value, const std::string& noun)
+{
+    return grouped(value) + " " + noun + (value == 1 ? "" : "s");
+}
+
 } // namespace candelabra::app

@@ -28,5 +28,7 @@ private:
 std::string threeDigits(double value);
 // 1234567 -> "1,234,567".
 std::string grouped(unsigned long long value);
+// "1 light", "4,000 lights": for nouns whose plural ends in s.
+std::string counted(unsigned long long value, const std::string& noun);
 
 } // namespace candelabra::app
