@@ -39,7 +39,8 @@ void describe(CLI::App& app, ProgramContext& context)
 {
     app.require_subcommand(1);
     app.fallthrough(); // --quiet may stand after the command, too
-    app.add_flag("-q,--quiet", context.quiet, "no progress and no remarks on stderr, only errors");
+    app.add_flag("-q,--quiet", context.quiet,
+                 "no progress and no remarks on stderr, only warnings and errors");
     const uint32_t version = cndGetVersion();
     app.set_version_flag("--version", fmt::format("candelabra {}.{}.{}", version >> 22,
                                                   (version >> 12) & 0x3ff, version & 0xfff));
@@ -66,6 +67,29 @@ std::string parseSentence(const CLI::App& app, int argc, const char* const* argv
     return fmt::format("{} (see: candelabra {}--help)", error.what(), command);
 }
 
+// "--camera= -o x.png" would take "-o" for the camera, and an empty text means "not given" to some
+// options: neither is what was typed.
+void refuseAssignmentsOfNothing(int argc, const char* const* argv)
+{
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (argument == "--")
+            return;
+        if (argument.size() > 3 && argument.starts_with("--") &&
+            argument.find('=') == argument.size() - 1)
+            throw UsageError(argument + ": its value is missing");
+    }
+}
+
+void refuseEmptyValues(const CLI::App& app)
+{
+    for (const CLI::App* command : app.get_subcommands())
+        for (const CLI::Option* option : command->get_options())
+            for (const std::string& value : option->results())
+                if (value.empty())
+                    throw UsageError(option->get_name() + ": its value is empty");
+}
+
 int parseAndRun(int argc, const char* const* argv)
 {
     ProgramContext context{.commandLine = commandLine(argc, argv)};
@@ -76,6 +100,7 @@ int parseAndRun(int argc, const char* const* argv)
     addStressCommand(app, run);
     addViewCommand(app, run);
     addDevicesCommand(app, run);
+    refuseAssignmentsOfNothing(argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) { // --help, --version
@@ -83,6 +108,7 @@ int parseAndRun(int argc, const char* const* argv)
     } catch (const CLI::ParseError& error) {
         return complain(exitUsage, parseSentence(app, argc, argv, error));
     }
+    refuseEmptyValues(app);
     setUpLogging(context.quiet);
     return run(context);
 }

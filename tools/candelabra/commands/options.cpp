@@ -7,9 +7,12 @@
 #include <span>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "candelabra/candelabra.hpp"
+#include "io/table.h"
 #include "render/error.h"
+#include "render/renderer.h"
 #include "shared/specular_methods.h"
 
 namespace candelabra::app
@@ -147,6 +150,19 @@ ContextOptions DeviceArguments::contextOptions(Presentation presentation) const
             .presentation = presentation};
 }
 
+void DeviceArguments::requireRoomFor(uint32_t lights) const
+{
+    // Vulkan guarantees storage buffers of 2^27 bytes; a light takes less than 64.
+    constexpr uint32_t everyDevice = (1u << 27) / 64;
+    if (lights <= everyDevice)
+        return;
+    const VulkanInstance instance(Validation::Off, Presentation::Headless);
+    const DeviceInfo chosen = chooseDevice(instance.devices(), device);
+    if (const uint64_t most = maxLightsOf(chosen); lights > most)
+        throw UsageError(fmt::format("--lights {}: {} has room for at most {} lights", lights,
+                                     chosen.name, grouped(most)));
+}
+
 void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
 {
     scene = fallback;
@@ -158,9 +174,8 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
         option->required();
     else
         option->capture_default_str();
-    command.add_option("--seed", seed, "seed of everything random in the scene")
-        ->type_name("S")
-        ->capture_default_str();
+    command.add_option("--seed", seed, "seed of everything random in the scene (1)")
+        ->type_name("S");
     command
         .add_option("--overlaps", overlaps,
                     "mean number of lights whose influence covers a pixel (hall, field: 8)")
@@ -176,7 +191,8 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
 {
     SceneOptions out;
     out.lights = lights;
-    out.seed = unsignedOption("--seed", seed, 0, UINT32_MAX);
+    if (!seed.empty())
+        out.seed = unsignedOption("--seed", seed, 0, UINT32_MAX);
     if (!overlaps.empty())
         out.overlaps = numberOption("--overlaps", overlaps, 1e-3, 1e6);
     out.moving = moving;
@@ -185,15 +201,37 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
     return out;
 }
 
+void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
+{
+    const bool generated = scene == "hall" || scene == "field";
+    const auto warn = [](const char* option, const std::string& reason) {
+        spdlog::warn("warning: {} has no effect: {}", option, reason);
+    };
+    if (!punctualRadius.empty() && (generated || scene.ends_with(".json")))
+        warn("--punctual-radius", "it is about point lights of glTF files");
+    if (generated || lights.value_or(0))
+        return;
+    const std::string reason =
+        "it is about generated lights, which " + scene + " gets with --lights N only";
+    if (!overlaps.empty())
+        warn("--overlaps", reason);
+    if (moving)
+        warn("--moving", reason);
+    if (!seed.empty())
+        warn("--seed", reason);
+}
+
 void FrameArguments::addTo(CLI::App& command)
 {
     specular = specularName(static_cast<CndSpecularMethod>(CND_SPECULAR_METHOD_COUNT - 1));
     command.add_option("--size", size, "image size in pixels; default: the scene's, else 1280x720")
         ->type_name("WxH");
     command
-        .add_option("--camera", camera,
-                    "camera of the scene by name or index, or position and target in metres and "
-                    "vertical field of view in degrees; default: the first")
+        .add_option(
+            "--camera", camera,
+            "camera of the scene by name (hall: nave, gallery; field: terrace, overview) or "
+            "index, or position and target in metres and vertical field of view in "
+            "degrees; default: the first")
         ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
     command.add_option("--exposure", exposure, "auto, or a fixed EV100")
         ->type_name("auto|EV")

@@ -28,20 +28,24 @@ struct DeviceArguments {
 
     void addTo(CLI::App& command);
     ContextOptions contextOptions(Presentation presentation = Presentation::Headless) const;
+    // Throws UsageError when the device has no room for as many lights: before a scene with them
+    // is made, which takes long.
+    void requireRoomFor(uint32_t lights) const;
 };
 
 // SCENE and what shapes it. The number of lights is the command's: one for `render`, a list for
 // `stress`.
 struct SceneArguments {
     std::string scene;
-    std::string seed = "1";
-    std::string overlaps, punctualRadius;
+    std::string seed, overlaps, punctualRadius;
     bool moving = false;
 
     // With a `fallback` the scene may be left out and named with --scene as well.
     void addTo(CLI::App& command, const std::string& fallback = "");
     // Throws UsageError.
     SceneOptions options(std::optional<uint32_t> lights) const;
+    // Warns on stderr of options given that change nothing about this scene.
+    void warnOfIdleOptions(std::optional<uint32_t> lights) const;
 };
 
 // How a frame is made.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra render: one image of one scene.
+#include <filesystem>
 #include <memory>
+#include <set>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -34,17 +36,36 @@ struct RenderPlan {
     FrameCounts counts;
 };
 
+// The same file however it is spelled.
+std::filesystem::path identity(const std::string& path)
+{
+    std::error_code unknown;
+    const std::filesystem::path out = weakly_canonical(std::filesystem::absolute(path), unknown);
+    return unknown ? std::filesystem::path(path) : out;
+}
+
+void requireOutputs(const RenderArguments& a)
+{
+    std::set<std::filesystem::path> files;
+    for (const std::string& output : a.outputs) {
+        requireImageExtension("-o", output);
+        requireWritable("-o", output);
+        if (!files.insert(identity(output)).second)
+            throw UsageError("-o " + output + ": this file is written twice");
+    }
+    if (a.json.empty())
+        return;
+    requireWritable("--json", a.json);
+    if (a.json != "-" && files.count(identity(a.json)))
+        throw UsageError("--json " + a.json + ": -o writes this file");
+}
+
 RenderPlan plan(const RenderArguments& a)
 {
     if (a.outputs.empty() && a.json.empty())
         throw UsageError("render: nothing to write; give -o FILE (.png, .exr, .hdr, .pfm) or "
                          "--json FILE");
-    for (const std::string& output : a.outputs) {
-        requireImageExtension("-o", output);
-        requireWritable("-o", output);
-    }
-    if (!a.json.empty())
-        requireWritable("--json", a.json);
+    requireOutputs(a);
     std::optional<uint32_t> lights;
     if (!a.lights.empty())
         lights = unsignedOption("--lights", a.lights, 0, maxLights);
@@ -81,6 +102,8 @@ Json describe(const ProgramContext& program, const RenderArguments& a, const Ren
 int render(const ProgramContext& program, const RenderArguments& a)
 {
     RenderPlan p = plan(a);
+    a.scene.warnOfIdleOptions(p.scene.lights);
+    a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
     logWarnings(scene);
     p.frame.camera = selectCamera(scene, a.frame.camera);
@@ -89,10 +112,9 @@ int render(const ProgramContext& program, const RenderArguments& a)
     makeCamera(p.frame.camera, double(size.width) / size.height); // refuses before the GPU is asked
 
     const VulkanContext context(a.device.contextOptions());
-    spdlog::info("{}: {} lights, {} objects, {}x{}, on {}", scene.name,
-                 grouped(scene.lights.size()),
-                 grouped(scene.instances.size() + scene.analyticObjects.size()), size.width,
-                 size.height, context.info().name);
+    spdlog::info("{}: {}, {}, {}x{}, on {}", scene.name, counted(scene.lights.size(), "light"),
+                 counted(scene.instances.size() + scene.analyticObjects.size(), "object"),
+                 size.width, size.height, context.info().name);
     Renderer renderer(context, scene, {.size = size, .gbufferLayout = p.gbufferLayout});
     const bool moving = !scene.lightMotions.empty();
     MeasuredFrames frames;

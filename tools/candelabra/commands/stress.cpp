@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra stress: a sweep over light counts, timed and checked.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -53,6 +54,18 @@ StressSettings settingsOf(const StressArguments& a)
             .directory = a.directory};
 }
 
+std::vector<uint32_t> lightCounts(const StressArguments& a)
+{
+    std::vector<uint32_t> counts = unsignedListOption("--lights", a.lights, 1, maxLights);
+    for (size_t i = 1; i < counts.size(); ++i) {
+        const auto end = counts.begin() + std::ptrdiff_t(i);
+        if (std::find(counts.begin(), end, counts[i]) != end)
+            throw UsageError(fmt::format("--lights {}: {} is listed twice", a.lights, counts[i]));
+    }
+    a.device.requireRoomFor(*std::max_element(counts.begin(), counts.end()));
+    return counts;
+}
+
 void makeDirectory(const std::string& path)
 {
     std::error_code error;
@@ -90,7 +103,8 @@ std::string advice(const StressArguments& a, const std::vector<StressPoint>& poi
 int stress(const ProgramContext& program, const StressArguments& a)
 {
     StressSettings settings = settingsOf(a);
-    const std::vector<uint32_t> counts = unsignedListOption("--lights", a.lights, 1, maxLights);
+    const std::vector<uint32_t> counts = lightCounts(a);
+    a.scene.warnOfIdleOptions(counts.front());
     makeDirectory(a.directory);
     const std::string json = jsonPath(a);
     const VulkanContext context(a.device.contextOptions());

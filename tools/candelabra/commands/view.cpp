@@ -54,6 +54,8 @@ ViewerOptions optionsOf(const ViewArguments& a)
 int view(const ViewArguments& a)
 {
     ViewerOptions options = optionsOf(a);
+    a.scene.warnOfIdleOptions(options.sceneOptions.lights);
+    a.device.requireRoomFor(options.sceneOptions.lights.value_or(0));
     const WindowSystem system; // before the scene: without a display nothing else matters
     Scene scene = loadScene(options.scene, options.sceneOptions);
     logWarnings(scene);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "io/parse.h"
+#include "io/table.h"
 #include "render/error.h"
 
 namespace candelabra::app
@@ -82,9 +83,16 @@ void requireVolume(const Camera& camera, double aspect)
 Camera typedCamera(const Scene& scene, const std::string& text, const std::vector<double>& v)
 {
     Camera camera;
-    camera.name = "--camera " + text;
+    camera.name = text;
     camera.nearPlane =
         scene.cameras[0].orthographic ? Camera{}.nearPlane : scene.cameras[0].nearPlane;
+    // Beyond any scene; much farther, squares of distances leave the range of floats.
+    constexpr double farthest = 1e9; // m
+    for (int i = 0; i < 6; ++i)
+        if (std::abs(v[i]) > farthest)
+            throw UsageError(fmt::format("--camera {}: position and target must lie within 1e9 m "
+                                         "of the origin on every axis",
+                                         text));
     camera.position = {v[0], v[1], v[2]};
     const glm::dvec3 direction = glm::dvec3(v[3], v[4], v[5]) - camera.position;
     if (!(glm::length(direction) > 0))
@@ -130,8 +138,8 @@ Camera selectCamera(const Scene& scene, const std::string& wanted)
     if (const auto index = parseUnsigned(wanted)) {
         if (*index < scene.cameras.size())
             return scene.cameras[*index];
-        throw UsageError(fmt::format("--camera {}: the scene has {} cameras, numbered from 0",
-                                     wanted, scene.cameras.size()));
+        throw UsageError(fmt::format("--camera {}: the scene has {}, numbered from 0", wanted,
+                                     counted(scene.cameras.size(), "camera")));
     }
     if (const auto numbers = parseNumbers(wanted);
         numbers && (numbers->size() == 6 || numbers->size() == 7))

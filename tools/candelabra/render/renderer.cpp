@@ -7,6 +7,7 @@
 #include "render/camera.h"
 #include "render/error.h"
 #include "render/scene_geometry.h"
+#include "shared/lighting.h"
 
 namespace candelabra::app
 {
@@ -116,6 +117,13 @@ void Renderer::State::createSized()
     targets = gbuffer::createTargets(device, options.gbufferLayout, width, height);
     display = createDisplay(device, options.size);
     view = take(lighting.createView({.maxWidth = width, .maxHeight = height}));
+}
+
+uint64_t maxLightsOf(const DeviceInfo& device)
+{
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(device.handle, &properties);
+    return properties.limits.maxStorageBufferRange / sizeof(gpu::LightRecord);
 }
 
 Renderer::Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options)

@@ -11,6 +11,7 @@
 #include <GLFW/glfw3.h>
 
 #include "candelabra/candelabra.h"
+#include "io/table.h"
 #include "render/error.h"
 
 namespace candelabra::app
@@ -137,8 +138,9 @@ DeviceInfo findDevice(const std::vector<DeviceInfo>& devices, const std::string&
     if (isNumber(wanted)) {
         const size_t index = std::stoul(wanted);
         if (index >= devices.size())
-            throw UsageError("--device " + wanted + ": there are " +
-                             std::to_string(devices.size()) + " devices, numbered from 0");
+            throw UsageError("--device " + wanted + ": there " +
+                             (devices.size() == 1 ? "is " : "are ") +
+                             counted(devices.size(), "device") + ", numbered from 0");
         return devices[index];
     }
     const auto match = std::find_if(devices.begin(), devices.end(), [&](const DeviceInfo& d) {

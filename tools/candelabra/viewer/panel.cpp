@@ -63,7 +63,7 @@ void drawLights(PanelState& state, const PanelFigures& figures)
         ImGui::Text("lights per tile: %.1f mean, %u max%s",
                     double(s.listEntries) / double(s.tileCount), s.maxListLength,
                     s.unlistedTiles ? " (some tiles over budget)" : "");
-    ImGui::Text("%s lights", grouped(figures.lights).c_str());
+    ImGui::Text("%s", counted(figures.lights, "light").c_str());
     ImGui::SameLine();
     if (ImGui::SmallButton("half"))
         state.wantedLights = std::max(figures.lights / 2, 1u);

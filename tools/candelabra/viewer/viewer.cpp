@@ -134,9 +134,10 @@ void Viewer::onKey(int key)
     }
 }
 
-void Viewer::rebuild(uint32_t lights)
+void Viewer::rebuild(uint32_t wanted)
 {
-    spdlog::info("building {} with {} lights", options_.scene, grouped(lights));
+    const uint32_t lights = uint32_t(std::min<uint64_t>(wanted, maxLightsOf(context_.info())));
+    spdlog::info("building {} with {}", options_.scene, counted(lights, "light"));
     SceneOptions sceneOptions = options_.sceneOptions;
     // Files bring lights of their own; the option says how many to add to them.
     const uint32_t own = uint32_t(scene_.lights.size()) - options_.sceneOptions.lights.value_or(0);

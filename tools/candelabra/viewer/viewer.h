@@ -46,7 +46,7 @@ private:
     static constexpr uint32_t slotCount = 2;
 
     void onKey(int key);
-    void rebuild(uint32_t lights);
+    void rebuild(uint32_t wanted);
     void fitToWindow();
     void collectStats(const FrameRing::Frame& frame);
     void moveCamera(double seconds);
