@@ -166,7 +166,7 @@ TEST_P(GeneratedScene, HoldsWhatTheLoadersPromise)
 {
     const Scene scene = make({});
     EXPECT_EQ(test::brokenInvariant(scene), "");
-    expectSphereLights(scene, kDefaultLightCount);
+    expectSphereLights(scene, defaultLightCount);
     EXPECT_GE(scene.instances.size(), 3000u);
     EXPECT_LE(scene.instances.size(), 40000u);
     EXPECT_LE(scene.meshes.size(), 20u);

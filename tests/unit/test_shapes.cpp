@@ -17,7 +17,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double kPi = glm::pi<double>();
+constexpr double pi = glm::pi<double>();
 
 // By the divergence theorem; positive when a closed mesh is wound counter-clockwise from outside.
 double volume(const Mesh& mesh)
@@ -72,14 +72,14 @@ std::string brokenMesh(const Mesh& mesh)
 TEST(Shapes, VolumesFollowFromGeometry)
 {
     EXPECT_NEAR(volume(makeBox()), 1, 1e-6);
-    EXPECT_NEAR(volume(makeCylinder(64)), kPi, 0.006); // inscribed polygon: 1 - (2 pi / n)^2 / 6
-    EXPECT_NEAR(volume(makeSphere(96, 48)), 4 * kPi / 3, 0.01);
-    EXPECT_NEAR(volume(makeTorus(2, 0.5f, 128, 64)), 2 * kPi * kPi * 2 * 0.25, 0.05);
-    EXPECT_NEAR(volume(makeArchedWall(5, 3, 0.9f, 2, 96)), 0.9 * (15 - 0.5 * kPi * 4), 0.01);
-    EXPECT_NEAR(volume(makeArchRing(1, 2, 0.5f, static_cast<float>(kPi), 96)),
-                0.5 * 0.5 * kPi * (4 - 1), 0.005);
+    EXPECT_NEAR(volume(makeCylinder(64)), pi, 0.006); // inscribed polygon: 1 - (2 pi / n)^2 / 6
+    EXPECT_NEAR(volume(makeSphere(96, 48)), 4 * pi / 3, 0.01);
+    EXPECT_NEAR(volume(makeTorus(2, 0.5f, 128, 64)), 2 * pi * pi * 2 * 0.25, 0.05);
+    EXPECT_NEAR(volume(makeArchedWall(5, 3, 0.9f, 2, 96)), 0.9 * (15 - 0.5 * pi * 4), 0.01);
+    EXPECT_NEAR(volume(makeArchRing(1, 2, 0.5f, static_cast<float>(pi), 96)),
+                0.5 * 0.5 * pi * (4 - 1), 0.005);
     // Cone of radius 1 and height 2.
-    EXPECT_NEAR(volume(makeLathe({{{0, 0}, {1, 0}}, {{1, 0}, {0, 2}}}, 128)), 2 * kPi / 3, 0.002);
+    EXPECT_NEAR(volume(makeLathe({{{0, 0}, {1, 0}}, {{1, 0}, {0, 2}}}, 128)), 2 * pi / 3, 0.002);
     // A box less its edges (right triangles of side b) and corners, counted once.
     const double b = 0.1, edge = 1 - 2 * b;
     const double corner = b * b * b - b * b * b / 6;

@@ -9,7 +9,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr float kPi = glm::pi<float>();
+constexpr float pi = glm::pi<float>();
 
 // Where the ray at `angle` in [0, pi] leaves the rectangle |x| <= halfWidth, 0 <= y <= height.
 glm::vec2 onRectangle(float angle, float halfWidth, float height)
@@ -39,19 +39,18 @@ Mesh makeArchedWall(float width, float height, float depth, float radius, uint32
         }
     };
     sweep(cornerAngle, sideSteps);
-    sweep(kPi - cornerAngle, topSteps);
-    sweep(kPi, sideSteps);
+    sweep(pi - cornerAngle, topSteps);
+    sweep(pi, sideSteps);
     for (size_t i = 0; i + 1 < angles.size(); ++i) {
         const glm::vec2 in0 = radius * direction(angles[i]);
         const glm::vec2 in1 = radius * direction(angles[i + 1]);
         const glm::vec2 out0 = onRectangle(angles[i], half, height);
         const glm::vec2 out1 = onRectangle(angles[i + 1], half, height);
-        for (const float s : {-z, z}) {
+        for (const float s : {-z, z})
             appendQuad(mesh, {in0, s}, {out0, s}, {out1, s}, {in1, s}, {0, 0, s});
-        }
     }
     appendGrid(mesh, segments, 1, [=](float u, float v) {
-        const glm::vec2 d = direction(kPi * u);
+        const glm::vec2 d = direction(pi * u);
         return SurfacePoint{{radius * d, z - depth * v}, {-d, 0}, {-d.y, d.x, 0}};
     });
     for (const float s : {-1.0f, 1.0f}) {
@@ -82,7 +81,7 @@ Mesh makeArchRing(float inner, float outer, float depth, float angle, uint32_t s
             return SurfacePoint{{r * d, s * (2 * v - 1) * z}, {s * d, 0}, {-d.y, d.x, 0}};
         });
     }
-    if (angle < 2 * kPi - 1e-3f) {
+    if (angle < 2 * pi - 1e-3f) {
         for (const float end : {0.0f, angle}) {
             const glm::vec2 d = direction(end);
             const glm::vec3 out = glm::vec3(-d.y, d.x, 0) * (end > 0 ? 1.0f : -1.0f);
@@ -97,7 +96,7 @@ Mesh makeVault(uint32_t segments)
     Mesh mesh;
     appendGrid(mesh, 1, segments, [](float u, float v) {
         // From +z over the top to -z; x to the right: cross(+x, +y) at +z would face out.
-        const glm::vec2 d = direction(kPi * v);
+        const glm::vec2 d = direction(pi * v);
         return SurfacePoint{{0.5f - u, d.y, d.x}, {0, -d.y, -d.x}, {-1, 0, 0}};
     });
     return mesh;
@@ -120,9 +119,8 @@ Mesh makeGabledHouse()
                    {0, 1, 0});
     }
     // The roof shows no windows: the texture's first texel is wall.
-    for (size_t i = sides; i < mesh.vertices.size(); ++i) {
+    for (size_t i = sides; i < mesh.vertices.size(); ++i)
         mesh.vertices[i].uv[0] = mesh.vertices[i].uv[1] = glm::vec2(0);
-    }
     return mesh;
 }
 

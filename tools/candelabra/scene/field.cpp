@@ -8,7 +8,7 @@ namespace candelabra::app
 
 Scene generateField(const SceneOptions& options)
 {
-    const uint32_t count = options.lights.value_or(kDefaultLightCount);
+    const uint32_t count = options.lights.value_or(defaultLightCount);
     checkLightOptions("field", count, options);
     field::Kit kit{};
     kit.builder.scene.name = "field";
@@ -20,16 +20,15 @@ Scene generateField(const SceneOptions& options)
 
     Scene& scene = kit.builder.scene;
     // Blue hour: the sky about as bright as the streets.
-    scene.background = field::kSkyLuminance;
+    scene.background = field::skyLuminance;
     // In the middle of what the default camera sees near by, where precision is wanted most.
     scene.lightOrigin = {0, 0, 1100};
     scene.cameras = {
-        makeUprightCamera("terrace", field::kCameraPosition, {-0.09, -0.155, -1},
+        makeUprightCamera("terrace", field::cameraPosition, {-0.09, -0.155, -1},
                           glm::radians(46.0)),
         makeUprightCamera("overview", {-1500, 620, 1900}, {0.75, -0.38, -1}, glm::radians(50.0))};
-    for (Camera& camera : scene.cameras) {
+    for (Camera& camera : scene.cameras)
         camera.nearPlane = 0.5;
-    }
     addSphereLights(scene, field::lightSites(kit, count, options), options);
     return std::move(kit.builder.scene);
 }

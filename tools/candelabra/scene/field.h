@@ -16,50 +16,50 @@
 namespace candelabra::app::field
 {
 
-constexpr double kBlock = 80; // from street to street
-constexpr int kBlocks = 50;   // in x and in z
-constexpr double kCityHalf = 0.5 * kBlock * kBlocks;
-constexpr double kStreet = 16;  // from kerb to kerb
-constexpr double kPavement = 3; // from the kerb to the houses
-constexpr double kKerb = 0.18;
-constexpr double kRiverSouth = 1040, kRiverNorth = 880; // z of the banks, on block borders
-constexpr double kWater = -1.2;
-constexpr double kLampSpacing = 20, kLampHeight = 7.2;
-constexpr double kLampOffset = 0.5 * kStreet + 0.8; // of the post from the middle of the street
-constexpr double kLampReach = 2.4;                  // of the arm over the street
+constexpr double blockSize = 80; // from street to street
+constexpr int blockCount = 50;   // in x and in z
+constexpr double cityHalf = 0.5 * blockSize * blockCount;
+constexpr double streetWidth = 16;  // from kerb to kerb
+constexpr double pavementWidth = 3; // from the kerb to the houses
+constexpr double kerbHeight = 0.18;
+constexpr double riverSouth = 1040, riverNorth = 880; // z of the banks, on block borders
+constexpr double waterLevel = -1.2;
+constexpr double lampSpacing = 20, lampHeight = 7.2;
+constexpr double lampOffset = 0.5 * streetWidth + 0.8; // of the post from the middle of the street
+constexpr double lampReach = 2.4;                      // of the arm over the street
 
-// Middle of block 0 .. kBlocks - 1, in x or z, and of the street before it (and after the last).
+// Middle of block 0 .. blockCount - 1, in x or z, and of the street before it (and after the last).
 constexpr double blockCentre(int block)
 {
-    return -kCityHalf + kBlock * (block + 0.5);
+    return -cityHalf + blockSize * (block + 0.5);
 }
 constexpr double streetAt(int street)
 {
-    return -kCityHalf + kBlock * street;
+    return -cityHalf + blockSize * street;
 }
 constexpr bool isRiver(double z)
 {
-    return z > kRiverNorth && z < kRiverSouth;
+    return z > riverNorth && z < riverSouth;
 }
 
 // The default camera, which detail is measured against.
-constexpr glm::dvec3 kCameraPosition{52, 88, 1600};
+constexpr glm::dvec3 cameraPosition{52, 88, 1600};
 
 // Of the sky, cd/m^2.
-constexpr glm::vec3 kSkyLuminance{0.22f, 0.33f, 0.60f};
+constexpr glm::vec3 skyLuminance{0.22f, 0.33f, 0.60f};
 
 // The suspension bridge that crosses the river on the street x = 0.
-constexpr double kPylonHeight = 38;
-constexpr double kBridgeHalfWidth = 7.5;
+constexpr double pylonHeight = 38;
+constexpr double bridgeHalfWidth = 7.5;
 // Height of its cables at `t` = 0..1 between the banks' pylons.
 constexpr double cableHeight(double t)
 {
-    return kPylonHeight - 4 * (kPylonHeight - 4) * t * (1 - t);
+    return pylonHeight - 4 * (pylonHeight - 4) * t * (1 - t);
 }
 
 // The big wheel on the north bank turns in a plane across the view.
-constexpr glm::dvec3 kWheelHub{-170, 66, 850};
-constexpr double kWheelRadius = 60;
+constexpr glm::dvec3 wheelHub{-170, 66, 850};
+constexpr double wheelRadius = 60;
 
 struct Building {
     glm::dvec3 base{0}; // middle of the ground floor
@@ -72,7 +72,7 @@ struct Meshes {
 };
 
 // Facades by how many storeys their windows are spread over.
-constexpr std::array<int, 5> kStoreyClasses = {3, 7, 14, 26, 48};
+constexpr std::array<int, 5> storeyClasses = {3, 7, 14, 26, 48};
 
 struct Materials {
     std::vector<uint32_t> asphalt; // wet to dry
@@ -84,7 +84,7 @@ struct Kit {
     SceneBuilder builder;
     Meshes mesh;
     Materials material;
-    // Of all blocks, kBlocks * z + x.
+    // Of all blocks, blockCount * z + x.
     std::vector<std::vector<Building>> buildings;
 };
 

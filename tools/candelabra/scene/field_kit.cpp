@@ -15,9 +15,9 @@ namespace
 {
 
 // The windows' texture: cells of 8 x 8 texels with 2 texels of wall around each pane.
-constexpr uint32_t kTextureCells = 32, kCellTexels = 8, kFrameTexels = 2;
+constexpr uint32_t textureCells = 32, cellTexels = 8, frameTexels = 2;
 // Panes next to each other on the facades' shorter sides.
-constexpr double kWindowColumns = 8;
+constexpr double windowColumns = 8;
 
 glm::mat4 boxTransform(const glm::vec3& low, const glm::vec3& high)
 {
@@ -45,9 +45,8 @@ void appendSolid(Mesh& mesh, const glm::vec3& low, const glm::vec3& high)
 {
     const size_t first = mesh.vertices.size();
     appendMesh(mesh, makeBox(), boxTransform(low, high));
-    for (size_t i = first; i < mesh.vertices.size(); ++i) {
+    for (size_t i = first; i < mesh.vertices.size(); ++i)
         mesh.vertices[i].uv[0] = mesh.vertices[i].uv[1] = glm::vec2(0);
-    }
 }
 
 // Houses are 1 x 1 x 1 on y = 0.
@@ -64,9 +63,8 @@ Mesh makeLedgedHouse()
     appendStoreys(mesh, {-0.48f, 0, -0.48f}, {0.48f, 0.97f, 0.48f});
     const float ledges[][3] = {
         {0, 0.04f, 0.5f}, {0.32f, 0.335f, 0.49f}, {0.64f, 0.655f, 0.49f}, {0.93f, 0.98f, 0.5f}};
-    for (const auto& [low, high, half] : ledges) {
+    for (const auto& [low, high, half] : ledges)
         appendSolid(mesh, {-half, low, -half}, {half, high, half});
-    }
     // Stair head on the roof.
     appendSolid(mesh, {-0.2f, 0.97f, -0.1f}, {0.05f, 1.0f, 0.2f});
     return mesh;
@@ -88,18 +86,16 @@ Mesh makeRoundTower()
     Mesh mesh;
     // uv runs around four facades' worth of windows, and up.
     for (Mesh part : {makeLathe({{{0.5f, 0}, {0.5f, 0.94f}}}, 24)}) {
-        for (Vertex& vertex : part.vertices) {
+        for (Vertex& vertex : part.vertices)
             vertex.uv[0] = vertex.uv[1] = glm::vec2(4 * vertex.uv[0].x, vertex.position.y);
-        }
         appendMesh(mesh, part, glm::mat4(1));
     }
     for (Mesh part : {makeLathe({{{0.5f, 0.94f}, {0.53f, 0.95f}},
                                  {{0.53f, 0.95f}, {0.53f, 0.97f}},
                                  {{0.53f, 0.97f}, {0.3f, 1}, {0, 1}}},
                                 24)}) {
-        for (Vertex& vertex : part.vertices) {
+        for (Vertex& vertex : part.vertices)
             vertex.uv[0] = vertex.uv[1] = glm::vec2(0);
-        }
         appendMesh(mesh, part, glm::mat4(1));
     }
     return mesh;
@@ -122,8 +118,8 @@ void appendBar(Mesh& mesh, const glm::vec3& from, const glm::vec3& to, float rad
 Mesh makeLamp()
 {
     Mesh mesh;
-    const float height = static_cast<float>(kLampHeight) + 0.3f;
-    const float reach = static_cast<float>(kLampReach);
+    const float height = static_cast<float>(lampHeight) + 0.3f;
+    const float reach = static_cast<float>(lampReach);
     appendBar(mesh, {0, 0, 0}, {0, height, 0}, 0.09f);
     appendBar(mesh, {0, height, 0}, {0, height + 0.25f, reach}, 0.05f);
     appendMesh(
@@ -137,9 +133,8 @@ Mesh makeTree()
 {
     Mesh mesh;
     appendMesh(mesh, makeCylinder(4), glm::scale(glm::mat4(1), {0.03f, 0.4f, 0.03f}));
-    for (Vertex& vertex : mesh.vertices) {
+    for (Vertex& vertex : mesh.vertices)
         vertex.color = {0.9f, 0.45f, 0.3f, 1};
-    }
     appendMesh(mesh, makeSphere(7, 5),
                glm::scale(glm::translate(glm::mat4(1), {0, 0.65f, 0}), {0.28f, 0.35f, 0.28f}));
     return mesh;
@@ -179,28 +174,27 @@ glm::u8vec3 paneLight(Random& random)
     const bool lit = random.chance(0.36f);
     const uint32_t kind = random.below(8);
     const float level = random.uniform(0.35f, 1.0f);
-    if (!lit) {
+    if (!lit)
         return {0, 0, 0};
-    }
     return glm::u8vec3(level * glm::vec3(kinds[kind < 4 ? 0 : kind < 6 ? 1 : kind < 7 ? 2 : 3]));
 }
 
 WindowTextures addWindowTextures(Scene& scene, Random& random)
 {
-    constexpr uint32_t size = kTextureCells * kCellTexels;
+    constexpr uint32_t size = textureCells * cellTexels;
     Texture base{.width = size, .height = size, .rgba = std::vector<uint8_t>(4 * size * size, 255)};
     base.srgb = true;
     Texture roughness = base, emissive = base;
     roughness.srgb = false;
-    for (uint32_t cellY = 0; cellY < kTextureCells; ++cellY) {
-        for (uint32_t cellX = 0; cellX < kTextureCells; ++cellX) {
+    for (uint32_t cellY = 0; cellY < textureCells; ++cellY) {
+        for (uint32_t cellX = 0; cellX < textureCells; ++cellX) {
             const glm::u8vec3 light = paneLight(random);
-            for (uint32_t i = 0; i < kCellTexels * kCellTexels; ++i) {
-                const uint32_t x = i % kCellTexels, y = i / kCellTexels;
-                const bool pane = x >= kFrameTexels && x < kCellTexels - kFrameTexels &&
-                                  y >= kFrameTexels && y < kCellTexels - kFrameTexels;
-                const size_t at = 4 * ((cellY * kCellTexels + y) * static_cast<size_t>(size) +
-                                       cellX * kCellTexels + x);
+            for (uint32_t i = 0; i < cellTexels * cellTexels; ++i) {
+                const uint32_t x = i % cellTexels, y = i / cellTexels;
+                const bool pane = x >= frameTexels && x < cellTexels - frameTexels &&
+                                  y >= frameTexels && y < cellTexels - frameTexels;
+                const size_t at = 4 * ((cellY * cellTexels + y) * static_cast<size_t>(size) +
+                                       cellX * cellTexels + x);
                 for (size_t channel = 0; channel < 3; ++channel) {
                     base.rgba[at + channel] = pane ? 40 : 255; // glass is nearly black
                     const int c = static_cast<int>(channel);
@@ -224,7 +218,7 @@ void addFacades(Kit& kit, Random& random)
     const glm::vec3 walls[] = {
         {0.42f, 0.35f, 0.28f}, {0.36f, 0.14f, 0.09f}, {0.50f, 0.48f, 0.44f}, {0.16f, 0.19f, 0.23f}};
     for (size_t style = 0; style < std::size(walls); ++style) {
-        for (const int storeys : kStoreyClasses) {
+        for (const int storeys : storeyClasses) {
             Material facade;
             facade.name =
                 "facade " + std::to_string(style) + ", " + std::to_string(storeys) + " storeys";
@@ -233,10 +227,10 @@ void addFacades(Kit& kit, Random& random)
             facade.emission = glm::vec3(5);
             // Whole cells, so that uv 0 stays in the corner of a cell, which is wall.
             const glm::vec2 offset =
-                glm::floor(random.uniform2() * static_cast<float>(kTextureCells));
-            const float cells = static_cast<float>(kTextureCells);
+                glm::floor(random.uniform2() * static_cast<float>(textureCells));
+            const float cells = static_cast<float>(textureCells);
             TextureRef ref;
-            ref.uRow = {static_cast<float>(kWindowColumns) / cells, 0, offset.x / cells};
+            ref.uRow = {static_cast<float>(windowColumns) / cells, 0, offset.x / cells};
             ref.vRow = {0, static_cast<float>(storeys) / cells, offset.y / cells};
             ref.texture = textures.baseColor;
             facade.baseColorTexture = ref;
@@ -276,9 +270,8 @@ void addMaterials(Kit& kit, Random& random)
     SceneBuilder& b = kit.builder;
     Materials& m = kit.material;
     // From puddles to dry.
-    for (const float perceptualRoughness : {0.12f, 0.2f, 0.3f, 0.42f, 0.6f}) {
+    for (const float perceptualRoughness : {0.12f, 0.2f, 0.3f, 0.42f, 0.6f})
         m.asphalt.push_back(b.addDielectric("asphalt", glm::vec3(0.06f), perceptualRoughness));
-    }
     m.pavement = b.addDielectric("pavement", {0.26f, 0.25f, 0.23f}, 0.55f);
     m.water = b.addDielectric("water", {0.01f, 0.02f, 0.025f}, 0.07f);
     b.scene.materials.back().dielectricF0 = glm::vec3(0.02f); // index of refraction 1.33
@@ -296,7 +289,7 @@ void addMaterials(Kit& kit, Random& random)
     // No lamp reaches these: they reflect the sky instead of standing black against it.
     for (const uint32_t outside : {m.grass, m.hill}) {
         Material& material = b.scene.materials[outside];
-        material.emission = material.baseColor * kSkyLuminance;
+        material.emission = material.baseColor * skyLuminance;
     }
 }
 

@@ -12,7 +12,7 @@ namespace candelabra::app::field
 namespace
 {
 
-constexpr double kPi = glm::pi<double>();
+constexpr double pi = glm::pi<double>();
 
 // Lights thin out with the distance from the default camera, so that near streets have many small
 // ones while far districts are lit by few that reach far. Discs on the ground, and the whole city.
@@ -21,11 +21,11 @@ struct Zone {
     glm::dvec2 centre;
     double radius;
 };
-constexpr Zone kZones[] = {{0.34f, {20, 1270}, 330}, {0.36f, {-80, 850}, 900}};
+constexpr Zone zones[] = {{0.34f, {20, 1270}, 330}, {0.36f, {-80, 850}, 900}};
 
 glm::dvec2 inCity(Random& random)
 {
-    return kCityHalf * (2.0 * glm::dvec2(random.uniform2()) - 1.0);
+    return cityHalf * (2.0 * glm::dvec2(random.uniform2()) - 1.0);
 }
 
 bool isInside(const Zone& zone, const glm::dvec2& p)
@@ -37,13 +37,13 @@ bool isInside(const Zone& zone, const glm::dvec2& p)
 glm::dvec2 drawPlace(Random& random)
 {
     float at = random.uniform();
-    for (const Zone& zone : kZones) {
+    for (const Zone& zone : zones) {
         if (at < zone.share) {
             // Uniform in the disc, by rejection from its square.
             glm::dvec2 p;
             do {
                 p = zone.centre + zone.radius * (2.0 * glm::dvec2(random.uniform2()) - 1.0);
-            } while (!isInside(zone, p) || std::abs(p.y) > kCityHalf);
+            } while (!isInside(zone, p) || std::abs(p.y) > cityHalf);
             return p;
         }
         at -= zone.share;
@@ -55,13 +55,12 @@ glm::dvec2 drawPlace(Random& random)
 double density(const glm::dvec2& p)
 {
     double sum = 0, rest = 1;
-    for (const Zone& zone : kZones) {
+    for (const Zone& zone : zones) {
         rest -= zone.share;
-        if (isInside(zone, p)) {
-            sum += zone.share / (kPi * zone.radius * zone.radius);
-        }
+        if (isInside(zone, p))
+            sum += zone.share / (pi * zone.radius * zone.radius);
     }
-    return sum + rest / (4 * kCityHalf * kCityHalf);
+    return sum + rest / (4 * cityHalf * cityHalf);
 }
 
 // A place on the grid of streets: `along` the street, which lies `across` = 0.
@@ -82,8 +81,8 @@ StreetPlace nearestStreet(Random& random, const glm::dvec2& p)
     place.runsAlongZ = random.chance(0.5f);
     const double across = place.runsAlongZ ? p.x : p.y;
     place.along = place.runsAlongZ ? p.y : p.x;
-    const double street = std::round((across + kCityHalf) / kBlock);
-    place.street = streetAt(static_cast<int>(std::clamp(street, 0.0, 1.0 * kBlocks)));
+    const double street = std::round((across + cityHalf) / blockSize);
+    place.street = streetAt(static_cast<int>(std::clamp(street, 0.0, 1.0 * blockCount)));
     return place;
 }
 
@@ -106,9 +105,9 @@ LightSite onLamp(Random& random, const glm::dvec2& p, const Buildings&)
     StreetPlace place = nearestStreet(random, p);
     const float side = sideOf(random);
     const double jitter = random.bell();
-    place.along = kLampSpacing * (std::floor(place.along / kLampSpacing) + 0.5);
+    place.along = lampSpacing * (std::floor(place.along / lampSpacing) + 0.5);
     place.along += 0.15 * jitter;
-    site.position = place.at(side * (kLampOffset - kLampReach), kLampHeight);
+    site.position = place.at(side * (lampOffset - lampReach), lampHeight);
     site.radius = random.uniform(0.12f, 0.35f);
     // Districts still have sodium lamps or already white ones.
     const bool sodium = std::floor(p.x / 400) + std::floor(p.y / 560) > -1;
@@ -138,7 +137,7 @@ LightSite onFront(Random& random, const glm::dvec2& p, const Buildings&)
     const StreetPlace place = nearestStreet(random, p);
     const float side = sideOf(random), up = random.uniform();
     site.radius = skewed(random, 0.15f, 0.9f);
-    site.position = place.at(side * (0.5 * kStreet + kPavement - 0.6 - site.radius),
+    site.position = place.at(side * (0.5 * streetWidth + pavementWidth - 0.6 - site.radius),
                              2.6 + site.radius + 9 * up * up);
     const float hue = random.uniform();
     site.colour = hueColour(hue, random.uniform(0.55f, 0.85f));
@@ -150,10 +149,11 @@ LightSite onRoof(Random& random, const glm::dvec2& p, const Buildings& buildings
 {
     LightSite site = onLamp(random, p, buildings);
     const auto block = [](double at) {
-        return std::clamp(static_cast<int>(std::floor((at + kCityHalf) / kBlock)), 0, kBlocks - 1);
+        return std::clamp(static_cast<int>(std::floor((at + cityHalf) / blockSize)), 0,
+                          blockCount - 1);
     };
     const std::vector<Building>& choice =
-        buildings[static_cast<size_t>(kBlocks) * block(p.y) + block(p.x)];
+        buildings[static_cast<size_t>(blockCount) * block(p.y) + block(p.x)];
     if (choice.empty()) {
         return site; // parks and the river keep the lamp
     }
@@ -190,14 +190,14 @@ LightSite onLandmark(Random& random, const glm::dvec2&, const Buildings&)
     const float t = random.uniform(), side = sideOf(random), vary = random.uniform();
     site.radius = random.uniform(0.12f, 0.3f);
     if (wheel) {
-        const double angle = 2 * kPi * t;
-        const double radius = kWheelRadius + 0.7;
+        const double angle = 2 * pi * t;
+        const double radius = wheelRadius + 0.7;
         site.position =
-            kWheelHub + glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), 2.5 * side);
+            wheelHub + glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), 2.5 * side);
         site.colour = hueColour(3 * t + 0.1f * vary, 0.75f);
     } else {
-        site.position = {side * kBridgeHalfWidth, cableHeight(t) + 0.6,
-                         kRiverNorth + (kRiverSouth - kRiverNorth) * t};
+        site.position = {side * bridgeHalfWidth, cableHeight(t) + 0.6,
+                         riverNorth + (riverSouth - riverNorth) * t};
         site.colour = blackbodyColour(2400 + 1500 * vary);
     }
     site.edgeIlluminance = 1;
@@ -212,19 +212,18 @@ struct Kind {
 };
 
 // Shares add up to 1.
-constexpr Kind kKinds[] = {{0.44f, onLamp}, {0.14f, onCar},   {0.22f, onFront},
-                           {0.10f, onRoof}, {0.07f, lantern}, {0.03f, onLandmark}};
+constexpr Kind kinds[] = {{0.44f, onLamp}, {0.14f, onCar},   {0.22f, onFront},
+                          {0.10f, onRoof}, {0.07f, lantern}, {0.03f, onLandmark}};
 
 MakeSite anyKind(Random& random)
 {
     float at = random.uniform();
-    for (const Kind& kind : kKinds) {
-        if (at < kind.share) {
+    for (const Kind& kind : kinds) {
+        if (at < kind.share)
             return kind.make;
-        }
         at -= kind.share;
     }
-    return kKinds[0].make;
+    return kinds[0].make;
 }
 
 } // namespace
@@ -233,7 +232,7 @@ std::vector<LightSite> lightSites(const Kit& kit, uint32_t count, const SceneOpt
 {
     // Streams of their own, as in the hall.
     Random random(options.seed, 1), motionRandom(options.seed, 2);
-    const double farDensity = density({kCityHalf, -kCityHalf});
+    const double farDensity = density({cityHalf, -cityHalf});
     std::vector<LightSite> sites;
     sites.reserve(count);
     for (uint32_t i = 0; i < count; ++i) {
@@ -241,9 +240,8 @@ std::vector<LightSite> lightSites(const Kit& kit, uint32_t count, const SceneOpt
         const MakeSite make = anyKind(random);
         LightSite site = make(random, place, kit.buildings);
         const bool overWater = isRiver(site.position.z) && make != onLandmark && make != lantern;
-        if (overWater) {
+        if (overWater)
             site = lantern(random, place, kit.buildings);
-        }
         // Reach like the mean distance of neighbours.
         site.reach *=
             static_cast<float>(std::sqrt(farDensity / density({site.position.x, site.position.z})));

@@ -14,7 +14,7 @@ namespace hall
 namespace
 {
 
-constexpr float kPi = glm::pi<float>();
+constexpr float pi = glm::pi<float>();
 
 Mesh makeColumnBase()
 {
@@ -90,10 +90,10 @@ void addMeshes(Kit& kit)
     kit.mesh.shaft = b.addMesh(makeShaft());
     kit.mesh.columnBase = b.addMesh(makeColumnBase());
     kit.mesh.capital = b.addMesh(makeCapital());
-    kit.mesh.archedWall = b.addMesh(
-        makeArchedWall(static_cast<float>(kBay), static_cast<float>(kArcadeTop - kSpringing),
-                       static_cast<float>(kArcadeDepth), static_cast<float>(kArchRadius), 24));
-    kit.mesh.archRing = b.addMesh(makeArchRing(1, 1.07f, 1, kPi, 28));
+    kit.mesh.archedWall = b.addMesh(makeArchedWall(
+        static_cast<float>(bayWidth), static_cast<float>(arcadeTop - springingHeight),
+        static_cast<float>(arcadeDepth), static_cast<float>(archRadius), 24));
+    kit.mesh.archRing = b.addMesh(makeArchRing(1, 1.07f, 1, pi, 28));
     kit.mesh.vault = b.addMesh(makeVault(32));
     kit.mesh.ball = b.addMesh(makeSphere(14, 9));
     kit.mesh.fineBall = b.addMesh(makeSphere(28, 16));
@@ -136,9 +136,8 @@ void addMaterials(Kit& kit)
                   {"floor: worn black", {0.05f, 0.05f, 0.055f}, 0.36f},
                   {"floor: worn grey", {0.33f, 0.33f, 0.34f}, 0.50f},
                   {"floor: rough terracotta", {0.45f, 0.22f, 0.13f}, 0.70f}};
-    for (const auto& floor : floors) {
+    for (const auto& floor : floors)
         m.floor.push_back(b.addDielectric(floor.name, floor.albedo, floor.perceptualRoughness));
-    }
     m.stone = {m.sandstone, b.addDielectric("pale stone", {0.60f, 0.53f, 0.43f}, 0.8f),
                b.addDielectric("brown stone", {0.45f, 0.36f, 0.27f}, 0.7f),
                b.addDielectric("smooth stone", {0.52f, 0.47f, 0.40f}, 0.45f)};
@@ -166,7 +165,7 @@ void addMaterials(Kit& kit)
 
 Scene generateHall(const SceneOptions& options)
 {
-    const uint32_t count = options.lights.value_or(kDefaultLightCount);
+    const uint32_t count = options.lights.value_or(defaultLightCount);
     checkLightOptions("hall", count, options);
     hall::Kit kit{};
     kit.builder.scene.name = "hall";

@@ -16,35 +16,35 @@
 namespace candelabra::app::hall
 {
 
-constexpr double kHalfLength = 30;
-constexpr double kHalfWidth = 12;
-constexpr double kNave = 6; // from the middle to the arcades' planes
-constexpr double kBay = 5;
-constexpr int kBays = 12;
-constexpr double kColumnRadius = 0.42;
-constexpr double kSpringing = 5.8; // of the arcades
-constexpr double kArchRadius = 2.05;
-constexpr double kArcadeDepth = 0.9;
-constexpr double kArcadeTop = 8.5;
-constexpr double kGallery = 8.7; // top of the cornice, railings stand on it
-constexpr double kVaultSpringing = 10.4;
-constexpr double kVaultRadius = 6.3;
-constexpr double kChandelierY = 7.2;
-constexpr double kChandelierRadius = 1.6;
-constexpr int kChandelierCups = 16;
+constexpr double halfLength = 30;
+constexpr double halfWidth = 12;
+constexpr double naveHalf = 6; // from the middle to the arcades' planes
+constexpr double bayWidth = 5;
+constexpr int bays = 12;
+constexpr double columnRadius = 0.42;
+constexpr double springingHeight = 5.8; // of the arcades
+constexpr double archRadius = 2.05;
+constexpr double arcadeDepth = 0.9;
+constexpr double arcadeTop = 8.5;
+constexpr double gallery = 8.7; // top of the cornice, railings stand on it
+constexpr double vaultSpringing = 10.4;
+constexpr double vaultRadius = 6.3;
+constexpr double chandelierY = 7.2;
+constexpr double chandelierRadius = 1.6;
+constexpr int chandelierCups = 16;
 
-// Middle of bay 0 .. kBays - 1, and the columns before it (and after the last).
+// Middle of bay 0 .. bays - 1, and the columns before it (and after the last).
 constexpr double bayCentre(int bay)
 {
-    return -kHalfLength + kBay * (bay + 0.5);
+    return -halfLength + bayWidth * (bay + 0.5);
 }
 constexpr double columnX(int column)
 {
-    return -kHalfLength + kBay * column;
+    return -halfLength + bayWidth * column;
 }
 
 // Chandeliers hang over the middle of every other bay.
-constexpr int kChandeliers = kBays / 2;
+constexpr int chandeliers = bays / 2;
 constexpr double chandelierX(int chandelier)
 {
     return bayCentre(2 * chandelier);
@@ -55,8 +55,8 @@ constexpr double hanging(double height, double sag, double t)
 {
     return height - 4 * sag * t * (1 - t);
 }
-constexpr double kCableY = 6.6, kCableSag = 1.6;     // across the nave at every column
-constexpr double kGarlandY = 5.3, kGarlandSag = 0.9; // along the arcades
+constexpr double cableY = 6.6, cableSag = 1.6;     // across the nave at every column
+constexpr double garlandY = 5.3, garlandSag = 0.9; // along the arcades
 
 struct Meshes {
     uint32_t box, tile, shaft, columnBase, capital, archedWall, archRing, vault;

@@ -11,12 +11,12 @@ namespace candelabra::app::hall
 namespace
 {
 
-constexpr double kPi = glm::pi<double>();
+constexpr double pi = glm::pi<double>();
 
 void addFloor(Kit& kit, Random& random)
 {
     const Materials& m = kit.material;
-    constexpr int halfX = static_cast<int>(kHalfLength), halfZ = static_cast<int>(kHalfWidth);
+    constexpr int halfX = static_cast<int>(halfLength), halfZ = static_cast<int>(halfWidth);
     // Materials of the patterns, as indices into Materials::floor.
     constexpr uint32_t black = 0, white = 1, green = 2, red = 3, cream = 4, wornBlack = 5, grey = 6,
                        terracotta = 7;
@@ -33,16 +33,15 @@ void addFloor(Kit& kit, Random& random)
                 kind = even ? cream : wornBlack;
             }
             // A few tiles were replaced.
-            if (random.chance(0.04f)) {
+            if (random.chance(0.04f))
                 kind = random.below(static_cast<uint32_t>(m.floor.size()));
-            }
             kit.builder.place(kit.mesh.tile, m.floor[kind], {x + 0.5, 0, z + 0.5});
         }
     }
     // Shows in the joints only.
-    for (int bay = 0; bay < kBays; ++bay) {
+    for (int bay = 0; bay < bays; ++bay) {
         kit.builder.place(kit.mesh.box, m.grout, {bayCentre(bay), -0.11, 0},
-                          {kBay, 0.2, 2 * kHalfWidth});
+                          {bayWidth, 0.2, 2 * halfWidth});
     }
 }
 
@@ -53,18 +52,18 @@ void addColumn(Kit& kit, double x, double z, uint32_t shaft)
     b.place(kit.mesh.columnBase, kit.material.marble, {x, 0, z});
     b.place(kit.mesh.shaft, shaft, {x, 0, z});
     b.place(kit.mesh.capital, kit.material.gold, {x, 0, z});
-    b.place(kit.mesh.box, kit.material.marble, {x, 0.5 * (5.58 + kSpringing), z},
-            {1.36, kSpringing - 5.58, 1.36});
+    b.place(kit.mesh.box, kit.material.marble, {x, 0.5 * (5.58 + springingHeight), z},
+            {1.36, springingHeight - 5.58, 1.36});
 }
 
 void addColumns(Kit& kit)
 {
     const Materials& m = kit.material;
-    for (int column = 0; column <= kBays; ++column) {
+    for (int column = 0; column <= bays; ++column) {
         const double x = columnX(column);
         for (const double side : {-1.0, 1.0}) {
-            addColumn(kit, x, side * kNave, column % 2 == 0 ? m.marble : m.floor[2]);
-            addColumn(kit, x, side * (kHalfWidth - 0.15), m.sandstone); // half in the wall
+            addColumn(kit, x, side * naveHalf, column % 2 == 0 ? m.marble : m.floor[2]);
+            addColumn(kit, x, side * (halfWidth - 0.15), m.sandstone); // half in the wall
         }
     }
 }
@@ -73,46 +72,47 @@ void addColumns(Kit& kit)
 void addTriforium(Kit& kit, Random& random, int bay, double side)
 {
     SceneBuilder& b = kit.builder;
-    constexpr double scale = 1.0 / 3.0, rise = scale * (kArcadeTop - kSpringing);
-    constexpr double z = kNave + 0.25, springing = kVaultSpringing - rise;
+    constexpr double scale = 1.0 / 3.0, rise = scale * (arcadeTop - springingHeight);
+    constexpr double z = naveHalf + 0.25, springing = vaultSpringing - rise;
     for (int i = -1; i <= 1; ++i) {
-        const double x = bayCentre(bay) + i * kBay * scale;
+        const double x = bayCentre(bay) + i * bayWidth * scale;
         b.place(kit.mesh.archedWall, kit.material.plaster, {x, springing, side * z},
                 glm::dvec3(scale));
         b.placeRod(kit.mesh.rod, kit.material.darkMarble,
-                   {x - 0.5 * kBay * scale, kGallery, side * z},
-                   {x - 0.5 * kBay * scale, springing, side * z}, 0.07);
+                   {x - 0.5 * bayWidth * scale, gallery, side * z},
+                   {x - 0.5 * bayWidth * scale, springing, side * z}, 0.07);
         b.place(kit.mesh.box, kit.anyOf(random, kit.material.glass),
-                {x, 0.5 * (kGallery + kVaultSpringing), side * (z + 0.5)},
-                {kBay * scale - 0.25, kVaultSpringing - kGallery - 0.1, 0.05});
+                {x, 0.5 * (gallery + vaultSpringing), side * (z + 0.5)},
+                {bayWidth * scale - 0.25, vaultSpringing - gallery - 0.1, 0.05});
     }
     b.place(kit.mesh.box, kit.material.stone[2],
-            {bayCentre(bay), 0.5 * (kGallery + kVaultSpringing) + 0.4, side * (z + 0.7)},
-            {kBay, kVaultSpringing - kGallery + 0.8, 0.2});
+            {bayCentre(bay), 0.5 * (gallery + vaultSpringing) + 0.4, side * (z + 0.7)},
+            {bayWidth, vaultSpringing - gallery + 0.8, 0.2});
 }
 
 void addArcades(Kit& kit, Random& random)
 {
     SceneBuilder& b = kit.builder;
     const Materials& m = kit.material;
-    for (int bay = 0; bay < kBays; ++bay) {
+    for (int bay = 0; bay < bays; ++bay) {
         const double x = bayCentre(bay);
         for (const double side : {-1.0, 1.0}) {
-            const double z = side * kNave;
-            b.place(kit.mesh.archedWall, m.stone[1], {x, kSpringing, z});
+            const double z = side * naveHalf;
+            b.place(kit.mesh.archedWall, m.stone[1], {x, springingHeight, z});
             // Archivolts on both faces.
             for (const double face : {-1.0, 1.0}) {
-                b.place(kit.mesh.archRing, m.marble, {x, kSpringing, z + face * 0.5 * kArcadeDepth},
-                        {kArchRadius, kArchRadius, 0.16});
+                b.place(kit.mesh.archRing, m.marble,
+                        {x, springingHeight, z + face * 0.5 * arcadeDepth},
+                        {archRadius, archRadius, 0.16});
             }
-            b.place(kit.mesh.box, m.marble, {x, 0.5 * (kArcadeTop + kGallery), z},
-                    {kBay, kGallery - kArcadeTop, kArcadeDepth + 0.5});
+            b.place(kit.mesh.box, m.marble, {x, 0.5 * (arcadeTop + gallery), z},
+                    {bayWidth, gallery - arcadeTop, arcadeDepth + 0.5});
             // Aisle ceiling and its beams.
-            const double aisle = side * 0.5 * (kNave + kHalfWidth);
-            b.place(kit.mesh.box, m.wood, {x, kArcadeTop + 0.1, aisle}, {kBay, 0.2, 6});
+            const double aisle = side * 0.5 * (naveHalf + halfWidth);
+            b.place(kit.mesh.box, m.wood, {x, arcadeTop + 0.1, aisle}, {bayWidth, 0.2, 6});
             for (int beam = 0; beam < 4; ++beam) {
                 b.place(kit.mesh.box, m.wood,
-                        {x + kBay * (0.25 * beam - 0.375), kArcadeTop - 0.12, aisle},
+                        {x + bayWidth * (0.25 * beam - 0.375), arcadeTop - 0.12, aisle},
                         {0.22, 0.26, 6});
             }
             addTriforium(kit, random, bay, side);
@@ -125,14 +125,14 @@ void addAisleWindow(Kit& kit, Random& random, double x, double side)
 {
     SceneBuilder& b = kit.builder;
     constexpr double sill = 2.2, springing = 5.2, half = 0.95;
-    const double z = side * (kHalfWidth - 0.12);
+    const double z = side * (halfWidth - 0.12);
     const uint32_t glass = kit.anyOf(random, kit.material.glass);
     b.place(kit.mesh.box, glass, {x, 0.5 * (sill + springing), z},
             {2 * half, springing - sill, 0.06});
     b.place(kit.mesh.archRing, kit.material.marble, {x, springing, z}, {half, half, 0.3});
     b.place(kit.mesh.disc, glass,
             glm::translate(glm::dmat4(1), {x, springing, z - 0.025}) *
-                glm::rotate(glm::dmat4(1), 0.5 * kPi, {1, 0, 0}) *
+                glm::rotate(glm::dmat4(1), 0.5 * pi, {1, 0, 0}) *
                 glm::scale(glm::dmat4(1), {half, 0.05, half}));
     for (const double edge : {-1.0, 1.0}) {
         b.place(kit.mesh.box, kit.material.marble,
@@ -156,22 +156,21 @@ void addSideWalls(Kit& kit, Random& random)
 {
     SceneBuilder& b = kit.builder;
     constexpr int courses = 9;
-    constexpr double height = kArcadeTop / courses, length = 2.5;
-    constexpr int perCourse = static_cast<int>(2 * kHalfLength / length);
+    constexpr double height = arcadeTop / courses, length = 2.5;
+    constexpr int perCourse = static_cast<int>(2 * halfLength / length);
     for (const double side : {-1.0, 1.0}) {
         for (int course = 0; course < courses; ++course) {
             for (int i = 0; i <= perCourse; ++i) {
                 // Running bond: odd courses start half a block earlier.
-                const double x = -kHalfLength + length * (i + (course % 2 ? 0.0 : 0.5));
+                const double x = -halfLength + length * (i + (course % 2 ? 0.0 : 0.5));
                 const double proud = random.uniform(0.0f, 0.04f);
                 b.place(kit.mesh.box, kit.anyOf(random, kit.material.stone),
-                        {x, height * (course + 0.5), side * (kHalfWidth + 0.2 - proud)},
+                        {x, height * (course + 0.5), side * (halfWidth + 0.2 - proud)},
                         {length, height, 0.5});
             }
         }
-        for (int bay = 0; bay < kBays; ++bay) {
+        for (int bay = 0; bay < bays; ++bay)
             addAisleWindow(kit, random, bayCentre(bay), side);
-        }
     }
 }
 
@@ -185,14 +184,14 @@ void addEndWalls(Kit& kit, Random& random)
             for (int i = -half; i <= half; ++i) {
                 const double z = length * (i + (course % 2 ? 0.0 : 0.5));
                 b.place(kit.mesh.box, kit.anyOf(random, kit.material.stone),
-                        {end * (kHalfLength + 0.25), height * (course + 0.5), z},
+                        {end * (halfLength + 0.25), height * (course + 0.5), z},
                         {0.5, height, length});
             }
         }
     }
     // Rose window over the far end: rings and spokes before a glowing disc.
-    const glm::dvec3 rose{kHalfLength - 0.1, 10.6, 0};
-    const glm::dmat4 facing = glm::rotate(glm::dmat4(1), 0.5 * kPi, {0, 0, 1});
+    const glm::dvec3 rose{halfLength - 0.1, 10.6, 0};
+    const glm::dmat4 facing = glm::rotate(glm::dmat4(1), 0.5 * pi, {0, 0, 1});
     const double radii[] = {3.2, 2.2, 1.1};
     for (int i = 0; i < 3; ++i) {
         const glm::dmat4 at =
@@ -203,7 +202,7 @@ void addEndWalls(Kit& kit, Random& random)
                 at * facing * glm::scale(glm::dmat4(1), {radii[i], 0.05, radii[i]}));
     }
     for (int spoke = 0; spoke < 16; ++spoke) {
-        const double angle = 2 * kPi * spoke / 16;
+        const double angle = 2 * pi * spoke / 16;
         const glm::dvec3 out{0, std::cos(angle), std::sin(angle)};
         const glm::dvec3 from = rose - glm::dvec3(0.22, 0, 0) + 0.3 * out;
         b.placeRod(kit.mesh.rod, kit.material.marble, from, from + 2.9 * out, 0.05);
@@ -213,30 +212,30 @@ void addEndWalls(Kit& kit, Random& random)
 void addVault(Kit& kit)
 {
     SceneBuilder& b = kit.builder;
-    for (int bay = 0; bay < kBays; ++bay) {
-        b.place(kit.mesh.vault, kit.material.plaster, {bayCentre(bay), kVaultSpringing, 0},
-                {kBay, kVaultRadius, kVaultRadius});
+    for (int bay = 0; bay < bays; ++bay) {
+        b.place(kit.mesh.vault, kit.material.plaster, {bayCentre(bay), vaultSpringing, 0},
+                {bayWidth, vaultRadius, vaultRadius});
         // Purlins make coffers of the fields between the ribs.
         for (int i = 1; i <= 9; ++i) {
-            const double angle = kPi * i / 10;
+            const double angle = pi * i / 10;
             const glm::dvec3 place{bayCentre(bay),
-                                   kVaultSpringing + (kVaultRadius - 0.08) * std::sin(angle),
-                                   (kVaultRadius - 0.08) * std::cos(angle)};
+                                   vaultSpringing + (vaultRadius - 0.08) * std::sin(angle),
+                                   (vaultRadius - 0.08) * std::cos(angle)};
             b.place(kit.mesh.box, i % 3 == 0 ? kit.material.gold : kit.material.wood,
                     glm::translate(glm::dmat4(1), place) *
                         glm::rotate(glm::dmat4(1), -angle, {1, 0, 0}) *
-                        glm::scale(glm::dmat4(1), {kBay, 0.16, 0.16}));
+                        glm::scale(glm::dmat4(1), {bayWidth, 0.16, 0.16}));
         }
     }
-    for (int column = 0; column <= kBays; ++column) {
-        const double radius = kVaultRadius / 1.07; // the ring's outer side on the vault
-        b.place(kit.mesh.archRing, kit.material.stone[3], {columnX(column), kVaultSpringing, 0},
-                {radius, radius, 0.45}, 0.5 * kPi);
+    for (int column = 0; column <= bays; ++column) {
+        const double radius = vaultRadius / 1.07; // the ring's outer side on the vault
+        b.place(kit.mesh.archRing, kit.material.stone[3], {columnX(column), vaultSpringing, 0},
+                {radius, radius, 0.45}, 0.5 * pi);
         // Between the big ribs, a thin one.
-        if (column < kBays) {
+        if (column < bays) {
             const double thin = 1.05 * radius;
-            b.place(kit.mesh.archRing, kit.material.wood, {bayCentre(column), kVaultSpringing, 0},
-                    {thin, thin, 0.16}, 0.5 * kPi);
+            b.place(kit.mesh.archRing, kit.material.wood, {bayCentre(column), vaultSpringing, 0},
+                    {thin, thin, 0.16}, 0.5 * pi);
         }
     }
 }

@@ -12,9 +12,9 @@ namespace candelabra::app::hall
 namespace
 {
 
-constexpr double kPi = glm::pi<double>();
+constexpr double pi = glm::pi<double>();
 // Positions are drawn again when they fall into stone, at most this often.
-constexpr int kMaxTries = 16;
+constexpr int maxTries = 16;
 
 float sideOf(Random& random)
 {
@@ -32,37 +32,37 @@ float skewed(Random& random, float low, float high)
 bool isFree(const glm::dvec3& p, double radius)
 {
     const double side = std::abs(p.z);
-    if (std::abs(p.x) > kHalfLength - 0.05 - radius || side > kHalfWidth - 0.1 - radius ||
+    if (std::abs(p.x) > halfLength - 0.05 - radius || side > halfWidth - 0.1 - radius ||
         p.y < radius + 0.02) {
         return false;
     }
-    if (p.y < kSpringing) {
-        const double dx = p.x - kBay * std::round(p.x / kBay), dz = side - kNave;
-        const double keep = radius + (p.y < 0.6 || p.y > 5 ? 0.68 : kColumnRadius + 0.03);
+    if (p.y < springingHeight) {
+        const double dx = p.x - bayWidth * std::round(p.x / bayWidth), dz = side - naveHalf;
+        const double keep = radius + (p.y < 0.6 || p.y > 5 ? 0.68 : columnRadius + 0.03);
         return dx * dx + dz * dz > keep * keep;
     }
-    if (std::abs(side - kNave) < 0.5 * kArcadeDepth + 0.05 + radius && p.y < kGallery + radius) {
+    if (std::abs(side - naveHalf) < 0.5 * arcadeDepth + 0.05 + radius && p.y < gallery + radius) {
         // Only the openings of the arches.
-        const double dx = p.x - kBay * (std::floor(p.x / kBay) + 0.5), dy = p.y - kSpringing;
-        const double free = kArchRadius - 0.02 - radius;
+        const double dx = p.x - bayWidth * (std::floor(p.x / bayWidth) + 0.5),
+                     dy = p.y - springingHeight;
+        const double free = archRadius - 0.02 - radius;
         return free > 0 && dx * dx + dy * dy < free * free;
     }
-    if (side > kNave) {
-        return p.y < kArcadeTop - 0.3 - radius;
-    }
-    const double above = std::max(p.y - kVaultSpringing, 0.0);
-    const double free = kVaultRadius - 0.5 - radius;
+    if (side > naveHalf)
+        return p.y < arcadeTop - 0.3 - radius;
+    const double above = std::max(p.y - vaultSpringing, 0.0);
+    const double free = vaultRadius - 0.5 - radius;
     return above * above + side * side < free * free;
 }
 
 LightSite onChandelier(Random& random)
 {
     LightSite site;
-    const int chandelier = static_cast<int>(random.below(kChandeliers));
-    const double angle = 2 * kPi * random.below(kChandelierCups) / kChandelierCups;
+    const int chandelier = static_cast<int>(random.below(chandeliers));
+    const double angle = 2 * pi * random.below(chandelierCups) / chandelierCups;
     const glm::dvec3 jitter(random.uniform3() - 0.5f);
-    site.position = glm::dvec3(chandelierX(chandelier), kChandelierY + 0.25, 0) +
-                    kChandelierRadius * glm::dvec3(std::cos(angle), 0, std::sin(angle)) +
+    site.position = glm::dvec3(chandelierX(chandelier), chandelierY + 0.25, 0) +
+                    chandelierRadius * glm::dvec3(std::cos(angle), 0, std::sin(angle)) +
                     glm::dvec3(0.3, 0.25, 0.3) * jitter;
     site.radius = skewed(random, 0.025f, 0.08f);
     site.colour = blackbodyColour(random.uniform(1900, 2700));
@@ -75,12 +75,12 @@ LightSite onChandelier(Random& random)
 LightSite onCable(Random& random)
 {
     LightSite site;
-    const uint32_t column = 1 + random.below(kBays - 1);
+    const uint32_t column = 1 + random.below(bays - 1);
     const float t = random.uniform(), drop = random.uniform();
     const float along = random.bell();
     site.position = {columnX(static_cast<int>(column)) + 0.15 * along,
-                     hanging(kCableY, kCableSag, t) - 0.08 - 0.25 * drop,
-                     (2 * t - 1) * (kNave - 0.6)};
+                     hanging(cableY, cableSag, t) - 0.08 - 0.25 * drop,
+                     (2 * t - 1) * (naveHalf - 0.6)};
     site.radius = skewed(random, 0.02f, 0.09f);
     // Neighbouring cables differ; bulbs of one cable stay within a third of the circle.
     const float hue = 0.381966f * static_cast<float>(column) + 0.33f * random.uniform();
@@ -92,10 +92,10 @@ LightSite onCable(Random& random)
 LightSite onGarland(Random& random)
 {
     LightSite site;
-    const int bay = static_cast<int>(random.below(kBays));
+    const int bay = static_cast<int>(random.below(bays));
     const float side = sideOf(random), t = random.uniform(), drop = random.uniform();
-    site.position = {columnX(bay) + 0.3 + t * (kBay - 0.6),
-                     hanging(kGarlandY, kGarlandSag, t) - 0.06 - 0.15 * drop, side * kNave};
+    site.position = {columnX(bay) + 0.3 + t * (bayWidth - 0.6),
+                     hanging(garlandY, garlandSag, t) - 0.06 - 0.15 * drop, side * naveHalf};
     site.radius = skewed(random, 0.02f, 0.06f);
     site.colour = blackbodyColour(random.uniform(2300, 3600));
     site.edgeIlluminance = 1.4f;
@@ -106,12 +106,12 @@ LightSite onGarland(Random& random)
 LightSite aroundColumn(Random& random)
 {
     LightSite site;
-    const int column = static_cast<int>(random.below(kBays + 1));
+    const int column = static_cast<int>(random.below(bays + 1));
     const float side = sideOf(random), t = random.uniform(), out = random.uniform();
-    const double angle = 2 * kPi * 4 * t + column;
-    const double distance = kColumnRadius + 0.12 + 0.25 * out * out;
+    const double angle = 2 * pi * 4 * t + column;
+    const double distance = columnRadius + 0.12 + 0.25 * out * out;
     site.position = {columnX(column) + distance * std::cos(angle), 0.75 + 4.1 * t,
-                     side * kNave + distance * std::sin(angle)};
+                     side * naveHalf + distance * std::sin(angle)};
     site.radius = skewed(random, 0.02f, 0.06f);
     site.colour = hueColour(0.08f + 0.08f * t + 0.45f * static_cast<float>(column % 3),
                             random.uniform(0.5f, 0.8f));
@@ -123,13 +123,13 @@ LightSite aroundColumn(Random& random)
 LightSite onFloor(Random& random)
 {
     LightSite site;
-    const int bay = static_cast<int>(random.below(kBays));
+    const int bay = static_cast<int>(random.below(bays));
     const float side = sideOf(random), across = random.bell(), along = random.uniform();
     const float size = random.uniform();
     site.radius = 0.03f + 0.32f * size * size * size;
     const float lift = random.uniform();
     const bool aisle = random.chance(0.35f);
-    site.position = {columnX(bay) + kBay * along, site.radius + 0.05 + 0.7 * lift * lift,
+    site.position = {columnX(bay) + bayWidth * along, site.radius + 0.05 + 0.7 * lift * lift,
                      side * (aisle ? 9.2 + 2.3 * across : 3.9 + 1.9 * across)};
     const float hue = 0.618034f * static_cast<float>(bay) + (side > 0 ? 0.5f : 0.0f);
     site.colour = hueColour(hue + 0.1f * random.uniform(), random.uniform(0.5f, 0.85f));
@@ -140,11 +140,11 @@ LightSite onFloor(Random& random)
 LightSite onWall(Random& random)
 {
     LightSite site;
-    const int column = static_cast<int>(random.below(kBays + 1));
+    const int column = static_cast<int>(random.below(bays + 1));
     const float side = sideOf(random), up = random.uniform(), along = random.bell();
     site.radius = skewed(random, 0.04f, 0.20f);
     site.position = {columnX(column) + 1.4 * along, 2.2 + 4.5 * up,
-                     side * (kHalfWidth - 0.75 - site.radius)};
+                     side * (halfWidth - 0.75 - site.radius)};
     const bool teal = random.chance(0.4f);
     const float vary = random.uniform();
     site.colour =
@@ -158,8 +158,8 @@ LightSite onGallery(Random& random)
     LightSite site;
     const float along = random.uniform(-1, 1), side = sideOf(random), up = random.uniform();
     site.radius = skewed(random, 0.03f, 0.10f);
-    site.position = {along * (kHalfLength - 0.5), kGallery + 0.95 + 0.5 * up,
-                     side * (kNave - 0.55)};
+    site.position = {along * (halfLength - 0.5), gallery + 0.95 + 0.5 * up,
+                     side * (naveHalf - 0.55)};
     site.colour = blackbodyColour(random.uniform(4000, 9000));
     site.edgeIlluminance = 1.4f;
     return site;
@@ -168,11 +168,11 @@ LightSite onGallery(Random& random)
 LightSite underVault(Random& random)
 {
     LightSite site;
-    const float angle = static_cast<float>(kPi) * random.uniform(0.08f, 0.92f);
-    const int rib = static_cast<int>(random.below(kBays + 1));
+    const float angle = static_cast<float>(pi) * random.uniform(0.08f, 0.92f);
+    const int rib = static_cast<int>(random.below(bays + 1));
     const float along = random.bell();
-    const double distance = kVaultRadius - 0.75;
-    site.position = {columnX(rib) + 0.8 * along, kVaultSpringing + distance * std::sin(angle),
+    const double distance = vaultRadius - 0.75;
+    site.position = {columnX(rib) + 0.8 * along, vaultSpringing + distance * std::sin(angle),
                      distance * std::cos(angle)};
     site.radius = skewed(random, 0.03f, 0.10f);
     const float hue = random.uniform(0.58f, 0.86f);
@@ -191,8 +191,8 @@ LightSite floating(Random& random)
     const float side = sideOf(random);
     site.radius = random.uniform(0.10f, 0.28f);
     site.position =
-        aisle ? glm::dvec3(along * (kHalfLength - 2), 2.5 + 4.5 * up, side * (9 + 1.5 * across))
-              : glm::dvec3(along * (kHalfLength - 2), 2.5 + 9 * up, 4.5 * across);
+        aisle ? glm::dvec3(along * (halfLength - 2), 2.5 + 4.5 * up, side * (9 + 1.5 * across))
+              : glm::dvec3(along * (halfLength - 2), 2.5 + 9 * up, 4.5 * across);
     site.reach = 3.5f;
     site.colour = blackbodyColour(random.uniform(2500, 6500));
     site.edgeIlluminance = 0.5f;
@@ -204,8 +204,8 @@ LightSite firefly(Random& random)
 {
     LightSite site;
     const glm::dvec3 at(random.uniform3());
-    site.position = {(2 * at.x - 1) * kHalfLength, 0.1 + at.y * (kVaultSpringing + 5),
-                     (2 * at.z - 1) * kHalfWidth};
+    site.position = {(2 * at.x - 1) * halfLength, 0.1 + at.y * (vaultSpringing + 5),
+                     (2 * at.z - 1) * halfWidth};
     site.radius = random.uniform(0.02f, 0.03f);
     site.reach = 1.2f;
     const float hue = random.uniform(0.1f, 0.2f);
@@ -218,10 +218,10 @@ LightSite firefly(Random& random)
 LightSite inPavement(Random& random)
 {
     LightSite site;
-    const uint32_t cell = random.below(2 * static_cast<uint32_t>(kHalfLength));
+    const uint32_t cell = random.below(2 * static_cast<uint32_t>(halfLength));
     const float across = random.uniform(-1, 1), along = random.bell();
     site.radius = random.uniform(0.02f, 0.045f);
-    site.position = {cell - kHalfLength + 0.08 * along, 0.03 + site.radius, 3.9 * across};
+    site.position = {cell - halfLength + 0.08 * along, 0.03 + site.radius, 3.9 * across};
     site.colour = blackbodyColour(random.uniform(2200, 5000));
     site.edgeIlluminance = 1;
     return site;
@@ -247,21 +247,20 @@ struct Kind {
 };
 
 // Shares add up to 1.
-constexpr Kind kKinds[] = {{0.13f, onChandelier}, {0.17f, onCable},    {0.10f, onGarland},
-                           {0.12f, aroundColumn}, {0.14f, onFloor},    {0.10f, onWall},
-                           {0.05f, onGallery},    {0.05f, underVault}, {0.03f, floating},
-                           {0.06f, firefly},      {0.04f, inPavement}, {0.01f, onShrine}};
+constexpr Kind kinds[] = {{0.13f, onChandelier}, {0.17f, onCable},    {0.10f, onGarland},
+                          {0.12f, aroundColumn}, {0.14f, onFloor},    {0.10f, onWall},
+                          {0.05f, onGallery},    {0.05f, underVault}, {0.03f, floating},
+                          {0.06f, firefly},      {0.04f, inPavement}, {0.01f, onShrine}};
 
 MakeSite anyKind(Random& random)
 {
     float at = random.uniform();
-    for (const Kind& kind : kKinds) {
-        if (at < kind.share) {
+    for (const Kind& kind : kinds) {
+        if (at < kind.share)
             return kind.make;
-        }
         at -= kind.share;
     }
-    return kKinds[0].make;
+    return kinds[0].make;
 }
 
 } // namespace
@@ -276,7 +275,7 @@ std::vector<LightSite> lightSites(uint32_t count, const SceneOptions& options)
     for (uint32_t i = 0; i < count; ++i) {
         const MakeSite make = anyKind(random);
         LightSite site = make(random);
-        for (int attempt = 1; attempt < kMaxTries && !isFree(site.position, site.radius);
+        for (int attempt = 1; attempt < maxTries && !isFree(site.position, site.radius);
              ++attempt) {
             site = make(random);
         }

@@ -7,9 +7,8 @@ namespace candelabra::app
 LightGrid::LightGrid(const std::vector<glm::dvec3>& positions)
 {
     starts_.assign(2, 0);
-    if (positions.empty()) {
+    if (positions.empty())
         return;
-    }
     glm::dvec3 low = positions.front(), high = low;
     for (const glm::dvec3& position : positions) {
         low = glm::min(low, position);
@@ -31,17 +30,14 @@ LightGrid::LightGrid(const std::vector<glm::dvec3>& positions)
         return (static_cast<size_t>(c.z) * size_.y + c.y) * size_.x + c.x;
     };
     starts_.assign(static_cast<size_t>(size_.x) * size_.y * size_.z + 1, 0);
-    for (const glm::dvec3& position : positions) {
+    for (const glm::dvec3& position : positions)
         ++starts_[flat(position) + 1];
-    }
-    for (size_t i = 1; i < starts_.size(); ++i) {
+    for (size_t i = 1; i < starts_.size(); ++i)
         starts_[i] += starts_[i - 1];
-    }
     std::vector<uint32_t> next(starts_.begin(), starts_.end() - 1);
     order_.resize(positions.size());
-    for (uint32_t i = 0; i < positions.size(); ++i) {
+    for (uint32_t i = 0; i < positions.size(); ++i)
         order_[next[flat(positions[i])]++] = i;
-    }
 }
 
 } // namespace candelabra::app

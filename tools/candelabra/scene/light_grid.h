@@ -26,9 +26,8 @@ public:
             for (int y = low.y; y <= high.y; ++y) {
                 // Cells along x are neighbours in memory.
                 const size_t row = (static_cast<size_t>(z) * size_.y + y) * size_.x;
-                for (uint32_t i = starts_[row + low.x]; i < starts_[row + high.x + 1]; ++i) {
+                for (uint32_t i = starts_[row + low.x]; i < starts_[row + high.x + 1]; ++i)
                     visitor(order_[i]);
-                }
             }
         }
     }

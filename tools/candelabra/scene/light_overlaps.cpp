@@ -16,13 +16,13 @@ namespace
 {
 
 // 5184 samples: about 1.4% standard error of a mean whose spread is its own size. 16:9.
-constexpr uint32_t kColumns = 96, kRows = 54;
+constexpr uint32_t columns = 96, rows = 54;
 // Fewer hits than this and the camera does not speak for the scene.
-constexpr size_t kFewHits = 256;
-constexpr uint32_t kSpreadSamples = 4096;
+constexpr size_t fewHits = 256;
+constexpr uint32_t spreadSampleCount = 4096;
 // Bounds time and memory when many lights overlap.
-constexpr double kMaxPairs = 2e7;
-constexpr size_t kMinSamples = 64;
+constexpr double maxPairs = 2e7;
+constexpr size_t minSamples = 64;
 
 struct WorldTriangle {
     glm::dvec3 corner[3];
@@ -49,12 +49,11 @@ std::vector<SurfaceSample> spreadSamples(const Scene& scene)
         }
     }
     std::vector<SurfaceSample> samples;
-    if (!std::isfinite(area) || area <= 0) {
+    if (!std::isfinite(area) || area <= 0)
         return samples;
-    }
     Random random(0);
-    for (uint32_t i = 0; i < kSpreadSamples; ++i) {
-        const double at = area * (i + 0.5) / kSpreadSamples;
+    for (uint32_t i = 0; i < spreadSampleCount; ++i) {
+        const double at = area * (i + 0.5) / spreadSampleCount;
         const size_t t = static_cast<size_t>(
             std::lower_bound(areaUpTo.begin(), areaUpTo.end(), at) - areaUpTo.begin());
         const WorldTriangle& triangle = triangles[std::min(t, triangles.size() - 1)];
@@ -76,10 +75,9 @@ double criticalScale(const SurfaceSample& sample, const LightReach& light)
     double needed = glm::length(toLight);
     if (height < 0) {
         // The centre is below the horizon: the radius must reach above it.
-        if (light.radius <= -height) {
+        if (light.radius <= -height)
             return std::numeric_limits<double>::infinity();
-        }
-        needed = std::max(needed, -height / kMaxRadiusShare);
+        needed = std::max(needed, -height / maxRadiusShare);
     }
     return needed / light.reach;
 }
@@ -91,14 +89,12 @@ public:
     explicit ReachClasses(const std::vector<LightReach>& lights) : lights_(lights)
     {
         std::map<int, std::vector<uint32_t>> classes;
-        for (uint32_t i = 0; i < lights.size(); ++i) {
+        for (uint32_t i = 0; i < lights.size(); ++i)
             classes[std::ilogb(lights[i].reach)].push_back(i);
-        }
         for (auto& [exponent, members] : classes) {
             std::vector<glm::dvec3> positions;
-            for (const uint32_t light : members) {
+            for (const uint32_t light : members)
                 positions.push_back(lights[light].position);
-            }
             grids_.push_back({std::ldexp(1.0, exponent + 1), LightGrid(positions), members});
         }
     }
@@ -114,13 +110,11 @@ public:
                     sample.position, scale * reachClass.maxReach, [&](uint32_t member) {
                         const double critical =
                             criticalScale(sample, lights_[reachClass.members[member]]);
-                        if (critical < scale) {
+                        if (critical < scale)
                             criticals.push_back(critical);
-                        }
                     });
-                if (criticals.size() > limit) {
+                if (criticals.size() > limit)
                     return;
-                }
             }
         }
     }
@@ -151,21 +145,19 @@ double unlimitedScale(const std::vector<SurfaceSample>& samples,
         high = glm::max(high, light.position);
         minReach = std::min(minReach, light.reach);
     }
-    // Below the horizon a light needs distance / kMaxRadiusShare; 1% on top makes it strict.
-    return 1.01 * std::max(glm::length(high - low), 1e-3) / (kMaxRadiusShare * minReach);
+    // Below the horizon a light needs distance / maxRadiusShare; 1% on top makes it strict.
+    return 1.01 * std::max(glm::length(high - low), 1e-3) / (maxRadiusShare * minReach);
 }
 
 std::vector<SurfaceSample> thinned(const std::vector<SurfaceSample>& samples, double overlaps)
 {
-    const double affordable = kMaxPairs / overlaps;
-    if (affordable >= static_cast<double>(samples.size()) || samples.size() <= kMinSamples) {
+    const double affordable = maxPairs / overlaps;
+    if (affordable >= static_cast<double>(samples.size()) || samples.size() <= minSamples)
         return samples;
-    }
-    const size_t wanted = std::max(kMinSamples, static_cast<size_t>(affordable));
+    const size_t wanted = std::max(minSamples, static_cast<size_t>(affordable));
     std::vector<SurfaceSample> some;
-    for (size_t i = 0; i < wanted; ++i) {
+    for (size_t i = 0; i < wanted; ++i)
         some.push_back(samples[i * samples.size() / wanted]);
-    }
     return some;
 }
 
@@ -176,21 +168,18 @@ std::vector<SurfaceSample> visibleSamples(const Scene& scene)
     std::vector<SurfaceSample> samples;
     if (!scene.cameras.empty()) {
         RayCaster caster(scene);
-        for (uint32_t y = 0; y < kRows; ++y) {
-            for (uint32_t x = 0; x < kColumns; ++x) {
-                const auto hit =
-                    caster.cast(cameraRay(scene.cameras.front(), x, y, kColumns, kRows));
-                if (hit) {
+        for (uint32_t y = 0; y < rows; ++y) {
+            for (uint32_t x = 0; x < columns; ++x) {
+                const auto hit = caster.cast(cameraRay(scene.cameras.front(), x, y, columns, rows));
+                if (hit)
                     samples.push_back({hit->position, hit->normal});
-                }
             }
         }
     }
-    if (samples.size() < kFewHits) {
+    if (samples.size() < fewHits) {
         std::vector<SurfaceSample> spread = spreadSamples(scene);
-        if (!spread.empty()) {
+        if (!spread.empty())
             return spread;
-        }
     }
     return samples;
 }
@@ -198,9 +187,8 @@ std::vector<SurfaceSample> visibleSamples(const Scene& scene)
 OverlapScale scaleForOverlaps(const std::vector<SurfaceSample>& samples,
                               const std::vector<LightReach>& lights, double overlaps)
 {
-    if (samples.empty() || lights.empty()) {
+    if (samples.empty() || lights.empty())
         return {};
-    }
     const std::vector<SurfaceSample> used = thinned(samples, overlaps);
     const ReachClasses classes(lights);
     const size_t wanted = std::max<size_t>(
@@ -211,19 +199,16 @@ OverlapScale scaleForOverlaps(const std::vector<SurfaceSample>& samples,
     std::vector<double> criticals;
     const auto collect = [&](size_t limit) { classes.collect(used, scale, limit, criticals); };
     // Well too many pairs: stop early and look closer.
-    for (collect(4 * wanted); criticals.size() > 4 * wanted; collect(4 * wanted)) {
+    for (collect(4 * wanted); criticals.size() > 4 * wanted; collect(4 * wanted))
         scale *= 0.5;
-    }
     while (criticals.size() <= wanted && scale < unlimited) {
         scale = std::min(1.3 * scale, unlimited);
         collect(std::numeric_limits<size_t>::max());
     }
-    if (criticals.size() < wanted) {
+    if (criticals.size() < wanted)
         return {0, static_cast<double>(criticals.size()) / static_cast<double>(used.size())};
-    }
-    if (criticals.size() == wanted) {
+    if (criticals.size() == wanted)
         return {unlimited, overlaps};
-    }
     const auto middle = criticals.begin() + static_cast<std::ptrdiff_t>(wanted);
     std::nth_element(criticals.begin(), middle, criticals.end());
     return {*middle, overlaps};

@@ -24,10 +24,10 @@ std::vector<SurfaceSample> visibleSamples(const Scene& scene);
 
 // The largest part of a light's influence radius that its radius may take: small lights with a
 // short reach shrink, so that the emitter always stays well inside its influence.
-constexpr double kMaxRadiusShare = 0.25;
+constexpr double maxRadiusShare = 0.25;
 
 // A light before its reach is known. With a scale s, its influence radius is s * reach and its
-// radius min(radius, kMaxRadiusShare * s * reach).
+// radius min(radius, maxRadiusShare * s * reach).
 struct LightReach {
     glm::dvec3 position{0}; // as the samples
     double reach = 1;       // > 0

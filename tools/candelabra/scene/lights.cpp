@@ -15,7 +15,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr float kPi = glm::pi<float>();
+constexpr float pi = glm::pi<float>();
 
 // Rec.709 luminance weights (ITU-R BT.709-6).
 glm::vec3 withUnitLuminance(const glm::vec3& rgb)
@@ -40,15 +40,13 @@ OverlapScale findScale(const Scene& scene, const std::vector<LightReach>& reache
                        const SceneOptions& options)
 {
     const std::vector<SurfaceSample> samples = visibleSamples(scene);
-    if (samples.empty()) {
+    if (samples.empty())
         throw SceneError(scene.name + ": lights: there is no surface for them to light");
-    }
     const double count = static_cast<double>(reaches.size());
-    const double wanted = options.overlaps.value_or(std::min(kDefaultOverlaps, 0.5 * count));
+    const double wanted = options.overlaps.value_or(std::min(defaultOverlaps, 0.5 * count));
     OverlapScale found = scaleForOverlaps(samples, reaches, wanted);
-    if (found.scale == 0 && !options.overlaps) {
+    if (found.scale == 0 && !options.overlaps)
         found = scaleForOverlaps(samples, reaches, 0.5 * found.reachable);
-    }
     if (found.scale == 0) {
         throw SceneError(scene.name + ": overlaps: a mean of " + number(wanted) +
                          " lights per pixel cannot be reached with " + number(count) +
@@ -66,10 +64,10 @@ CndLight makeLight(const LightSite& site, const LightReach& reach, double scale,
     const glm::vec3 position(site.position - origin);
     light.influenceRadius = static_cast<float>(scale * reach.reach);
     light.radius = static_cast<float>(
-        std::min(reach.radius, kMaxRadiusShare * static_cast<double>(light.influenceRadius)));
+        std::min(reach.radius, maxRadiusShare * static_cast<double>(light.influenceRadius)));
     // I = E d^2, Phi = 4 pi I.
     const float luminousPower =
-        4 * kPi * site.edgeIlluminance * light.influenceRadius * light.influenceRadius;
+        4 * pi * site.edgeIlluminance * light.influenceRadius * light.influenceRadius;
     const float luminance = cndSphereLuminanceFromPower(luminousPower, light.radius);
     for (int i = 0; i < 3; ++i) {
         light.position[i] = position[i];
@@ -113,11 +111,11 @@ glm::vec3 hueColour(float hue, float saturation)
 LightMotion circleMotion(Random& random, double height, float lightRadius, float radius,
                          float speed)
 {
-    const float azimuth = 2 * kPi * random.uniform();
+    const float azimuth = 2 * pi * random.uniform();
     const float tilt = random.uniform(-0.5f, 0.5f);
     const float turn = random.chance(0.5f) ? 1.0f : -1.0f;
     LightMotion motion;
-    motion.phase = 2 * kPi * random.uniform();
+    motion.phase = 2 * pi * random.uniform();
     motion.angularSpeed = turn * speed / radius;
     const glm::vec2 d{std::cos(azimuth), std::sin(azimuth)};
     // Half of the room below is left, so that rounding cannot bring the light down.
@@ -129,13 +127,12 @@ LightMotion circleMotion(Random& random, double height, float lightRadius, float
 
 void checkLightOptions(const std::string& name, uint32_t count, const SceneOptions& options)
 {
-    if (count > kMaxLightCount) {
+    if (count > maxLightCount) {
         throw SceneError(name + ": lights: " + std::to_string(count) +
-                         " is more than the limit of " + std::to_string(kMaxLightCount));
+                         " is more than the limit of " + std::to_string(maxLightCount));
     }
-    if (!options.overlaps) {
+    if (!options.overlaps)
         return;
-    }
     const double overlaps = *options.overlaps;
     if (!std::isfinite(overlaps) || overlaps <= 0) {
         throw SceneError(name + ": overlaps: must be a finite number above 0, not " +
@@ -149,37 +146,32 @@ void checkLightOptions(const std::string& name, uint32_t count, const SceneOptio
 
 void addSphereLights(Scene& scene, const std::vector<LightSite>& sites, const SceneOptions& options)
 {
-    if (sites.empty()) {
+    if (sites.empty())
         return;
-    }
-    const double crowding = std::min(1.0, std::sqrt(static_cast<double>(kDefaultLightCount) /
-                                                    static_cast<double>(sites.size())));
+    const double crowding = std::min(
+        1.0, std::sqrt(static_cast<double>(defaultLightCount) / static_cast<double>(sites.size())));
     std::vector<LightReach> reaches;
     reaches.reserve(sites.size());
-    for (const LightSite& site : sites) {
+    for (const LightSite& site : sites)
         reaches.push_back({startOf(site), site.reach, crowding * site.radius});
-    }
     const double scale = findScale(scene, reaches, options).scale;
 
     scene.lights.reserve(scene.lights.size() + sites.size());
     if (options.moving || !scene.lightMotions.empty()) {
         scene.lightMotions.resize(scene.lights.size());
-        for (const LightSite& site : sites) {
+        for (const LightSite& site : sites)
             scene.lightMotions.push_back(site.motion);
-        }
     }
-    for (size_t i = 0; i < sites.size(); ++i) {
+    for (size_t i = 0; i < sites.size(); ++i)
         scene.lights.push_back(makeLight(sites[i], reaches[i], scale, scene.lightOrigin));
-    }
 }
 
 void addRandomLights(Scene& scene, const SceneOptions& options)
 {
     const uint32_t count = options.lights.value_or(0);
     checkLightOptions(scene.name, count, options);
-    if (count == 0) {
+    if (count == 0)
         return;
-    }
     const Bounds bounds = sceneBounds(scene);
     const glm::dvec3 size = bounds.max - bounds.min;
     const double diagonal = glm::length(size);
@@ -190,9 +182,8 @@ void addRandomLights(Scene& scene, const SceneOptions& options)
                          "a micrometre, these span " +
                          number(diagonal) + " m");
     }
-    if (scene.lights.empty()) {
+    if (scene.lights.empty())
         scene.lightOrigin = 0.5 * (bounds.min + bounds.max);
-    }
     Random random(options.seed, 1), motionRandom(options.seed, 2);
     std::vector<LightSite> sites(count);
     for (LightSite& site : sites) {

@@ -23,9 +23,8 @@ void appendTriangle(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c)
     const glm::vec3 edge1 = mesh.vertices[b].position - mesh.vertices[a].position;
     const glm::vec3 edge2 = mesh.vertices[c].position - mesh.vertices[a].position;
     // Poles collapse one edge; what is left over is rounding (1e-7 squared) or a real triangle.
-    if (glm::length(glm::cross(edge1, edge2)) > 1e-8f) {
+    if (glm::length(glm::cross(edge1, edge2)) > 1e-8f)
         mesh.indices.insert(mesh.indices.end(), {a, b, c});
-    }
 }
 
 void appendFlatTriangle(Mesh& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
@@ -69,9 +68,8 @@ void appendMesh(Mesh& mesh, const Mesh& part, const glm::mat4& transform)
         vertex.tangent = glm::vec4(glm::normalize(linear * glm::vec3(vertex.tangent)), 1);
         mesh.vertices.push_back(vertex);
     }
-    for (const uint32_t index : part.indices) {
+    for (const uint32_t index : part.indices)
         mesh.indices.push_back(first + index);
-    }
 }
 
 } // namespace candelabra::app

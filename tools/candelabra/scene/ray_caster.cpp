@@ -13,7 +13,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double far = std::numeric_limits<double>::infinity();
 
 // Distance at which the ray enters the box, infinity when it misses it or enters beyond `nearest`.
 double enterBox(const Ray& ray, const glm::dvec3& inverseDirection, const Bounds& box,
@@ -27,13 +27,13 @@ double enterBox(const Ray& ray, const glm::dvec3& inverseDirection, const Bounds
         enter = std::fmax(enter, std::fmin(a, b));
         leave = std::fmin(leave, std::fmax(a, b));
     }
-    return enter <= leave ? enter : kFar;
+    return enter <= leave ? enter : far;
 }
 
 // Distance along a ray in object space (direction of any length) and barycentrics; Moeller and
 // Trumbore 1997, both sides.
 struct TriangleHit {
-    double distance = kFar, u = 0, v = 0;
+    double distance = far, u = 0, v = 0;
 };
 
 TriangleHit hitTriangle(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& a,
@@ -42,9 +42,8 @@ TriangleHit hitTriangle(const glm::dvec3& origin, const glm::dvec3& direction, c
     const glm::dvec3 edge1 = b - a, edge2 = c - a;
     const glm::dvec3 p = glm::cross(direction, edge2);
     const double determinant = glm::dot(edge1, p);
-    if (determinant == 0) {
+    if (determinant == 0)
         return {};
-    }
     const glm::dvec3 s = origin - a;
     const glm::dvec3 q = glm::cross(s, edge1);
     const double u = glm::dot(s, p) / determinant;
@@ -76,7 +75,7 @@ void BoxTree::build(const std::vector<Bounds>& boxes, uint32_t first, uint32_t c
 {
     const size_t self = nodes_.size();
     nodes_.emplace_back();
-    Bounds all = boxes[order_[first]], centres{glm::dvec3(kFar), glm::dvec3(-kFar)};
+    Bounds all = boxes[order_[first]], centres{glm::dvec3(far), glm::dvec3(-far)};
     for (uint32_t i = first; i < first + count; ++i) {
         const Bounds& box = boxes[order_[i]];
         all.min = glm::min(all.min, box.min);
@@ -108,9 +107,8 @@ void BoxTree::build(const std::vector<Bounds>& boxes, uint32_t first, uint32_t c
 template <typename Visit>
 void BoxTree::traverse(const Ray& ray, double& nearest, Visit&& visit) const
 {
-    if (nodes_.empty()) {
+    if (nodes_.empty())
         return;
-    }
     const glm::dvec3 inverseDirection = 1.0 / ray.direction;
     uint32_t stack[64]; // halving 2^32 items needs 32
     uint32_t depth = 0;
@@ -118,12 +116,10 @@ void BoxTree::traverse(const Ray& ray, double& nearest, Visit&& visit) const
     while (depth > 0) {
         const uint32_t index = stack[--depth];
         const Node& node = nodes_[index];
-        if (enterBox(ray, inverseDirection, node.box, nearest) == kFar) {
+        if (enterBox(ray, inverseDirection, node.box, nearest) == far)
             continue;
-        }
-        for (uint32_t i = 0; i < node.count; ++i) {
+        for (uint32_t i = 0; i < node.count; ++i)
             visit(order_[node.first + i], nearest);
-        }
         if (node.count == 0) {
             const uint32_t left = index + 1, right = node.first;
             const double toLeft = enterBox(ray, inverseDirection, nodes_[left].box, nearest);
@@ -137,9 +133,8 @@ void BoxTree::traverse(const Ray& ray, double& nearest, Visit&& visit) const
 RayCaster::RayCaster(const Scene& scene) : scene_(scene), meshTrees_(scene.meshes.size())
 {
     std::vector<Bounds> meshBoxes;
-    for (const Mesh& mesh : scene.meshes) {
+    for (const Mesh& mesh : scene.meshes)
         meshBoxes.push_back(meshBounds(mesh));
-    }
     std::vector<Bounds> boxes;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
@@ -157,19 +152,16 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), meshTrees_(scene.meshe
 std::optional<RayHit> RayCaster::cast(const Ray& ray)
 {
     RayHit best;
-    best.distance = kFar;
+    best.distance = far;
     instances_.traverse(ray, best.distance,
                         [&](uint32_t item, double&) { hitInstance(item, ray, best); });
-    for (const AnalyticObject& object : scene_.analyticObjects) {
+    for (const AnalyticObject& object : scene_.analyticObjects)
         hitAnalytic(object, ray, best);
-    }
-    if (best.distance == kFar) {
+    if (best.distance == far)
         return std::nullopt;
-    }
     best.position = ray.origin + best.distance * ray.direction;
-    if (glm::dot(best.normal, ray.direction) > 0) {
+    if (glm::dot(best.normal, ray.direction) > 0)
         best.normal = -best.normal;
-    }
     return best;
 }
 
@@ -204,9 +196,8 @@ void RayCaster::hitInstance(uint32_t item, const Ray& ray, RayHit& best)
         const Vertex& c = mesh.vertices[mesh.indices[3 * triangle + 2]];
         const TriangleHit hit = hitTriangle(local.origin, local.direction, glm::dvec3(a.position),
                                             glm::dvec3(b.position), glm::dvec3(c.position));
-        if (hit.distance >= nearest) {
+        if (hit.distance >= nearest)
             return;
-        }
         nearest = hit.distance;
         const glm::dvec3 normal = (1 - hit.u - hit.v) * glm::dvec3(a.normal) +
                                   hit.u * glm::dvec3(b.normal) + hit.v * glm::dvec3(c.normal);
@@ -218,17 +209,16 @@ void RayCaster::hitInstance(uint32_t item, const Ray& ray, RayHit& best)
 void RayCaster::hitAnalytic(const AnalyticObject& object, const Ray& ray, RayHit& best) const
 {
     const glm::dvec3 toObject = object.point - ray.origin;
-    double distance = kFar;
+    double distance = far;
     if (object.type == AnalyticObject::Type::Plane) {
         const double down = -glm::dot(object.normal, ray.direction);
-        if (down > 0) {
+        if (down > 0)
             distance = -glm::dot(object.normal, toObject) / down;
-        }
     } else {
         const double along = glm::dot(toObject, ray.direction);
         const glm::dvec3 miss = toObject - along * ray.direction;
         const double rest = object.radius * object.radius - glm::dot(miss, miss);
-        distance = rest >= 0 ? along - std::sqrt(rest) : kFar;
+        distance = rest >= 0 ? along - std::sqrt(rest) : far;
     }
     if (distance > 0 && distance < best.distance) {
         best.distance = distance;

@@ -10,9 +10,8 @@ namespace candelabra::app
 
 Bounds meshBounds(const Mesh& mesh)
 {
-    if (mesh.vertices.empty()) {
+    if (mesh.vertices.empty())
         return {};
-    }
     glm::vec3 low = mesh.vertices.front().position, high = low;
     for (const Vertex& vertex : mesh.vertices) {
         low = glm::min(low, vertex.position);
@@ -27,24 +26,21 @@ Bounds transformBounds(const Bounds& bounds, const glm::dmat4& worldFromObject)
     const glm::dvec3 half = 0.5 * (bounds.max - bounds.min);
     const glm::dvec3 middle(worldFromObject * glm::dvec4(centre, 1));
     glm::dvec3 reach(0);
-    for (int column = 0; column < 3; ++column) {
+    for (int column = 0; column < 3; ++column)
         reach += glm::abs(glm::dvec3(worldFromObject[column])) * half[column];
-    }
     return {middle - reach, middle + reach};
 }
 
 Bounds sceneBounds(const Scene& scene)
 {
     std::vector<Bounds> meshBoxes;
-    for (const Mesh& mesh : scene.meshes) {
+    for (const Mesh& mesh : scene.meshes)
         meshBoxes.push_back(meshBounds(mesh));
-    }
     Bounds all;
     bool first = true;
     for (const Instance& instance : scene.instances) {
-        if (scene.meshes[instance.mesh].vertices.empty()) {
+        if (scene.meshes[instance.mesh].vertices.empty())
             continue;
-        }
         const Bounds box = transformBounds(meshBoxes[instance.mesh], instance.worldFromObject);
         all.min = first ? box.min : glm::min(all.min, box.min);
         all.max = first ? box.max : glm::max(all.max, box.max);
@@ -62,9 +58,8 @@ void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out)
         const double angle = motion.phase + static_cast<double>(motion.angularSpeed) * time;
         const float c = static_cast<float>(std::cos(angle));
         const float s = static_cast<float>(std::sin(angle));
-        for (int axis = 0; axis < 3; ++axis) {
+        for (int axis = 0; axis < 3; ++axis)
             out[i].position[axis] += motion.axisU[axis] * c + motion.axisV[axis] * s;
-        }
     }
 }
 

@@ -68,9 +68,8 @@ struct SceneBuilder {
                const glm::dvec3& scale = glm::dvec3(1), double yaw = 0)
     {
         glm::dmat4 worldFromObject = glm::translate(glm::dmat4(1), position);
-        if (yaw != 0) {
+        if (yaw != 0)
             worldFromObject = glm::rotate(worldFromObject, yaw, glm::dvec3(0, 1, 0));
-        }
         place(mesh, material, glm::scale(worldFromObject, scale));
     }
 

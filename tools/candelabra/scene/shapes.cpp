@@ -10,7 +10,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr float kPi = glm::pi<float>();
+constexpr float pi = glm::pi<float>();
 
 // The end of a closed line is its beginning, to the bit: no cracks at seams.
 float closed(float turn)
@@ -22,13 +22,13 @@ float closed(float turn)
 glm::vec3 around(float turn)
 {
     turn = closed(turn);
-    return {std::cos(2 * kPi * turn), 0, -std::sin(2 * kPi * turn)};
+    return {std::cos(2 * pi * turn), 0, -std::sin(2 * pi * turn)};
 }
 
 glm::vec3 aroundTangent(float turn)
 {
     turn = closed(turn);
-    return {-std::sin(2 * kPi * turn), 0, -std::cos(2 * kPi * turn)};
+    return {-std::sin(2 * pi * turn), 0, -std::cos(2 * pi * turn)};
 }
 
 // Normals of a profile run in the (radius, height) plane, averaged where two pieces meet.
@@ -41,9 +41,8 @@ std::vector<glm::vec2> profileNormals(const ProfileRun& run)
         normals[i] += normal;
         normals[i + 1] += normal;
     }
-    for (glm::vec2& normal : normals) {
+    for (glm::vec2& normal : normals)
         normal = glm::normalize(normal);
-    }
     return normals;
 }
 
@@ -71,9 +70,8 @@ Mesh makeBox()
         appendQuad(mesh, {-0.5f, y, 0.5f}, {0.5f, y, 0.5f}, {0.5f, y, -0.5f}, {-0.5f, y, -0.5f},
                    {0, y, 0});
     }
-    for (size_t i = sides; i < mesh.vertices.size(); ++i) {
+    for (size_t i = sides; i < mesh.vertices.size(); ++i)
         mesh.vertices[i].uv[0] = mesh.vertices[i].uv[1] = glm::vec2(0);
-    }
     return mesh;
 }
 
@@ -152,8 +150,8 @@ Mesh makeSphere(uint32_t segments, uint32_t rings)
     Mesh mesh;
     appendGrid(mesh, segments, rings, [](float u, float v) {
         const bool pole = v == 0 || v == 1;
-        const float radius = pole ? 0 : std::sin(kPi * v);
-        const glm::vec3 p = radius * around(u) - glm::vec3(0, std::cos(kPi * v), 0);
+        const float radius = pole ? 0 : std::sin(pi * v);
+        const glm::vec3 p = radius * around(u) - glm::vec3(0, std::cos(pi * v), 0);
         return SurfacePoint{p, p, aroundTangent(u)};
     });
     return mesh;
@@ -163,7 +161,7 @@ Mesh makeTorus(float majorRadius, float minorRadius, uint32_t segments, uint32_t
 {
     Mesh mesh;
     appendGrid(mesh, segments, sides, [=](float u, float v) {
-        const glm::vec2 section = direction(2 * kPi * closed(v));
+        const glm::vec2 section = direction(2 * pi * closed(v));
         const glm::vec3 normal = around(u) * section.x + glm::vec3(0, section.y, 0);
         return SurfacePoint{around(u) * majorRadius + normal * minorRadius, normal,
                             aroundTangent(u)};
@@ -180,11 +178,11 @@ Mesh makeKnot(float tubeRadius, uint32_t segments, uint32_t sides)
     };
     Mesh mesh;
     appendGrid(mesh, segments, sides, [&](float u, float v) {
-        const float t = 2 * kPi * closed(u), step = 0.01f;
+        const float t = 2 * pi * closed(u), step = 0.01f;
         const glm::vec3 p = at(t), before = at(t - step), after = at(t + step);
         const glm::vec3 along = glm::normalize(after - before);
         const glm::vec3 binormal = glm::normalize(glm::cross(along, after - 2.0f * p + before));
-        const glm::vec2 section = direction(2 * kPi * closed(v));
+        const glm::vec2 section = direction(2 * pi * closed(v));
         const glm::vec3 normal = glm::cross(binormal, along) * section.x - binormal * section.y;
         return SurfacePoint{p + normal * tubeRadius, normal, along};
     });
