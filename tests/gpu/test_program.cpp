@@ -11,8 +11,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "commands/options.h"
 #include "harness/gpu_fixture.h"
 #include "io/image.h"
+#include "io/table.h"
+#include "render/renderer.h"
 
 using namespace candelabra;
 
@@ -100,6 +103,7 @@ TEST_F(ProgramTest, RenderWritesImagesAndFigures)
     EXPECT_EQ(json["warmUpFrames"], 1);
     EXPECT_GT(json["gpuTime"]["total"]["medianMs"], 0.0);
     EXPECT_GT(json["lighting"]["evaluatedPairs"], 0);
+    EXPECT_GE(json["lighting"]["listedPairs"], json["lighting"]["insidePairs"]);
     EXPECT_EQ(json["exposure"]["invalidPixels"], 0);
 
     const Png png = readPng(path("a.png"));
@@ -156,6 +160,21 @@ TEST_F(ProgramTest, DevicesListsTheOneUnderTest)
     for (const auto& device : nlohmann::json::parse(outcome.out))
         found |= device["name"] == context().info().name && device["missing"] == "";
     EXPECT_TRUE(found) << outcome.out;
+}
+
+TEST_F(ProgramTest, MoreLightsThanTheDeviceHasRoomForAreRefused)
+{
+    const uint64_t most = app::maxLightsOf(context().info());
+    ASSERT_GE(most, (1u << 27) / 56); // Vulkan's least storage buffer, a light's record
+    if (most >= app::maxLights)
+        return; // every count that --lights accepts fits
+    for (const char* command : {"render hall -o a.png", "stress --out o"}) {
+        const Outcome outcome = run(std::string(command) + " --lights " + std::to_string(most + 1));
+        EXPECT_EQ(outcome.exitCode, 2) << command;
+        EXPECT_NE(outcome.err.find("at most " + app::grouped(most) + " lights"), std::string::npos)
+            << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
 }
 
 TEST_F(ProgramTest, UnknownDeviceIsRefused)

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "commands/brute_check.h"
 #include "commands/measure.h"
@@ -107,6 +108,25 @@ TEST_F(RendererTest, TwoRenderersGiveTheSameBits)
     draw(second, frameOf(scene)); // another time before: no trace of it may stay
     EXPECT_EQ(firstDifference(radiance(first, frame), radiance(second, frame)), -1);
     EXPECT_EQ(readDisplay(context(), first), readDisplay(context(), second));
+}
+
+// Neither animation nor adaptation starts before the first measured frame.
+TEST_F(RendererTest, WarmUpFramesLeaveNoTrace)
+{
+    const Scene scene = hall(200, true);
+    const FrameOptions frame = frameOf(scene);
+    const auto after = [&](uint32_t warmUp) {
+        Renderer renderer(context(), scene, {.size = {160, 90}});
+        const MeasuredFrames frames = renderFrames(context(), renderer, frame,
+                                                   {.warmUp = warmUp, .measured = 3}, true, [] {});
+        return std::tuple(frames.last.exposure.adaptedEv100, readRadiance(context(), renderer),
+                          readDisplay(context(), renderer));
+    };
+    const auto [ev, radiance, display] = after(0);
+    const auto [warmEv, warmRadiance, warmDisplay] = after(2);
+    EXPECT_EQ(ev, warmEv);
+    EXPECT_EQ(firstDifference(radiance, warmRadiance), -1);
+    EXPECT_EQ(display, warmDisplay);
 }
 
 TEST_F(RendererTest, MovingLightsMove)

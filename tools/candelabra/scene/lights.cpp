@@ -8,6 +8,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "io/table.h"
 #include "scene/light_overlaps.h"
 
 namespace candelabra::app
@@ -49,8 +50,8 @@ OverlapScale findScale(const Scene& scene, const std::vector<LightReach>& reache
         found = scaleForOverlaps(samples, reaches, 0.5 * found.reachable);
     if (found.scale == 0) {
         throw SceneError(scene.name + ": overlaps: a mean of " + number(wanted) +
-                         " lights per pixel cannot be reached with " + number(count) +
-                         " lights, at most " + number(found.reachable) +
+                         " lights per pixel cannot be reached with " +
+                         counted(reaches.size(), "light") + ", at most " + number(found.reachable) +
                          " of them can light the average visible point");
     }
     return found;
@@ -140,7 +141,7 @@ void checkLightOptions(const std::string& name, uint32_t count, const SceneOptio
     }
     if (count > 0 && overlaps > count) {
         throw SceneError(name + ": overlaps: " + number(overlaps) + " is more than the " +
-                         std::to_string(count) + " lights");
+                         counted(count, "light"));
     }
 }
 
