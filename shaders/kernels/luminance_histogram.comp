@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Weighted histogram of log2 luminance. Counts are equal on any conforming device: luminance is a
-// fixed sequence of roundings, bins come from its bits, weights are integers.
+// Weighted histogram of log2 luminance. Counts are equal on any device that rounds to nearest:
+// luminance is a fixed sequence of roundings, bins come from its bits, weights are integers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
