@@ -43,6 +43,11 @@ void cndRequireFeatures(VkPhysicalDeviceFeatures* core10, VkPhysicalDeviceVulkan
     gpu::requireFeatures(*core10, *core12, *core13);
 }
 
+uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits)
+{
+    return lighting::maxLights(*limits);
+}
+
 float cndSphereLuminanceFromPower(float luminousPower, float radius)
 {
     constexpr float pi = std::numbers::pi_v<float>;

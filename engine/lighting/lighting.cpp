@@ -19,21 +19,11 @@ constexpr uint32_t minCapacity = 1024;
 constexpr VkBufferUsageFlags storageUse =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
-// What the record buffer, one dispatch of prepare_lights and the 32-bit sums of count_pairs over
-// the 64 pixels of a tile can take.
-uint32_t maxLights(const gpu::Device& device)
-{
-    constexpr uint64_t countable = UINT32_MAX / (gpu::TILE_SIZE * gpu::TILE_SIZE);
-    const uint64_t stored = device.limits.maxStorageBufferRange / sizeof(gpu::LightRecord);
-    const uint64_t dispatched =
-        uint64_t(device.limits.maxComputeWorkGroupCount[0]) * gpu::PREPARE_LIGHTS_GROUP;
-    return uint32_t(std::min({countable, stored, dispatched}));
-}
-
 // Texel buffers when they can hold every light that the other limits let in.
 uint32_t lightsAsTexels(const gpu::Device& device)
 {
-    return device.limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >= maxLights(device);
+    return device.limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >=
+           maxLights(device.limits);
 }
 
 void createShadeKernels(ShadeKernels& out, const gpu::Device& device, const gpu::Spirv& spirv,
@@ -80,6 +70,17 @@ CndLightingDesc checked(const CndLightingDesc& desc)
 
 } // namespace
 
+// What the record buffer, one dispatch of prepare_lights and the 32-bit sums of count_pairs over
+// the 64 pixels of a tile can take.
+uint32_t maxLights(const VkPhysicalDeviceLimits& limits)
+{
+    constexpr uint64_t countable = UINT32_MAX / (gpu::TILE_SIZE * gpu::TILE_SIZE);
+    const uint64_t stored = limits.maxStorageBufferRange / sizeof(gpu::LightRecord);
+    const uint64_t dispatched =
+        uint64_t(limits.maxComputeWorkGroupCount[0]) * gpu::PREPARE_LIGHTS_GROUP;
+    return uint32_t(std::min({countable, stored, dispatched}));
+}
+
 Kernels::Kernels(const gpu::Device& device, CndGBufferLayout layout)
     : prepareLights(device, spirv::prepare_lights_comp),
       tileBounds(device, spirv::tile_bounds_comp),
@@ -112,10 +113,10 @@ void Lighting::setLights(const CndLightSet& set)
                           ", this library expects " + std::to_string(sizeof set));
     if (set.count && !set.lights)
         gpu::failArgument("CndLightSet: lights is null but count is " + std::to_string(set.count));
-    if (set.count > maxLights(device_))
+    if (set.count > maxLights(device_.limits))
         gpu::failUnsupported("CndLightSet: " + std::to_string(set.count) +
                              " lights are more than the device can take, " +
-                             std::to_string(maxLights(device_)));
+                             std::to_string(maxLights(device_.limits)));
     for (const double o : set.origin)
         if (!std::isfinite(o))
             gpu::failArgument("CndLightSet: origin must be finite");
@@ -166,7 +167,7 @@ void Lighting::grow(uint32_t count)
         return;
     const uint32_t wanted = std::max({count, minCapacity, lightCapacity_ + lightCapacity_ / 2});
     const uint32_t previous = lightCapacity_;
-    const uint32_t capacity = std::min(wanted, maxLights(device_));
+    const uint32_t capacity = std::min(wanted, maxLights(device_.limits));
     // Everything is allocated before anything is replaced: a failure leaves the old set in place.
     gpu::Buffer records =
         gpu::createBuffer(device_, "light records", capacity * sizeof(gpu::LightRecord), storageUse,

@@ -14,6 +14,9 @@ namespace candelabra::lighting
 
 class View;
 
+// Largest light set that a device with these limits can take.
+uint32_t maxLights(const VkPhysicalDeviceLimits& limits);
+
 // One pipeline per specular method, for sets that hold spheres only and for any set: a light type
 // that is absent costs nothing.
 struct ShadeKernels {

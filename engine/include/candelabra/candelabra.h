@@ -117,6 +117,9 @@ typedef struct CndLightSet {
     double origin[3];       // world space, metres
 } CndLightSet;
 
+// Largest CndLightSet::count for a device with these limits; `limits` may not be NULL.
+CND_API uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits);
+
 // Luminance (cd/m^2) of a sphere of `radius` metres that emits `luminousPower` lumens evenly:
 // Phi = 4 pi^2 R^2 L. Keeping the power while changing the radius keeps the far field.
 CND_API float cndSphereLuminanceFromPower(float luminousPower, float radius);

@@ -7,7 +7,6 @@
 #include "render/camera.h"
 #include "render/error.h"
 #include "render/scene_geometry.h"
-#include "shared/lighting.h"
 
 namespace candelabra::app
 {
@@ -119,11 +118,11 @@ void Renderer::State::createSized()
     view = take(lighting.createView({.maxWidth = width, .maxHeight = height}));
 }
 
-uint64_t maxLightsOf(const DeviceInfo& device)
+uint32_t maxLightsOf(const DeviceInfo& device)
 {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device.handle, &properties);
-    return properties.limits.maxStorageBufferRange / sizeof(gpu::LightRecord);
+    return cndMaxLightCount(&properties.limits);
 }
 
 Renderer::Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options)

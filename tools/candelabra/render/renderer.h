@@ -45,7 +45,7 @@ struct FrameStats {
 
 // Lights that the device has room for: their records share one storage buffer. The lighting module
 // refuses more by itself, but only after a scene with that many has been made.
-uint64_t maxLightsOf(const DeviceInfo& device);
+uint32_t maxLightsOf(const DeviceInfo& device);
 
 class Renderer
 {
