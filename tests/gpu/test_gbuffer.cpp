@@ -9,7 +9,7 @@
 
 #include "candelabra_probes.h"
 #include "gpu/gbuffer_harness.h"
-#include "gpu/kernel.h"
+#include "gpu/probe.h"
 #include "shared/gbuffer_probe.h"
 
 namespace candelabra::test
@@ -21,29 +21,8 @@ constexpr double pi = std::numbers::pi;
 
 } // namespace
 
-class GBufferPacking : public GpuTest
+class GBufferPacking : public ProbeTest
 {
-protected:
-    std::vector<gpu::PackingProbeOutput> run(const std::vector<gpu::PackingProbeInput>& inputs)
-    {
-        const gpu::Buffer in = upload("packing inputs", inputs);
-        const gpu::Buffer out =
-            readback("packing outputs", inputs.size() * sizeof(gpu::PackingProbeOutput));
-        const gpu::Kernel<gpu::ProbeParams> kernel(device(), spirv::gbuffer_packing_comp);
-        const gpu::Bindings bindings = kernel.createBindings(1);
-        bindings.write(
-            0, {gpu::Binding::of(gpu::PROBE_INPUT, in), gpu::Binding::of(gpu::PROBE_OUTPUT, out)});
-        gpu::Timer timer(device(), "probe", 1, false);
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            timer.begin(cmd, 0);
-            kernel.dispatch(gpu::Frame{device(), cmd, timer, 0}, bindings.set(0),
-                            {uint32_t(inputs.size())},
-                            gpu::divideUp(uint32_t(inputs.size()), gpu::PROBE_GROUP));
-            fullBarrier(cmd);
-        });
-        const auto values = out.as<gpu::PackingProbeOutput>();
-        return {values.begin(), values.begin() + long(inputs.size())};
-    }
 };
 
 // The declared bounds hold, and are not slack: the worst case found is at least a third of them.
@@ -64,7 +43,7 @@ TEST_F(GBufferPacking, ErrorsStayWithinDeclaredBounds)
             n = glm::normalize(n * glm::dvec3(1e-4, 1e-4, 1));
         inputs.push_back({glm::vec3(n), float(random.uniform(0, 1))});
     }
-    const auto outputs = run(inputs);
+    const auto outputs = runProbe<gpu::PackingProbeOutput>(spirv::gbuffer_packing_comp, inputs);
     double fullAngle = 0, compactAngle = 0, fullRoughness = 0, compactRoughness = 0;
     for (size_t i = 0; i < inputs.size(); ++i) {
         const glm::dvec3 n(inputs[i].normal);

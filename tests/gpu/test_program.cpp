@@ -191,7 +191,7 @@ TEST_F(ProgramTest, UnknownDeviceIsRefused)
 TEST_F(ProgramTest, WindowShowsTheSceneAndItsPanel)
 {
     if (std::system("command -v xvfb-run >/dev/null") != 0)
-        GTEST_SKIP() << "xvfb-run is not installed";
+        FAIL() << "xvfb-run is not installed (tools/setup installs it)";
     const Outcome panel = run("view hall --lights 150 --size 480x320 --frames 6 --moving "
                               "--screenshot panel.png --validate",
                               "xvfb-run -a");

@@ -5,38 +5,20 @@
 #include <random>
 
 #include "candelabra_probes.h"
-#include "gpu/kernel.h"
-#include "harness/gpu_fixture.h"
+#include "gpu/probe.h"
 #include "reference/sphere_light.h"
-#include "shared/probes.h"
 
 namespace candelabra::test
 {
 namespace
 {
 
-class SphereLight : public GpuTest
+class SphereLight : public ProbeTest
 {
 protected:
     std::vector<gpu::SphereProbeOutput> evaluate(const std::vector<gpu::SphereProbeInput>& inputs)
     {
-        const gpu::Buffer in = upload("probe inputs", inputs);
-        const gpu::Buffer out =
-            readback("probe outputs", inputs.size() * sizeof(gpu::SphereProbeOutput));
-        const gpu::Kernel<gpu::ProbeParams> kernel(device(), spirv::sphere_light_comp);
-        const gpu::Bindings bindings = kernel.createBindings(1);
-        bindings.write(
-            0, {gpu::Binding::of(gpu::PROBE_INPUT, in), gpu::Binding::of(gpu::PROBE_OUTPUT, out)});
-        gpu::Timer timer(device(), "probe", 1, false);
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            timer.begin(cmd, 0);
-            kernel.dispatch(gpu::Frame{device(), cmd, timer, 0}, bindings.set(0),
-                            {uint32_t(inputs.size())},
-                            gpu::divideUp(uint32_t(inputs.size()), gpu::PROBE_GROUP));
-            fullBarrier(cmd);
-        });
-        const auto values = out.as<gpu::SphereProbeOutput>();
-        return {values.begin(), values.begin() + long(inputs.size())};
+        return runProbe<gpu::SphereProbeOutput>(spirv::sphere_light_comp, inputs);
     }
 
     double uniform(double low, double high)

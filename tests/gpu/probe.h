@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs a probe kernel (shaders/probes): shipping shader functions on an array of inputs.
+#pragma once
+
+#include "gpu/kernel.h"
+#include "harness/gpu_fixture.h"
+#include "shared/probes.h"
+
+namespace candelabra::test
+{
+
+class ProbeTest : public GpuTest
+{
+protected:
+    // One output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT and takes ProbeParams.
+    template <typename Output, typename Input>
+    std::vector<Output> runProbe(const gpu::Spirv& probe, const std::vector<Input>& inputs)
+    {
+        const uint32_t count = uint32_t(inputs.size());
+        const gpu::Buffer in = upload("probe inputs", inputs);
+        const gpu::Buffer out = readback("probe outputs", count * sizeof(Output));
+        const gpu::Kernel<gpu::ProbeParams> kernel(device(), probe);
+        const gpu::Bindings bindings = kernel.createBindings(1);
+        bindings.write(
+            0, {gpu::Binding::of(gpu::PROBE_INPUT, in), gpu::Binding::of(gpu::PROBE_OUTPUT, out)});
+        gpu::Timer timer(device(), "probe", 1, false);
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            timer.begin(cmd, 0);
+            kernel.dispatch(gpu::Frame{device(), cmd, timer, 0}, bindings.set(0), {count},
+                            gpu::divideUp(count, gpu::PROBE_GROUP));
+            fullBarrier(cmd);
+        });
+        const auto values = out.as<Output>();
+        return {values.begin(), values.begin() + long(count)};
+    }
+};
+
+} // namespace candelabra::test
