@@ -136,9 +136,9 @@ Lighting::Staging& Lighting::freeStaging()
 {
     if (pending_) // never recorded: overwrite in place
         return *pending_;
-    const uint64_t oldest = oldestInFlight();
+    const uint64_t running = oldest(&View::oldestRunning);
     for (Staging& staging : staging_)
-        if (staging.recording < oldest)
+        if (staging.recording < running)
             return staging;
     return staging_.emplace_back(createStaging(lightCapacity_));
 }
@@ -196,19 +196,19 @@ void Lighting::replace(gpu::Buffer& buffer, gpu::Buffer&& with)
     buffer = std::move(with);
 }
 
-uint64_t Lighting::oldestInFlight() const
+uint64_t Lighting::oldest(uint64_t (View::*ofView)() const) const
 {
-    uint64_t oldest = recordings_ + 1;
+    uint64_t result = recordings_ + 1;
     for (const View* view : views_)
-        if (const uint64_t inFlight = view->oldestInFlight())
-            oldest = std::min(oldest, inFlight);
-    return oldest;
+        if (const uint64_t recording = (view->*ofView)())
+            result = std::min(result, recording);
+    return result;
 }
 
 void Lighting::freeRetired()
 {
-    const uint64_t oldest = oldestInFlight();
-    std::erase_if(retired_, [&](const Retired& r) { return r.recording < oldest; });
+    const uint64_t pending = oldest(&View::oldestPending);
+    std::erase_if(retired_, [&](const Retired& r) { return r.recording < pending; });
 }
 
 } // namespace candelabra::lighting

@@ -72,7 +72,8 @@ private:
     void grow(uint32_t count);
     gpu::Buffer createStaging(uint32_t capacity) const;
     void freeRetired();
-    uint64_t oldestInFlight() const; // recordings_ + 1 when none is
+    // Over all views; recordings_ + 1 when there is none.
+    uint64_t oldest(uint64_t (View::*ofView)() const) const;
 
     gpu::Device device_;
     CndLightingDesc desc_;
@@ -108,8 +109,12 @@ public:
     CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
     // Called by Lighting when the light capacity grows.
     void growLightBuffers();
-    // Number of the oldest recording that the GPU has not finished, 0 when it has finished all.
-    uint64_t oldestInFlight() const;
+    // Number of the oldest recording whose commands have not all run, 0 when all have: what they
+    // read may be overwritten.
+    uint64_t oldestRunning() const;
+    // Number of the oldest recording that the host has not promised to be finished (it does so by
+    // recording the slot again), 0 when there is none: what older ones use may be destroyed.
+    uint64_t oldestPending() const;
 
 private:
     struct Plan; // sizes derived from a frame

@@ -396,16 +396,24 @@ void View::recordReadback(const gpu::Frame& f) const noexcept
     f.hostBarrier();
 }
 
-uint64_t View::oldestInFlight() const
+uint64_t View::oldestRunning() const
 {
     uint64_t oldest = 0;
     for (size_t i = 0; i < slots_.size(); ++i) {
         const uint64_t recording = slots_[i].recording;
-        const bool finished =
-            !recording || readback_[i].as<Readback>()[0].marker == uint32_t(recording);
-        if (!finished && (!oldest || recording < oldest))
+        const bool finished = readback_[i].as<Readback>()[0].marker == uint32_t(recording);
+        if (recording && !finished && (!oldest || recording < oldest))
             oldest = recording;
     }
+    return oldest;
+}
+
+uint64_t View::oldestPending() const
+{
+    uint64_t oldest = 0;
+    for (const SlotState& slot : slots_)
+        if (slot.recording && (!oldest || slot.recording < oldest))
+            oldest = slot.recording;
     return oldest;
 }
 
