@@ -122,7 +122,7 @@ private:
     VkDeviceSize maskRowBytes(uint32_t lights) const;
     Plan plan(const CndLightingFrame& frame) const;
     void validate(const CndLightingFrame& frame) const;
-    void writeBindings(const CndLightingFrame& frame, const Plan& plan) const;
+    void writeBindings(const CndLightingFrame& frame) const;
     struct Batch { // consecutive lights
         uint32_t first, count;
     };

@@ -213,7 +213,7 @@ View::Plan View::plan(const CndLightingFrame& frame) const
     return p;
 }
 
-void View::writeBindings(const CndLightingFrame& frame, const Plan&) const
+void View::writeBindings(const CndLightingFrame& frame) const
 {
     using namespace gpu;
     const uint32_t slot = frame.frameSlot;
@@ -269,7 +269,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
 {
     validate(frame);
     const Plan plan = this->plan(frame);
-    writeBindings(frame, plan);
+    writeBindings(frame);
 
     const uint32_t slot = frame.frameSlot;
     slots_[slot] = {lighting_.nextRecording(), plan.lightCount};
