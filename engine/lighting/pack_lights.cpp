@@ -45,7 +45,7 @@ bool isNear(const float (&v)[3])
 // Why a light cannot be used, or null. Kept free of allocation: it runs a million times a frame.
 const char* whyInvalid(const CndLight& light)
 {
-    if (light.type > CND_LIGHT_DIRECTIONAL)
+    if (light.type >= CND_LIGHT_TYPE_COUNT)
         return "type is not a CndLightType";
     for (const float e : light.emission)
         if (!(e >= 0 && e < infinity))

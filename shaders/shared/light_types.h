@@ -9,7 +9,11 @@
     X(0, POINT)                                                                                    \
     X(1, SPHERE)                                                                                   \
     X(2, SPOT)                                                                                     \
-    X(3, DIRECTIONAL)
+    X(3, DIRECTIONAL)                                                                              \
+    X(4, DISTANT_SPHERE)                                                                           \
+    X(5, TUBE)                                                                                     \
+    X(6, RECTANGLE)                                                                                \
+    X(7, DISC)
 
 GPU_BEGIN
 #define X(id, NAME) const uint LIGHT_##NAME = id;

@@ -89,23 +89,41 @@ typedef enum CndLightType {
     CND_LIGHT_POINT = 0,  // emission: luminous intensity, cd
     CND_LIGHT_SPHERE = 1, // emission: luminance, cd/m^2, constant over the sphere and directions
     CND_LIGHT_SPOT = 2,   // emission: luminous intensity on the axis, cd
-    CND_LIGHT_DIRECTIONAL = 3, // emission: illuminance on a surface that faces it, lx
+    CND_LIGHT_DIRECTIONAL = 3,    // emission: illuminance on a surface that faces it, lx
+    CND_LIGHT_DISTANT_SPHERE = 4, // the sun: a sphere infinitely far away; luminance, cd/m^2
+    CND_LIGHT_TUBE = 5,      // capsule: all points within radius of a segment; luminance, cd/m^2
+    CND_LIGHT_RECTANGLE = 6, // luminance, cd/m^2
+    CND_LIGHT_DISC = 7,      // luminance, cd/m^2
+    CND_LIGHT_TYPE_COUNT = 8,
     CND_LIGHT_TYPE_MAX_ENUM = 0x7FFFFFFF
 } CndLightType;
 
 // One light. Fields that a type does not use are ignored.
 // Window: a light is multiplied by (1 - (d/r)^4)^2 for d < r and is absent for d >= r, with d the
 // distance to its centre and r = influenceRadius (Lagarde and de Rousiers 2014, eq. 26, squared
-// window); with r = INFINITY it is neither windowed nor cut.
+// window); with r = INFINITY it is neither windowed nor cut. Directional and distant lights have
+// no window.
 typedef struct CndLight {
-    uint32_t type;         // CndLightType
-    float position[3];     // metres, within 1e15 of CndLightSet::origin; all but directional
-    float radius;          // metres, > 0; sphere
-    float direction[3];    // unit (1e-3), the way the light travels; spot and directional
-    float emission[3];     // >= 0, finite; unit by type, per Rec.709 channel
-    float influenceRadius; // metres, > 0 (sphere: > radius), or INFINITY; all but directional
-    float innerConeAngle;  // radians, 0 <= inner < outer; spot: full intensity inside (half angle)
-    float outerConeAngle;  // radians, inner < outer <= pi/2; spot: no light outside (half angle)
+    uint32_t type;     // CndLightType
+    float position[3]; // centre, metres, within 1e15 of CndLightSet::origin; all but directional
+                       //   and distant
+    float radius;      // > 0; sphere, tube, disc: metres; distant sphere: radius over distance, the
+                       //   sine of its angular radius, <= 1 (the Sun: 0.00465)
+    float direction[3]; // unit (1e-3). Spot, directional, distant: the way the light travels;
+                        //   disc: its normal, the way it faces
+    float emission[3];  // >= 0, finite; unit by type, per Rec.709 channel
+    // Metres, > 0, or INFINITY; greater than the reach of the emitter from its centre (sphere and
+    // disc: radius; tube: |axisU| + radius; rectangle: half its diagonal). All but directional and
+    // distant.
+    float influenceRadius;
+    float innerConeAngle; // radians, 0 <= inner < outer; spot: full intensity inside (half angle)
+    float outerConeAngle; // radians, inner < outer <= pi/2; spot: no light outside (half angle)
+    // Metres, not zero. Tube: from the centre to one end of its segment. Rectangle: from the centre
+    // to the middle of one edge, and of the next (perpendicular within 1e-3); it faces axisU x
+    // axisV.
+    float axisU[3];
+    float axisV[3];
+    VkBool32 twoSided; // rectangle, disc: emits from its back as well
 } CndLight;
 
 // A set of lights around an origin. The engine subtracts the camera from the origin in double, so
@@ -135,10 +153,20 @@ CND_API float cndLuminousPowerFromWatts(float watts);
 typedef struct CndLighting_T* CndLighting; // pipelines and one light set, shared by its views
 typedef struct CndLightingView_T* CndLightingView; // buffers of one view
 
+// How the specular lobe of sphere lights is evaluated. Errors: percent of the highest response over
+// light directions, mean / 99th percentile, lights above the horizon; `candelabra bench accuracy`
+// measures them. Tubes, rectangles and discs use a representative point with POINT, KARIS and KX
+// and linearly transformed cosines with LTC, CONIC and CONIC_FULL.
 typedef enum CndSpecularMethod {
     CND_SPECULAR_NONE = 0,  // diffuse only
     CND_SPECULAR_KARIS = 1, // normalised representative point (Karis 2013)
-    CND_SPECULAR_METHOD_COUNT = 2,
+    CND_SPECULAR_POINT = 2, // all light from the centre
+    CND_SPECULAR_KX = 3,    // representative point, unwidened lobe, exact normalisation of its peak
+    CND_SPECULAR_LTC = 4,   // linearly transformed cosines (Heitz, Dupuy, Hill, Neubelt 2016)
+    CND_SPECULAR_CONIC = 5, // slope-conic closed form; two shading nodes near the horizon. Default.
+    CND_SPECULAR_CONIC_FULL = 6, // slope-conic, two shading nodes everywhere
+    CND_SPECULAR_SAMPLED = 7,    // stochastic: CndLightingFrame::sampleCount samples per light
+    CND_SPECULAR_METHOD_COUNT = 8,
     CND_SPECULAR_METHOD_MAX_ENUM = 0x7FFFFFFF
 } CndSpecularMethod;
 
