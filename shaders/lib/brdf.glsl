@@ -17,11 +17,8 @@ struct ShadingPoint {
     float smithV;  // sqrt(alpha^2 + (1 - alpha^2) NoV^2)
     vec3 albedo;   // diffuse
     vec3 F0;
-    float F90;     // 0: no specular lobe
+    vec3 F90;      // 0: no specular lobe; per channel because joinLobes may scale it
 };
-
-// Interpolated and mapped normals can face away from the viewer; grazing there is as good as any.
-const float MIN_NOV = 1e-4;
 
 ShadingPoint makeShadingPoint(Surface surface, vec3 position, vec3 towardsEye)
 {
@@ -36,7 +33,7 @@ ShadingPoint makeShadingPoint(Surface surface, vec3 position, vec3 towardsEye)
     p.smithV = sqrt(a2 + (1.0 - a2) * p.NoV * p.NoV);
     p.albedo = surface.albedo;
     p.F0 = surface.F0;
-    p.F90 = surface.specularWeight;
+    p.F90 = vec3(surface.specularWeight);
     return p;
 }
 

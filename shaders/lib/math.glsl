@@ -9,6 +9,9 @@ const float INV_PI = 0.318309886183791;
 // Smallest squared length that is inverted: keeps rsqrt finite for coincident points.
 const float MIN_LENGTH2 = 1e-30;
 
+// Interpolated and mapped normals can face away from the viewer; grazing there is as good as any.
+const float MIN_NOV = 1e-4;
+
 float saturate(float x)
 {
     return clamp(x, 0.0, 1.0);

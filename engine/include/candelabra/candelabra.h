@@ -170,6 +170,17 @@ typedef enum CndSpecularMethod {
     CND_SPECULAR_METHOD_MAX_ENUM = 0x7FFFFFFF
 } CndSpecularMethod;
 
+// How the diffuse and the specular lobe of a surface share the light.
+typedef enum CndLobeJoining {
+    // The diffuse lobe gets what the specular one leaves of a white surrounding, by the specular
+    // lobe's directional albedo: the two together never reflect more than there is. Default.
+    CND_LOBES_CONSERVING = 0,
+    // The lobes are added, nothing is taken from the diffuse one: up to twice what there is at
+    // grazing angles. What the scene description (.json) and path tracers of two-lobe materials do.
+    CND_LOBES_SUM = 1,
+    CND_LOBES_MAX_ENUM = 0x7FFFFFFF
+} CndLobeJoining;
+
 typedef enum CndCulling {
     CND_CULLING_CLUSTERED = 0, // exact lists per 8x8 tile
     CND_CULLING_BRUTE = 1, // every light at every pixel, no list, no bound; the check and baseline
