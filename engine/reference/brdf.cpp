@@ -68,7 +68,8 @@ double smithVisibility(double NoL, double NoV, double alpha)
 double schlickWeight(double VoH)
 {
     requireDomain(VoH >= -cosineSlack && VoH <= 1 + cosineSlack, "VoH", VoH);
-    return std::pow(1 - VoH, 5);
+    const double x = 1 - VoH, x2 = x * x;
+    return x2 * x2 * x;
 }
 
 SpecularBrdf ggxBrdf(const glm::dvec3& normal, const glm::dvec3& toEye, const glm::dvec3& toLight,

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/truth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "reference/direction_domain.h"
+#include "reference/light.h"
+#include "reference/slope_domain.h"
+#include "reference/sphere_light.h"
+
+namespace candelabra::reference
+{
+
+namespace
+{
+
+glm::dvec3 vec3(const float (&values)[3])
+{
+    return {values[0], values[1], values[2]};
+}
+
+LightResponse truthOfOutline(const SurfacePoint& surface, double alpha, const Outline& outline,
+                             double relative)
+{
+    LightResponse out;
+    if (alpha > 0)
+        out = directionDomainSpecular(surface, alpha, outline, relative);
+    const LightResponse diffuse = directionDomainDiffuse(surface.normal, outline, relative);
+    out.f = diffuse.f;
+    out.fError = diffuse.fError;
+    out.converged = out.converged && diffuse.converged;
+    return out;
+}
+
+LightResponse truthOfSphere(const SurfacePoint& surface, double alpha, const glm::dvec3& toCenter,
+                            double radius, double relative)
+{
+    if (glm::dot(toCenter, toCenter) > 0)
+        return truthOfCap(surface, alpha, sphereCap(toCenter, radius), relative);
+    LightResponse out;
+    out.f = sphereFormFactor(0, 1);
+    return out;
+}
+
+LightResponse truthOfTube(const SurfacePoint& surface, double alpha, const CndLight& light,
+                          const glm::dvec3& toCenter, double relative)
+{
+    const glm::dvec3 half = vec3(light.axisU);
+    const double along = -glm::dot(toCenter, half) / glm::dot(half, half);
+    const glm::dvec3 toNearest = toCenter + std::clamp(along, -1.0, 1.0) * half;
+    if (!(glm::length(toNearest) > 0))
+        return truthOfSphere(surface, alpha, toNearest, light.radius, relative);
+    if (!(glm::length(toNearest) > light.radius * (1 + 1e-12)))
+        return truthOfOutline(surface, alpha, *capOutline(sphereCap(toNearest, light.radius)),
+                              relative);
+    const auto outline = capsuleOutline(toCenter - half, toCenter + half, light.radius);
+    return truthOfOutline(surface, alpha, *outline, relative);
+}
+
+bool sees(const glm::dvec3& normal, const glm::dvec3& toCenter, VkBool32 twoSided)
+{
+    const double height = -glm::dot(normal, toCenter);
+    return twoSided ? height != 0 : height > 0;
+}
+
+bool hasSpecular(const Material& material)
+{
+    return material.f0 != glm::dvec3(0) || material.specularWeight != 0;
+}
+
+} // namespace
+
+SphereCap sphereCap(const glm::dvec3& toCenter, double radius)
+{
+    const double distance = glm::length(toCenter);
+    if (!(distance > 0))
+        return {};
+    const double s = std::min(radius / distance, 1.0);
+    return {toCenter / distance, s * s};
+}
+
+LightResponse truthOfCap(const SurfacePoint& surface, double alpha, const SphereCap& cap,
+                         double relative)
+{
+    LightResponse out;
+    if (alpha > 0)
+        out = slopeDomainSpecular(surface, alpha, cap, relative);
+    const double c = glm::dot(surface.normal, cap.axis);
+    out.f = sphereFormFactor(std::clamp(c, -1.0, 1.0), std::min(cap.sine(), 1.0));
+    return out;
+}
+
+LightResponse truthResponse(const SurfacePoint& surface, double alpha, const CndLight& light,
+                            const glm::dvec3& lightOrigin, double relative)
+{
+    const glm::dvec3 toCenter = lightOrigin + vec3(light.position) - surface.position;
+    switch (light.type) {
+    case CND_LIGHT_SPHERE:
+        return truthOfSphere(surface, alpha, toCenter, light.radius, relative);
+    case CND_LIGHT_DISTANT_SPHERE: {
+        const double s = std::min(double(light.radius), 1.0);
+        return truthOfCap(surface, alpha, {-glm::normalize(vec3(light.direction)), s * s},
+                          relative);
+    }
+    case CND_LIGHT_TUBE:
+        return truthOfTube(surface, alpha, light, toCenter, relative);
+    case CND_LIGHT_RECTANGLE: {
+        const glm::dvec3 u = vec3(light.axisU), v = vec3(light.axisV);
+        if (!sees(glm::cross(u, v), toCenter, light.twoSided))
+            return {};
+        const std::array<glm::dvec3, 4> corners = {toCenter - u - v, toCenter + u - v,
+                                                   toCenter + u + v, toCenter - u + v};
+        return truthOfOutline(surface, alpha, *polygonOutline(std::span<const glm::dvec3>(corners)),
+                              relative);
+    }
+    case CND_LIGHT_DISC: {
+        const glm::dvec3 normal = glm::normalize(vec3(light.direction));
+        if (!sees(normal, toCenter, light.twoSided))
+            return {};
+        return truthOfOutline(surface, alpha, *discOutline(toCenter, normal, light.radius),
+                              relative);
+    }
+    default:
+        throw std::invalid_argument("light type " + std::to_string(light.type) +
+                                    " is no area light");
+    }
+}
+
+glm::dvec3 truthLuminance(const SurfacePoint& surface, const Material& material,
+                          const CndLight& light, const glm::dvec3& lightOrigin, double relative)
+{
+    if (light.type == CND_LIGHT_POINT || light.type == CND_LIGHT_SPOT ||
+        light.type == CND_LIGHT_DIRECTIONAL) {
+        // Any method but NONE: punctual lights have only one specular lobe.
+        return outgoingLuminance(surface, material, light, lightOrigin,
+                                 hasSpecular(material) ? CND_SPECULAR_KARIS : CND_SPECULAR_NONE);
+    }
+    double window = 1;
+    if (light.type != CND_LIGHT_DISTANT_SPHERE) {
+        const double distance = glm::distance(lightOrigin + vec3(light.position), surface.position);
+        window = lightWindow(distance, light.influenceRadius);
+    }
+    if (window == 0)
+        return glm::dvec3(0);
+    const LightResponse r = truthResponse(surface, hasSpecular(material) ? material.alpha : 0,
+                                          light, lightOrigin, relative);
+    return vec3(light.emission) * window *
+           (material.diffuseAlbedo * r.f + material.f0 * (r.a - r.b) +
+            glm::dvec3(material.specularWeight * r.b));
+}
+
+} // namespace candelabra::reference

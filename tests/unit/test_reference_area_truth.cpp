@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// The truth about rectangles, discs and tubes: closed forms, limits, and a second integrator over
+// the emitter's surface.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "reference/emitter_domain.h"
+#include "reference/truth.h"
+#include "test_reference_support.h"
+
+namespace candelabra::test
+{
+
+using namespace candelabra::reference;
+
+namespace
+{
+
+constexpr double pi = std::numbers::pi;
+const SurfacePoint upward{{0, 0, 0}, {0, 0, 1}, {0.6, 0, 0.8}};
+
+void set(float (&out)[3], const glm::dvec3& value)
+{
+    for (int i = 0; i < 3; ++i)
+        out[i] = static_cast<float>(value[i]);
+}
+
+CndLight makeRectangle(const glm::dvec3& center, const glm::dvec3& u, const glm::dvec3& v)
+{
+    CndLight light = makeSphere(glm::vec3(center), 0, glm::vec3(1));
+    light.type = CND_LIGHT_RECTANGLE;
+    set(light.axisU, u);
+    set(light.axisV, v);
+    return light;
+}
+
+CndLight makeDisc(const glm::dvec3& center, const glm::dvec3& normal, float radius)
+{
+    CndLight light = makeSphere(glm::vec3(center), radius, glm::vec3(1));
+    light.type = CND_LIGHT_DISC;
+    set(light.direction, normal);
+    return light;
+}
+
+CndLight makeTube(const glm::dvec3& center, const glm::dvec3& half, float radius)
+{
+    CndLight light = makeSphere(glm::vec3(center), radius, glm::vec3(1));
+    light.type = CND_LIGHT_TUBE;
+    set(light.axisU, half);
+    return light;
+}
+
+double formFactor(const CndLight& light)
+{
+    return truthResponse(upward, 0, light, glm::dvec3(0), 1e-10).f;
+}
+
+double specular(const CndLight& light, double alpha = 0.25)
+{
+    return truthResponse(upward, alpha, light, glm::dvec3(0), 1e-8).a;
+}
+
+} // namespace
+
+TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
+{
+    const int count = std::getenv("CANDELABRA_FULL_TESTS") ? 3000 : 60;
+    const auto unitVector = [](std::mt19937_64& random) {
+        std::uniform_real_distribution<double> unit(0, 1);
+        const double z = 2 * unit(random) - 1, phi = 2 * pi * unit(random);
+        const double across = std::sqrt(1 - z * z);
+        return glm::dvec3(across * std::cos(phi), across * std::sin(phi), z);
+    };
+    for (const uint32_t type : {CND_LIGHT_RECTANGLE, CND_LIGHT_DISC, CND_LIGHT_TUBE}) {
+        std::mt19937_64 random(3);
+        std::uniform_real_distribution<double> unit(0, 1);
+        std::vector<double> differences;
+        WorstCase worst;
+        int crossing = 0;
+        while (static_cast<int>(differences.size()) < count) {
+            const double alpha = std::pow(0.03, unit(random)); // narrower is dear for the second
+            const double view = unit(random) * 89 * pi / 180;
+            const SurfacePoint surface{{0, 0, 0}, {0, 0, 1}, {std::sin(view), 0, std::cos(view)}};
+            const glm::dvec3 mirror(-surface.toEye.x, 0, surface.toEye.z);
+            const glm::dvec3 way = unit(random) < 0.5
+                                       ? unitVector(random)
+                                       : glm::normalize(mirror + 0.4 * unitVector(random));
+            CndLight light = makeSphere(glm::vec3((0.3 + 3 * unit(random)) * way), 0, glm::vec3(1));
+            light.type = type;
+            light.twoSided = unit(random) < 0.5;
+            const double size = 0.02 * std::pow(100, unit(random));
+            const glm::dvec3 u = unitVector(random);
+            const glm::dvec3 v = glm::normalize(glm::cross(u, unitVector(random)));
+            set(light.axisU, size * u);
+            set(light.axisV, size * (0.1 + unit(random)) * v);
+            set(light.direction, unitVector(random));
+            const bool tube = type == CND_LIGHT_TUBE;
+            light.radius = static_cast<float>(tube ? 0.02 * std::pow(30, unit(random)) : size);
+            const glm::dvec3 center(light.position[0], light.position[1], light.position[2]);
+            const double along = std::clamp(-glm::dot(center, u), -size, size);
+            if (tube && glm::length(center + along * u) < 1.01 * light.radius)
+                continue; // inside: not the same model
+            const LightResponse a = truthResponse(surface, alpha, light, glm::dvec3(0), 1e-6);
+            const LightResponse b =
+                emitterDomainResponse(surface, alpha, light, glm::dvec3(0), 1e-5);
+            if (a.f == 0 && b.f == 0)
+                continue; // seen from behind or below the horizon: nothing to compare
+            crossing += std::abs(center.z) < size;
+            double difference = 0;
+            for (const auto& [x, y] : {std::pair{a.a, b.a}, {a.b, b.b}, {a.f, b.f}})
+                difference = std::max(difference, std::abs(x - y) / std::max({x, y, 1e-9}));
+            differences.push_back(difference);
+            worst.add(difference, "alpha", alpha, "center", center.x, center.y, center.z, "size",
+                      size, "radius", light.radius, "NoV", surface.toEye.z);
+            EXPECT_TRUE(a.converged);
+        }
+        std::sort(differences.begin(), differences.end());
+        std::cout << "light type " << type << ", " << count << " configurations (" << crossing
+                  << " near the horizon): relative difference median "
+                  << differences[differences.size() / 2] << ", max " << differences.back() << "\n";
+        EXPECT_TRUE(worst.within(1e-4)) << type;
+    }
+}
+
+// Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3, B-4 and B-12.
+TEST(ReferenceAreaTruth, formFactorsMatchTheirClosedForms)
+{
+    WorstCase worst;
+    for (const double size : {0.01, 0.5, 3.0, 100.0}) {
+        const float radius = static_cast<float>(size);
+        const double r2 = double(radius) * radius;
+        worst.add(std::abs(formFactor(makeDisc({0, 0, 1}, {0, 0, -1}, radius)) * (r2 + 1) / r2 - 1),
+                  "disc", size);
+        for (const double aspect : {1.0, 0.25}) {
+            const double a = float(size), b = float(size * aspect);
+            // Parallel to the surface, one corner above it: u x v points down.
+            const double x = std::sqrt(1 + a * a), y = std::sqrt(1 + b * b);
+            const double parallel =
+                (a / x * std::atan(b / x) + b / y * std::atan(a / y)) / (2 * pi);
+            const CndLight ceiling = makeRectangle({a / 2, b / 2, 1}, {0, b / 2, 0}, {a / 2, 0, 0});
+            worst.add(std::abs(formFactor(ceiling) / parallel - 1), "parallel", size, aspect);
+            // A wall 1 m away, from floor to height a and to b at one side; then the same wall
+            // reaching as far below the floor, which must not change anything.
+            const double edge = std::sqrt(1 + a * a);
+            const double wall = (std::atan(b) - std::atan(b / edge) / edge) / (2 * pi);
+            const CndLight above = makeRectangle({1, b / 2, a / 2}, {0, 0, a / 2}, {0, b / 2, 0});
+            const CndLight cut = makeRectangle({1, b / 2, 0}, {0, 0, a}, {0, b / 2, 0});
+            worst.add(std::abs(formFactor(above) / wall - 1), "wall", size, aspect);
+            worst.add(std::abs(formFactor(cut) / wall - 1), "wall cut by the floor", size, aspect);
+        }
+    }
+    // An endless tube: F = R / d for a receiver that faces it.
+    const double tube = formFactor(makeTube({0, 0, 2}, {1e6, 0, 0}, 0.5f));
+    worst.add(std::abs(tube / 0.25 - 1), "tube");
+    EXPECT_TRUE(worst.within(1e-7)); // positions are floats
+}
+
+TEST(ReferenceAreaTruth, degenerateShapesMeet)
+{
+    // A tube without length is a sphere; beyond its end only the nearer sphere is seen.
+    const CndLight sphere = makeSphere({-1, 0.5f, 1}, 0.5f, glm::vec3(1));
+    const LightResponse ball = truthResponse(upward, 0.25, sphere, glm::dvec3(0), 1e-8);
+    const LightResponse stub =
+        truthResponse(upward, 0.25, makeTube({-1, 0.5, 1}, {1e-6, 0, 0}, 0.5f), {}, 1e-8);
+    EXPECT_NEAR(stub.a / ball.a, 1, 1e-5);
+    EXPECT_NEAR(stub.f / ball.f, 1, 1e-5);
+    const glm::dvec3 away = glm::normalize(glm::dvec3(-1, 0.5, 1));
+    const LightResponse pointed = truthResponse(
+        upward, 0.25, makeTube(glm::dvec3(-1, 0.5, 1) + 2.0 * away, 2.0 * away, 0.5f), {}, 1e-8);
+    EXPECT_NEAR(pointed.a / ball.a, 1, 1e-6);
+    // A small disc and a small square of one area are one light.
+    const double side = std::sqrt(pi) * 1e-3;
+    const CndLight disc = makeDisc({-1, 0.5, 1}, {1, 0, -1}, 1e-3f);
+    const glm::dvec3 u = side / 2 * glm::dvec3(0, 1, 0);
+    const glm::dvec3 v = side / 2 * glm::normalize(glm::dvec3(1, 0, 1));
+    const CndLight square = makeRectangle({-1, 0.5, 1}, u, v);
+    EXPECT_GT(specular(square), 0);
+    EXPECT_NEAR(specular(disc) / specular(square), 1, 1e-5);
+    EXPECT_NEAR(formFactor(disc) / formFactor(square), 1, 1e-5);
+}
+
+TEST(ReferenceAreaTruth, oneSideShinesUnlessBothDo)
+{
+    CndLight rectangle = makeRectangle({0, 0, 1}, {0, 0.5, 0}, {0.5, 0, 0});
+    CndLight disc = makeDisc({0, 0, 1}, {0, 0, -1}, 0.5f);
+    for (CndLight* light : {&rectangle, &disc}) {
+        const double front = formFactor(*light);
+        EXPECT_GT(front, 0.1);
+        for (float& x : light->axisU)
+            x = -x;
+        for (float& x : light->direction)
+            x = -x;
+        EXPECT_EQ(formFactor(*light), 0);
+        EXPECT_EQ(specular(*light), 0);
+        light->twoSided = VK_TRUE;
+        EXPECT_NEAR(formFactor(*light), front, 1e-12);
+        light->position[2] = 0; // the receiver lies in its plane
+        EXPECT_EQ(formFactor(*light), 0);
+        EXPECT_EQ(specular(*light), 0);
+        light->position[2] = -1; // below the horizon
+        EXPECT_EQ(formFactor(*light), 0);
+        EXPECT_EQ(specular(*light), 0);
+    }
+    EXPECT_EQ(formFactor(makeTube({0, 0, -1}, {1, 0, 0}, 0.5f)), 0);
+    EXPECT_EQ(specular(makeTube({0, 0, -1}, {1, 0, 0}, 0.5f)), 0);
+}
+
+// Inside a tube its surface continues, as it does for the sphere.
+TEST(ReferenceAreaTruth, tubesAreContinuousAtTheirSurface)
+{
+    for (const glm::dvec3& outward :
+         {glm::dvec3(0, 0.6, 0.8), glm::dvec3(0.6, 0, 0.8), glm::dvec3(0, 0, -1)}) {
+        // The tube lies along x; its nearest point is at its middle, or at its end.
+        const double end = outward.x > 0 ? 1 : 0;
+        const auto at = [&](double distance) {
+            const glm::dvec3 center = distance * outward + end * glm::dvec3(1, 0, 0);
+            return truthResponse(upward, 0.3, makeTube({0, 0, 0}, {1, 0, 0}, 1), center, 1e-7);
+        };
+        const LightResponse outside = at(1 + 1e-6), inside = at(1 - 1e-6);
+        EXPECT_NEAR(outside.f, (1 + outward.z) / 2, 2e-3) << outward.x;
+        EXPECT_NEAR(outside.f, inside.f, 2e-3) << outward.x;
+        EXPECT_NEAR(outside.a, inside.a, 2e-3) << outward.x;
+    }
+}
+
+} // namespace candelabra::test
