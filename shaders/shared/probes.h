@@ -32,6 +32,22 @@ struct SphereProbeOutput {
 };
 GPU_SIZE(SphereProbeOutput, 12)
 
+// Specular of a sphere light: the point at the origin, normal +z, eye towards v, centre at toLight.
+struct ConicProbeInput {
+    vec3 v;
+    vec3 toLight;
+    float radius;
+    float alpha;
+};
+GPU_SIZE(ConicProbeInput, 32)
+
+// Responses with F = 1 and F = (1 - VoH)^5.
+struct ConicProbeOutput {
+    uint lightClass; // CONIC_..., lib/specular/conic.glsl
+    vec2 conic, full, kx, point;
+};
+GPU_SIZE(ConicProbeOutput, 36)
+
 GPU_END
 
 #endif

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// The conic region of a sphere cut by the horizon.
+#ifndef CND_LIB_SPECULAR_CONIC_CLIP
+#define CND_LIB_SPECULAR_CONIC_CLIP
+
+#include "lib/specular/conic_region.glsl"
+#include "lib/specular/conic_shading.glsl"
+
+// (atan(t) - t) / t^3 as a polynomial in t^2, t in [0, 1]; minimax, 4.9e-8 absolute in atan. The term
+// t itself is exact: the arcs of small caps cancel.
+float atanTail(float t2)
+{
+    float k = -0.00435541;
+    k = k * t2 + 0.02304016;
+    k = k * t2 - 0.05777362;
+    k = k * t2 + 0.09794236;
+    k = k * t2 - 0.13976583;
+    k = k * t2 + 0.19962704;
+    return k * t2 - 0.33331659;
+}
+
+// atan(y, x), but 0 for x = y = 0.
+float atan2Fast(float y, float x)
+{
+    const float ax = abs(x);
+    const float ay = abs(y);
+    const float t = min(ax, ay) / max(max(ax, ay), 1e-30);
+    const float t2 = t * t;
+    const float first = t + t * t2 * atanTail(t2);
+    const float quarter = ay > ax ? HALF_PI - first : first;
+    const float angle = x < 0.0 ? PI - quarter : quarter;
+    return y < 0.0 ? -angle : angle;
+}
+
+// atanh(y / x), |y| < x.
+float atanhRatio(float y, float x)
+{
+    return 0.5 * log(max(x + y, 1e-30) / max(x - y, 1e-30));
+}
+
+// Largest root of p(t) = t^3 + tr t^2 + m2 t - D0 from the smaller of two upper bounds, which hold for
+// every sign of tr and m2 (the start of wholeCap does not, for centres below the horizon).
+float conicRoot(float tr, float m2, float D0)
+{
+    const float boundA = 2.0 * D0 / max(m2 + sqrt(max(m2 * m2 + 4.0 * tr * D0, 0.0)), 1e-30);
+    const float qd = sqrt(max(tr * tr - 4.0 * m2, 0.0));
+    const float tq = tr > 0.0 ? -2.0 * m2 / (tr + qd) : 0.5 * (qd - tr); // lower bound for m2 < 0
+    const float mb = m2 - D0 / max(tq, 1e-30);
+    const float qb = sqrt(max(tr * tr - 4.0 * mb, 0.0));
+    const float boundB = tr > 0.0 ? -2.0 * mb / (tr + qb) : 0.5 * (qb - tr);
+    const float negative = tr > 0.0 ? min(boundA, boundB) : boundB;
+    float lam = m2 < 0.0 ? negative : boundA;
+    lam = halley(lam, tr, m2, D0);
+    return halley(lam, tr, m2, D0);
+}
+
+// What clippedCap and shadeTwoNodes share: c's elevation and the parts of v along and across c_t.
+struct CapFrame {
+    float sinC;   // |n x c|
+    float v1, v2; // v . x, v . y with x = c_t / |c_t|, y = n x x
+};
+
+CapFrame makeCapFrame(ConicPoint p, vec3 c, float NoC)
+{
+    CapFrame f;
+    f.sinC = sqrt(max(1.0 - NoC * NoC, 1e-12));
+    const float inv = 1.0 / f.sinC;
+    f.v1 = (dot(p.v, c) - p.NoV * NoC) * inv;
+    f.v2 = dot(p.vxn, c) * inv;
+    return f;
+}
+
+// The region of the part of the cap above the horizon, exact. By Stokes' theorem its vector
+// irradiance is that of its boundary, Phi = (1 / 2 pi) closed integral (w x dw) / |w|^2 with
+// w = (m_x, m_y, alpha m_z), m = l + v: an arc of the cap, an ellipse in w, and an arc of the horizon,
+// each in closed form. Frame: (x, y, n) of CapFrame. |NoC| < s.
+ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
+{
+    const float cx = f.sinC;
+    const float cz = cap.NoC;
+    const float vz = p.NoV;
+    const float v1 = f.v1;
+    const float v2 = f.v2;
+    const float s2 = cap.s * cap.s;
+    const vec3 dl = cap.c - p.mirror;
+    const float z0 = 0.5 * length2(dl) - cap.omc;
+    const float G = max(length2(vz * dl - (cz - vz) * p.mirror), 1e-14);
+    const float t = v1 * cx;
+    const float w2 = v2 * v2 * cx * cx;
+    const float hh = 0.5 * ((v1 + cx) * (v1 + cx) + v2 * v2 + (vz + cz) * (vz + cz)); // 1 + v . c
+    // k < 0: the cap holds -v (grazing view ahead). The same cone then has the other sign.
+    const float signedK = hh - cap.omc;
+    const float sg = signedK < 0.0 ? -1.0 : 1.0;
+    const float ak = max(abs(signedK), 1e-4 * hh);
+    const float k = sg * ak;
+    const float AC = 2.0 * (k - t);
+    const float Z = z0 * p.invA2;
+    const float D0 = ak * s2 * p.invA2;
+    const float tr = sg * (AC + Z);
+    const float m2 = k * (k - 2.0 * t) - w2 + AC * Z - G * p.invA2;
+    const float lam = conicRoot(tr, m2, D0);
+
+    // The cone w^T q w <= 0, q times sg.
+    const float invAlpha = 1.0 / p.alpha;
+    const float xx = sg * (k - 2.0 * t);
+    const float xy = -sg * v2 * cx;
+    const float xz = -sg * (v1 * cz + vz * cx) * invAlpha;
+    const float yy = ak;
+    const float yz = -sg * v2 * cz * invAlpha;
+    const float zz = sg * Z;
+    // Where the cap meets the horizon: l = (cp, +-sp, 0). The chord's midpoint wc lies inside the cone.
+    const float invCx = 1.0 / cx;
+    const float cp = min((1.0 - cap.omc) * invCx, 1.0);
+    const float sp2 = max(0.0, (s2 - cz * cz) * invCx * invCx);
+    const float sp = sqrt(sp2);
+    const float cm = sp2 / (1.0 + cp); // 1 - cp
+    const float hz = p.alpha * vz;
+    const vec3 wc = vec3(1.0 + v1 - cm, v2, hz);
+    // Axis e of the cone: adj(q + lam) maps anything to it.
+    const float X = xx + lam;
+    const float Y = yy + lam;
+    const float W = zz + lam;
+    const float adjXY = yz * xz - xy * W;
+    const float adjXZ = xy * yz - xz * Y;
+    const float adjYZ = xy * xz - yz * X;
+    vec3 e = vec3((Y * W - yz * yz) * wc.x + adjXY * wc.y + adjXZ * wc.z,
+                  adjXY * wc.x + (X * W - xz * xz) * wc.y + adjYZ * wc.z,
+                  adjXZ * wc.x + adjYZ * wc.y + (X * Y - xy * xy) * wc.z);
+    e *= inversesqrt(max(length2(e), 1e-36));
+    // f1, f2 across it, right-handed (Duff et al. 2017), then turned to the principal axes of q.
+    const float se = e.z < 0.0 ? -1.0 : 1.0;
+    const float fa = -1.0 / (se + e.z);
+    const float fb = e.x * e.y * fa;
+    const vec3 f1 = vec3(1.0 + se * e.x * e.x * fa, se * fb, -se * e.x);
+    const vec3 f2 = vec3(fb, se + e.y * e.y * fa, -e.y);
+    const vec3 qf1 = vec3(xx * f1.x + xy * f1.y + xz * f1.z, xy * f1.x + yy * f1.y + yz * f1.z,
+                          xz * f1.x + yz * f1.y + zz * f1.z);
+    const float S = 0.5 * (tr + lam);
+    const float de = dot(f1, qf1) - S;
+    const float be = dot(f2, qf1);
+    const float r = sqrt(de * de + be * be);
+    const float l1 = S + r;
+    const float A2 = lam / l1; // squared tangents of the cone's half angles
+    const float B2 = max(lam * lam * l1 / D0, A2);
+    const float cos2 = r > 0.0 ? abs(de) / r : 1.0;
+    const float ph = sqrt(0.5 + 0.5 * cos2);
+    const float qh = r > 0.0 ? 0.5 * be / (r * ph) : 0.0;
+    const float cosT = de >= 0.0 ? ph : abs(qh);
+    const float sinT = de >= 0.0 ? qh : (be < 0.0 ? -ph : ph);
+    const vec3 e1 = cosT * f1 + sinT * f2;
+    const vec3 e2 = cosT * f2 - sinT * f1;
+    const float a = sqrt(A2);
+    const float b = sqrt(B2);
+    // The ends of the cap's arc as unit vectors on its circle.
+    const float w1 = dot(wc, e1);
+    const float w2e = dot(wc, e2);
+    vec2 plus = vec2((w1 + sp * e1.y) * b, (w2e + sp * e2.y) * a);
+    vec2 minus = vec2((w1 - sp * e1.y) * b, (w2e - sp * e2.y) * a);
+    plus *= inversesqrt(max(dot(plus, plus), 1e-36));
+    minus *= inversesqrt(max(dot(minus, minus), 1e-36));
+    const float oa = 1.0 + A2;
+    const float ob = 1.0 + B2;
+    const float soab = sqrt(oa * ob);
+    const float df = max(B2 - A2, 1e-6 * ob);
+    const float g2 = df / oa;
+    const float h2 = df / ob;
+    const float g = sqrt(g2);
+    const float h = sqrt(h2);
+    const float co = oa * plus.x * minus.x + ob * plus.y * minus.y;
+    const float si = sg * soab * (plus.x * minus.y - minus.x * plus.y);
+    const float angle = atan2Fast(si, co);
+    // An arc nearly empty or nearly full: the side of the horizon decides, not rounding.
+    const bool full = co > 7.0 * abs(si) ? cz > 0.0 : angle < 0.0;
+    const float dt = full ? angle + 2.0 * PI : angle;
+    const vec3 arc =
+        e1 * (-b / (oa * g) * atan2Fast(g * (minus.y - plus.y), 1.0 + g2 * plus.y * minus.y)) +
+        e2 * (a / (ob * h) * atanhRatio(h * (minus.x - plus.x), 1.0 - h2 * plus.x * minus.x)) +
+        e * (sg * a * b * dt / soab);
+    // The horizon's arc: |w|^2 = A0 + 2 v_t . l is linear there.
+    const float hz2 = hz * hz;
+    const float A0 = 1.0 + p.vv + hz2;
+    const float rh = vz * sqrt(vz * vz + (2.0 * (1.0 + p.vv) + hz2) * p.a2); // sqrt(A0^2 - 4 vv)
+    const float E0 = (1.0 + v1) * (1.0 + v1) + v2 * v2 + hz2;
+    const float J0 = 2.0 / rh * atan2Fast(rh * sp, E0 - A0 * cm);
+    const float pc = atan2Fast(sp, cp);
+    const float pp = pc - 0.5 * A0 * J0;
+    const float qq = -atanhRatio(2.0 * v2 * sp, E0 - 2.0 * v1 * cm);
+    const vec2 horizon = p.vv > 1e-4 ? vec2(pp * v1 - qq * v2, pp * v2 + qq * v1) / p.vv
+                                     : vec2(2.0 * sp / A0, 0.0);
+    const float phiZ = (arc.z + pc + 0.5 * vz * vz * p.oneMinusA2 * J0) * (0.5 * INV_PI);
+    const vec2 slope = (arc.xy - hz * horizon) * (0.5 * INV_PI * p.alpha / max(phiZ, 1e-12));
+    ConicRegion o;
+    o.integral = saturate(phiZ);
+    o.av = v1 * slope.x + v2 * slope.y;
+    o.x2 = dot(slope, slope);
+    o.mu = max(vz + o.av, MIN_CONIC_MU);
+    return o;
+}
+
+// Caps below this share of the lobe, s2 <= SMALL_CAP a2, are not clipped exactly: the arcs of a tiny
+// cone cancel in float32, with an error of about eps (2 alpha / s)^2.
+const float SMALL_CAP = 0.003;
+
+// Instead, a whole cap of the clipped area about the clipped centroid, seen under s2 and omc.
+struct SubstituteCap {
+    vec3 c;
+    float NoC, s2, omc;
+};
+
+SubstituteCap substituteCap(ConicPoint p, SphereCap cap)
+{
+    const float sinC = sqrt(max(1.0 - cap.NoC * cap.NoC, 0.0));
+    const float mean = capHeights(cap, sinC).mean;
+    SubstituteCap o;
+    o.c = cap.c + p.n * (mean - cap.NoC);
+    o.c *= inversesqrt(max(length2(o.c), MIN_LENGTH2));
+    o.NoC = dot(p.n, o.c);
+    // Area of a circle's segment over the circle's, u: the height of it over the diameter; fitted.
+    const float u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
+    o.omc = cap.omc * u * sqrt(u) * (1.698 - u * (0.438 + 0.26 * u));
+    o.s2 = o.omc * (2.0 - o.omc);
+    return o;
+}
+
+#endif

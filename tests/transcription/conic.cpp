@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transcription/conic_parts.h"
+
+namespace candelabra::test::transcription
+{
+
+// shaders/lib/specular/conic_clip.glsl
+double atanTail(double t2)
+{
+    double k = -0.00435541;
+    k = k * t2 + 0.02304016;
+    k = k * t2 - 0.05777362;
+    k = k * t2 + 0.09794236;
+    k = k * t2 - 0.13976583;
+    k = k * t2 + 0.19962704;
+    return k * t2 - 0.33331659;
+}
+
+double atan2Fast(double y, double x)
+{
+    const double ax = std::abs(x);
+    const double ay = std::abs(y);
+    const double t = glm::min(ax, ay) / glm::max(glm::max(ax, ay), 1e-30);
+    const double t2 = t * t;
+    const double first = t + t * t2 * atanTail(t2);
+    const double quarter = ay > ax ? HALF_PI - first : first;
+    const double angle = x < 0.0 ? PI - quarter : quarter;
+    return y < 0.0 ? -angle : angle;
+}
+
+double atanhRatio(double y, double x)
+{
+    return 0.5 * std::log(glm::max(x + y, 1e-30) / glm::max(x - y, 1e-30));
+}
+
+double conicRoot(double tr, double m2, double D0)
+{
+    const double boundA =
+        2.0 * D0 / glm::max(m2 + std::sqrt(glm::max(m2 * m2 + 4.0 * tr * D0, 0.0)), 1e-30);
+    const double qd = std::sqrt(glm::max(tr * tr - 4.0 * m2, 0.0));
+    const double tq = tr > 0.0 ? -2.0 * m2 / (tr + qd) : 0.5 * (qd - tr);
+    const double mb = m2 - D0 / glm::max(tq, 1e-30);
+    const double qb = std::sqrt(glm::max(tr * tr - 4.0 * mb, 0.0));
+    const double boundB = tr > 0.0 ? -2.0 * mb / (tr + qb) : 0.5 * (qb - tr);
+    const double negative = tr > 0.0 ? glm::min(boundA, boundB) : boundB;
+    double lam = m2 < 0.0 ? negative : boundA;
+    lam = halley(lam, tr, m2, D0);
+    return halley(lam, tr, m2, D0);
+}
+
+CapFrame makeCapFrame(ConicPoint p, glm::dvec3 c, double NoC)
+{
+    CapFrame f{};
+    f.sinC = std::sqrt(glm::max(1.0 - NoC * NoC, 1e-12));
+    const double inv = 1.0 / f.sinC;
+    f.v1 = (glm::dot(p.v, c) - p.NoV * NoC) * inv;
+    f.v2 = glm::dot(p.vxn, c) * inv;
+    return f;
+}
+
+ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
+{
+    const double cx = f.sinC;
+    const double cz = cap.NoC;
+    const double vz = p.NoV;
+    const double v1 = f.v1;
+    const double v2 = f.v2;
+    const double s2 = cap.s * cap.s;
+    const glm::dvec3 dl = cap.c - p.mirror;
+    const double z0 = 0.5 * length2(dl) - cap.omc;
+    const double G = glm::max(length2(vz * dl - (cz - vz) * p.mirror), 1e-14);
+    const double t = v1 * cx;
+    const double w2 = v2 * v2 * cx * cx;
+    const double hh = 0.5 * ((v1 + cx) * (v1 + cx) + v2 * v2 + (vz + cz) * (vz + cz));
+
+    const double signedK = hh - cap.omc;
+    const double sg = signedK < 0.0 ? -1.0 : 1.0;
+    const double ak = glm::max(std::abs(signedK), 1e-4 * hh);
+    const double k = sg * ak;
+    const double AC = 2.0 * (k - t);
+    const double Z = z0 * p.invA2;
+    const double D0 = ak * s2 * p.invA2;
+    const double tr = sg * (AC + Z);
+    const double m2 = k * (k - 2.0 * t) - w2 + AC * Z - G * p.invA2;
+    const double lam = conicRoot(tr, m2, D0);
+
+    const double invAlpha = 1.0 / p.alpha;
+    const double xx = sg * (k - 2.0 * t);
+    const double xy = -sg * v2 * cx;
+    const double xz = -sg * (v1 * cz + vz * cx) * invAlpha;
+    const double yy = ak;
+    const double yz = -sg * v2 * cz * invAlpha;
+    const double zz = sg * Z;
+
+    const double invCx = 1.0 / cx;
+    const double cp = glm::min((1.0 - cap.omc) * invCx, 1.0);
+    const double sp2 = glm::max(0.0, (s2 - cz * cz) * invCx * invCx);
+    const double sp = std::sqrt(sp2);
+    const double cm = sp2 / (1.0 + cp);
+    const double hz = p.alpha * vz;
+    const glm::dvec3 wc = glm::dvec3(1.0 + v1 - cm, v2, hz);
+
+    const double X = xx + lam;
+    const double Y = yy + lam;
+    const double W = zz + lam;
+    const double adjXY = yz * xz - xy * W;
+    const double adjXZ = xy * yz - xz * Y;
+    const double adjYZ = xy * xz - yz * X;
+    glm::dvec3 e = glm::dvec3((Y * W - yz * yz) * wc.x + adjXY * wc.y + adjXZ * wc.z,
+                              adjXY * wc.x + (X * W - xz * xz) * wc.y + adjYZ * wc.z,
+                              adjXZ * wc.x + adjYZ * wc.y + (X * Y - xy * xy) * wc.z);
+    e *= inversesqrt(glm::max(length2(e), 1e-36));
+
+    const double se = e.z < 0.0 ? -1.0 : 1.0;
+    const double fa = -1.0 / (se + e.z);
+    const double fb = e.x * e.y * fa;
+    const glm::dvec3 f1 = glm::dvec3(1.0 + se * e.x * e.x * fa, se * fb, -se * e.x);
+    const glm::dvec3 f2 = glm::dvec3(fb, se + e.y * e.y * fa, -e.y);
+    const glm::dvec3 qf1 =
+        glm::dvec3(xx * f1.x + xy * f1.y + xz * f1.z, xy * f1.x + yy * f1.y + yz * f1.z,
+                   xz * f1.x + yz * f1.y + zz * f1.z);
+    const double S = 0.5 * (tr + lam);
+    const double de = glm::dot(f1, qf1) - S;
+    const double be = glm::dot(f2, qf1);
+    const double r = std::sqrt(de * de + be * be);
+    const double l1 = S + r;
+    const double A2 = lam / l1;
+    const double B2 = glm::max(lam * lam * l1 / D0, A2);
+    const double cos2 = r > 0.0 ? std::abs(de) / r : 1.0;
+    const double ph = std::sqrt(0.5 + 0.5 * cos2);
+    const double qh = r > 0.0 ? 0.5 * be / (r * ph) : 0.0;
+    const double cosT = de >= 0.0 ? ph : std::abs(qh);
+    const double sinT = de >= 0.0 ? qh : (be < 0.0 ? -ph : ph);
+    const glm::dvec3 e1 = cosT * f1 + sinT * f2;
+    const glm::dvec3 e2 = cosT * f2 - sinT * f1;
+    const double a = std::sqrt(A2);
+    const double b = std::sqrt(B2);
+
+    const double w1 = glm::dot(wc, e1);
+    const double w2e = glm::dot(wc, e2);
+    glm::dvec2 plus = glm::dvec2((w1 + sp * e1.y) * b, (w2e + sp * e2.y) * a);
+    glm::dvec2 minus = glm::dvec2((w1 - sp * e1.y) * b, (w2e - sp * e2.y) * a);
+    plus *= inversesqrt(glm::max(glm::dot(plus, plus), 1e-36));
+    minus *= inversesqrt(glm::max(glm::dot(minus, minus), 1e-36));
+    const double oa = 1.0 + A2;
+    const double ob = 1.0 + B2;
+    const double soab = std::sqrt(oa * ob);
+    const double df = glm::max(B2 - A2, 1e-6 * ob);
+    const double g2 = df / oa;
+    const double h2 = df / ob;
+    const double g = std::sqrt(g2);
+    const double h = std::sqrt(h2);
+    const double co = oa * plus.x * minus.x + ob * plus.y * minus.y;
+    const double si = sg * soab * (plus.x * minus.y - minus.x * plus.y);
+    const double angle = atan2Fast(si, co);
+
+    const bool full = co > 7.0 * std::abs(si) ? cz > 0.0 : angle < 0.0;
+    const double dt = full ? angle + 2.0 * PI : angle;
+    const glm::dvec3 arc =
+        e1 * (-b / (oa * g) * atan2Fast(g * (minus.y - plus.y), 1.0 + g2 * plus.y * minus.y)) +
+        e2 * (a / (ob * h) * atanhRatio(h * (minus.x - plus.x), 1.0 - h2 * plus.x * minus.x)) +
+        e * (sg * a * b * dt / soab);
+
+    const double hz2 = hz * hz;
+    const double A0 = 1.0 + p.vv + hz2;
+    const double rh = vz * std::sqrt(vz * vz + (2.0 * (1.0 + p.vv) + hz2) * p.a2);
+    const double E0 = (1.0 + v1) * (1.0 + v1) + v2 * v2 + hz2;
+    const double J0 = 2.0 / rh * atan2Fast(rh * sp, E0 - A0 * cm);
+    const double pc = atan2Fast(sp, cp);
+    const double pp = pc - 0.5 * A0 * J0;
+    const double qq = -atanhRatio(2.0 * v2 * sp, E0 - 2.0 * v1 * cm);
+    const glm::dvec2 horizon = p.vv > 1e-4 ? glm::dvec2(pp * v1 - qq * v2, pp * v2 + qq * v1) / p.vv
+                                           : glm::dvec2(2.0 * sp / A0, 0.0);
+    const double phiZ = (arc.z + pc + 0.5 * vz * vz * p.oneMinusA2 * J0) * (0.5 * INV_PI);
+    const glm::dvec2 slope =
+        (glm::dvec2(arc) - hz * horizon) * (0.5 * INV_PI * p.alpha / glm::max(phiZ, 1e-12));
+    ConicRegion o{};
+    o.integral = saturate(phiZ);
+    o.av = v1 * slope.x + v2 * slope.y;
+    o.x2 = glm::dot(slope, slope);
+    o.mu = glm::max(vz + o.av, MIN_CONIC_MU);
+    return o;
+}
+
+SubstituteCap substituteCap(ConicPoint p, SphereCap cap)
+{
+    const double sinC = std::sqrt(glm::max(1.0 - cap.NoC * cap.NoC, 0.0));
+    const double mean = capHeights(cap, sinC).mean;
+    SubstituteCap o{};
+    o.c = cap.c + p.n * (mean - cap.NoC);
+    o.c *= inversesqrt(glm::max(length2(o.c), MIN_LENGTH2));
+    o.NoC = glm::dot(p.n, o.c);
+
+    const double u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
+    o.omc = cap.omc * u * std::sqrt(u) * (1.698 - u * (0.438 + 0.26 * u));
+    o.s2 = o.omc * (2.0 - o.omc);
+    return o;
+}
+
+// shaders/lib/specular/conic.glsl
+
+unsigned conicClass(double heightAbove, double radius, double d2, double a2)
+{
+    const double r2 = glm::min(radius * radius, MAX_SPECULAR_S2 * d2);
+    const double signed2 = heightAbove * std::abs(heightAbove);
+    if (signed2 <= -r2)
+        return CONIC_BELOW;
+    if (signed2 >= 4.0 * r2)
+        return CONIC_ABOVE;
+    return signed2 >= r2 || r2 <= SMALL_CAP * a2 * d2 ? CONIC_NEAR : CONIC_CLIPPED;
+}
+
+glm::dvec2 conicAbove(ConicPoint p, SphereCap cap)
+{
+    return shadeOneNode(p, wholeCap(p, cap.c, cap.NoC, cap.s * cap.s, cap.omc));
+}
+
+double nearness(SphereCap cap)
+{
+    return saturate(2.0 - cap.NoC / cap.s);
+}
+
+glm::dvec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed)
+{
+    SubstituteCap sub = SubstituteCap(cap.c, cap.NoC, cap.s * cap.s, cap.omc);
+    const SubstituteCap cut = substituteCap(p, cap);
+    if (cap.NoC < cap.s)
+        sub = cut;
+    const ConicRegion o = wholeCap(p, sub.c, sub.NoC, sub.s2, sub.omc);
+    const double v1 = makeCapFrame(p, sub.c, sub.NoC).v1;
+    const double sinC = std::sqrt(glm::max(1.0 - cap.NoC * cap.NoC, 0.0));
+    const glm::dvec2 two = shadeTwoNodes(p, o, cap, sinC, v1);
+    return mixed ? glm::mix(shadeOneNode(p, o), two, nearness(cap)) : two;
+}
+
+glm::dvec2 conicNear(ConicPoint p, SphereCap cap)
+{
+    return conicUnclipped(p, cap, true);
+}
+
+glm::dvec2 conicFullUnclipped(ConicPoint p, SphereCap cap)
+{
+    return conicUnclipped(p, cap, false);
+}
+
+glm::dvec2 conicClipped(ConicPoint p, SphereCap cap)
+{
+    const CapFrame f = makeCapFrame(p, cap.c, cap.NoC);
+    return shadeTwoNodes(p, clippedCap(p, cap, f), cap, f.sinC, f.v1);
+}
+
+unsigned conicClassOf(ConicPoint p, SphereCap cap)
+{
+    return conicClass(cap.NoC, cap.s, 1.0, p.a2);
+}
+
+glm::dvec2 conicResponse(ConicPoint p, SphereCap cap)
+{
+    switch (conicClassOf(p, cap)) {
+    case CONIC_ABOVE:
+        return conicAbove(p, cap);
+    case CONIC_NEAR:
+        return conicNear(p, cap);
+    case CONIC_CLIPPED:
+        return conicClipped(p, cap);
+    }
+    return glm::dvec2(0.0);
+}
+
+glm::dvec2 conicFullResponse(ConicPoint p, SphereCap cap)
+{
+    switch (conicClassOf(p, cap)) {
+    case CONIC_ABOVE:
+    case CONIC_NEAR:
+        return conicFullUnclipped(p, cap);
+    case CONIC_CLIPPED:
+        return conicClipped(p, cap);
+    }
+    return glm::dvec2(0.0);
+}
+
+} // namespace candelabra::test::transcription

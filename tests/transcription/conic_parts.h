@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the files of the transcription share among themselves.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "transcription/conic.h"
+
+namespace candelabra::test::transcription
+{
+
+inline constexpr double PI = std::numbers::pi;
+inline constexpr double INV_PI = 1 / PI;
+inline constexpr double HALF_PI = PI / 2;
+inline constexpr double MIN_LENGTH2 = 1e-30;
+inline constexpr double MAX_SPECULAR_S2 = 0.9999;
+inline constexpr double MIN_CONIC_NOV = 0.02;
+inline constexpr double MIN_CONIC_MU = 1e-6;
+inline constexpr double MAX_SLOPE_VARIANCE = 1e6;
+inline constexpr double SMALL_CAP = 0.003;
+
+inline double saturate(double x)
+{
+    return std::clamp(x, 0.0, 1.0);
+}
+
+inline double pow5(double x)
+{
+    return x * x * x * x * x;
+}
+
+inline double length2(glm::dvec3 x)
+{
+    return glm::dot(x, x);
+}
+
+inline double inversesqrt(double x)
+{
+    return 1 / std::sqrt(x);
+}
+
+struct ConicRegion {
+    double integral;
+    double x2;
+    double av;
+    double mu;
+};
+
+struct CapHeights {
+    double low, high, mean;
+};
+
+struct CapFrame {
+    double sinC;
+    double v1, v2;
+};
+
+struct SubstituteCap {
+    glm::dvec3 c;
+    double NoC, s2, omc;
+};
+
+double halley(double t, double tr, double m2, double D0);
+ConicRegion wholeCap(ConicPoint p, glm::dvec3 c, double NoC, double s2, double omc);
+double shadowedHalf(ConicPoint p, ConicRegion o, double NoL);
+glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o);
+CapHeights capHeights(SphereCap cap, double sinC);
+glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, SphereCap cap, double sinC, double v1);
+double atanTail(double t2);
+double atan2Fast(double y, double x);
+double atanhRatio(double y, double x);
+double conicRoot(double tr, double m2, double D0);
+CapFrame makeCapFrame(ConicPoint p, glm::dvec3 c, double NoC);
+ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f);
+SubstituteCap substituteCap(ConicPoint p, SphereCap cap);
+unsigned conicClass(double heightAbove, double radius, double d2, double a2);
+double nearness(SphereCap cap);
+glm::dvec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed);
+
+} // namespace candelabra::test::transcription

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transcription/conic_parts.h"
+
+namespace candelabra::test::transcription
+{
+
+// shaders/lib/lights/sphere_cap.glsl
+
+SphereCap makeSphereCap(glm::dvec3 n, glm::dvec3 toLight, double radius)
+{
+    SphereCap cap{};
+
+    const glm::dvec3 t = toLight + 1e-15 * n;
+    const double invD = inversesqrt(length2(t) + 1e-32);
+    cap.c = t * invD;
+    cap.NoC = glm::dot(n, cap.c);
+    const double s = glm::min(radius * invD, 1.0);
+    cap.s2 = s * s;
+    const double specularS2 = glm::min(cap.s2, MAX_SPECULAR_S2);
+    cap.s = glm::min(s, 0.99995);
+    cap.omc = specularS2 / (1.0 + std::sqrt(1.0 - specularS2));
+    return cap;
+}
+
+// shaders/lib/specular/conic_region.glsl
+
+ConicPoint makeConicPoint(ShadingPoint s)
+{
+    ConicPoint p{};
+    p.n = s.n;
+    const double NoV = glm::dot(s.n, s.v);
+    p.NoV = glm::max(NoV, MIN_CONIC_NOV);
+    const glm::dvec3 tangent = s.v - NoV * s.n;
+    const glm::dvec3 tilted =
+        MIN_CONIC_NOV * s.n + std::sqrt(1.0 - MIN_CONIC_NOV * MIN_CONIC_NOV) *
+                                  inversesqrt(glm::max(length2(tangent), 1e-12)) * tangent;
+    p.v = NoV < MIN_CONIC_NOV ? tilted : s.v;
+    p.mirror = 2.0 * p.NoV * s.n - p.v;
+    p.vxn = glm::cross(p.v, s.n);
+    p.vv = length2(p.vxn);
+    p.alpha = s.alpha;
+    p.a2 = s.alpha * s.alpha;
+    p.oneMinusA2 = 1.0 - p.a2;
+    p.invA2 = 1.0 / p.a2;
+    p.smithV = std::sqrt(p.a2 + p.oneMinusA2 * p.NoV * p.NoV);
+    return p;
+}
+
+double halley(double t, double tr, double m2, double D0)
+{
+    const double f2 = 3.0 * t + tr;
+    const double f = ((t + tr) * t + m2) * t - D0;
+    const double f1 = (f2 + tr) * t + m2;
+    return glm::max(t - f * f1 / (f1 * f1 - f * f2), 1e-12);
+}
+
+ConicRegion wholeCap(ConicPoint p, glm::dvec3 c, double NoC, double s2, double omc)
+{
+    const glm::dvec3 dl = c - p.mirror;
+    const double dz = NoC - p.NoV;
+    const double t = glm::dot(p.v, c) - p.NoV * NoC;
+    const double ll = 1.0 - NoC * NoC;
+    const double w = glm::dot(p.vxn, c);
+    const double hh = 0.5 * length2(p.v + c);
+    const double k = glm::max(hh - omc, 0.001 * hh);
+    const double z0 = 0.5 * length2(dl) - omc;
+
+    const double G = glm::max(length2(p.NoV * dl - dz * p.mirror), 1e-14);
+    const double AC = 2.0 * (k - t);
+    const double M = k * (k - 2.0 * t) - w * w;
+    const double ks = k * s2;
+    const double Z = z0 * p.invA2;
+    const double D0 = ks * p.invA2;
+    const double tr = AC + Z;
+    const double m2 = M + AC * Z - G * p.invA2;
+
+    const double u = glm::clamp(M * z0 + ks, 1e-4 * AC * G, AC * G);
+    const double inside = glm::max(0.0, -Z);
+    const double invU = 1.0 / (u + inside * G);
+    const double ka = glm::max(M * G + (AC * G - u) * inside, 0.001 * u * AC) * invU;
+    const double c0 = Z >= 0.0 ? D0 * G * invU : G * p.invA2 - Z * ka;
+    const double b = 0.5 * (Z + ka);
+    const double r = std::sqrt(b * b + c0);
+    double lam = b > 0.0 ? c0 / (b + r) : r - b;
+    lam = halley(lam, tr, m2, D0);
+    lam = halley(lam, tr, m2, D0);
+
+    const double P = glm::max((3.0 * lam + 2.0 * tr) * lam + m2, 1e-20);
+    const double kp = k + lam;
+    const double kt = kp - t;
+    const double adj = glm::max(kt * kt - p.vv * ll, 1e-4 * kp * kp);
+    const double invAdj = 1.0 / adj;
+    const double a = (kt * NoC + ll * p.NoV) * invAdj;
+    const double e = (kt * p.NoV + p.vv * NoC) * invAdj;
+    ConicRegion o{};
+    o.integral = glm::min(lam * std::sqrt(adj) / P, 1.0);
+    o.av = a * p.vv + e * t;
+    o.x2 = glm::max(a * (o.av + e * t) + e * e * ll, 0.0);
+    o.mu = glm::max(p.NoV + o.av, MIN_CONIC_MU);
+    return o;
+}
+
+// shaders/lib/specular/conic_shading.glsl
+
+double shadowedHalf(ConicPoint p, ConicRegion o, double NoL)
+{
+    const double smithL = std::sqrt(p.a2 + p.oneMinusA2 * NoL * NoL);
+    return o.integral * o.mu * NoL / (NoL * p.smithV + p.NoV * smithL);
+}
+
+glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o)
+{
+    const double q = 1.0 + o.x2 * p.invA2;
+    const double variance = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
+    const double im2 = 1.0 / (1.0 + o.x2 + 0.75 * variance);
+    const double VoH = saturate(o.mu * std::sqrt(im2));
+    const double NoL = glm::clamp(2.0 * o.mu * im2 - p.NoV, 1e-6, 1.0);
+    const double a = glm::min(2.0 * shadowedHalf(p, o, NoL), 1.0);
+    return glm::dvec2(a, a * pow5(1.0 - VoH));
+}
+
+CapHeights capHeights(SphereCap cap, double sinC)
+{
+    const double cosS = 1.0 - cap.omc;
+    CapHeights z{};
+    z.high = cap.NoC >= cosS ? 1.0 : cap.NoC * cosS + sinC * cap.s;
+    z.low = glm::max(0.0, cap.NoC * cosS - sinC * cap.s);
+    const double whole = cap.NoC * (1.0 - 0.5 * cap.omc);
+
+    const double u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
+    const double u2 = u * u;
+    const double cut =
+        z.high * glm::min(0.4 + u * (0.036 + u * (0.02 + 0.044 * u2 * u + 0.24 * cap.omc)),
+                          0.5 + 0.5 * cosS);
+    const double u8 = u2 * u2 * u2 * u2;
+    z.mean = cut + u8 * (whole - cut);
+    return z;
+}
+
+glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, SphereCap cap, double sinC, double v1)
+{
+    const CapHeights z = capHeights(cap, sinC);
+
+    const double q = 1.0 + o.x2 * p.invA2;
+    const double variance = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
+    const double gz = 2.0 / (1.0 + o.x2 + 0.865 * variance);
+    const double tau = o.mu * gz;
+    const double dv = p.vv - tau * o.av;
+    const double ds = o.av - tau * o.x2;
+    const double dd = glm::max(p.vv - tau * (o.av + ds), 1e-8);
+    const double lobeHeight = glm::clamp(tau - p.NoV, z.low, z.high);
+    const double lobeVariance = 1.038 * variance * gz * gz * dd;
+    const double room = 0.242 * (lobeHeight - z.low) * (z.high - lobeHeight);
+    const double shift = std::sqrt(lobeVariance * room / (lobeVariance + room + 1e-20));
+    const double stepSlope = shift / (gz * dd);
+    const double rel = glm::clamp(stepSlope * dv / o.mu, -0.9, 0.9);
+    const double fromLobe = glm::clamp(lobeHeight + shift * rel, z.low, z.high);
+
+    const double spread = glm::min(
+        std::sqrt(glm::max(0.174 * (z.mean - z.low) * (z.high - z.mean), 0.0)), 0.98 * z.mean);
+    const double za = z.mean - spread;
+    const double zb = glm::min(z.mean + spread, 1.0);
+    const double across = p.vv - v1 * v1;
+    const double reachA = v1 + std::sqrt(glm::max(1.0 - za * za, 0.0));
+    const double reachB = v1 + std::sqrt(glm::max(1.0 - zb * zb, 0.0));
+    const double ha = reachA * reachA + across;
+    const double hb = reachB * reachB + across;
+    const double ma = (p.NoV + za) * (p.NoV + za);
+    const double mb = (p.NoV + zb) * (p.NoV + zb);
+    const double da = (ha + ma) * (hb + p.a2 * mb);
+    const double db = (hb + mb) * (ha + p.a2 * ma);
+    const double share = db * db / (da * da + db * db);
+    const double fromLight = za + (zb - za) * share;
+    const double lightVariance = (zb - za) * (zb - za) * share * (1.0 - share);
+    const double lobeWidth = p.a2 + 2.93 * o.x2;
+    const double height = z.high - z.low;
+    const double wide = lobeWidth / (lobeWidth + 0.539 * p.oneMinusA2 * height * height);
+
+    const double mean = glm::max(fromLobe + wide * (fromLight - fromLobe), 1e-6);
+    const double room1 = 0.242 * glm::max(0.0, mean - z.low) * glm::max(0.0, z.high - mean);
+    const double fromLobe2 = 1.79 * lobeVariance * room1 / (lobeVariance + room1 + 1e-20);
+    const double deviation =
+        glm::min(std::sqrt(fromLobe2 + wide * (1.295 * lightVariance - fromLobe2)), 0.98 * mean);
+    const double low = shadowedHalf(p, o, mean - deviation);
+    const double high = shadowedHalf(p, o, glm::min(mean + deviation, 1.0));
+    const double stepLow = stepSlope * (rel - 1.0);
+    const double stepHigh = stepSlope * (rel + 1.0);
+    const double m2 = 1.0 + o.x2 + 0.64 * variance;
+    const double m2Low = glm::max(m2 + stepLow * (2.0 * ds + stepLow * dd), 1e-20);
+    const double m2High = glm::max(m2 + stepHigh * (2.0 * ds + stepHigh * dd), 1e-20);
+    const double VoHLow = saturate((o.mu + stepLow * dv) / std::sqrt(m2Low));
+    const double VoHHigh = saturate((o.mu + stepHigh * dv) / std::sqrt(m2High));
+    return glm::min(glm::dvec2(low + high, low * pow5(1.0 - VoHLow) + high * pow5(1.0 - VoHHigh)),
+                    glm::dvec2(1.0));
+}
+
+} // namespace candelabra::test::transcription

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// Properties of the slope-conic formulas that need no truth: continuity and limits. In double, on
+// the transcription; that the shaders compute the same is tests/gpu/test_conic.cpp.
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "transcription/conic.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+namespace tr = transcription;
+
+struct Configuration {
+    double alpha, NoV, s, elevation, azimuth; // of the light's centre, radians, from the horizon
+};
+
+glm::dvec2 respond(const Configuration& c)
+{
+    const glm::dvec3 n(0, 0, 1);
+    const glm::dvec3 v(std::sqrt(1 - c.NoV * c.NoV), 0, c.NoV);
+    const glm::dvec3 l(std::cos(c.elevation) * std::cos(c.azimuth),
+                       std::cos(c.elevation) * std::sin(c.azimuth), std::sin(c.elevation));
+    return tr::conicResponse(tr::makeConicPoint(tr::makeShadingPoint(n, v, c.alpha)),
+                             tr::makeSphereCap(n, l, c.s));
+}
+
+double peakOf(Configuration c)
+{
+    c.azimuth = std::numbers::pi;
+    c.elevation = std::asin(c.NoV);
+    return respond(c).x;
+}
+
+class Random
+{
+public:
+    double operator()(double low, double high)
+    {
+        return low + (high - low) * double(random_()) / 4294967296.0;
+    }
+    Configuration configuration()
+    {
+        const double roughness = (*this)(0.0448, 1);
+        return {.alpha = roughness * roughness,
+                .NoV = std::cos((*this)(0, 88 * std::numbers::pi / 180)),
+                .s = std::sin(std::pow(10.0, (*this)(-1, 1.9)) * std::numbers::pi / 180),
+                .elevation = 0,
+                .azimuth = std::numbers::pi - 1.5 * std::pow((*this)(-1, 1), 3)};
+    }
+
+private:
+    std::mt19937 random_{99};
+};
+
+// The largest true jump of `at` over [0, 1]: the steepest of `steps` intervals is halved until a
+// slope would have vanished.
+double largestJump(const std::function<double(double)>& at, int steps)
+{
+    double low = 0, size = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double difference = std::abs(at((i + 1.0) / steps) - at(double(i) / steps));
+        if (difference > size) {
+            size = difference;
+            low = double(i) / steps;
+        }
+    }
+    double high = low + 1.0 / steps;
+    for (int i = 0; i < 24; ++i) {
+        const double middle = (low + high) / 2;
+        if (std::abs(at(middle) - at(low)) > std::abs(at(high) - at(middle)))
+            high = middle;
+        else
+            low = middle;
+    }
+    return std::abs(at(high) - at(low));
+}
+
+} // namespace
+
+// A light that rises through the horizon: its lower edge, centre, upper edge and twice its radius
+// are borders between forms, which must agree there.
+TEST(ConicFormula, NoJumpWhereTheLightRises)
+{
+    Random random;
+    double worst = 0, worstEdge = 0;
+    for (int i = 0; i < 1000; ++i) {
+        Configuration c = random.configuration();
+        const double peak = peakOf(c), half = std::asin(c.s);
+        const auto at = [&](double t) {
+            c.elevation = half * (-1.05 + 3.3 * t);
+            return respond(c).x / peak;
+        };
+        const double jump = largestJump(at, 64);
+        if (jump > worst)
+            worst = jump;
+        for (const double edge : {-1.0, 0.0, 1.0, 2.0}) {
+            if (edge * c.s >= 1)
+                continue;
+            const double elevation = std::asin(edge * c.s);
+            c.elevation = elevation - 1e-10;
+            const double before = respond(c).x;
+            c.elevation = elevation + 1e-10;
+            worstEdge = std::max(worstEdge, std::abs(respond(c).x - before) / peak);
+        }
+    }
+    std::cout << "largest jump over the peak: " << worst << ", at the borders " << worstEdge
+              << "\n";
+    EXPECT_LE(worst, 1e-5);
+    EXPECT_LE(worstEdge, 5e-4);
+}
+
+TEST(ConicFormula, NoJumpAlongAzimuthSizeViewAndRoughness)
+{
+    const std::pair<const char*, std::function<void(Configuration&, double)>> sweeps[] = {
+        {"azimuth", [](Configuration& c, double t) { c.azimuth = std::numbers::pi * t; }},
+        {"size", [](Configuration& c, double t) { c.s = std::pow(10.0, -4 * (1 - t)); }},
+        {"view", [](Configuration& c, double t) { c.NoV = 0.02 + 0.98 * t; }},
+        {"alpha", [](Configuration& c, double t) { c.alpha = 0.002 + 0.998 * t; }}};
+    for (const auto& [name, move] : sweeps) {
+        Random random;
+        double worst = 0;
+        for (int i = 0; i < 300; ++i) {
+            Configuration c = random.configuration();
+            c.elevation = std::asin(c.s * std::min(random(-1, 3), 0.99 / c.s));
+            const double peak = peakOf(c);
+            const auto at = [&](double t) {
+                Configuration moved = c;
+                move(moved, t);
+                return respond(moved).x / std::max(peakOf(moved), peak);
+            };
+            worst = std::max(worst, largestJump(at, 64));
+        }
+        std::cout << name << ": largest jump over the peak " << worst << "\n";
+        EXPECT_LE(worst, 2e-3) << name; // alpha: where small caps stop being clipped exactly
+    }
+}
+
+// Below the horizon exactly nothing, and a small light is the point light: the error falls with
+// s^2.
+TEST(ConicFormula, LimitsAreTheHorizonAndThePointLight)
+{
+    Random random;
+    for (const double s : {1e-2, 1e-3, 1e-4}) {
+        double worst = 0;
+        for (int i = 0; i < 2000; ++i) {
+            Configuration c = random.configuration();
+            c.s = s;
+            c.alpha = std::max(c.alpha, 0.1);
+            c.NoV = std::max(c.NoV, 0.1);
+            const glm::dvec3 n(0, 0, 1);
+            const glm::dvec3 v(std::sqrt(1 - c.NoV * c.NoV), 0, c.NoV);
+            c.elevation = random(0.1, 1.5);
+            const glm::dvec3 l(std::cos(c.elevation) * std::cos(c.azimuth),
+                               std::cos(c.elevation) * std::sin(c.azimuth), std::sin(c.elevation));
+            const tr::ShadingPoint p = tr::makeShadingPoint(n, v, c.alpha);
+            const glm::dvec2 point = tr::pointResponse(p, tr::makeSphereCap(n, l, s));
+            worst = std::max(worst, std::abs(respond(c).x / point.x - 1));
+            c.elevation = -std::asin(s) - 1e-9;
+            EXPECT_EQ(respond(c).x, 0);
+        }
+        std::cout << "s " << s << ": largest relative difference to the point light " << worst
+                  << "\n";
+        EXPECT_LE(worst, 1000 * s * s); // in the far tail of alpha = 0.1
+    }
+}
+
+} // namespace candelabra::test
