@@ -23,6 +23,7 @@
     X(CmdCopyBuffer)                                                                               \
     X(CmdCopyBufferToImage)                                                                        \
     X(CmdDispatch)                                                                                 \
+    X(CmdDispatchIndirect)                                                                         \
     X(CmdDraw)                                                                                     \
     X(CmdDrawIndexedIndirect)                                                                      \
     X(CmdEndRendering)                                                                             \
@@ -35,6 +36,7 @@
     X(CmdSetFrontFace)                                                                             \
     X(CmdSetScissor)                                                                               \
     X(CmdSetViewport)                                                                              \
+    X(CmdUpdateBuffer)                                                                             \
     X(CmdWriteTimestamp2)                                                                          \
     X(CreateBuffer)                                                                                \
     X(CreateBufferView)                                                                            \

@@ -11,18 +11,21 @@ void Frame::barrier() const noexcept
 {
     const VkMemoryBarrier2 barrier{
         .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-        .srcStageMask =
-            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-        .srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                         VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
-                         VK_ACCESS_2_TRANSFER_WRITE_BIT,
-        .dstStageMask =
-            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+        .srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                        VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
+                        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+        .srcAccessMask =
+            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT |
+            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
+            VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
+        .dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                        VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
+                        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
         .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
                          VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
                          VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT |
-                         VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+                         VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
+                         VK_ACCESS_2_TRANSFER_WRITE_BIT};
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                 .memoryBarrierCount = 1,
                                 .pMemoryBarriers = &barrier};
@@ -208,14 +211,32 @@ void KernelBase::dispatchRaw(const Frame& frame, VkDescriptorSet set, const void
     const Device& d = frame.device;
     d.beginLabel(frame.cmd, name_);
     if (x && y && z) {
-        d.CmdBindPipeline(frame.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-        d.CmdBindDescriptorSets(frame.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1,
-                                &set, 0, nullptr);
-        d.CmdPushConstants(frame.cmd, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, size, params);
+        bind(frame, set, params, size);
         d.CmdDispatch(frame.cmd, x, y, z);
     }
     d.endLabel(frame.cmd);
     frame.timer.stamp(frame.cmd, name_);
+}
+
+void KernelBase::dispatchIndirectRaw(const Frame& frame, VkDescriptorSet set, const void* params,
+                                     uint32_t size, VkBuffer arguments) const noexcept
+{
+    const Device& d = frame.device;
+    d.beginLabel(frame.cmd, name_);
+    bind(frame, set, params, size);
+    d.CmdDispatchIndirect(frame.cmd, arguments, 0);
+    d.endLabel(frame.cmd);
+    frame.timer.stamp(frame.cmd, name_);
+}
+
+void KernelBase::bind(const Frame& frame, VkDescriptorSet set, const void* params,
+                      uint32_t size) const noexcept
+{
+    const Device& d = frame.device;
+    d.CmdBindPipeline(frame.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    d.CmdBindDescriptorSets(frame.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &set, 0,
+                            nullptr);
+    d.CmdPushConstants(frame.cmd, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, size, params);
 }
 
 } // namespace candelabra::gpu

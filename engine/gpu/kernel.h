@@ -92,8 +92,13 @@ public:
 protected:
     void dispatchRaw(const Frame& frame, VkDescriptorSet set, const void* params, uint32_t size,
                      uint32_t x, uint32_t y, uint32_t z) const noexcept;
+    void dispatchIndirectRaw(const Frame& frame, VkDescriptorSet set, const void* params,
+                             uint32_t size, VkBuffer arguments) const noexcept;
 
 private:
+    void bind(const Frame& frame, VkDescriptorSet set, const void* params,
+              uint32_t size) const noexcept;
+
     const Device* device_ = nullptr;
     const char* name_ = "";
     Reflection reflection_;
@@ -118,6 +123,12 @@ public:
                   uint32_t y = 1, uint32_t z = 1) const noexcept
     {
         dispatchRaw(frame, set, &params, sizeof params, x, y, z);
+    }
+    // Group counts from the start of `arguments` (VkDispatchIndirectCommand).
+    void dispatchIndirect(const Frame& frame, VkDescriptorSet set, const Params& params,
+                          const Buffer& arguments) const noexcept
+    {
+        dispatchIndirectRaw(frame, set, &params, sizeof params, arguments.get());
     }
 };
 

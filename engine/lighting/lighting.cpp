@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "candelabra_shaders.h"
-#include "lighting/pack_lights.h"
 
 namespace candelabra::lighting
 {
@@ -13,49 +12,13 @@ namespace
 {
 
 // Light buffers start with this capacity and grow by half, so that a growing scene reallocates
-// rarely; the smallest is 56 + 64 bytes per light.
+// rarely; the smallest is 64 + 64 bytes per light.
 constexpr uint32_t minCapacity = 1024;
 
 constexpr VkBufferUsageFlags storageUse =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
-// Texel buffers when they can hold every light that the other limits let in.
-uint32_t lightsAsTexels(const gpu::Device& device)
-{
-    return device.limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >=
-           maxLights(device.limits);
-}
-
-void createShadeKernels(ShadeKernels& out, const gpu::Device& device, const gpu::Spirv& spirv,
-                        CndGBufferLayout layout)
-{
-    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
-        for (const bool onlySpheres : {false, true}) {
-            auto& kernels = onlySpheres ? out.onlySpheres : out.anyLights;
-            kernels[method] =
-                gpu::Kernel<gpu::ShadeParams>(device, spirv,
-                                              {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
-                                               {gpu::SPEC_SPECULAR_METHOD, method},
-                                               {gpu::SPEC_ONLY_SPHERES, onlySpheres},
-                                               {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}});
-        }
-}
-
-// The hungriest kernel is tile_lists: it may walk every light and every mask word twice, and adds
-// up the 64 lists of a group twice. shade_tiles walks a list and its blocks, then every light it
-// found.
-uint32_t batchSize(const gpu::Device& device)
-{
-    if (device.maxLoopIterations == UINT32_MAX)
-        return UINT32_MAX;
-    constexpr uint32_t fixedIterations = 1024; // sums over the group and retries of the reservation
-    constexpr uint32_t multiple = 1024;
-    const uint64_t lights = uint64_t(device.maxLoopIterations - fixedIterations) * gpu::MASK_BITS /
-                            (2 * (gpu::MASK_BITS + 1));
-    return uint32_t(lights / multiple * multiple);
-}
-
-CndLightingDesc checked(const CndLightingDesc& desc)
+CndLightingDesc checked(CndLightingDesc desc)
 {
     if (desc.structSize != sizeof desc)
         gpu::failArgument("CndLightingDesc: structSize is " + std::to_string(desc.structSize) +
@@ -65,6 +28,11 @@ CndLightingDesc checked(const CndLightingDesc& desc)
                           std::to_string(desc.framesInFlight));
     if (desc.gbufferLayout != CND_GBUFFER_FULL && desc.gbufferLayout != CND_GBUFFER_COMPACT)
         gpu::failArgument("CndLightingDesc: gbufferLayout is not a CndGBufferLayout");
+    if (desc.specularMethods >> CND_SPECULAR_METHOD_COUNT)
+        gpu::failArgument("CndLightingDesc: specularMethods has bits beyond the last "
+                          "CndSpecularMethod");
+    if (!desc.specularMethods)
+        desc.specularMethods = 1u << CND_SPECULAR_CONIC;
     return desc;
 }
 
@@ -81,7 +49,7 @@ uint32_t maxLights(const VkPhysicalDeviceLimits& limits)
     return uint32_t(std::min({countable, stored, dispatched}));
 }
 
-Kernels::Kernels(const gpu::Device& device, CndGBufferLayout layout)
+Kernels::Kernels(const gpu::Device& device, const CndLightingDesc& desc)
     : prepareLights(device, spirv::prepare_lights_comp),
       tileBounds(device, spirv::tile_bounds_comp),
       coarseBounds(device, spirv::coarse_bounds_comp),
@@ -89,21 +57,27 @@ Kernels::Kernels(const gpu::Device& device, CndGBufferLayout layout)
                   {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
       tileLists(device, spirv::tile_lists_comp,
                 {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
-      countPairs(device, spirv::count_pairs_comp,
-                 {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
-                  {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}})
+      shade(device, desc.gbufferLayout, desc.specularMethods)
 {
-    createShadeKernels(shadeTiles, device, spirv::shade_tiles_comp, layout);
-    createShadeKernels(shadeBrute, device, spirv::shade_brute_comp, layout);
 }
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
-    : device_(device),
-      desc_(checked(desc)),
-      kernels_(device_, desc_.gbufferLayout),
-      lightsPerBatch_(batchSize(device_))
+    : device_(device), desc_(checked(desc)), kernels_(device_, desc_)
 {
     grow(0);
+}
+
+// Walking costs at most this many loop iterations per light. shade_tiles: a test, a turn of one
+// class's loop, and per block of 32 its own turn and the five exits; tile_lists (two turns, and two
+// more per mask word) needs less.
+uint32_t Lighting::lightsPerBatch(uint32_t samplesPerLight) const
+{
+    if (device_.maxLoopIterations == UINT32_MAX)
+        return UINT32_MAX;
+    constexpr uint32_t fixedIterations = 1024; // sums over the group and retries of the reservation
+    const uint64_t per32 = 32 * (2 + uint64_t(samplesPerLight)) + 6;
+    const uint64_t lights = uint64_t(device_.maxLoopIterations - fixedIterations) * 32 / per32;
+    return uint32_t(std::max<uint64_t>(lights, 1));
 }
 
 void Lighting::setLights(const CndLightSet& set)
@@ -121,13 +95,17 @@ void Lighting::setLights(const CndLightSet& set)
         if (!std::isfinite(o))
             gpu::failArgument("CndLightSet: origin must be finite");
     const std::span lights(set.lights, set.count);
-    const bool onlySpheres = validateLights(lights);
+    validateLights(lights);
+    const LightTypeCounts counts = countTypes(lights);
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (counts[type])
+            kernels_.shade.require(type);
     freeRetired();
     grow(set.count);
     Staging& staging = freeStaging();
-    packLights(lights, staging.buffer.as<gpu::LightRecord>());
+    packLights(lights, counts, staging.buffer.as<gpu::LightRecord>());
     pending_ = &staging;
-    onlySpheres_ = onlySpheres;
+    typeCounts_ = counts;
     lightCount_ = set.count;
     std::copy_n(set.origin, 3, origin_);
 }

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "gpu/kernel.h"
+#include "lighting/pack_lights.h"
+#include "lighting/shade_kernels.h"
 #include "shared/lighting.h"
 
 namespace candelabra::lighting
@@ -17,22 +19,14 @@ class View;
 // Largest light set that a device with these limits can take.
 uint32_t maxLights(const VkPhysicalDeviceLimits& limits);
 
-// One pipeline per specular method, for sets that hold spheres only and for any set: a light type
-// that is absent costs nothing.
-struct ShadeKernels {
-    gpu::Kernel<gpu::ShadeParams> anyLights[CND_SPECULAR_METHOD_COUNT];
-    gpu::Kernel<gpu::ShadeParams> onlySpheres[CND_SPECULAR_METHOD_COUNT];
-};
-
 struct Kernels {
-    Kernels(const gpu::Device& device, CndGBufferLayout layout);
+    Kernels(const gpu::Device& device, const CndLightingDesc& desc);
     gpu::Kernel<gpu::PrepareLightsParams> prepareLights;
     gpu::Kernel<gpu::TileBoundsParams> tileBounds;
     gpu::Kernel<gpu::CoarseBoundsParams> coarseBounds;
     gpu::Kernel<gpu::CoarseMasksParams> coarseMasks;
     gpu::Kernel<gpu::TileListsParams> tileLists;
-    gpu::Kernel<gpu::ShadeParams> countPairs;
-    ShadeKernels shadeTiles, shadeBrute;
+    ShadeKernels shade;
 };
 
 class Lighting
@@ -59,10 +53,11 @@ public:
     const gpu::Buffer& records() const { return records_; }
     uint32_t lightCount() const { return lightCount_; }
     uint32_t lightCapacity() const { return lightCapacity_; }
-    bool onlySpheres() const { return onlySpheres_; }
+    const LightTypeCounts& typeCounts() const { return typeCounts_; }
     const double* origin() const { return origin_; }
-    // Lights that are culled and shaded together: all, unless the device limits loops.
-    uint32_t lightsPerBatch() const { return lightsPerBatch_; }
+    // Lights that are culled and shaded together, at most: all of a type, unless the device limits
+    // loops. `samplesPerLight`: of the specular method.
+    uint32_t lightsPerBatch(uint32_t samplesPerLight) const;
 
 private:
     struct Retired {
@@ -90,8 +85,7 @@ private:
     std::deque<Staging> staging_; // elements stay where they are when it grows
     Staging* pending_ = nullptr;  // written and not yet recorded
     uint32_t lightCount_ = 0, lightCapacity_ = 0;
-    uint32_t lightsPerBatch_;
-    bool onlySpheres_ = true;
+    LightTypeCounts typeCounts_{};
     double origin_[3]{};
     uint64_t recordings_ = 0;
 };
@@ -123,8 +117,8 @@ private:
     Plan plan(const CndLightingFrame& frame) const;
     void validate(const CndLightingFrame& frame) const;
     void writeBindings(const CndLightingFrame& frame) const;
-    struct Batch { // consecutive lights
-        uint32_t first, count;
+    struct Batch { // consecutive lights of one type
+        uint32_t type, first, count;
     };
     void recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept;
     void recordBounds(const gpu::Frame& f, const Plan& plan) const noexcept;
@@ -135,7 +129,7 @@ private:
 
     struct Sets {
         gpu::Bindings prepareLights, tileBounds, coarseBounds, coarseMasks, tileLists, countPairs,
-            shadeTiles, shadeBrute;
+            shadeTiles, shadeHorizon, shadeBrute;
     };
     struct SlotState {
         uint64_t recording = 0; // 0: never used
@@ -148,7 +142,7 @@ private:
     Sets sets_;
     gpu::Buffer core_, aux_; // per light
     gpu::Buffer masks_;      // per coarse tile and light
-    gpu::Buffer tileBounds_, coarseBounds_, lists_, entries_, counters_;
+    gpu::Buffer tileBounds_, coarseBounds_, lists_, entries_, horizon_, counters_;
     std::vector<gpu::Buffer> readback_; // per slot
     std::vector<SlotState> slots_;
 };

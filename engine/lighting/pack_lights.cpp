@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lighting/pack_lights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "gpu/failure.h"
@@ -13,10 +15,9 @@ namespace candelabra::lighting
 namespace
 {
 
-static_assert(gpu::LIGHT_POINT == CND_LIGHT_POINT);
-static_assert(gpu::LIGHT_SPHERE == CND_LIGHT_SPHERE);
-static_assert(gpu::LIGHT_SPOT == CND_LIGHT_SPOT);
-static_assert(gpu::LIGHT_DIRECTIONAL == CND_LIGHT_DIRECTIONAL);
+#define X(id, NAME) static_assert(gpu::LIGHT_##NAME == uint32_t{CND_LIGHT_##NAME});
+CND_LIGHT_TYPES(X)
+#undef X
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -42,6 +43,92 @@ bool isNear(const float (&v)[3])
            std::abs(v[2]) <= maxCoordinate; // false for NaN
 }
 
+bool isOneOf(uint32_t type, std::initializer_list<CndLightType> types)
+{
+    return std::find(types.begin(), types.end(), CndLightType(type)) != types.end();
+}
+
+bool isDistant(uint32_t type)
+{
+    return isOneOf(type, {CND_LIGHT_DIRECTIONAL, CND_LIGHT_DISTANT_SPHERE});
+}
+
+// From the centre to the farthest point of the emitter.
+float reachOf(const CndLight& light)
+{
+    const glm::vec3 u = vec(light.axisU), v = vec(light.axisV);
+    switch (light.type) {
+    case CND_LIGHT_SPHERE:
+    case CND_LIGHT_DISTANT_SPHERE:
+    case CND_LIGHT_DISC:
+        return light.radius;
+    case CND_LIGHT_TUBE:
+        return std::hypot(u.x, u.y, u.z) + light.radius;
+    case CND_LIGHT_RECTANGLE:
+        return std::hypot(std::hypot(u.x, u.y, u.z), std::hypot(v.x, v.y, v.z));
+    default:
+        return 0;
+    }
+}
+
+const char* whyAxesInvalid(const CndLight& light)
+{
+    if (light.type != CND_LIGHT_TUBE && light.type != CND_LIGHT_RECTANGLE)
+        return nullptr;
+    const glm::vec3 u = vec(light.axisU), v = vec(light.axisV);
+    const float lengthU = std::hypot(u.x, u.y, u.z), lengthV = std::hypot(v.x, v.y, v.z);
+    // Shorter ones have no squared length in single precision.
+    constexpr float minLength = 1e-15f;
+    if (!(isNear(light.axisU) && lengthU > minLength))
+        return "axisU must be finite and not zero";
+    if (light.type == CND_LIGHT_TUBE)
+        return nullptr;
+    if (!(isNear(light.axisV) && lengthV > minLength))
+        return "axisV must be finite and not zero";
+    if (!(std::abs(glm::dot(u / lengthU, v / lengthV)) <= 1e-3f))
+        return "axisU and axisV must be perpendicular";
+    return nullptr;
+}
+
+const char* whyConeInvalid(const CndLight& light)
+{
+    if (light.type != CND_LIGHT_SPOT)
+        return nullptr;
+    // float(pi / 2) may exceed the double by an ulp.
+    constexpr float quarterTurn = float(std::numbers::pi / 2) * (1 + 1e-6f);
+    if (!(light.innerConeAngle >= 0 && light.innerConeAngle < light.outerConeAngle &&
+          light.outerConeAngle <= quarterTurn))
+        return "cone angles must satisfy 0 <= inner < outer <= pi/2";
+    if (cosBetween(light) < minCosBetween)
+        return "cone angles are too close or too narrow (their cosines differ by less than 1e-6)";
+    return nullptr;
+}
+
+const char* whyRadiusInvalid(const CndLight& light)
+{
+    const bool round = isOneOf(
+        light.type, {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_DISC});
+    if (round && !(light.radius > 0 && light.radius < infinity))
+        return "radius must be finite and > 0";
+    if (light.type == CND_LIGHT_DISTANT_SPHERE && light.radius > 1)
+        return "radius of a distant sphere is a sine and must be <= 1";
+    return nullptr;
+}
+
+const char* whyInfluenceInvalid(const CndLight& light)
+{
+    if (isDistant(light.type))
+        return nullptr;
+    if (!(light.influenceRadius > 0))
+        return "influenceRadius must be > 0 (INFINITY for uncut)";
+    if (light.type == CND_LIGHT_SPHERE || light.type == CND_LIGHT_DISC)
+        return light.influenceRadius > light.radius ? nullptr
+                                                    : "influenceRadius must be greater than radius";
+    return light.influenceRadius > reachOf(light)
+               ? nullptr
+               : "influenceRadius must be greater than the emitter's reach from its centre";
+}
+
 // Why a light cannot be used, or null. Kept free of allocation: it runs a million times a frame.
 const char* whyInvalid(const CndLight& light)
 {
@@ -50,80 +137,88 @@ const char* whyInvalid(const CndLight& light)
     for (const float e : light.emission)
         if (!(e >= 0 && e < infinity))
             return "emission must be finite and >= 0";
-    const bool placed = light.type != CND_LIGHT_DIRECTIONAL;
-    if (placed && !isNear(light.position))
+    if (!isDistant(light.type) && !isNear(light.position))
         return "position must be finite and within 1e15 m of the origin";
-    if (placed && !(light.influenceRadius > 0))
-        return "influenceRadius must be > 0 (INFINITY for uncut)";
-    if (light.type == CND_LIGHT_SPHERE) {
-        if (!(light.radius > 0 && light.radius < infinity))
-            return "radius must be finite and > 0";
-        if (!(light.influenceRadius > light.radius))
-            return "influenceRadius must be greater than radius";
-    }
-    if (light.type == CND_LIGHT_SPOT || light.type == CND_LIGHT_DIRECTIONAL) {
+    if (isOneOf(light.type, {CND_LIGHT_SPOT, CND_LIGHT_DIRECTIONAL, CND_LIGHT_DISTANT_SPHERE,
+                             CND_LIGHT_DISC})) {
         const float length = std::hypot(light.direction[0], light.direction[1], light.direction[2]);
         if (!(std::abs(length - 1) <= 1e-3f))
             return "direction must be a unit vector";
     }
-    if (light.type == CND_LIGHT_SPOT) {
-        // float(pi / 2) may exceed the double by an ulp.
-        constexpr float quarterTurn = float(std::numbers::pi / 2) * (1 + 1e-6f);
-        if (!(light.innerConeAngle >= 0 && light.innerConeAngle < light.outerConeAngle &&
-              light.outerConeAngle <= quarterTurn))
-            return "cone angles must satisfy 0 <= inner < outer <= pi/2";
-        if (cosBetween(light) < minCosBetween)
-            return "cone angles are too close or too narrow (their cosines differ by less than "
-                   "1e-6)";
-    }
-    return nullptr;
+    if (const char* why = whyRadiusInvalid(light))
+        return why;
+    if (const char* why = whyAxesInvalid(light))
+        return why;
+    if (const char* why = whyInfluenceInvalid(light))
+        return why;
+    return whyConeInvalid(light);
+}
+
+glm::vec3 unit(const float (&v)[3])
+{
+    const glm::vec3 d = vec(v);
+    return d / std::hypot(d.x, d.y, d.z);
 }
 
 gpu::LightRecord pack(const CndLight& light)
 {
     gpu::LightRecord r{};
     r.type = light.type;
+    r.reach = reachOf(light);
     r.emission = vec(light.emission);
-    r.influenceRadius = light.influenceRadius;
-    if (light.type == CND_LIGHT_DIRECTIONAL) {
-        // Reaches everywhere, and no part of it is ever below a horizon as far as culling knows.
-        r.influenceRadius = infinity;
-        r.radius = infinity;
-    } else {
-        r.position = vec(light.position);
-    }
-    if (light.type == CND_LIGHT_SPHERE)
-        r.radius = light.radius;
-    if (light.type == CND_LIGHT_SPOT || light.type == CND_LIGHT_DIRECTIONAL) {
-        const glm::vec3 d = vec(light.direction);
-        r.direction = d / std::hypot(d.x, d.y, d.z);
-    }
-    if (light.type == CND_LIGHT_SPOT) {
+    r.influenceRadius = isDistant(light.type) ? infinity : light.influenceRadius;
+    r.position = isDistant(light.type) ? -unit(light.direction) : vec(light.position);
+    switch (light.type) {
+    case CND_LIGHT_SPOT: {
         // KHR_lights_punctual: attenuation is linear in the cosine between the cones, then squared.
         const double cosOuter = std::cos(double(light.outerConeAngle));
-        r.spotScale = float(1 / cosBetween(light));
-        r.spotOffset = float(-cosOuter / cosBetween(light));
+        r.axisU = unit(light.direction);
+        r.axisV = {float(1 / cosBetween(light)), float(-cosOuter / cosBetween(light)), 0};
+        break;
     }
+    case CND_LIGHT_TUBE:
+        r.axisU = vec(light.axisU);
+        r.radius = light.radius;
+        break;
+    case CND_LIGHT_RECTANGLE:
+        r.axisU = vec(light.axisU);
+        r.axisV = vec(light.axisV);
+        break;
+    case CND_LIGHT_DISC:
+        r.axisU = unit(light.direction);
+        break;
+    default:
+        break;
+    }
+    if (light.twoSided && isOneOf(light.type, {CND_LIGHT_RECTANGLE, CND_LIGHT_DISC}))
+        r.type |= gpu::LIGHT_TWO_SIDED;
     return r;
 }
 
 } // namespace
 
-bool validateLights(std::span<const CndLight> lights)
-{
-    bool onlySpheres = true;
-    for (size_t i = 0; i < lights.size(); ++i) {
-        if (const char* why = whyInvalid(lights[i]))
-            gpu::failArgument("lights[" + std::to_string(i) + "]: " + why);
-        onlySpheres = onlySpheres && lights[i].type == CND_LIGHT_SPHERE;
-    }
-    return onlySpheres;
-}
-
-void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> out)
+void validateLights(std::span<const CndLight> lights)
 {
     for (size_t i = 0; i < lights.size(); ++i)
-        out[i] = pack(lights[i]);
+        if (const char* why = whyInvalid(lights[i]))
+            gpu::failArgument("lights[" + std::to_string(i) + "]: " + why);
+}
+
+LightTypeCounts countTypes(std::span<const CndLight> lights)
+{
+    LightTypeCounts counts{};
+    for (const CndLight& light : lights)
+        ++counts[light.type];
+    return counts;
+}
+
+void packLights(std::span<const CndLight> lights, const LightTypeCounts& counts,
+                std::span<gpu::LightRecord> out)
+{
+    LightTypeCounts next{};
+    std::exclusive_scan(counts.begin(), counts.end(), next.begin(), 0u);
+    for (const CndLight& light : lights)
+        out[next[light.type]++] = pack(light);
 }
 
 } // namespace candelabra::lighting

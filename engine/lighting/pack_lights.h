@@ -2,6 +2,7 @@
 // CndLight -> gpu::LightRecord: the one place where physical units become shader values.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "candelabra/candelabra.h"
@@ -10,11 +11,17 @@
 namespace candelabra::lighting
 {
 
-// Throws gpu::Failure naming the first light and field outside its documented range. Returns
-// whether every light is a sphere.
-bool validateLights(std::span<const CndLight> lights);
+using LightTypeCounts = std::array<uint32_t, CND_LIGHT_TYPE_COUNT>;
 
-// Packs valid lights; `out` has at least lights.size() elements.
-void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> out);
+// Throws gpu::Failure naming the first light and field outside its documented range.
+void validateLights(std::span<const CndLight> lights);
+
+// Of valid lights.
+LightTypeCounts countTypes(std::span<const CndLight> lights);
+
+// Packs valid lights by type, in their order within a type; `out` has at least lights.size()
+// elements.
+void packLights(std::span<const CndLight> lights, const LightTypeCounts& counts,
+                std::span<gpu::LightRecord> out);
 
 } // namespace candelabra::lighting

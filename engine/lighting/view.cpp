@@ -14,7 +14,6 @@ namespace candelabra::lighting
 namespace
 {
 
-using gpu::Binding;
 using gpu::divideUp;
 
 constexpr VkDeviceSize defaultListBudget = 64u << 20;
@@ -22,6 +21,8 @@ constexpr VkDeviceSize defaultListBudget = 64u << 20;
 constexpr VkDeviceSize maskBudget = 64u << 20;
 constexpr uint32_t maxGroupsPerDimension = 65535; // Vulkan's guaranteed maxComputeWorkGroupCount
 constexpr uint32_t maxSide = 16384;               // pixels, of a view
+constexpr uint32_t defaultSampleCount = 64;
+constexpr uint32_t maxSampleCount = 4096;
 static_assert(maxSide / gpu::TILE_SIZE * (maxSide / gpu::TILE_SIZE) <=
               maxGroupsPerDimension * gpu::TILE_BOUNDS_GROUP);
 
@@ -73,6 +74,7 @@ struct View::Plan {
     uint32_t lightCount;
     uint32_t tileCountX, tileCountY;
     uint32_t factor, coarseCountX, coarseCount;
+    uint32_t sampleCount, lightsPerBatch;
     gpu::PrepareLightsParams prepare;
 };
 
@@ -91,9 +93,10 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
              .coarseBounds = k.coarseBounds.createBindings(slots),
              .coarseMasks = k.coarseMasks.createBindings(slots),
              .tileLists = k.tileLists.createBindings(slots),
-             .countPairs = k.countPairs.createBindings(slots),
-             .shadeTiles = k.shadeTiles.anyLights[0].createBindings(slots),
-             .shadeBrute = k.shadeBrute.anyLights[0].createBindings(slots)};
+             .countPairs = k.shade.countPairs(CND_LIGHT_SPHERE).createBindings(slots),
+             .shadeTiles = k.shade.anyVariant().tiles.createBindings(slots),
+             .shadeHorizon = k.shade.anyVariant().horizon.createBindings(slots),
+             .shadeBrute = k.shade.anyVariant().brute.createBindings(slots)};
     const VkDeviceSize tileCount = VkDeviceSize(tiles(desc_.maxWidth)) * tiles(desc_.maxHeight);
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
         return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Device);
@@ -102,6 +105,9 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     coarseBounds_ = make("coarse bounds", maxCoarseTiles() * sizeof(gpu::TileBounds), storageUse);
     lists_ = make("tile lists", tileCount * sizeof(gpu::TileList), storageUse);
     entries_ = make("list entries", desc_.listBudget, storageUse);
+    horizon_ =
+        make("horizon tiles", sizeof(gpu::HorizonTiles) + tileCount * sizeof(uint32_t),
+             storageUse | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     counters_ =
         make("lighting counters", sizeof(gpu::LightingCounters),
              storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
@@ -126,7 +132,7 @@ VkDeviceSize View::maxCoarseTiles() const
 // Mask words of one coarse tile and one batch of at most `lights`.
 VkDeviceSize View::maskRowBytes(uint32_t lights) const
 {
-    const uint32_t batch = std::min(lights, lighting_.lightsPerBatch());
+    const uint32_t batch = std::min(lights, lighting_.lightsPerBatch(0));
     return VkDeviceSize(divideUp(batch, gpu::MASK_BITS)) * sizeof(uint32_t);
 }
 
@@ -169,6 +175,16 @@ void View::validate(const CndLightingFrame& frame) const
         gpu::failArgument("CndLightingFrame: clearDepth must be 0 or 1");
     if (uint32_t(frame.specularMethod) >= CND_SPECULAR_METHOD_COUNT)
         gpu::failArgument("CndLightingFrame: specularMethod is not a CndSpecularMethod");
+    if (!lighting_.kernels().shade.allows(frame.specularMethod))
+        gpu::failArgument("CndLightingFrame: specularMethod " +
+                          std::to_string(frame.specularMethod) +
+                          " is not among CndLightingDesc::specularMethods");
+    if (frame.sampleCount > maxSampleCount)
+        gpu::failArgument("CndLightingFrame: sampleCount must be at most " +
+                          std::to_string(maxSampleCount) + ", is " +
+                          std::to_string(frame.sampleCount));
+    if (!(frame.errorBudget >= 0 && frame.errorBudget <= 1))
+        gpu::failArgument("CndLightingFrame: errorBudget must be 0..1");
     if (uint32_t(frame.culling) > CND_CULLING_BRUTE)
         gpu::failArgument("CndLightingFrame: culling is not a CndCulling");
     if (!frame.normalRoughness || !frame.albedo || !frame.depth || !frame.radiance ||
@@ -195,7 +211,10 @@ View::Plan View::plan(const CndLightingFrame& frame) const
            .lightCount = lighting_.lightCount(),
            .tileCountX = tiles(frame.width),
            .tileCountY = tiles(frame.height),
-           .factor = gpu::COARSE_FACTOR_MIN};
+           .factor = gpu::COARSE_FACTOR_MIN,
+           .sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount};
+    const bool sampled = frame.specularMethod == CND_SPECULAR_SAMPLED;
+    p.lightsPerBatch = lighting_.lightsPerBatch(sampled ? p.sampleCount : 0);
     const VkDeviceSize rowBytes = maskRowBytes(p.lightCount);
     for (;; p.factor *= 2) {
         p.coarseCountX = divideUp(p.tileCountX, p.factor);
@@ -211,58 +230,6 @@ View::Plan View::plan(const CndLightingFrame& frame) const
                  .originView = glm::vec3(viewFromWorld * glm::dvec4(o[0], o[1], o[2], 1)),
                  .lightCount = p.lightCount};
     return p;
-}
-
-void View::writeBindings(const CndLightingFrame& frame) const
-{
-    using namespace gpu;
-    const uint32_t slot = frame.frameSlot;
-    const VkImageView specular = frame.specular ? frame.specular : frame.albedo;
-    sets_.prepareLights.write(slot, {Binding::of(PREPARE_LIGHTS_RECORDS, lighting_.records()),
-                                     Binding::of(PREPARE_LIGHTS_CORE, core_),
-                                     Binding::of(PREPARE_LIGHTS_AUX, aux_)});
-    if (frame.culling == CND_CULLING_BRUTE) {
-        sets_.shadeBrute.write(slot,
-                               {Binding::ofTexels(SHADE_CORE, core_),
-                                Binding::of(SHADE_CORE_WORDS, core_), Binding::of(SHADE_AUX, aux_),
-                                Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
-                                Binding::sampled(SHADE_ALBEDO, frame.albedo),
-                                Binding::sampled(SHADE_SPECULAR, specular),
-                                Binding::sampled(SHADE_DEPTH, frame.depth),
-                                Binding::storage(SHADE_RADIANCE, frame.radiance)});
-        return;
-    }
-    sets_.tileBounds.write(slot, {Binding::sampled(TILE_BOUNDS_DEPTH, frame.depth),
-                                  Binding::of(TILE_BOUNDS_BOUNDS, tileBounds_),
-                                  Binding::of(TILE_BOUNDS_COUNTERS, counters_)});
-    sets_.coarseBounds.write(slot, {Binding::of(COARSE_BOUNDS_TILES, tileBounds_),
-                                    Binding::of(COARSE_BOUNDS_COARSE, coarseBounds_)});
-    sets_.coarseMasks.write(slot, {Binding::ofTexels(COARSE_MASKS_CORE, core_),
-                                   Binding::of(COARSE_MASKS_CORE_WORDS, core_),
-                                   Binding::of(COARSE_MASKS_BOUNDS, coarseBounds_),
-                                   Binding::of(COARSE_MASKS_MASKS, masks_)});
-    sets_.tileLists.write(
-        slot, {Binding::ofTexels(TILE_LISTS_CORE, core_), Binding::of(TILE_LISTS_CORE_WORDS, core_),
-               Binding::of(TILE_LISTS_BOUNDS, tileBounds_), Binding::of(TILE_LISTS_MASKS, masks_),
-               Binding::of(TILE_LISTS_LISTS, lists_), Binding::of(TILE_LISTS_ENTRIES, entries_),
-               Binding::of(TILE_LISTS_COUNTERS, counters_)});
-    sets_.shadeTiles.write(
-        slot,
-        {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
-         Binding::of(SHADE_AUX, aux_),
-         Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
-         Binding::sampled(SHADE_ALBEDO, frame.albedo), Binding::sampled(SHADE_SPECULAR, specular),
-         Binding::sampled(SHADE_DEPTH, frame.depth),
-         Binding::storage(SHADE_RADIANCE, frame.radiance), Binding::of(SHADE_LISTS, lists_),
-         Binding::of(SHADE_ENTRIES, entries_)});
-    sets_.countPairs.write(
-        slot,
-        {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
-         Binding::of(SHADE_AUX, aux_),
-         Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
-         Binding::sampled(SHADE_ALBEDO, frame.albedo), Binding::sampled(SHADE_SPECULAR, specular),
-         Binding::sampled(SHADE_DEPTH, frame.depth), Binding::of(SHADE_LISTS, lists_),
-         Binding::of(SHADE_ENTRIES, entries_), Binding::of(SHADE_COUNTERS, counters_)});
 }
 
 void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
@@ -286,12 +253,17 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
         if (frame.culling == CND_CULLING_CLUSTERED)
             recordBounds(f, plan);
         f.barrier();
-        for (Batch b{0, 0}; b.first < plan.lightCount; b.first += b.count) {
-            b.count = std::min(lighting_.lightsPerBatch(), plan.lightCount - b.first);
-            if (frame.culling == CND_CULLING_CLUSTERED)
-                recordLists(f, plan, b);
-            recordShading(f, frame, plan, b);
-            f.barrier();
+        uint32_t first = 0;
+        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+            const uint32_t end = first + lighting_.typeCounts()[type];
+            while (first < end) {
+                const Batch batch{type, first, std::min(plan.lightsPerBatch, end - first)};
+                if (frame.culling == CND_CULLING_CLUSTERED)
+                    recordLists(f, plan, batch);
+                recordShading(f, frame, plan, batch);
+                f.barrier();
+                first += batch.count;
+            }
         }
     }
     recordReadback(f);
@@ -334,6 +306,8 @@ void View::recordLists(const gpu::Frame& f, const Plan& p, Batch batch) const no
     if (batch.first) // the whole of the counters was cleared before the first
         f.device.CmdFillBuffer(f.cmd, counters_.get(), offsetof(gpu::LightingCounters, listCursor),
                                sizeof(uint32_t), 0);
+    const gpu::HorizonTiles none{.groupsX = gpu::HORIZON_ROW, .groupsZ = 1};
+    f.device.CmdUpdateBuffer(f.cmd, horizon_.get(), 0, sizeof none, &none);
     k.coarseMasks.dispatch(f, sets_.coarseMasks.set(f.slot), {batch.first, batch.count, wordCount},
                            divideUp(wordCount, gpu::COARSE_MASKS_GROUP), p.coarseCount);
     f.barrier();
@@ -354,7 +328,7 @@ void View::recordLists(const gpu::Frame& f, const Plan& p, Batch batch) const no
 void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
                          Batch batch) const noexcept
 {
-    const Kernels& k = lighting_.kernels();
+    const ShadeKernels& shade = lighting_.kernels().shade;
     gpu::ShadeParams params{.projection = p.projection,
                             .size = p.size,
                             .origin = {0, 0},
@@ -362,11 +336,12 @@ void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame, con
                             .lightCount = batch.count,
                             .tileCountX = p.tileCountX,
                             .clearDepth = p.clearDepth,
-                            .invImageSize = p.invImageSize};
-    const auto pick = [&](const ShadeKernels& kernels) -> const gpu::Kernel<gpu::ShadeParams>& {
-        return lighting_.onlySpheres() ? kernels.onlySpheres[frame.specularMethod]
-                                       : kernels.anyLights[frame.specularMethod];
-    };
+                            .invImageSize = p.invImageSize,
+                            .sampleCount = p.sampleCount,
+                            .sampleSeed = frame.sampleSeed,
+                            .errorBudget = frame.errorBudget};
+    const ShadeKernels::Variant& kernels =
+        shade.variant(batch.type, frame.specularMethod, frame.errorBudget > 0);
     if (frame.culling == CND_CULLING_BRUTE) {
         const VkRect2D& r = frame.bruteRect;
         if (r.extent.width && r.extent.height) {
@@ -374,14 +349,18 @@ void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame, con
             params.size = params.origin + glm::uvec2(r.extent.width, r.extent.height);
         }
         const glm::uvec2 pixels = params.size - params.origin;
-        pick(k.shadeBrute)
-            .dispatch(f, sets_.shadeBrute.set(f.slot), params, tiles(pixels.x), tiles(pixels.y));
+        kernels.brute.dispatch(f, sets_.shadeBrute.set(f.slot), params, tiles(pixels.x),
+                               tiles(pixels.y));
         return;
     }
-    pick(k.shadeTiles)
-        .dispatch(f, sets_.shadeTiles.set(f.slot), params, p.tileCountX, p.tileCountY);
+    kernels.tiles.dispatch(f, sets_.shadeTiles.set(f.slot), params, p.tileCountX, p.tileCountY);
+    if (isSphere(batch.type)) {
+        f.barrier();
+        kernels.horizon.dispatchIndirect(f, sets_.shadeHorizon.set(f.slot), params, horizon_);
+    }
     if (frame.countPairs)
-        k.countPairs.dispatch(f, sets_.countPairs.set(f.slot), params, p.tileCountX, p.tileCountY);
+        shade.countPairs(batch.type)
+            .dispatch(f, sets_.countPairs.set(f.slot), params, p.tileCountX, p.tileCountY);
 }
 
 void View::recordReadback(const gpu::Frame& f) const noexcept

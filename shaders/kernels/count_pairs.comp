@@ -3,8 +3,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/shade_inputs.glsl"
-#include "lib/light_eval.glsl"
 #include "lib/tile_walk.glsl"
+#include "lib/light_eval.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(scalar, binding = SHADE_COUNTERS) buffer Counters
@@ -18,20 +18,20 @@ void main()
 {
     const uvec2 pixel = gl_GlobalInvocationID.xy;
     const ivec2 readable = ivec2(min(pixel, params.size - 1u));
-    const TileList list = lists[gl_WorkGroupID.y * params.tileCountX + gl_WorkGroupID.x];
+    setTileList(gl_WorkGroupID.y * params.tileCountX + gl_WorkGroupID.x);
     const float depth = texelFetch(depthImage, readable, 0).x;
     uvec3 pairs = uvec3(0u);
     if (all(lessThan(pixel, params.size)) && depth != params.clearDepth) {
         const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
         const vec3 n = readSurface(readable).normal;
-        pairs.x = list.count;
-        for (uint k = 0u; k < list.count; ++k) {
-            const uint light = listedLight(list, k);
-            const vec4 centreRadius = lightCentre(light);
+        pairs.x = tileList.count;
+        for (uint k = 0u; k < tileList.count; ++k) {
+            const uint light = lightAt(k);
+            const vec4 centreReach = lightCentre(light);
             const float influence2 = lightEmission(light).w;
-            const bool inside = length2(centreRadius.xyz - position) < influence2;
-            pairs.y += inside ? 1u : 0u;
-            pairs.z += lightReaches(position, n, centreRadius, influence2) ? 1u : 0u;
+            const vec3 toLight = towardsLight(centreReach.xyz, position);
+            pairs.y += length2(toLight) < influence2 ? 1u : 0u;
+            pairs.z += lightReaches(toLight, n, centreReach.w, influence2) ? 1u : 0u;
         }
     }
     groupPairs[gl_LocalInvocationIndex] = pairs;

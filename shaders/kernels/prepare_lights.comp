@@ -28,10 +28,14 @@ void main()
     if (i >= params.lightCount)
         return;
     const LightRecord light = records[i];
-    core[i * LIGHT_CORE_STRIDE] =
-        vec4(params.viewFromWorld * light.position + params.originView, light.radius);
+    const uint type = light.type & (LIGHT_TWO_SIDED - 1u);
+    const bool distant = type == LIGHT_DIRECTIONAL || type == LIGHT_DISTANT_SPHERE;
+    const vec3 origin = distant ? vec3(0.0) : params.originView;
+    core[i * LIGHT_CORE_STRIDE] = vec4(params.viewFromWorld * light.position + origin, light.reach);
     core[i * LIGHT_CORE_STRIDE + 1u] =
         vec4(light.emission, light.influenceRadius * light.influenceRadius);
-    aux[i * LIGHT_AUX_STRIDE] = vec4(params.viewFromWorld * light.direction, float(light.type));
-    aux[i * LIGHT_AUX_STRIDE + 1u] = vec4(light.spotScale, light.spotOffset, 0.0, 0.0);
+    const vec3 axisV = type == LIGHT_SPOT ? light.axisV : params.viewFromWorld * light.axisV;
+    aux[i * LIGHT_AUX_STRIDE] = vec4(params.viewFromWorld * light.axisU, light.radius);
+    aux[i * LIGHT_AUX_STRIDE + 1u] =
+        vec4(axisV, (light.type & LIGHT_TWO_SIDED) != 0u ? 1.0 : 0.0);
 }

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every light at every pixel of a rectangle: no list, no bound, no early-out. What the clustered
-// path is checked against, and the baseline it is timed against.
+// Every light at every pixel of a rectangle: no list, no bound. What the clustered path is checked
+// against, and the baseline it is timed against.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/shade_inputs.glsl"
-#include "lib/light_eval.glsl"
+
+// The k-th light of the batch.
+uint lightAt(uint k)
+{
+    return params.firstLight + k;
+}
+
+#include "lib/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
@@ -17,12 +24,22 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == params.clearDepth)
         return;
-    const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
-    const ShadingPoint p = makeShadingPoint(readSurface(ivec2(pixel)), position,
-                                            towardsEye(params.projection, position));
-    vec3 sum = vec3(0.0);
-    for (uint light = params.firstLight; light < params.firstLight + params.lightCount; ++light)
-        sum += evaluateLight(p, light, lightCentre(light), lightEmission(light));
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth));
+    vec3 asPoint = vec3(0.0), above = vec3(0.0), near = vec3(0.0), general = vec3(0.0);
+    for (uint first = 0u; first < params.lightCount; first += WALK_BLOCK) {
+        const Found found = findLights(r, first, min(WALK_BLOCK, params.lightCount - first), false);
+        if (IS_SPHERE) {
+            if (HAS_BUDGET)
+                shadeFound(asPoint, r, first, found.asPoint, EVALUATE_POINT);
+            shadeFound(above, r, first, found.above, EVALUATE_ABOVE);
+            if (IS_CONIC)
+                shadeFound(near, r, first, found.near, EVALUATE_NEAR);
+        }
+        shadeFound(general, r, first, found.general, EVALUATE_GENERAL);
+    }
+    // In the order of the clustered kernels, for the same bits: shade_tiles, then shade_horizon.
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
-    imageStore(radianceImage, ivec2(pixel), before + vec4(sum, 0.0));
+    const vec3 tiles = before.xyz + (asPoint + above + (IS_SPHERE ? vec3(0.0) : general));
+    const vec3 horizon = IS_SPHERE ? near + general : vec3(0.0);
+    imageStore(radianceImage, ivec2(pixel), vec4(tiles + horizon, before.w));
 }

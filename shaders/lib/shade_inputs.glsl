@@ -3,6 +3,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/lighting.h"
 #include "lib/gbuffer.glsl"
+#include "lib/brdf.glsl"
 #include "lib/projection.glsl"
 #define LIGHT_STREAM_CORE SHADE_CORE
 #define LIGHT_STREAM_CORE_WORDS SHADE_CORE_WORDS
@@ -29,4 +30,11 @@ Surface readSurface(ivec2 pixel)
     if (gbufferLayout == GBUFFER_LAYOUT_COMPACT)
         return unpackGBufferCompact(normalRoughness.x, albedo);
     return unpackGBufferFull(normalRoughness, albedo, texelFetch(specularImage, pixel, 0));
+}
+
+ShadingPoint readShadingPoint(uvec2 pixel, float depth)
+{
+    const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
+    return makeShadingPoint(readSurface(ivec2(pixel)), position,
+                            towardsEye(params.projection, position));
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks a tile's light list in blocks: testing is in step, so its cost is one pass over the list; what
-// the lanes found differs little between neighbours, so shading it diverges little.
-layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
+// The light list of a tile as the lights of light_walk.glsl: set `tileList`, then walk.
+layout(scalar, binding = SHADE_LISTS) buffer Lists
 {
     TileList lists[];
 };
@@ -10,23 +9,16 @@ layout(scalar, binding = SHADE_ENTRIES) readonly buffer Entries
     uint entries[];
 };
 
-// Light at entry k of a list.
-uint listedLight(TileList list, uint k)
+TileList tileList;
+
+void setTileList(uint tile)
 {
-    return list.offset == UNLISTED ? params.firstLight + k : entries[list.offset + k];
+    tileList.offset = lists[tile].offset;
+    tileList.count = lists[tile].count;
 }
 
-const uint WALK_BLOCK = 32u; // entries tested together: bits of a word
-
-// One bit per entry of a block, set when the light reaches the point.
-uint findReaching(TileList list, uint first, vec3 position, vec3 n)
+// Light at entry k of the list.
+uint lightAt(uint k)
 {
-    const uint count = min(WALK_BLOCK, list.count - first);
-    uint found = 0u;
-    for (uint i = 0u; i < count; ++i) {
-        const uint light = listedLight(list, first + i);
-        if (lightReaches(position, n, lightCentre(light), lightEmission(light).w))
-            found |= 1u << i;
-    }
-    return found;
+    return tileList.offset == UNLISTED ? params.firstLight + k : entries[tileList.offset + k];
 }

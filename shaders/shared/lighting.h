@@ -10,24 +10,28 @@
 
 GPU_BEGIN
 
-// A light as the host sends it, relative to the light set's origin. Made by pack_lights.cpp.
+// A light as the host sends it, relative to the light set's origin. Made by pack_lights.cpp; sorted
+// by type, since each type has its own shading pipeline.
 struct LightRecord {
-    vec3 position;               // m
-    float radius;                // m; sphere, else 0
-    vec3 emission;               // cd/m^2 (sphere), cd (point, spot), lx (directional)
-    float influenceRadius;       // m, may be infinite
-    vec3 direction;              // unit, the way the light travels; spot, directional
-    uint type;                   // LIGHT_*
-    float spotScale, spotOffset; // attenuation = sat(cos(angle) * scale + offset)^2
+    vec3 position;         // m; distant types: unit direction towards the light
+    float reach;           // m, from the centre to the farthest point of the emitter; distant sphere:
+                           //   the sine of its angular radius
+    vec3 emission;         // as CndLight
+    float influenceRadius; // m, may be infinite
+    vec3 axisU;            // m; spot: unit, the way the light travels; disc: unit normal
+    float radius;          // m; tube
+    vec3 axisV;            // m; spot: (scale, offset), attenuation = sat(cos(angle) scale + offset)^2
+    uint type;             // LIGHT_*, plus LIGHT_TWO_SIDED
 };
-GPU_SIZE(LightRecord, 56)
+GPU_SIZE(LightRecord, 64)
+const uint LIGHT_TWO_SIDED = 256u;
 
 // After prepare_lights, two vec4 per light, hot in every loop:
-//   core[2 i]     = position in view space, emitter radius (directional: infinite radius)
+//   core[2 i]     = position in view space, reach
 //   core[2 i + 1] = emission, squared influence radius
-// and, read only by variants that know types other than SPHERE:
-//   aux[2 i]      = direction in view space, type (as float)
-//   aux[2 i + 1]  = spotScale, spotOffset, 0, 0
+// and, read only by the types that need them:
+//   aux[2 i]      = axisU in view space, radius
+//   aux[2 i + 1]  = axisV in view space (spot: as it is), 1 if two-sided else 0
 const uint LIGHT_CORE_STRIDE = 2u;
 const uint LIGHT_AUX_STRIDE = 2u;
 
@@ -52,15 +56,24 @@ struct TileBounds {
 GPU_SIZE(TileBounds, 24)
 
 const uint UNLISTED = 0xFFFFFFFFu; // TileList.offset: the list did not fit, walk all lights
-// Lights are culled and shaded in batches (one, unless the device limits loops); a list is that of
-// the batch at hand.
+// Lights are culled and shaded in batches, one per type (more where the device limits loops); a
+// list is that of the batch at hand.
 struct TileList {
     uint offset; // first entry in the list buffer
     uint count;
     uint total;        // count over the frame's batches so far
     uint everUnlisted; // 0 or 1
+    uint horizon;      // 1: the tile is among the HorizonTiles
 };
-GPU_SIZE(TileList, 16)
+GPU_SIZE(TileList, 20)
+
+// Arguments of shade_horizon's indirect dispatch, then the indices of `count` tiles.
+struct HorizonTiles {
+    uint groupsX, groupsY, groupsZ; // HORIZON_ROW, rows begun, 1
+    uint count;
+};
+GPU_SIZE(HorizonTiles, 16)
+const uint HORIZON_ROW = 256u; // tiles per row of groups: 65535 rows hold any frame
 
 // Counters of one frame, cleared before and read back after.
 struct LightingCounters {
@@ -147,7 +160,7 @@ struct TileListsParams {
 };
 GPU_SIZE(TileListsParams, 32)
 
-// --- shade_tiles, shade_brute, count_pairs: 8x8 pixels per group, one lane per pixel
+// --- shade_tiles, shade_horizon, shade_brute, count_pairs: 8x8 pixels per group, one lane per pixel
 const uint SHADE_CORE = 0u;
 const uint SHADE_CORE_WORDS = 1u;
 const uint SHADE_AUX = 2u;
@@ -159,6 +172,7 @@ const uint SHADE_RADIANCE = 7u;
 const uint SHADE_LISTS = 8u;     // not in shade_brute
 const uint SHADE_ENTRIES = 9u;   // not in shade_brute
 const uint SHADE_COUNTERS = 10u; // count_pairs
+const uint SHADE_HORIZON = 11u;  // shade_tiles, shade_horizon
 struct ShadeParams {
     Projection projection;
     uvec2 size;
@@ -168,14 +182,18 @@ struct ShadeParams {
     uint tileCountX;
     float clearDepth;
     vec2 invImageSize; // 1 / pixels of the whole image
+    uint sampleCount;  // SPECULAR_SAMPLED: samples per light
+    uint sampleSeed;
+    float errorBudget; // relative to the highest response; 0: every light in full
 };
-GPU_SIZE(ShadeParams, 96)
+GPU_SIZE(ShadeParams, 108)
 
 // Specialisation constants of the kernels above.
 const uint SPEC_LIGHTS_AS_TEXELS = 0u; // read core as a texel buffer (else as a storage buffer)
 const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
-const uint SPEC_ONLY_SPHERES = 2u;     // every light is LIGHT_SPHERE: aux is not read
+const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
 const uint SPEC_GBUFFER_LAYOUT = 3u;   // CndGBufferLayout
+const uint SPEC_ERROR_BUDGET = 4u;     // 1: ShadeParams::errorBudget may be > 0
 
 // Specular is evaluated at alpha >= this: below it float32 NoH loses the peak (measured: relative
 // error of D up to 7e-5 at 0.002, growing as 1/alpha^2).

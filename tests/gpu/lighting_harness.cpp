@@ -236,7 +236,10 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
 {
     const Images images = uploadImages(g);
     CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc, .framesInFlight = 2, .timestamps = true};
+    const CndLightingDesc desc{.structSize = sizeof desc,
+                               .framesInFlight = 2,
+                               .timestamps = true,
+                               .specularMethods = 1u << options.specular};
     CndLighting lighting{};
     EXPECT_EQ(
         cndCreateLighting(options.host ? options.host : &deviceDesc(), &desc, &lighting, &error),

@@ -109,7 +109,9 @@ TEST_F(FramesInFlight, ViewsAndGrowingSetsStayRight)
             {run(buffers[0], sets.back()).radiance, run(buffers[1], sets.back()).radiance});
     }
     CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc, .framesInFlight = slotCount};
+    const CndLightingDesc desc{.structSize = sizeof desc,
+                               .framesInFlight = slotCount,
+                               .specularMethods = 1u << RunOptions{}.specular};
     CndLighting lighting{};
     ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS);
     CndLightingView views[2]{};

@@ -203,7 +203,9 @@ TEST_F(LightingTest, LightSetGrowsAndShrinksAcrossFrames)
     const CpuGBuffer g = randomGBuffer(64, 48, defaultCamera(64, 48), 0, 8);
     const Images images = uploadImages(g);
     CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc, .framesInFlight = 3};
+    const CndLightingDesc desc{.structSize = sizeof desc,
+                               .framesInFlight = 3,
+                               .specularMethods = 1u << RunOptions{}.specular};
     CndLighting lighting{};
     ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
         << error.message;

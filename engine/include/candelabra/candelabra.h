@@ -209,6 +209,10 @@ typedef struct CndLightingDesc {
     // Time every kernel: one timestamp more than there are dispatches, about 50 us each on a
     // software device; off records none.
     VkBool32 timestamps;
+    // Mask of 1 << CndSpecularMethod: what frames may ask for; 0: CND_SPECULAR_CONIC. Pipelines are
+    // made for these only; those of a light type with the first set of lights that holds it
+    // (spheres: at creation).
+    uint32_t specularMethods;
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -242,7 +246,12 @@ typedef struct CndLightingFrame {
     VkImageView specular; // ignored by CND_GBUFFER_COMPACT (may be VK_NULL_HANDLE)
     VkImageView depth;    // depth aspect, D32_SFLOAT
     VkImageView radiance; // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
-    CndSpecularMethod specularMethod;
+    CndSpecularMethod specularMethod; // one of CndLightingDesc::specularMethods
+    uint32_t sampleCount; // CND_SPECULAR_SAMPLED: samples per light and pixel, 1..4096; 0: 64
+    uint32_t sampleSeed;  // CND_SPECULAR_SAMPLED: same seed, same image
+    // 0: every light in full. Else lights are evaluated as cheaply as an a-priori bound of the
+    // error allows: at most about this share of the highest response to the light (0.01: 1%). 0..1.
+    float errorBudget;
     CndCulling culling;
     VkRect2D bruteRect;  // CND_CULLING_BRUTE: pixels to shade; zero extent: all
     VkBool32 countPairs; // also count (pixel, light) pairs: one more kernel; clustered only
@@ -276,7 +285,7 @@ CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLighti
 CND_API void cndDestroyLighting(CndLighting lighting);
 
 // Validates and packs the lights; takes effect at the next recording. On error the previous set
-// stays. May allocate when the count grows.
+// stays. May allocate when the count grows, and makes pipelines when a light type is new.
 CND_API CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error);
 
 CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,

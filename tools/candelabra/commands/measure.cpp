@@ -126,6 +126,8 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
               {"forward", {f.x, f.y, f.z}}}},
             {"timeSeconds", options.time},
             {"specular", specularName(options.specular)},
+            {"sampleCount", options.sampleCount},
+            {"errorBudget", options.errorBudget},
             {"culling", cullingName(options.culling)},
             {"gbuffer", gbufferName(layout)},
             {"toneMap", toneMapName(options.exposure.toneMap)},

@@ -242,6 +242,17 @@ void FrameArguments::addTo(CLI::App& command)
     addChoice(command, "--metering", metering, meteringChoices, "weights of automatic exposure");
     addChoice(command, "--tonemap", toneMap, toneMapChoices, "tone map of display images");
     addChoice(command, "--specular", specular, specularChoices, "specular method");
+    command
+        .add_option("--samples", sampleCount,
+                    "samples per light and pixel of --specular sampled (1..4096)")
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option("--error-budget", errorBudget,
+                    "evaluate lights as cheaply as a bound of the error allows, as a share of the "
+                    "highest response (0.01: 1%); 0: every light in full")
+        ->type_name("E")
+        ->capture_default_str();
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "G-buffer layout");
     addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
               "draw sphere lights as emitters (default: as the scene says)");
@@ -281,6 +292,16 @@ CndGBufferLayout FrameArguments::gbufferLayout() const
 CndSpecularMethod FrameArguments::specularMethod() const
 {
     return choose("--specular", specular, specularChoices);
+}
+
+uint32_t FrameArguments::samples() const
+{
+    return unsignedOption("--samples", sampleCount, 1, 4096);
+}
+
+float FrameArguments::budget() const
+{
+    return float(numberOption("--error-budget", errorBudget, 0, 1));
 }
 
 CndCulling FrameArguments::cullingMode() const

@@ -52,6 +52,7 @@ struct SceneArguments {
 struct FrameArguments {
     std::string size, camera;
     std::string gbuffer = "full", specular, culling = "clustered";
+    std::string sampleCount = "64", errorBudget = "0";
     std::string lightsVisible;
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
 
@@ -62,6 +63,8 @@ struct FrameArguments {
     PixelSize pixelSize(const Scene& scene, const Camera& camera) const;
     CndGBufferLayout gbufferLayout() const;
     CndSpecularMethod specularMethod() const;
+    uint32_t samples() const; // per light, of the specular method "sampled"
+    float budget() const;     // CndLightingFrame::errorBudget
     CndCulling cullingMode() const;
     std::optional<bool> lightsVisibleOverride() const;
     CndExposureSettings exposureSettings() const;

@@ -72,6 +72,8 @@ RenderPlan plan(const RenderArguments& a)
     return {.scene = a.scene.options(lights),
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
                       .specular = a.frame.specularMethod(),
+                      .sampleCount = a.frame.samples(),
+                      .errorBudget = a.frame.budget(),
                       .culling = a.frame.cullingMode(),
                       .exposure = a.frame.exposureSettings()},
             .gbufferLayout = a.frame.gbufferLayout(),
@@ -115,7 +117,10 @@ int render(const ProgramContext& program, const RenderArguments& a)
     spdlog::info("{}: {}, {}, {}x{}, on {}", scene.name, counted(scene.lights.size(), "light"),
                  counted(scene.instances.size() + scene.analyticObjects.size(), "object"),
                  size.width, size.height, context.info().name);
-    Renderer renderer(context, scene, {.size = size, .gbufferLayout = p.gbufferLayout});
+    Renderer renderer(context, scene,
+                      {.size = size,
+                       .gbufferLayout = p.gbufferLayout,
+                       .specularMethods = 1u << p.frame.specular});
     const bool moving = !scene.lightMotions.empty();
     MeasuredFrames frames;
     {

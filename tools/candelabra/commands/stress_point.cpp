@@ -78,7 +78,8 @@ StressPoint measureStressPoint(const VulkanContext& context, const StressSetting
     frame.camera = selectCamera(scene, settings.camera);
     frame.lightsVisible = settings.lightsVisible.value_or(scene.lightsVisible);
     const RendererOptions rendererOptions{.size = settings.size,
-                                          .gbufferLayout = settings.gbufferLayout};
+                                          .gbufferLayout = settings.gbufferLayout,
+                                          .specularMethods = 1u << settings.frame.specular};
     Renderer renderer(context, scene, rendererOptions);
     progress.advance(secondsToBuild);
 

@@ -35,6 +35,8 @@ ViewerOptions optionsOf(const ViewArguments& a)
                       .camera = a.frame.camera,
                       .gbufferLayout = a.frame.gbufferLayout(),
                       .frame = {.specular = a.frame.specularMethod(),
+                                .sampleCount = a.frame.samples(),
+                                .errorBudget = a.frame.budget(),
                                 .culling = a.frame.cullingMode(),
                                 .exposure = a.frame.exposureSettings()},
                       .lightsVisible = a.frame.lightsVisibleOverride(),

@@ -129,9 +129,12 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
     : state_(std::make_unique<State>(context, scene, options))
 {
     State& s = *state_;
+    constexpr uint32_t allMethods = (1u << CND_SPECULAR_METHOD_COUNT) - 1;
+    const uint32_t methods = options.specularMethods ? options.specularMethods : allMethods;
     s.lighting = take(Lighting::create(context.desc(), {.framesInFlight = options.framesInFlight,
                                                         .gbufferLayout = options.gbufferLayout,
-                                                        .timestamps = VK_TRUE}));
+                                                        .timestamps = VK_TRUE,
+                                                        .specularMethods = methods}));
     s.exposure = take(Exposure::create(
         context.desc(), {.framesInFlight = options.framesInFlight, .timestamps = VK_TRUE}));
     s.setLights(0);
@@ -179,6 +182,9 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
             .depth = targets.depth.view.get(),
             .radiance = targets.radiance.view.get(),
             .specularMethod = frame.specular,
+            .sampleCount = frame.sampleCount,
+            .sampleSeed = frame.sampleSeed,
+            .errorBudget = frame.errorBudget,
             .culling = frame.culling,
             .countPairs = frame.countPairs};
 }

@@ -21,6 +21,7 @@ struct RendererOptions {
     PixelSize size{1280, 720};
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     uint32_t framesInFlight = 2;
+    uint32_t specularMethods = 0; // mask of 1 << CndSpecularMethod that frames may use; 0: all
 };
 
 struct FrameOptions {
@@ -32,6 +33,9 @@ struct FrameOptions {
     bool countPairs = false;
     uint32_t ditherSeed = 0;
     CndSpecularMethod specular = CND_SPECULAR_KARIS;
+    uint32_t sampleCount = 0; // CND_SPECULAR_SAMPLED; 0: the module's default
+    uint32_t sampleSeed = 0;
+    float errorBudget = 0; // as CndLightingFrame::errorBudget
     CndCulling culling = CND_CULLING_CLUSTERED;
     CndExposureSettings exposure{};
 };

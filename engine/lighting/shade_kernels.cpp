@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lighting/shade_kernels.h"
+
+#include <bit>
+
+#include "candelabra_shaders.h"
+#include "lighting/lighting.h"
+
+namespace candelabra::lighting
+{
+
+uint32_t lightsAsTexels(const gpu::Device& device)
+{
+    return device.limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >=
+           maxLights(device.limits);
+}
+
+CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method)
+{
+    if (method == CND_SPECULAR_NONE)
+        return method;
+    switch (lightType) {
+    case CND_LIGHT_POINT:
+    case CND_LIGHT_SPOT:
+    case CND_LIGHT_DIRECTIONAL:
+        return CND_SPECULAR_POINT;
+    case CND_LIGHT_TUBE:
+    case CND_LIGHT_RECTANGLE:
+    case CND_LIGHT_DISC:
+        if (method == CND_SPECULAR_SAMPLED)
+            return method;
+        return method == CND_SPECULAR_POINT || method == CND_SPECULAR_KARIS ||
+                       method == CND_SPECULAR_KX
+                   ? CND_SPECULAR_KARIS
+                   : CND_SPECULAR_LTC;
+    default:
+        return method;
+    }
+}
+
+ShadeKernels::ShadeKernels(const gpu::Device& device, CndGBufferLayout layout, uint32_t methods)
+    : device_(&device), layout_(layout), methods_(methods)
+{
+    require(CND_LIGHT_SPHERE);
+}
+
+void ShadeKernels::require(uint32_t lightType)
+{
+    if (!types_[lightType].made)
+        types_[lightType] = make(lightType);
+}
+
+bool isSphere(uint32_t lightType)
+{
+    return lightType == CND_LIGHT_SPHERE || lightType == CND_LIGHT_DISTANT_SPHERE;
+}
+
+bool takesBudget(uint32_t lightType, CndSpecularMethod method)
+{
+    return isSphere(lightType) &&
+           (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL);
+}
+
+ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, uint32_t method,
+                                                bool withBudget) const
+{
+    const auto kernel = [&](const gpu::Spirv& spirv) {
+        return Kernel(*device_, spirv,
+                      {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
+                       {gpu::SPEC_SPECULAR_METHOD, method},
+                       {gpu::SPEC_LIGHT_TYPE, lightType},
+                       {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout_)},
+                       {gpu::SPEC_ERROR_BUDGET, withBudget}});
+    };
+    return {.tiles = kernel(spirv::shade_tiles_comp),
+            .horizon = isSphere(lightType) ? kernel(spirv::shade_horizon_comp) : Kernel(),
+            .brute = kernel(spirv::shade_brute_comp)};
+}
+
+ShadeKernels::OfType ShadeKernels::make(uint32_t lightType) const
+{
+    uint32_t methods = 0;
+    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
+        if (allows(CndSpecularMethod(method)))
+            methods |= 1u << canonicalMethod(lightType, CndSpecularMethod(method));
+    OfType out;
+    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method) {
+        if (!(methods >> method & 1))
+            continue;
+        out.variants[method][0] = makeVariant(lightType, method, false);
+        if (takesBudget(lightType, CndSpecularMethod(method)))
+            out.variants[method][1] = makeVariant(lightType, method, true);
+    }
+    out.countPairs = Kernel(*device_, spirv::count_pairs_comp,
+                            {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
+                             {gpu::SPEC_LIGHT_TYPE, lightType},
+                             {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout_)}});
+    out.made = true;
+    return out;
+}
+
+const ShadeKernels::Variant& ShadeKernels::variant(uint32_t type, CndSpecularMethod method,
+                                                   bool withBudget) const
+{
+    const CndSpecularMethod m = canonicalMethod(type, method);
+    return types_[type].variants[m][withBudget && takesBudget(type, m)];
+}
+
+const ShadeKernels::Variant& ShadeKernels::anyVariant() const
+{
+    return types_[CND_LIGHT_SPHERE].variants[std::countr_zero(methods_)][0];
+}
+
+} // namespace candelabra::lighting

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pipelines that shade: one set per light type and specular method that are in use.
+#pragma once
+
+#include "candelabra/candelabra.h"
+#include "gpu/kernel.h"
+#include "shared/lighting.h"
+
+namespace candelabra::lighting
+{
+
+// Whether light data is read as texel buffers: when they can hold every light that the other limits
+// let in. The value of SPEC_LIGHTS_AS_TEXELS.
+uint32_t lightsAsTexels(const gpu::Device& device);
+
+// The method that stands for `method` where the light type has fewer: punctual lights have one,
+// tubes, rectangles and discs a representative point, cosines and samples.
+CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method);
+// Spheres are shaded in two kernels, the second for those at the horizon.
+bool isSphere(uint32_t lightType);
+// Whether an error budget changes the evaluation: the closed form of spheres has cheaper bounds.
+bool takesBudget(uint32_t lightType, CndSpecularMethod method);
+
+// Kernels that know light types and specular methods, one pipeline for each pair that lights and
+// frames may ask for: what is absent costs nothing.
+class ShadeKernels
+{
+public:
+    using Kernel = gpu::Kernel<gpu::ShadeParams>;
+    // `methods`: mask of 1 << CndSpecularMethod.
+    ShadeKernels(const gpu::Device& device, CndGBufferLayout layout, uint32_t methods);
+    // Makes the pipelines of a light type unless they exist.
+    void require(uint32_t lightType);
+
+    bool allows(CndSpecularMethod method) const { return methods_ >> method & 1; }
+    struct Variant {
+        Kernel tiles, horizon, brute; // horizon: spheres only
+    };
+    const Variant& variant(uint32_t type, CndSpecularMethod method, bool withBudget) const;
+    const Kernel& countPairs(uint32_t type) const { return types_[type].countPairs; }
+    // One of them: binding layouts are the same for all.
+    const Variant& anyVariant() const;
+
+private:
+    struct OfType {
+        bool made = false;
+        Variant variants[CND_SPECULAR_METHOD_COUNT][2]; // [1]: with an error budget
+        Kernel countPairs;
+    };
+    OfType make(uint32_t lightType) const;
+    Variant makeVariant(uint32_t lightType, uint32_t method, bool withBudget) const;
+
+    const gpu::Device* device_;
+    CndGBufferLayout layout_;
+    uint32_t methods_;
+    OfType types_[CND_LIGHT_TYPE_COUNT];
+};
+
+} // namespace candelabra::lighting

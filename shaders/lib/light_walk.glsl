@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks a pixel's lights in blocks: testing is in step, so its cost is one pass over the list; what the
+// lanes found differs little between neighbours, so shading it diverges little. Each way of evaluation
+// has its own loop and its own sum, in light order: results do not depend on where blocks begin.
+// The includer provides uint lightAt(uint k), the k-th light.
+#ifndef CND_LIB_LIGHT_WALK
+#define CND_LIB_LIGHT_WALK
+
+#include "lib/light_eval.glsl"
+
+const uint WALK_BLOCK = 32u; // lights tested together: bits of a word
+
+// One bit per light of a block, by evaluation.
+struct Found {
+    uint asPoint, above, near, general;
+};
+
+// Where a sphere stands to the horizon, from dz = n . toLight and R: no division.
+void classifySphere(inout Found found, uint bit, Receiver r, vec3 toLight, float R)
+{
+    const float dz = dot(r.p.n, toLight);
+    const bool above = dz >= R;
+    found.above |= above ? bit : 0u;
+    found.general |= above ? 0u : bit;
+}
+
+// `testInfluence`: leave out lights that are beyond their influence (they would add 0).
+Found findLights(Receiver r, uint first, uint count, bool testInfluence)
+{
+    Found found = Found(0u, 0u, 0u, 0u);
+    for (uint i = 0u; i < count; ++i) {
+        const uint light = lightAt(first + i);
+        const vec4 centreReach = lightCentre(light);
+        const vec3 toLight = towardsLight(centreReach.xyz, r.p.position);
+        float influence2 = uintBitsToFloat(0x7F800000u);
+        if (testInfluence)
+            influence2 = lightEmission(light).w;
+        const uint bit = lightReaches(toLight, r.p.n, centreReach.w, influence2) ? 1u << i : 0u;
+        if (IS_SPHERE)
+            classifySphere(found, bit, r, toLight, centreReach.w);
+        else
+            found.general |= bit;
+    }
+    return found;
+}
+
+// Adds one evaluation's lights of a block to its sum.
+void shadeFound(inout vec3 sum, Receiver r, uint first, uint found, uint evaluation)
+{
+    for (; found != 0u; found &= found - 1u)
+        sum += evaluateLight(r, evaluation, lightAt(first + findLSB(found)));
+}
+
+#endif
