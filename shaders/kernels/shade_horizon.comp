@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds the spheres that cross or nearly touch the horizon of a pixel, in the tiles that shade_tiles
-// found to hold some. A kernel of its own: elsewhere its registers and masked branches would be paid for
-// nothing.
+// found to hold some. A kernel of its own: elsewhere its registers and masked branches would be paid
+// for nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/shade_inputs.glsl"
