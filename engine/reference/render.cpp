@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "reference/light.h"
+#include "reference/truth.h"
 
 namespace candelabra::reference
 {
@@ -64,7 +67,8 @@ void require(bool condition, const std::string& sentence)
         throw std::invalid_argument(sentence);
 }
 
-void validate(const Scene& scene, uint32_t width, uint32_t height)
+// `lightTypes`: how many of the light types, in their order, there is a model for.
+void validate(const Scene& scene, uint32_t width, uint32_t height, uint32_t lightTypes)
 {
     require(width > 0 && height > 0, "the image is empty");
     const Camera& camera = scene.camera;
@@ -82,9 +86,38 @@ void validate(const Scene& scene, uint32_t width, uint32_t height)
                 "object " + std::to_string(i) + " names a material that does not exist");
     }
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        require(scene.lights[i].type <= CND_LIGHT_DIRECTIONAL,
+        require(scene.lights[i].type < lightTypes,
                 "light " + std::to_string(i) + " has an unknown type");
     }
+}
+
+// Calls work(i) for 0 <= i < count from this many threads (0: every core); the first exception
+// stops all of them and is thrown here.
+template <class Work>
+void inParallel(uint32_t count, uint32_t threads, Work&& work)
+{
+    std::atomic<uint32_t> next{0};
+    std::exception_ptr failure;
+    std::mutex failureMutex;
+    const auto run = [&] {
+        try {
+            for (uint32_t i = next++; i < count; i = next++)
+                work(i);
+        } catch (...) {
+            const std::lock_guard lock(failureMutex);
+            if (!failure)
+                failure = std::current_exception();
+            next = count;
+        }
+    };
+    const uint32_t wanted = threads ? threads : std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::jthread> others;
+    for (uint32_t i = 1; i < wanted; ++i)
+        others.emplace_back(run);
+    run();
+    others.clear();
+    if (failure)
+        std::rethrow_exception(failure);
 }
 
 } // namespace
@@ -132,23 +165,51 @@ glm::dvec3 renderPixel(const Scene& scene, uint32_t width, uint32_t height, uint
 
 Image render(const Scene& scene, uint32_t width, uint32_t height, CndSpecularMethod specularMethod)
 {
-    validate(scene, width, height);
+    validate(scene, width, height, CND_LIGHT_DIRECTIONAL + 1);
     Image image{width, height, {}};
     image.pixels.resize(static_cast<size_t>(width) * height);
-    std::atomic<uint32_t> nextRow{0};
-    const auto work = [&] {
-        for (uint32_t row = nextRow++; row < height; row = nextRow++) {
-            for (uint32_t column = 0; column < width; ++column)
-                image.pixels[static_cast<size_t>(row) * width + column] =
-                    renderPixel(scene, width, height, column, row, specularMethod);
-        }
-    };
-    std::vector<std::jthread> threads;
-    for (uint32_t i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
-        threads.emplace_back(work);
-    work();
-    threads.clear();
+    inParallel(height, 0, [&](uint32_t row) {
+        for (uint32_t column = 0; column < width; ++column)
+            image.pixels[static_cast<size_t>(row) * width + column] =
+                renderPixel(scene, width, height, column, row, specularMethod);
+    });
     return image;
+}
+
+TruthRows renderTruth(const Scene& scene, uint32_t width, uint32_t height,
+                      std::span<const uint32_t> rows, const TruthOptions& options)
+{
+    validate(scene, width, height, CND_LIGHT_TYPE_COUNT);
+    require(options.relative >= 1e-9 && options.relative <= 1e-2,
+            "the tolerance is not between 1e-9 and 1e-2");
+    for (const uint32_t row : rows)
+        require(row < height, "row " + std::to_string(row) + " is outside the image");
+    TruthRows out;
+    out.pixels.resize(rows.size() * width);
+    std::atomic<uint64_t> unconverged{0};
+    std::mutex rowMutex;
+    inParallel(static_cast<uint32_t>(rows.size()), options.threads, [&](uint32_t i) {
+        for (uint32_t column = 0; column < width; ++column) {
+            const std::optional<Hit> hit = tracePixel(scene, width, height, column, rows[i]);
+            glm::dvec3& pixel = out.pixels[static_cast<size_t>(i) * width + column];
+            pixel = hit ? scene.materials[hit->material].emission : scene.background;
+            if (!hit)
+                continue;
+            const Material& material = scene.materials[hit->material];
+            for (const CndLight& light : scene.lights) {
+                const Truth truth = truthLuminance(hit->surface, material, light, scene.lightOrigin,
+                                                   options.relative);
+                pixel += truth.luminance;
+                unconverged += truth.converged ? 0 : 1;
+            }
+        }
+        if (options.onRow) {
+            const std::lock_guard lock(rowMutex);
+            options.onRow();
+        }
+    });
+    out.unconverged = unconverged;
+    return out;
 }
 
 } // namespace candelabra::reference

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -64,6 +66,28 @@ std::optional<Hit> tracePixel(const Scene& scene, uint32_t width, uint32_t heigh
 // Luminance of one pixel, cd/m^2: emission of the surface plus all lights.
 glm::dvec3 renderPixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
                        uint32_t row, CndSpecularMethod specularMethod);
+
+// Changes with every change of an integrator that can change a pixel by more than its tolerance:
+// stored truths of another version are no longer true.
+inline constexpr uint32_t truthVersion = 1;
+
+struct TruthOptions {
+    double relative = 1e-4; // tolerance of every light's contribution, 1e-9..1e-2
+    uint32_t threads = 0;   // 0: one for every core
+    // After each row, from any thread but never from two at a time; may be empty.
+    std::function<void()> onRow;
+};
+
+struct TruthRows {
+    std::vector<glm::dvec3> pixels; // cd/m^2; width of them for each row asked for
+    uint64_t unconverged = 0;       // contributions that missed the tolerance
+};
+
+// Like renderPixel, with every light integrated (truth.h). Rows count from the top; the result does
+// not depend on the number of threads. Throws std::invalid_argument for a scene outside the ranges
+// above.
+TruthRows renderTruth(const Scene& scene, uint32_t width, uint32_t height,
+                      std::span<const uint32_t> rows, const TruthOptions& options);
 
 // All pixels, on every core; the result does not depend on the number of cores. Throws
 // std::invalid_argument for a scene outside the ranges above.

@@ -130,14 +130,15 @@ LightResponse truthResponse(const SurfacePoint& surface, double alpha, const Cnd
     }
 }
 
-glm::dvec3 truthLuminance(const SurfacePoint& surface, const Material& material,
-                          const CndLight& light, const glm::dvec3& lightOrigin, double relative)
+Truth truthLuminance(const SurfacePoint& surface, const Material& material, const CndLight& light,
+                     const glm::dvec3& lightOrigin, double relative)
 {
     if (light.type == CND_LIGHT_POINT || light.type == CND_LIGHT_SPOT ||
         light.type == CND_LIGHT_DIRECTIONAL) {
         // Any method but NONE: punctual lights have only one specular lobe.
-        return outgoingLuminance(surface, material, light, lightOrigin,
-                                 hasSpecular(material) ? CND_SPECULAR_KARIS : CND_SPECULAR_NONE);
+        return {outgoingLuminance(surface, material, light, lightOrigin,
+                                  hasSpecular(material) ? CND_SPECULAR_KARIS : CND_SPECULAR_NONE),
+                true};
     }
     double window = 1;
     if (light.type != CND_LIGHT_DISTANT_SPHERE) {
@@ -145,12 +146,13 @@ glm::dvec3 truthLuminance(const SurfacePoint& surface, const Material& material,
         window = lightWindow(distance, light.influenceRadius);
     }
     if (window == 0)
-        return glm::dvec3(0);
+        return {};
     const LightResponse r = truthResponse(surface, hasSpecular(material) ? material.alpha : 0,
                                           light, lightOrigin, relative);
-    return vec3(light.emission) * window *
-           (material.diffuseAlbedo * r.f + material.f0 * (r.a - r.b) +
-            glm::dvec3(material.specularWeight * r.b));
+    return {vec3(light.emission) * window *
+                (material.diffuseAlbedo * r.f + material.f0 * (r.a - r.b) +
+                 glm::dvec3(material.specularWeight * r.b)),
+            r.converged};
 }
 
 } // namespace candelabra::reference

@@ -30,12 +30,17 @@ LightResponse truthOfCap(const SurfacePoint& surface, double alpha, const Sphere
 LightResponse truthResponse(const SurfacePoint& surface, double alpha, const CndLight& light,
                             const glm::dvec3& lightOrigin, double relative);
 
+struct Truth {
+    glm::dvec3 luminance{0};
+    bool converged = true; // the tolerance was reached
+};
+
 // Luminance (cd/m^2 per channel) that `light` sends from the surface to the eye: direct light, no
 // shadows, the window included, the material's own emission not included:
 //     L W (albedo f + F0 (a - b) + F90 b)
 // to the relative tolerance given (1e-3..1e-9). Point, spot and directional lights have closed
 // forms: outgoingLuminance (light.h).
-glm::dvec3 truthLuminance(const SurfacePoint& surface, const Material& material,
-                          const CndLight& light, const glm::dvec3& lightOrigin, double relative);
+Truth truthLuminance(const SurfacePoint& surface, const Material& material, const CndLight& light,
+                     const glm::dvec3& lightOrigin, double relative);
 
 } // namespace candelabra::reference

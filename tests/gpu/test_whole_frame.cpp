@@ -7,10 +7,10 @@
 #include <span>
 
 #include "harness/gpu_fixture.h"
-#include "reference/render.h"
 #include "render/camera.h"
 #include "render/readback.h"
 #include "scene/load.h"
+#include "scene/reference_scene.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -72,32 +72,6 @@ double meanRelativeError(const Image& image, std::span<const GreyPixel> truth)
     return sum / double(truth.size());
 }
 
-reference::Scene toReference(const Scene& scene)
-{
-    const Camera& camera = scene.cameras[0];
-    reference::Scene out;
-    out.camera = {camera.position, camera.forward, camera.up, camera.verticalFov,
-                  camera.aspect.value_or(1)};
-    for (const Material& m : scene.materials)
-        out.materials.push_back(
-            {.diffuseAlbedo = glm::dvec3(m.baseColor) * double((1 - m.metalness) * m.diffuseWeight),
-             .f0 =
-                 glm::mix(glm::dvec3(m.dielectricF0), glm::dvec3(m.baseColor), double(m.metalness)),
-             .specularWeight = m.specularWeight,
-             .alpha = double(m.perceptualRoughness) * m.perceptualRoughness});
-    for (const AnalyticObject& o : scene.analyticObjects)
-        out.objects.push_back({.type = o.type == AnalyticObject::Type::Plane
-                                           ? reference::Object::Type::Plane
-                                           : reference::Object::Type::Ball,
-                               .point = o.point,
-                               .normal = o.normal,
-                               .radius = o.radius,
-                               .material = o.material});
-    out.lights = scene.lights;
-    out.lightOrigin = scene.lightOrigin;
-    return out;
-}
-
 } // namespace
 
 TEST_F(WholeFrame, LambertPlaneMatchesThePathTracer)
@@ -141,8 +115,8 @@ TEST_F(WholeFrame, EveryMaterialMatchesTheDoubleReference)
         for (const char* material : materials) {
             const Scene scene = load(sceneJson(camera, object, material, lights));
             const Image image = draw(scene, {128, 128});
-            const reference::Image expected =
-                reference::render(toReference(scene), 128, 128, CND_SPECULAR_KARIS);
+            const reference::Image expected = reference::render(
+                toReference(scene, scene.cameras[0], 1, false), 128, 128, CND_SPECULAR_KARIS);
             double peak = 0, worst = 0;
             for (const glm::dvec3& pixel : expected.pixels)
                 peak = std::max({peak, pixel.x, pixel.y, pixel.z});

@@ -250,21 +250,23 @@ TEST(ReferenceTruth, luminanceCollectsLobesWindowAndEmission)
     const glm::dvec3 expected =
         glm::dvec3(10, 20, 40) * window *
         (material.diffuseAlbedo * r.f + material.f0 * (r.a - r.b) + glm::dvec3(0.75 * r.b));
-    const glm::dvec3 got = truthLuminance(surface, material, light, glm::dvec3(0), 1e-8);
+    const glm::dvec3 got = truthLuminance(surface, material, light, glm::dvec3(0), 1e-8).luminance;
     EXPECT_LE(glm::distance(got, expected), 1e-12 * glm::length(expected));
     light.influenceRadius = 1;
-    EXPECT_EQ(truthLuminance(surface, material, light, glm::dvec3(0), 1e-8), glm::dvec3(0));
+    EXPECT_EQ(truthLuminance(surface, material, light, glm::dvec3(0), 1e-8).luminance,
+              glm::dvec3(0));
 
     // A distant sphere is a sphere far away; a point light is a small sphere of the same intensity.
     light = makeSphere({-1e6f, 2e6f, 3e6f}, 2e5f, {10, 20, 40});
-    const glm::dvec3 far = truthLuminance(surface, material, light, glm::dvec3(0), 1e-8);
+    const glm::dvec3 far = truthLuminance(surface, material, light, glm::dvec3(0), 1e-8).luminance;
     CndLight distant = light;
     distant.type = CND_LIGHT_DISTANT_SPHERE;
     distant.radius = static_cast<float>(2e5 / std::sqrt(14e12));
     const glm::dvec3 toSun = glm::normalize(glm::dvec3(-1, 2, 3));
     for (int i = 0; i < 3; ++i)
         distant.direction[i] = static_cast<float>(-toSun[i]);
-    const glm::dvec3 sun = truthLuminance(surface, material, distant, glm::dvec3(0), 1e-8);
+    const glm::dvec3 sun =
+        truthLuminance(surface, material, distant, glm::dvec3(0), 1e-8).luminance;
     EXPECT_LE(glm::distance(sun, far), 1e-6 * glm::length(far));
     double previous = 1;
     for (const float radius : {0.1f, 0.01f, 0.001f}) {
@@ -274,8 +276,10 @@ TEST(ReferenceTruth, luminanceCollectsLobesWindowAndEmission)
         point.type = CND_LIGHT_POINT;
         for (float& emission : point.emission)
             emission = 1;
-        const glm::dvec3 a = truthLuminance(surface, material, small, glm::dvec3(0), 1e-9);
-        const glm::dvec3 b = truthLuminance(surface, material, point, glm::dvec3(0), 1e-9);
+        const glm::dvec3 a =
+            truthLuminance(surface, material, small, glm::dvec3(0), 1e-9).luminance;
+        const glm::dvec3 b =
+            truthLuminance(surface, material, point, glm::dvec3(0), 1e-9).luminance;
         EXPECT_EQ(b,
                   outgoingLuminance(surface, material, point, glm::dvec3(0), CND_SPECULAR_KARIS));
         const double error = glm::distance(a, b) / glm::length(b);

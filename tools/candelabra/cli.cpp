@@ -61,8 +61,8 @@ std::string parseSentence(const CLI::App& app, int argc, const char* const* argv
     const auto commands =
         app.get_subcommands([&](const CLI::App* c) { return c->get_name() == first; });
     if (first[0] != '-' && commands.empty())
-        return fmt::format("\"{}\" is no command; there are render, stress, view and devices",
-                           first);
+        return fmt::format(
+            "\"{}\" is no command; there are render, stress, view, truth and devices", first);
     const std::string command = commands.empty() ? "" : first + " ";
     return fmt::format("{} (see: candelabra {}--help)", error.what(), command);
 }
@@ -99,6 +99,7 @@ int parseAndRun(int argc, const char* const* argv)
     addRenderCommand(app, run);
     addStressCommand(app, run);
     addViewCommand(app, run);
+    addTruthCommand(app, run);
     addDevicesCommand(app, run);
     refuseAssignmentsOfNothing(argc, argv);
     try {

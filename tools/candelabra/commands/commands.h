@@ -17,6 +17,7 @@ using Run = std::function<int(const ProgramContext&)>;
 void addDevicesCommand(CLI::App& app, Run& run);
 void addRenderCommand(CLI::App& app, Run& run);
 void addStressCommand(CLI::App& app, Run& run);
+void addTruthCommand(CLI::App& app, Run& run);
 void addViewCommand(CLI::App& app, Run& run);
 
 } // namespace candelabra::app

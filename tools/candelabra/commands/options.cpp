@@ -221,9 +221,8 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
         warn("--seed", reason);
 }
 
-void FrameArguments::addTo(CLI::App& command)
+void FrameArguments::addViewTo(CLI::App& command)
 {
-    specular = specularName(static_cast<CndSpecularMethod>(CND_SPECULAR_METHOD_COUNT - 1));
     command.add_option("--size", size, "image size in pixels; default: the scene's, else 1280x720")
         ->type_name("WxH");
     command
@@ -233,6 +232,14 @@ void FrameArguments::addTo(CLI::App& command)
             "index, or position and target in metres and vertical field of view in "
             "degrees; default: the first")
         ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
+    addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
+              "draw sphere lights as emitters (default: as the scene says)");
+}
+
+void FrameArguments::addTo(CLI::App& command)
+{
+    specular = specularName(static_cast<CndSpecularMethod>(CND_SPECULAR_METHOD_COUNT - 1));
+    addViewTo(command);
     command.add_option("--exposure", exposure, "auto, or a fixed EV100")
         ->type_name("auto|EV")
         ->capture_default_str();
@@ -254,8 +261,6 @@ void FrameArguments::addTo(CLI::App& command)
         ->type_name("E")
         ->capture_default_str();
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "G-buffer layout");
-    addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
-              "draw sphere lights as emitters (default: as the scene says)");
 }
 
 void FrameArguments::addCullingTo(CLI::App& command)

@@ -57,6 +57,8 @@ struct FrameArguments {
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
 
     void addTo(CLI::App& command);
+    // Of those only what is seen: size, camera and visible lights.
+    void addViewTo(CLI::App& command);
     void addCullingTo(CLI::App& command);
 
     // All throw UsageError for what they cannot read.

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra truth: images, shards and their merging, the cache. Nothing here reaches Vulkan.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "cli.h"
+#include "io/image.h"
+#include "io/truth_file.h"
+#include "scene/load.h"
+#include "scene/reference_scene.h"
+
+using namespace candelabra;
+using namespace candelabra::app;
+
+namespace
+{
+
+struct ColourPixel {
+    uint32_t column, row;
+    double luminance[3];
+};
+constexpr ColourPixel grazing[] = {
+#include "../data/s17_dielectric_grazing.inc"
+};
+
+constexpr const char* dielectric = R"({"camera": {"position": [0, 0.5, 3],
+    "look_at": [0, 0, 0.6476849452607727], "up": [0, 1, 0], "vertical_fov_degrees": 20,
+    "aspect": 1},
+    "object": {"type": "plane", "point": [0, 0, 0], "normal": [0, 1, 0]},
+    "material": {"albedo": [0.2, 0.3, 0.5], "F0": [0.04, 0.04, 0.04], "alpha": 0.1,
+                 "metalness": 0},
+    "lights": [{"position": [0.5, 1.2, -3], "radius": 0.4, "radiance": [10, 10, 10]}],
+    "resolution": [256, 256]})";
+
+class TruthCommand : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        std::filesystem::create_directories(dir_);
+        write("scene.json", dielectric);
+    }
+    void TearDown() override { std::filesystem::remove_all(dir_); }
+
+    std::string path(const std::string& name) const { return (dir_ / name).string(); }
+    void write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(path(name)) << text;
+    }
+    // The exit code; what went to stderr is in err_.
+    int run(std::vector<std::string> arguments)
+    {
+        arguments.insert(arguments.begin(), {"candelabra", "truth"});
+        std::vector<const char*> pointers;
+        for (const std::string& argument : arguments)
+            pointers.push_back(argument.c_str());
+        testing::internal::CaptureStderr();
+        const int exitCode = runProgram(static_cast<int>(pointers.size()), pointers.data());
+        err_ = testing::internal::GetCapturedStderr();
+        return exitCode;
+    }
+    int runScene(const std::string& output, std::vector<std::string> more)
+    {
+        more.insert(more.begin(), {path("scene.json"), "-o", path(output), "-q", "--size"});
+        return run(more);
+    }
+
+    const std::filesystem::path dir_ =
+        std::filesystem::temp_directory_path() / ("candelabra_truth_" + std::to_string(getpid()));
+    std::string err_;
+};
+
+} // namespace
+
+// The whole way from the scene's file to pixels, against an independent path tracer.
+TEST_F(TruthCommand, MatchesThePathTracer)
+{
+    const Scene scene = loadSceneJson(path("scene.json"));
+    const reference::Scene model = toReference(scene, scene.cameras[0], 1, false);
+    std::vector<uint32_t> rows;
+    for (const ColourPixel& pixel : grazing)
+        if (rows.empty() || rows.back() != pixel.row)
+            rows.push_back(pixel.row);
+    if (rows.size() > 24) // half a second on one core
+        rows.resize(24);
+    const reference::TruthRows truth = reference::renderTruth(model, 256, 256, rows, {});
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (const ColourPixel& pixel : grazing)
+        for (size_t i = 0; i < rows.size(); ++i)
+            if (rows[i] == pixel.row)
+                for (int c = 0; c < 3; ++c) {
+                    const double error =
+                        truth.pixels[256 * i + pixel.column][c] / pixel.luminance[c] - 1;
+                    sum += std::abs(error);
+                    squares += error * error;
+                    ++count;
+                }
+    ASSERT_GE(count, 300);
+    std::cout << "mean relative error " << sum / count << ", relMSE " << squares / count << " over "
+              << count << " values (the path tracer's noise: 0.0052, 2.7e-5)\n";
+    EXPECT_LE(sum / count, 0.8 * 0.0052);
+    // A sample of a hundred pixels from a noise with long tails.
+    EXPECT_LE(squares / count, 3 * 0.0052 * 0.0052);
+    EXPECT_EQ(truth.unconverged, 0u);
+}
+
+TEST_F(TruthCommand, ShardsMergeToTheWholeImage)
+{
+    ASSERT_EQ(runScene("whole.pfm", {"16x11", "--no-cache"}), 0) << err_;
+    EXPECT_EQ(err_, "");
+    const Image whole = loadPfm(path("whole.pfm"));
+    EXPECT_EQ(whole.width, 16u);
+    EXPECT_EQ(whole.height, 11u);
+    for (const char* shard : {"1/3", "2/3", "3/3"})
+        ASSERT_EQ(runScene(std::string("part") + shard[0],
+                           {"16x11", "--no-cache", "--threads", "1", "--shard", shard}),
+                  0)
+            << err_;
+    ASSERT_EQ(run({"--merge", path("part3"), path("part1"), path("part2"), "-q", "-o",
+                   path("merged.exr")}),
+              0)
+        << err_;
+    EXPECT_EQ(loadExr(path("merged.exr")).pixels, whole.pixels);
+    // More shards than rows: some are empty.
+    ASSERT_EQ(runScene("empty", {"4x2", "--no-cache", "--shard", "3/3"}), 0) << err_;
+    EXPECT_TRUE(loadTruthShard(path("empty")).pixels.empty());
+}
+
+TEST_F(TruthCommand, MergeRefusesWhatDoesNotBelongTogether)
+{
+    ASSERT_EQ(runScene("a1", {"8x4", "--no-cache", "--shard", "1/2"}), 0);
+    ASSERT_EQ(runScene("size2", {"8x6", "--no-cache", "--shard", "2/2"}), 0);
+    ASSERT_EQ(runScene("count2", {"8x4", "--no-cache", "--shard", "2/3"}), 0);
+    ASSERT_EQ(
+        runScene("tolerance2", {"8x4", "--no-cache", "--shard", "2/2", "--tolerance", "1e-5"}), 0);
+    std::string other = dielectric;
+    other.replace(other.find("1.2, -3"), 3, "1.3");
+    write("scene.json", other);
+    ASSERT_EQ(runScene("scene2", {"8x4", "--no-cache", "--shard", "2/2"}), 0);
+    const auto merge = [&](const std::string& second) {
+        return run({"--merge", path("a1"), path(second), "-o", path("out.pfm")});
+    };
+    for (const char* second : {"size2", "count2", "tolerance2", "scene2", "a1"}) {
+        EXPECT_EQ(merge(second), 2) << second;
+        EXPECT_NE(err_.find(path(second)), std::string::npos) << err_;
+        EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+    }
+    EXPECT_EQ(run({"--merge", path("a1"), "-o", path("out.pfm")}), 2);
+    EXPECT_NE(err_.find("shard 2 of 2 is missing"), std::string::npos) << err_;
+    // Damage of every kind is found.
+    std::ifstream file(path("a1"), std::ios::binary);
+    const std::string good((std::istreambuf_iterator<char>(file)), {});
+    for (const size_t at : {size_t(0), good.find('\n') - 5, good.find('\n') + 3, good.size() - 1}) {
+        std::string bad = good;
+        bad[at] = static_cast<char>(bad[at] ^ 1);
+        write("bad", bad);
+        EXPECT_THROW(loadTruthShard(path("bad")), ImageError) << at;
+    }
+    for (const std::string& bad : {good.substr(0, good.size() - 1), good + "x", std::string(),
+                                   good.substr(0, 10), std::string(5000, 'a')}) {
+        write("bad", bad);
+        EXPECT_THROW(loadTruthShard(path("bad")), ImageError) << bad.size();
+    }
+    EXPECT_FALSE(std::filesystem::exists(path("out.pfm")));
+}
+
+TEST_F(TruthCommand, CacheRemembersWhatWasComputed)
+{
+    const auto files = [&] {
+        std::vector<std::filesystem::path> out;
+        for (const auto& entry : std::filesystem::directory_iterator(path("cache")))
+            out.push_back(entry.path());
+        return out;
+    };
+    ASSERT_EQ(runScene("a.pfm", {"8x4", "--cache", path("cache")}), 0) << err_;
+    ASSERT_EQ(files().size(), 1u);
+    // What is found is taken, which a false entry shows.
+    TruthShard entry = loadTruthShard(files()[0]);
+    entry.pixels[0] = 42;
+    saveTruthShard(files()[0], entry);
+    ASSERT_EQ(runScene("b.pfm", {"8x4", "--cache", path("cache")}), 0) << err_;
+    EXPECT_EQ(loadPfm(path("b.pfm")).pixels[0], 42);
+    // Not for another tolerance, size or scene; a damaged entry is computed again.
+    ASSERT_EQ(runScene("c.pfm", {"8x4", "--cache", path("cache"), "--tolerance", "1e-3"}), 0);
+    ASSERT_EQ(runScene("c.pfm", {"8x5", "--cache", path("cache")}), 0);
+    std::string other = dielectric;
+    other.replace(other.find("0.04"), 4, "0.05");
+    write("scene.json", other);
+    ASSERT_EQ(runScene("c.pfm", {"8x4", "--cache", path("cache")}), 0);
+    EXPECT_EQ(files().size(), 4u);
+    EXPECT_NE(loadPfm(path("c.pfm")).pixels[0], 42);
+    for (const std::filesystem::path& file : files())
+        std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+    ASSERT_EQ(runScene("d.pfm", {"8x4", "--cache", path("cache")}), 0) << err_;
+    EXPECT_NE(err_.find("cut short"), std::string::npos) << err_;
+    EXPECT_EQ(loadPfm(path("d.pfm")).pixels, loadPfm(path("c.pfm")).pixels);
+}
+
+TEST_F(TruthCommand, ScenesWithoutATruthAreRefused)
+{
+    EXPECT_EQ(run({"hall", "-o", path("x.pfm"), "--size", "4x4"}), 2);
+    EXPECT_NE(err_.find("meshes"), std::string::npos) << err_;
+}
+
+// Visible lights are balls that emit; what they light does not change.
+TEST_F(TruthCommand, VisibleLightsAreSeen)
+{
+    std::string facing = dielectric;
+    facing.replace(facing.find("[0, 0, 0.6476849452607727]"), 26, "[0.5, 1.2, -3]");
+    write("scene.json", facing);
+    ASSERT_EQ(runScene("off.pfm", {"3x3", "--no-cache"}), 0) << err_;
+    ASSERT_EQ(runScene("on.pfm", {"3x3", "--no-cache", "--lights-visible", "on"}), 0) << err_;
+    const Image off = loadPfm(path("off.pfm")), on = loadPfm(path("on.pfm"));
+    EXPECT_EQ(off.pixels[12], 0); // the middle: above the horizon
+    EXPECT_EQ(on.pixels[12], 10);
+    EXPECT_EQ(on.pixels[0], off.pixels[0]);
+}

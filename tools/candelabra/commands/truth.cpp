@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra truth: the image that every approximation is measured against, in double precision on
+// the CPU; in one go, or in shards that another call puts together.
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "commands/commands.h"
+#include "commands/measure.h"
+#include "commands/truth_cache.h"
+#include "io/progress.h"
+#include "io/table.h"
+#include "io/truth_file.h"
+#include "reference/render.h"
+#include "render/camera.h"
+#include "render/error.h"
+#include "render/readback.h"
+#include "scene/reference_scene.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct TruthArguments {
+    std::string scene, output, tolerance = "1e-4", threads, shard, cache;
+    std::vector<std::string> merge;
+    bool noCache = false;
+    FrameArguments frame; // of which only size, camera and visible lights are options
+};
+
+struct ShardNumber {
+    uint32_t index = 1, count = 1;
+};
+
+ShardNumber shardNumber(const std::string& text)
+{
+    if (text.empty())
+        return {};
+    const size_t slash = text.find('/');
+    const auto index = parseUnsigned(text.substr(0, slash));
+    const auto count =
+        slash == std::string::npos ? std::nullopt : parseUnsigned(text.substr(slash + 1));
+    if (!index || !count || *index < 1 || *count < *index || *count > maxSide)
+        throw UsageError("--shard \"" + text + "\": expected i/n with 1 <= i <= n, such as 2/8");
+    return {*index, *count};
+}
+
+// Display images have an exposure and eight bits: not for measuring.
+void requireLinearImage(const std::string& path)
+{
+    requireImageExtension("-o", path);
+    std::string extension = path.substr(path.size() - 4);
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".png")
+        throw UsageError("-o " + path + ": a truth is linear luminance; choose .exr, .hdr or .pfm");
+}
+
+void warnOfUnconverged(uint64_t count)
+{
+    if (count)
+        spdlog::warn("warning: {} missed the tolerance", counted(count, "contribution"));
+}
+
+int merge(const TruthArguments& a)
+{
+    if (!a.scene.empty())
+        throw UsageError("truth: a SCENE and --merge exclude each other");
+    if (!a.shard.empty())
+        throw UsageError("truth: --shard and --merge exclude each other");
+    requireLinearImage(a.output);
+    requireWritable("-o", a.output);
+    std::vector<TruthShard> shards;
+    uint64_t unconverged = 0;
+    Image image;
+    try {
+        for (const std::string& path : a.merge) {
+            shards.push_back(loadTruthShard(path));
+            unconverged += shards.back().unconverged;
+        }
+        image = mergeTruthShards(a.merge, shards);
+    } catch (const ImageError& error) {
+        throw UsageError(error.what());
+    }
+    saveImageByExtension(a.output, image);
+    spdlog::info("wrote {} from {}", a.output, counted(shards.size(), "shard"));
+    warnOfUnconverged(unconverged);
+    return exitOk;
+}
+
+// Computes the pixels of `shard`, whose other members are set.
+void compute(const ProgramContext& program, const reference::Scene& scene, uint32_t threads,
+             TruthShard& shard)
+{
+    const std::vector<uint32_t> rows = shard.rows();
+    Progress progress(double(rows.size()), !program.quiet);
+    progress.doing("integrating");
+    const reference::TruthRows truth = reference::renderTruth(
+        scene, shard.width, shard.height, rows,
+        {.relative = shard.tolerance, .threads = threads, .onRow = [&] { progress.advance(1); }});
+    shard.unconverged = truth.unconverged;
+    shard.pixels.reserve(3 * truth.pixels.size());
+    for (const glm::dvec3& pixel : truth.pixels)
+        for (int i = 0; i < 3; ++i)
+            shard.pixels.push_back(static_cast<float>(pixel[i]));
+}
+
+int truth(const ProgramContext& program, const TruthArguments& a)
+{
+    if (a.output.empty())
+        throw UsageError("truth: nothing to write; give -o FILE");
+    if (!a.merge.empty())
+        return merge(a);
+    if (a.scene.empty())
+        throw UsageError("truth: give a SCENE, or shards with --merge");
+    if (a.noCache && !a.cache.empty())
+        throw UsageError("truth: --cache and --no-cache exclude each other");
+    const ShardNumber number = shardNumber(a.shard);
+    if (a.shard.empty())
+        requireLinearImage(a.output);
+    requireWritable("-o", a.output);
+    TruthShard shard;
+    shard.index = number.index;
+    shard.count = number.count;
+    shard.tolerance = numberOption("--tolerance", a.tolerance, 1e-9, 1e-2);
+    const uint32_t threads =
+        a.threads.empty() ? 0 : unsignedOption("--threads", a.threads, 1, 1024);
+
+    const Scene scene = loadScene(a.scene, {.lights = std::nullopt});
+    logWarnings(scene);
+    const Camera camera = selectCamera(scene, a.frame.camera);
+    const PixelSize size = a.frame.pixelSize(scene, camera);
+    shard.width = size.width;
+    shard.height = size.height;
+    const reference::Scene model =
+        toReference(scene, camera, double(size.width) / size.height,
+                    a.frame.lightsVisibleOverride().value_or(scene.lightsVisible));
+    shard.scene = referenceHash(model);
+
+    const TruthCache cache = a.noCache         ? TruthCache()
+                             : a.cache.empty() ? TruthCache::standard()
+                                               : TruthCache(a.cache);
+    if (cache.find(shard)) {
+        spdlog::info("{}: found in the cache", scene.name);
+    } else {
+        spdlog::info("{}: {}, {}, {}x{}, relative tolerance {:g}", scene.name,
+                     counted(scene.lights.size(), "light"),
+                     counted(scene.analyticObjects.size(), "object"), size.width, size.height,
+                     shard.tolerance);
+        compute(program, model, threads, shard);
+        cache.store(shard);
+    }
+    if (a.shard.empty())
+        saveImageByExtension(a.output, {shard.width, shard.height, 3, shard.pixels});
+    else
+        saveTruthShard(a.output, shard);
+    spdlog::info("wrote {}", a.output);
+    warnOfUnconverged(shard.unconverged);
+    return exitOk;
+}
+
+} // namespace
+
+void addTruthCommand(CLI::App& app, Run& run)
+{
+    CLI::App* command = app.add_subcommand(
+        "truth", "Integrate a scene of planes and balls in double precision on the CPU");
+    const auto a = std::make_shared<TruthArguments>();
+    command->add_option("scene", a->scene, "a scene .json file")->type_name("SCENE");
+    command
+        ->add_option("-o,--output", a->output,
+                     "linear scene radiance (cd/m^2): .exr, .hdr or .pfm; with --shard a file for "
+                     "--merge, of any name")
+        ->type_name("FILE");
+    command
+        ->add_option("--tolerance", a->tolerance,
+                     "relative tolerance of every light's contribution, 1e-9 to 1e-2")
+        ->type_name("T")
+        ->capture_default_str();
+    a->frame.addViewTo(*command);
+    command->add_option("--threads", a->threads, "default: one for every core")->type_name("N");
+    command
+        ->add_option("--shard", a->shard,
+                     "compute every n-th row only, from row i: parts that "
+                     "may run on different machines")
+        ->type_name("i/n");
+    command->add_option("--merge", a->merge, "put the files of all shards together, in any order")
+        ->type_name("FILE...");
+    command
+        ->add_option("--cache", a->cache,
+                     "directory of truths computed before (default: candelabra/truth in "
+                     "$XDG_CACHE_HOME or ~/.cache)")
+        ->type_name("DIR");
+    command->add_flag("--no-cache", a->noCache, "neither look there nor store anything there");
+    command->footer("Examples:\n"
+                    "  candelabra truth scene.json -o truth.exr\n"
+                    "  candelabra truth scene.json --shard 3/8 -o part3.truth\n"
+                    "  candelabra truth --merge part*.truth -o truth.exr");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return truth(program, *a); }; });
+}
+
+} // namespace candelabra::app

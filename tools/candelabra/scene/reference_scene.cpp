@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/reference_scene.h"
+
+#include <algorithm>
+
+#include "io/hash.h"
+#include "scene/load.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+reference::Material toReference(const Material& m)
+{
+    const double roughness = m.perceptualRoughness;
+    return {.diffuseAlbedo = glm::dvec3(m.baseColor) * double((1 - m.metalness) * m.diffuseWeight),
+            .f0 =
+                glm::mix(glm::dvec3(m.dielectricF0), glm::dvec3(m.baseColor), double(m.metalness)),
+            .specularWeight = m.specularWeight,
+            // The lobe of alpha 0 is no function; this one is a mirror to every eye.
+            .alpha = std::max(roughness * roughness, 1e-8),
+            .emission = m.emission};
+}
+
+void addEmitters(const Scene& scene, reference::Scene& out)
+{
+    for (const CndLight& light : scene.lights) {
+        if (light.type != CND_LIGHT_SPHERE)
+            continue;
+        const glm::dvec3 position(light.position[0], light.position[1], light.position[2]);
+        out.objects.push_back({.type = reference::Object::Type::Ball,
+                               .point = scene.lightOrigin + position,
+                               .radius = light.radius,
+                               .material = static_cast<uint32_t>(out.materials.size())});
+        out.materials.push_back(
+            {.emission = {light.emission[0], light.emission[1], light.emission[2]}});
+    }
+}
+
+void add(Hash& hash, const glm::dvec3& v)
+{
+    for (int i = 0; i < 3; ++i)
+        hash.add(v[i]);
+}
+
+void add(Hash& hash, const CndLight& light)
+{
+    hash.add(light.type);
+    for (const auto& values :
+         {light.position, light.direction, light.emission, light.axisU, light.axisV})
+        hash.add(std::span<const float>(values, 3));
+    for (const float value :
+         {light.radius, light.influenceRadius, light.innerConeAngle, light.outerConeAngle})
+        hash.add(value);
+    hash.add(light.twoSided);
+}
+
+} // namespace
+
+reference::Scene toReference(const Scene& scene, const Camera& camera, double imageAspect,
+                             bool lightsVisible)
+{
+    if (!scene.instances.empty())
+        throw SceneError(scene.name + ": has meshes, and only planes and balls have a truth");
+    if (camera.orthographic)
+        throw SceneError(scene.name + ": camera " + camera.name +
+                         " is orthographic, and only pinhole cameras have a truth");
+    reference::Scene out;
+    out.camera = {camera.position, camera.forward, camera.up, camera.verticalFov,
+                  camera.aspect.value_or(imageAspect)};
+    for (const Material& material : scene.materials)
+        out.materials.push_back(toReference(material));
+    for (const AnalyticObject& object : scene.analyticObjects)
+        out.objects.push_back({.type = object.type == AnalyticObject::Type::Plane
+                                           ? reference::Object::Type::Plane
+                                           : reference::Object::Type::Ball,
+                               .point = object.point,
+                               .normal = object.normal,
+                               .radius = object.radius,
+                               .material = object.material});
+    out.lights = scene.lights;
+    out.lightOrigin = scene.lightOrigin;
+    out.background = scene.background;
+    if (lightsVisible)
+        addEmitters(scene, out);
+    return out;
+}
+
+uint64_t referenceHash(const reference::Scene& scene)
+{
+    Hash hash;
+    hash.add(reference::truthVersion);
+    const reference::Camera& camera = scene.camera;
+    for (const glm::dvec3& v :
+         {camera.position, camera.forward, camera.up, scene.lightOrigin, scene.background})
+        add(hash, v);
+    hash.add(camera.verticalFov);
+    hash.add(camera.aspect);
+    hash.add(scene.materials.size());
+    for (const reference::Material& material : scene.materials) {
+        add(hash, material.diffuseAlbedo);
+        add(hash, material.f0);
+        hash.add(material.specularWeight);
+        hash.add(material.alpha);
+        add(hash, material.emission);
+    }
+    hash.add(scene.objects.size());
+    for (const reference::Object& object : scene.objects) {
+        hash.add(static_cast<int>(object.type));
+        add(hash, object.point);
+        add(hash, object.normal);
+        hash.add(object.radius);
+        hash.add(object.material);
+    }
+    hash.add(scene.lights.size());
+    for (const CndLight& light : scene.lights)
+        add(hash, light);
+    return hash.value();
+}
+
+} // namespace candelabra::app
