@@ -28,4 +28,10 @@ float length2(vec3 x)
     return dot(x, x);
 }
 
+// A unit vector perpendicular to another.
+vec3 anyPerpendicular(vec3 z)
+{
+    return normalize(cross(z, abs(z.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+}
+
 #endif

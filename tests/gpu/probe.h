@@ -12,17 +12,23 @@ namespace candelabra::test
 class ProbeTest : public GpuTest
 {
 protected:
-    // One output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT and takes ProbeParams.
+    // One output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT, and `other` where it is
+    // given, and takes ProbeParams.
     template <typename Output, typename Input>
-    std::vector<Output> runProbe(const gpu::Spirv& probe, const std::vector<Input>& inputs)
+    std::vector<Output> runProbe(const gpu::Spirv& probe, const std::vector<Input>& inputs,
+                                 const gpu::Binding* other = nullptr)
     {
         const uint32_t count = uint32_t(inputs.size());
         const gpu::Buffer in = upload("probe inputs", inputs);
         const gpu::Buffer out = readback("probe outputs", count * sizeof(Output));
         const gpu::Kernel<gpu::ProbeParams> kernel(device(), probe);
         const gpu::Bindings bindings = kernel.createBindings(1);
-        bindings.write(
-            0, {gpu::Binding::of(gpu::PROBE_INPUT, in), gpu::Binding::of(gpu::PROBE_OUTPUT, out)});
+        const auto input = gpu::Binding::of(gpu::PROBE_INPUT, in);
+        const auto output = gpu::Binding::of(gpu::PROBE_OUTPUT, out);
+        if (other)
+            bindings.write(0, {input, output, *other});
+        else
+            bindings.write(0, {input, output});
         gpu::Timer timer(device(), "probe", 1, false);
         context().submitAndWait([&](VkCommandBuffer cmd) {
             timer.begin(cmd, 0);

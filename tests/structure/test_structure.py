@@ -29,6 +29,7 @@ ALLOWED = [
     ("tools/candelabra", ["commands/", "io/", "render/", "scene/", "viewer/", "cli.h",
                           "candelabra/", "gpu/", "gbuffer/", "reference/", "shared/specular_methods.h",
                           "candelabra_commit.h"]),
+    ("tools/fit", ["fit/", "reference/", "shared/ltc.h"]),
     ("shaders/shared", ["shared/"]),
     ("shaders/lib", ["shared/", "lib/"]),
     ("shaders/kernels", ["shared/", "lib/"]),

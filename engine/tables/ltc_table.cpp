@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tables/ltc_table.h"
+
+namespace candelabra::tables
+{
+namespace
+{
+
+// To make it again: candelabra_fit engine/tables/ltc_table.inc
+constexpr float table[] = {
+#include "tables/ltc_table.inc"
+};
+static_assert(sizeof table ==
+              gpu::LTC_TABLE_SIZE * gpu::LTC_TABLE_SIZE * gpu::LTC_TEXELS * 4 * sizeof(float));
+
+} // namespace
+
+std::span<const float> ltcTable()
+{
+    return table;
+}
+
+} // namespace candelabra::tables

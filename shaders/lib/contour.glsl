@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Form factor of a convex outline, cut at the horizon, by its contour integral: Lambert 1760, in the
+// form of Baum, Rushmeier and Winget 1989, F = 1/(2 pi) sum of angle_i n.(Pi x Pi+1) / |Pi x Pi+1|.
+#ifndef CND_LIB_CONTOUR
+#define CND_LIB_CONTOUR
+
+#include "lib/lights/sphere.glsl"
+
+// The terms of the usual sum are as large as the outline is long and cancel down to its area: nothing
+// is left of a small light in float32. Here every edge is compared with one at a common distance d,
+//   angle / (sin |P| |P'|) = (1 + kappa) / d^2,
+// for which the sum is the projected area, known exactly from the offsets; kappa is small for a small
+// light and is computed without cancellation.
+struct Contour {
+    vec3 n;        // receiver's normal
+    vec3 centre;   // from the receiver; the outline is given by offsets from here
+    float offset2; // typical squared length of an offset
+    float invD2;   // 1 / (|centre|^2 + offset2)
+    float sum;
+    vec3 leaves, enters; // offsets where the outline goes below the horizon and comes back
+};
+
+Contour beginContour(vec3 n, vec3 centre, float offset2)
+{
+    const float invD2 = 1.0 / max(length2(centre) + offset2, MIN_LENGTH2);
+    return Contour(n, centre, offset2, invD2, 0.0, vec3(0.0), vec3(0.0));
+}
+
+// angle / sin(angle) - 1, relative precision for small angles.
+float angleExcess(float sine, float cosine)
+{
+    const float s2 = min(sine * sine, 0.5);
+    const float tail = asinTail(s2);
+    const float x = min(abs(cosine), 0.70710678);
+    const float fromCosine = HALF_PI - sign(cosine) * (x + x * x * x * asinTail(x * x));
+    const float inverseSine = 1.0 / max(sine, 1e-9);
+    const float angle = sine * sine > 0.5 ? fromCosine : PI - sine * (1.0 + s2 * tail);
+    const float wide = angle * inverseSine - 1.0;
+    return cosine > 0.0 && sine * sine <= 0.5 ? s2 * tail : wide;
+}
+
+// The straight edge with offsets middle + t along, t from t0 to t1, wholly above the horizon.
+void contourSegment(inout Contour k, vec3 middle, vec3 along, float t0, float t1)
+{
+    const vec3 from = middle + t0 * along;
+    const vec3 to = middle + t1 * along;
+    const vec3 a = k.centre + from;
+    const vec3 b = k.centre + to;
+    // a x b, without the rounding of far ends
+    const vec3 axb = (t1 - t0) * cross(k.centre + middle, along);
+    // |a|^2 / d^2 - 1 and |b|^2 / d^2 - 1
+    const float qa = (2.0 * dot(k.centre, from) + length2(from) - k.offset2) * k.invD2;
+    const float qb = (2.0 * dot(k.centre, to) + length2(to) - k.offset2) * k.invD2;
+    const float q = qa + qb + qa * qb;
+    // A vertex at the receiver: its edges have no angle, whatever the floor.
+    const float w = max(sqrt(length2(a) * k.invD2 * length2(b) * k.invD2), 1e-12);
+    const float invW = 1.0 / w;
+    const float lengths = -q / (w + w * w); // d^2 / (|a| |b|) - 1
+    const float sine = min(sqrt(length2(axb)) * k.invD2 * invW, 1.0);
+    const float excess = angleExcess(sine, clamp(dot(a, b) * k.invD2 * invW, -1.0, 1.0));
+    k.sum += (t1 - t0) * dot(k.n, cross(middle, along)) +
+             (excess + lengths + excess * lengths) * dot(k.n, axb);
+}
+
+// The next edge of the outline, from middle - along to middle + along; what is below the horizon is
+// left out.
+void contourEdge(inout Contour k, vec3 middle, vec3 along)
+{
+    const float height = dot(k.n, k.centre + middle);
+    const float slope = dot(k.n, along);
+    const bool up = height - slope >= 0.0;
+    const bool upAfter = height + slope >= 0.0;
+    if (!up && !upAfter)
+        return;
+    const float crossing = clamp(-height / (abs(slope) > 0.0 ? slope : 1.0), -1.0, 1.0);
+    if (!upAfter)
+        k.leaves = middle + crossing * along;
+    if (!up)
+        k.enters = middle + crossing * along;
+    contourSegment(k, middle, along, up ? -1.0 : crossing, upAfter ? 1.0 : crossing);
+}
+
+// Closes the outline along the horizon. 0..1; an outline seen from either side counts alike.
+float contourFormFactor(inout Contour k)
+{
+    // Both are zero where nothing crosses: that adds nothing.
+    contourSegment(k, k.leaves, k.enters - k.leaves, 0.0, 1.0);
+    return clamp(abs(k.sum) * k.invD2 * (0.5 * INV_PI), 0.0, 1.0);
+}
+
+// Parallelogram with corners centre +- u +- v.
+float parallelogramFormFactor(vec3 n, vec3 centre, vec3 u, vec3 v)
+{
+    Contour k = beginContour(n, centre, length2(u) + length2(v));
+    contourEdge(k, -v, u);
+    contourEdge(k, u, v);
+    contourEdge(k, v, -u);
+    contourEdge(k, -u, -v);
+    return contourFormFactor(k);
+}
+
+#endif

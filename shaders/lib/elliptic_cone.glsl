@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vector irradiance of an elliptic cone, from which follows the form factor of any ellipse.
+#ifndef CND_LIB_ELLIPTIC_CONE
+#define CND_LIB_ELLIPTIC_CONE
+
+#include "lib/lights/sphere.glsl"
+
+// The cone of the directions to the ellipse c + u cos(t) + v sin(t), by its dual quadratic form
+// u u^T + v v^T - c c^T: one negative eigenvalue -mu, whose eigenvector e is the axis, and two positive
+// ones nu1, nu2.
+struct DualCone {
+    float xx, yy, zz, xy, xz, yz;
+    float trace;
+    float minors;      // sum of the principal 2 x 2 minors
+    float determinant; // mu nu1 nu2 = det(u, v, c)^2
+};
+
+DualCone dualCone(vec3 c, vec3 u, vec3 v)
+{
+    const float d = dot(c, cross(u, v));
+    return DualCone(u.x * u.x + v.x * v.x - c.x * c.x, u.y * u.y + v.y * v.y - c.y * c.y,
+                    u.z * u.z + v.z * v.z - c.z * c.z, u.x * u.y + v.x * v.y - c.x * c.y,
+                    u.x * u.z + v.x * v.z - c.x * c.z, u.y * u.z + v.y * v.z - c.y * c.z,
+                    length2(u) + length2(v) - length2(c),
+                    length2(cross(u, v)) - length2(cross(u, c)) - length2(cross(v, c)), d * d);
+}
+
+// The root mu of (t - mu)(t + nu1)(t + nu2) = t^3 + trace t^2 + minors t - determinant. Each start is
+// an upper bound for it, and Halley's iteration (1694) on a polynomial with real roots comes down from
+// one without overshooting. 0 < mu <= |c|^2.
+float dualConeRoot(DualCone k, float c2)
+{
+    // From t^3 >= 0: trace t^2 + minors t <= determinant.
+    const float fromQuadratic = 2.0 * k.determinant /
+        max(k.minors + sqrt(max(k.minors * k.minors + 4.0 * k.trace * k.determinant, 0.0)), 1e-37);
+    float mu = k.trace > 0.0 ? min(c2, fromQuadratic) : c2;
+    for (int i = 0; i < 4; ++i) {
+        const float f = ((mu + k.trace) * mu + k.minors) * mu - k.determinant;
+        const float f1 = (3.0 * mu + 2.0 * k.trace) * mu + k.minors;
+        const float denominator = f1 * f1 - f * (3.0 * mu + k.trace);
+        mu -= denominator > 0.0 ? max(f * f1 / denominator, 0.0) : 0.0;
+    }
+    return max(mu, 1e-12 * c2);
+}
+
+// Form factor under the plane z = 0 of the cone around the direction c (the ellipse's centre). The
+// vector irradiance, |Phi| = sqrt(nu1 nu2 / ((mu + nu1)(mu + nu2))) along e, is exact, and so is the
+// result for a cone wholly above the horizon. One that crosses it is cut like the circular cone of the
+// same |Phi| (an idea of Hill and Heitz 2016, "Real-time area lighting: a journey from research to
+// production"), but where the ellipse itself is cut: with S the sine of its half width across the
+// horizon, e.z / S runs from -1 to 1 as it rises. Exact for circular cones and, in the limit, for small
+// ones; 0 exactly where the ellipse is below.
+float ellipticConeFormFactor(DualCone k, vec3 c)
+{
+    const float mu = dualConeRoot(k, length2(c));
+    const float p = max((3.0 * mu + 2.0 * k.trace) * mu + k.minors, 1e-37);
+    const float phi = min(sqrt(k.determinant / (mu * p)), 1.0);
+    const float x = k.xx + mu;
+    const float y = k.yy + mu;
+    const float z = k.zz + mu;
+    const float axy = k.yz * k.xz - k.xy * z; // of the adjugate, which is p e e^T
+    const float axz = k.xy * k.yz - k.xz * y;
+    const float ayz = k.xy * k.xz - k.yz * x;
+    const vec3 e = vec3((y * z - k.yz * k.yz) * c.x + axy * c.y + axz * c.z,
+                        axy * c.x + (x * z - k.xz * k.xz) * c.y + ayz * c.z,
+                        axz * c.x + ayz * c.y + (x * y - k.xy * k.xy) * c.z);
+    const float cosine = clamp(e.z * inversesqrt(max(length2(e), 1e-37)), -1.0, 1.0);
+    const float rho = k.zz / mu; // > 0: the cone crosses the horizon
+    const float S = sqrt((max(rho, 0.0) + cosine * cosine) / (1.0 + max(rho, 0.0)));
+    const float s = sqrt(phi);
+    const float crossing = sphereFormFactor(s * clamp(cosine / max(S, 1e-12), -1.0, 1.0), phi) * S;
+    const float whole = c.z > 0.0 ? phi * max(cosine, 0.0) : 0.0;
+    return min(rho > 0.0 ? crossing / max(s, 1e-12) : whole, 1.0);
+}
+
+#endif

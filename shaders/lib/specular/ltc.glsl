@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heitz, Dupuy, Hill and Neubelt 2016, "Real-time polygonal-light shading with linearly transformed
+// cosines", with a fit of our own (tools/fit) whose maps keep the horizon in place: lights are cut at
+// the true horizon, nothing leaks from below it, and a light that fills the hemisphere gives the
+// lobe's directional albedo. The includer provides vec4 ltcTexel(uint index), the table of
+// engine/tables/ltc_table.h.
+#ifndef CND_LIB_SPECULAR_LTC
+#define CND_LIB_SPECULAR_LTC
+
+#include "shared/ltc.h"
+#include "lib/brdf.glsl"
+#include "lib/elliptic_cone.glsl"
+#include "lib/lights/rectangle.glsl"
+#include "lib/lights/tube.glsl"
+
+// One lobe under a map with rows rowX, rowY and the normal: w = (rowX.l, rowY.l, n.l).
+struct LtcLobe {
+    vec3 rowX, rowY;
+    float albedo;       // directional albedo
+    float xx, yy, xz;   // products of the rows that are not 0 or 1
+    float determinant2; // squared determinant of the map
+};
+
+// What does not depend on the light. Fresnel's part is a lobe of other shape and place, far from the
+// mirror direction; of a dielectric it is most of the light at grazing.
+struct LtcPoint {
+    vec3 n;
+    LtcLobe white;      // F = 1
+    LtcLobe dielectric; // F0 = LTC_DIELECTRIC_F0
+};
+
+vec4 ltcEntry(uvec2 low, vec2 f, uint lobe)
+{
+    const uint index = LTC_TEXELS * (low.y * LTC_TABLE_SIZE + low.x) + lobe;
+    const uint row = LTC_TEXELS * LTC_TABLE_SIZE;
+    return mix(mix(ltcTexel(index), ltcTexel(index + LTC_TEXELS), f.x),
+               mix(ltcTexel(index + row), ltcTexel(index + row + LTC_TEXELS), f.x), f.y);
+}
+
+LtcLobe makeLtcLobe(vec4 shape, vec3 n, vec3 tangent, float NoV, float invAlpha)
+{
+    const float sine = sqrt(1.0 - NoV * NoV);
+    const float sharpnessX = shape.x * invAlpha;
+    const float sharpnessY = shape.y * invAlpha;
+    LtcLobe q;
+    q.rowX = sharpnessX * (NoV * tangent + sine * n) + shape.z * (NoV * n - sine * tangent);
+    q.rowY = sharpnessY * cross(n, tangent);
+    q.albedo = shape.w;
+    q.xx = sharpnessX * sharpnessX + shape.z * shape.z;
+    q.yy = sharpnessY * sharpnessY;
+    q.xz = sharpnessX * sine + shape.z * NoV;
+    const float inPlane = sharpnessX * NoV - shape.z * sine;
+    q.determinant2 = inPlane * inPlane * q.yy;
+    return q;
+}
+
+// A view below LTC_MIN_NOV is tilted up to it.
+LtcPoint makeLtcPoint(ShadingPoint p)
+{
+    const float cosine = dot(p.n, p.v);
+    const vec3 across = p.v - cosine * p.n;
+    const float across2 = length2(across);
+    // Straight on, any direction will do.
+    const vec3 tangent = across2 > 1e-12 ? across * inversesqrt(across2) : anyPerpendicular(p.n);
+    const float NoV = clamp(cosine, LTC_MIN_NOV, 1.0);
+
+    const float last = float(LTC_TABLE_SIZE - 1u);
+    const float perceptualRoughness = sqrt(p.alpha);
+    const vec2 coordinate = vec2((perceptualRoughness - LTC_MIN_ROUGHNESS) / (1.0 - LTC_MIN_ROUGHNESS),
+                                 sqrt((1.0 - NoV) / (1.0 - LTC_MIN_NOV)));
+    const vec2 at = last * clamp(coordinate, 0.0, 1.0);
+    const vec2 low = min(floor(at), last - 1.0);
+    LtcPoint q;
+    q.n = p.n;
+    q.white = makeLtcLobe(ltcEntry(uvec2(low), at - low, 0u), p.n, tangent, NoV, 1.0 / p.alpha);
+    q.dielectric = makeLtcLobe(ltcEntry(uvec2(low), at - low, 1u), p.n, tangent, NoV, 1.0 / p.alpha);
+    return q;
+}
+
+vec3 ltcMap(LtcLobe q, vec3 n, vec3 l)
+{
+    return vec3(dot(q.rowX, l), dot(q.rowY, l), dot(n, l));
+}
+
+const vec3 LTC_NORMAL = vec3(0.0, 0.0, 1.0);
+
+// (A, B) from A and the response of the dielectric lobe, F0 (A - B) + B.
+vec2 ltcResponse(LtcPoint q, float white, float dielectric)
+{
+    const float a = q.white.albedo * white;
+    const float mixed = q.dielectric.albedo * dielectric;
+    const float b = (mixed - LTC_DIELECTRIC_F0 * a) / (1.0 - LTC_DIELECTRIC_F0);
+    return vec2(a, clamp(b, 0.0, a));
+}
+
+// Responses (F = 1, F = (1 - VoH)^5) to lights of unit luminance; arguments as in lib/lights.
+
+// A sphere around the unit direction c with sin^2 of the half angle s2. In the mapped space its dual
+// cone is s2 M M^T - w w^T, with w the mapped c, and needs no axes.
+float ltcSphereLobe(LtcLobe q, vec3 n, vec3 c, float s2)
+{
+    const vec3 w = ltcMap(q, n, c);
+    const float w2 = length2(w);
+    const float trace = q.xx + q.yy + 1.0;
+    const float wGw = q.xx * w.x * w.x + q.yy * w.y * w.y + w.z * w.z + 2.0 * q.xz * w.x * w.z;
+    const float minors = q.xx * q.yy + q.yy + q.xx - q.xz * q.xz;
+    const DualCone cone = DualCone(s2 * q.xx - w.x * w.x, s2 * q.yy - w.y * w.y, s2 - w.z * w.z,
+                                   -w.x * w.y, s2 * q.xz - w.x * w.z, -w.y * w.z,
+                                   s2 * trace - w2, s2 * (s2 * minors - (trace * w2 - wGw)),
+                                   s2 * s2 * (1.0 - s2) * q.determinant2);
+    return ellipticConeFormFactor(cone, w);
+}
+
+// One lobe, as published; B is the share that it has of a white surrounding.
+vec2 ltcSphere(LtcPoint q, vec3 c, float s2)
+{
+    return ltcResponse(q, 1.0, 1.0) * ltcSphereLobe(q.white, q.n, c, min(s2, 0.9999));
+}
+
+// Ellipse with half axes u and v.
+float ltcEllipseLobe(LtcLobe q, vec3 n, vec3 centre, vec3 u, vec3 v)
+{
+    const vec3 c = ltcMap(q, n, centre);
+    return ellipticConeFormFactor(dualCone(c, ltcMap(q, n, u), ltcMap(q, n, v)), c);
+}
+
+vec2 ltcDisc(LtcPoint q, vec3 toCentre, vec3 normal, float radius, bool twoSided)
+{
+    if (!twoSided && dot(normal, toCentre) >= 0.0)
+        return vec2(0.0);
+    // Two radii; any pair will do. At unit distance the cubic stays in the range of a float.
+    const float scale = inversesqrt(max(length2(toCentre), MIN_LENGTH2));
+    const vec3 u = anyPerpendicular(normal) * (radius * scale);
+    const vec3 v = cross(normal, u);
+    const vec3 c = toCentre * scale;
+    return ltcResponse(q, ltcEllipseLobe(q.white, q.n, c, u, v),
+                       ltcEllipseLobe(q.dielectric, q.n, c, u, v));
+}
+
+float ltcParallelogramLobe(LtcLobe q, vec3 n, vec3 centre, vec3 u, vec3 v)
+{
+    return parallelogramFormFactor(LTC_NORMAL, ltcMap(q, n, centre), ltcMap(q, n, u), ltcMap(q, n, v));
+}
+
+vec2 ltcRectangle(LtcPoint q, vec3 toCentre, vec3 axisU, vec3 axisV, bool twoSided)
+{
+    if (!facesRectangle(toCentre, axisU, axisV, twoSided))
+        return vec2(0.0);
+    return ltcResponse(q, ltcParallelogramLobe(q.white, q.n, toCentre, axisU, axisV),
+                       ltcParallelogramLobe(q.dielectric, q.n, toCentre, axisU, axisV));
+}
+
+float ltcTubeLobe(LtcLobe q, vec3 n, TubeOutline tube)
+{
+    return tubeOutlineFormFactor(LTC_NORMAL, transpose(mat3(q.rowX, q.rowY, n)), tube);
+}
+
+vec2 ltcTube(LtcPoint q, TubeOutline tube)
+{
+    if (tubeIsBelow(q.n, tube))
+        return vec2(0.0);
+    return ltcResponse(q, ltcTubeLobe(q.white, q.n, tube), ltcTubeLobe(q.dielectric, q.n, tube));
+}
+
+#endif

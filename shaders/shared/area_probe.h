@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records of the probe of area lights.
+#ifndef CND_SHARED_AREA_PROBE_H
+#define CND_SHARED_AREA_PROBE_H
+
+#include "shared/probes.h"
+
+GPU_BEGIN
+
+// Area lights: the point at the origin, normal +z, eye towards v.
+const uint AREA_PROBE_TABLE = 2u; // the table of linearly transformed cosines
+struct AreaProbeInput {
+    uint type;     // LIGHT_SPHERE, LIGHT_TUBE, LIGHT_RECTANGLE or LIGHT_DISC
+    uint twoSided; // rectangle and disc
+    uint seed;
+    float alpha;
+    vec3 v;
+    vec3 toCentre;
+    vec3 axisU; // disc: unit normal
+    vec3 axisV;
+    float radius;
+};
+GPU_SIZE(AreaProbeInput, 68)
+
+// Responses with F = 1 and F = (1 - VoH)^5.
+struct AreaProbeOutput {
+    float formFactor;
+    vec2 ltc;
+    vec2 representative; // of a sphere: 0, it has its own
+    vec2 sampled;        // AREA_PROBE_SAMPLES samples
+};
+GPU_SIZE(AreaProbeOutput, 28)
+const uint AREA_PROBE_SAMPLES = 256u;
+
+GPU_END
+
+#endif
