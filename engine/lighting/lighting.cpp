@@ -62,7 +62,7 @@ Kernels::Kernels(const gpu::Device& device, const CndLightingDesc& desc)
 }
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
-    : device_(device), desc_(checked(desc)), kernels_(device_, desc_)
+    : device_(device), desc_(checked(desc)), kernels_(device_, desc_), dfg_(device_)
 {
     grow(0);
 }

@@ -10,6 +10,7 @@
 #include "lighting/pack_lights.h"
 #include "lighting/shade_kernels.h"
 #include "shared/lighting.h"
+#include "tables/dfg_table.h"
 
 namespace candelabra::lighting
 {
@@ -38,6 +39,8 @@ public:
     void setLights(const CndLightSet& set);
     // Copies a changed light set to the device; barriers before and after are the caller's.
     void recordUpload(VkCommandBuffer cmd, uint64_t recording) noexcept;
+    // Fills the table of directional albedos, once.
+    void recordTables(const gpu::Frame& frame) noexcept { dfg_.recordFill(frame); }
 
     // Views register to have their light-sized buffers grown with the set.
     void add(View* view) { views_.push_back(view); }
@@ -51,6 +54,7 @@ public:
     const CndLightingDesc& desc() const { return desc_; }
     const Kernels& kernels() const { return kernels_; }
     const gpu::Buffer& records() const { return records_; }
+    const gpu::Buffer& directionalAlbedo() const { return dfg_.buffer(); }
     uint32_t lightCount() const { return lightCount_; }
     uint32_t lightCapacity() const { return lightCapacity_; }
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
@@ -73,6 +77,7 @@ private:
     gpu::Device device_;
     CndLightingDesc desc_;
     Kernels kernels_;
+    tables::DfgTable dfg_;
     std::vector<View*> views_;
     std::vector<Retired> retired_;
     gpu::Buffer records_; // device copy of the packed lights

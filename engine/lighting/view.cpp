@@ -43,6 +43,11 @@ uint64_t join(glm::uvec2 lowHigh)
     return uint64_t(lowHigh.y) << 32 | lowHigh.x;
 }
 
+bool readsDirectionalAlbedo(const CndLightingFrame& frame)
+{
+    return frame.lobes != CND_LOBES_SUM || frame.energyCompensation;
+}
+
 CndLightingViewDesc checked(const gpu::Device& device, CndLightingViewDesc desc)
 {
     if (desc.structSize != sizeof desc)
@@ -185,6 +190,8 @@ void View::validate(const CndLightingFrame& frame) const
                           std::to_string(frame.sampleCount));
     if (!(frame.errorBudget >= 0 && frame.errorBudget <= 1))
         gpu::failArgument("CndLightingFrame: errorBudget must be 0..1");
+    if (frame.lobes != CND_LOBES_CONSERVING && frame.lobes != CND_LOBES_SUM)
+        gpu::failArgument("CndLightingFrame: lobes is not a CndLobeJoining");
     if (uint32_t(frame.culling) > CND_CULLING_BRUTE)
         gpu::failArgument("CndLightingFrame: culling is not a CndCulling");
     if (!frame.normalRoughness || !frame.albedo || !frame.depth || !frame.radiance ||
@@ -249,6 +256,8 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     f.device.CmdFillBuffer(cmd, counters_.get(), 0, VK_WHOLE_SIZE, 0);
     f.barrier();
     if (plan.lightCount) {
+        if (readsDirectionalAlbedo(frame))
+            lighting_.recordTables(f);
         recordPrepare(f, plan);
         if (frame.culling == CND_CULLING_CLUSTERED)
             recordBounds(f, plan);
@@ -339,7 +348,9 @@ void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame, con
                             .invImageSize = p.invImageSize,
                             .sampleCount = p.sampleCount,
                             .sampleSeed = frame.sampleSeed,
-                            .errorBudget = frame.errorBudget};
+                            .errorBudget = frame.errorBudget,
+                            .lobes = uint32_t(frame.lobes),
+                            .energyCompensation = frame.energyCompensation != VK_FALSE};
     const ShadeKernels::Variant& kernels =
         shade.variant(batch.type, frame.specularMethod, frame.errorBudget > 0);
     if (frame.culling == CND_CULLING_BRUTE) {

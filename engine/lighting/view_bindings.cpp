@@ -21,7 +21,8 @@ void View::writeBindings(const CndLightingFrame& frame) const
                                 Binding::sampled(SHADE_ALBEDO, frame.albedo),
                                 Binding::sampled(SHADE_SPECULAR, specular),
                                 Binding::sampled(SHADE_DEPTH, frame.depth),
-                                Binding::storage(SHADE_RADIANCE, frame.radiance)});
+                                Binding::storage(SHADE_RADIANCE, frame.radiance),
+                                Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo())});
         return;
     }
     sets_.tileBounds.write(slot, {Binding::sampled(TILE_BOUNDS_DEPTH, frame.depth),
@@ -47,7 +48,8 @@ void View::writeBindings(const CndLightingFrame& frame) const
                          Binding::sampled(SHADE_DEPTH, frame.depth),
                          Binding::storage(SHADE_RADIANCE, frame.radiance),
                          Binding::of(SHADE_LISTS, lists_), Binding::of(SHADE_ENTRIES, entries_),
-                         Binding::of(SHADE_HORIZON, horizon_)});
+                         Binding::of(SHADE_HORIZON, horizon_),
+                         Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo())});
     };
     writeShade(sets_.shadeTiles);
     writeShade(sets_.shadeHorizon);

@@ -3,7 +3,7 @@
 // against, and the baseline it is timed against.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/shade_inputs.glsl"
+#include "lib/shade_receiver.glsl"
 
 // The k-th light of the batch.
 uint lightAt(uint k)
@@ -24,7 +24,7 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == params.clearDepth)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth));
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget);
     vec3 asPoint = vec3(0.0), above = vec3(0.0), near = vec3(0.0), general = vec3(0.0);
     for (uint first = 0u; first < params.lightCount; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, params.lightCount - first), false);

@@ -4,7 +4,7 @@
 // for nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/shade_inputs.glsl"
+#include "lib/shade_receiver.glsl"
 #include "lib/tile_walk.glsl"
 #include "lib/light_walk.glsl"
 
@@ -30,7 +30,7 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == params.clearDepth)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth));
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget);
     vec3 near = vec3(0.0), general = vec3(0.0);
     for (uint first = 0u; first < tileList.count; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, tileList.count - first), true);

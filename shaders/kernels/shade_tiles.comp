@@ -3,7 +3,7 @@
 // dearer evaluation shade_horizon does, for the tiles that this kernel finds to hold some.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/shade_inputs.glsl"
+#include "lib/shade_receiver.glsl"
 #include "lib/tile_walk.glsl"
 #include "lib/light_walk.glsl"
 
@@ -36,7 +36,7 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (tileList.count == 0u || depth == params.clearDepth)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth));
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget);
     vec3 asPoint = vec3(0.0), above = vec3(0.0), general = vec3(0.0);
     uint atHorizon = 0u;
     for (uint first = 0u; first < tileList.count; first += WALK_BLOCK) {

@@ -5,7 +5,9 @@
 #define CND_LIB_LIGHT_EVAL
 
 #include "lib/lights/sphere.glsl"
+#include "lib/specular/conic.glsl"
 #include "lib/specular/karis.glsl"
+#include "lib/specular/kx.glsl"
 
 layout(constant_id = SPEC_SPECULAR_METHOD) const uint specularMethod = SPECULAR_CONIC;
 layout(constant_id = SPEC_LIGHT_TYPE) const uint lightType = LIGHT_SPHERE;
@@ -16,24 +18,45 @@ const bool IS_SPHERE = lightType == LIGHT_SPHERE || lightType == LIGHT_DISTANT_S
 const bool HAS_BUDGET = errorBudget != 0u;
 const bool IS_CONIC = specularMethod == SPECULAR_CONIC || specularMethod == SPECULAR_CONIC_FULL;
 
-// How a light is evaluated at a point; the cheapest form that is right there. Kernels keep the forms in
-// separate loops: a branch inside one loop is paid by every light on some devices.
+// How a light is evaluated at a point; the cheapest form that is right there. Kernels keep the forms
+// in separate loops: a branch inside one loop is paid by every light on some devices.
 const uint EVALUATE_POINT = 0u;   // sphere whose size is within the error budget
 const uint EVALUATE_ABOVE = 1u;   // sphere above the horizon
 const uint EVALUATE_NEAR = 2u;    // sphere that nearly touches the horizon, or tiny across it
 const uint EVALUATE_GENERAL = 3u; // sphere across the horizon; any light of other types
 
+// The bound of the error of a point is not proven for errors of the specular lobe beyond this.
+const float MAX_POINT_ERROR = 0.3;
+
 // What a pixel prepares once for all lights.
 struct Receiver {
     ShadingPoint p;
-    float pointLimit; // (R / d)^2 below which a sphere is evaluated as a point
+    ConicPoint conic;
+    float pointLimit; // (R / d)^2 up to which a sphere above the horizon is evaluated as a point
 };
 
-Receiver makeReceiver(ShadingPoint p)
+// Largest (R / d)^2 whose evaluation as a point errs by at most `budget` of the highest response.
+// The error is below 2 q of the specular peak, q = (s^2 / 8 alpha^2) (1 + 1 / NoV^2): measured; a
+// point has L1 L2 where the peak is L1 L2 / sqrt((1 + L1^2) (1 + L2^2)), L1 = s / 2 alpha, L2 = L1 / NoV.
+// The diffuse part is exact either way, so the budget grows by what it adds to the response: a
+// specular peak of F s^2 / (4 alpha^2 NoV) against albedo s^2.
+float pointLimit(ShadingPoint p, float budget)
+{
+    const vec3 F = mix(p.F0, vec3(p.F90), pow5(1.0 - p.NoV));
+    const float F1 = max(max(F.x, F.y), max(F.z, 1e-6));
+    const float albedo = min(p.albedo.x, min(p.albedo.y, p.albedo.z));
+    const float a2 = p.alpha * p.alpha;
+    const float share = budget * (1.0 + 4.0 * a2 * p.NoV * albedo / F1);
+    return min(share, MAX_POINT_ERROR) * 4.0 * a2 / (1.0 + 1.0 / (p.NoV * p.NoV));
+}
+
+Receiver makeReceiver(ShadingPoint p, float budget)
 {
     Receiver r;
     r.p = p;
-    r.pointLimit = 0.0;
+    if (IS_SPHERE && IS_CONIC)
+        r.conic = makeConicPoint(p);
+    r.pointLimit = HAS_BUDGET ? pointLimit(p, budget) : 0.0;
     return r;
 }
 
@@ -58,17 +81,30 @@ bool lightReaches(vec3 toLight, vec3 n, float reach, float influenceRadius2)
     return dot(toLight, toLight) < influenceRadius2 && dot(n, toLight) > -reach;
 }
 
+// Response of the specular lobe to a sphere of unit luminance.
+vec2 sphereSpecular(Receiver r, uint evaluation, SphereCap cap, vec3 toLight, float radius)
+{
+    if (evaluation == EVALUATE_POINT || specularMethod == SPECULAR_POINT)
+        return pointResponse(r.p, cap);
+    if (specularMethod == SPECULAR_KX)
+        return kxResponse(r.p, cap);
+    if (specularMethod == SPECULAR_KARIS)
+        return karisResponse(r.p, toLight, inversesqrt(max(length2(toLight), MIN_LENGTH2)), radius,
+                             cap.s2);
+    if (evaluation == EVALUATE_GENERAL) // a receiver inside a sphere may have its cap below
+        return cap.NoC > -cap.s ? conicClipped(r.conic, cap) : vec2(0.0);
+    if (specularMethod == SPECULAR_CONIC_FULL)
+        return conicFullUnclipped(r.conic, cap);
+    return evaluation == EVALUATE_NEAR ? conicNear(r.conic, cap) : conicAbove(r.conic, cap);
+}
+
 vec3 evaluateSphere(Receiver r, uint evaluation, vec3 toLight, float radius)
 {
-    const float d2 = length2(toLight);
-    const float invD = inversesqrt(max(d2, MIN_LENGTH2));
-    const float s = min(radius * invD, 1.0);
-    const float s2 = s * s;
-    const float c = dot(r.p.n, toLight) * invD;
+    const SphereCap cap = makeSphereCap(r.p.n, toLight, radius);
     const bool above = evaluation == EVALUATE_POINT || evaluation == EVALUATE_ABOVE;
-    vec3 response = r.p.albedo * (above ? c * s2 : sphereFormFactor(c, s2));
-    if (specularMethod == SPECULAR_KARIS)
-        response += schlick(r.p, karisResponse(r.p, toLight, invD, radius, s2));
+    vec3 response = r.p.albedo * (above ? cap.NoC * cap.s2 : sphereFormFactor(cap.NoC, cap.s2));
+    if (specularMethod != SPECULAR_NONE)
+        response += schlick(r.p, sphereSpecular(r, evaluation, cap, toLight, radius));
     return response;
 }
 

@@ -15,13 +15,24 @@ struct Found {
     uint asPoint, above, near, general;
 };
 
-// Where a sphere stands to the horizon, from dz = n . toLight and R: no division.
-void classifySphere(inout Found found, uint bit, Receiver r, vec3 toLight, float R)
+// Sorts a sphere that reaches the point by where it stands to the horizon; no division.
+void classifySphere(inout Found found, uint bit, Receiver r, vec3 toLight, float radius)
 {
     const float dz = dot(r.p.n, toLight);
-    const bool above = dz >= R;
-    found.above |= above ? bit : 0u;
-    found.general |= above ? 0u : bit;
+    bool above = dz >= radius;
+    bool near = false;
+    bool asPoint = false;
+    if (IS_CONIC) {
+        const float d2 = length2(toLight);
+        const uint region = conicClass(dz, radius, d2, r.conic.a2);
+        near = region == CONIC_NEAR;
+        asPoint = HAS_BUDGET && above && radius * radius < r.pointLimit * d2;
+        above = region == CONIC_ABOVE;
+    }
+    found.asPoint |= asPoint ? bit : 0u;
+    found.above |= above && !asPoint ? bit : 0u;
+    found.near |= near && !asPoint ? bit : 0u;
+    found.general |= above || near || asPoint ? 0u : bit;
 }
 
 // `testInfluence`: leave out lights that are beyond their influence (they would add 0).

@@ -31,10 +31,3 @@ Surface readSurface(ivec2 pixel)
         return unpackGBufferCompact(normalRoughness.x, albedo);
     return unpackGBufferFull(normalRoughness, albedo, texelFetch(specularImage, pixel, 0));
 }
-
-ShadingPoint readShadingPoint(uvec2 pixel, float depth)
-{
-    const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
-    return makeShadingPoint(readSurface(ivec2(pixel)), position,
-                            towardsEye(params.projection, position));
-}

@@ -4,6 +4,7 @@
 #ifndef CND_SHARED_LIGHTING_H
 #define CND_SHARED_LIGHTING_H
 
+#include "shared/dfg.h"
 #include "shared/light_types.h"
 #include "shared/prelude.h"
 #include "shared/specular_methods.h"
@@ -173,6 +174,7 @@ const uint SHADE_LISTS = 8u;     // not in shade_brute
 const uint SHADE_ENTRIES = 9u;   // not in shade_brute
 const uint SHADE_COUNTERS = 10u; // count_pairs
 const uint SHADE_HORIZON = 11u;  // shade_tiles, shade_horizon
+const uint SHADE_DFG = 12u;      // all that shade: directional albedo (shared/dfg.h)
 struct ShadeParams {
     Projection projection;
     uvec2 size;
@@ -185,8 +187,10 @@ struct ShadeParams {
     uint sampleCount;  // SPECULAR_SAMPLED: samples per light
     uint sampleSeed;
     float errorBudget; // relative to the highest response; 0: every light in full
+    uint lobes;        // LOBES_*
+    uint energyCompensation; // 0 or 1
 };
-GPU_SIZE(ShadeParams, 108)
+GPU_SIZE(ShadeParams, 116)
 
 // Specialisation constants of the kernels above.
 const uint SPEC_LIGHTS_AS_TEXELS = 0u; // read core as a texel buffer (else as a storage buffer)

@@ -227,6 +227,10 @@ CndLightingFrame LightingTest::frameOf(const CpuGBuffer& g, const Images& images
             .depth = images.depth.view.get(),
             .radiance = images.radiance.view.get(),
             .specularMethod = options.specular,
+            .sampleCount = options.sampleCount,
+            .errorBudget = options.errorBudget,
+            .lobes = options.lobes,
+            .energyCompensation = options.energyCompensation,
             .culling = options.culling,
             .countPairs = options.countPairs};
 }

@@ -57,6 +57,10 @@ struct RunOptions {
     bool countPairs = false;
     const CndDeviceDesc* host = nullptr; // instead of the fixture's, for interposed functions
     double lightOrigin[3] = {0, 0, 0};
+    uint32_t sampleCount = 0;
+    float errorBudget = 0;
+    CndLobeJoining lobes = CND_LOBES_SUM;
+    bool energyCompensation = false;
     int frames = 1; // record this many times; the last one is read back
 };
 

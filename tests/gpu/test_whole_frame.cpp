@@ -54,7 +54,9 @@ protected:
     }
     Image draw(const Scene& scene, PixelSize size)
     {
-        FrameOptions frame{.camera = selectCamera(scene, ""), .lightsVisible = false};
+        FrameOptions frame{.camera = selectCamera(scene, ""),
+                           .lightsVisible = false,
+                           .specular = CND_SPECULAR_KARIS};
         cndDefaultExposureSettings(&frame.exposure);
         Renderer renderer(context(), scene, {.size = size});
         context().submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });

@@ -252,6 +252,10 @@ typedef struct CndLightingFrame {
     // 0: every light in full. Else lights are evaluated as cheaply as an a-priori bound of the
     // error allows: at most about this share of the highest response to the light (0.01: 1%). 0..1.
     float errorBudget;
+    CndLobeJoining lobes;
+    // Give back what single-bounce microfacets lose (Turquin 2019): a white metal then reflects all
+    // light at any roughness.
+    VkBool32 energyCompensation;
     CndCulling culling;
     VkRect2D bruteRect;  // CND_CULLING_BRUTE: pixels to shade; zero extent: all
     VkBool32 countPairs; // also count (pixel, light) pairs: one more kernel; clustered only

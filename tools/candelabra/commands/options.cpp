@@ -238,7 +238,7 @@ void FrameArguments::addViewTo(CLI::App& command)
 
 void FrameArguments::addTo(CLI::App& command)
 {
-    specular = specularName(static_cast<CndSpecularMethod>(CND_SPECULAR_METHOD_COUNT - 1));
+    specular = specularName(CND_SPECULAR_CONIC);
     addViewTo(command);
     command.add_option("--exposure", exposure, "auto, or a fixed EV100")
         ->type_name("auto|EV")

@@ -185,6 +185,7 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
             .sampleCount = frame.sampleCount,
             .sampleSeed = frame.sampleSeed,
             .errorBudget = frame.errorBudget,
+            .lobes = CND_LOBES_SUM,
             .culling = frame.culling,
             .countPairs = frame.countPairs};
 }

@@ -32,7 +32,7 @@ struct FrameOptions {
     bool lightsVisible = true;
     bool countPairs = false;
     uint32_t ditherSeed = 0;
-    CndSpecularMethod specular = CND_SPECULAR_KARIS;
+    CndSpecularMethod specular = CND_SPECULAR_CONIC;
     uint32_t sampleCount = 0; // CND_SPECULAR_SAMPLED; 0: the module's default
     uint32_t sampleSeed = 0;
     float errorBudget = 0; // as CndLightingFrame::errorBudget
