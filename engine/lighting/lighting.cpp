@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "candelabra_shaders.h"
+#include "tables/ltc_table.h"
 
 namespace candelabra::lighting
 {
@@ -36,6 +37,20 @@ CndLightingDesc checked(CndLightingDesc desc)
     return desc;
 }
 
+gpu::Buffer createLtcBuffer(const gpu::Device& device)
+{
+    const VkDeviceSize bytes = tables::ltcTable().size_bytes();
+    constexpr VkDeviceSize maxUpdate = 65536; // of vkCmdUpdateBuffer
+    static_assert(gpu::LTC_TABLE_SIZE * gpu::LTC_TABLE_SIZE * gpu::LTC_TEXELS * sizeof(glm::vec4) <=
+                  maxUpdate);
+    gpu::Buffer out = gpu::createBuffer(device, "transformed cosines", bytes,
+                                        VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                        gpu::MemoryUse::Device);
+    gpu::createTexelView(device, out);
+    return out;
+}
+
 } // namespace
 
 // What the record buffer, one dispatch of prepare_lights and the 32-bit sums of count_pairs over
@@ -62,7 +77,11 @@ Kernels::Kernels(const gpu::Device& device, const CndLightingDesc& desc)
 }
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
-    : device_(device), desc_(checked(desc)), kernels_(device_, desc_), dfg_(device_)
+    : device_(device),
+      desc_(checked(desc)),
+      kernels_(device_, desc_),
+      dfg_(device_),
+      ltc_(createLtcBuffer(device_))
 {
     grow(0);
 }
@@ -70,12 +89,12 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
 // Walking costs at most this many loop iterations per light. shade_tiles: a test, a turn of one
 // class's loop, and per block of 32 its own turn and the five exits; tile_lists (two turns, and two
 // more per mask word) needs less.
-uint32_t Lighting::lightsPerBatch(uint32_t samplesPerLight) const
+uint32_t Lighting::lightsPerBatch(uint32_t loopIterations) const
 {
     if (device_.maxLoopIterations == UINT32_MAX)
         return UINT32_MAX;
     constexpr uint32_t fixedIterations = 1024; // sums over the group and retries of the reservation
-    const uint64_t per32 = 32 * (2 + uint64_t(samplesPerLight)) + 6;
+    const uint64_t per32 = 32 * (2 + uint64_t(loopIterations)) + 6;
     const uint64_t lights = uint64_t(device_.maxLoopIterations - fixedIterations) * 32 / per32;
     return uint32_t(std::max<uint64_t>(lights, 1));
 }
@@ -137,6 +156,17 @@ void Lighting::recordUpload(VkCommandBuffer cmd, uint64_t recording) noexcept
     }
     pending_->recording = recording;
     pending_ = nullptr;
+}
+
+void Lighting::recordTables(const gpu::Frame& frame, bool directionalAlbedo) noexcept
+{
+    if (directionalAlbedo)
+        dfg_.recordFill(frame);
+    if (ltcFilled_)
+        return;
+    ltcFilled_ = true;
+    const std::span<const float> table = tables::ltcTable();
+    device_.CmdUpdateBuffer(frame.cmd, ltc_.get(), 0, table.size_bytes(), table.data());
 }
 
 void Lighting::grow(uint32_t count)

@@ -39,8 +39,8 @@ public:
     void setLights(const CndLightSet& set);
     // Copies a changed light set to the device; barriers before and after are the caller's.
     void recordUpload(VkCommandBuffer cmd, uint64_t recording) noexcept;
-    // Fills the table of directional albedos, once.
-    void recordTables(const gpu::Frame& frame) noexcept { dfg_.recordFill(frame); }
+    // Fills, once each, the tables that shading reads; directional albedos only on demand.
+    void recordTables(const gpu::Frame& frame, bool directionalAlbedo) noexcept;
 
     // Views register to have their light-sized buffers grown with the set.
     void add(View* view) { views_.push_back(view); }
@@ -55,13 +55,15 @@ public:
     const Kernels& kernels() const { return kernels_; }
     const gpu::Buffer& records() const { return records_; }
     const gpu::Buffer& directionalAlbedo() const { return dfg_.buffer(); }
+    const gpu::Buffer& transformedCosines() const { return ltc_; }
     uint32_t lightCount() const { return lightCount_; }
     uint32_t lightCapacity() const { return lightCapacity_; }
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
     const double* origin() const { return origin_; }
     // Lights that are culled and shaded together, at most: all of a type, unless the device limits
     // loops. `samplesPerLight`: of the specular method.
-    uint32_t lightsPerBatch(uint32_t samplesPerLight) const;
+    // loops; `loopIterations`: that evaluating one light takes.
+    uint32_t lightsPerBatch(uint32_t loopIterations) const;
 
 private:
     struct Retired {
@@ -78,6 +80,8 @@ private:
     CndLightingDesc desc_;
     Kernels kernels_;
     tables::DfgTable dfg_;
+    gpu::Buffer ltc_;
+    bool ltcFilled_ = false;
     std::vector<View*> views_;
     std::vector<Retired> retired_;
     gpu::Buffer records_; // device copy of the packed lights

@@ -48,6 +48,14 @@ bool readsDirectionalAlbedo(const CndLightingFrame& frame)
     return frame.lobes != CND_LOBES_SUM || frame.energyCompensation;
 }
 
+// Of loops inside the evaluation of one light, at most: outlines of tubes have 16 edges and are
+// walked for the diffuse lobe and two specular ones, discs have a series of 9 terms.
+uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t sampleCount)
+{
+    const uint32_t shape = lightType == CND_LIGHT_TUBE ? 64 : isSphere(lightType) ? 0 : 24;
+    return shape + (method == CND_SPECULAR_SAMPLED ? sampleCount : 0);
+}
+
 CndLightingViewDesc checked(const gpu::Device& device, CndLightingViewDesc desc)
 {
     if (desc.structSize != sizeof desc)
@@ -79,7 +87,7 @@ struct View::Plan {
     uint32_t lightCount;
     uint32_t tileCountX, tileCountY;
     uint32_t factor, coarseCountX, coarseCount;
-    uint32_t sampleCount, lightsPerBatch;
+    uint32_t sampleCount;
     gpu::PrepareLightsParams prepare;
 };
 
@@ -220,8 +228,6 @@ View::Plan View::plan(const CndLightingFrame& frame) const
            .tileCountY = tiles(frame.height),
            .factor = gpu::COARSE_FACTOR_MIN,
            .sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount};
-    const bool sampled = frame.specularMethod == CND_SPECULAR_SAMPLED;
-    p.lightsPerBatch = lighting_.lightsPerBatch(sampled ? p.sampleCount : 0);
     const VkDeviceSize rowBytes = maskRowBytes(p.lightCount);
     for (;; p.factor *= 2) {
         p.coarseCountX = divideUp(p.tileCountX, p.factor);
@@ -256,8 +262,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     f.device.CmdFillBuffer(cmd, counters_.get(), 0, VK_WHOLE_SIZE, 0);
     f.barrier();
     if (plan.lightCount) {
-        if (readsDirectionalAlbedo(frame))
-            lighting_.recordTables(f);
+        lighting_.recordTables(f, readsDirectionalAlbedo(frame));
         recordPrepare(f, plan);
         if (frame.culling == CND_CULLING_CLUSTERED)
             recordBounds(f, plan);
@@ -266,7 +271,9 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
             const uint32_t end = first + lighting_.typeCounts()[type];
             while (first < end) {
-                const Batch batch{type, first, std::min(plan.lightsPerBatch, end - first)};
+                const uint32_t largest = lighting_.lightsPerBatch(
+                    loopIterations(type, frame.specularMethod, plan.sampleCount));
+                const Batch batch{type, first, std::min(largest, end - first)};
                 if (frame.culling == CND_CULLING_CLUSTERED)
                     recordLists(f, plan, batch);
                 recordShading(f, frame, plan, batch);

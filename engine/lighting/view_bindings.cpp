@@ -22,7 +22,8 @@ void View::writeBindings(const CndLightingFrame& frame) const
                                 Binding::sampled(SHADE_SPECULAR, specular),
                                 Binding::sampled(SHADE_DEPTH, frame.depth),
                                 Binding::storage(SHADE_RADIANCE, frame.radiance),
-                                Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo())});
+                                Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo()),
+                                Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines())});
         return;
     }
     sets_.tileBounds.write(slot, {Binding::sampled(TILE_BOUNDS_DEPTH, frame.depth),
@@ -49,7 +50,8 @@ void View::writeBindings(const CndLightingFrame& frame) const
                          Binding::storage(SHADE_RADIANCE, frame.radiance),
                          Binding::of(SHADE_LISTS, lists_), Binding::of(SHADE_ENTRIES, entries_),
                          Binding::of(SHADE_HORIZON, horizon_),
-                         Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo())});
+                         Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo()),
+                         Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines())});
     };
     writeShade(sets_.shadeTiles);
     writeShade(sets_.shadeHorizon);

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/shade_inputs.glsl"
 #include "lib/tile_walk.glsl"
-#include "lib/light_eval.glsl"
+#include "lib/light_reach.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(scalar, binding = SHADE_COUNTERS) buffer Counters

@@ -24,7 +24,8 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == params.clearDepth)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget);
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
+                                    params.sampleCount, pixelSeed(pixel));
     vec3 asPoint = vec3(0.0), above = vec3(0.0), near = vec3(0.0), general = vec3(0.0);
     for (uint first = 0u; first < params.lightCount; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, params.lightCount - first), false);

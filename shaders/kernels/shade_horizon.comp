@@ -30,7 +30,8 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == params.clearDepth)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget);
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
+                                    params.sampleCount, pixelSeed(pixel));
     vec3 near = vec3(0.0), general = vec3(0.0);
     for (uint first = 0u; first < tileList.count; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, tileList.count - first), true);

@@ -36,7 +36,8 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (tileList.count == 0u || depth == params.clearDepth)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget);
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
+                                    params.sampleCount, pixelSeed(pixel));
     vec3 asPoint = vec3(0.0), above = vec3(0.0), general = vec3(0.0);
     uint atHorizon = 0u;
     for (uint first = 0u; first < tileList.count; first += WALK_BLOCK) {

@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // Outgoing luminance of one shaded point under one light. All lights of a dispatch are of one type,
-// a specialisation constant. The includer provides lightCentre(), lightEmission() and lightAux[].
+// a specialisation constant. The includer provides lightCentre(), lightEmission(), lightAux[] and
+// ltcTexel().
 #ifndef CND_LIB_LIGHT_EVAL
 #define CND_LIB_LIGHT_EVAL
 
+#include "lib/light_reach.glsl"
+#include "lib/lights/disc.glsl"
+#include "lib/lights/rectangle.glsl"
 #include "lib/lights/sphere.glsl"
+#include "lib/lights/tube.glsl"
 #include "lib/specular/conic.glsl"
 #include "lib/specular/karis.glsl"
 #include "lib/specular/kx.glsl"
+#include "lib/specular/ltc.glsl"
+#include "lib/specular/representative.glsl"
+#include "lib/specular/sampled.glsl"
 
 layout(constant_id = SPEC_SPECULAR_METHOD) const uint specularMethod = SPECULAR_CONIC;
-layout(constant_id = SPEC_LIGHT_TYPE) const uint lightType = LIGHT_SPHERE;
 layout(constant_id = SPEC_ERROR_BUDGET) const uint errorBudget = 0u;
 
-const bool IS_DISTANT = lightType == LIGHT_DIRECTIONAL || lightType == LIGHT_DISTANT_SPHERE;
-const bool IS_SPHERE = lightType == LIGHT_SPHERE || lightType == LIGHT_DISTANT_SPHERE;
 const bool HAS_BUDGET = errorBudget != 0u;
+const bool IS_LTC = specularMethod == SPECULAR_LTC;
 const bool IS_CONIC = specularMethod == SPECULAR_CONIC || specularMethod == SPECULAR_CONIC_FULL;
 
 // How a light is evaluated at a point; the cheapest form that is right there. Kernels keep the forms
@@ -31,13 +37,17 @@ const float MAX_POINT_ERROR = 0.3;
 // What a pixel prepares once for all lights.
 struct Receiver {
     ShadingPoint p;
-    ConicPoint conic;
+    ConicPoint conic; // IS_CONIC
+    LtcPoint ltc;     // IS_LTC
+    uint sampleCount; // SPECULAR_SAMPLED
+    uint sampleSeed;
     float pointLimit; // (R / d)^2 up to which a sphere above the horizon is evaluated as a point
 };
 
 // Largest (R / d)^2 whose evaluation as a point errs by at most `budget` of the highest response.
 // The error is below 2 q of the specular peak, q = (s^2 / 8 alpha^2) (1 + 1 / NoV^2): measured; a
-// point has L1 L2 where the peak is L1 L2 / sqrt((1 + L1^2) (1 + L2^2)), L1 = s / 2 alpha, L2 = L1 / NoV.
+// point has L1 L2 where the peak is L1 L2 / sqrt((1 + L1^2) (1 + L2^2)), L1 = s / 2 alpha and
+// L2 = L1 / NoV.
 // The diffuse part is exact either way, so the budget grows by what it adds to the response: a
 // specular peak of F s^2 / (4 alpha^2 NoV) against albedo s^2.
 float pointLimit(ShadingPoint p, float budget)
@@ -50,10 +60,15 @@ float pointLimit(ShadingPoint p, float budget)
     return min(share, MAX_POINT_ERROR) * 4.0 * a2 / (1.0 + 1.0 / (p.NoV * p.NoV));
 }
 
-Receiver makeReceiver(ShadingPoint p, float budget)
+// `sampleSeed`: of the pixel.
+Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampleSeed)
 {
     Receiver r;
     r.p = p;
+    r.sampleCount = sampleCount;
+    r.sampleSeed = sampleSeed;
+    if (IS_LTC)
+        r.ltc = makeLtcPoint(p);
     if (IS_SPHERE && IS_CONIC)
         r.conic = makeConicPoint(p);
     r.pointLimit = HAS_BUDGET ? pointLimit(p, budget) : 0.0;
@@ -68,21 +83,15 @@ float influenceWindow(float d2, float influenceRadius2)
     return w * w;
 }
 
-// From the point to the light's centre; unit length for distant lights.
-vec3 towardsLight(vec3 centre, vec3 position)
+// Each light has samples of its own.
+uint lightSeed(Receiver r, uint light)
 {
-    return IS_DISTANT ? centre : centre - position;
-}
-
-// Whether a light can add anything: inside its influence, and not wholly below the horizon. `reach`:
-// from its centre to its farthest point.
-bool lightReaches(vec3 toLight, vec3 n, float reach, float influenceRadius2)
-{
-    return dot(toLight, toLight) < influenceRadius2 && dot(n, toLight) > -reach;
+    return pcgHash(r.sampleSeed ^ pcgHash(light));
 }
 
 // Response of the specular lobe to a sphere of unit luminance.
-vec2 sphereSpecular(Receiver r, uint evaluation, SphereCap cap, vec3 toLight, float radius)
+vec2 sphereSpecular(Receiver r, uint evaluation, uint light, SphereCap cap, vec3 toLight,
+                    float radius)
 {
     if (evaluation == EVALUATE_POINT || specularMethod == SPECULAR_POINT)
         return pointResponse(r.p, cap);
@@ -91,6 +100,10 @@ vec2 sphereSpecular(Receiver r, uint evaluation, SphereCap cap, vec3 toLight, fl
     if (specularMethod == SPECULAR_KARIS)
         return karisResponse(r.p, toLight, inversesqrt(max(length2(toLight), MIN_LENGTH2)), radius,
                              cap.s2);
+    if (specularMethod == SPECULAR_LTC)
+        return ltcSphere(r.ltc, cap.c, cap.s2);
+    if (specularMethod == SPECULAR_SAMPLED)
+        return sampledSphere(r.p, cap.c, cap.omc, r.sampleCount, lightSeed(r, light));
     if (evaluation == EVALUATE_GENERAL) // a receiver inside a sphere may have its cap below
         return cap.NoC > -cap.s ? conicClipped(r.conic, cap) : vec2(0.0);
     if (specularMethod == SPECULAR_CONIC_FULL)
@@ -98,13 +111,62 @@ vec2 sphereSpecular(Receiver r, uint evaluation, SphereCap cap, vec3 toLight, fl
     return evaluation == EVALUATE_NEAR ? conicNear(r.conic, cap) : conicAbove(r.conic, cap);
 }
 
-vec3 evaluateSphere(Receiver r, uint evaluation, vec3 toLight, float radius)
+vec3 evaluateSphere(Receiver r, uint evaluation, uint light, vec3 toLight, float radius)
 {
     const SphereCap cap = makeSphereCap(r.p.n, toLight, radius);
     const bool above = evaluation == EVALUATE_POINT || evaluation == EVALUATE_ABOVE;
     vec3 response = r.p.albedo * (above ? cap.NoC * cap.s2 : sphereFormFactor(cap.NoC, cap.s2));
     if (specularMethod != SPECULAR_NONE)
-        response += schlick(r.p, sphereSpecular(r, evaluation, cap, toLight, radius));
+        response += schlick(r.p, sphereSpecular(r, evaluation, light, cap, toLight, radius));
+    return response;
+}
+
+vec3 evaluateTube(Receiver r, uint light, vec3 toLight)
+{
+    const vec4 axisRadius = lightAux[light * LIGHT_AUX_STRIDE];
+    const vec3 axis = axisRadius.xyz;
+    const float radius = axisRadius.w;
+    const TubeOutline outline = makeTubeOutline(toLight, axis, radius);
+    vec3 response = r.p.albedo * tubeFormFactor(r.p.n, outline);
+    if (specularMethod == SPECULAR_KARIS)
+        response += schlick(r.p, representativeTube(r.p, toLight, axis, radius));
+    else if (specularMethod == SPECULAR_LTC)
+        response += schlick(r.p, ltcTube(r.ltc, outline));
+    else if (specularMethod == SPECULAR_SAMPLED)
+        response += schlick(r.p, sampledTube(r.p, toLight, axis, radius, r.sampleCount,
+                                             lightSeed(r, light)));
+    return response;
+}
+
+vec3 evaluateRectangle(Receiver r, uint light, vec3 toLight)
+{
+    const vec3 u = lightAux[light * LIGHT_AUX_STRIDE].xyz;
+    const vec4 second = lightAux[light * LIGHT_AUX_STRIDE + 1u];
+    const vec3 v = second.xyz;
+    const bool twoSided = second.w != 0.0;
+    vec3 response = r.p.albedo * rectangleFormFactor(r.p.n, toLight, u, v, twoSided);
+    if (specularMethod == SPECULAR_KARIS)
+        response += schlick(r.p, representativeRectangle(r.p, toLight, u, v, twoSided));
+    else if (specularMethod == SPECULAR_LTC)
+        response += schlick(r.p, ltcRectangle(r.ltc, toLight, u, v, twoSided));
+    else if (specularMethod == SPECULAR_SAMPLED)
+        response += schlick(r.p, sampledRectangle(r.p, toLight, u, v, twoSided, r.sampleCount,
+                                                  lightSeed(r, light)));
+    return response;
+}
+
+vec3 evaluateDisc(Receiver r, uint light, vec3 toLight, float radius)
+{
+    const vec3 normal = lightAux[light * LIGHT_AUX_STRIDE].xyz;
+    const bool twoSided = lightAux[light * LIGHT_AUX_STRIDE + 1u].w != 0.0;
+    vec3 response = r.p.albedo * discFormFactor(r.p.n, toLight, normal, radius, twoSided);
+    if (specularMethod == SPECULAR_KARIS)
+        response += schlick(r.p, representativeDisc(r.p, toLight, normal, radius, twoSided));
+    else if (specularMethod == SPECULAR_LTC)
+        response += schlick(r.p, ltcDisc(r.ltc, toLight, normal, radius, twoSided));
+    else if (specularMethod == SPECULAR_SAMPLED)
+        response += schlick(r.p, sampledDisc(r.p, toLight, normal, radius, twoSided, r.sampleCount,
+                                             lightSeed(r, light)));
     return response;
 }
 
@@ -137,7 +199,13 @@ vec3 evaluateIntensity(ShadingPoint p, uint light, vec3 toLight)
 vec3 evaluateUnwindowed(Receiver r, uint evaluation, uint light, vec3 toLight, float reach)
 {
     if (IS_SPHERE)
-        return evaluateSphere(r, evaluation, toLight, reach);
+        return evaluateSphere(r, evaluation, light, toLight, reach);
+    if (lightType == LIGHT_TUBE)
+        return evaluateTube(r, light, toLight);
+    if (lightType == LIGHT_RECTANGLE)
+        return evaluateRectangle(r, light, toLight);
+    if (lightType == LIGHT_DISC)
+        return evaluateDisc(r, light, toLight, reach);
     if (lightType == LIGHT_DIRECTIONAL)
         return evaluatePunctual(r.p, toLight);
     return evaluateIntensity(r.p, light, toLight);

@@ -5,6 +5,14 @@
 #include "lib/dfg.glsl"
 #include "lib/joining.glsl"
 
+layout(binding = SHADE_LTC) uniform textureBuffer ltcTexels;
+
+// The table of lib/specular/ltc.glsl.
+vec4 ltcTexel(uint index)
+{
+    return texelFetch(ltcTexels, int(index));
+}
+
 ShadingPoint readShadingPoint(uvec2 pixel, float depth)
 {
     const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
@@ -13,4 +21,10 @@ ShadingPoint readShadingPoint(uvec2 pixel, float depth)
     if (params.lobes != LOBES_SUM || params.energyCompensation != 0u)
         joinLobes(p, directionalAlbedo(p.NoV, p.alpha), params.lobes, params.energyCompensation);
     return p;
+}
+
+// Samples differ between pixels and frames.
+uint pixelSeed(uvec2 pixel)
+{
+    return params.sampleSeed * 0x9E3779B9u + pixel.y * 0x10000u + pixel.x;
 }

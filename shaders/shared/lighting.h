@@ -175,6 +175,7 @@ const uint SHADE_ENTRIES = 9u;   // not in shade_brute
 const uint SHADE_COUNTERS = 10u; // count_pairs
 const uint SHADE_HORIZON = 11u;  // shade_tiles, shade_horizon
 const uint SHADE_DFG = 12u;      // all that shade: directional albedo (shared/dfg.h)
+const uint SHADE_LTC = 13u;      // all that shade: transformed cosines (shared/ltc.h)
 struct ShadeParams {
     Projection projection;
     uvec2 size;

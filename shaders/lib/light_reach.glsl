@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which lights can reach a point. All lights of a dispatch are of one type, a specialisation constant.
+#ifndef CND_LIB_LIGHT_REACH
+#define CND_LIB_LIGHT_REACH
+
+#include "shared/lighting.h"
+
+layout(constant_id = SPEC_LIGHT_TYPE) const uint lightType = LIGHT_SPHERE;
+
+const bool IS_DISTANT = lightType == LIGHT_DIRECTIONAL || lightType == LIGHT_DISTANT_SPHERE;
+const bool IS_SPHERE = lightType == LIGHT_SPHERE || lightType == LIGHT_DISTANT_SPHERE;
+
+// From the point to the light's centre; unit length for distant lights.
+vec3 towardsLight(vec3 centre, vec3 position)
+{
+    return IS_DISTANT ? centre : centre - position;
+}
+
+// Whether a light can add anything: inside its influence, and not wholly below the horizon. `reach`:
+// from its centre to its farthest point.
+bool lightReaches(vec3 toLight, vec3 n, float reach, float influenceRadius2)
+{
+    return dot(toLight, toLight) < influenceRadius2 && dot(n, toLight) > -reach;
+}
+
+#endif
