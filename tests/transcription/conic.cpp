@@ -5,10 +5,9 @@ namespace candelabra::test::transcription
 {
 
 // shaders/lib/specular/conic_clip.glsl
-double atanTail(double t2)
+glm::dvec2 atanTail(glm::dvec2 t2)
 {
-    double k = -0.00435541;
-    k = k * t2 + 0.02304016;
+    glm::dvec2 k = -0.00435541 * t2 + 0.02304016;
     k = k * t2 - 0.05777362;
     k = k * t2 + 0.09794236;
     k = k * t2 - 0.13976583;
@@ -16,16 +15,18 @@ double atanTail(double t2)
     return k * t2 - 0.33331659;
 }
 
-double atan2Fast(double y, double x)
+glm::dvec2 atan2Pair(glm::dvec2 y, glm::dvec2 x)
 {
-    const double ax = std::abs(x);
-    const double ay = std::abs(y);
-    const double t = glm::min(ax, ay) / glm::max(glm::max(ax, ay), 1e-30);
-    const double t2 = t * t;
-    const double first = t + t * t2 * atanTail(t2);
-    const double quarter = ay > ax ? HALF_PI - first : first;
-    const double angle = x < 0.0 ? PI - quarter : quarter;
-    return y < 0.0 ? -angle : angle;
+    const glm::dvec2 ax = glm::abs(x);
+    const glm::dvec2 ay = glm::abs(y);
+    const glm::dvec2 larger = glm::max(glm::max(ax, ay), 1e-18);
+    const glm::dvec2 t =
+        glm::min(ax, ay) * glm::dvec2(larger.y, larger.x) * (1.0 / (larger.x * larger.y));
+    const glm::dvec2 t2 = t * t;
+    const glm::dvec2 first = t + t * t2 * atanTail(t2);
+    const glm::dvec2 quarter = glm::mix(first, HALF_PI - first, glm::greaterThan(ay, ax));
+    const glm::dvec2 upper = glm::mix(quarter, PI - quarter, glm::lessThan(x, glm::dvec2(0.0)));
+    return glm::mix(upper, -upper, glm::lessThan(y, glm::dvec2(0.0)));
 }
 
 double atanhRatio(double y, double x)
@@ -58,8 +59,42 @@ CapFrame makeCapFrame(ConicPoint p, glm::dvec3 c, double NoC)
     return f;
 }
 
+Chord makeChord(SphereCap cap, double sinC)
+{
+    Chord o;
+    const double inv = 1.0 / sinC;
+    const double sp2 = glm::max(0.0, (cap.s * cap.s - cap.NoC * cap.NoC) * inv * inv);
+    o.cp = glm::min((1.0 - cap.omc) * inv, 1.0);
+    o.sp = std::sqrt(sp2);
+    o.cm = sp2 / (1.0 + o.cp);
+    return o;
+}
+
+glm::dvec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
+{
+    const double hz = p.alpha * p.NoV;
+    const double hz2 = hz * hz;
+    const double NoV2 = p.NoV * p.NoV;
+    const double A0 = 1.0 + p.vv + hz2;
+    const double rh = p.NoV * std::sqrt(NoV2 + (2.0 * (1.0 + p.vv) + hz2) * p.a2);
+    const double E0 = (1.0 + f.v1) * (1.0 + f.v1) + f.v2 * f.v2 + hz2;
+    const glm::dvec2 angles =
+        atan2Pair(chord.sp * glm::dvec2(rh, 1.0), glm::dvec2(E0 - A0 * chord.cm, chord.cp));
+    const double J0 = 2.0 / rh * angles.x;
+    const double pc = angles.y;
+    const double pp = pc - 0.5 * A0 * J0;
+    const double qq = -atanhRatio(2.0 * f.v2 * chord.sp, E0 - 2.0 * f.v1 * chord.cm);
+    const double scale = -hz / glm::max(p.vv, 1e-4);
+    const glm::dvec2 across = p.vv > 1e-4
+                                  ? glm::dvec2(pp * f.v1 - qq * f.v2, pp * f.v2 + qq * f.v1) * scale
+                                  : glm::dvec2(-2.0 * hz * chord.sp / A0, 0.0);
+    return glm::dvec3(across, pc + 0.5 * NoV2 * p.oneMinusA2 * J0);
+}
+
 ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
 {
+    const Chord chord = makeChord(cap, f.sinC);
+    const glm::dvec3 horizon = horizonArc(p, f, chord);
     const double cx = f.sinC;
     const double cz = cap.NoC;
     const double vz = p.NoV;
@@ -92,13 +127,8 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const double yz = -sg * v2 * cz * invAlpha;
     const double zz = sg * Z;
 
-    const double invCx = 1.0 / cx;
-    const double cp = glm::min((1.0 - cap.omc) * invCx, 1.0);
-    const double sp2 = glm::max(0.0, (s2 - cz * cz) * invCx * invCx);
-    const double sp = std::sqrt(sp2);
-    const double cm = sp2 / (1.0 + cp);
-    const double hz = p.alpha * vz;
-    const glm::dvec3 wc = glm::dvec3(1.0 + v1 - cm, v2, hz);
+    const double sp = chord.sp;
+    const glm::dvec3 wc = glm::dvec3(1.0 + v1 - chord.cm, v2, p.alpha * vz);
 
     const double X = xx + lam;
     const double Y = yy + lam;
@@ -122,13 +152,15 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const double S = 0.5 * (tr + lam);
     const double de = glm::dot(f1, qf1) - S;
     const double be = glm::dot(f2, qf1);
-    const double r = std::sqrt(de * de + be * be);
+    const double ade = std::abs(de) + 1e-15;
+    const double r = std::sqrt(ade * ade + be * be);
     const double l1 = S + r;
-    const double A2 = lam / l1;
-    const double B2 = glm::max(lam * lam * l1 / D0, A2);
-    const double cos2 = r > 0.0 ? std::abs(de) / r : 1.0;
-    const double ph = std::sqrt(0.5 + 0.5 * cos2);
-    const double qh = r > 0.0 ? 0.5 * be / (r * ph) : 0.0;
+    const double invLD = 1.0 / (l1 * D0);
+    const double A2 = lam * D0 * invLD;
+    const double B2 = glm::max(lam * lam * l1 * l1 * invLD, A2);
+    const double turn = inversesqrt(2.0 * r * (r + ade));
+    const double ph = (r + ade) * turn;
+    const double qh = be * turn;
     const double cosT = de >= 0.0 ? ph : std::abs(qh);
     const double sinT = de >= 0.0 ? qh : (be < 0.0 ? -ph : ph);
     const glm::dvec3 e1 = cosT * f1 + sinT * f2;
@@ -138,42 +170,37 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
 
     const double w1 = glm::dot(wc, e1);
     const double w2e = glm::dot(wc, e2);
-    glm::dvec2 plus = glm::dvec2((w1 + sp * e1.y) * b, (w2e + sp * e2.y) * a);
-    glm::dvec2 minus = glm::dvec2((w1 - sp * e1.y) * b, (w2e - sp * e2.y) * a);
-    plus *= inversesqrt(glm::max(glm::dot(plus, plus), 1e-36));
-    minus *= inversesqrt(glm::max(glm::dot(minus, minus), 1e-36));
+    const glm::dvec2 plus = glm::dvec2((w1 + sp * e1.y) * b, (w2e + sp * e2.y) * a);
+    const glm::dvec2 minus = glm::dvec2((w1 - sp * e1.y) * b, (w2e - sp * e2.y) * a);
+    const double lp = std::sqrt(glm::max(glm::dot(plus, plus), 1e-36));
+    const double lm = std::sqrt(glm::max(glm::dot(minus, minus), 1e-36));
     const double oa = 1.0 + A2;
     const double ob = 1.0 + B2;
-    const double soab = std::sqrt(oa * ob);
+    const double oab = oa * ob;
+    const double soab = std::sqrt(oab);
     const double df = glm::max(B2 - A2, 1e-6 * ob);
-    const double g2 = df / oa;
-    const double h2 = df / ob;
+    const double inv = 1.0 / (oab * df);
+    const double invSoab = soab * df * inv;
+    const double g2 = df * df * ob * inv;
     const double g = std::sqrt(g2);
-    const double h = std::sqrt(h2);
+    const double h = g * oa * invSoab;
     const double co = oa * plus.x * minus.x + ob * plus.y * minus.y;
     const double si = sg * soab * (plus.x * minus.y - minus.x * plus.y);
-    const double angle = atan2Fast(si, co);
+    const double lpm = lp * lm;
+    const glm::dvec2 angles = atan2Pair(glm::dvec2(si, g * (minus.y * lp - plus.y * lm)),
+                                        glm::dvec2(co, lpm + g2 * plus.y * minus.y));
+    const double angle = angles.x;
 
     const bool full = co > 7.0 * std::abs(si) ? cz > 0.0 : angle < 0.0;
     const double dt = full ? angle + 2.0 * PI : angle;
     const glm::dvec3 arc =
-        e1 * (-b / (oa * g) * atan2Fast(g * (minus.y - plus.y), 1.0 + g2 * plus.y * minus.y)) +
-        e2 * (a / (ob * h) * atanhRatio(h * (minus.x - plus.x), 1.0 - h2 * plus.x * minus.x)) +
-        e * (sg * a * b * dt / soab);
-
-    const double hz2 = hz * hz;
-    const double A0 = 1.0 + p.vv + hz2;
-    const double rh = vz * std::sqrt(vz * vz + (2.0 * (1.0 + p.vv) + hz2) * p.a2);
-    const double E0 = (1.0 + v1) * (1.0 + v1) + v2 * v2 + hz2;
-    const double J0 = 2.0 / rh * atan2Fast(rh * sp, E0 - A0 * cm);
-    const double pc = atan2Fast(sp, cp);
-    const double pp = pc - 0.5 * A0 * J0;
-    const double qq = -atanhRatio(2.0 * v2 * sp, E0 - 2.0 * v1 * cm);
-    const glm::dvec2 horizon = p.vv > 1e-4 ? glm::dvec2(pp * v1 - qq * v2, pp * v2 + qq * v1) / p.vv
-                                           : glm::dvec2(2.0 * sp / A0, 0.0);
-    const double phiZ = (arc.z + pc + 0.5 * vz * vz * p.oneMinusA2 * J0) * (0.5 * INV_PI);
+        e1 * (-b * g * oab * inv * angles.y) +
+        e2 * (a * h * oab * inv *
+              atanhRatio(h * (minus.x * lp - plus.x * lm), lpm - h * h * plus.x * minus.x)) +
+        e * (sg * a * b * dt * invSoab);
+    const double phiZ = (arc.z + horizon.z) * (0.5 * INV_PI);
     const glm::dvec2 slope =
-        (glm::dvec2(arc) - hz * horizon) * (0.5 * INV_PI * p.alpha / glm::max(phiZ, 1e-12));
+        (glm::dvec2(arc) + glm::dvec2(horizon)) * (0.5 * INV_PI * p.alpha / glm::max(phiZ, 1e-12));
     ConicRegion o{};
     o.integral = saturate(phiZ);
     o.av = v1 * slope.x + v2 * slope.y;
@@ -226,10 +253,10 @@ glm::dvec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed)
     const SubstituteCap cut = substituteCap(p, cap);
     if (cap.NoC < cap.s)
         sub = cut;
-    const ConicRegion o = wholeCap(p, sub.c, sub.NoC, sub.s2, sub.omc);
-    const double v1 = makeCapFrame(p, sub.c, sub.NoC).v1;
     const double sinC = std::sqrt(glm::max(1.0 - cap.NoC * cap.NoC, 0.0));
-    const glm::dvec2 two = shadeTwoNodes(p, o, cap, sinC, v1);
+    const LightHeights z = lightHeights(p, cap, sinC, makeCapFrame(p, sub.c, sub.NoC).v1);
+    const ConicRegion o = wholeCap(p, sub.c, sub.NoC, sub.s2, sub.omc);
+    const glm::dvec2 two = shadeTwoNodes(p, o, z);
     return mixed ? glm::mix(shadeOneNode(p, o), two, nearness(cap)) : two;
 }
 
@@ -246,7 +273,8 @@ glm::dvec2 conicFullUnclipped(ConicPoint p, SphereCap cap)
 glm::dvec2 conicClipped(ConicPoint p, SphereCap cap)
 {
     const CapFrame f = makeCapFrame(p, cap.c, cap.NoC);
-    return shadeTwoNodes(p, clippedCap(p, cap, f), cap, f.sinC, f.v1);
+    const LightHeights z = lightHeights(p, cap, f.sinC, f.v1);
+    return shadeTwoNodes(p, clippedCap(p, cap, f), z);
 }
 
 unsigned conicClassOf(ConicPoint p, SphereCap cap)

@@ -19,6 +19,7 @@ inline constexpr double MAX_SPECULAR_S2 = 0.9999;
 inline constexpr double MIN_CONIC_NOV = 0.02;
 inline constexpr double MIN_CONIC_MU = 1e-6;
 inline constexpr double MAX_SLOPE_VARIANCE = 1e6;
+inline constexpr double MIN_VARIANCE = 1e-12;
 inline constexpr double SMALL_CAP = 0.003;
 
 inline double saturate(double x)
@@ -52,9 +53,18 @@ struct CapHeights {
     double low, high, mean;
 };
 
+struct LightHeights {
+    double low, high;
+    double mean, variance;
+};
+
 struct CapFrame {
     double sinC;
     double v1, v2;
+};
+
+struct Chord {
+    double cp, sp, cm;
 };
 
 struct SubstituteCap {
@@ -64,15 +74,18 @@ struct SubstituteCap {
 
 double halley(double t, double tr, double m2, double D0);
 ConicRegion wholeCap(ConicPoint p, glm::dvec3 c, double NoC, double s2, double omc);
-double shadowedHalf(ConicPoint p, ConicRegion o, double NoL);
+double smith(ConicPoint p, double NoL);
 glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o);
 CapHeights capHeights(SphereCap cap, double sinC);
-glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, SphereCap cap, double sinC, double v1);
-double atanTail(double t2);
-double atan2Fast(double y, double x);
+LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1);
+glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z);
+glm::dvec2 atanTail(glm::dvec2 t2);
+glm::dvec2 atan2Pair(glm::dvec2 y, glm::dvec2 x);
 double atanhRatio(double y, double x);
 double conicRoot(double tr, double m2, double D0);
 CapFrame makeCapFrame(ConicPoint p, glm::dvec3 c, double NoC);
+Chord makeChord(SphereCap cap, double sinC);
+glm::dvec3 horizonArc(ConicPoint p, CapFrame f, Chord chord);
 ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f);
 SubstituteCap substituteCap(ConicPoint p, SphereCap cap);
 unsigned conicClass(double heightAbove, double radius, double d2, double a2);

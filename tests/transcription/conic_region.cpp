@@ -102,10 +102,9 @@ ConicRegion wholeCap(ConicPoint p, glm::dvec3 c, double NoC, double s2, double o
 
 // shaders/lib/specular/conic_shading.glsl
 
-double shadowedHalf(ConicPoint p, ConicRegion o, double NoL)
+double smith(ConicPoint p, double NoL)
 {
-    const double smithL = std::sqrt(p.a2 + p.oneMinusA2 * NoL * NoL);
-    return o.integral * o.mu * NoL / (NoL * p.smithV + p.NoV * smithL);
+    return std::sqrt(p.a2 + p.oneMinusA2 * NoL * NoL);
 }
 
 glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o)
@@ -115,7 +114,8 @@ glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o)
     const double im2 = 1.0 / (1.0 + o.x2 + 0.75 * variance);
     const double VoH = saturate(o.mu * std::sqrt(im2));
     const double NoL = glm::clamp(2.0 * o.mu * im2 - p.NoV, 1e-6, 1.0);
-    const double a = glm::min(2.0 * shadowedHalf(p, o, NoL), 1.0);
+    const double a =
+        glm::min(2.0 * o.integral * o.mu * NoL / (NoL * p.smithV + p.NoV * smith(p, NoL)), 1.0);
     return glm::dvec2(a, a * pow5(1.0 - VoH));
 }
 
@@ -129,35 +129,19 @@ CapHeights capHeights(SphereCap cap, double sinC)
 
     const double u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
     const double u2 = u * u;
-    const double cut =
-        z.high * glm::min(0.4 + u * (0.036 + u * (0.02 + 0.044 * u2 * u + 0.24 * cap.omc)),
-                          0.5 + 0.5 * cosS);
+    const double fraction =
+        0.3741 + u * (0.1775 + u * (0.1415 * u2 * u + 0.1884 * cap.omc - 0.1524));
+    const double cut = z.high * glm::min(fraction, 0.5 + 0.5 * cosS);
     const double u8 = u2 * u2 * u2 * u2;
     z.mean = cut + u8 * (whole - cut);
     return z;
 }
 
-glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, SphereCap cap, double sinC, double v1)
+LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1)
 {
     const CapHeights z = capHeights(cap, sinC);
-
-    const double q = 1.0 + o.x2 * p.invA2;
-    const double variance = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
-    const double gz = 2.0 / (1.0 + o.x2 + 0.865 * variance);
-    const double tau = o.mu * gz;
-    const double dv = p.vv - tau * o.av;
-    const double ds = o.av - tau * o.x2;
-    const double dd = glm::max(p.vv - tau * (o.av + ds), 1e-8);
-    const double lobeHeight = glm::clamp(tau - p.NoV, z.low, z.high);
-    const double lobeVariance = 1.038 * variance * gz * gz * dd;
-    const double room = 0.242 * (lobeHeight - z.low) * (z.high - lobeHeight);
-    const double shift = std::sqrt(lobeVariance * room / (lobeVariance + room + 1e-20));
-    const double stepSlope = shift / (gz * dd);
-    const double rel = glm::clamp(stepSlope * dv / o.mu, -0.9, 0.9);
-    const double fromLobe = glm::clamp(lobeHeight + shift * rel, z.low, z.high);
-
-    const double spread = glm::min(
-        std::sqrt(glm::max(0.174 * (z.mean - z.low) * (z.high - z.mean), 0.0)), 0.98 * z.mean);
+    const double spread2 = 0.2307 * (z.mean - z.low) * (z.high - z.mean);
+    const double spread = glm::min(std::sqrt(glm::max(spread2, 0.0)), 0.98 * z.mean);
     const double za = z.mean - spread;
     const double zb = glm::min(z.mean + spread, 1.0);
     const double across = p.vv - v1 * v1;
@@ -170,26 +154,70 @@ glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, SphereCap cap, double sinC
     const double da = (ha + ma) * (hb + p.a2 * mb);
     const double db = (hb + mb) * (ha + p.a2 * ma);
     const double share = db * db / (da * da + db * db);
-    const double fromLight = za + (zb - za) * share;
-    const double lightVariance = (zb - za) * (zb - za) * share * (1.0 - share);
-    const double lobeWidth = p.a2 + 2.93 * o.x2;
-    const double height = z.high - z.low;
-    const double wide = lobeWidth / (lobeWidth + 0.539 * p.oneMinusA2 * height * height);
+    const double gap = zb - za;
+    return LightHeights(z.low, z.high, za + gap * share, gap * gap * share * (1.0 - share));
+}
 
-    const double mean = glm::max(fromLobe + wide * (fromLight - fromLobe), 1e-6);
-    const double room1 = 0.242 * glm::max(0.0, mean - z.low) * glm::max(0.0, z.high - mean);
-    const double fromLobe2 = 1.79 * lobeVariance * room1 / (lobeVariance + room1 + 1e-20);
-    const double deviation =
-        glm::min(std::sqrt(fromLobe2 + wide * (1.295 * lightVariance - fromLobe2)), 0.98 * mean);
-    const double low = shadowedHalf(p, o, mean - deviation);
-    const double high = shadowedHalf(p, o, glm::min(mean + deviation, 1.0));
-    const double stepLow = stepSlope * (rel - 1.0);
-    const double stepHigh = stepSlope * (rel + 1.0);
-    const double m2 = 1.0 + o.x2 + 0.64 * variance;
-    const double m2Low = glm::max(m2 + stepLow * (2.0 * ds + stepLow * dd), 1e-20);
-    const double m2High = glm::max(m2 + stepHigh * (2.0 * ds + stepHigh * dd), 1e-20);
-    const double VoHLow = saturate((o.mu + stepLow * dv) / std::sqrt(m2Low));
-    const double VoHHigh = saturate((o.mu + stepHigh * dv) / std::sqrt(m2High));
+glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
+{
+    const double height = z.high - z.low;
+    const double lobeWidth = p.a2 + 3.448 * o.x2;
+    const double lobeAndLight = lobeWidth + 0.8458 * p.oneMinusA2 * height * height;
+    const double partial = 1.0 - 0.8451 * o.integral;
+    const double invFirst = 1.0 / (lobeAndLight * partial);
+    const double wide = lobeWidth * partial * invFirst;
+    const double q = 1.0 + o.x2 * p.invA2;
+    const double variance =
+        p.a2 * glm::min(o.integral * q * q * lobeAndLight * invFirst, MAX_SLOPE_VARIANCE);
+    const double m2 = 1.0 + o.x2;
+    const double gz = 2.0 / (m2 + 0.4803 * variance);
+    const double tau = o.mu * gz;
+    const double dv = p.vv - tau * o.av;
+    const double ds = o.av - tau * o.x2;
+    const double dd = glm::max(p.vv - tau * (o.av + ds), 1e-8);
+    const double lobeHeight = glm::clamp(tau - p.NoV, z.low, z.high);
+    const double gdd = gz * dd;
+    const double lobeVariance = 0.4717 * variance * gz * gdd;
+    const double room = 0.2585 * (lobeHeight - z.low) * (z.high - lobeHeight);
+    const double sum = lobeVariance + room + MIN_VARIANCE;
+    const double invSecond = 1.0 / (sum * gdd * o.mu);
+    const double shift = std::sqrt(lobeVariance * room * gdd * o.mu * invSecond);
+    const double meanSlope = shift * sum * o.mu * invSecond;
+
+    const double rel = glm::clamp(meanSlope * dv * sum * gdd * invSecond, -0.714, 0.714);
+    const double fromLobe = glm::clamp(lobeHeight + shift * rel, z.low, z.high);
+
+    const double mean = glm::max(fromLobe + wide * (z.mean - fromLobe), 1e-6);
+    const double largest = glm::max(0.0, mean - z.low) * glm::max(0.0, z.high - mean);
+    const double fits = 0.2585 * largest;
+    const double narrowVariance = 1.71 * lobeVariance * fits / (lobeVariance + fits + MIN_VARIANCE);
+    const double blended = narrowVariance + wide * (1.101 * z.variance - narrowVariance);
+    const double v = glm::min(blended, 0.95 * largest);
+    const double skew = (z.low + z.high - 2.0 * mean) * v / (largest + v + MIN_VARIANCE);
+    const double reach2 = skew * skew + v + MIN_VARIANCE;
+    const double unskewed2 = v + 0.001 * skew * skew + MIN_VARIANCE;
+    const double invThird = 1.0 / (reach2 * unskewed2);
+    const double invReach = std::sqrt(unskewed2 * invThird);
+    const double unit = 0.817 * meanSlope * std::sqrt(reach2 * invThird);
+    const double reach = reach2 * invReach;
+    const double weight = skew * invReach;
+
+    const double below = glm::max(mean + skew - reach, 1e-6);
+    const double above = mean + skew + reach;
+    const double unshadowedBelow = below * p.smithV + p.NoV * smith(p, below);
+    const double unshadowedAbove = above * p.smithV + p.NoV * smith(p, above);
+    const double share = o.integral * o.mu / (unshadowedBelow * unshadowedAbove);
+    const double low = share * (1.0 + weight) * below * unshadowedAbove;
+    const double high = share * (1.0 - weight) * above * unshadowedBelow;
+
+    const double slopeLow = meanSlope * rel + unit * (skew - reach);
+    const double slopeHigh = meanSlope * rel + unit * (skew + reach);
+    const double mm = m2 + 0.8078 * variance;
+    const double mmLow = glm::max(mm + slopeLow * (2.0 * ds + slopeLow * dd), 1e-6);
+    const double mmHigh = glm::max(mm + slopeHigh * (2.0 * ds + slopeHigh * dd), 1e-6);
+    const double invMm = 1.0 / (mmLow * mmHigh);
+    const double VoHLow = saturate((o.mu + slopeLow * dv) * std::sqrt(mmHigh * invMm));
+    const double VoHHigh = saturate((o.mu + slopeHigh * dv) * std::sqrt(mmLow * invMm));
     return glm::min(glm::dvec2(low + high, low * pow5(1.0 - VoHLow) + high * pow5(1.0 - VoHHigh)),
                     glm::dvec2(1.0));
 }

@@ -47,10 +47,10 @@ vec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed)
     const SubstituteCap cut = substituteCap(p, cap);
     if (cap.NoC < cap.s)
         sub = cut;
-    const ConicRegion o = wholeCap(p, sub.c, sub.NoC, sub.s2, sub.omc);
-    const float v1 = makeCapFrame(p, sub.c, sub.NoC).v1;
     const float sinC = sqrt(max(1.0 - cap.NoC * cap.NoC, 0.0));
-    const vec2 two = shadeTwoNodes(p, o, cap, sinC, v1);
+    const LightHeights z = lightHeights(p, cap, sinC, makeCapFrame(p, sub.c, sub.NoC).v1);
+    const ConicRegion o = wholeCap(p, sub.c, sub.NoC, sub.s2, sub.omc);
+    const vec2 two = shadeTwoNodes(p, o, z);
     return mixed ? mix(shadeOneNode(p, o), two, nearness(cap)) : two;
 }
 
@@ -70,7 +70,8 @@ vec2 conicFullUnclipped(ConicPoint p, SphereCap cap)
 vec2 conicClipped(ConicPoint p, SphereCap cap)
 {
     const CapFrame f = makeCapFrame(p, cap.c, cap.NoC);
-    return shadeTwoNodes(p, clippedCap(p, cap, f), cap, f.sinC, f.v1);
+    const LightHeights z = lightHeights(p, cap, f.sinC, f.v1);
+    return shadeTwoNodes(p, clippedCap(p, cap, f), z);
 }
 
 uint conicClassOf(ConicPoint p, SphereCap cap)

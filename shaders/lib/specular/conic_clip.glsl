@@ -8,10 +8,9 @@
 
 // (atan(t) - t) / t^3 as a polynomial in t^2, t in [0, 1]; minimax, 4.9e-8 absolute in atan. The term
 // t itself is exact: the arcs of small caps cancel.
-float atanTail(float t2)
+vec2 atanTail(vec2 t2)
 {
-    float k = -0.00435541;
-    k = k * t2 + 0.02304016;
+    vec2 k = -0.00435541 * t2 + 0.02304016;
     k = k * t2 - 0.05777362;
     k = k * t2 + 0.09794236;
     k = k * t2 - 0.13976583;
@@ -19,17 +18,18 @@ float atanTail(float t2)
     return k * t2 - 0.33331659;
 }
 
-// atan(y, x), but 0 for x = y = 0.
-float atan2Fast(float y, float x)
+// atan(y, x) of two pairs with one division, and 0 for x = y = 0.
+vec2 atan2Pair(vec2 y, vec2 x)
 {
-    const float ax = abs(x);
-    const float ay = abs(y);
-    const float t = min(ax, ay) / max(max(ax, ay), 1e-30);
-    const float t2 = t * t;
-    const float first = t + t * t2 * atanTail(t2);
-    const float quarter = ay > ax ? HALF_PI - first : first;
-    const float angle = x < 0.0 ? PI - quarter : quarter;
-    return y < 0.0 ? -angle : angle;
+    const vec2 ax = abs(x);
+    const vec2 ay = abs(y);
+    const vec2 larger = max(max(ax, ay), 1e-18);
+    const vec2 t = min(ax, ay) * larger.yx * (1.0 / (larger.x * larger.y));
+    const vec2 t2 = t * t;
+    const vec2 first = t + t * t2 * atanTail(t2);
+    const vec2 quarter = mix(first, HALF_PI - first, greaterThan(ay, ax));
+    const vec2 upper = mix(quarter, PI - quarter, lessThan(x, vec2(0.0)));
+    return mix(upper, -upper, lessThan(y, vec2(0.0)));
 }
 
 // atanh(y / x), |y| < x.
@@ -70,12 +70,51 @@ CapFrame makeCapFrame(ConicPoint p, vec3 c, float NoC)
     return f;
 }
 
+// Where a cap meets the horizon: l = (cp, +-sp, 0).
+struct Chord {
+    float cp, sp, cm; // cm = 1 - cp
+};
+
+Chord makeChord(SphereCap cap, float sinC)
+{
+    Chord o;
+    const float inv = 1.0 / sinC;
+    const float sp2 = max(0.0, (cap.s * cap.s - cap.NoC * cap.NoC) * inv * inv);
+    o.cp = min((1.0 - cap.omc) * inv, 1.0);
+    o.sp = sqrt(sp2);
+    o.cm = sp2 / (1.0 + o.cp);
+    return o;
+}
+
+// 2 pi times the horizon arc's share of Phi: along it |w|^2 = A0 + 2 v_t . l is linear in l.
+vec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
+{
+    const float hz = p.alpha * p.NoV;
+    const float hz2 = hz * hz;
+    const float NoV2 = p.NoV * p.NoV;
+    const float A0 = 1.0 + p.vv + hz2;
+    const float rh = p.NoV * sqrt(NoV2 + (2.0 * (1.0 + p.vv) + hz2) * p.a2); // sqrt(A0^2 - 4 vv)
+    const float E0 = (1.0 + f.v1) * (1.0 + f.v1) + f.v2 * f.v2 + hz2;
+    const vec2 angles = atan2Pair(chord.sp * vec2(rh, 1.0), vec2(E0 - A0 * chord.cm, chord.cp));
+    const float J0 = 2.0 / rh * angles.x;
+    const float pc = angles.y;
+    const float pp = pc - 0.5 * A0 * J0;
+    const float qq = -atanhRatio(2.0 * f.v2 * chord.sp, E0 - 2.0 * f.v1 * chord.cm);
+    const float scale = -hz / max(p.vv, 1e-4);
+    const vec2 across = p.vv > 1e-4 ? vec2(pp * f.v1 - qq * f.v2, pp * f.v2 + qq * f.v1) * scale
+                                    : vec2(-2.0 * hz * chord.sp / A0, 0.0);
+    return vec3(across, pc + 0.5 * NoV2 * p.oneMinusA2 * J0);
+}
+
 // The region of the part of the cap above the horizon, exact. By Stokes' theorem its vector
 // irradiance is that of its boundary, Phi = (1 / 2 pi) closed integral (w x dw) / |w|^2 with
 // w = (m_x, m_y, alpha m_z), m = l + v: an arc of the cap, an ellipse in w, and an arc of the horizon,
 // each in closed form. Frame: (x, y, n) of CapFrame. |NoC| < s.
 ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
 {
+    // First, because it does not need the root below: the two long chains of operations overlap.
+    const Chord chord = makeChord(cap, f.sinC);
+    const vec3 horizon = horizonArc(p, f, chord);
     const float cx = f.sinC;
     const float cz = cap.NoC;
     const float vz = p.NoV;
@@ -108,14 +147,9 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const float yy = ak;
     const float yz = -sg * v2 * cz * invAlpha;
     const float zz = sg * Z;
-    // Where the cap meets the horizon: l = (cp, +-sp, 0). The chord's midpoint wc lies inside the cone.
-    const float invCx = 1.0 / cx;
-    const float cp = min((1.0 - cap.omc) * invCx, 1.0);
-    const float sp2 = max(0.0, (s2 - cz * cz) * invCx * invCx);
-    const float sp = sqrt(sp2);
-    const float cm = sp2 / (1.0 + cp); // 1 - cp
-    const float hz = p.alpha * vz;
-    const vec3 wc = vec3(1.0 + v1 - cm, v2, hz);
+    // The chord's midpoint lies inside the cone.
+    const float sp = chord.sp;
+    const vec3 wc = vec3(1.0 + v1 - chord.cm, v2, p.alpha * vz);
     // Axis e of the cone: adj(q + lam) maps anything to it.
     const float X = xx + lam;
     const float Y = yy + lam;
@@ -138,57 +172,54 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const float S = 0.5 * (tr + lam);
     const float de = dot(f1, qf1) - S;
     const float be = dot(f2, qf1);
-    const float r = sqrt(de * de + be * be);
+    const float ade = abs(de) + 1e-15; // r = 0: any axes will do
+    const float r = sqrt(ade * ade + be * be);
     const float l1 = S + r;
-    const float A2 = lam / l1; // squared tangents of the cone's half angles
-    const float B2 = max(lam * lam * l1 / D0, A2);
-    const float cos2 = r > 0.0 ? abs(de) / r : 1.0;
-    const float ph = sqrt(0.5 + 0.5 * cos2);
-    const float qh = r > 0.0 ? 0.5 * be / (r * ph) : 0.0;
+    const float invLD = 1.0 / (l1 * D0);
+    const float A2 = lam * D0 * invLD; // squared tangents of the cone's half angles: lam / l1 and
+    const float B2 = max(lam * lam * l1 * l1 * invLD, A2); // lam / l2, l1 l2 = D0 / lam
+    const float turn = inversesqrt(2.0 * r * (r + ade));
+    const float ph = (r + ade) * turn;
+    const float qh = be * turn;
     const float cosT = de >= 0.0 ? ph : abs(qh);
     const float sinT = de >= 0.0 ? qh : (be < 0.0 ? -ph : ph);
     const vec3 e1 = cosT * f1 + sinT * f2;
     const vec3 e2 = cosT * f2 - sinT * f1;
     const float a = sqrt(A2);
     const float b = sqrt(B2);
-    // The ends of the cap's arc as unit vectors on its circle.
+    // The ends of the cap's arc on its circle, of lengths lp and lm.
     const float w1 = dot(wc, e1);
     const float w2e = dot(wc, e2);
-    vec2 plus = vec2((w1 + sp * e1.y) * b, (w2e + sp * e2.y) * a);
-    vec2 minus = vec2((w1 - sp * e1.y) * b, (w2e - sp * e2.y) * a);
-    plus *= inversesqrt(max(dot(plus, plus), 1e-36));
-    minus *= inversesqrt(max(dot(minus, minus), 1e-36));
+    const vec2 plus = vec2((w1 + sp * e1.y) * b, (w2e + sp * e2.y) * a);
+    const vec2 minus = vec2((w1 - sp * e1.y) * b, (w2e - sp * e2.y) * a);
+    const float lp = sqrt(max(dot(plus, plus), 1e-36));
+    const float lm = sqrt(max(dot(minus, minus), 1e-36));
     const float oa = 1.0 + A2;
     const float ob = 1.0 + B2;
-    const float soab = sqrt(oa * ob);
+    const float oab = oa * ob;
+    const float soab = sqrt(oab);
     const float df = max(B2 - A2, 1e-6 * ob);
-    const float g2 = df / oa;
-    const float h2 = df / ob;
+    const float inv = 1.0 / (oab * df);
+    const float invSoab = soab * df * inv;
+    const float g2 = df * df * ob * inv; // df / oa
     const float g = sqrt(g2);
-    const float h = sqrt(h2);
+    const float h = g * oa * invSoab; // sqrt(df / ob)
     const float co = oa * plus.x * minus.x + ob * plus.y * minus.y;
     const float si = sg * soab * (plus.x * minus.y - minus.x * plus.y);
-    const float angle = atan2Fast(si, co);
+    const float lpm = lp * lm;
+    const vec2 angles = atan2Pair(vec2(si, g * (minus.y * lp - plus.y * lm)),
+                                  vec2(co, lpm + g2 * plus.y * minus.y));
+    const float angle = angles.x;
     // An arc nearly empty or nearly full: the side of the horizon decides, not rounding.
     const bool full = co > 7.0 * abs(si) ? cz > 0.0 : angle < 0.0;
     const float dt = full ? angle + 2.0 * PI : angle;
     const vec3 arc =
-        e1 * (-b / (oa * g) * atan2Fast(g * (minus.y - plus.y), 1.0 + g2 * plus.y * minus.y)) +
-        e2 * (a / (ob * h) * atanhRatio(h * (minus.x - plus.x), 1.0 - h2 * plus.x * minus.x)) +
-        e * (sg * a * b * dt / soab);
-    // The horizon's arc: |w|^2 = A0 + 2 v_t . l is linear there.
-    const float hz2 = hz * hz;
-    const float A0 = 1.0 + p.vv + hz2;
-    const float rh = vz * sqrt(vz * vz + (2.0 * (1.0 + p.vv) + hz2) * p.a2); // sqrt(A0^2 - 4 vv)
-    const float E0 = (1.0 + v1) * (1.0 + v1) + v2 * v2 + hz2;
-    const float J0 = 2.0 / rh * atan2Fast(rh * sp, E0 - A0 * cm);
-    const float pc = atan2Fast(sp, cp);
-    const float pp = pc - 0.5 * A0 * J0;
-    const float qq = -atanhRatio(2.0 * v2 * sp, E0 - 2.0 * v1 * cm);
-    const vec2 horizon = p.vv > 1e-4 ? vec2(pp * v1 - qq * v2, pp * v2 + qq * v1) / p.vv
-                                     : vec2(2.0 * sp / A0, 0.0);
-    const float phiZ = (arc.z + pc + 0.5 * vz * vz * p.oneMinusA2 * J0) * (0.5 * INV_PI);
-    const vec2 slope = (arc.xy - hz * horizon) * (0.5 * INV_PI * p.alpha / max(phiZ, 1e-12));
+        e1 * (-b * g * oab * inv * angles.y) +
+        e2 * (a * h * oab * inv *
+              atanhRatio(h * (minus.x * lp - plus.x * lm), lpm - h * h * plus.x * minus.x)) +
+        e * (sg * a * b * dt * invSoab);
+    const float phiZ = (arc.z + horizon.z) * (0.5 * INV_PI);
+    const vec2 slope = (arc.xy + horizon.xy) * (0.5 * INV_PI * p.alpha / max(phiZ, 1e-12));
     ConicRegion o;
     o.integral = saturate(phiZ);
     o.av = v1 * slope.x + v2 * slope.y;
