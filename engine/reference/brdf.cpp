@@ -68,7 +68,7 @@ double smithVisibility(double NoL, double NoV, double alpha)
 double schlickWeight(double VoH)
 {
     requireDomain(VoH >= -cosineSlack && VoH <= 1 + cosineSlack, "VoH", VoH);
-    const double x = 1 - VoH, x2 = x * x;
+    const double x = std::max(1 - VoH, 0.0), x2 = x * x; // VoH may round to above 1
     return x2 * x2 * x;
 }
 

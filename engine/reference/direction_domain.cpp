@@ -91,8 +91,8 @@ LightResponse directionDomainSpecular(const SurfacePoint& given, double alpha,
         };
         const std::array<double, 2> ends = {toU(arc->centre - arc->halfWidth),
                                             toU(arc->centre + arc->halfWidth)};
-        const auto part =
-            integrate<2, 60>(std::span<const double>(ends), relative / 8, 0, [&](double u) {
+        const auto part = integrate<2, 60>(
+            std::span<const double>(ends), relative / 8, negligible, [&](double u) {
                 const double t = width * std::tan(u), t2 = t * t;
                 const double cosTheta = (1 - t2) / (1 + t2), sinTheta = 2 * t / (1 + t2);
                 const glm::dvec3 l = cosTheta * mirror + sinTheta * spoke;

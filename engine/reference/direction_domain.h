@@ -10,7 +10,8 @@ namespace candelabra::reference
 // a and b (response.h) of the outline's part above the horizon, by nested adaptive quadrature of
 // the BRDF of brdf.h in polar coordinates around the mirror direction. Every half circle from there
 // meets outline and horizon in one exact interval. Along it tan(theta / 2) = w tan u with the
-// lobe's width w makes narrow lobes smooth. `relative`: requested relative tolerance.
+// lobe's width w makes narrow lobes smooth. `relative`: requested relative tolerance. alpha >=
+// 1e-4: the BRDF from unit vectors has no more digits.
 LightResponse directionDomainSpecular(const SurfacePoint& surface, double alpha,
                                       const Outline& outline, double relative);
 

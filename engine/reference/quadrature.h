@@ -158,6 +158,10 @@ auto integrate(std::span<const double> breaks, double relative, double absolute,
     return sum;
 }
 
+// Responses to a luminance of 1 that nobody asks about: slivers so thin above the horizon that
+// their edges are rounding errors never reach a relative tolerance.
+inline constexpr double negligible = 1e-24;
+
 // The outer of two integrals: over the panels between neighbouring breaks for which `active` says
 // so of their middle, under one tolerance. f maps a double to N values, of which the first `Judged`
 // are judged. Each panel is mapped with vanishing slope at both ends, so that functions which start
@@ -173,16 +177,17 @@ auto integratePanels(std::span<const double> breaks, double relative, Active&& a
             panels.push_back({breaks[i], breaks[i + 1]});
             ends.push_back(static_cast<double>(panels.size()));
         }
-    return integrate<Judged, 200>(std::span<const double>(ends), relative, 0, [&](double x) {
-        const size_t i = std::min(static_cast<size_t>(x), panels.size() - 1);
-        const double width = panels[i][1] - panels[i][0];
-        const double half = pi / 2 * (x - static_cast<double>(i));
-        const double sine = std::sin(half); // 1 - cos without cancellation near the start
-        auto value = f(panels[i][0] + width * sine * sine);
-        for (double& v : value)
-            v *= width * pi * sine * std::cos(half);
-        return value;
-    });
+    return integrate<Judged, 200>(
+        std::span<const double>(ends), relative, negligible, [&](double x) {
+            const size_t i = std::min(static_cast<size_t>(x), panels.size() - 1);
+            const double width = panels[i][1] - panels[i][0];
+            const double half = pi / 2 * (x - static_cast<double>(i));
+            const double sine = std::sin(half); // 1 - cos without cancellation near the start
+            auto value = f(panels[i][0] + width * sine * sine);
+            for (double& v : value)
+                v *= width * pi * sine * std::cos(half);
+            return value;
+        });
 }
 
 } // namespace candelabra::reference

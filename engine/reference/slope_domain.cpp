@@ -83,7 +83,7 @@ public:
         for (int i = 0; i < ray.count; ++i) {
             const std::array<double, 2> ends = {std::atan(ray.low[i] / alpha_),
                                                 std::atan(ray.high[i] / alpha_)};
-            const auto part = integrate<2, 60>(std::span<const double>(ends), relative, 0,
+            const auto part = integrate<2, 60>(std::span<const double>(ends), relative, negligible,
                                                [&](double u) { return density(ray, u); });
             for (size_t n = 0; n < 2; ++n) {
                 out[n] += part.value[n] / (pi * vz_);

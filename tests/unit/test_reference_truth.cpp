@@ -215,6 +215,36 @@ TEST(ReferenceTruth, nothingComesFromBelowTheHorizon)
     EXPECT_LE(std::abs(at(s - 1e-9).a - at(s + 1e-9).a), 1e-7);
 }
 
+// Corners of the domain: every response finite, never negative, a <= 1, b <= a, in both domains.
+TEST(ReferenceTruth, holdsInTheCornersOfItsDomain)
+{
+    int count = 0;
+    for (const double alpha : {1e-4, 0.002, 0.05, 1.0})
+        for (const double view : {0.0, 1e-9, 1e-4, 0.5, 1.5, 1.5707, 1.7})
+            for (const double s : {1e-9, 1e-4, 0.3, 0.9999, 1.0}) {
+                const SurfacePoint surface = eyeAt(view);
+                const glm::dvec3 v = surface.toEye, mirror(-v.x, 0, std::abs(v.z));
+                const double across = std::sqrt(1 - s * s);
+                for (const glm::dvec3& axis :
+                     {glm::dvec3(0, 0, 1), mirror, v, glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0),
+                      glm::dvec3(-across, 0, -s), glm::dvec3(-across, 0, s),
+                      glm::dvec3(0, across, -s * (1 - 1e-12)),
+                      across * mirror + s * glm::dvec3(0, 1, 0)}) {
+                    const SphereCap cap{glm::normalize(axis), std::min(s * s, maxSpecularSin2)};
+                    for (const LightResponse& r :
+                         {truthOfCap(surface, alpha, cap, 1e-3),
+                          directionDomainSpecular(surface, alpha, *capOutline(cap), 1e-3)}) {
+                        ++count;
+                        EXPECT_TRUE(r.a >= 0 && r.b >= 0 && r.f >= 0 && r.a <= 1.0001 &&
+                                    r.b <= r.a && r.f <= 1 + 1e-12)
+                            << alpha << " " << view << " " << s << " axis " << axis.x << " "
+                            << axis.y << " " << axis.z << ": " << r.a << " " << r.b << " " << r.f;
+                    }
+                }
+            }
+    std::cout << count << " responses\n";
+}
+
 TEST(ReferenceTruth, receiversInsideASphereContinueItsSurface)
 {
     const SurfacePoint surface = eyeAt(0.7);

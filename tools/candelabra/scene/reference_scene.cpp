@@ -19,8 +19,9 @@ reference::Material toReference(const Material& m)
             .f0 =
                 glm::mix(glm::dvec3(m.dielectricF0), glm::dvec3(m.baseColor), double(m.metalness)),
             .specularWeight = m.specularWeight,
-            // The lobe of alpha 0 is no function; this one is a mirror to every eye.
-            .alpha = std::max(roughness * roughness, 1e-8),
+            // The lobe of alpha 0 is no function; this one is a mirror to every eye, and the
+            // narrowest that reference/direction_domain.h integrates.
+            .alpha = std::max(roughness * roughness, 1e-4),
             .emission = m.emission};
 }
 
