@@ -4,7 +4,7 @@ get_filename_component(dir ${OUTPUT} DIRECTORY)
 file(MAKE_DIRECTORY ${dir})
 set(spv ${OUTPUT}.spv)
 execute_process(
-    COMMAND ${GLSLANG} -V --target-env vulkan1.3 --quiet -I${INCLUDE} --depfile ${OUTPUT}.d.in
+    COMMAND ${GLSLANG} -V --target-env vulkan1.3 --quiet -I${INCLUDE} -DLIGHT_FAMILY=FAMILY_${FAMILY} --depfile ${OUTPUT}.d.in
         -o ${spv} ${INPUT}
     OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 if(failed OR log MATCHES "WARNING")

@@ -61,6 +61,38 @@ bool takesBudget(uint32_t lightType, CndSpecularMethod method)
            (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL);
 }
 
+namespace
+{
+
+struct Family {
+    const gpu::Spirv* tiles;
+    const gpu::Spirv* horizon; // spheres only
+    const gpu::Spirv* brute;
+};
+
+// shaders/lib/light_families.glsl.
+Family familyOf(uint32_t lightType, CndSpecularMethod method)
+{
+    using namespace spirv;
+    switch (lightType) {
+    case CND_LIGHT_TUBE:
+        return {&shade_tiles_comp_tube, nullptr, &shade_brute_comp_tube};
+    case CND_LIGHT_RECTANGLE:
+        return {&shade_tiles_comp_rectangle, nullptr, &shade_brute_comp_rectangle};
+    case CND_LIGHT_DISC:
+        return {&shade_tiles_comp_disc, nullptr, &shade_brute_comp_disc};
+    case CND_LIGHT_SPHERE:
+    case CND_LIGHT_DISTANT_SPHERE:
+        if (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL)
+            return {&shade_tiles_comp_conic, &shade_horizon_comp_conic, &shade_brute_comp_conic};
+        return {&shade_tiles_comp_sphere, &shade_horizon_comp_sphere, &shade_brute_comp_sphere};
+    default:
+        return {&shade_tiles_comp_punctual, nullptr, &shade_brute_comp_punctual};
+    }
+}
+
+} // namespace
+
 ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, uint32_t method,
                                                 bool withBudget) const
 {
@@ -72,9 +104,10 @@ ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, uint32_t met
                        {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout_)},
                        {gpu::SPEC_ERROR_BUDGET, withBudget}});
     };
-    return {.tiles = kernel(spirv::shade_tiles_comp),
-            .horizon = isSphere(lightType) ? kernel(spirv::shade_horizon_comp) : Kernel(),
-            .brute = kernel(spirv::shade_brute_comp)};
+    const Family family = familyOf(lightType, CndSpecularMethod(method));
+    return {.tiles = kernel(*family.tiles),
+            .horizon = family.horizon ? kernel(*family.horizon) : Kernel(),
+            .brute = kernel(*family.brute)};
 }
 
 ShadeKernels::OfType ShadeKernels::make(uint32_t lightType) const

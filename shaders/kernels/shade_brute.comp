@@ -29,14 +29,14 @@ void main()
     vec3 asPoint = vec3(0.0), above = vec3(0.0), near = vec3(0.0), general = vec3(0.0);
     for (uint first = 0u; first < params.lightCount; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, params.lightCount - first), false);
-        if (IS_SPHERE) {
-            if (HAS_BUDGET)
-                shadeFound(asPoint, r, first, found.asPoint, EVALUATE_POINT);
-            shadeFound(above, r, first, found.above, EVALUATE_ABOVE);
-            if (IS_CONIC)
-                shadeFound(near, r, first, found.near, EVALUATE_NEAR);
-        }
-        shadeFound(general, r, first, found.general, EVALUATE_GENERAL);
+#if HAS_SPHERES
+        if (HAS_BUDGET)
+            SHADE_FOUND(asPoint, r, first, found.asPoint, evaluateAsPoint);
+        SHADE_FOUND(above, r, first, found.above, evaluateAbove);
+        if (IS_CONIC)
+            SHADE_FOUND(near, r, first, found.near, evaluateNear);
+#endif
+        SHADE_FOUND(general, r, first, found.general, evaluateGeneral);
     }
     // In the order of the clustered kernels, for the same bits: shade_tiles, then shade_horizon.
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));

@@ -36,8 +36,8 @@ void main()
     for (uint first = 0u; first < tileList.count; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, tileList.count - first), true);
         if (IS_CONIC)
-            shadeFound(near, r, first, found.near, EVALUATE_NEAR);
-        shadeFound(general, r, first, found.general, EVALUATE_GENERAL);
+            SHADE_FOUND(near, r, first, found.near, evaluateNear);
+        SHADE_FOUND(general, r, first, found.general, evaluateGeneral);
     }
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
     imageStore(radianceImage, ivec2(pixel), before + vec4(near + general, 0.0));

@@ -42,14 +42,14 @@ void main()
     uint atHorizon = 0u;
     for (uint first = 0u; first < tileList.count; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, tileList.count - first), true);
-        if (IS_SPHERE) {
-            if (HAS_BUDGET)
-                shadeFound(asPoint, r, first, found.asPoint, EVALUATE_POINT);
-            shadeFound(above, r, first, found.above, EVALUATE_ABOVE);
-            atHorizon |= found.near | found.general;
-        } else {
-            shadeFound(general, r, first, found.general, EVALUATE_GENERAL);
-        }
+#if HAS_SPHERES
+        if (HAS_BUDGET)
+            SHADE_FOUND(asPoint, r, first, found.asPoint, evaluateAsPoint);
+        SHADE_FOUND(above, r, first, found.above, evaluateAbove);
+        atHorizon |= found.near | found.general;
+#else
+        SHADE_FOUND(general, r, first, found.general, evaluateGeneral);
+#endif
     }
     if (atHorizon != 0u)
         appendHorizonTile(tile);

@@ -5,17 +5,20 @@
 #ifndef CND_LIB_LIGHT_EVAL
 #define CND_LIB_LIGHT_EVAL
 
+#include "lib/light_families.glsl"
 #include "lib/light_reach.glsl"
-#include "lib/lights/disc.glsl"
-#include "lib/lights/rectangle.glsl"
 #include "lib/lights/sphere.glsl"
-#include "lib/lights/tube.glsl"
 #include "lib/specular/conic.glsl"
 #include "lib/specular/karis.glsl"
 #include "lib/specular/kx.glsl"
+#include "lib/specular/sampled.glsl"
+#if HAS_COSINES
+#include "lib/lights/disc.glsl"
+#include "lib/lights/rectangle.glsl"
+#include "lib/lights/tube.glsl"
 #include "lib/specular/ltc.glsl"
 #include "lib/specular/representative.glsl"
-#include "lib/specular/sampled.glsl"
+#endif
 
 layout(constant_id = SPEC_SPECULAR_METHOD) const uint specularMethod = SPECULAR_CONIC;
 layout(constant_id = SPEC_ERROR_BUDGET) const uint errorBudget = 0u;
@@ -38,7 +41,9 @@ const float MAX_POINT_ERROR = 0.3;
 struct Receiver {
     ShadingPoint p;
     ConicPoint conic; // IS_CONIC
-    LtcPoint ltc;     // IS_LTC
+#if HAS_COSINES
+    LtcPoint ltc; // IS_LTC
+#endif
     uint sampleCount; // SPECULAR_SAMPLED
     uint sampleSeed;
     float pointLimit; // (R / d)^2 up to which a sphere above the horizon is evaluated as a point
@@ -67,10 +72,14 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
     r.p = p;
     r.sampleCount = sampleCount;
     r.sampleSeed = sampleSeed;
+#if HAS_COSINES
     if (IS_LTC)
         r.ltc = makeLtcPoint(p);
+#endif
+#if HAS_FAMILY(FAMILY_CONIC)
     if (IS_SPHERE && IS_CONIC)
         r.conic = makeConicPoint(p);
+#endif
     r.pointLimit = HAS_BUDGET ? pointLimit(p, budget) : 0.0;
     return r;
 }
@@ -83,93 +92,167 @@ float influenceWindow(float d2, float influenceRadius2)
     return w * w;
 }
 
+// What is known of a light at a point.
+struct Light {
+    uint index;
+    vec3 toLight;
+    float reach;
+    vec3 emission; // times the influence window
+};
+
+Light readLight(Receiver r, uint index)
+{
+    const vec4 centreReach = lightCentre(index);
+    const vec4 emissionInfluence = lightEmission(index);
+    Light light;
+    light.index = index;
+    light.toLight = towardsLight(centreReach.xyz, r.p.position);
+    light.reach = centreReach.w;
+    light.emission = emissionInfluence.xyz;
+    if (!IS_DISTANT)
+        light.emission *= influenceWindow(length2(light.toLight), emissionInfluence.w);
+    return light;
+}
+
 // Each light has samples of its own.
 uint lightSeed(Receiver r, uint light)
 {
     return pcgHash(r.sampleSeed ^ pcgHash(light));
 }
 
-// Response of the specular lobe to a sphere of unit luminance.
-vec2 sphereSpecular(Receiver r, uint evaluation, uint light, SphereCap cap, vec3 toLight,
-                    float radius)
+#if HAS_FAMILY(FAMILY_SPHERE)
+// Response of the specular lobe to a sphere of unit luminance; the closed form is not among these.
+vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 {
-    if (evaluation == EVALUATE_POINT || specularMethod == SPECULAR_POINT)
+    switch (specularMethod) {
+    case SPECULAR_POINT:
         return pointResponse(r.p, cap);
-    if (specularMethod == SPECULAR_KX)
+    case SPECULAR_KX:
         return kxResponse(r.p, cap);
-    if (specularMethod == SPECULAR_KARIS)
-        return karisResponse(r.p, toLight, inversesqrt(max(length2(toLight), MIN_LENGTH2)), radius,
+    case SPECULAR_KARIS:
+        return karisResponse(r.p, light.toLight,
+                             inversesqrt(max(length2(light.toLight), MIN_LENGTH2)), light.reach,
                              cap.s2);
-    if (specularMethod == SPECULAR_LTC)
+    case SPECULAR_LTC:
         return ltcSphere(r.ltc, cap.c, cap.s2);
-    if (specularMethod == SPECULAR_SAMPLED)
-        return sampledSphere(r.p, cap.c, cap.omc, r.sampleCount, lightSeed(r, light));
-    if (evaluation == EVALUATE_GENERAL) // a receiver inside a sphere may have its cap below
-        return cap.NoC > -cap.s ? conicClipped(r.conic, cap) : vec2(0.0);
-    if (specularMethod == SPECULAR_CONIC_FULL)
-        return conicFullUnclipped(r.conic, cap);
-    return evaluation == EVALUATE_NEAR ? conicNear(r.conic, cap) : conicAbove(r.conic, cap);
+    case SPECULAR_SAMPLED:
+        return sampledSphere(r.p, cap.c, cap.omc, r.sampleCount, lightSeed(r, light.index));
+    }
+    return vec2(0.0);
+}
+#endif
+
+#if HAS_SPHERES
+// A sphere in the four evaluations.
+vec3 sphereAsPoint(Receiver r, Light light)
+{
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
+    return r.p.albedo * (cap.NoC * cap.s2) + schlick(r.p, pointResponse(r.p, cap));
 }
 
-vec3 evaluateSphere(Receiver r, uint evaluation, uint light, vec3 toLight, float radius)
+vec3 sphereAbove(Receiver r, Light light)
 {
-    const SphereCap cap = makeSphereCap(r.p.n, toLight, radius);
-    const bool above = evaluation == EVALUATE_POINT || evaluation == EVALUATE_ABOVE;
-    vec3 response = r.p.albedo * (above ? cap.NoC * cap.s2 : sphereFormFactor(cap.NoC, cap.s2));
-    if (specularMethod != SPECULAR_NONE)
-        response += schlick(r.p, sphereSpecular(r, evaluation, light, cap, toLight, radius));
-    return response;
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
+    vec2 specular = vec2(0.0);
+#if HAS_FAMILY(FAMILY_CONIC)
+    if (specularMethod == SPECULAR_CONIC)
+        specular = conicAbove(r.conic, cap);
+    else if (specularMethod == SPECULAR_CONIC_FULL)
+        specular = conicFullUnclipped(r.conic, cap);
+#endif
+#if HAS_FAMILY(FAMILY_SPHERE)
+    if (!IS_CONIC)
+        specular = cheapSphereSpecular(r, light, cap);
+#endif
+    return r.p.albedo * (cap.NoC * cap.s2) + schlick(r.p, specular);
 }
 
-vec3 evaluateTube(Receiver r, uint light, vec3 toLight)
+#if HAS_FAMILY(FAMILY_CONIC)
+vec3 sphereNear(Receiver r, Light light)
 {
-    const vec4 axisRadius = lightAux[light * LIGHT_AUX_STRIDE];
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
+    const bool mixed = specularMethod == SPECULAR_CONIC;
+    return r.p.albedo * sphereFormFactor(cap.NoC, cap.s2) +
+           schlick(r.p, conicUnclipped(r.conic, cap, mixed));
+}
+#endif
+
+vec3 sphereAcross(Receiver r, Light light)
+{
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
+    vec2 specular = vec2(0.0);
+#if HAS_FAMILY(FAMILY_CONIC)
+    if (IS_CONIC) // a receiver inside a sphere may have its cap below the horizon
+        specular = cap.NoC > -cap.s ? conicClipped(r.conic, cap) : vec2(0.0);
+#endif
+#if HAS_FAMILY(FAMILY_SPHERE)
+    if (!IS_CONIC)
+        specular = cheapSphereSpecular(r, light, cap);
+#endif
+    return r.p.albedo * sphereFormFactor(cap.NoC, cap.s2) + schlick(r.p, specular);
+}
+
+#endif // HAS_SPHERES
+
+#if HAS_FAMILY(FAMILY_TUBE)
+vec3 evaluateTube(Receiver r, Light light)
+{
+    const vec4 axisRadius = lightAux[light.index * LIGHT_AUX_STRIDE];
     const vec3 axis = axisRadius.xyz;
     const float radius = axisRadius.w;
-    const TubeOutline outline = makeTubeOutline(toLight, axis, radius);
+    const TubeOutline outline = makeTubeOutline(light.toLight, axis, radius);
     vec3 response = r.p.albedo * tubeFormFactor(r.p.n, outline);
     if (specularMethod == SPECULAR_KARIS)
-        response += schlick(r.p, representativeTube(r.p, toLight, axis, radius));
+        response += schlick(r.p, representativeTube(r.p, light.toLight, axis, radius));
     else if (specularMethod == SPECULAR_LTC)
         response += schlick(r.p, ltcTube(r.ltc, outline));
     else if (specularMethod == SPECULAR_SAMPLED)
-        response += schlick(r.p, sampledTube(r.p, toLight, axis, radius, r.sampleCount,
-                                             lightSeed(r, light)));
+        response += schlick(r.p, sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
+                                             lightSeed(r, light.index)));
     return response;
 }
 
-vec3 evaluateRectangle(Receiver r, uint light, vec3 toLight)
+#endif
+
+#if HAS_FAMILY(FAMILY_RECTANGLE)
+vec3 evaluateRectangle(Receiver r, Light light)
 {
-    const vec3 u = lightAux[light * LIGHT_AUX_STRIDE].xyz;
-    const vec4 second = lightAux[light * LIGHT_AUX_STRIDE + 1u];
+    const vec3 u = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
+    const vec4 second = lightAux[light.index * LIGHT_AUX_STRIDE + 1u];
     const vec3 v = second.xyz;
     const bool twoSided = second.w != 0.0;
-    vec3 response = r.p.albedo * rectangleFormFactor(r.p.n, toLight, u, v, twoSided);
+    vec3 response = r.p.albedo * rectangleFormFactor(r.p.n, light.toLight, u, v, twoSided);
     if (specularMethod == SPECULAR_KARIS)
-        response += schlick(r.p, representativeRectangle(r.p, toLight, u, v, twoSided));
+        response += schlick(r.p, representativeRectangle(r.p, light.toLight, u, v, twoSided));
     else if (specularMethod == SPECULAR_LTC)
-        response += schlick(r.p, ltcRectangle(r.ltc, toLight, u, v, twoSided));
+        response += schlick(r.p, ltcRectangle(r.ltc, light.toLight, u, v, twoSided));
     else if (specularMethod == SPECULAR_SAMPLED)
-        response += schlick(r.p, sampledRectangle(r.p, toLight, u, v, twoSided, r.sampleCount,
-                                                  lightSeed(r, light)));
+        response += schlick(r.p, sampledRectangle(r.p, light.toLight, u, v, twoSided, r.sampleCount,
+                                                  lightSeed(r, light.index)));
     return response;
 }
 
-vec3 evaluateDisc(Receiver r, uint light, vec3 toLight, float radius)
+#endif
+
+#if HAS_FAMILY(FAMILY_DISC)
+vec3 evaluateDisc(Receiver r, Light light)
 {
-    const vec3 normal = lightAux[light * LIGHT_AUX_STRIDE].xyz;
-    const bool twoSided = lightAux[light * LIGHT_AUX_STRIDE + 1u].w != 0.0;
-    vec3 response = r.p.albedo * discFormFactor(r.p.n, toLight, normal, radius, twoSided);
+    const vec3 normal = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
+    const bool twoSided = lightAux[light.index * LIGHT_AUX_STRIDE + 1u].w != 0.0;
+    vec3 response = r.p.albedo * discFormFactor(r.p.n, light.toLight, normal, light.reach, twoSided);
     if (specularMethod == SPECULAR_KARIS)
-        response += schlick(r.p, representativeDisc(r.p, toLight, normal, radius, twoSided));
+        response += schlick(r.p, representativeDisc(r.p, light.toLight, normal, light.reach, twoSided));
     else if (specularMethod == SPECULAR_LTC)
-        response += schlick(r.p, ltcDisc(r.ltc, toLight, normal, radius, twoSided));
+        response += schlick(r.p, ltcDisc(r.ltc, light.toLight, normal, light.reach, twoSided));
     else if (specularMethod == SPECULAR_SAMPLED)
-        response += schlick(r.p, sampledDisc(r.p, toLight, normal, radius, twoSided, r.sampleCount,
-                                             lightSeed(r, light)));
+        response += schlick(r.p, sampledDisc(r.p, light.toLight, normal, light.reach, twoSided,
+                                             r.sampleCount, lightSeed(r, light.index)));
     return response;
 }
 
+#endif
+
+#if HAS_FAMILY(FAMILY_PUNCTUAL)
 // Response to unit illuminance on a surface that faces the light, from the unit direction l.
 vec3 evaluatePunctual(ShadingPoint p, vec3 l)
 {
@@ -180,46 +263,96 @@ vec3 evaluatePunctual(ShadingPoint p, vec3 l)
 }
 
 // Response to unit intensity (point: the same everywhere; spot: on its axis).
-vec3 evaluateIntensity(ShadingPoint p, uint light, vec3 toLight)
+vec3 evaluateIntensity(ShadingPoint p, Light light)
 {
-    const float d2 = max(length2(toLight), MIN_LENGTH2);
-    const vec3 l = toLight * inversesqrt(d2);
+    const float d2 = max(length2(light.toLight), MIN_LENGTH2);
+    const vec3 l = light.toLight * inversesqrt(d2);
     float illuminance = 1.0 / d2;
     if (lightType == LIGHT_SPOT) {
         // KHR_lights_punctual, "Inner and Outer Cone Angles".
-        const vec3 axis = lightAux[light * LIGHT_AUX_STRIDE].xyz;
-        const vec2 cone = lightAux[light * LIGHT_AUX_STRIDE + 1u].xy;
+        const vec3 axis = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
+        const vec2 cone = lightAux[light.index * LIGHT_AUX_STRIDE + 1u].xy;
         const float t = saturate(dot(-l, axis) * cone.x + cone.y);
         illuminance *= t * t;
     }
     return illuminance * evaluatePunctual(p, l);
 }
+#endif
 
-// Response to unit emission, without the influence window.
-vec3 evaluateUnwindowed(Receiver r, uint evaluation, uint light, vec3 toLight, float reach)
+vec3 generalResponse(Receiver r, Light light)
 {
-    if (IS_SPHERE)
-        return evaluateSphere(r, evaluation, light, toLight, reach);
+#if HAS_FAMILY(FAMILY_TUBE)
     if (lightType == LIGHT_TUBE)
-        return evaluateTube(r, light, toLight);
+        return evaluateTube(r, light);
+#endif
+#if HAS_FAMILY(FAMILY_RECTANGLE)
     if (lightType == LIGHT_RECTANGLE)
-        return evaluateRectangle(r, light, toLight);
+        return evaluateRectangle(r, light);
+#endif
+#if HAS_FAMILY(FAMILY_DISC)
     if (lightType == LIGHT_DISC)
-        return evaluateDisc(r, light, toLight, reach);
+        return evaluateDisc(r, light);
+#endif
+#if HAS_FAMILY(FAMILY_PUNCTUAL)
     if (lightType == LIGHT_DIRECTIONAL)
-        return evaluatePunctual(r.p, toLight);
-    return evaluateIntensity(r.p, light, toLight);
+        return evaluatePunctual(r.p, light.toLight);
+    if (!IS_SPHERE)
+        return evaluateIntensity(r.p, light);
+#endif
+#if HAS_SPHERES
+    return sphereAcross(r, light);
+#else
+    return vec3(0.0);
+#endif
 }
 
-vec3 evaluateLight(Receiver r, uint evaluation, uint light)
+// Outgoing luminance by evaluation. A function each: drivers inline all of it at every call before
+// they drop what specialisation rules out, and one function for all took minutes to compile.
+#if HAS_SPHERES
+vec3 evaluateAsPoint(Receiver r, uint index)
 {
-    const vec4 centreReach = lightCentre(light);
-    const vec4 emissionInfluence = lightEmission(light);
-    const vec3 toLight = towardsLight(centreReach.xyz, r.p.position);
-    vec3 emission = emissionInfluence.xyz;
-    if (!IS_DISTANT)
-        emission *= influenceWindow(length2(toLight), emissionInfluence.w);
-    return emission * evaluateUnwindowed(r, evaluation, light, toLight, centreReach.w);
+    const Light light = readLight(r, index);
+    return light.emission * sphereAsPoint(r, light);
 }
+
+vec3 evaluateAbove(Receiver r, uint index)
+{
+    const Light light = readLight(r, index);
+    return light.emission * sphereAbove(r, light);
+}
+
+vec3 evaluateNear(Receiver r, uint index)
+{
+#if HAS_FAMILY(FAMILY_CONIC)
+    const Light light = readLight(r, index);
+    return light.emission * sphereNear(r, light);
+#else
+    return vec3(0.0);
+#endif
+}
+#endif
+
+vec3 evaluateGeneral(Receiver r, uint index)
+{
+    const Light light = readLight(r, index);
+    return light.emission * generalResponse(r, light);
+}
+
+#if LIGHT_FAMILY == FAMILY_ALL
+// For callers that have one light.
+vec3 evaluateLight(Receiver r, uint evaluation, uint index)
+{
+    switch (evaluation) {
+    case EVALUATE_POINT:
+        return evaluateAsPoint(r, index);
+    case EVALUATE_ABOVE:
+        return evaluateAbove(r, index);
+    case EVALUATE_NEAR:
+        return evaluateNear(r, index);
+    }
+    return evaluateGeneral(r, index);
+}
+
+#endif
 
 #endif

@@ -15,6 +15,7 @@ struct Found {
     uint asPoint, above, near, general;
 };
 
+#if HAS_SPHERES
 // Sorts a sphere that reaches the point by where it stands to the horizon; no division.
 void classifySphere(inout Found found, uint bit, Receiver r, vec3 toLight, float radius)
 {
@@ -34,6 +35,7 @@ void classifySphere(inout Found found, uint bit, Receiver r, vec3 toLight, float
     found.near |= near && !asPoint ? bit : 0u;
     found.general |= above || near || asPoint ? 0u : bit;
 }
+#endif
 
 // `testInfluence`: leave out lights that are beyond their influence (they would add 0).
 Found findLights(Receiver r, uint first, uint count, bool testInfluence)
@@ -47,19 +49,20 @@ Found findLights(Receiver r, uint first, uint count, bool testInfluence)
         if (testInfluence)
             influence2 = lightEmission(light).w;
         const uint bit = lightReaches(toLight, r.p.n, centreReach.w, influence2) ? 1u << i : 0u;
-        if (IS_SPHERE)
+#if HAS_SPHERES
+        if (IS_SPHERE) {
             classifySphere(found, bit, r, toLight, centreReach.w);
-        else
-            found.general |= bit;
+            continue;
+        }
+#endif
+        found.general |= bit;
     }
     return found;
 }
 
-// Adds one evaluation's lights of a block to its sum.
-void shadeFound(inout vec3 sum, Receiver r, uint first, uint found, uint evaluation)
-{
-    for (; found != 0u; found &= found - 1u)
-        sum += evaluateLight(r, evaluation, lightAt(first + findLSB(found)));
-}
+// Adds the lights of a block that are evaluated in one way to their sum.
+#define SHADE_FOUND(sum, r, first, found, evaluate)                                                \
+    for (uint left = found; left != 0u; left &= left - 1u)                                         \
+        sum += evaluate(r, lightAt((first) + findLSB(left)))
 
 #endif

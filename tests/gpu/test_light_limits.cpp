@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws that the shading of spheres must keep, whatever its accuracy: the point limit, reciprocity,
+// nothing from below the horizon, a sun as far as the Sun.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "candelabra_probes.h"
+#include "gpu/lighting_harness.h"
+#include "gpu/probe.h"
+#include "reference/brdf.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+class LightLimits : public ProbeTest
+{
+protected:
+    double uniform(double low, double high)
+    {
+        return low + (high - low) * double(random_()) / 4294967296.0;
+    }
+    glm::dvec3 direction(double cosine)
+    {
+        const double azimuth = uniform(0, 2 * std::numbers::pi);
+        const double sine = std::sqrt(1 - cosine * cosine);
+        return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
+    }
+    std::vector<gpu::ConicProbeOutput> evaluate(const std::vector<gpu::ConicProbeInput>& inputs)
+    {
+        return runProbe<gpu::ConicProbeOutput>(spirv::conic_comp, inputs);
+    }
+
+private:
+    std::mt19937 random_{77};
+};
+
+} // namespace
+
+// A point light of the same intensity shows pi s^2 f NoL; the difference is of order (s / alpha)^2.
+TEST_F(LightLimits, SmallSpheresBecomePoints)
+{
+    for (const double s : {1e-1, 1e-2, 1e-3}) {
+        std::vector<gpu::ConicProbeInput> inputs;
+        std::vector<double> expected;
+        for (int i = 0; i < 20000; ++i) {
+            const glm::dvec3 v = direction(uniform(0.2, 1)), l = direction(uniform(0.2, 1));
+            const double alpha = uniform(0.2, 1);
+            inputs.push_back({glm::vec3(v), glm::vec3(l), float(s), float(alpha)});
+            const double f = reference::ggxBrdf({0, 0, 1}, v, l, alpha).value;
+            expected.push_back(std::numbers::pi * s * s * f * l.z);
+        }
+        const auto outputs = evaluate(inputs);
+        double worst = 0;
+        for (size_t i = 0; i < inputs.size(); ++i)
+            worst = std::max(worst, std::abs(outputs[i].conic.x / expected[i] - 1));
+        std::cout << "s " << s << ": largest relative difference to the point light " << worst
+                  << "\n";
+        EXPECT_LE(worst, 2.5 * std::pow(s / 0.2, 2)); // 0.2: the smallest alpha
+    }
+}
+
+// f(v, l) = f(l, v) for a light so small that it has one direction.
+TEST_F(LightLimits, EyeAndLightAreExchangeable)
+{
+    constexpr double s = 1e-3;
+    std::vector<gpu::ConicProbeInput> inputs;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::vec3 v(direction(uniform(0.1, 1))), l(direction(uniform(0.1, 1)));
+        const float alpha = float(uniform(0.1, 1));
+        inputs.push_back({v, l, float(s), alpha});
+        inputs.push_back({l, v, float(s), alpha});
+    }
+    const auto outputs = evaluate(inputs);
+    double worst = 0;
+    for (size_t i = 0; i < inputs.size(); i += 2) {
+        const double forth = outputs[i].conic.x / inputs[i].toLight.z;
+        const double back = outputs[i + 1].conic.x / inputs[i + 1].toLight.z;
+        worst = std::max(worst, std::abs(forth / back - 1));
+    }
+    std::cout << "largest relative difference after exchanging eye and light " << worst << "\n";
+    EXPECT_LE(worst, 1e-3);
+}
+
+class LightLaws : public LightingTest
+{
+protected:
+    // A plane seen from above, facing the camera.
+    CpuGBuffer plane(uint32_t size, double distance)
+    {
+        CndCamera camera{};
+        setPerspective(camera, 0.8, 1, 0.1);
+        CpuGBuffer g = randomGBuffer(size, size, camera, 0, 1);
+        g.depth.assign(g.depth.size(), depthAt(camera, distance));
+        g.normalRoughness.assign(g.normalRoughness.size(), g.normalRoughness[0]);
+        return g;
+    }
+};
+
+TEST_F(LightLaws, NothingComesFromBelowTheHorizon)
+{
+    const CpuGBuffer g = plane(32, 5);
+    const glm::dvec3 n = storedNormal(g, 0);
+    std::vector<CndLight> lights;
+    for (uint32_t i = 0; i < 30; ++i) {
+        CndLight light{.type = i % 3 == 2 ? uint32_t{CND_LIGHT_DISTANT_SPHERE}
+                                          : uint32_t{CND_LIGHT_SPHERE},
+                       .radius = 0.1f + 0.02f * float(i),
+                       .emission = {1000, 1000, 1000},
+                       .influenceRadius = 1000};
+        // Behind every plane through a surface sample: those are within 5 m of (0, 0, -5).
+        const glm::dvec3 centre = glm::dvec3(0, 0, -5) - n * (5.0 + light.radius + 0.01);
+        for (int k = 0; k < 3; ++k) {
+            light.position[k] = float(centre[k]);
+            light.direction[k] = float(n[k]); // the way it travels
+        }
+        if (light.type == CND_LIGHT_DISTANT_SPHERE)
+            light.radius = 0.9f;
+        lights.push_back(light);
+    }
+    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
+        for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE})
+            for (const glm::vec4& pixel :
+                 run(g, lights, {.specular = CndSpecularMethod(method), .culling = culling})
+                     .radiance)
+                ASSERT_EQ(pixel, glm::vec4(0)) << "method " << method;
+}
+
+// The Sun as a sphere 149.6 million km away and 696,000 km large, and as a distant sphere; then
+// both with camera and scene 1,000 km from the origin.
+TEST_F(LightLaws, SunIsTheSameFromAfar)
+{
+    CpuGBuffer g = randomGBuffer(64, 48, plane(8, 5).camera, 0, 3);
+    constexpr double distance = 149.6e9, radius = 6.96e8;
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(0.3, 0.8, 0.6));
+    CndLight near{.type = CND_LIGHT_SPHERE,
+                  .radius = float(radius),
+                  .emission = {1.6e9f, 1.6e9f, 1.5e9f},
+                  .influenceRadius = std::numeric_limits<float>::infinity()};
+    CndLight sun = near;
+    sun.type = CND_LIGHT_DISTANT_SPHERE;
+    sun.radius = float(radius / distance);
+    for (int k = 0; k < 3; ++k) {
+        near.position[k] = float(towards[k] * distance);
+        sun.direction[k] = float(-towards[k]);
+    }
+    const auto asSphere = run(g, {near}, {.specular = CND_SPECULAR_CONIC}).radiance;
+    const auto asSun = run(g, {sun}, {.specular = CND_SPECULAR_CONIC}).radiance;
+    double worst = 0;
+    for (size_t i = 0; i < asSun.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            if (asSun[i][c] > 0)
+                worst = std::max(worst, std::abs(double(asSphere[i][c]) / double(asSun[i][c]) - 1));
+    std::cout << "Sun at 149.6e9 m: largest relative difference to the distant sphere " << worst
+              << "\n";
+    EXPECT_LE(worst, 1e-3);
+
+    CpuGBuffer far = g;
+    RunOptions options{.specular = CND_SPECULAR_CONIC, .lightOrigin = {1e6, -1e6, 1e6}};
+    for (int k = 0; k < 3; ++k)
+        far.camera.viewFromWorld[12 + k] = -options.lightOrigin[k];
+    const auto sunFar = run(far, {sun}, options).radiance;
+    EXPECT_EQ(maxRelativeDifference(sunFar, asSun), 0);
+}
+
+} // namespace candelabra::test

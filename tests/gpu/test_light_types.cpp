@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every light type with every specular method: clustered against brute force, and against the truth
+// integrated in double.
+#include "gpu/lighting_harness.h"
+
+#include <cmath>
+#include <limits>
+
+#include "reference/light.h"
+#include "reference/truth.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+constexpr CndLightType allTypes[] = {
+    CND_LIGHT_POINT, CND_LIGHT_SPHERE,         CND_LIGHT_SPOT,      CND_LIGHT_DIRECTIONAL,
+    CND_LIGHT_TUBE,  CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC};
+const char* const names[] = {"point",          "sphere", "spot",      "directional",
+                             "distant sphere", "tube",   "rectangle", "disc"};
+
+CndCamera camera()
+{
+    CndCamera out;
+    setPerspective(out, 1.0, 1.5, 0.1);
+    return out;
+}
+
+// Random spheres turned into another type, some uncut, some two-sided.
+std::vector<CndLight> lightsOf(CndLightType type, const CpuGBuffer& g, uint32_t count,
+                               uint32_t seed)
+{
+    std::vector<CndLight> lights = randomSpheres(g, count, seed);
+    for (uint32_t i = 0; i < count; ++i) {
+        CndLight& light = lights[i];
+        light.type = type;
+        const double angle = 2.4 * (i + seed); // the golden angle, about
+        const glm::dvec3 d(0.8 * std::cos(angle), 0.8 * std::sin(angle), -0.6);
+        const glm::dvec3 u = glm::normalize(glm::cross(d, glm::dvec3(0.3, 1, 0.2)));
+        const glm::dvec3 v = glm::cross(d, u);
+        for (int k = 0; k < 3; ++k) {
+            light.direction[k] = float(d[k]);
+            light.axisU[k] = float(u[k] * 2.5 * light.radius);
+            light.axisV[k] = float(v[k] * light.radius);
+        }
+        light.innerConeAngle = 0.2f;
+        light.outerConeAngle = 0.9f;
+        light.twoSided = i % 3 == 0;
+        light.influenceRadius += 3 * light.radius;
+        if (i % 5 == 0)
+            light.influenceRadius = std::numeric_limits<float>::infinity();
+        if (type == CND_LIGHT_DISTANT_SPHERE)
+            light.radius = i % 2 ? 0.00465f : 0.3f;
+    }
+    return lights;
+}
+
+// Of unit luminance reflected: mean and largest |image - truth|, over the mean and largest truth.
+struct Errors {
+    double mean = 0, max = 0;
+};
+
+} // namespace
+
+class LightTypes : public LightingTest
+{
+protected:
+    glm::dvec3 truthAt(const CpuGBuffer& g, size_t pixel, const std::vector<CndLight>& lights,
+                       CndSpecularMethod method)
+    {
+        const glm::dvec3 position =
+            viewPosition(g, uint32_t(pixel % g.width), uint32_t(pixel / g.width));
+        const glm::vec4 specular = storedHalf4(g.specular[pixel]);
+        const double roughness = storedRoughness(g, pixel);
+        const bool hasSpecular = method != CND_SPECULAR_NONE;
+        const reference::Material material{.diffuseAlbedo = storedHalf4(g.albedo[pixel]),
+                                           .f0 = hasSpecular ? glm::dvec3(specular) : glm::dvec3(0),
+                                           .specularWeight = hasSpecular ? specular.w : 0,
+                                           .alpha = roughness * roughness};
+        const reference::SurfacePoint surface{position, storedNormal(g, pixel),
+                                              glm::normalize(-position)};
+        glm::dvec3 sum(0);
+        for (const CndLight& light : lights) {
+            const bool punctual = light.type == CND_LIGHT_POINT || light.type == CND_LIGHT_SPOT ||
+                                  light.type == CND_LIGHT_DIRECTIONAL;
+            sum += punctual
+                       ? reference::outgoingLuminance(surface, material, light, glm::dvec3(0),
+                                                      CND_SPECULAR_KARIS)
+                       : reference::truthLuminance(surface, material, light, glm::dvec3(0), 1e-4)
+                             .luminance;
+        }
+        return sum;
+    }
+
+    Errors errorsOf(const CpuGBuffer& g, const std::vector<CndLight>& lights,
+                    const RunOptions& options)
+    {
+        const LightingResult image = run(g, lights, options);
+        double sum = 0, sumTruth = 0, peak = 0, worst = 0;
+        for (size_t i = 0; i < g.depth.size(); ++i) {
+            if (g.depth[i] == g.clearDepth)
+                continue;
+            const glm::dvec3 truth = truthAt(g, i, lights, options.specular);
+            for (int c = 0; c < 3; ++c) {
+                const double error = std::abs(image.radiance[i][c] - truth[c]);
+                EXPECT_TRUE(std::isfinite(image.radiance[i][c]) && image.radiance[i][c] >= 0);
+                sum += error;
+                sumTruth += truth[c];
+                worst = std::max(worst, error);
+                peak = std::max(peak, truth[c]);
+            }
+        }
+        EXPECT_GT(sumTruth, 0);
+        return {sum / sumTruth, worst / peak};
+    }
+};
+
+TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
+{
+    const CpuGBuffer g = randomGBuffer(72, 48, camera(), 0, 5);
+    for (const CndLightType type : allTypes) {
+        const auto lights = lightsOf(type, g, 40, 9);
+        const bool sphere = type == CND_LIGHT_SPHERE || type == CND_LIGHT_DISTANT_SPHERE;
+        for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method) {
+            // The other types have fewer methods behind the same names.
+            const bool stands = method == CND_SPECULAR_KX || method == CND_SPECULAR_POINT ||
+                                method == CND_SPECULAR_LTC || method == CND_SPECULAR_CONIC_FULL;
+            if (stands && !sphere)
+                continue;
+            RunOptions options{.specular = CndSpecularMethod(method), .sampleCount = 4};
+            const LightingResult clustered = run(g, lights, options);
+            options.culling = CND_CULLING_BRUTE;
+            const LightingResult brute = run(g, lights, options);
+            EXPECT_EQ(maxRelativeDifference(clustered.radiance, brute.radiance), 0)
+                << names[type] << ", method " << method;
+        }
+    }
+}
+
+// All types in one set, in an order that sorting has to change.
+TEST_F(LightTypes, TypesMixInOneSet)
+{
+    const CpuGBuffer g = randomGBuffer(72, 48, camera(), 0, 6);
+    std::vector<CndLight> mixed;
+    std::vector<glm::vec4> sum(g.depth.size(), glm::vec4(0));
+    for (const CndLightType type : allTypes) {
+        const auto lights = lightsOf(type, g, 20, 4 + type);
+        const auto image = run(g, lights, {.specular = CND_SPECULAR_CONIC}).radiance;
+        for (size_t i = 0; i < sum.size(); ++i)
+            sum[i] += image[i];
+        mixed.insert(mixed.end(), lights.begin(), lights.end());
+    }
+    std::vector<CndLight> interleaved;
+    for (uint32_t i = 0; i < 20; ++i)
+        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+            interleaved.push_back(mixed[type * 20 + i]);
+    const auto image = run(g, interleaved, {.specular = CND_SPECULAR_CONIC}).radiance;
+    EXPECT_LE(maxRelativeDifference(image, sum), 1e-6);
+}
+
+// Diffuse alone is in closed form for every type; tubes have arcs of six edges.
+TEST_F(LightTypes, DiffuseEqualsTruth)
+{
+    const CpuGBuffer g = randomGBuffer(48, 32, camera(), 0, 7);
+    for (const CndLightType type : allTypes) {
+        const Errors e = errorsOf(g, lightsOf(type, g, 8, 2), {.specular = CND_SPECULAR_NONE});
+        std::cout << names[type] << ": diffuse error mean " << e.mean << ", largest over peak "
+                  << e.max << "\n";
+        EXPECT_LE(e.mean, type == CND_LIGHT_TUBE ? 1e-3 : 3e-5) << names[type];
+        EXPECT_LE(e.max, type == CND_LIGHT_TUBE ? 3e-3 : 1e-4) << names[type];
+    }
+}
+
+// Of the whole image: roughness 0.1 to 1, grazing normals, lights across the horizon.
+TEST_F(LightTypes, DefaultMethodIsCloseToTruth)
+{
+    const CpuGBuffer g = randomGBuffer(36, 24, camera(), 0, 8);
+    for (const CndLightType type : allTypes) {
+        const auto lights = lightsOf(type, g, 6, 3);
+        const Errors conic = errorsOf(g, lights, {.specular = CND_SPECULAR_CONIC});
+        const Errors sampled =
+            errorsOf(g, lights, {.specular = CND_SPECULAR_SAMPLED, .sampleCount = 1024});
+        std::cout << names[type] << ": default method, error mean " << conic.mean
+                  << ", largest over peak " << conic.max << "; 1024 samples " << sampled.mean
+                  << ", " << sampled.max << "\n";
+        const bool area =
+            type == CND_LIGHT_TUBE || type == CND_LIGHT_RECTANGLE || type == CND_LIGHT_DISC;
+        EXPECT_LE(conic.mean, area ? 0.03 : 1e-3) << names[type];
+        EXPECT_LE(sampled.mean, 0.02) << names[type];
+    }
+}
+
+} // namespace candelabra::test
