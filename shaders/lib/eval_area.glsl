@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Responses to tubes, rectangles and discs of unit luminance. Part of lib/light_eval.glsl.
+
+#if HAS_FAMILY(FAMILY_TUBE)
+vec3 evaluateTube(Receiver r, Light light)
+{
+    const vec4 axisRadius = lightAux[light.index * LIGHT_AUX_STRIDE];
+    const vec3 axis = axisRadius.xyz;
+    const float radius = axisRadius.w;
+    const TubeOutline outline = makeTubeOutline(light.toLight, axis, radius);
+    vec3 response = r.p.albedo * tubeFormFactor(r.p.n, outline);
+    if (specularMethod == SPECULAR_KARIS)
+        response += schlick(r.p, representativeTube(r.p, light.toLight, axis, radius));
+    else if (specularMethod == SPECULAR_LTC)
+        response += schlick(r.p, ltcTube(r.ltc, outline));
+    else if (specularMethod == SPECULAR_SAMPLED)
+        response += schlick(r.p, sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
+                                             lightSeed(r, light.index)));
+    return response;
+}
+
+#endif
+
+#if HAS_FAMILY(FAMILY_RECTANGLE)
+vec3 evaluateRectangle(Receiver r, Light light)
+{
+    const vec3 u = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
+    const vec4 second = lightAux[light.index * LIGHT_AUX_STRIDE + 1u];
+    const vec3 v = second.xyz;
+    const bool twoSided = second.w != 0.0;
+    vec3 response = r.p.albedo * rectangleFormFactor(r.p.n, light.toLight, u, v, twoSided);
+    if (specularMethod == SPECULAR_KARIS)
+        response += schlick(r.p, representativeRectangle(r.p, light.toLight, u, v, twoSided));
+    else if (specularMethod == SPECULAR_LTC)
+        response += schlick(r.p, ltcRectangle(r.ltc, light.toLight, u, v, twoSided));
+    else if (specularMethod == SPECULAR_SAMPLED)
+        response += schlick(r.p, sampledRectangle(r.p, light.toLight, u, v, twoSided, r.sampleCount,
+                                                  lightSeed(r, light.index)));
+    return response;
+}
+
+#endif
+
+#if HAS_FAMILY(FAMILY_DISC)
+vec3 evaluateDisc(Receiver r, Light light)
+{
+    const vec3 normal = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
+    const bool twoSided = lightAux[light.index * LIGHT_AUX_STRIDE + 1u].w != 0.0;
+    vec3 response = r.p.albedo * discFormFactor(r.p.n, light.toLight, normal, light.reach, twoSided);
+    if (specularMethod == SPECULAR_KARIS)
+        response += schlick(r.p, representativeDisc(r.p, light.toLight, normal, light.reach, twoSided));
+    else if (specularMethod == SPECULAR_LTC)
+        response += schlick(r.p, ltcDisc(r.ltc, light.toLight, normal, light.reach, twoSided));
+    else if (specularMethod == SPECULAR_SAMPLED)
+        response += schlick(r.p, sampledDisc(r.p, light.toLight, normal, light.reach, twoSided,
+                                             r.sampleCount, lightSeed(r, light.index)));
+    return response;
+}
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Responses to lights without size. Part of lib/light_eval.glsl.
+
+#if HAS_FAMILY(FAMILY_PUNCTUAL)
+// Response to unit illuminance on a surface that faces the light, from the unit direction l.
+vec3 evaluatePunctual(ShadingPoint p, vec3 l)
+{
+    vec3 response = p.albedo * (INV_PI * max(dot(p.n, l), 0.0));
+    if (specularMethod != SPECULAR_NONE)
+        response += schlick(p, specularResponse(p, l));
+    return response;
+}
+
+// Response to unit intensity (point: the same everywhere; spot: on its axis).
+vec3 evaluateIntensity(ShadingPoint p, Light light)
+{
+    const float d2 = max(length2(light.toLight), MIN_LENGTH2);
+    const vec3 l = light.toLight * inversesqrt(d2);
+    float illuminance = 1.0 / d2;
+    if (lightType == LIGHT_SPOT) {
+        // KHR_lights_punctual, "Inner and Outer Cone Angles".
+        const vec3 axis = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
+        const vec2 cone = lightAux[light.index * LIGHT_AUX_STRIDE + 1u].xy;
+        const float t = saturate(dot(-l, axis) * cone.x + cone.y);
+        illuminance *= t * t;
+    }
+    return illuminance * evaluatePunctual(p, l);
+}
+#endif
