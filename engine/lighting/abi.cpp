@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C ABI of the lighting module, the device contract and the unit conversions.
+// The C ABI of the lighting module and the device contract.
 #include <cstdio>
-#include <numbers>
 #include <string>
 
 #include "lighting/lighting.h"
@@ -46,22 +45,6 @@ void cndRequireFeatures(VkPhysicalDeviceFeatures* core10, VkPhysicalDeviceVulkan
 uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits)
 {
     return lighting::maxLights(*limits);
-}
-
-float cndSphereLuminanceFromPower(float luminousPower, float radius)
-{
-    constexpr float pi = std::numbers::pi_v<float>;
-    return luminousPower / (4 * pi * pi * radius * radius);
-}
-
-float cndSphereLuminanceFromIntensity(float intensity, float radius)
-{
-    return intensity / (std::numbers::pi_v<float> * radius * radius);
-}
-
-float cndLuminousPowerFromWatts(float watts)
-{
-    return 683 * watts;
 }
 
 CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLightingDesc* desc,

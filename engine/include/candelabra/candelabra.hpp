@@ -62,6 +62,17 @@ Result<void> call(Function function, Arguments... arguments) noexcept
     return error;
 }
 
+// The same for a function that writes a light before its error.
+template <typename Function, typename... Arguments>
+Result<CndLight> convert(Function function, Arguments... arguments) noexcept
+{
+    CndLight light{};
+    CndError error{};
+    if (function(arguments..., &light, &error) != CND_SUCCESS)
+        return error;
+    return light;
+}
+
 // Move-only owner of one ABI object.
 template <typename H, void (*destroy)(H)>
 class Owner
@@ -179,6 +190,36 @@ public:
         return stats;
     }
 };
+
+// One kind of light as another with the same irradiance at a receiver; 0 lets the library choose.
+
+inline Result<CndLight> sphereFromPoint(const CndLight& point, const float (&at)[3],
+                                        float radius = 0) noexcept
+{
+    return detail::convert(cndSphereFromPoint, &point, radius, at);
+}
+inline Result<CndLight> pointFromSphere(const CndLight& sphere) noexcept
+{
+    return detail::convert(cndPointFromSphere, &sphere);
+}
+inline Result<CndLight> distantSphereFromDirectional(const CndLight& directional,
+                                                     float sine = 0) noexcept
+{
+    return detail::convert(cndDistantSphereFromDirectional, &directional, sine);
+}
+inline Result<CndLight> directionalFromDistantSphere(const CndLight& distantSphere) noexcept
+{
+    return detail::convert(cndDirectionalFromDistantSphere, &distantSphere);
+}
+inline Result<CndLight> sphereFromDirectional(const CndLight& directional, const float (&at)[3],
+                                              float distance = 0, float sine = 0) noexcept
+{
+    return detail::convert(cndSphereFromDirectional, &directional, at, distance, sine);
+}
+inline Result<CndLight> directionalFromSphere(const CndLight& sphere, const float (&at)[3]) noexcept
+{
+    return detail::convert(cndDirectionalFromSphere, &sphere, at);
+}
 
 inline CndExposureSettings defaultExposureSettings() noexcept
 {
