@@ -5,22 +5,51 @@
 #include <cstring>
 #include <string>
 
+#include <glm/geometric.hpp>
+
 namespace candelabra::gbuffer
 {
 namespace
 {
 
+bool isFinite(const float (&v)[3])
+{
+    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+glm::vec3 vec(const float (&v)[3])
+{
+    return {v[0], v[1], v[2]};
+}
+
 gpu::EmitterRecord recordOf(const CndLight& light, size_t index)
 {
-    const auto& p = light.position;
-    const auto& e = light.emission;
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]) ||
-        !std::isfinite(e[0]) || !std::isfinite(e[1]) || !std::isfinite(e[2]))
-        gpu::failArgument("emitter " + std::to_string(index) +
-                          " has a position or emission that is not finite");
-    if (!(light.radius > 0) || !std::isfinite(light.radius))
-        gpu::failArgument("emitter " + std::to_string(index) + " has a radius that is not above 0");
-    return {{p[0], p[1], p[2]}, light.radius, {e[0], e[1], e[2]}};
+    const auto require = [&](bool condition, const char* otherwise) {
+        if (!condition)
+            gpu::failArgument("emitter " + std::to_string(index) + " has " + otherwise);
+    };
+    const bool distant = light.type == CND_LIGHT_DISTANT_SPHERE;
+    const bool rectangle = light.type == CND_LIGHT_RECTANGLE;
+    require((distant || isFinite(light.position)) && isFinite(light.emission),
+            "a position or emission that is not finite");
+    require(rectangle || (light.radius > 0 && std::isfinite(light.radius)),
+            "a radius that is not above 0");
+    const auto isLong = [](const float(&v)[3]) { return isFinite(v) && glm::length(vec(v)) > 0; };
+    gpu::EmitterRecord record{
+        .position = vec(light.position), .radius = light.radius, .luminance = vec(light.emission)};
+    if (light.type == CND_LIGHT_TUBE || rectangle) {
+        require(isLong(light.axisU) && (!rectangle || isLong(light.axisV)),
+                "an axis without length");
+        record.axisU = vec(light.axisU);
+        record.axisV = vec(light.axisV);
+    }
+    if (distant || light.type == CND_LIGHT_DISC) {
+        require(isLong(light.direction), "a direction without length");
+        const glm::vec3 direction = glm::normalize(vec(light.direction));
+        (distant ? record.position : record.axisU) = distant ? -direction : direction;
+    }
+    record.twoSided = light.twoSided ? 1.f : 0.f;
+    return record;
 }
 
 } // namespace
@@ -29,9 +58,14 @@ void Emitters::set(std::span<const CndLight> lights, const double origin[3])
 {
     std::vector<gpu::EmitterRecord> records;
     records.reserve(lights.size());
-    for (size_t i = 0; i < lights.size(); ++i)
-        if (lights[i].type == CND_LIGHT_SPHERE)
-            records.push_back(recordOf(lights[i], i));
+    std::array<Group, shapes.size()> groups{};
+    for (size_t shape = 0; shape < shapes.size(); ++shape) {
+        groups[shape].first = uint32_t(records.size());
+        for (size_t i = 0; i < lights.size(); ++i)
+            if (lights[i].type == shapes[shape])
+                records.push_back(recordOf(lights[i], i));
+        groups[shape].count = uint32_t(records.size()) - groups[shape].first;
+    }
 
     const VkDeviceSize bytes = records.size() * sizeof(gpu::EmitterRecord);
     std::vector<gpu::Buffer> larger(slots_.size());
@@ -44,6 +78,7 @@ void Emitters::set(std::span<const CndLight> lights, const double origin[3])
         if (larger[s].mapped)
             slots_[s].larger = std::move(larger[s]);
     records_ = std::move(records);
+    groups_ = groups;
     origin_ = {origin[0], origin[1], origin[2]};
     ++version_;
 }

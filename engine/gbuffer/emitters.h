@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visible sphere lights, copied into one upload buffer per frame slot when they changed.
+// The visible area lights, copied into one upload buffer per frame slot when they changed.
 #pragma once
 
 #include <array>
@@ -19,13 +19,23 @@ class Emitters
 public:
     Emitters(const gpu::Device& device, uint32_t slots) : device_(&device), slots_(slots) {}
 
-    // Keeps the sphere lights. Throws gpu::Failure; then the previous set stays.
+    // Keeps the area lights. Throws gpu::Failure; then the previous set stays.
     void set(std::span<const CndLight> lights, const double origin[3]);
 
     // The buffer of `slot` with the latest set; the GPU must have finished the slot's last frame.
     const gpu::Buffer& update(uint32_t slot) noexcept;
 
-    uint32_t count() const { return uint32_t(records_.size()); }
+    // Lights of one shape, neighbours in the buffer.
+    struct Group {
+        uint32_t first = 0, count = 0;
+    };
+    // By shape: shapes[i] is the type of group i. Distant ones come last: they are drawn where
+    // nothing else is.
+    static constexpr std::array<CndLightType, 5> shapes{CND_LIGHT_SPHERE, CND_LIGHT_TUBE,
+                                                        CND_LIGHT_RECTANGLE, CND_LIGHT_DISC,
+                                                        CND_LIGHT_DISTANT_SPHERE};
+    const std::array<Group, shapes.size()>& groups() const { return groups_; }
+    bool empty() const { return records_.empty(); }
     const std::array<double, 3>& origin() const { return origin_; } // world
 
 private:
@@ -37,6 +47,7 @@ private:
     const gpu::Device* device_;
     std::vector<Slot> slots_;
     std::vector<gpu::EmitterRecord> records_;
+    std::array<Group, shapes.size()> groups_{};
     std::array<double, 3> origin_{};
     uint64_t version_ = 0;
 };

@@ -230,11 +230,18 @@ void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records
                                  uint32_t slot) const noexcept
 {
     bindRays(cmd, pipelines.emitterLayout.get(), slot);
-    device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.emitter.get());
     const VkBuffer buffer = records.get();
     const VkDeviceSize offset = 0;
     device.CmdBindVertexBuffers(cmd, 0, 1, &buffer, &offset);
-    device.CmdDraw(cmd, 4, emitters.count(), 0, 0); // a quad each, triangle strip
+    for (size_t i = 0; i < Emitters::shapes.size(); ++i) {
+        const Emitters::Group& group = emitters.groups()[i];
+        if (!group.count)
+            continue;
+        if (Emitters::shapes[i] == CND_LIGHT_DISTANT_SPHERE)
+            device.CmdSetDepthCompareOp(cmd, VK_COMPARE_OP_EQUAL); // where depth is clear
+        device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.emitters[i].get());
+        device.CmdDraw(cmd, 4, group.count, 0, group.first); // a quad each, triangle strip
+    }
 }
 
 GBuffer::GBuffer(const gpu::Device& device, const GBufferDesc& desc)
@@ -274,7 +281,7 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
         s.drawMeshes(cmd, g, camera);
     if (in.drawAnalytic && !g.analyticObjects.empty())
         s.drawAnalytic(cmd, g, camera, in.slot);
-    if (in.drawEmitters && s.emitters.count())
+    if (in.drawEmitters && !s.emitters.empty())
         s.drawEmitters(cmd, emitters, in.slot);
     s.device.CmdEndRendering(cmd);
     handToCompute(s.device, cmd, in.attachments);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // GBuffer: the default raster pass. Culls and draws a Geometry, exact planes and balls, and visible
-// sphere lights into the G-buffer that the lighting module reads.
+// area lights into the G-buffer that the lighting module reads.
 #pragma once
 
 #include <cstdint>
@@ -44,9 +44,11 @@ public:
     GBuffer(GBuffer&&) noexcept;
     GBuffer& operator=(GBuffer&&) noexcept;
 
-    // Sphere lights to show, others are skipped; positions are relative to `origin`. Takes effect
-    // at the next recording; read before the call returns. May allocate when the count grows;
-    // throws gpu::Failure, and then the previous set stays.
+    // Area lights to show, punctual ones are skipped; positions are relative to `origin`. The dark
+    // back of a one-sided light is not drawn; distant spheres are drawn where there is no surface,
+    // of several in one direction the last. Takes effect at the next recording; read before the
+    // call returns. May allocate when the count grows; throws gpu::Failure, and then the previous
+    // set stays.
     void setEmitters(std::span<const CndLight> lights, const double origin[3]);
 
     // Records one frame. On entry the attachments may be in any state: their contents are

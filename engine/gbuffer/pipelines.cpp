@@ -159,10 +159,13 @@ constexpr VkVertexInputAttributeDescription meshAttributes[] = {
 constexpr VkVertexInputBindingDescription emitterStreams[] = {
     {0, sizeof(gpu::EmitterRecord), VK_VERTEX_INPUT_RATE_INSTANCE}};
 constexpr VkVertexInputAttributeDescription emitterAttributes[] = {
-    {gpu::EMITTER_SPHERE, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
+    {gpu::EMITTER_POSITION, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
      offsetof(gpu::EmitterRecord, position)}, // with the radius that follows it
     {gpu::EMITTER_LUMINANCE, 0, VK_FORMAT_R32G32B32_SFLOAT,
-     offsetof(gpu::EmitterRecord, luminance)}};
+     offsetof(gpu::EmitterRecord, luminance)},
+    {gpu::EMITTER_AXIS_U, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::EmitterRecord, axisU)},
+    {gpu::EMITTER_AXIS_V, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
+     offsetof(gpu::EmitterRecord, axisV)}}; // with twoSided
 
 } // namespace
 
@@ -211,11 +214,14 @@ Pipelines::Pipelines(const gpu::Device& device, CndGBufferLayout layout)
     createAnalytic(gpu::ANALYTIC_PLANE, "analytic plane");
     createAnalytic(gpu::ANALYTIC_BALL, "analytic ball");
 
-    const std::array constants{layoutConstant};
-    emitter = createPipeline(device, layout,
-                             {"emitter", spirv::emitter_vert, spirv::emitter_frag, constants,
-                              emitterStreams, emitterAttributes,
-                              VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP, emitterLayout.get()});
+    for (size_t i = 0; i < emitters.size(); ++i) {
+        const std::array constants{
+            layoutConstant, gpu::SpecConstant{gpu::RASTER_SHAPE, uint32_t(Emitters::shapes[i])}};
+        emitters[i] = createPipeline(device, layout,
+                                     {"emitter", spirv::emitter_vert, spirv::emitter_frag,
+                                      constants, emitterStreams, emitterAttributes,
+                                      VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP, emitterLayout.get()});
+    }
 }
 
 } // namespace candelabra::gbuffer

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "gbuffer/batches.h"
+#include "gbuffer/emitters.h"
 #include "gpu/kernel.h"
 
 namespace candelabra::gbuffer
@@ -17,8 +18,8 @@ struct Pipelines {
     gpu::Handle<VkDescriptorSetLayout> meshSet, raySet;
     gpu::Handle<VkPipelineLayout> meshLayout, analyticLayout, emitterLayout;
     std::array<gpu::Handle<VkPipeline>, size_t(Variant::Count)> mesh;
-    std::array<gpu::Handle<VkPipeline>, 2> analytic; // by ANALYTIC_*
-    gpu::Handle<VkPipeline> emitter;
+    std::array<gpu::Handle<VkPipeline>, 2> analytic;                       // by ANALYTIC_*
+    std::array<gpu::Handle<VkPipeline>, Emitters::shapes.size()> emitters; // as Emitters::shapes
 };
 
 // Vertex buffer bindings of the mesh pipelines; the emitter pipeline has binding 0 alone.

@@ -1,30 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
-// A visible sphere light, ray-cast at the pixel centre. In perspective the near plane does not cut
+// A visible area light, ray-cast at the pixel centre. In perspective the near plane does not cut
 // lights: one that holds the camera, or is very close, has its luminance along every ray that meets it.
+// Distant spheres lie behind everything: they are drawn where depth is clear, and leave it so.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "gbuffer/emitter_shapes.glsl"
 #include "gbuffer/output.glsl"
 #include "gbuffer/rays.glsl"
 
-layout(location = 0) flat in vec4 inSphere; // view space
+layout(constant_id = RASTER_SHAPE) const uint shape = LIGHT_SPHERE;
+
+layout(location = 0) flat in vec4 inCenter; // view space, with the radius; distant: direction, sine
 layout(location = 1) flat in vec3 inLuminance;
+layout(location = 2) flat in vec3 inAxisU; // view space
+layout(location = 3) flat in vec4 inAxisV; // view space, and whether it is two-sided
+
+EmitterHit intersectEmitter(Ray ray)
+{
+    const vec3 center = inCenter.xyz;
+    const bool twoSided = inAxisV.w > 0.5;
+    if (shape == LIGHT_TUBE)
+        return intersectTube(ray, center, inAxisU, inCenter.w);
+    if (shape == LIGHT_RECTANGLE)
+        return intersectRectangle(ray, center, inAxisU, inAxisV.xyz, twoSided);
+    if (shape == LIGHT_DISC)
+        return intersectDisc(ray, center, inAxisU, inCenter.w, twoSided);
+    return intersectBall(ray, center, inCenter.w);
+}
 
 void main()
 {
     const Ray ray = pixelRay(pixelNdc(gl_FragCoord.xy));
-    const float distanceToCenter = length(inSphere.xyz - frame.rayOrigin[0]); // of the eye
-    const float power = (distanceToCenter - inSphere.w) * (distanceToCenter + inSphere.w);
-    const SphereHit sphere = intersectSphere(ray, inSphere.xyz, inSphere.w, power);
-    const bool perspective = frame.perspective > 0.5;
-    const bool inside = perspective && sphere.near <= 0.0;
-    const float farDepth = depthOf(ray.origin + sphere.far * ray.direction);
-    float depth = inside ? farDepth : depthOf(ray.origin + sphere.near * ray.direction);
     const bool reversed = frame.nearDepth > 0.5;
+    if (shape == LIGHT_DISTANT_SPHERE) {
+        const bool inDisc = length(cross(ray.direction, inCenter.xyz)) <= inCenter.w;
+        if (!(inDisc && dot(ray.direction, inCenter.xyz) > 0.0))
+            discard;
+        gl_FragDepth = reversed ? 0.0 : 1.0;
+        writeEmitter(-inCenter.xyz, inLuminance);
+        return;
+    }
+    const EmitterHit hit = intersectEmitter(ray);
+    const bool perspective = frame.perspective > 0.5;
+    const bool inside = perspective && hit.near <= 0.0;
+    const float farDepth = depthOf(ray.origin + hit.far * ray.direction);
+    float depth = inside ? farDepth : depthOf(ray.origin + hit.near * ray.direction);
     depth = reversed ? min(depth, 1.0) : max(depth, 0.0);
-    const bool inFront = perspective ? sphere.far > 0.0
+    const bool inFront = perspective ? hit.far > 0.0
                                      : (reversed ? farDepth <= 1.0 : farDepth >= 0.0);
-    if (!(sphere.hit && inFront && depth >= 0.0 && depth <= 1.0))
+    if (!(hit.hit && inFront && depth >= 0.0 && depth <= 1.0))
         discard;
     gl_FragDepth = depth;
-    writeEmitter(sphere.normal, inLuminance);
+    writeEmitter(hit.normal, inLuminance);
 }

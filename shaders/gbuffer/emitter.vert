@@ -1,30 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// A quad per sphere light that covers its projection: perpendicular to the line of sight, as large as
-// the tangent cone, at unit distance (only directions matter). Seen from inside or from very close it
-// is the whole screen.
+// A quad per visible area light that covers its projection: perpendicular to the line of sight to the
+// sphere around it, as large as the tangent cone, at unit distance (only directions matter). Seen from
+// inside that sphere or from very close it is the whole screen.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gbuffer/rays.glsl"
 
-layout(location = EMITTER_SPHERE) in vec4 sphere; // relative to the light set's origin
-layout(location = EMITTER_LUMINANCE) in vec3 luminance;
+layout(constant_id = RASTER_SHAPE) const uint shape = LIGHT_SPHERE;
 
-layout(location = 0) flat out vec4 outSphere; // view space
+layout(location = EMITTER_POSITION) in vec4 positionAndRadius;
+layout(location = EMITTER_LUMINANCE) in vec3 luminance;
+layout(location = EMITTER_AXIS_U) in vec3 axisU;
+layout(location = EMITTER_AXIS_V) in vec4 axisVAndTwoSided;
+
+layout(location = 0) flat out vec4 outCenter; // view space, with the radius; distant: direction, sine
 layout(location = 1) flat out vec3 outLuminance;
+layout(location = 2) flat out vec3 outAxisU; // view space
+layout(location = 3) flat out vec4 outAxisV; // view space, and whether it is two-sided
 
 // Angular rounding of the quad and of pixel rays, with a margin of about 50.
 const float MARGIN = 1e-5;
 
+// From the centre to the farthest point of the light.
+float reachOf()
+{
+    if (shape == LIGHT_TUBE)
+        return length(axisU) + positionAndRadius.w;
+    if (shape == LIGHT_RECTANGLE) // a diagonal, of which there are two when the sides are not square
+        return max(length(axisU + axisVAndTwoSided.xyz), length(axisU - axisVAndTwoSided.xyz));
+    return positionAndRadius.w;
+}
+
 void main()
 {
-    const vec3 center = frame.emitterOrigin + frame.viewFromWorld * sphere.xyz;
-    const float radius = sphere.w;
-    outSphere = vec4(center, radius);
+    const bool distant = shape == LIGHT_DISTANT_SPHERE;
+    const bool perspective = frame.perspective > 0.5;
+    const vec3 rotated = frame.viewFromWorld * positionAndRadius.xyz;
+    const vec3 center = distant ? rotated : frame.emitterOrigin + rotated;
+    outCenter = vec4(center, positionAndRadius.w);
     outLuminance = luminance;
+    outAxisU = frame.viewFromWorld * axisU;
+    outAxisV = vec4(frame.viewFromWorld * axisVAndTwoSided.xyz, axisVAndTwoSided.w);
 
     const vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 2.0 - 1.0;
-    const bool perspective = frame.perspective > 0.5;
-    const vec3 toCenter = center - frame.rayOrigin[0]; // from the eye
+    const float radius = reachOf();
+    const vec3 toCenter = distant ? center : center - frame.rayOrigin[0]; // from the eye
     const float distanceToCenter = length(toCenter);
     const float sinCone = radius / distanceToCenter;
     const vec3 axis = perspective ? toCenter / distanceToCenter : frame.forward;
@@ -41,7 +61,8 @@ void main()
     const vec3 positionView =
         (perspective ? frame.rayOrigin[0] + axis : center) + reach * (corner.x * u + corner.y * v);
     gl_Position = frame.clipFromView * vec4(positionView, 1.0);
-    if (perspective && !(sinCone < 0.99)) // tan(cone) = 7: larger quads lose precision
+    // tan(cone) = 7: larger quads lose precision. Parallel rays all look at one point of the sky.
+    if (perspective ? !(sinCone < 0.99) : distant)
         gl_Position = vec4(corner, 0.0, 1.0);
     // Depth is written per pixel. This one is never clipped by near or far, but keeps w away from 0.
     gl_Position.z = gl_Position.w - 1e-3;

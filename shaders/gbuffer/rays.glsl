@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays through pixel centres in view space, and the depth of what they hit.
+#ifndef CND_GBUFFER_RAYS
+#define CND_GBUFFER_RAYS
+
 #include "shared/raster.h"
 
 layout(scalar, binding = RAY_FRAME) uniform Frame
@@ -62,3 +65,5 @@ SphereHit intersectSphere(Ray ray, vec3 center, float radius, float power)
     s.normal = normalize(-across - halfChord * ray.direction);
     return s;
 }
+
+#endif

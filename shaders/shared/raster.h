@@ -4,6 +4,7 @@
 #define CND_SHARED_RASTER_H
 
 #include "shared/gbuffer.h"
+#include "shared/light_types.h"
 
 GPU_BEGIN
 
@@ -126,7 +127,7 @@ struct MeshParams {
 };
 GPU_SIZE(MeshParams, 124)
 
-// --- Ray-cast surfaces: analytic planes and balls, visible sphere lights
+// --- Ray-cast surfaces: analytic planes and balls, visible area lights
 
 struct RasterFrame {
     mat4 clipFromView;
@@ -161,20 +162,26 @@ struct AnalyticParams {
 };
 GPU_SIZE(AnalyticParams, 96)
 
-const uint EMITTER_SPHERE = 0u; // vertex attribute locations
+const uint EMITTER_POSITION = 0u; // vertex attribute locations
 const uint EMITTER_LUMINANCE = 1u;
+const uint EMITTER_AXIS_U = 2u;
+const uint EMITTER_AXIS_V = 3u;
+// A visible area light; axes and directions are in world space.
 struct EmitterRecord {
-    vec3 position;  // relative to the light set's origin, m
-    float radius;   // m
+    vec3 position;  // centre, relative to the light set's origin, m; distant sphere: unit vector to it
+    float radius;   // m; distant sphere: sine of the angular radius
     vec3 luminance; // cd/m^2
+    vec3 axisU;     // tube: half of its segment, m; rectangle: half a side, m; disc: unit normal
+    vec3 axisV;     // rectangle: half the other side, m
+    float twoSided; // rectangle, disc: 1 when the back is seen as well
 };
-GPU_SIZE(EmitterRecord, 28)
+GPU_SIZE(EmitterRecord, 56)
 
 // --- Specialisation constants
 const uint RASTER_LAYOUT = 0u;   // CndGBufferLayout
 const uint RASTER_DETAILED = 1u; // meshes: textures, tangents and vertex colours
 const uint RASTER_MASKED = 2u;   // meshes: alpha mask
-const uint RASTER_SHAPE = 1u;    // analytic: ANALYTIC_*
+const uint RASTER_SHAPE = 1u;    // analytic: ANALYTIC_*; emitters: LIGHT_*
 
 GPU_END
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays against the shapes of area lights, view space.
+#ifndef CND_GBUFFER_EMITTER_SHAPES
+#define CND_GBUFFER_EMITTER_SHAPES
+
+#include "gbuffer/rays.glsl"
+
+struct EmitterHit {
+    bool hit;
+    float near, far; // distances along the ray; perspective: negative is behind the camera
+    vec3 normal;     // unit, at near, against the ray
+};
+
+EmitterHit intersectBall(Ray ray, vec3 center, float radius)
+{
+    const float distanceToCenter = length(center - frame.rayOrigin[0]); // of the eye
+    const float power = (distanceToCenter - radius) * (distanceToCenter + radius);
+    const SphereHit s = intersectSphere(ray, center, radius, power);
+    return EmitterHit(s.hit, s.near, s.far, s.normal);
+}
+
+// The tube is the union of a cylinder and a ball at either end; a ray enters a union where it first
+// enters one of its parts. It enters the cylinder through its side: the flat ends are inside the balls.
+EmitterHit intersectTube(Ray ray, vec3 center, vec3 halfAxis, float radius)
+{
+    const EmitterHit a = intersectBall(ray, center - halfAxis, radius);
+    const EmitterHit b = intersectBall(ray, center + halfAxis, radius);
+    EmitterHit tube = a;
+    if (!a.hit || (b.hit && b.near < a.near))
+        tube.near = b.near, tube.normal = b.normal;
+    if (!a.hit || (b.hit && b.far > a.far))
+        tube.far = b.far;
+    tube.hit = a.hit || b.hit;
+
+    // Everything across the axis, where the cylinder is a circle; as intersectSphere.
+    const float halfLength = length(halfAxis);
+    const vec3 axis = halfAxis / halfLength;
+    const vec3 toCenter = center - ray.origin;
+    const vec3 flatDirection = ray.direction - dot(ray.direction, axis) * axis;
+    const vec3 flatToCenter = toCenter - dot(toCenter, axis) * axis;
+    const float speed2 = dot(flatDirection, flatDirection);
+    if (!(speed2 > 1e-10)) // along the axis: in by one ball, out by the other
+        return tube;
+    const float along = dot(flatToCenter, flatDirection) / speed2;
+    const vec3 across = flatToCenter - along * flatDirection;
+    const float distanceToAxis = length(across);
+    if (!(distanceToAxis <= radius))
+        return tube;
+    const float halfChord = sqrt((radius - distanceToAxis) * (radius + distanceToAxis) / speed2);
+    const float distanceToSide = length(flatToCenter);
+    const float power = (distanceToSide - radius) * (distanceToSide + radius);
+    const float far = along + halfChord;
+    const float near = along > 0.0 ? power / (speed2 * far) : along - halfChord;
+    if (abs(dot(near * ray.direction - toCenter, axis)) <= halfLength &&
+        !(tube.hit && tube.near <= near)) {
+        tube.near = near;
+        tube.normal = normalize(near * flatDirection - flatToCenter);
+        tube.far = tube.hit ? max(tube.far, near) : near;
+        tube.hit = true;
+    }
+    if (tube.hit && abs(dot(far * ray.direction - toCenter, axis)) <= halfLength)
+        tube.far = max(tube.far, far);
+    return tube;
+}
+
+// Where a ray meets a plane, as a light that is seen from its front, or from both sides.
+EmitterHit intersectFlat(Ray ray, vec3 center, vec3 normal, bool twoSided)
+{
+    const float slope = dot(ray.direction, normal);
+    EmitterHit plane;
+    plane.hit = slope < 0.0 || (twoSided && slope > 0.0);
+    plane.near = plane.far = dot(center - ray.origin, normal) / slope;
+    plane.normal = slope < 0.0 ? normal : -normal;
+    return plane;
+}
+
+EmitterHit intersectDisc(Ray ray, vec3 center, vec3 normal, float radius, bool twoSided)
+{
+    EmitterHit disc = intersectFlat(ray, center, normal, twoSided);
+    const vec3 fromCenter = disc.near * ray.direction - (center - ray.origin);
+    disc.hit = disc.hit && length(fromCenter) <= radius;
+    return disc;
+}
+
+// The parallelogram center + a axisU + b axisV with a and b within +-1.
+EmitterHit intersectRectangle(Ray ray, vec3 center, vec3 axisU, vec3 axisV, bool twoSided)
+{
+    const float lengthU = length(axisU), lengthV = length(axisV);
+    const vec3 u = axisU / lengthU, v = axisV / lengthV;
+    const vec3 across = cross(u, v); // unit to the square of what u and v are off a right angle
+    EmitterHit rectangle = intersectFlat(ray, center, normalize(across), twoSided);
+    const vec3 fromCenter = rectangle.near * ray.direction - (center - ray.origin);
+    const float area = dot(across, across);
+    const bool inU = abs(dot(cross(v, across), fromCenter)) <= lengthU * area;
+    const bool inV = abs(dot(cross(across, u), fromCenter)) <= lengthV * area;
+    rectangle.hit = rectangle.hit && inU && inV;
+    return rectangle;
+}
+
+#endif

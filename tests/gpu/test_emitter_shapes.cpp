@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+// Visible area lights of every shape against double precision: silhouette, depth, luminance.
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "gpu/raster_rays.h"
+#include "shared/gbuffer.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+glm::dvec3 vec(const float (&v)[3])
+{
+    return glm::dvec3(glm::make_vec3(v));
+}
+
+void set(float (&out)[3], const glm::dvec3& v)
+{
+    for (int i = 0; i < 3; ++i)
+        out[i] = float(v[i]);
+}
+
+// Where along the ray the light is first met in front of the eye, or infinity. The light is made
+// larger by `grow` metres on all sides.
+double hitTube(const Ray& ray, const glm::dvec3& center, const CndLight& l, double grow)
+{
+    const glm::dvec3 half = vec(l.axisU);
+    const double radius = double(l.radius) + grow;
+    // Distance from the segment: convex along the ray, so bisection finds everything.
+    const auto outside = [&](double t) {
+        const glm::dvec3 p = ray.at(t) - center;
+        const double along = glm::clamp(glm::dot(p, half) / glm::dot(half, half), -1.0, 1.0);
+        return glm::length(p - along * half) - radius;
+    };
+    double low = -1e3, high = 1e3;
+    for (int i = 0; i < 90; ++i) { // ternary search for the closest approach
+        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+        (outside(a) < outside(b) ? high : low) = outside(a) < outside(b) ? b : a;
+    }
+    const double closest = 0.5 * (low + high);
+    if (outside(closest) > 0)
+        return infinity;
+    const auto border = [&](double in, double out) {
+        for (int i = 0; i < 60; ++i)
+            (outside(0.5 * (in + out)) <= 0 ? in : out) = 0.5 * (in + out);
+        return in;
+    };
+    const double near = border(closest, closest - 1e3), far = border(closest, closest + 1e3);
+    return near > 0 ? near : far > 0 ? far : infinity;
+}
+
+double hitFlat(const Ray& ray, const glm::dvec3& center, const CndLight& l, double grow)
+{
+    const glm::dvec3 u = vec(l.axisU), v = vec(l.axisV);
+    const bool rectangle = l.type == CND_LIGHT_RECTANGLE;
+    const glm::dvec3 normal = glm::normalize(rectangle ? glm::cross(u, v) : vec(l.direction));
+    const double slope = glm::dot(ray.direction, normal);
+    if (slope > 0 && !l.twoSided)
+        return infinity;
+    const double t = glm::dot(center - ray.origin, normal) / slope;
+    const glm::dvec3 p = ray.at(t) - center;
+    const double room = grow / std::abs(slope);
+    const double lengthU = glm::length(u), lengthV = glm::length(v);
+    const bool inside = rectangle ? std::abs(glm::dot(p, u)) <= (lengthU + room) * lengthU &&
+                                        std::abs(glm::dot(p, v)) <= (lengthV + room) * lengthV
+                                  : glm::length(p) <= double(l.radius) + room;
+    return inside && t > 0 ? t : infinity;
+}
+
+double hitLight(const Ray& ray, const glm::dvec3& origin, const CndLight& l, double grow)
+{
+    const glm::dvec3 center = origin + vec(l.position);
+    // Nothing to search for where the ray misses a sphere around all of it.
+    const double reach =
+        glm::length(vec(l.axisU)) + glm::length(vec(l.axisV)) + double(l.radius) + 1;
+    if (hitSphere(ray, center, reach).near == infinity)
+        return infinity;
+    if (l.type == CND_LIGHT_TUBE)
+        return hitTube(ray, center, l, grow);
+    if (l.type == CND_LIGHT_RECTANGLE || l.type == CND_LIGHT_DISC)
+        return hitFlat(ray, center, l, grow);
+    const SphereHit hit = hitSphere(ray, center, double(l.radius) + grow);
+    return hit.near > 0 ? hit.near : hit.far > 0 ? hit.far : infinity;
+}
+
+CndLight randomLight(CndLightType type, Random& random, double size, float mark)
+{
+    CndLight l = sphereLight(random.box(size), std::pow(10, random.uniform(-2, 0.2)), {mark, 1, 2});
+    l.type = type;
+    const glm::dvec3 u = random.direction();
+    const glm::dvec3 v = glm::normalize(glm::cross(u, random.direction()));
+    set(l.axisU, u * std::pow(10, random.uniform(-1.5, 0.3)));
+    set(l.axisV, v * std::pow(10, random.uniform(-1.5, 0.3)));
+    set(l.direction, u);
+    l.twoSided = random.uniform(0, 1) < 0.5;
+    return l;
+}
+
+class GBufferEmitterShapes : public RasterTest
+{
+protected:
+    // Compares every pixel that is clearly inside or outside of every silhouette. `grazing` counts
+    // the others.
+    void expectRayCast(const RasterImage& image, const RasterOptions& o, size_t& grazing)
+    {
+        size_t shown = 0;
+        for (uint32_t y = 0; y < image.height; ++y)
+            for (uint32_t x = 0; x < image.width; ++x) {
+                const size_t i = size_t(y) * image.width + x;
+                const Ray ray = pixelRay(o, x, y);
+                double nearest = infinity, second = infinity;
+                const CndLight* winner = nullptr;
+                bool unsure = false;
+                for (const CndLight& l : o.emitters) {
+                    if (l.type == CND_LIGHT_DISTANT_SPHERE)
+                        continue;
+                    const double room =
+                        3e-6 * glm::length(o.emitterOrigin + vec(l.position) - ray.origin);
+                    const double t = hitLight(ray, o.emitterOrigin, l, 0);
+                    unsure |= (hitLight(ray, o.emitterOrigin, l, room) == infinity) !=
+                              (hitLight(ray, o.emitterOrigin, l, -room) == infinity);
+                    if (t < nearest) {
+                        second = nearest;
+                        nearest = t;
+                        winner = &l;
+                    } else {
+                        second = std::min(second, t);
+                    }
+                }
+                unsure |= second < infinity && second - nearest < 1e-3 * nearest;
+                if (unsure) {
+                    ++grazing;
+                    continue;
+                }
+                ASSERT_EQ(image.covered(i), winner != nullptr) << x << " " << y;
+                if (!winner)
+                    continue;
+                ++shown;
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_EQ(image.radiance[i][c], winner->emission[c]) << x << " " << y;
+                const glm::dvec3 p = ray.at(nearest);
+                if (!insideDepthRange(o, p))
+                    continue;
+                // A grazing ray moves far along the surface for a small error across it.
+                const double tolerance = winner->type == CND_LIGHT_TUBE ? 1e-3 : 2e-4;
+                ASSERT_LE(glm::length(worldPosition(image, x, y) - p),
+                          tolerance * glm::length(p - ray.origin))
+                    << x << " " << y << " type " << winner->type;
+                if (o.layout == CND_GBUFFER_COMPACT) {
+                    ASSERT_EQ(image.normalRoughness[i].x, gpu::NORMAL_ROUGHNESS_UNLIT_COMPACT);
+                } else {
+                    ASSERT_EQ(image.albedo[i], glm::uvec2(0));
+                    ASSERT_EQ(image.specular[i], glm::uvec2(0));
+                }
+            }
+        EXPECT_GT(shown, 100u);
+    }
+};
+
+TEST_F(GBufferEmitterShapes, SilhouettesAreThoseOfTheRayCast)
+{
+    for (const CndGBufferLayout layout : {CND_GBUFFER_FULL, CND_GBUFFER_COMPACT})
+        for (int kind = 0; kind < 4; ++kind)
+            for (const CndLightType type :
+                 {CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC, CND_LIGHT_TYPE_COUNT}) {
+                if (layout == CND_GBUFFER_COMPACT && type != CND_LIGHT_TYPE_COUNT)
+                    continue; // the shapes are the same, what is written is not
+                SCOPED_TRACE(::testing::Message()
+                             << layout << " projection " << kind << " type " << type);
+                RasterOptions options = perspectiveOptions();
+                options.layout = layout;
+                options.emitterOrigin = {3e5, 200, -7e5};
+                Random random(uint32_t(kind) + 7);
+                constexpr CndLightType all[] = {CND_LIGHT_SPHERE, CND_LIGHT_TUBE,
+                                                CND_LIGHT_RECTANGLE, CND_LIGHT_DISC};
+                for (uint32_t i = 0; i < 40; ++i) // of one type, or of all in turn
+                    options.emitters.push_back(randomLight(
+                        type == CND_LIGHT_TYPE_COUNT ? all[i % 4] : type, random, 6, float(i)));
+                setProjection(options, kind);
+                lookAt(options.camera, options.emitterOrigin + glm::dvec3(1, 14, 9),
+                       options.emitterOrigin);
+                const RasterImage image = render(RasterScene{}, options);
+                size_t grazing = 0;
+                expectRayCast(image, options, grazing);
+                std::printf("type %d, projection %d: %zu of %zu pixels too close to an edge\n",
+                            int(type), kind, grazing, image.depth.size());
+                EXPECT_LE(grazing, image.depth.size() / 50);
+            }
+}
+
+// Around the camera, at arm's length and filling the picture.
+TEST_F(GBufferEmitterShapes, CloseToTheCamera)
+{
+    for (const CndLightType type : {CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC})
+        for (const double distance : {0.4, 0.7, 2.0})
+            for (const double side : {0.0, 0.6, 1.5, 2.5}) {
+                SCOPED_TRACE(::testing::Message()
+                             << "type " << type << " distance " << distance << " side " << side);
+                RasterOptions options = perspectiveOptions();
+                setPerspective(options.camera, 1.4, double(options.width) / options.height, 0.1);
+                const glm::dvec3 direction(std::sin(side), 0.1, -std::cos(side));
+                CndLight l = sphereLight(distance * direction, 0.5, {5, 6, 7});
+                l.type = type;
+                set(l.axisU, {0.8, 0.2, 0.3});
+                set(l.axisV, {-0.1, 0.4, 0});
+                set(l.direction, -glm::normalize(direction + glm::dvec3(0.3, 0.2, 0)));
+                l.twoSided = true;
+                options.emitters = {l, sphereLight({0, 0.4, -9}, 3, {8, 9, 10})};
+                lookAt(options.camera, {0, 0, 0}, {0, 0, -1});
+                size_t grazing = 0;
+                expectRayCast(render(RasterScene{}, options), options, grazing);
+                EXPECT_LE(grazing, 500u);
+            }
+}
+
+// The Sun, a wide one that lies over it, and a floor and a lamp in front of them.
+TEST_F(GBufferEmitterShapes, DistantSpheresShowWhereNothingElseIs)
+{
+    for (int kind = 0; kind < 4; ++kind) {
+        SCOPED_TRACE(kind);
+        RasterScene scene;
+        scene.addMaterial(testMaterial());
+        gbuffer::AnalyticObject floor{.type = gbuffer::AnalyticObject::Type::Plane};
+        floor.normal[1] = 1;
+        scene.analyticObjects.push_back(floor);
+        RasterOptions options = perspectiveOptions();
+        setProjection(options, kind);
+        options.background = {0.25f, 0.5f, 0.75f};
+        options.emitterOrigin = {1e6, 0, -1e6};
+        lookAt(options.camera, {0, 1.5, 6}, {0, 1.5 + (kind == 3 ? 0.6 : 0.1), 0});
+        const auto distant = [](const glm::dvec3& toLight, float sine, const glm::vec3& luminance) {
+            CndLight l{.type = CND_LIGHT_DISTANT_SPHERE, .radius = sine};
+            set(l.direction, -glm::normalize(toLight));
+            set(l.emission, glm::dvec3(luminance));
+            return l;
+        };
+        options.emitters = {distant({0.1, 0.2, -1}, 0.1f, {3, 4, 5}),
+                            distant({0.13, 0.22, -1}, 0.00465f, {1.6e9f, 1.5e9f, 1.4e9f}),
+                            distant({0.1, 0.1, 1}, 0.9f, {9, 9, 9}), // behind the camera
+                            sphereLight(glm::dvec3(-1e6 - 0.2, 1.9, 1e6), 0.5, {7, 8, 9})};
+        const RasterImage image = render(scene, options);
+        size_t suns[2] = {};
+        for (uint32_t y = 0; y < image.height; ++y)
+            for (uint32_t x = 0; x < image.width; ++x) {
+                const size_t i = size_t(y) * image.width + x;
+                const Ray ray = pixelRay(options, x, y);
+                if (image.covered(i)) { // floor or lamp
+                    ASSERT_LE(image.radiance[i].r, 100);
+                    continue;
+                }
+                const CndLight* winner = nullptr;
+                bool rim = false;
+                for (size_t k = 0; k < 3; ++k) {
+                    const glm::dvec3 toLight = -glm::normalize(vec(options.emitters[k].direction));
+                    const double angle = angleBetween(ray.direction, toLight);
+                    const double radius = std::asin(double(options.emitters[k].radius));
+                    rim |= std::abs(angle - radius) < 2e-6;
+                    if (angle <= radius) {
+                        winner = &options.emitters[k];
+                        suns[k % 2] += k < 2;
+                    }
+                }
+                if (rim)
+                    continue;
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_EQ(image.radiance[i][c],
+                              winner ? winner->emission[c] : options.background[c])
+                        << x << " " << y;
+            }
+        // The wide one shows some 36 x 36 pixels less what the lamp hides; parallel rays see the
+        // whole sky in one direction.
+        std::printf("projection %d: pixels of the wide sun %zu, of the Sun %zu\n", kind, suns[0],
+                    suns[1]);
+        if (kind != 3) {
+            EXPECT_GT(suns[0], 500u);
+            EXPECT_GE(suns[1], 1u);
+        }
+    }
+}
+
+TEST_F(GBufferEmitterShapes, BadOnesAreRefused)
+{
+    gbuffer::GBuffer pass(device(), {.framesInFlight = 1});
+    const double origin[3] = {0, 0, 0};
+    Random random(1);
+    const auto refuse = [&](CndLightType type, const std::function<void(CndLight&)>& edit) {
+        std::vector<CndLight> lights{randomLight(type, random, 1, 1)};
+        EXPECT_NO_THROW(pass.setEmitters(lights, origin));
+        edit(lights[0]);
+        EXPECT_THROW(pass.setEmitters(lights, origin), gpu::Failure) << type;
+    };
+    refuse(CND_LIGHT_TUBE, [](CndLight& l) { set(l.axisU, glm::dvec3(0)); });
+    refuse(CND_LIGHT_TUBE, [](CndLight& l) { l.radius = 0; });
+    refuse(CND_LIGHT_RECTANGLE, [](CndLight& l) { l.axisV[1] = NAN; });
+    refuse(CND_LIGHT_DISC, [](CndLight& l) { set(l.direction, glm::dvec3(0)); });
+    refuse(CND_LIGHT_DISC, [](CndLight& l) { l.emission[2] = INFINITY; });
+    refuse(CND_LIGHT_DISTANT_SPHERE, [](CndLight& l) { l.direction[0] = NAN; });
+}
+
+} // namespace
+} // namespace candelabra::test
