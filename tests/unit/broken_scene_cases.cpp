@@ -181,7 +181,15 @@ std::string completeSceneJson()
                      "metalness": 0},
         "lights": [{"position": [0, 3, 0], "radius": 0.5, "radiance": [10, 10, 10]},
                    {"position": [1, 3, 0], "radius": 0.5, "radiance": [10, 10, 10],
-                    "influence_radius": 7}],
+                    "influence_radius": 7},
+                   {"type": "tube", "start": [0, 1, 0], "end": [1, 1, 0], "radius": 0.1,
+                    "luminous_power": [10, 10, 10]},
+                   {"type": "rectangle", "position": [0, 2, 0], "axis_u": [1, 0, 0],
+                    "axis_v": [0, 0, 1], "two_sided": true, "luminance": [1, 1, 1]},
+                   {"type": "spot", "position": [0, 2, 0], "direction": [0, -1, 0],
+                    "inner_cone_degrees": 10, "outer_cone_degrees": 20, "intensity": [1, 1, 1]},
+                   {"type": "distant_sphere", "direction": [0, -1, 0],
+                    "sin_angular_radius": 0.1, "illuminance": [1, 1, 1]}],
         "resolution": [256, 256], "background": [0, 0, 0],
         "lights_visible_to_camera": false, "lights_occlude": false})";
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "unit/scene_invariants.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace candelabra::test
 {
@@ -70,20 +72,56 @@ std::string checkMaterial(const Scene& scene, const Material& m)
     return "";
 }
 
+glm::vec3 vec(const float (&v)[3])
+{
+    return {v[0], v[1], v[2]};
+}
+
+// From its centre to its farthest point; 0 for punctual lights.
+float reachOf(const CndLight& l)
+{
+    switch (l.type) {
+    case CND_LIGHT_SPHERE:
+    case CND_LIGHT_DISC:
+        return l.radius;
+    case CND_LIGHT_TUBE:
+        return glm::length(vec(l.axisU)) + l.radius;
+    case CND_LIGHT_RECTANGLE:
+        return glm::length(vec(l.axisU) + vec(l.axisV));
+    default:
+        return 0;
+    }
+}
+
 std::string checkLight(const CndLight& l)
 {
-    if (l.type > CND_LIGHT_DIRECTIONAL)
+    if (l.type >= CND_LIGHT_TYPE_COUNT)
         return "unknown type";
-    for (int i = 0; i < 3; ++i)
-        if (!std::isfinite(l.position[i]) || !(l.emission[i] >= 0) || !std::isfinite(l.emission[i]))
-            return "position or emission";
-    if (!(l.influenceRadius > 0))
-        return "influence radius";
-    if (l.type == CND_LIGHT_SPHERE && !(l.radius > 0 && l.radius < l.influenceRadius))
+    const auto isOneOf = [&](std::initializer_list<uint32_t> types) {
+        return std::find(types.begin(), types.end(), l.type) != types.end();
+    };
+    if (!isFinite(vec(l.position)) || !isIn(vec(l.emission), 0, 3.4e38f))
+        return "position or emission";
+    const bool distant = isOneOf({CND_LIGHT_DIRECTIONAL, CND_LIGHT_DISTANT_SPHERE});
+    if (isOneOf({CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_DISC}) &&
+        !(l.radius > 0 && std::isfinite(l.radius)))
         return "radius";
-    const glm::vec3 direction(l.direction[0], l.direction[1], l.direction[2]);
-    if ((l.type == CND_LIGHT_SPOT || l.type == CND_LIGHT_DIRECTIONAL) && !isUnit(direction))
+    if (l.type == CND_LIGHT_DISTANT_SPHERE && !(l.radius <= 1))
+        return "sine of the angular radius";
+    if (!distant && !(l.influenceRadius > reachOf(l)))
+        return "influence radius";
+    if ((distant || isOneOf({CND_LIGHT_SPOT, CND_LIGHT_DISC})) && !isUnit(vec(l.direction)))
         return "direction";
+    if (isOneOf({CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE}) &&
+        !(isFinite(vec(l.axisU)) && glm::length(vec(l.axisU)) > 0))
+        return "axisU";
+    if (l.type == CND_LIGHT_RECTANGLE) {
+        if (!(isFinite(vec(l.axisV)) && glm::length(vec(l.axisV)) > 0))
+            return "axisV";
+        const glm::vec3 u = glm::normalize(vec(l.axisU)), v = glm::normalize(vec(l.axisV));
+        if (!(std::abs(glm::dot(u, v)) <= 1e-3f))
+            return "axes not perpendicular";
+    }
     if (l.type == CND_LIGHT_SPOT &&
         !(l.innerConeAngle >= 0 && l.innerConeAngle < l.outerConeAngle &&
           l.outerConeAngle <= 1.5707963267948966))

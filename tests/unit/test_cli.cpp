@@ -140,6 +140,7 @@ TEST(Cli, HelpNamesTheCamerasOfGeneratedScenes)
     };
     expectNames("hall", generateHall({.lights = 0}));
     expectNames("field", generateField({.lights = 0}));
+    expectNames("showcase", generateShowcase({}));
 }
 
 // `warnOfIdleOptions` of these arguments, as the user sees it.
@@ -155,6 +156,7 @@ TEST(Options, IdleOnesAreNamed)
         arguments.seed = "2";
         arguments.overlaps = "3";
         arguments.punctualRadius = "0.1";
+        arguments.sunRadius = "0.01";
         arguments.moving = true;
         arguments.warnOfIdleOptions(lights);
         spdlog::set_default_logger(before);
@@ -162,15 +164,18 @@ TEST(Options, IdleOnesAreNamed)
     };
     const auto named = [](const std::string& text) {
         std::string out;
-        for (const char* option : {"--seed", "--overlaps", "--moving", "--punctual-radius"})
+        for (const char* option :
+             {"--seed", "--overlaps", "--moving", "--punctual-radius", "--sun-radius"})
             if (text.find(std::string(option) + " has no effect") != std::string::npos)
                 out += std::string(option) + " ";
         return out;
     };
-    EXPECT_EQ(named(warnings("hall", std::nullopt)), "--punctual-radius ");
+    EXPECT_EQ(named(warnings("hall", std::nullopt)), "--punctual-radius --sun-radius ");
+    EXPECT_EQ(named(warnings("showcase", std::nullopt)),
+              "--seed --overlaps --punctual-radius --sun-radius ");
     EXPECT_EQ(named(warnings("a.glb", std::nullopt)), "--seed --overlaps --moving ");
     EXPECT_EQ(named(warnings("a.glb", 5)), "");
-    EXPECT_EQ(named(warnings("a.json", 5)), "--punctual-radius ");
+    EXPECT_EQ(named(warnings("a.json", 5)), "--punctual-radius --sun-radius ");
 }
 
 TEST(Options, ImageSizeComesFromTheOptionTheSceneOrTheCamera)

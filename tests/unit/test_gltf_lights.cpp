@@ -108,8 +108,7 @@ TEST_F(GltfLights, AreaSpheresScaleWithTheirNodes)
     GltfBuilder b = scene("KHR_lights_area", R"([
         {"shape": "sphere", "intensity": 3000000000, "radius": 0.5, "color": [1, 0.5, 0],
          "range": 20},
-        {"type": "sphere"},
-        {"shape": "rect", "width": 2}])");
+        {"type": "sphere"}])");
     b.json["nodes"][0]["scale"] = {4, 4, 4};
     const Scene s = load(b);
     ASSERT_EQ(s.lights.size(), 2u);
@@ -121,8 +120,50 @@ TEST_F(GltfLights, AreaSpheresScaleWithTheirNodes)
     EXPECT_EQ(s.lights[1].radius, 1); // the proposal's defaults
     EXPECT_EQ(s.lights[1].emission[0], 1);
     EXPECT_TRUE(std::isinf(s.lights[1].influenceRadius));
+    EXPECT_TRUE(s.warnings.empty());
+}
+
+TEST_F(GltfLights, AreaRectsAndDisksFaceMinusZ)
+{
+    GltfBuilder b = scene("KHR_lights_area", R"([
+        {"shape": "rect", "width": 2, "height": 0.5, "intensity": 300},
+        {"shape": "disk", "radius": 0.5, "intensity": 7, "range": 4}])");
+    for (auto& node : b.json["nodes"])
+        node["scale"] = {2, 3, 5};
+    const Scene s = load(b);
+    ASSERT_EQ(s.lights.size(), 2u);
+    const CndLight& rect = s.lights[0];
+    EXPECT_EQ(rect.type, uint32_t{CND_LIGHT_RECTANGLE});
+    EXPECT_EQ(rect.axisU[0], 2); // half of 2 m, twice as large
+    EXPECT_EQ(rect.axisV[1], -0.75f);
+    EXPECT_EQ(rect.emission[0], 300);
+    EXPECT_FALSE(rect.twoSided);
+    const CndLight& disk = s.lights[1];
+    EXPECT_EQ(disk.type, uint32_t{CND_LIGHT_DISC});
+    EXPECT_FLOAT_EQ(disk.radius, float(0.5 * std::sqrt(6.0)));
+    EXPECT_EQ(disk.direction[2], -1);
+    EXPECT_EQ(disk.influenceRadius, 4);
     ASSERT_EQ(s.warnings.size(), 1u);
-    EXPECT_NE(s.warnings[0].find("lights[2]: rect lights are not supported"), std::string::npos);
+    EXPECT_NE(s.warnings[0].find("it stays a disk"), std::string::npos) << s.warnings[0];
+    EXPECT_NE(error(scene("KHR_lights_area", R"([{"shape": "rect", "range": 0.5}])"))
+                  .find("half the light's diagonal"),
+              std::string::npos);
+}
+
+TEST_F(GltfLights, DirectionalLightsBecomeSunsOfTheSameIlluminance)
+{
+    const char* lights = R"([{"type": "directional", "intensity": 100000, "color": [1, 1, 0.5]}])";
+    EXPECT_EQ(load(scene("KHR_lights_punctual", lights)).lights.at(0).type,
+              uint32_t{CND_LIGHT_DIRECTIONAL});
+    SceneOptions options;
+    options.sunRadius = 0.00465;
+    const CndLight sun = load(scene("KHR_lights_punctual", lights), options).lights.at(0);
+    EXPECT_EQ(sun.type, uint32_t{CND_LIGHT_DISTANT_SPHERE});
+    EXPECT_EQ(sun.radius, 0.00465f);
+    EXPECT_EQ(sun.direction[2], -1);
+    // E = pi s^2 L: 1.5e9 cd/m^2, the Sun's at noon.
+    EXPECT_NEAR(sun.emission[0] * pi * 0.00465 * 0.00465, 1e5, 0.02);
+    EXPECT_NEAR(sun.emission[2] * pi * 0.00465 * 0.00465, 5e4, 0.02);
 }
 
 TEST_F(GltfLights, FarFromTheOriginNothingIsRounded)

@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "scene/light_grid.h"
+#include "scene/load.h"
 #include "scene/random.h"
 #include "scene/ray_caster.h"
 #include "scene/shapes.h"
+#include "unit/scene_invariants.h"
 
 namespace candelabra::app
 {
@@ -65,6 +67,29 @@ TEST(LightsAtTime, FollowTheirCircles)
     EXPECT_NEAR(std::hypot(out[1].position[0] - 5, out[1].position[2]), 2, 1e-5);
     const double angle = static_cast<double>(glm::pi<float>()) * 86400.5;
     EXPECT_NEAR(out[1].position[2], 2 * std::sin(angle), 1e-5);
+}
+
+TEST(LightsAtTime, AnyTypeMovesUnlessItIsInfinitelyFarAway)
+{
+    SceneOptions options;
+    options.moving = true;
+    const Scene scene = generateShowcase(options);
+    EXPECT_EQ(test::brokenInvariant(scene), "");
+    uint32_t types = 0;
+    for (const CndLight& light : scene.lights)
+        types |= 1u << light.type;
+    EXPECT_EQ(types, (1u << CND_LIGHT_TYPE_COUNT) - 1); // one of every type
+    std::vector<CndLight> out;
+    lightsAtTime(scene, 2, out);
+    ASSERT_EQ(out.size(), scene.lights.size());
+    for (size_t i = 0; i < out.size(); ++i) {
+        const bool distant =
+            out[i].type == CND_LIGHT_DIRECTIONAL || out[i].type == CND_LIGHT_DISTANT_SPHERE;
+        const bool moved = out[i].position[0] != scene.lights[i].position[0];
+        EXPECT_EQ(moved, !distant) << out[i].type;
+    }
+    options.lights = 3;
+    EXPECT_THROW(generateShowcase(options), SceneError);
 }
 
 TEST(RayCaster, FindsTheNearestTriangle)

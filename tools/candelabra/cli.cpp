@@ -44,13 +44,15 @@ void describe(CLI::App& app, ProgramContext& context)
     const uint32_t version = cndGetVersion();
     app.set_version_flag("--version", fmt::format("candelabra {}.{}.{}", version >> 22,
                                                   (version >> 12) & 0x3ff, version & 0xfff));
-    app.footer("SCENE is hall or field (generated, with --lights N --seed S --overlaps K), or a "
-               "file:\nglTF 2.0 (.gltf, .glb) or a small scene description (.json).\n\n"
-               "Examples:\n"
-               "  candelabra stress                        sweep the number of lights, into out/\n"
-               "  candelabra render hall --lights 16000 -o hall.png\n"
-               "  candelabra view hall --lights 4000       fly through it\n"
-               "  candelabra render --help                 options of one command");
+    app.footer(
+        "SCENE is hall or field (generated, with --lights N --seed S --overlaps K), showcase "
+        "(one\nlight of every type), or a file: glTF 2.0 (.gltf, .glb) or a small scene "
+        "description (.json).\n\n"
+        "Examples:\n"
+        "  candelabra stress                        sweep the number of lights, into out/\n"
+        "  candelabra render hall --lights 16000 -o hall.png\n"
+        "  candelabra view hall --lights 4000       fly through it\n"
+        "  candelabra render --help                 options of one command");
 }
 
 // The sentence for a command line that does not parse.

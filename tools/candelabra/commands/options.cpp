@@ -168,7 +168,8 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
     scene = fallback;
     CLI::Option* option = command
                               .add_option(fallback.empty() ? "scene" : "scene,--scene", scene,
-                                          "hall, field, or a .gltf, .glb or scene .json file")
+                                          "hall, field, showcase, or a .gltf, .glb or scene .json "
+                                          "file")
                               ->type_name("SCENE");
     if (fallback.empty())
         option->required();
@@ -185,6 +186,11 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
         .add_option("--punctual-radius", punctualRadius,
                     "files: point lights without a radius become spheres of this radius (m)")
         ->type_name("METRES");
+    command
+        .add_option("--sun-radius", sunRadius,
+                    "glTF files: directional lights become distant spheres whose angular radius "
+                    "has this sine (the Sun: 0.00465)")
+        ->type_name("SINE");
 }
 
 SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
@@ -198,24 +204,30 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
     out.moving = moving;
     if (!punctualRadius.empty())
         out.punctualRadius = numberOption("--punctual-radius", punctualRadius, 1e-6, 1e6);
+    if (!sunRadius.empty())
+        out.sunRadius = numberOption("--sun-radius", sunRadius, 1e-6, 1);
     return out;
 }
 
 void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
 {
     const bool generated = scene == "hall" || scene == "field";
+    const bool file = !generated && scene != "showcase";
     const auto warn = [](const char* option, const std::string& reason) {
         spdlog::warn("warning: {} has no effect: {}", option, reason);
     };
-    if (!punctualRadius.empty() && (generated || scene.ends_with(".json")))
+    if (!punctualRadius.empty() && (!file || scene.ends_with(".json")))
         warn("--punctual-radius", "it is about point lights of glTF files");
+    if (!sunRadius.empty() && (!file || scene.ends_with(".json")))
+        warn("--sun-radius", "it is about directional lights of glTF files");
     if (generated || lights.value_or(0))
         return;
     const std::string reason =
-        "it is about generated lights, which " + scene + " gets with --lights N only";
+        file ? "it is about generated lights, which " + scene + " gets with --lights N only"
+             : scene + " has one light of every type";
     if (!overlaps.empty())
         warn("--overlaps", reason);
-    if (moving)
+    if (moving && file)
         warn("--moving", reason);
     if (!seed.empty())
         warn("--seed", reason);
@@ -228,12 +240,12 @@ void FrameArguments::addViewTo(CLI::App& command)
     command
         .add_option(
             "--camera", camera,
-            "camera of the scene by name (hall: nave, gallery; field: terrace, overview) or "
-            "index, or position and target in metres and vertical field of view in "
-            "degrees; default: the first")
+            "camera of the scene by name (hall: nave, gallery; field: terrace, overview; showcase: "
+            "front, above) or index, or position and target in metres and vertical field of view "
+            "in degrees; default: the first")
         ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
     addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
-              "draw sphere lights as emitters (default: as the scene says)");
+              "draw area lights as emitters (default: as the scene says)");
 }
 
 void FrameArguments::addTo(CLI::App& command)

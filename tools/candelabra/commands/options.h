@@ -37,7 +37,7 @@ struct DeviceArguments {
 // `stress`.
 struct SceneArguments {
     std::string scene;
-    std::string seed, overlaps, punctualRadius;
+    std::string seed, overlaps, punctualRadius, sunRadius;
     bool moving = false;
 
     // With a `fallback` the scene may be left out and named with --scene as well.

@@ -38,10 +38,18 @@ void setInfluence(const GltfDocument& document, const std::string& element, doub
     light.influenceRadius = range > 0 ? static_cast<float>(range) : INFINITY;
     if (!(light.influenceRadius > 0))
         document.fail(element, "range is too small for single precision");
-    if (light.type == CND_LIGHT_SPHERE && !(light.influenceRadius > light.radius))
+    const bool round = light.type == CND_LIGHT_SPHERE || light.type == CND_LIGHT_DISC;
+    if (round && !(light.influenceRadius > light.radius))
         document.fail(element, "range " + std::to_string(range) +
                                    " must be greater than the light's radius " +
                                    std::to_string(light.radius));
+    const auto& u = light.axisU;
+    const auto& v = light.axisV;
+    const float diagonal = std::hypot(std::hypot(u[0], u[1], u[2]), std::hypot(v[0], v[1], v[2]));
+    if (light.type == CND_LIGHT_RECTANGLE && !(light.influenceRadius > diagonal * (1 + 1e-6f)))
+        document.fail(element, "range " + std::to_string(range) +
+                                   " must be greater than half the light's diagonal " +
+                                   std::to_string(diagonal));
 }
 
 void setRadius(const GltfDocument& document, const std::string& element, double radius,
@@ -125,10 +133,34 @@ void addPunctual(const GltfDocument& document, size_t index, const glm::dmat4& w
     }
     if (light.type == CND_LIGHT_SPOT)
         setCone(document, element, source.spot, light);
+    if (light.type == CND_LIGHT_DIRECTIONAL && options.sunRadius) {
+        light.type = CND_LIGHT_DISTANT_SPHERE;
+        light.radius = static_cast<float>(*options.sunRadius);
+        emission.intensity /= pi * *options.sunRadius * *options.sunRadius; // E = pi s^2 L
+    }
     setEmission(document, element, emission, light);
     setInfluence(document, element, source.range, light);
     out.lights.push_back(light);
     out.positions.push_back(glm::dvec3(worldFromNode[3]));
+}
+
+// A rect faces -z; `width` lies along x, `height` along y.
+void setSides(const JsonValue& source, const glm::dmat4& worldFromNode, CndLight& light)
+{
+    light.type = CND_LIGHT_RECTANGLE;
+    const auto side = [&](const char* key, const glm::dvec4& axis, float(&out)[3]) {
+        const auto json = source.find(key);
+        const double length = json ? json->number(NumberRange::positive(maxCoordinate)) : 1;
+        for (int i = 0; i < 3; ++i)
+            out[i] = static_cast<float>(0.5 * length * axis[i]);
+        if (!(glm::length(glm::vec3(out[0], out[1], out[2])) > 1e-15f))
+            source.fail(std::string(key) + " is too small for single precision");
+    };
+    side("width", worldFromNode[0], light.axisU);
+    side("height", -worldFromNode[1], light.axisV);
+    const glm::dvec3 x(worldFromNode[0]), y(worldFromNode[1]);
+    if (!(std::abs(glm::dot(glm::normalize(x), glm::normalize(y))) <= 0.99e-3))
+        source.fail("is sheared by its node: its sides must be perpendicular");
 }
 
 void addArea(const GltfDocument& document, size_t index, const glm::dmat4& worldFromNode,
@@ -141,12 +173,9 @@ void addArea(const GltfDocument& document, size_t index, const glm::dmat4& world
     const auto shape = source.find("shape") ? source.find("shape") : source.find("type");
     if (!shape)
         source.fail("\"shape\" is missing");
-    if (shape->string() == "rect" || shape->string() == "disk") {
-        document.warn(element, shape->string() + " lights are not supported; it is left out");
-        return;
-    }
-    if (shape->string() != "sphere")
-        shape->fail("must be sphere, disk or rect, is \"" + printable(shape->string(), 60) + "\"");
+    const std::string& name = shape->string();
+    if (name != "sphere" && name != "rect" && name != "disk")
+        shape->fail("must be sphere, disk or rect, is \"" + printable(name, 60) + "\"");
     const double scales[3] = {glm::length(glm::dvec3(worldFromNode[0])),
                               glm::length(glm::dvec3(worldFromNode[1])),
                               glm::length(glm::dvec3(worldFromNode[2]))};
@@ -155,19 +184,30 @@ void addArea(const GltfDocument& document, size_t index, const glm::dmat4& world
         document.warn(element, "is scaled to nothing by its node and is left out");
         return;
     }
-    for (const double s : scales)
-        if (std::abs(s - scale) > 1e-3 * scale) {
-            document.warn(element, "is scaled differently along its axes; it stays a sphere");
-            break;
-        }
     CndLight light = {};
     Emission emission;
     if (const auto color = source.find("color"))
         emission.color = color->vector3({0});
     if (const auto intensity = source.find("intensity"))
         emission.intensity = intensity->number({0});
-    const auto radius = source.find("radius");
-    setRadius(document, element, (radius ? radius->number() : 1) * scale, light);
+    if (name == "rect") {
+        setSides(source, worldFromNode, light);
+    } else {
+        // A disk lies across z, so that its z scale means nothing.
+        const bool disk = name == "disk";
+        const double inPlane = disk ? std::sqrt(scales[0] * scales[1]) : scale;
+        for (size_t i = 0; i < (disk ? 2 : 3); ++i)
+            if (std::abs(scales[i] - inPlane) > 1e-3 * inPlane) {
+                document.warn(element, "is scaled differently along its axes; it stays a " + name);
+                break;
+            }
+        const auto radius = source.find("radius");
+        setRadius(document, element, (radius ? radius->number() : 1) * inPlane, light);
+        if (disk) {
+            light.type = CND_LIGHT_DISC;
+            direction(worldFromNode, light);
+        }
+    }
     setEmission(document, element, emission, light);
     const auto range = source.find("range");
     setInfluence(document, element, range ? range->number() : 0, light);

@@ -24,9 +24,11 @@ struct GltfLights {
 //   KHR_lights_punctual: point and spot in cd, directional in lx, `range` is the influence radius
 //   (without it: INFINITY). A point light with extras.radius (metres, > 0), else with
 //   options.punctualRadius, becomes a sphere of that radius and the same intensity, L = I / (pi
-//   R^2). Scale does not change any of these. KHR_lights_area (glTF pull request 1948, never
-//   ratified; ours): shape "sphere", intensity in cd/m^2, radius in metres (default 1) times the
-//   node's scale, and, as an addition, `range`. Other shapes are left out with a warning.
+//   R^2). With options.sunRadius a directional light becomes a distant sphere of the same
+//   illuminance. Scale does not change any of these. KHR_lights_area (glTF pull request 1948, never
+//   ratified; ours): shape "sphere", "disk" or "rect", intensity in cd/m^2, radius, width and
+//   height in metres (default 1) times the node's scale, and, as an addition, `range`. Disks and
+//   rects face -z and are one-sided.
 void addGltfLights(const GltfDocument& document, size_t node, const glm::dmat4& worldFromNode,
                    const SceneOptions& options, GltfLights& out);
 

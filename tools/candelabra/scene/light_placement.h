@@ -13,7 +13,8 @@ namespace candelabra::app
 
 // Chooses scene.lightOrigin and writes scene.lights[i].position for world positions in metres, one
 // per light. The origin stays at 0 while every light is within 1024 m of it (float step there:
-// 0.06 mm), else it is the centre of the positions' bounds.
+// 0.06 mm), else it is the centre of the positions' bounds. Lights infinitely far away have no
+// position.
 void placeLights(Scene& scene, const std::vector<glm::dvec3>& worldPositions);
 
 } // namespace candelabra::app

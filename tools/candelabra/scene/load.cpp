@@ -49,8 +49,9 @@ SceneFormat fileFormat(const std::string& path)
         return SceneFormat::SceneJson;
     std::error_code ignored;
     if (path.find('\0') != std::string::npos || !std::filesystem::exists(path, ignored))
-        throw SceneError("unknown scene \"" + printable(path, 4096) +
-                         "\": use hall, field, or the path of a .gltf, .glb or .json file");
+        throw SceneError(
+            "unknown scene \"" + printable(path, 4096) +
+            "\": use hall, field, showcase, or the path of a .gltf, .glb or .json file");
     return formatFromContent(path);
 }
 
@@ -62,6 +63,8 @@ Scene loadScene(const std::string& scene, const SceneOptions& options)
         return generateHall(options);
     if (scene == "field")
         return generateField(options);
+    if (scene == "showcase")
+        return generateShowcase(options);
     Scene loaded =
         fileFormat(scene) == SceneFormat::Gltf ? loadGltf(scene, options) : loadSceneJson(scene);
     if (options.lights)

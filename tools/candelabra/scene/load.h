@@ -26,14 +26,18 @@ struct SceneOptions {
                                     // (default 8, with few lights half of what is possible)
     bool moving = false;            // lights get a LightMotion
     std::optional<double> punctualRadius; // metres: point lights without a radius become spheres
+    std::optional<double> sunRadius;      // sine of an angular radius: directional lights become
+                                          // distant spheres
 };
 
-// `scene` is "hall", "field", or the path of a .gltf, .glb or .json file. Throws SceneError.
+// `scene` is "hall", "field", "showcase", or the path of a .gltf, .glb or .json file. Throws
+// SceneError.
 Scene loadScene(const std::string& scene, const SceneOptions& options);
 
 // The pieces behind it.
 Scene generateHall(const SceneOptions& options);
 Scene generateField(const SceneOptions& options);
+Scene generateShowcase(const SceneOptions& options); // one light of every type
 Scene loadGltf(const std::string& path, const SceneOptions& options);
 Scene loadSceneJson(const std::string& path);
 // Adds options.lights random sphere lights inside the scene's bounds.

@@ -53,6 +53,8 @@ void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out)
 {
     out = scene.lights;
     for (size_t i = 0; i < scene.lightMotions.size() && i < out.size(); ++i) {
+        if (out[i].type == CND_LIGHT_DIRECTIONAL || out[i].type == CND_LIGHT_DISTANT_SPHERE)
+            continue; // no position to move
         const LightMotion& motion = scene.lightMotions[i];
         // In double, and reduced before it becomes a float: the circles stay circles after hours.
         const double angle = motion.phase + static_cast<double>(motion.angularSpeed) * time;

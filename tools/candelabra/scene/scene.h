@@ -116,7 +116,7 @@ struct Scene {
     std::vector<Camera> cameras;           // at least one after loading; [0] is the default
     glm::vec3 background{0};               // luminance of pixels without a surface, cd/m^2
     std::optional<glm::uvec2> resolution;  // default image size
-    bool lightsVisible = true;             // draw sphere lights as emitters
+    bool lightsVisible = true;             // draw area lights as emitters
     std::vector<std::string> warnings;     // what was understood but not used, one sentence each
 };
 

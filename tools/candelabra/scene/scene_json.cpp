@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The small scene description that reference images are published with: one camera, exact planes
-// and balls, sphere lights. Angles in degrees, lengths in any unit, radiance taken as is.
+// and balls, lights (scene_json_lights.h). Angles in degrees, lengths in any unit, radiance taken
+// as is.
 #include <cmath>
 #include <filesystem>
 
 #include "scene/json_value.h"
-#include "scene/light_placement.h"
 #include "scene/load.h"
 #include "scene/scene_file.h"
+#include "scene/scene_json_lights.h"
 
 namespace candelabra::app
 {
@@ -77,7 +78,7 @@ float readPerceptualRoughness(const JsonValue& json)
 // goes into the base colour and the material itself is a dielectric.
 Material readMaterial(const JsonValue& json)
 {
-    json.refuseOtherKeys({"name", "albedo", "diffuse", "specular", "F0", "alpha",
+    json.refuseOtherKeys({"name", "albedo", "diffuse", "specular", "F0", "reflectance", "alpha",
                           "perceptual_roughness", "metalness"});
     Material material;
     if (const auto name = json.find("name"))
@@ -90,6 +91,13 @@ Material readMaterial(const JsonValue& json)
     material.perceptualRoughness = readPerceptualRoughness(json);
     if (const auto f0 = json.find("F0"))
         material.dielectricF0 = color(*f0, unitInterval);
+    if (const auto reflectance = json.find("reflectance")) {
+        if (json.find("F0"))
+            reflectance->fail("cannot stand beside \"F0\"");
+        // Lagarde and de Rousiers 2014, eq. 25: 0.5 is a common dielectric, F0 = 0.04.
+        const double r = reflectance->number(unitInterval);
+        material.dielectricF0 = glm::vec3(static_cast<float>(0.16 * r * r));
+    }
     const auto diffuse = json.find("diffuse");
     const auto specular = json.find("specular");
     material.diffuseWeight = diffuse && !diffuse->boolean() ? 0.0f : 1.0f;
@@ -151,38 +159,6 @@ void readObjects(const JsonValue& root, Scene& scene)
         add(list->item(i));
 }
 
-CndLight readLight(const JsonValue& json, glm::dvec3& position)
-{
-    json.refuseOtherKeys({"position", "radius", "radiance", "influence_radius"});
-    CndLight light = {};
-    light.type = CND_LIGHT_SPHERE;
-    position = json.member("position").vector3(coordinate);
-    const JsonValue radius = json.member("radius");
-    light.radius = static_cast<float>(radius.number(NumberRange::positive(maxCoordinate)));
-    if (!(light.radius > 0))
-        radius.fail("is too small for single precision");
-    const glm::vec3 radiance = color(json.member("radiance"), {0});
-    for (int i = 0; i < 3; ++i)
-        light.emission[i] = radiance[i];
-    light.influenceRadius = INFINITY;
-    if (const auto influence = json.find("influence_radius")) {
-        const double r = influence->number(NumberRange::positive(maxCoordinate));
-        light.influenceRadius = static_cast<float>(r);
-        if (!(light.influenceRadius > light.radius))
-            influence->fail("must be greater than radius");
-    }
-    return light;
-}
-
-void readLights(const JsonValue& list, Scene& scene)
-{
-    list.requireArray();
-    std::vector<glm::dvec3> positions(list.size());
-    for (size_t i = 0; i < list.size(); ++i)
-        scene.lights.push_back(readLight(list.item(i), positions[i]));
-    placeLights(scene, positions);
-}
-
 glm::uvec2 readResolution(const JsonValue& json)
 {
     json.requireArray();
@@ -210,7 +186,7 @@ Scene loadSceneJson(const std::string& path)
                                                   : std::filesystem::path(path).stem().string();
     scene.cameras.push_back(readCamera(root.member("camera")));
     readObjects(root, scene);
-    readLights(root.member("lights"), scene);
+    readSceneLights(root.member("lights"), scene);
     if (const auto resolution = root.find("resolution"))
         scene.resolution = readResolution(*resolution);
     if (const auto background = root.find("background"))

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every type of light in the scene description: values arrive as written, in the units of the
+// public interface; errors are one sentence that names the key.
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "scene/load.h"
+#include "unit/gltf_builder.h"
+#include "unit/scene_invariants.h"
+
+namespace candelabra::test
+{
+
+namespace
+{
+
+using namespace candelabra::app;
+
+constexpr double pi = std::numbers::pi;
+const std::string everyLight = std::string(CANDELABRA_TEST_DATA) + "/every_light.json";
+
+glm::vec3 vec(const float (&v)[3])
+{
+    return {v[0], v[1], v[2]};
+}
+
+void expectNear(const glm::vec3& a, const glm::vec3& b)
+{
+    EXPECT_LE(glm::length(a - b), 1e-6f * glm::length(b))
+        << a.x << " " << a.y << " " << a.z << ", not " << b.x << " " << b.y << " " << b.z;
+}
+
+double power(const CndLight& light, int channel)
+{
+    float out[3] = {};
+    EXPECT_EQ(cndLuminousPowerOfLight(&light, out, nullptr), CND_SUCCESS);
+    return double(out[channel]);
+}
+
+class SceneJsonLights : public testing::Test
+{
+protected:
+    // Without lights.
+    static Json emptyScene()
+    {
+        return Json::parse(R"({
+            "camera": {"position": [0, 2, 4], "look_at": [0, 0, 0], "up": [0, 1, 0],
+                       "vertical_fov_degrees": 45},
+            "object": {"type": "plane", "point": [0, 0, 0], "normal": [0, 1, 0]},
+            "material": {"albedo": [0.8, 0.6, 0.4], "alpha": 0.09}, "lights": []})");
+    }
+
+    // What loading a scene with this light says after "scene.json: lights[0]".
+    std::string error(const Json& light)
+    {
+        Json json = emptyScene();
+        json["lights"].push_back(light);
+        const std::string file = folder_.write("scene.json", json.dump());
+        try {
+            const Scene scene = loadScene(file, {});
+            EXPECT_EQ(brokenInvariant(scene), "");
+        } catch (const SceneError& e) {
+            const std::string message = e.what(), start = file + ": lights[0]";
+            EXPECT_EQ(message.find(start), 0u) << message;
+            EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+            return message.substr(start.size());
+        }
+        return "no error";
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(SceneJsonLights, EveryTypeArrivesAsWritten)
+{
+    const Scene scene = loadScene(everyLight, {});
+    EXPECT_EQ(brokenInvariant(scene), "");
+    ASSERT_EQ(scene.lights.size(), 11u);
+    const auto& l = scene.lights;
+    const CndLightType types[] = {CND_LIGHT_SPHERE,         CND_LIGHT_SPHERE,     CND_LIGHT_SPHERE,
+                                  CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_TUBE,       CND_LIGHT_TUBE,
+                                  CND_LIGHT_RECTANGLE,      CND_LIGHT_DISC,       CND_LIGHT_POINT,
+                                  CND_LIGHT_SPOT,           CND_LIGHT_DIRECTIONAL};
+    for (size_t i = 0; i < l.size(); ++i)
+        EXPECT_EQ(l[i].type, uint32_t(types[i])) << i;
+    expectNear(vec(l[0].emission), {400, 300, 200});
+    EXPECT_NEAR(power(l[1], 0), 500, 1e-4);
+    EXPECT_EQ(l[1].influenceRadius, 8);
+    for (int c = 0; c < 3; ++c) // I = pi R^2 L
+        EXPECT_NEAR(double(l[2].emission[c]) * pi * 0.01, 30 + 10 * c, 1e-4);
+
+    expectNear(vec(l[3].direction), glm::normalize(glm::vec3(-1, -2, 0)));
+    EXPECT_EQ(l[3].radius, 0.00465f);
+    EXPECT_NEAR(double(l[3].emission[2]) * pi * 0.00465 * 0.00465, 18, 1e-5);
+
+    expectNear(vec(l[4].position), {0, 2.3f, -1});
+    expectNear(vec(l[4].axisU), {1, 0.1f, 0});
+    EXPECT_EQ(l[4].radius, 0.05f);
+    EXPECT_EQ(l[4].influenceRadius, 6);
+    EXPECT_EQ(l[4].emission[1], 3000);
+    EXPECT_NEAR(power(l[5], 0), 100, 1e-4);
+
+    expectNear(vec(l[6].axisU), {0.5f, 0, 0});
+    expectNear(vec(l[6].axisV), {0, 0.3f, 0.3f});
+    EXPECT_TRUE(l[6].twoSided);
+    EXPECT_FALSE(l[7].twoSided);
+    expectNear(vec(l[7].direction), glm::normalize(glm::vec3(-1, -2, 1)));
+    EXPECT_NEAR(power(l[7], 2), 400, 1e-3);
+
+    EXPECT_EQ(l[8].emission[0], 40);
+    EXPECT_EQ(l[8].influenceRadius, 5);
+    EXPECT_NEAR(double(l[9].innerConeAngle), 12 * pi / 180, 1e-7);
+    EXPECT_NEAR(double(l[9].outerConeAngle), 25 * pi / 180, 1e-7);
+    EXPECT_NEAR(power(l[9], 1), 200, 1e-3);
+    EXPECT_TRUE(std::isinf(l[9].influenceRadius));
+    EXPECT_EQ(l[10].emission[2], 4);
+    EXPECT_TRUE(scene.lightsVisible);
+}
+
+// The Sun at its distance, and lights far from the origin: the place of the other lights decides.
+TEST_F(SceneJsonLights, DistantLightsDoNotMoveTheOrigin)
+{
+    Json json = emptyScene();
+    json["lights"] = Json::parse(R"([
+        {"type": "distant_sphere", "direction": [0, -1, 0], "sin_angular_radius": 0.00465,
+         "radiance": [1.6e9, 1.6e9, 1.5e9]},
+        {"type": "tube", "start": [1e7, 0, 0], "end": [10000000.5, 0, 0], "radius": 0.01,
+         "radiance": [1, 1, 1]}])");
+    const Scene scene = loadScene(folder_.write("scene.json", json.dump()), {});
+    EXPECT_EQ(brokenInvariant(scene), "");
+    EXPECT_EQ(scene.lightOrigin, glm::dvec3(10000000.25, 0, 0));
+    expectNear(vec(scene.lights[1].axisU), {0.25f, 0, 0});
+    EXPECT_EQ(vec(scene.lights[0].position), glm::vec3(0));
+    EXPECT_EQ(scene.lights[0].emission[0], 1.6e9f);
+}
+
+TEST_F(SceneJsonLights, ReflectanceIsAnF0)
+{
+    Json json = emptyScene();
+    json["material"]["reflectance"] = 0.5;
+    const auto load = [&] { return loadScene(folder_.write("scene.json", json.dump()), {}); };
+    EXPECT_FLOAT_EQ(load().materials[0].dielectricF0.x, 0.04f);
+    json["material"]["reflectance"] = 1;
+    EXPECT_FLOAT_EQ(load().materials[0].dielectricF0.z, 0.16f);
+    json["material"]["F0"] = {0.1, 0.1, 0.1};
+    try {
+        load();
+        ADD_FAILURE() << "no error";
+    } catch (const SceneError& e) {
+        EXPECT_NE(std::string(e.what()).find("material.reflectance: cannot stand beside \"F0\""),
+                  std::string::npos)
+            << e.what();
+    }
+}
+
+// Every key of every light of the data file, replaced or removed, names itself.
+TEST_F(SceneJsonLights, EveryBadValueNamesItsKey)
+{
+    std::ifstream file(everyLight);
+    const Json valid = Json::parse(file);
+    size_t tried = 0;
+    for (const Json& light : valid["lights"])
+        for (const auto& [key, value] : light.items()) {
+            for (const char* bad : {"null", "{}", "[]", "\"x\"", "-1", "[1, 2]", "1e300",
+                                    "[1e300, 0, 0]", "[0, 0, \"1\"]"}) {
+                Json broken = light;
+                broken[key] = Json::parse(bad);
+                const std::string message = error(broken);
+                EXPECT_EQ(message.find("." + key), 0u) << key << " = " << bad << ": " << message;
+                ++tried;
+            }
+            Json without = light;
+            without.erase(key);
+            if (key == "type" || key == "influence_radius" || key == "two_sided")
+                continue;
+            EXPECT_NE(error(without).find("is missing"), std::string::npos) << key;
+            Json more = light;
+            more[key + "s"] = 1;
+            EXPECT_EQ(error(more), ": unknown key \"" + key + "s\"");
+        }
+    EXPECT_GT(tried, 300u);
+}
+
+TEST_F(SceneJsonLights, ErrorsSayWhy)
+{
+    const auto expect = [&](const char* light, const char* message) {
+        EXPECT_EQ(error(Json::parse(light)), message);
+    };
+    expect(R"({"type": "cone"})",
+           ".type: must be one of sphere, distant_sphere, tube, rectangle, disc, point, spot, "
+           "directional, is \"cone\"");
+    expect(R"({"type": "point", "position": [0, 1, 0]})", ": \"intensity\" is missing");
+    expect(R"({"type": "point", "position": [0, 1, 0], "radiance": [1, 1, 1]})",
+           ": unknown key \"radiance\"");
+    expect(R"({"type": "point", "position": [0, 1, 0], "intensity": [1, 1, 1],
+               "luminous_power": [1, 1, 1]})",
+           ".luminous_power: cannot stand beside \"intensity\"");
+    expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "luminance": [1, 1, 1]})",
+           ".luminance: cannot stand beside \"radiance\"");
+    expect(R"({"position": [0, 1, 0], "radius": 1e-21, "luminous_power": [1, 1, 1]})",
+           ".luminous_power: is more than single precision holds for so small a light");
+    expect(R"({"type": "tube", "start": [0, 1, 0], "end": [0, 1, 0], "radius": 1,
+               "radiance": [1, 1, 1]})",
+           ".end: must not be the start");
+    expect(R"({"type": "tube", "start": [0, 1, 0], "end": [0, 3, 0], "radius": 1,
+               "radiance": [1, 1, 1], "influence_radius": 2})",
+           ".influence_radius: must be greater than the reach of the light from its centre");
+    expect(R"({"type": "rectangle", "position": [0, 1, 0], "axis_u": [1, 0, 0],
+               "axis_v": [0.1, 1, 0], "radiance": [1, 1, 1]})",
+           ".axis_v: must be perpendicular to axis_u");
+    expect(R"({"type": "rectangle", "position": [0, 1, 0], "axis_u": [0, 0, 0],
+               "axis_v": [0, 1, 0], "radiance": [1, 1, 1]})",
+           ".axis_u: must not be zero");
+    expect(R"({"type": "disc", "position": [0, 1, 0], "normal": [0, 0, 0], "radius": 1,
+               "radiance": [1, 1, 1]})",
+           ".normal: must not be zero");
+    expect(R"({"type": "disc", "position": [0, 1, 0], "normal": [0, 1, 0], "radius": 1,
+               "radiance": [1, 1, 1], "influence_radius": 1})",
+           ".influence_radius: must be greater than radius");
+    expect(R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
+               "inner_cone_degrees": 30, "outer_cone_degrees": 30, "intensity": [1, 1, 1]})",
+           ".outer_cone_degrees: must be greater than inner_cone_degrees (their cosines by 1e-6)");
+    expect(R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
+               "inner_cone_degrees": 30, "outer_cone_degrees": 91, "intensity": [1, 1, 1]})",
+           ".outer_cone_degrees: must be > 0 and <= 90, is 91");
+    expect(R"({"type": "distant_sphere", "direction": [0, -1, 0], "sin_angular_radius": 1.5,
+               "illuminance": [1, 1, 1]})",
+           ".sin_angular_radius: must be > 0 and <= 1, is 1.5");
+    expect(R"({"type": "directional", "direction": [0, -1, 0], "position": [0, 0, 0],
+               "illuminance": [1, 1, 1]})",
+           ": unknown key \"position\"");
+    // The widest spot there is.
+    expect(R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
+               "inner_cone_degrees": 0, "outer_cone_degrees": 90, "intensity": [1, 1, 1]})",
+           "no error");
+}
+
+} // namespace
+
+} // namespace candelabra::test
