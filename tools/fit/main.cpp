@@ -33,7 +33,8 @@ LtcLobe lobeAt(double i, double j, double F0)
     const double low = gpu::LTC_MIN_ROUGHNESS;
     const double roughness = low + (1 - low) * i / (size - 1);
     const double v = j / (size - 1);
-    return {roughness * roughness, 1 - (1 - double(gpu::LTC_MIN_NOV)) * v * v, F0};
+    const double lowest = gpu::LTC_MIN_NOV;
+    return {roughness * roughness, lowest + (1 - lowest) * (1 - v * v) * (1 - v * v), F0};
 }
 
 // function(i) for every row i, on all cores.

@@ -86,9 +86,9 @@ float discFormFactor(vec3 n, vec3 toCentre, vec3 normal, float radius, bool twoS
     const float r = -h * nv / radius;
     const vec3 integrals = discArcIntegrals(e, root, from, to, turn);
     k.sum = radius * radius * (nw * turn - e * dot(vec3(p, q, r), integrals));
-    const bool crosses = c > -1.0 && c < 1.0;
-    k.leaves = crosses ? radius * (to.x * u + to.y * v) : vec3(0.0);
-    k.enters = crosses ? radius * (from.x * u + from.y * v) : vec3(0.0);
+    // Back along the horizon; where nothing crosses, s = 0 and this adds nothing.
+    const vec3 chord = radius * c * (middle.x * u + middle.y * v);
+    contourSegment(k, chord, (radius * s) * (middle.y * u - middle.x * v), -1.0, 1.0);
     const float f = contourFormFactor(k);
     return c < 1.0 && (twoSided || h < 0.0) ? f : 0.0;
 }

@@ -123,8 +123,8 @@ bool tubeIsBelow(vec3 n, TubeOutline tube)
     return dot(n, tube.centre) + abs(dot(n, tube.axis)) + tube.radius <= 0.0;
 }
 
-// Form factor F = E / (pi L), 0..1. Largest error measured: 2.4e-4 of F or of that of the tube seen
-// from the side, whichever is more; mean 4e-6.
+// Form factor F = E / (pi L), 0..1. Largest error measured: 3.1e-3 of F or of that of the tube seen
+// from the side, whichever is more; mean 5e-6.
 float tubeFormFactor(vec3 n, TubeOutline tube)
 {
     if (tubeIsBelow(n, tube))
