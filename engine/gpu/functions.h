@@ -5,6 +5,7 @@
 #pragma once
 
 #define CND_INSTANCE_FUNCTIONS(X)                                                                  \
+    X(GetPhysicalDeviceFormatProperties2)                                                          \
     X(GetPhysicalDeviceProperties2)                                                                \
     X(GetPhysicalDeviceMemoryProperties)                                                           \
     X(GetPhysicalDeviceQueueFamilyProperties)                                                      \

@@ -43,6 +43,38 @@ Handle<VkDeviceMemory> allocate(const Device& device, const VkMemoryRequirements
     return owner;
 }
 
+void bindImage(const Device& device, const std::string& name, const VkImageCreateInfo& info,
+               Handle<VkImage>& image, Handle<VkDeviceMemory>& memory)
+{
+    VkImage created{};
+    check(device.CreateImage(device.handle, &info, device.allocationCallbacks, &created),
+          "creating image " + name);
+    image = Handle(device, created);
+    VkMemoryRequirements needs{};
+    device.GetImageMemoryRequirements(device.handle, created, &needs);
+    memory = allocate(device, needs, MemoryUse::Device, name);
+    check(device.BindImageMemory(device.handle, created, memory.get(), 0),
+          "binding memory of image " + name);
+    device.name(VK_OBJECT_TYPE_IMAGE, created, name);
+}
+
+Handle<VkImageView> createView(const Device& device, const std::string& name, VkImage image,
+                               VkImageViewType type, VkFormat format,
+                               const VkImageSubresourceRange& range)
+{
+    const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                     .image = image,
+                                     .viewType = type,
+                                     .format = format,
+                                     .subresourceRange = range};
+    VkImageView view{};
+    check(device.CreateImageView(device.handle, &info, device.allocationCallbacks, &view),
+          "creating a view of image " + name);
+    Handle<VkImageView> owner(device, view);
+    device.name(VK_OBJECT_TYPE_IMAGE_VIEW, view, name);
+    return owner;
+}
+
 } // namespace
 
 Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize size,
@@ -104,27 +136,37 @@ Image createImage(const Device& device, const std::string& name, VkFormat format
                                  .samples = VK_SAMPLE_COUNT_1_BIT,
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
                                  .usage = usage};
-    VkImage image{};
-    check(device.CreateImage(device.handle, &info, device.allocationCallbacks, &image),
-          "creating image " + name);
-    result.image = Handle(device, image);
-    VkMemoryRequirements needs{};
-    device.GetImageMemoryRequirements(device.handle, image, &needs);
-    result.memory = allocate(device, needs, MemoryUse::Device, name);
-    check(device.BindImageMemory(device.handle, image, result.memory.get(), 0),
-          "binding memory of image " + name);
-    device.name(VK_OBJECT_TYPE_IMAGE, image, name);
+    bindImage(device, name, info, result.image, result.memory);
+    result.view = createView(device, name, result.image.get(), VK_IMAGE_VIEW_TYPE_2D, format,
+                             {aspect, 0, mipLevels, 0, 1});
+    return result;
+}
 
-    const VkImageViewCreateInfo viewInfo{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-                                         .image = image,
-                                         .viewType = VK_IMAGE_VIEW_TYPE_2D,
-                                         .format = format,
-                                         .subresourceRange = {aspect, 0, mipLevels, 0, 1}};
-    VkImageView view{};
-    check(device.CreateImageView(device.handle, &viewInfo, device.allocationCallbacks, &view),
-          "creating a view of image " + name);
-    result.view = Handle(device, view);
-    device.name(VK_OBJECT_TYPE_IMAGE_VIEW, view, name);
+CubeImage createCubeImage(const Device& device, const std::string& name, uint32_t size,
+                          uint32_t mipLevels)
+{
+    constexpr VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    constexpr VkImageAspectFlags colour = VK_IMAGE_ASPECT_COLOR_BIT;
+    constexpr uint32_t faces = 6;
+    CubeImage result;
+    const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                 .flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT,
+                                 .imageType = VK_IMAGE_TYPE_2D,
+                                 .format = format,
+                                 .extent = {size, size, 1},
+                                 .mipLevels = mipLevels,
+                                 .arrayLayers = faces,
+                                 .samples = VK_SAMPLE_COUNT_1_BIT,
+                                 .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                 .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};
+    bindImage(device, name, info, result.image, result.memory);
+    const VkImage image = result.image.get();
+    result.view = createView(device, name, image, VK_IMAGE_VIEW_TYPE_CUBE, format,
+                             {colour, 0, mipLevels, 0, faces});
+    for (uint32_t mip = 0; mip < mipLevels; ++mip)
+        result.mips.push_back(createView(device, name + " mip " + std::to_string(mip), image,
+                                         VK_IMAGE_VIEW_TYPE_2D_ARRAY, format,
+                                         {colour, mip, 1, 0, faces}));
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "gpu/handle.h"
 
@@ -53,5 +54,17 @@ struct Image {
 Image createImage(const Device& device, const std::string& name, VkFormat format, uint32_t width,
                   uint32_t height, VkImageUsageFlags usage, VkImageAspectFlags aspect,
                   uint32_t mipLevels = 1);
+
+// R32G32B32A32_SFLOAT cube for sampling and for writing in compute.
+struct CubeImage {
+    Handle<VkDeviceMemory> memory;
+    Handle<VkImage> image;
+    Handle<VkImageView> view;              // a cube, all mips
+    std::vector<Handle<VkImageView>> mips; // each an array of six layers, for storage
+};
+
+// `size` texels a side.
+CubeImage createCubeImage(const Device& device, const std::string& name, uint32_t size,
+                          uint32_t mipLevels);
 
 } // namespace candelabra::gpu

@@ -18,6 +18,15 @@ vec3 viewPosition(Projection m, uvec2 pixel, vec2 invImageSize, float depth)
     return vec3(x, y, z);
 }
 
+// Direction in which the eye looks through the centre of `pixel`, not normalised.
+vec3 viewRay(Projection m, uvec2 pixel, vec2 invImageSize)
+{
+    const vec2 ndc = vec2(2u * pixel + 1u) * invImageSize - 1.0;
+    const float z = 1.0 / m.m23; // where clip.w is 1
+    const vec3 through = vec3((ndc.x - m.m20 * z) / m.m00, (ndc.y - m.m21 * z) / m.m11, z);
+    return m.eyeIsPoint != 0.0 ? through : -m.eye;
+}
+
 // Towards the eye from `position`, not normalised.
 vec3 towardsEye(Projection m, vec3 position)
 {

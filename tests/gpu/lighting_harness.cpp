@@ -121,6 +121,15 @@ glm::vec4 storedHalf4(glm::uvec2 packed)
     return glm::vec4(glm::unpackHalf2x16(packed.x), glm::unpackHalf2x16(packed.y));
 }
 
+void addPixel(CpuGBuffer& g, const CpuSurface& surface)
+{
+    g.depth.push_back(surface.depth);
+    g.normalRoughness.push_back(
+        packNormal(glm::normalize(surface.normal), surface.perceptualRoughness));
+    g.albedo.push_back(packHalf4(glm::vec4(surface.albedo, 0)));
+    g.specular.push_back(packHalf4(surface.F0F90));
+}
+
 CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camera, float clearDepth,
                          uint32_t seed)
 {

@@ -38,6 +38,17 @@ glm::dvec3 storedNormal(const CpuGBuffer& g, size_t pixel);
 double storedRoughness(const CpuGBuffer& g, size_t pixel);
 glm::vec4 storedHalf4(glm::uvec2 packed);
 
+// One more pixel of a G-buffer, in rows from the top. `normal` need not be unit; F0F90: rgb F0, a
+// F90.
+struct CpuSurface {
+    float depth = 0;
+    glm::dvec3 normal{0, 0, 1};
+    double perceptualRoughness = 1;
+    glm::vec3 albedo{0};
+    glm::vec4 F0F90{0};
+};
+void addPixel(CpuGBuffer& g, const CpuSurface& surface);
+
 // Bumpy walls at several depths with random materials, holes to the background among them.
 CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camera, float clearDepth,
                          uint32_t seed);

@@ -132,6 +132,32 @@ TEST_F(ProgramTest, CullingAndFrameCountDoNotChangeTheImage)
     EXPECT_EQ(a, app::loadPfm(path("c.pfm")).pixels);
 }
 
+TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
+{
+    app::Image sky{.width = 32, .height = 16, .channels = 3};
+    sky.pixels.assign(32 * 16 * 3, 50.0f);
+    app::saveHdr(path("sky.hdr"), sky);
+    const std::string start = "render field --lights 0 --size 64x36 -q -o ";
+    ASSERT_EQ(run(start + "dark.pfm").exitCode, 0);
+    const Outcome lit = run(start + "lit.pfm --environment sky.hdr --environment-scale 2 "
+                                    "--environment-rotation 30 --validate");
+    ASSERT_EQ(lit.exitCode, 0) << lit.err;
+    const auto dark = app::loadPfm(path("dark.pfm")).pixels,
+               bright = app::loadPfm(path("lit.pfm")).pixels;
+    double most = 0, gained = 0;
+    for (size_t i = 0; i < dark.size(); ++i) {
+        most = std::max(most, double(bright[i]) - dark[i]);
+        gained += (bright[i] - dark[i]) / double(dark.size());
+    }
+    // A white surrounding: the background shows it, nothing reflects more than it.
+    EXPECT_NEAR(most, 100, 0.5);
+    EXPECT_GT(gained, 5);
+
+    const Outcome idle = run(start + "idle.pfm --environment-scale 2");
+    EXPECT_EQ(idle.exitCode, 0);
+    EXPECT_NE(idle.err.find("--environment-scale has no effect"), std::string::npos) << idle.err;
+}
+
 TEST_F(ProgramTest, StressWritesEverythingItPromises)
 {
     const Outcome outcome =

@@ -159,6 +159,41 @@ TEST_F(RendererTest, ResizeGivesTheFrameOfThatSizeAndKeepsExposure)
     EXPECT_EQ(readDisplay(context(), renderer), readDisplay(context(), fresh));
 }
 
+// The environment is part of both paths, lights what no lamp reaches and is seen through windows.
+TEST_F(RendererTest, EnvironmentLightsTheSceneAndItsBackground)
+{
+    Scene scene = generateField({.lights = 100});
+    FrameOptions frame = frameOf(scene);
+    const PixelSize size{160, 90};
+    Renderer night(context(), scene, {.size = size});
+    const Image before = radiance(night, frame);
+
+    Image sky{.width = 64, .height = 32, .channels = 3};
+    for (uint32_t i = 0; i < 64 * 32; ++i)
+        for (const float channel : {200.0f, 300.0f, i < 64 * 16 ? 500.0f : 100.0f})
+            sky.pixels.push_back(channel);
+    scene.environment = SceneEnvironment{.radiance = sky, .rotation = 1, .scale = 0.5};
+    Renderer day(context(), scene, {.size = size});
+    const Image lit = radiance(day, frame);
+    for (size_t i = 0; i < lit.pixels.size(); ++i)
+        ASSERT_GE(lit.pixels[i], before.pixels[i]) << i;
+    const BruteCheck check = compareWithBruteForce(
+        context(), day, frame, lit, checkRects(size, scene.lights.size(), CheckExtent::Full),
+        scene.lights.size(), [](double) {});
+    EXPECT_LE(check.relative(), BruteCheck::bound);
+    // The view's upper edge is sky: half its luminance.
+    EXPECT_NEAR(lit.pixels[0], 100, 1);
+    EXPECT_NEAR(lit.pixels[1], 150, 1);
+    EXPECT_NEAR(lit.pixels[2], 250, 1);
+    const FrameStats stats = draw(day, frame);
+    EXPECT_TRUE(std::any_of(stats.passes.begin(), stats.passes.end(), [](const PassTime& p) {
+        return p.name == "shade_environment" && p.ms > 0;
+    }));
+    const FrameStats without = draw(night, frame);
+    EXPECT_TRUE(std::none_of(without.passes.begin(), without.passes.end(),
+                             [](const PassTime& p) { return p.name == "shade_environment"; }));
+}
+
 TEST_F(RendererTest, EmittersAreBrighterThanWhatTheyLight)
 {
     const Scene scene = hall(200);

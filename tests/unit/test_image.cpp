@@ -138,6 +138,30 @@ TEST(ImageFiles, HdrKeepsEightBits)
         }
 }
 
+TEST(ImageFiles, ReadersAreChosenByExtension)
+{
+    const TemporaryFolder folder;
+    const Image image = testImage(16, 8, 3);
+    for (const char* name : {"a.EXR", "a.pfm", "a.hdr"}) {
+        saveImageByExtension(folder.path(name), image);
+        const Image back = loadImageByExtension(folder.path(name));
+        ASSERT_EQ(back.pixels.size(), image.pixels.size()) << name;
+        EXPECT_EQ(back.width, 16u);
+        EXPECT_EQ(back.channels, 3u);
+        for (size_t i = 0; i < image.pixels.size(); i += 3) {
+            const float largest =
+                std::max({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
+            for (size_t c = i; c < i + 3; ++c) // RGBE: 8 bits of the largest channel
+                ASSERT_NEAR(back.pixels[c], image.pixels[c], largest / 128) << name;
+        }
+    }
+    EXPECT_NE(errorOf([&] { loadImageByExtension(folder.path("a.png")); }).find(".hdr"),
+              std::string::npos);
+    savePfm(folder.path("pfm.hdr"), image);
+    EXPECT_NE(errorOf([&] { loadHdr(folder.path("pfm.hdr")); }).find("not a Radiance HDR"),
+              std::string::npos);
+}
+
 TEST(ImageFiles, HdrRefusesWhatItCannotHold)
 {
     const TemporaryFolder folder;

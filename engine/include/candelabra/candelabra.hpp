@@ -154,6 +154,41 @@ public:
     }
 };
 
+// An image of the far surroundings as a light.
+class Environment : public detail::Owner<CndEnvironment, cndDestroyEnvironment>
+{
+public:
+    using Owner::Owner;
+
+    static Result<Environment> create(const CndDeviceDesc& device, CndEnvironmentDesc desc) noexcept
+    {
+        desc.structSize = sizeof desc;
+        CndEnvironment handle = nullptr;
+        CndError error{};
+        if (cndCreateEnvironment(&device, &desc, &handle, &error) != CND_SUCCESS)
+            return error;
+        return Environment(handle);
+    }
+    Result<void> recordMap(VkCommandBuffer cmd, CndEnvironmentMap map) const noexcept
+    {
+        map.structSize = sizeof map;
+        return detail::call(cndRecordEnvironmentMap, handle_, cmd, &map);
+    }
+    Result<void> record(VkCommandBuffer cmd, CndEnvironmentFrame frame) const noexcept
+    {
+        frame.structSize = sizeof frame;
+        return detail::call(cndRecordEnvironment, handle_, cmd, &frame);
+    }
+    std::optional<CndEnvironmentStats> stats(uint32_t frameSlot) const noexcept
+    {
+        CndEnvironmentStats stats{};
+        stats.structSize = sizeof stats;
+        if (cndGetEnvironmentStats(handle_, frameSlot, &stats) != CND_SUCCESS)
+            return std::nullopt;
+        return stats;
+    }
+};
+
 // Eye adaptation and tone mapping of one view.
 class Exposure : public detail::Owner<CndExposure, cndDestroyExposure>
 {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
@@ -191,6 +192,19 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
                     "glTF files: directional lights become distant spheres whose angular radius "
                     "has this sine (the Sun: 0.00465)")
         ->type_name("SINE");
+    command
+        .add_option("--environment", environment,
+                    "light from all around: an equirectangular image, .hdr, .exr or .pfm, in "
+                    "cd/m^2, up at the top, seen where no surface is")
+        ->type_name("FILE");
+    command
+        .add_option("--environment-rotation", environmentRotation,
+                    "turns the environment about the vertical, counter-clockwise from above (0)")
+        ->type_name("DEGREES");
+    command
+        .add_option("--environment-scale", environmentScale,
+                    "factor on the environment's luminance (1)")
+        ->type_name("FACTOR");
 }
 
 SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
@@ -206,6 +220,13 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
         out.punctualRadius = numberOption("--punctual-radius", punctualRadius, 1e-6, 1e6);
     if (!sunRadius.empty())
         out.sunRadius = numberOption("--sun-radius", sunRadius, 1e-6, 1);
+    out.environment = environment;
+    if (!environmentRotation.empty())
+        out.environmentRotation =
+            numberOption("--environment-rotation", environmentRotation, -360, 360) *
+            std::numbers::pi / 180;
+    if (!environmentScale.empty())
+        out.environmentScale = numberOption("--environment-scale", environmentScale, 0, 1e9);
     return out;
 }
 
@@ -220,6 +241,10 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
         warn("--punctual-radius", "it is about point lights of glTF files");
     if (!sunRadius.empty() && (!file || scene.ends_with(".json")))
         warn("--sun-radius", "it is about directional lights of glTF files");
+    if (environment.empty() && !environmentRotation.empty())
+        warn("--environment-rotation", "there is no --environment");
+    if (environment.empty() && !environmentScale.empty())
+        warn("--environment-scale", "there is no --environment");
     if (generated || lights.value_or(0))
         return;
     const std::string reason =

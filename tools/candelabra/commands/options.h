@@ -38,6 +38,7 @@ struct DeviceArguments {
 struct SceneArguments {
     std::string scene;
     std::string seed, overlaps, punctualRadius, sunRadius;
+    std::string environment, environmentRotation, environmentScale;
     bool moving = false;
 
     // With a `fallback` the scene may be left out and named with --scene as well.

@@ -40,9 +40,12 @@ void savePfm(const std::string& path, const Image& image);
 // .exr, .hdr or .pfm by the extension of `path`, upper or lower case; others are errors.
 void saveImageByExtension(const std::string& path, const Image& image);
 
-// Readers, for tests and comparisons. EXR: single-part scanline files of half or float channels;
+// Readers. HDR: RGB. EXR: single-part scanline files of half or float channels;
 // those without R, G and B give their first channel as grey, others are dropped.
 Image loadPfm(const std::string& path);
 Image loadExr(const std::string& path);
+Image loadHdr(const std::string& path);
+// .exr, .hdr or .pfm by the extension of `path`, upper or lower case; others are errors.
+Image loadImageByExtension(const std::string& path);
 
 } // namespace candelabra::app

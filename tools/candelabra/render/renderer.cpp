@@ -6,6 +6,7 @@
 #include "gbuffer/gbuffer.h"
 #include "render/camera.h"
 #include "render/error.h"
+#include "render/scene_environment.h"
 #include "render/scene_geometry.h"
 
 namespace candelabra::app
@@ -76,6 +77,7 @@ struct Renderer::State {
     Lighting lighting; // outlives its view
     LightingView view;
     Exposure exposure;
+    Environment environment; // empty: the scene has none
     std::vector<CndLight> lights;
     double lightTime = 0;
 
@@ -93,6 +95,7 @@ struct Renderer::State {
     void setLights(double time);
     void createSized();
     void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
+    void recordEnvironment(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame) const;
     CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& frame) const;
 };
 
@@ -137,6 +140,10 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
                                                         .specularMethods = methods}));
     s.exposure = take(Exposure::create(
         context.desc(), {.framesInFlight = options.framesInFlight, .timestamps = VK_TRUE}));
+    if (scene.environment)
+        s.environment = uploadEnvironment(
+            context, *scene.environment,
+            {.gbufferLayout = options.gbufferLayout, .framesInFlight = options.framesInFlight});
     s.setLights(0);
     s.createSized();
 }
@@ -167,6 +174,29 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
                     .width = options.size.width,
                     .height = options.size.height,
                     .drawEmitters = frame.lightsVisible});
+    if (scene.environment)
+        recordEnvironment(cmd, slot, frame);
+}
+
+// Before the lights, so that frames drawn in pieces add up in the same order.
+void Renderer::State::recordEnvironment(VkCommandBuffer cmd, uint32_t slot,
+                                        const FrameOptions& frame) const
+{
+    CndEnvironmentFrame out{.frameSlot = slot,
+                            .width = options.size.width,
+                            .height = options.size.height,
+                            .camera = makeCamera(frame.camera, aspect()),
+                            .clearDepth = clearDepth,
+                            .normalRoughness = targets.normalRoughness.view.get(),
+                            .albedo = targets.albedo.view.get(),
+                            .specular = targets.specular.view.get(),
+                            .depth = targets.depth.view.get(),
+                            .radiance = targets.radiance.view.get(),
+                            .scale = float(scene.environment->scale),
+                            .background = VK_TRUE,
+                            .lobes = scene.lobes};
+    setEnvironmentRotation(scene.environment->rotation, out.worldFromEnvironment);
+    take(environment.record(cmd, out));
 }
 
 CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOptions& frame) const
@@ -249,6 +279,9 @@ FrameStats Renderer::stats(uint32_t slot) const
     uint32_t count = 0;
     if (state_->gbuffer.times(slot, raster.data(), count))
         append(out.passes, raster.data(), count);
+    if (state_->scene.environment)
+        if (const auto environment = state_->environment.stats(slot))
+            append(out.passes, environment->kernelTimes, environment->kernelTimeCount);
     const auto exposure = state_->exposure.stats(slot);
     if (!exposure)
         throw RunError("the exposure statistics of a finished frame are not there");

@@ -67,9 +67,9 @@ public:
     // A whole frame; the GPU must be done with the slot's previous one. Leaves radiance and display
     // in TRANSFER_SRC_OPTIMAL, visible to transfers.
     void record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options);
-    // A frame in pieces, for checks that spread it over many submissions: the G-buffer; lighting of
-    // rectangles that do not overlap, by brute force; the end, which leaves radiance (not display)
-    // like record(). Slot 0 only.
+    // A frame in pieces, for checks that spread it over many submissions: the G-buffer and the
+    // environment; lighting of rectangles that do not overlap, by brute force; the end, which
+    // leaves radiance (not display) like record(). Slot 0 only.
     void recordUnlit(VkCommandBuffer cmd, const FrameOptions& options);
     void recordBruteRect(VkCommandBuffer cmd, const FrameOptions& options, const VkRect2D& rect);
     void recordBruteEnd(VkCommandBuffer cmd);

@@ -57,7 +57,10 @@ SceneFormat fileFormat(const std::string& path)
 
 } // namespace
 
-Scene loadScene(const std::string& scene, const SceneOptions& options)
+namespace
+{
+
+Scene loadWithoutEnvironment(const std::string& scene, const SceneOptions& options)
 {
     if (scene == "hall")
         return generateHall(options);
@@ -70,6 +73,30 @@ Scene loadScene(const std::string& scene, const SceneOptions& options)
     if (options.lights)
         addRandomLights(loaded, options);
     return loaded;
+}
+
+SceneEnvironment loadEnvironment(const SceneOptions& options)
+{
+    try {
+        return {.radiance = loadImageByExtension(options.environment),
+                .rotation = options.environmentRotation,
+                .scale = options.environmentScale};
+    } catch (const ImageError& error) {
+        throw SceneError(std::string("--environment: ") + error.what());
+    }
+}
+
+} // namespace
+
+Scene loadScene(const std::string& scene, const SceneOptions& options)
+{
+    // The small file first: a typing error in its name should not cost the making of a scene.
+    std::optional<SceneEnvironment> environment;
+    if (!options.environment.empty())
+        environment = loadEnvironment(options);
+    Scene out = loadWithoutEnvironment(scene, options);
+    out.environment = std::move(environment);
+    return out;
 }
 
 } // namespace candelabra::app

@@ -28,6 +28,9 @@ struct SceneOptions {
     std::optional<double> punctualRadius; // metres: point lights without a radius become spheres
     std::optional<double> sunRadius;      // sine of an angular radius: directional lights become
                                           // distant spheres
+    std::string environment;              // .hdr, .exr or .pfm file; empty: none
+    double environmentRotation = 0;       // radians
+    double environmentScale = 1;
 };
 
 // `scene` is "hall", "field", "showcase", or the path of a .gltf, .glb or .json file. Throws

@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "candelabra/candelabra.h"
+#include "io/image.h"
 
 namespace candelabra::app
 {
@@ -103,6 +104,13 @@ struct LightMotion {
     float phase = 0;
 };
 
+// An equirectangular image around the scene: up at the top row, -z in the middle, +x to the right.
+struct SceneEnvironment {
+    Image radiance;      // cd/m^2
+    double rotation = 0; // radians about y, counter-clockwise seen from above
+    double scale = 1;    // factor on the radiance
+};
+
 struct Scene {
     std::string name;
     std::vector<Mesh> meshes;
@@ -115,9 +123,11 @@ struct Scene {
     std::vector<LightMotion> lightMotions; // empty or one per light
     std::vector<Camera> cameras;           // at least one after loading; [0] is the default
     glm::vec3 background{0};               // luminance of pixels without a surface, cd/m^2
-    std::optional<glm::uvec2> resolution;  // default image size
-    bool lightsVisible = true;             // draw area lights as emitters
-    std::vector<std::string> warnings;     // what was understood but not used, one sentence each
+    std::optional<SceneEnvironment> environment;
+    CndLobeJoining lobes = CND_LOBES_CONSERVING;
+    std::optional<glm::uvec2> resolution; // default image size
+    bool lightsVisible = true;            // draw area lights as emitters
+    std::vector<std::string> warnings;    // what was understood but not used, one sentence each
 };
 
 // Axis-aligned bounds of all instances (analytic objects excluded); empty scenes give {0,0}.

@@ -181,6 +181,7 @@ Scene loadSceneJson(const std::string& path)
                           // informative:
                           "name", "about", "channels", "references", "rendered_terms"});
     Scene scene;
+    scene.lobes = CND_LOBES_SUM; // what the format means: two-lobe materials of path tracers
     const auto name = root.find("name");
     scene.name = name && name->json().is_string() ? name->string()
                                                   : std::filesystem::path(path).stem().string();

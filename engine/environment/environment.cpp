@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/environment.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include "candelabra_shaders.h"
+#include "lighting/camera.h"
+
+namespace candelabra::environment
+{
+namespace
+{
+
+using gpu::Binding;
+using gpu::divideUp;
+
+static_assert(gpu::LOBES_CONSERVING == CND_LOBES_CONSERVING);
+static_assert(gpu::LOBES_SUM == CND_LOBES_SUM);
+
+constexpr uint32_t defaultCubeSize = 256;
+
+CndEnvironmentDesc checked(CndEnvironmentDesc desc)
+{
+    if (desc.structSize != sizeof desc)
+        gpu::failArgument("CndEnvironmentDesc: structSize is " + std::to_string(desc.structSize) +
+                          ", this library expects " + std::to_string(sizeof desc));
+    if (desc.framesInFlight < 1 || desc.framesInFlight > 8)
+        gpu::failArgument("CndEnvironmentDesc: framesInFlight must be 1..8, is " +
+                          std::to_string(desc.framesInFlight));
+    if (desc.gbufferLayout != CND_GBUFFER_FULL && desc.gbufferLayout != CND_GBUFFER_COMPACT)
+        gpu::failArgument("CndEnvironmentDesc: gbufferLayout is not a CndGBufferLayout");
+    if (!desc.cubeSize)
+        desc.cubeSize = defaultCubeSize;
+    if (desc.cubeSize < 64 || desc.cubeSize > 2048 || !std::has_single_bit(desc.cubeSize))
+        gpu::failArgument("CndEnvironmentDesc: cubeSize must be a power of two from 64 to 2048, "
+                          "is " +
+                          std::to_string(desc.cubeSize));
+    return desc;
+}
+
+// Cubes are read with linear filtering, which Vulkan does not promise for 32-bit floats; half
+// floats would not hold the sun.
+void requireLinearFilter(const gpu::Device& device)
+{
+    VkFormatProperties2 properties{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2};
+    device.GetPhysicalDeviceFormatProperties2(device.physicalDevice, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                              &properties);
+    if (!(properties.formatProperties.optimalTilingFeatures &
+          VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT))
+        gpu::failUnsupported("cndCreateEnvironment: the device cannot filter images of format "
+                             "R32G32B32A32_SFLOAT linearly");
+}
+
+uint32_t mipCount(uint32_t size)
+{
+    return uint32_t(std::bit_width(size));
+}
+
+uint32_t levelCount(uint32_t cubeSize)
+{
+    return mipCount(cubeSize / gpu::ENVIRONMENT_LAST_LEVEL_SIZE);
+}
+
+gpu::Handle<VkSampler> createSampler(const gpu::Device& device)
+{
+    const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                   .magFilter = VK_FILTER_LINEAR,
+                                   .minFilter = VK_FILTER_LINEAR,
+                                   .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
+                                   .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                   .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                   .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                   .maxLod = VK_LOD_CLAMP_NONE};
+    VkSampler sampler{};
+    gpu::check(device.CreateSampler(device.handle, &info, device.allocationCallbacks, &sampler),
+               "creating the environment's sampler");
+    gpu::Handle<VkSampler> owner(device, sampler);
+    device.name(VK_OBJECT_TYPE_SAMPLER, sampler, "environment sampler");
+    return owner;
+}
+
+Binding cubeSampled(uint32_t binding, const gpu::CubeImage& cube, VkSampler sampler)
+{
+    return {.binding = binding,
+            .image = cube.view.get(),
+            .layout = VK_IMAGE_LAYOUT_GENERAL,
+            .sampler = sampler};
+}
+
+bool isRotation(const glm::dmat3& m)
+{
+    const glm::dmat3 product = glm::transpose(m) * m;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (!(std::abs(product[c][r] - (c == r)) <= 1e-5)) // NaN too
+                return false;
+    return glm::determinant(m) > 0;
+}
+
+glm::dmat3 rotationOf(const float (&columns)[9])
+{
+    glm::dmat3 m;
+    for (int i = 0; i < 9; ++i)
+        m[i / 3][i % 3] = double(columns[i]);
+    return m;
+}
+
+} // namespace
+
+Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& desc)
+    : device_(device),
+      desc_(checked(desc)),
+      timer_(device_, "environment", desc_.framesInFlight + 1, desc_.timestamps),
+      dfg_(device_),
+      cube_(device_, spirv::environment_cube_comp),
+      mip_(device_, spirv::environment_mip_comp),
+      prefilter_(device_, spirv::environment_prefilter_comp),
+      irradianceKernel_(device_, spirv::environment_irradiance_comp),
+      shade_(device_, spirv::shade_environment_comp,
+             {{gpu::SPEC_GBUFFER_LAYOUT, uint32_t(desc_.gbufferLayout)}}),
+      sampler_(createSampler(device_)),
+      recorded_(desc_.framesInFlight)
+{
+    requireLinearFilter(device_);
+    const uint32_t mips = mipCount(desc_.cubeSize), levels = levelCount(desc_.cubeSize);
+    source_ = gpu::createCubeImage(device_, "environment", desc_.cubeSize, mips);
+    prefiltered_ = gpu::createCubeImage(device_, "prefiltered environment", desc_.cubeSize, levels);
+    irradiance_ = gpu::createCubeImage(device_, "environment irradiance",
+                                       gpu::ENVIRONMENT_IRRADIANCE_SIZE, 1);
+    sets_ = {.cube = cube_.createBindings(1),
+             .mip = mip_.createBindings(mips - 1),
+             .prefilter = prefilter_.createBindings(levels - 1),
+             .irradiance = irradianceKernel_.createBindings(1),
+             .shade = shade_.createBindings(desc_.framesInFlight)};
+    for (uint32_t mip = 1; mip < mips; ++mip)
+        sets_.mip.write(mip - 1,
+                        {Binding::storage(gpu::ENVIRONMENT_MIP_INPUT, source_.mips[mip - 1].get()),
+                         Binding::storage(gpu::ENVIRONMENT_MIP_OUTPUT, source_.mips[mip].get())});
+    for (uint32_t level = 1; level < levels; ++level)
+        sets_.prefilter.write(
+            level - 1,
+            {cubeSampled(gpu::ENVIRONMENT_PREFILTER_SOURCE, source_, sampler_.get()),
+             Binding::storage(gpu::ENVIRONMENT_PREFILTER_OUTPUT, prefiltered_.mips[level].get())});
+    const uint32_t sourceMip =
+        mips - mipCount(gpu::ENVIRONMENT_IRRADIANCE_SOURCE_SIZE); // cubeSize is larger
+    sets_.irradiance.write(
+        0, {Binding::storage(gpu::ENVIRONMENT_IRRADIANCE_SOURCE, source_.mips[sourceMip].get()),
+            Binding::storage(gpu::ENVIRONMENT_IRRADIANCE_OUTPUT, irradiance_.mips[0].get())});
+}
+
+void Environment::recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map)
+{
+    if (map.structSize != sizeof map)
+        gpu::failArgument("CndEnvironmentMap: structSize is " + std::to_string(map.structSize) +
+                          ", this library expects " + std::to_string(sizeof map));
+    for (const uint32_t side : {map.width, map.height})
+        if (side < 1 || side > 16384)
+            gpu::failArgument("CndEnvironmentMap: size " + std::to_string(map.width) + "x" +
+                              std::to_string(map.height) + " is outside 1x1..16384x16384");
+    if (!map.equirectangular)
+        gpu::failArgument("CndEnvironmentMap: equirectangular is null");
+    sets_.cube.write(0,
+                     {Binding::sampled(gpu::ENVIRONMENT_CUBE_IMAGE, map.equirectangular),
+                      Binding::storage(gpu::ENVIRONMENT_CUBE_OUTPUT, source_.mips[0].get()),
+                      Binding::storage(gpu::ENVIRONMENT_CUBE_MIRROR, prefiltered_.mips[0].get())});
+
+    const gpu::Frame f{device_, cmd, timer_, mapSlot()};
+    device_.beginLabel(cmd, "candelabra environment map");
+    timer_.begin(cmd, f.slot);
+    f.barrier(); // against frames before, which use the same images
+    recordLayouts(f);
+    dfg_.recordFill(f);
+    recordCube(f, map);
+    recordPrefiltering(f);
+    f.barrier();
+    device_.endLabel(cmd);
+    mapped_ = true;
+}
+
+// Our images stay in GENERAL; what they held is not wanted.
+void Environment::recordLayouts(const gpu::Frame& f) const noexcept
+{
+    VkImageMemoryBarrier2 barriers[3];
+    const gpu::CubeImage* images[3] = {&source_, &prefiltered_, &irradiance_};
+    for (int i = 0; i < 3; ++i)
+        barriers[i] = {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                       .srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       .srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       .dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                                        VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                       .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                       .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+                       .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                       .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                       .image = images[i]->image.get(),
+                       .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS,
+                                            0, VK_REMAINING_ARRAY_LAYERS}};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .imageMemoryBarrierCount = 3,
+                                .pImageMemoryBarriers = barriers};
+    device_.CmdPipelineBarrier2(f.cmd, &info);
+}
+
+void Environment::recordCube(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept
+{
+    const auto groups = [](uint32_t size) { return divideUp(size, gpu::ENVIRONMENT_GROUP); };
+    // A face spans a quarter of the image's width and half its height.
+    const uint32_t perTexel =
+        std::max(divideUp(map.width, 4 * desc_.cubeSize), divideUp(map.height, 2 * desc_.cubeSize));
+    cube_.dispatch(f, sets_.cube.set(0),
+                   {.imageSize = {map.width, map.height},
+                    .cubeSize = desc_.cubeSize,
+                    .samples = std::min(perTexel, gpu::ENVIRONMENT_MAX_SAMPLES)},
+                   groups(desc_.cubeSize), groups(desc_.cubeSize), 6);
+    for (uint32_t mip = 1; mip < source_.mips.size(); ++mip) {
+        f.barrier();
+        const uint32_t size = desc_.cubeSize >> mip;
+        mip_.dispatch(f, sets_.mip.set(mip - 1), {size}, groups(size), groups(size), 6);
+    }
+    f.barrier();
+}
+
+void Environment::recordPrefiltering(const gpu::Frame& f) const noexcept
+{
+    const uint32_t last = uint32_t(prefiltered_.mips.size()) - 1;
+    for (uint32_t level = 1; level <= last; ++level) {
+        const uint32_t size = desc_.cubeSize >> level;
+        const uint32_t groups = divideUp(size, gpu::ENVIRONMENT_GROUP);
+        prefilter_.dispatch(
+            f, sets_.prefilter.set(level - 1),
+            {.size = size, .sourceSize = desc_.cubeSize, .alpha = std::exp2(-float(last - level))},
+            groups, groups, 6);
+    }
+    constexpr uint32_t groups = gpu::ENVIRONMENT_IRRADIANCE_SIZE / gpu::ENVIRONMENT_GROUP;
+    irradianceKernel_.dispatch(f, sets_.irradiance.set(0),
+                               {.sourceSize = gpu::ENVIRONMENT_IRRADIANCE_SOURCE_SIZE}, groups,
+                               groups, 6);
+}
+
+void Environment::validate(const CndEnvironmentFrame& frame) const
+{
+    if (frame.structSize != sizeof frame)
+        gpu::failArgument("CndEnvironmentFrame: structSize is " + std::to_string(frame.structSize) +
+                          ", this library expects " + std::to_string(sizeof frame));
+    if (!mapped_)
+        gpu::failArgument("cndRecordEnvironment: cndRecordEnvironmentMap comes first");
+    if (frame.frameSlot >= recorded_.size())
+        gpu::failArgument("CndEnvironmentFrame: frameSlot is " + std::to_string(frame.frameSlot) +
+                          ", framesInFlight is " + std::to_string(recorded_.size()));
+    for (const uint32_t side : {frame.width, frame.height})
+        if (side < 1 || side > 16384)
+            gpu::failArgument("CndEnvironmentFrame: size " + std::to_string(frame.width) + "x" +
+                              std::to_string(frame.height) + " is outside 1x1..16384x16384");
+    if (frame.clearDepth != 0 && frame.clearDepth != 1)
+        gpu::failArgument("CndEnvironmentFrame: clearDepth must be 0 or 1");
+    if (!frame.normalRoughness || !frame.albedo || !frame.depth || !frame.radiance ||
+        (desc_.gbufferLayout == CND_GBUFFER_FULL && !frame.specular))
+        gpu::failArgument("CndEnvironmentFrame: a G-buffer or radiance view is null");
+    if (!(frame.scale >= 0 && std::isfinite(frame.scale)))
+        gpu::failArgument("CndEnvironmentFrame: scale must be finite and >= 0");
+    if (frame.lobes != CND_LOBES_CONSERVING && frame.lobes != CND_LOBES_SUM)
+        gpu::failArgument("CndEnvironmentFrame: lobes is not a CndLobeJoining");
+    if (!isRotation(rotationOf(frame.worldFromEnvironment)))
+        gpu::failArgument("CndEnvironmentFrame: worldFromEnvironment must be a rotation");
+    lighting::checkCamera(frame.camera);
+}
+
+void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
+{
+    using namespace gpu;
+    validate(frame);
+    const Projection projection =
+        lighting::projectionOf(frame.camera.clipFromView, frame.clearDepth);
+    const VkImageView specular = frame.specular ? frame.specular : frame.albedo;
+    sets_.shade.write(frame.frameSlot,
+                      {Binding::sampled(SHADE_ENVIRONMENT_NORMAL_ROUGHNESS, frame.normalRoughness),
+                       Binding::sampled(SHADE_ENVIRONMENT_ALBEDO, frame.albedo),
+                       Binding::sampled(SHADE_ENVIRONMENT_SPECULAR, specular),
+                       Binding::sampled(SHADE_ENVIRONMENT_DEPTH, frame.depth),
+                       Binding::storage(SHADE_ENVIRONMENT_RADIANCE, frame.radiance),
+                       cubeSampled(SHADE_ENVIRONMENT_CUBE, source_, sampler_.get()),
+                       cubeSampled(SHADE_ENVIRONMENT_PREFILTERED, prefiltered_, sampler_.get()),
+                       cubeSampled(SHADE_ENVIRONMENT_IRRADIANCE, irradiance_, sampler_.get()),
+                       Binding::ofTexels(SHADE_ENVIRONMENT_DFG, dfg_.buffer())});
+    recorded_[frame.frameSlot] = true;
+
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
+    const glm::dmat3 environmentFromView = glm::transpose(
+        glm::dmat3(viewFromWorld) * rotationOf(frame.worldFromEnvironment)); // rotations
+    uint32_t flags = 0;
+    flags |= frame.background ? ENVIRONMENT_BACKGROUND : 0;
+    flags |= frame.lobes == CND_LOBES_SUM ? ENVIRONMENT_SUM : 0;
+    flags |= frame.energyCompensation ? ENVIRONMENT_COMPENSATE : 0;
+
+    const Frame f{device_, cmd, timer_, frame.frameSlot};
+    device_.beginLabel(cmd, "candelabra environment");
+    timer_.begin(cmd, f.slot);
+    shade_.dispatch(f, sets_.shade.set(f.slot),
+                    {.environmentFromView = glm::mat3(environmentFromView),
+                     .projection = projection,
+                     .size = {frame.width, frame.height},
+                     .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
+                     .clearDepth = frame.clearDepth,
+                     .lastLevel = float(prefiltered_.mips.size() - 1),
+                     .scale = frame.scale,
+                     .flags = flags},
+                    divideUp(frame.width, SHADE_ENVIRONMENT_GROUP),
+                    divideUp(frame.height, SHADE_ENVIRONMENT_GROUP));
+    device_.endLabel(cmd);
+}
+
+CndResult Environment::stats(uint32_t slot, CndEnvironmentStats& out) const noexcept
+{
+    if (slot >= recorded_.size() || !recorded_[slot] || out.structSize != sizeof out)
+        return CND_ERROR_INVALID_ARGUMENT;
+    const bool finished = timer_.read(slot, out.kernelTimes, out.kernelTimeCount) &&
+                          timer_.read(mapSlot(), out.mapKernelTimes, out.mapKernelTimeCount);
+    return finished ? CND_SUCCESS : CND_NOT_READY;
+}
+
+} // namespace candelabra::environment

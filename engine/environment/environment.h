@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The environment module behind the C ABI: an image of the far surroundings as a light.
+#pragma once
+
+#include <vector>
+
+#include "gpu/kernel.h"
+#include "shared/environment.h"
+#include "tables/dfg_table.h"
+
+namespace candelabra::environment
+{
+
+class Environment
+{
+public:
+    Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& desc);
+    Environment(const Environment&) = delete; // its objects point to device_
+    Environment& operator=(const Environment&) = delete;
+
+    // Both throw gpu::Failure on arguments out of range; once recording starts nothing can fail.
+    void recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map);
+    void record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame);
+    CndResult stats(uint32_t slot, CndEnvironmentStats& stats) const noexcept;
+
+private:
+    void validate(const CndEnvironmentFrame& frame) const;
+    void recordLayouts(const gpu::Frame& f) const noexcept;
+    void recordCube(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept;
+    void recordPrefiltering(const gpu::Frame& f) const noexcept;
+    uint32_t mapSlot() const { return uint32_t(recorded_.size()); } // of the timer
+
+    struct Sets {
+        gpu::Bindings cube, mip, prefilter, irradiance, shade;
+    };
+
+    gpu::Device device_;
+    CndEnvironmentDesc desc_;
+    gpu::Timer timer_;
+    tables::DfgTable dfg_;
+    gpu::Kernel<gpu::EnvironmentCubeParams> cube_;
+    gpu::Kernel<gpu::EnvironmentMipParams> mip_;
+    gpu::Kernel<gpu::EnvironmentPrefilterParams> prefilter_;
+    gpu::Kernel<gpu::EnvironmentIrradianceParams> irradianceKernel_;
+    gpu::Kernel<gpu::ShadeEnvironmentParams> shade_;
+    Sets sets_;
+    gpu::CubeImage source_;      // the environment, all mips
+    gpu::CubeImage prefiltered_; // levels by alpha
+    gpu::CubeImage irradiance_;
+    gpu::Handle<VkSampler> sampler_;
+    std::vector<bool> recorded_; // per frame slot
+    bool mapped_ = false;
+};
+
+} // namespace candelabra::environment

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adds the environment's light to every surface pixel, and shows it where there is no surface.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/environment.h"
+#define DFG_BINDING SHADE_ENVIRONMENT_DFG
+#include "lib/dfg.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/joining.glsl"
+#include "lib/projection.glsl"
+
+layout(local_size_x = SHADE_ENVIRONMENT_GROUP, local_size_y = SHADE_ENVIRONMENT_GROUP) in;
+layout(constant_id = SPEC_GBUFFER_LAYOUT) const uint gbufferLayout = 0u;
+layout(push_constant, scalar) uniform Push
+{
+    ShadeEnvironmentParams params;
+};
+layout(binding = SHADE_ENVIRONMENT_NORMAL_ROUGHNESS) uniform utexture2D normalRoughnessImage;
+layout(binding = SHADE_ENVIRONMENT_ALBEDO) uniform texture2D albedoImage;
+layout(binding = SHADE_ENVIRONMENT_SPECULAR) uniform texture2D specularImage;
+layout(binding = SHADE_ENVIRONMENT_DEPTH) uniform texture2D depthImage;
+layout(binding = SHADE_ENVIRONMENT_RADIANCE, rgba32f) uniform image2D radianceImage;
+layout(binding = SHADE_ENVIRONMENT_CUBE) uniform samplerCube environment;
+layout(binding = SHADE_ENVIRONMENT_PREFILTERED) uniform samplerCube prefiltered;
+layout(binding = SHADE_ENVIRONMENT_IRRADIANCE) uniform samplerCube irradiance;
+
+Surface readSurface(ivec2 pixel)
+{
+    const uvec2 normalRoughness = texelFetch(normalRoughnessImage, pixel, 0).xy;
+    const vec4 albedo = texelFetch(albedoImage, pixel, 0);
+    if (gbufferLayout == GBUFFER_LAYOUT_COMPACT)
+        return unpackGBufferCompact(normalRoughness.x, albedo);
+    return unpackGBufferFull(normalRoughness, albedo, texelFetch(specularImage, pixel, 0));
+}
+
+// What the eye sees beyond all surfaces: from the mip whose texels are as large as the pixel.
+vec3 background(uvec2 pixel)
+{
+    const float texels = params.invImageSize.y * float(textureSize(environment, 0).x) /
+                         abs(params.projection.m11);
+    const float mip = params.projection.eyeIsPoint * max(log2(texels), 0.0);
+    const vec3 view = viewRay(params.projection, pixel, params.invImageSize);
+    return textureLod(environment, params.environmentFromView * view, mip).rgb;
+}
+
+// Split sum (Karis 2013): the lobe's mean radiance, prefiltered for v = n and taken around the mirror
+// direction, times its directional albedo. Exact for a white surrounding; elsewhere lobes seen at
+// grazing angles are rounder than they should be.
+vec3 shade(ShadingPoint p)
+{
+    const vec2 albedo = directionalAlbedo(p.NoV, p.alpha);
+    joinLobes(p, albedo, (params.flags & ENVIRONMENT_SUM) != 0u ? LOBES_SUM : LOBES_CONSERVING,
+              params.flags & ENVIRONMENT_COMPENSATE);
+    // Level k stands for alpha = 2^(k - last); below level 1 the lobe fades into the mirror image.
+    const float level = params.lastLevel + log2(p.alpha);
+    const float fade = p.alpha * exp2(params.lastLevel - 1.0);
+    const vec3 mirrored = textureLod(prefiltered, params.environmentFromView * p.mirror,
+                                     max(level, min(fade, 1.0))).rgb;
+    const vec3 diffuse = textureLod(irradiance, params.environmentFromView * p.n, 0.0).rgb;
+    return p.albedo * diffuse + schlick(p, albedo) * mirrored;
+}
+
+void main()
+{
+    const uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, params.size)))
+        return;
+    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
+    if (depth == params.clearDepth) {
+        if ((params.flags & ENVIRONMENT_BACKGROUND) != 0u)
+            imageStore(radianceImage, ivec2(pixel), vec4(params.scale * background(pixel), 1.0));
+        return;
+    }
+    const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
+    const vec3 light = shade(makeShadingPoint(readSurface(ivec2(pixel)), position,
+                                              towardsEye(params.projection, position)));
+    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
+    imageStore(radianceImage, ivec2(pixel), before + vec4(params.scale * light, 0.0));
+}

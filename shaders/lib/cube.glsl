@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Directions, faces and texels of a cube map.
+#ifndef CND_LIB_CUBE
+#define CND_LIB_CUBE
+
+#include "lib/math.glsl"
+
+// Direction (not unit) through the point (u, v) in [-1, 1]^2 of a face, v down the rows. Vulkan 1.3
+// specification, "Cube Map Face Selection", solved for the direction.
+vec3 cubeDirection(uint face, vec2 uv)
+{
+    const vec3 directions[6] = vec3[6](vec3(1.0, -uv.y, -uv.x), vec3(-1.0, -uv.y, uv.x),
+                                       vec3(uv.x, 1.0, uv.y), vec3(uv.x, -1.0, -uv.y),
+                                       vec3(uv.x, -uv.y, 1.0), vec3(-uv.x, -uv.y, -1.0));
+    return directions[face];
+}
+
+// Centre of a texel on its face.
+vec2 cubeTexelCentre(uvec2 texel, uint size)
+{
+    return (2.0 * vec2(texel) + 1.0) / float(size) - 1.0;
+}
+
+// Solid angle of a texel around (u, v), by the midpoint rule: relative error below 1 / size^2.
+float cubeTexelSolidAngle(vec2 uv, uint size)
+{
+    const float r2 = 1.0 + dot(uv, uv);
+    const float side = 2.0 / float(size);
+    return side * side * inversesqrt(r2) / r2;
+}
+
+// Position of a unit direction in an equirectangular image, in [0, 1]^2 from its top left corner.
+vec2 equirectangular(vec3 d)
+{
+    return vec2(atan(d.x, -d.z) * (0.5 * INV_PI) + 0.5, acos(clamp(d.y, -1.0, 1.0)) * INV_PI);
+}
+
+#endif

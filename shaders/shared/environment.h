@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that crosses between the environment module and its kernels.
+//
+// Directions: the environment's own space, y up. A cube face is a square of side 2 at distance 1;
+// its texels are numbered as Vulkan numbers them (faces +x -x +y -y +z -z). The equirectangular
+// image has y up at the top row, -z in the middle, +x to the right of it.
+#ifndef CND_SHARED_ENVIRONMENT_H
+#define CND_SHARED_ENVIRONMENT_H
+
+#include "shared/lighting.h"
+
+GPU_BEGIN
+
+// Radiance beyond this is cut when the environment is read: 1000 times that of the Sun's disc, and
+// its sums over a cube are still finite.
+const float ENVIRONMENT_MAX_LUMINANCE = 2e12f;
+
+// --- environment_cube: equirectangular image -> mip 0, one lane per texel, z = face. `samples` by
+// `samples` bilinear look-ups per texel, so that none of the image's texels is skipped.
+const uint ENVIRONMENT_GROUP = 8u; // x and y, of all kernels that write cubes
+const uint ENVIRONMENT_CUBE_IMAGE = 0u;
+const uint ENVIRONMENT_CUBE_OUTPUT = 1u;
+const uint ENVIRONMENT_CUBE_MIRROR = 2u; // level 0 of the prefiltered cube
+const uint ENVIRONMENT_MAX_SAMPLES = 16u;
+struct EnvironmentCubeParams {
+    uvec2 imageSize;
+    uint cubeSize;
+    uint samples;
+};
+GPU_SIZE(EnvironmentCubeParams, 16)
+
+// --- environment_mip: the mean of four texels weighted by their solid angles, so that integrals
+// over the sphere are those of mip 0.
+const uint ENVIRONMENT_MIP_INPUT = 0u;
+const uint ENVIRONMENT_MIP_OUTPUT = 1u;
+struct EnvironmentMipParams {
+    uint size; // of the output
+};
+GPU_SIZE(EnvironmentMipParams, 4)
+
+// --- environment_prefilter: mean radiance over the GGX lobe, shadowing and cosine included, of a
+// surface that faces both the eye and the direction (v = n: Karis 2013, "Real Shading in Unreal
+// Engine 4"; his weight is NoL, this is the lobe's own, exact for v = n).
+// Filtered importance sampling (Krivanek and Colbert 2008): each sample reads the mip whose texels
+// are as large as the sample's share of the lobe.
+const uint ENVIRONMENT_PREFILTER_SOURCE = 0u;
+const uint ENVIRONMENT_PREFILTER_OUTPUT = 1u;
+const uint ENVIRONMENT_PREFILTER_SAMPLES = 256u;
+struct EnvironmentPrefilterParams {
+    uint size; // of the output
+    uint sourceSize;
+    float alpha;
+};
+GPU_SIZE(EnvironmentPrefilterParams, 12)
+// Levels of the prefiltered cube: the last is for alpha 1, and each one before has twice the size
+// and half the alpha; level 0 is the mirror image in place of the lobe it would have.
+const uint ENVIRONMENT_LAST_LEVEL_SIZE = 8u;
+
+// --- environment_irradiance: mean radiance of a white diffuse surface (irradiance / pi) per
+// normal, summed over the texels of one mip of the source. Largest error 0.05% of the brightest
+// normal's for a cloudy sky, 0.2% for a small sun alone, where nine spherical harmonics err by 9%.
+const uint ENVIRONMENT_IRRADIANCE_SOURCE = 0u;
+const uint ENVIRONMENT_IRRADIANCE_OUTPUT = 1u;
+const uint ENVIRONMENT_IRRADIANCE_SIZE = 32u;
+const uint ENVIRONMENT_IRRADIANCE_SOURCE_SIZE = 32u; // of the source's mip
+struct EnvironmentIrradianceParams {
+    uint sourceSize;
+};
+GPU_SIZE(EnvironmentIrradianceParams, 4)
+
+// --- shade_environment: one lane per pixel
+const uint SHADE_ENVIRONMENT_GROUP = 8u; // x and y
+const uint SHADE_ENVIRONMENT_NORMAL_ROUGHNESS = 0u;
+const uint SHADE_ENVIRONMENT_ALBEDO = 1u;
+const uint SHADE_ENVIRONMENT_SPECULAR = 2u;
+const uint SHADE_ENVIRONMENT_DEPTH = 3u;
+const uint SHADE_ENVIRONMENT_RADIANCE = 4u;
+const uint SHADE_ENVIRONMENT_CUBE = 5u;
+const uint SHADE_ENVIRONMENT_PREFILTERED = 6u;
+const uint SHADE_ENVIRONMENT_IRRADIANCE = 7u;
+const uint SHADE_ENVIRONMENT_DFG = 8u;
+// Bits of ShadeEnvironmentParams::flags.
+const uint ENVIRONMENT_BACKGROUND = 1u; // fill pixels without a surface
+const uint ENVIRONMENT_SUM = 2u;        // LOBES_SUM, else LOBES_CONSERVING
+const uint ENVIRONMENT_COMPENSATE = 4u; // energy compensation
+struct ShadeEnvironmentParams {
+    mat3 environmentFromView; // rotation
+    Projection projection;
+    uvec2 size;
+    vec2 invImageSize; // 1 / size
+    float clearDepth;
+    float lastLevel; // of the prefiltered cube
+    float scale;     // factor on the environment's luminance
+    uint flags;      // ENVIRONMENT_*
+};
+GPU_SIZE(ShadeEnvironmentParams, 124)
+
+GPU_END
+
+#endif

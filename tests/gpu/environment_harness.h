@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hand-made host of the environment module: image in, one frame's radiance out.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "gpu/lighting_harness.h"
+
+namespace candelabra::test
+{
+
+// An equirectangular image, rows from the top.
+struct EnvironmentImage {
+    uint32_t width = 0, height = 0;
+    std::vector<glm::vec4> pixels;
+};
+
+// Luminance from a unit direction of the environment's space, grey.
+using Sky = std::function<double(const glm::dvec3& direction)>;
+
+// `sky` at the centre of every pixel.
+EnvironmentImage imageOf(const Sky& sky, uint32_t width);
+
+struct EnvironmentOptions {
+    uint32_t cubeSize = 0;
+    glm::dmat3 worldFromEnvironment{1};
+    float scale = 1;
+    bool background = false;
+    CndLobeJoining lobes = CND_LOBES_CONSERVING;
+    bool energyCompensation = false;
+    float radianceBefore = 0; // of every pixel and channel
+};
+
+class EnvironmentTest : public LightingTest
+{
+protected:
+    void TearDown() override;
+    // Keeps the device's cube of `image` until the next call.
+    void setImage(const EnvironmentImage& image, uint32_t cubeSize = 0);
+    std::vector<glm::vec4> shade(const CpuGBuffer& g, const EnvironmentOptions& options = {});
+    CndEnvironmentFrame environmentFrame(const CpuGBuffer& g, const Images& images,
+                                         const EnvironmentOptions& options) const;
+    CndEnvironment environment_ = nullptr;
+};
+
+} // namespace candelabra::test
