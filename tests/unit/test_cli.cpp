@@ -72,6 +72,7 @@ TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)
         {{"render", "hall", "-o", "x.png", "--environment", "sky.png"}, ".hdr"},
         {{"render", "hall", "-o", "x.png", "--environment-rotation", "north"}, "-rotation"},
         {{"render", "hall", "-o", "x.png", "--environment-scale", "-1"}, "--environment-scale"},
+        {{"render", "hall", "-o", "x.png", "--lobes", "both"}, "conserving"},
         {{"stress", "--lights", "100,,200"}, "--lights"},
         {{"stress", "--lights", "0"}, "--lights"},
         {{"stress", "--size", "wide"}, "--size"},

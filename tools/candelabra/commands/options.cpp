@@ -43,6 +43,8 @@ constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NONE},
                                                  {"agx", CND_TONEMAP_AGX}};
 constexpr Choice<CndMetering> meteringChoices[] = {{"average", CND_METERING_AVERAGE},
                                                    {"centre", CND_METERING_CENTRE_WEIGHTED}};
+constexpr Choice<CndLobeJoining> lobeChoices[] = {{"conserving", CND_LOBES_CONSERVING},
+                                                  {"sum", CND_LOBES_SUM}};
 constexpr Choice<bool> onOffChoices[] = {{"on", true}, {"off", false}};
 
 template <typename T>
@@ -205,6 +207,11 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
         .add_option("--environment-scale", environmentScale,
                     "factor on the environment's luminance (1)")
         ->type_name("FACTOR");
+    addChoice(command, "--lobes", lobes, lobeChoices,
+              "how diffuse and specular lobes share the light (default: scene .json sum, else "
+              "conserving)");
+    command.add_flag("--energy-compensation", energyCompensation,
+                     "give back what the specular lobe loses between its microfacets");
 }
 
 SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
@@ -221,6 +228,9 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
     if (!sunRadius.empty())
         out.sunRadius = numberOption("--sun-radius", sunRadius, 1e-6, 1);
     out.environment = environment;
+    if (!lobes.empty())
+        out.lobes = choose("--lobes", lobes, lobeChoices);
+    out.energyCompensation = energyCompensation;
     if (!environmentRotation.empty())
         out.environmentRotation =
             numberOption("--environment-rotation", environmentRotation, -360, 360) *

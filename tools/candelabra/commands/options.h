@@ -38,7 +38,8 @@ struct DeviceArguments {
 struct SceneArguments {
     std::string scene;
     std::string seed, overlaps, punctualRadius, sunRadius;
-    std::string environment, environmentRotation, environmentScale;
+    std::string environment, environmentRotation, environmentScale, lobes;
+    bool energyCompensation = false;
     bool moving = false;
 
     // With a `fallback` the scene may be left out and named with --scene as well.

@@ -194,7 +194,8 @@ void Renderer::State::recordEnvironment(VkCommandBuffer cmd, uint32_t slot,
                             .radiance = targets.radiance.view.get(),
                             .scale = float(scene.environment->scale),
                             .background = VK_TRUE,
-                            .lobes = scene.lobes};
+                            .lobes = scene.lobes,
+                            .energyCompensation = scene.energyCompensation};
     setEnvironmentRotation(scene.environment->rotation, out.worldFromEnvironment);
     take(environment.record(cmd, out));
 }
@@ -215,7 +216,8 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
             .sampleCount = frame.sampleCount,
             .sampleSeed = frame.sampleSeed,
             .errorBudget = frame.errorBudget,
-            .lobes = CND_LOBES_SUM,
+            .lobes = scene.lobes,
+            .energyCompensation = scene.energyCompensation,
             .culling = frame.culling,
             .countPairs = frame.countPairs};
 }

@@ -96,6 +96,8 @@ Scene loadScene(const std::string& scene, const SceneOptions& options)
         environment = loadEnvironment(options);
     Scene out = loadWithoutEnvironment(scene, options);
     out.environment = std::move(environment);
+    out.lobes = options.lobes.value_or(out.lobes);
+    out.energyCompensation = options.energyCompensation;
     return out;
 }
 

@@ -31,6 +31,8 @@ struct SceneOptions {
     std::string environment;              // .hdr, .exr or .pfm file; empty: none
     double environmentRotation = 0;       // radians
     double environmentScale = 1;
+    std::optional<CndLobeJoining> lobes; // default: sum for .json, else conserving
+    bool energyCompensation = false;
 };
 
 // `scene` is "hall", "field", "showcase", or the path of a .gltf, .glb or .json file. Throws

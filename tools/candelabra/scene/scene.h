@@ -125,6 +125,7 @@ struct Scene {
     glm::vec3 background{0};               // luminance of pixels without a surface, cd/m^2
     std::optional<SceneEnvironment> environment;
     CndLobeJoining lobes = CND_LOBES_CONSERVING;
+    bool energyCompensation = false;      // give back light that bounces between microfacets
     std::optional<glm::uvec2> resolution; // default image size
     bool lightsVisible = true;            // draw area lights as emitters
     std::vector<std::string> warnings;    // what was understood but not used, one sentence each
