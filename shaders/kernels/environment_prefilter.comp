@@ -53,7 +53,7 @@ void main()
             const float width = c2 * (a2 - 1.0) + 1.0;
             const float pdf = a2 * INV_PI / (4.0 * width * width); // D NoH / (4 VoH)
             const float share = 1.0 / (pdf * float(ENVIRONMENT_PREFILTER_SAMPLES));
-            const float mip = max(0.5 * log2(share / texelSolidAngle), 0.0);
+            const float mip = max(0.5 * log2(share / texelSolidAngle) + 1.0, 0.0);
             // BRDF NoL / pdf = G2 / NoV = 1 / (1 + Lambda(l)), since Lambda(v) = 0.
             const float w = 1.0 / (1.0 + smithLambda(NoL, params.alpha));
             sum += w * textureLod(source, l, mip).rgb;

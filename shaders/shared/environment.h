@@ -41,11 +41,11 @@ GPU_SIZE(EnvironmentMipParams, 4)
 // --- environment_prefilter: mean radiance over the GGX lobe, shadowing and cosine included, of a
 // surface that faces both the eye and the direction (v = n: Karis 2013, "Real Shading in Unreal
 // Engine 4"; his weight is NoL, this is the lobe's own, exact for v = n).
-// Filtered importance sampling (Krivanek and Colbert 2008): each sample reads the mip whose texels
-// are as large as the sample's share of the lobe.
+// Filtered importance sampling (Krivanek and Colbert 2008): each sample reads a mip whose texels
+// are twice as wide as the sample's share of the lobe, so that neighbours overlap.
 const uint ENVIRONMENT_PREFILTER_SOURCE = 0u;
 const uint ENVIRONMENT_PREFILTER_OUTPUT = 1u;
-const uint ENVIRONMENT_PREFILTER_SAMPLES = 256u;
+const uint ENVIRONMENT_PREFILTER_SAMPLES = 1024u;
 struct EnvironmentPrefilterParams {
     uint size; // of the output
     uint sourceSize;
