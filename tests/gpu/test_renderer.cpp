@@ -162,16 +162,17 @@ TEST_F(RendererTest, ResizeGivesTheFrameOfThatSizeAndKeepsExposure)
 // The environment is part of both paths, lights what no lamp reaches and is seen through windows.
 TEST_F(RendererTest, EnvironmentLightsTheSceneAndItsBackground)
 {
-    Scene scene = generateField({.lights = 100});
-    FrameOptions frame = frameOf(scene);
+    const Scene dark = generateField({.lights = 100});
+    const FrameOptions frame = frameOf(dark);
     const PixelSize size{160, 90};
-    Renderer night(context(), scene, {.size = size});
+    Renderer night(context(), dark, {.size = size});
     const Image before = radiance(night, frame);
 
     Image sky{.width = 64, .height = 32, .channels = 3};
     for (uint32_t i = 0; i < 64 * 32; ++i)
         for (const float channel : {200.0f, 300.0f, i < 64 * 16 ? 500.0f : 100.0f})
             sky.pixels.push_back(channel);
+    Scene scene = dark;
     scene.environment = SceneEnvironment{.radiance = sky, .rotation = 1, .scale = 0.5};
     Renderer day(context(), scene, {.size = size});
     const Image lit = radiance(day, frame);

@@ -174,7 +174,7 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
                     .width = options.size.width,
                     .height = options.size.height,
                     .drawEmitters = frame.lightsVisible});
-    if (scene.environment)
+    if (environment.get())
         recordEnvironment(cmd, slot, frame);
 }
 
@@ -281,7 +281,7 @@ FrameStats Renderer::stats(uint32_t slot) const
     uint32_t count = 0;
     if (state_->gbuffer.times(slot, raster.data(), count))
         append(out.passes, raster.data(), count);
-    if (state_->scene.environment)
+    if (state_->environment.get())
         if (const auto environment = state_->environment.stats(slot))
             append(out.passes, environment->kernelTimes, environment->kernelTimeCount);
     const auto exposure = state_->exposure.stats(slot);
