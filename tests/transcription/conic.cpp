@@ -136,16 +136,18 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const double adjXY = yz * xz - xy * W;
     const double adjXZ = xy * yz - xz * Y;
     const double adjYZ = xy * xz - yz * X;
-    glm::dvec3 e = glm::dvec3((Y * W - yz * yz) * wc.x + adjXY * wc.y + adjXZ * wc.z,
-                              adjXY * wc.x + (X * W - xz * xz) * wc.y + adjYZ * wc.z,
-                              adjXZ * wc.x + adjYZ * wc.y + (X * Y - xy * xy) * wc.z);
-    e *= inversesqrt(glm::max(length2(e), 1e-36));
+    const glm::dvec3 E = glm::dvec3((Y * W - yz * yz) * wc.x + adjXY * wc.y + adjXZ * wc.z,
+                                    adjXY * wc.x + (X * W - xz * xz) * wc.y + adjYZ * wc.z,
+                                    adjXZ * wc.x + adjYZ * wc.y + (X * Y - xy * xy) * wc.z);
 
-    const double se = e.z < 0.0 ? -1.0 : 1.0;
-    const double fa = -1.0 / (se + e.z);
-    const double fb = e.x * e.y * fa;
-    const glm::dvec3 f1 = glm::dvec3(1.0 + se * e.x * e.x * fa, se * fb, -se * e.x);
-    const glm::dvec3 f2 = glm::dvec3(fb, se + e.y * e.y * fa, -e.y);
+    const double se = E.z < 0.0 ? -1.0 : 1.0;
+    const double reach = std::sqrt(glm::max(length2(E), 1e-36));
+    const double stretch = se * reach + E.z;
+    const double invE = 1.0 / (reach * stretch);
+    const glm::dvec3 e = E * (stretch * invE);
+    const double fb = -E.x * E.y * invE;
+    const glm::dvec3 f1 = glm::dvec3(1.0 - se * E.x * E.x * invE, se * fb, -se * e.x);
+    const glm::dvec3 f2 = glm::dvec3(fb, se - E.y * E.y * invE, -e.y);
     const glm::dvec3 qf1 =
         glm::dvec3(xx * f1.x + xy * f1.y + xz * f1.z, xy * f1.x + yy * f1.y + yz * f1.z,
                    xz * f1.x + yz * f1.y + zz * f1.z);

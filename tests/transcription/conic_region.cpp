@@ -130,7 +130,7 @@ CapHeights capHeights(SphereCap cap, double sinC)
     const double u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
     const double u2 = u * u;
     const double fraction =
-        0.3741 + u * (0.1775 + u * (0.1415 * u2 * u + 0.1884 * cap.omc - 0.1524));
+        0.3653 + u * (0.2182 + u * (0.1443 * u2 * u + 0.1923 * cap.omc - 0.1941));
     const double cut = z.high * glm::min(fraction, 0.5 + 0.5 * cosS);
     const double u8 = u2 * u2 * u2 * u2;
     z.mean = cut + u8 * (whole - cut);
@@ -140,7 +140,7 @@ CapHeights capHeights(SphereCap cap, double sinC)
 LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1)
 {
     const CapHeights z = capHeights(cap, sinC);
-    const double spread2 = 0.2307 * (z.mean - z.low) * (z.high - z.mean);
+    const double spread2 = 0.2212 * (z.mean - z.low) * (z.high - z.mean);
     const double spread = glm::min(std::sqrt(glm::max(spread2, 0.0)), 0.98 * z.mean);
     const double za = z.mean - spread;
     const double zb = glm::min(z.mean + spread, 1.0);
@@ -161,58 +161,59 @@ LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1)
 glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
 {
     const double height = z.high - z.low;
-    const double lobeWidth = p.a2 + 3.448 * o.x2;
-    const double lobeAndLight = lobeWidth + 0.8458 * p.oneMinusA2 * height * height;
-    const double partial = 1.0 - 0.8451 * o.integral;
-    const double invFirst = 1.0 / (lobeAndLight * partial);
-    const double wide = lobeWidth * partial * invFirst;
+    const double lobeWidth = p.a2 + 3.684 * o.x2;
     const double q = 1.0 + o.x2 * p.invA2;
-    const double variance =
-        p.a2 * glm::min(o.integral * q * q * lobeAndLight * invFirst, MAX_SLOPE_VARIANCE);
     const double m2 = 1.0 + o.x2;
-    const double gz = 2.0 / (m2 + 0.4803 * variance);
+    const double partial = 1.0 - 0.8444 * o.integral;
+    const double spread = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
+    const double m2p = m2 * partial + 0.4669 * spread;
+    const double lobeAndLight = lobeWidth + 0.9612 * p.oneMinusA2 * height * height;
+    const double invFirst = 1.0 / (lobeAndLight * m2p);
+    const double wide = lobeWidth * m2p * invFirst;
+    const double invM2p = lobeAndLight * invFirst;
+    const double gz = 2.0 * partial * invM2p;
     const double tau = o.mu * gz;
     const double dv = p.vv - tau * o.av;
     const double ds = o.av - tau * o.x2;
     const double dd = glm::max(p.vv - tau * (o.av + ds), 1e-8);
     const double lobeHeight = glm::clamp(tau - p.NoV, z.low, z.high);
     const double gdd = gz * dd;
-    const double lobeVariance = 0.4717 * variance * gz * gdd;
-    const double room = 0.2585 * (lobeHeight - z.low) * (z.high - lobeHeight);
+    const double lobeVariance = 0.8506 * spread * invM2p * gdd;
+    const double room = 0.2621 * (lobeHeight - z.low) * (z.high - lobeHeight);
     const double sum = lobeVariance + room + MIN_VARIANCE;
     const double invSecond = 1.0 / (sum * gdd * o.mu);
-    const double shift = std::sqrt(lobeVariance * room * gdd * o.mu * invSecond);
+    const double shift2 = lobeVariance * room * gdd * o.mu * invSecond;
+    const double shift = std::sqrt(shift2);
     const double meanSlope = shift * sum * o.mu * invSecond;
 
-    const double rel = glm::clamp(meanSlope * dv * sum * gdd * invSecond, -0.714, 0.714);
+    const double rel = glm::clamp(meanSlope * dv * sum * gdd * invSecond, -0.4089, 0.4089);
     const double fromLobe = glm::clamp(lobeHeight + shift * rel, z.low, z.high);
 
     const double mean = glm::max(fromLobe + wide * (z.mean - fromLobe), 1e-6);
     const double largest = glm::max(0.0, mean - z.low) * glm::max(0.0, z.high - mean);
-    const double fits = 0.2585 * largest;
-    const double narrowVariance = 1.71 * lobeVariance * fits / (lobeVariance + fits + MIN_VARIANCE);
-    const double blended = narrowVariance + wide * (1.101 * z.variance - narrowVariance);
+    const double blended = glm::mix(1.778 * shift2, 1.128 * z.variance, wide);
     const double v = glm::min(blended, 0.95 * largest);
-    const double skew = (z.low + z.high - 2.0 * mean) * v / (largest + v + MIN_VARIANCE);
-    const double reach2 = skew * skew + v + MIN_VARIANCE;
-    const double unskewed2 = v + 0.001 * skew * skew + MIN_VARIANCE;
-    const double invThird = 1.0 / (reach2 * unskewed2);
-    const double invReach = std::sqrt(unskewed2 * invThird);
-    const double unit = 0.817 * meanSlope * std::sqrt(reach2 * invThird);
-    const double reach = reach2 * invReach;
-    const double weight = skew * invReach;
 
-    const double below = glm::max(mean + skew - reach, 1e-6);
-    const double above = mean + skew + reach;
-    const double unshadowedBelow = below * p.smithV + p.NoV * smith(p, below);
-    const double unshadowedAbove = above * p.smithV + p.NoV * smith(p, above);
-    const double share = o.integral * o.mu / (unshadowedBelow * unshadowedAbove);
-    const double low = share * (1.0 + weight) * below * unshadowedAbove;
-    const double high = share * (1.0 - weight) * above * unshadowedBelow;
+    const double deviation = std::sqrt(v);
+    const double scale = largest + v + MIN_VARIANCE;
+    const double t = (z.low + z.high - 2.0 * mean) * deviation;
+    const double root = std::sqrt(t * t + scale * scale);
+    const double invThird = 1.0 / (root * scale);
+    const double stepLow = (t - root) * root * invThird;
+    const double stepHigh = (t + root) * root * invThird;
+    const double weight = t * scale * invThird;
 
-    const double slopeLow = meanSlope * rel + unit * (skew - reach);
-    const double slopeHigh = meanSlope * rel + unit * (skew + reach);
-    const double mm = m2 + 0.8078 * variance;
+    const double below = glm::max(mean + deviation * stepLow, 1e-6);
+    const double above = mean + deviation * stepHigh;
+    const double shadowBelow = below * p.smithV + p.NoV * smith(p, below);
+    const double shadowAbove = above * p.smithV + p.NoV * smith(p, above);
+    const double share = o.integral * o.mu / (shadowBelow * shadowAbove);
+    const double low = share * (1.0 + weight) * below * shadowAbove;
+    const double high = share * (1.0 - weight) * above * shadowBelow;
+
+    const double slopeLow = meanSlope * (rel + 0.7392 * stepLow);
+    const double slopeHigh = meanSlope * (rel + 0.7392 * stepHigh);
+    const double mm = m2 + 0.8924 * spread / partial;
     const double mmLow = glm::max(mm + slopeLow * (2.0 * ds + slopeLow * dd), 1e-6);
     const double mmHigh = glm::max(mm + slopeHigh * (2.0 * ds + slopeHigh * dd), 1e-6);
     const double invMm = 1.0 / (mmLow * mmHigh);

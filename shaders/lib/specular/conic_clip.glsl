@@ -157,16 +157,18 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const float adjXY = yz * xz - xy * W;
     const float adjXZ = xy * yz - xz * Y;
     const float adjYZ = xy * xz - yz * X;
-    vec3 e = vec3((Y * W - yz * yz) * wc.x + adjXY * wc.y + adjXZ * wc.z,
-                  adjXY * wc.x + (X * W - xz * xz) * wc.y + adjYZ * wc.z,
-                  adjXZ * wc.x + adjYZ * wc.y + (X * Y - xy * xy) * wc.z);
-    e *= inversesqrt(max(length2(e), 1e-36));
+    const vec3 E = vec3((Y * W - yz * yz) * wc.x + adjXY * wc.y + adjXZ * wc.z,
+                        adjXY * wc.x + (X * W - xz * xz) * wc.y + adjYZ * wc.z,
+                        adjXZ * wc.x + adjYZ * wc.y + (X * Y - xy * xy) * wc.z);
     // f1, f2 across it, right-handed (Duff et al. 2017), then turned to the principal axes of q.
-    const float se = e.z < 0.0 ? -1.0 : 1.0;
-    const float fa = -1.0 / (se + e.z);
-    const float fb = e.x * e.y * fa;
-    const vec3 f1 = vec3(1.0 + se * e.x * e.x * fa, se * fb, -se * e.x);
-    const vec3 f2 = vec3(fb, se + e.y * e.y * fa, -e.y);
+    const float se = E.z < 0.0 ? -1.0 : 1.0;
+    const float reach = sqrt(max(length2(E), 1e-36));
+    const float stretch = se * reach + E.z;
+    const float invE = 1.0 / (reach * stretch);
+    const vec3 e = E * (stretch * invE);
+    const float fb = -E.x * E.y * invE;
+    const vec3 f1 = vec3(1.0 - se * E.x * E.x * invE, se * fb, -se * e.x);
+    const vec3 f2 = vec3(fb, se - E.y * E.y * invE, -e.y);
     const vec3 qf1 = vec3(xx * f1.x + xy * f1.y + xz * f1.z, xy * f1.x + yy * f1.y + yz * f1.z,
                           xz * f1.x + yz * f1.y + zz * f1.z);
     const float S = 0.5 * (tr + lam);

@@ -49,7 +49,7 @@ CapHeights capHeights(SphereCap cap, float sinC)
     // cap leaves the horizon.
     const float u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
     const float u2 = u * u;
-    const float fraction = 0.3741 + u * (0.1775 + u * (0.1415 * u2 * u + 0.1884 * cap.omc - 0.1524));
+    const float fraction = 0.3653 + u * (0.2182 + u * (0.1443 * u2 * u + 0.1923 * cap.omc - 0.1941));
     const float cut = z.high * min(fraction, 0.5 + 0.5 * cosS);
     const float u8 = u2 * u2 * u2 * u2;
     z.mean = cut + u8 * (whole - cut);
@@ -67,7 +67,7 @@ struct LightHeights {
 LightHeights lightHeights(ConicPoint p, SphereCap cap, float sinC, float v1)
 {
     const CapHeights z = capHeights(cap, sinC);
-    const float spread2 = 0.2307 * (z.mean - z.low) * (z.high - z.mean);
+    const float spread2 = 0.2212 * (z.mean - z.low) * (z.high - z.mean);
     const float spread = min(sqrt(max(spread2, 0.0)), 0.98 * z.mean);
     const float za = z.mean - spread;
     const float zb = min(z.mean + spread, 1.0);
@@ -96,58 +96,59 @@ vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
     // d = v_t - tau * slope, and the slope variance: I q^2 a2 for a small region (its area), growing
     // without bound as the region takes in the whole lobe.
     const float height = z.high - z.low;
-    const float lobeWidth = p.a2 + 3.448 * o.x2;
-    const float lobeAndLight = lobeWidth + 0.8458 * p.oneMinusA2 * height * height;
-    const float partial = 1.0 - 0.8451 * o.integral;
-    const float invFirst = 1.0 / (lobeAndLight * partial); // one division for two; so below
-    const float wide = lobeWidth * partial * invFirst;
+    const float lobeWidth = p.a2 + 3.684 * o.x2;
     const float q = 1.0 + o.x2 * p.invA2;
-    const float variance =
-        p.a2 * min(o.integral * q * q * lobeAndLight * invFirst, MAX_SLOPE_VARIANCE);
     const float m2 = 1.0 + o.x2;
-    const float gz = 2.0 / (m2 + 0.4803 * variance);
+    const float partial = 1.0 - 0.8444 * o.integral;
+    const float spread = p.a2 * min(o.integral * q * q, MAX_SLOPE_VARIANCE); // variance * partial
+    const float m2p = m2 * partial + 0.4669 * spread;
+    const float lobeAndLight = lobeWidth + 0.9612 * p.oneMinusA2 * height * height;
+    const float invFirst = 1.0 / (lobeAndLight * m2p); // one division for two; so below
+    const float wide = lobeWidth * m2p * invFirst;
+    const float invM2p = lobeAndLight * invFirst;
+    const float gz = 2.0 * partial * invM2p; // 2 / (m2 + 0.4669 variance)
     const float tau = o.mu * gz;
     const float dv = p.vv - tau * o.av;
     const float ds = o.av - tau * o.x2;
     const float dd = max(p.vv - tau * (o.av + ds), 1e-8);
     const float lobeHeight = clamp(tau - p.NoV, z.low, z.high);
     const float gdd = gz * dd;
-    const float lobeVariance = 0.4717 * variance * gz * gdd;
-    const float room = 0.2585 * (lobeHeight - z.low) * (z.high - lobeHeight); // variance that fits
+    const float lobeVariance = 0.8506 * spread * invM2p * gdd;
+    const float room = 0.2621 * (lobeHeight - z.low) * (z.high - lobeHeight); // variance that fits
     const float sum = lobeVariance + room + MIN_VARIANCE;
     const float invSecond = 1.0 / (sum * gdd * o.mu);
-    const float shift = sqrt(lobeVariance * room * gdd * o.mu * invSecond);
+    const float shift2 = lobeVariance * room * gdd * o.mu * invSecond;
+    const float shift = sqrt(shift2);
     const float meanSlope = shift * sum * o.mu * invSecond; // the same deviation in slopes, along d
     // To the mean weighted with v . m.
-    const float rel = clamp(meanSlope * dv * sum * gdd * invSecond, -0.714, 0.714);
+    const float rel = clamp(meanSlope * dv * sum * gdd * invSecond, -0.4089, 0.4089);
     const float fromLobe = clamp(lobeHeight + shift * rel, z.low, z.high);
 
     const float mean = max(fromLobe + wide * (z.mean - fromLobe), 1e-6);
     const float largest = max(0.0, mean - z.low) * max(0.0, z.high - mean); // of the two ends
-    const float fits = 0.2585 * largest;
-    const float narrowVariance = 1.71 * lobeVariance * fits / (lobeVariance + fits + MIN_VARIANCE);
-    const float blended = narrowVariance + wide * (1.101 * z.variance - narrowVariance);
+    const float blended = mix(1.778 * shift2, 1.128 * z.variance, wide);
     const float v = min(blended, 0.95 * largest);
-    const float skew = (z.low + z.high - 2.0 * mean) * v / (largest + v + MIN_VARIANCE);
-    const float reach2 = skew * skew + v + MIN_VARIANCE;
-    const float unskewed2 = v + 0.001 * skew * skew + MIN_VARIANCE;
-    const float invThird = 1.0 / (reach2 * unskewed2);
-    const float invReach = sqrt(unskewed2 * invThird);
-    const float unit = 0.817 * meanSlope * sqrt(reach2 * invThird);
-    const float reach = reach2 * invReach;
-    const float weight = skew * invReach;
+    // Gauss nodes, in deviations sqrt(v) from the mean: t -+ sqrt(t^2 + 1), t the half skewness.
+    const float deviation = sqrt(v);
+    const float scale = largest + v + MIN_VARIANCE;
+    const float t = (z.low + z.high - 2.0 * mean) * deviation;
+    const float root = sqrt(t * t + scale * scale);
+    const float invThird = 1.0 / (root * scale);
+    const float stepLow = (t - root) * root * invThird;
+    const float stepHigh = (t + root) * root * invThird;
+    const float weight = t * scale * invThird;
 
-    const float below = max(mean + skew - reach, 1e-6);
-    const float above = mean + skew + reach;
-    const float unshadowedBelow = below * p.smithV + p.NoV * smith(p, below);
-    const float unshadowedAbove = above * p.smithV + p.NoV * smith(p, above);
-    const float share = o.integral * o.mu / (unshadowedBelow * unshadowedAbove);
-    const float low = share * (1.0 + weight) * below * unshadowedAbove;
-    const float high = share * (1.0 - weight) * above * unshadowedBelow;
+    const float below = max(mean + deviation * stepLow, 1e-6);
+    const float above = mean + deviation * stepHigh;
+    const float shadowBelow = below * p.smithV + p.NoV * smith(p, below);
+    const float shadowAbove = above * p.smithV + p.NoV * smith(p, above);
+    const float share = o.integral * o.mu / (shadowBelow * shadowAbove);
+    const float low = share * (1.0 + weight) * below * shadowAbove;
+    const float high = share * (1.0 - weight) * above * shadowBelow;
 
-    const float slopeLow = meanSlope * rel + unit * (skew - reach);
-    const float slopeHigh = meanSlope * rel + unit * (skew + reach);
-    const float mm = m2 + 0.8078 * variance;
+    const float slopeLow = meanSlope * (rel + 0.7392 * stepLow);
+    const float slopeHigh = meanSlope * (rel + 0.7392 * stepHigh);
+    const float mm = m2 + 0.8924 * spread / partial;
     const float mmLow = max(mm + slopeLow * (2.0 * ds + slopeLow * dd), 1e-6);
     const float mmHigh = max(mm + slopeHigh * (2.0 * ds + slopeHigh * dd), 1e-6);
     const float invMm = 1.0 / (mmLow * mmHigh);
