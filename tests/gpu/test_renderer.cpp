@@ -219,15 +219,20 @@ TEST_F(RendererTest, CompactGBufferIsCloseToFull)
         return radiance(renderer, frame);
     };
     const Image full = render(CND_GBUFFER_FULL), compact = render(CND_GBUFFER_COMPACT);
-    std::vector<double> errors; // relative, of each pixel's luminance
-    for (size_t i = 0; i < full.pixels.size(); i += full.channels) {
-        const auto luminance = [i](const Image& image) {
-            const float* p = &image.pixels[i];
-            return 0.2126 * double(p[0]) + 0.7152 * double(p[1]) + 0.0722 * double(p[2]);
-        };
-        if (luminance(full) > 0)
-            errors.push_back(std::abs(luminance(compact) - luminance(full)) / luminance(full));
-    }
+    const auto luminance = [](const Image& image, size_t i) {
+        const float* p = &image.pixels[i];
+        return 0.2126 * double(p[0]) + 0.7152 * double(p[1]) + 0.0722 * double(p[2]);
+    };
+    double meanLuminance = 0;
+    for (size_t i = 0; i < full.pixels.size(); i += full.channels)
+        meanLuminance += luminance(full, i) * full.channels / double(full.pixels.size());
+    // Relative, of each pixel's luminance. Where a sliver of a light is above the horizon, a 12-bit
+    // normal decides over all of a pixel's light, which is nearly none: not what is measured here.
+    std::vector<double> errors;
+    for (size_t i = 0; i < full.pixels.size(); i += full.channels)
+        if (luminance(full, i) > 1e-3 * meanLuminance)
+            errors.push_back(std::abs(luminance(compact, i) - luminance(full, i)) /
+                             luminance(full, i));
     ASSERT_GT(errors.size(), full.pixels.size() / full.channels / 2);
     const double mean = std::accumulate(errors.begin(), errors.end(), 0.0) / double(errors.size());
     const auto p99 = errors.begin() + std::ptrdiff_t(errors.size() * 99 / 100);
