@@ -26,6 +26,8 @@ void checkCamera(const CndCamera& camera)
         for (int row = 0; row < 3; ++row)
             if (std::abs(identity[c][row] - (c == row)) > 1e-5) // float cameras reach 1e-6
                 gpu::failArgument("CndCamera: viewFromWorld must be a rotation and a translation");
+    if (glm::determinant(r) < 0) // a reflection would turn one-sided lights around
+        gpu::failArgument("CndCamera: viewFromWorld must not be a reflection");
 }
 
 gpu::Projection projectionOf(const float (&m)[16], float clearDepth)

@@ -87,8 +87,8 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
 }
 
 // Walking costs at most this many loop iterations per light. shade_tiles: a test, a turn of one
-// class's loop, and per block of 32 its own turn and the five exits; tile_lists (two turns, and two
-// more per mask word) needs less.
+// class's loop, and per 32 lights at most its own turn and the five exits of a block; tile_lists
+// (two turns, and two more per mask word) needs less.
 uint32_t Lighting::lightsPerBatch(uint32_t loopIterations) const
 {
     if (device_.maxLoopIterations == UINT32_MAX)

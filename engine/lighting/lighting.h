@@ -61,8 +61,7 @@ public:
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
     const double* origin() const { return origin_; }
     // Lights that are culled and shaded together, at most: all of a type, unless the device limits
-    // loops. `samplesPerLight`: of the specular method.
-    // loops; `loopIterations`: that evaluating one light takes.
+    // loops. `loopIterations`: that evaluating one light takes.
     uint32_t lightsPerBatch(uint32_t loopIterations) const;
 
 private:

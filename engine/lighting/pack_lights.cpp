@@ -34,6 +34,8 @@ double cosBetween(const CndLight& light)
 
 // Farther from their origin than this, squared distances are not finite floats.
 constexpr float maxCoordinate = 1e15f;
+// Shorter lengths have no square in single precision.
+constexpr float minLength = 1e-15f;
 // Between the cones of a spot light: what the device's float cosines can still resolve.
 constexpr double minCosBetween = 1e-6;
 
@@ -77,13 +79,11 @@ const char* whyAxesInvalid(const CndLight& light)
         return nullptr;
     const glm::vec3 u = vec(light.axisU), v = vec(light.axisV);
     const float lengthU = std::hypot(u.x, u.y, u.z), lengthV = std::hypot(v.x, v.y, v.z);
-    // Shorter ones have no squared length in single precision.
-    constexpr float minLength = 1e-15f;
-    if (!(isNear(light.axisU) && lengthU > minLength))
+    if (!(isNear(light.axisU) && lengthU >= minLength))
         return "axisU must be finite and not zero";
     if (light.type == CND_LIGHT_TUBE)
         return nullptr;
-    if (!(isNear(light.axisV) && lengthV > minLength))
+    if (!(isNear(light.axisV) && lengthV >= minLength))
         return "axisV must be finite and not zero";
     if (!(std::abs(glm::dot(u / lengthU, v / lengthV)) <= 1e-3f))
         return "axisU and axisV must be perpendicular";
@@ -108,8 +108,8 @@ const char* whyRadiusInvalid(const CndLight& light)
 {
     const bool round = isOneOf(
         light.type, {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_DISC});
-    if (round && !(light.radius > 0 && light.radius < infinity))
-        return "radius must be finite and > 0";
+    if (round && !(light.radius >= minLength && light.radius <= maxCoordinate))
+        return "radius must be within 1e-15..1e15";
     if (light.type == CND_LIGHT_DISTANT_SPHERE && light.radius > 1)
         return "radius of a distant sphere is a sine and must be <= 1";
     return nullptr;

@@ -30,13 +30,15 @@ void main()
     for (uint first = 0u; first < params.lightCount; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, params.lightCount - first), false);
 #if HAS_SPHERES
-        if (HAS_BUDGET)
-            SHADE_FOUND(asPoint, r, first, found.asPoint, evaluateAsPoint);
-        SHADE_FOUND(above, r, first, found.above, evaluateAbove);
-        if (IS_CONIC)
-            SHADE_FOUND(near, r, first, found.near, evaluateNear);
+        if (HAS_BUDGET) {
+            SHADE_FOUND(asPoint, r, first, found.asPoint, evaluateAsPoint)
+        }
+        SHADE_FOUND(above, r, first, found.above, evaluateAbove)
+        if (IS_CONIC) {
+            SHADE_FOUND(near, r, first, found.near, evaluateNear)
+        }
 #endif
-        SHADE_FOUND(general, r, first, found.general, evaluateGeneral);
+        SHADE_FOUND(general, r, first, found.general, evaluateGeneral)
     }
     // In the order of the clustered kernels, for the same bits: shade_tiles, then shade_horizon.
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));

@@ -35,9 +35,10 @@ void main()
     vec3 near = vec3(0.0), general = vec3(0.0);
     for (uint first = 0u; first < tileList.count; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, tileList.count - first), true);
-        if (IS_CONIC)
-            SHADE_FOUND(near, r, first, found.near, evaluateNear);
-        SHADE_FOUND(general, r, first, found.general, evaluateGeneral);
+        if (IS_CONIC) {
+            SHADE_FOUND(near, r, first, found.near, evaluateNear)
+        }
+        SHADE_FOUND(general, r, first, found.general, evaluateGeneral)
     }
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
     imageStore(radianceImage, ivec2(pixel), before + vec4(near + general, 0.0));

@@ -43,12 +43,13 @@ void main()
     for (uint first = 0u; first < tileList.count; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, tileList.count - first), true);
 #if HAS_SPHERES
-        if (HAS_BUDGET)
+        if (HAS_BUDGET) {
             SHADE_FOUND(asPoint, r, first, found.asPoint, evaluateAsPoint)
-        SHADE_FOUND(above, r, first, found.above, evaluateAbove);
+        }
+        SHADE_FOUND(above, r, first, found.above, evaluateAbove)
         atHorizon |= found.near | found.general;
 #else
-        SHADE_FOUND(general, r, first, found.general, evaluateGeneral);
+        SHADE_FOUND(general, r, first, found.general, evaluateGeneral)
 #endif
     }
     if (!none(atHorizon))

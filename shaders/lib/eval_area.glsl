@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Responses to tubes, rectangles and discs of unit luminance. Part of lib/light_eval.glsl.
 
-#if HAS_FAMILY(FAMILY_TUBE)
-vec3 evaluateTube(Receiver r, Light light)
+#if HAS_FAMILY(FAMILY_TUBE) || HAS_FAMILY(FAMILY_RECTANGLE) || HAS_FAMILY(FAMILY_DISC)
+// Responses do not depend on the scale, and at a distance of about 1 no product of lengths overflows.
+Light atUnitDistance(Light light, out float scale)
 {
-    const vec4 axisRadius = lightAux[light.index * LIGHT_AUX_STRIDE];
+    scale = inversesqrt(max(length2(light.toLight) + light.reach * light.reach, MIN_LENGTH2));
+    light.toLight *= scale;
+    light.reach *= scale;
+    return light;
+}
+#endif
+
+#if HAS_FAMILY(FAMILY_TUBE)
+vec3 evaluateTube(Receiver r, Light given)
+{
+    float scale;
+    const Light light = atUnitDistance(given, scale);
+    const vec4 axisRadius = scale * lightAux[light.index * LIGHT_AUX_STRIDE];
     const vec3 axis = axisRadius.xyz;
     const float radius = axisRadius.w;
     const TubeOutline outline = makeTubeOutline(light.toLight, axis, radius);
@@ -22,11 +35,13 @@ vec3 evaluateTube(Receiver r, Light light)
 #endif
 
 #if HAS_FAMILY(FAMILY_RECTANGLE)
-vec3 evaluateRectangle(Receiver r, Light light)
+vec3 evaluateRectangle(Receiver r, Light given)
 {
-    const vec3 u = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
+    float scale;
+    const Light light = atUnitDistance(given, scale);
+    const vec3 u = scale * lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
     const vec4 second = lightAux[light.index * LIGHT_AUX_STRIDE + 1u];
-    const vec3 v = second.xyz;
+    const vec3 v = scale * second.xyz;
     const bool twoSided = second.w != 0.0;
     vec3 response = r.p.albedo * rectangleFormFactor(r.p.n, light.toLight, u, v, twoSided);
     if (specularMethod == SPECULAR_KARIS)
@@ -42,8 +57,10 @@ vec3 evaluateRectangle(Receiver r, Light light)
 #endif
 
 #if HAS_FAMILY(FAMILY_DISC)
-vec3 evaluateDisc(Receiver r, Light light)
+vec3 evaluateDisc(Receiver r, Light given)
 {
+    float scale;
+    const Light light = atUnitDistance(given, scale);
     const vec3 normal = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
     const bool twoSided = lightAux[light.index * LIGHT_AUX_STRIDE + 1u].w != 0.0;
     vec3 response = r.p.albedo * discFormFactor(r.p.n, light.toLight, normal, light.reach, twoSided);

@@ -7,14 +7,14 @@
 #include "shared/prelude.h"
 
 #define CND_SPECULAR_METHODS(X)                                                                    \
-    X(0, NONE, none)                                                                               \
-    X(1, KARIS, karis)                                                                             \
-    X(2, POINT, point)                                                                             \
-    X(3, KX, kx)                                                                                   \
-    X(4, LTC, ltc)                                                                                 \
-    X(5, CONIC, conic)                                                                             \
-    X(6, CONIC_FULL, conic - full)                                                                 \
-    X(7, SAMPLED, sampled)
+    X(0, NONE, "none")                                                                             \
+    X(1, KARIS, "karis")                                                                           \
+    X(2, POINT, "point")                                                                           \
+    X(3, KX, "kx")                                                                                 \
+    X(4, LTC, "ltc")                                                                               \
+    X(5, CONIC, "conic")                                                                           \
+    X(6, CONIC_FULL, "conic-full")                                                                 \
+    X(7, SAMPLED, "sampled")
 
 GPU_BEGIN
 #define X(id, NAME, name) const uint SPECULAR_##NAME = id;

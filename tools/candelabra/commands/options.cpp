@@ -28,7 +28,7 @@ struct Choice {
 };
 
 constexpr Choice<CndSpecularMethod> specularChoices[] = {
-#define X(id, NAME, name) {#name, CND_SPECULAR_##NAME},
+#define X(id, NAME, name) {name, CND_SPECULAR_##NAME},
     CND_SPECULAR_METHODS(X)
 #undef X
 };

@@ -71,8 +71,9 @@ void saveTruthShard(const std::string& path, const TruthShard& shard)
     const std::string line = header.dump() + "\n";
     std::vector<uint8_t> bytes(line.size() + shard.pixels.size() * sizeof(float));
     std::memcpy(bytes.data(), line.data(), line.size());
-    std::memcpy(bytes.data() + line.size(), shard.pixels.data(),
-                shard.pixels.size() * sizeof(float));
+    if (!shard.pixels.empty()) // a shard without rows has no address to copy from
+        std::memcpy(bytes.data() + line.size(), shard.pixels.data(),
+                    shard.pixels.size() * sizeof(float));
     writeFileAtomically(path, bytes);
 }
 
