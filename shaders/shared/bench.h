@@ -67,7 +67,7 @@ CND_SWEEP_SLICES(X)
 
 const uint SWEEP_OUTPUT = 4u; // SweepRecord, one per lane (recording) or the first bad ones
 const uint SWEEP_COUNTERS = 5u;
-const uint SWEEP_MAX_BAD = 64u; // records of bad responses kept per dispatch
+const uint SWEEP_MAX_BAD = 64u;     // records of bad responses kept per dispatch
 const uint SPEC_SWEEP_RECORD = 18u; // 1: record every lane, the light with unit emission
 struct SweepParams {
     uint count; // lanes
