@@ -45,7 +45,7 @@ const char* lightTypeName(uint32_t type)
 const char* methodName(CndSpecularMethod method)
 {
     static constexpr const char* names[CND_SPECULAR_METHOD_COUNT] = {
-#define X(id, NAME, name) #name,
+#define X(id, NAME, name) name,
         CND_SPECULAR_METHODS(X)
 #undef X
     };
