@@ -39,19 +39,19 @@ void main()
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
                                     params.sampleCount, pixelSeed(pixel));
     vec3 asPoint = vec3(0.0), above = vec3(0.0), general = vec3(0.0);
-    uvec2 atHorizon = uvec2(0u);
+    uint atHorizon = 0u;
     for (uint first = 0u; first < tileList.count; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, tileList.count - first), true);
 #if HAS_SPHERES
         if (HAS_BUDGET)
-            SHADE_FOUND(asPoint, r, first, found.asPoint, evaluateAsPoint)
+            SHADE_FOUND(asPoint, r, first, found.asPoint, evaluateAsPoint);
         SHADE_FOUND(above, r, first, found.above, evaluateAbove);
         atHorizon |= found.near | found.general;
 #else
         SHADE_FOUND(general, r, first, found.general, evaluateGeneral);
 #endif
     }
-    if (!none(atHorizon))
+    if (atHorizon != 0u)
         appendHorizonTile(tile);
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
     imageStore(radianceImage, ivec2(pixel), before + vec4(asPoint + above + general, 0.0));

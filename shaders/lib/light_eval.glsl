@@ -37,10 +37,6 @@ const uint EVALUATE_GENERAL = 3u; // sphere across the horizon; any light of oth
 // The bound of the error of a point is not proven for errors of the specular lobe beyond this.
 const float MAX_POINT_ERROR = 0.3;
 
-// Of the highest response, the 99th percentile of what one shading node errs by above the horizon; the
-// largest error measured is 0.056.
-const float ONE_NODE_ERROR = 0.01;
-
 // What a pixel prepares once for all lights.
 struct Receiver {
     ShadingPoint p;
@@ -50,7 +46,6 @@ struct Receiver {
 #endif
     uint sampleCount; // SPECULAR_SAMPLED
     uint sampleSeed;
-    bool oneNode;     // the budget allows one node wherever a sphere is above the horizon
     float pointLimit; // (R / d)^2 up to which a sphere above the horizon is evaluated as a point
 };
 
@@ -85,7 +80,6 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
     if (IS_SPHERE && IS_CONIC)
         r.conic = makeConicPoint(p);
 #endif
-    r.oneNode = HAS_BUDGET && budget >= ONE_NODE_ERROR;
     r.pointLimit = HAS_BUDGET ? pointLimit(p, budget) : 0.0;
     return r;
 }

@@ -14,15 +14,15 @@ GPU_BEGIN
 // A light as the host sends it, relative to the light set's origin. Made by pack_lights.cpp; sorted
 // by type, since each type has its own shading pipeline.
 struct LightRecord {
-    vec3 position; // m; distant types: unit direction towards the light
-    float reach;   // m, from the centre to the farthest point of the emitter; distant sphere:
-                   //   the sine of its angular radius
-    vec3 emission; // as CndLight
+    vec3 position;         // m; distant types: unit direction towards the light
+    float reach;           // m, from the centre to the farthest point of the emitter; distant sphere:
+                           //   the sine of its angular radius
+    vec3 emission;         // as CndLight
     float influenceRadius; // m, may be infinite
     vec3 axisU;            // m; spot: unit, the way the light travels; disc: unit normal
     float radius;          // m; tube
-    vec3 axisV; // m; spot: (scale, offset), attenuation = sat(cos(angle) scale + offset)^2
-    uint type;  // LIGHT_*, plus LIGHT_TWO_SIDED
+    vec3 axisV;            // m; spot: (scale, offset), attenuation = sat(cos(angle) scale + offset)^2
+    uint type;             // LIGHT_*, plus LIGHT_TWO_SIDED
 };
 GPU_SIZE(LightRecord, 64)
 const uint LIGHT_TWO_SIDED = 256u;
@@ -161,8 +161,7 @@ struct TileListsParams {
 };
 GPU_SIZE(TileListsParams, 32)
 
-// --- shade_tiles, shade_horizon, shade_brute, count_pairs: 8x8 pixels per group, one lane per
-// pixel
+// --- shade_tiles, shade_horizon, shade_brute, count_pairs: 8x8 pixels per group, one lane per pixel
 const uint SHADE_CORE = 0u;
 const uint SHADE_CORE_WORDS = 1u;
 const uint SHADE_AUX = 2u;
@@ -188,8 +187,8 @@ struct ShadeParams {
     vec2 invImageSize; // 1 / pixels of the whole image
     uint sampleCount;  // SPECULAR_SAMPLED: samples per light
     uint sampleSeed;
-    float errorBudget;       // relative to the highest response; 0: every light in full
-    uint lobes;              // LOBES_*
+    float errorBudget; // relative to the highest response; 0: every light in full
+    uint lobes;        // LOBES_*
     uint energyCompensation; // 0 or 1
 };
 GPU_SIZE(ShadeParams, 116)

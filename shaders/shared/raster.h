@@ -168,8 +168,7 @@ const uint EMITTER_AXIS_U = 2u;
 const uint EMITTER_AXIS_V = 3u;
 // A visible area light; axes and directions are in world space.
 struct EmitterRecord {
-    vec3 position;  // centre, relative to the light set's origin, m; distant sphere: unit vector to
-                    // it
+    vec3 position;  // centre, relative to the light set's origin, m; distant sphere: unit vector to it
     float radius;   // m; distant sphere: sine of the angular radius
     vec3 luminance; // cd/m^2
     vec3 axisU;     // tube: half of its segment, m; rectangle: half a side, m; disc: unit normal

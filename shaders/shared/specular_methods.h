@@ -13,7 +13,7 @@
     X(3, KX, kx)                                                                                   \
     X(4, LTC, ltc)                                                                                 \
     X(5, CONIC, conic)                                                                             \
-    X(6, CONIC_FULL, conic - full)                                                                 \
+    X(6, CONIC_FULL, conic-full)                                                                   \
     X(7, SAMPLED, sampled)
 
 GPU_BEGIN

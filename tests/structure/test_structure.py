@@ -25,10 +25,14 @@ ALLOWED = [
                             "candelabra/", "candelabra_shaders.h"]),
     ("engine/exposure", ["exposure/", "gpu/", "shared/", "candelabra/", "candelabra_shaders.h"]),
     ("engine/gbuffer", ["gbuffer/", "gpu/", "shared/", "candelabra/", "candelabra_shaders.h"]),
+    # The benchmarks measure what lies below the public face, and against the double-precision truth.
+    ("tools/candelabra/bench", ["bench/", "io/", "render/", "scene/", "commands/", "candelabra/", "gpu/",
+                                "lighting/pack_lights.h", "lighting/shade_kernels.h", "tables/",
+                                "reference/", "shared/", "candelabra_bench_shaders.h"]),
     # The program draws its frames through the public face; of the engine's inside it may use the gpu
     # floor and the raster pass, both of which are made to be used alone; and the reference, which is
     # what `candelabra truth` and the accuracy benchmark hand out and measure against.
-    ("tools/candelabra", ["commands/", "io/", "render/", "scene/", "viewer/", "cli.h",
+    ("tools/candelabra", ["bench/", "commands/", "io/", "render/", "scene/", "viewer/", "cli.h",
                           "candelabra/", "gpu/", "gbuffer/", "reference/", "shared/specular_methods.h",
                           "candelabra_commit.h"]),
     ("tools/fit", ["fit/", "reference/", "shared/ltc.h"]),
@@ -36,6 +40,7 @@ ALLOWED = [
     ("shaders/lib", ["shared/", "lib/"]),
     ("shaders/kernels", ["shared/", "lib/"]),
     ("shaders/gbuffer", ["shared/", "lib/", "gbuffer/"]),
+    ("shaders/bench", ["shared/", "lib/", "bench/"]),
 ]
 # Standard library and Vulkan only, in what hosts include.
 PUBLIC_SYSTEM = re.compile(r"^(vulkan/vulkan_core\.h|[a-z_]+(\.h)?)$")
@@ -91,8 +96,8 @@ for path in SOURCES:
             fail(path, "only shaders/shared/prelude.h may ask for the language")
 
 # Every kernel is in the build, and every file the build names exists.
-listed = re.findall(r"(?:kernels|gbuffer|probes)/\w+\.\w+", (root / "shaders/CMakeLists.txt").read_text())
-for folder in ("kernels", "gbuffer", "probes"):
+listed = re.findall(r"(?:kernels|gbuffer|probes|bench)/\w+\.\w+", (root / "shaders/CMakeLists.txt").read_text())
+for folder in ("kernels", "gbuffer", "probes", "bench"):
     for path in sorted((root / "shaders" / folder).glob("*")):
         if path.suffix != ".glsl" and f"{folder}/{path.name}" not in listed:
             fail(path, "is not in shaders/CMakeLists.txt")

@@ -64,7 +64,8 @@ std::string parseSentence(const CLI::App& app, int argc, const char* const* argv
         app.get_subcommands([&](const CLI::App* c) { return c->get_name() == first; });
     if (first[0] != '-' && commands.empty())
         return fmt::format(
-            "\"{}\" is no command; there are render, stress, view, truth and devices", first);
+            "\"{}\" is no command; there are render, stress, view, truth, bench and devices",
+            first);
     const std::string command = commands.empty() ? "" : first + " ";
     return fmt::format("{} (see: candelabra {}--help)", error.what(), command);
 }
@@ -102,6 +103,7 @@ int parseAndRun(int argc, const char* const* argv)
     addStressCommand(app, run);
     addViewCommand(app, run);
     addTruthCommand(app, run);
+    addBenchCommand(app, run);
     addDevicesCommand(app, run);
     refuseAssignmentsOfNothing(argc, argv);
     try {

@@ -14,6 +14,7 @@ namespace candelabra::app
 
 using Run = std::function<int(const ProgramContext&)>;
 
+void addBenchCommand(CLI::App& app, Run& run);
 void addDevicesCommand(CLI::App& app, Run& run);
 void addRenderCommand(CLI::App& app, Run& run);
 void addStressCommand(CLI::App& app, Run& run);

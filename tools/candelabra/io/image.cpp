@@ -57,7 +57,8 @@ std::string lowerExtension(const std::string& path)
 
 } // namespace
 
-void savePng(const std::string& path, uint32_t width, uint32_t height, std::span<const uint8_t> rgb)
+std::vector<uint8_t> encodePng(const std::string& path, uint32_t width, uint32_t height,
+                               std::span<const uint8_t> rgb)
 {
     if (width < 1 || height < 1 || width > maxImageSize || height > maxImageSize ||
         rgb.size() != size_t{width} * height * 3)
@@ -68,7 +69,12 @@ void savePng(const std::string& path, uint32_t width, uint32_t height, std::span
                                 static_cast<int>(height), 3, rgb.data(),
                                 static_cast<int>(width) * 3))
         failWrite(path, "the PNG encoder failed");
-    writeFileAtomically(path, bytes);
+    return bytes;
+}
+
+void savePng(const std::string& path, uint32_t width, uint32_t height, std::span<const uint8_t> rgb)
+{
+    writeFileAtomically(path, encodePng(path, width, height, rgb));
 }
 
 void saveHdr(const std::string& path, const Image& image)

@@ -23,6 +23,10 @@ struct Image {
     std::vector<float> pixels;      // width * height * channels, rows from the top
 };
 
+// The bytes of a PNG file of 8-bit RGB, as savePng writes it; `name` stands for it in errors.
+std::vector<uint8_t> encodePng(const std::string& name, uint32_t width, uint32_t height,
+                               std::span<const uint8_t> rgb);
+
 // 8-bit RGB, `rgb` = width * height * 3 display-referred (sRGB-encoded) values, rows from the top.
 void savePng(const std::string& path, uint32_t width, uint32_t height,
              std::span<const uint8_t> rgb);

@@ -207,8 +207,9 @@ std::string lines(const std::vector<PlotSeries>& series, const Axis& x, const Ax
         }
         if (path.empty())
             continue;
-        out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
-                           path, colour, series[i].emphasised ? 3.5 : 1.8);
+        if (series[i].connected)
+            out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
+                               path, colour, series[i].emphasised ? 3.5 : 1.8);
         out += markers;
         labels.push_back({lastY, series[i].name, colour});
     }

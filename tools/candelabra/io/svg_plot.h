@@ -13,6 +13,7 @@ struct PlotSeries {
     std::string name;
     std::vector<std::pair<double, double>> points; // values <= 0 or not finite are left out
     bool emphasised = false;                       // drawn thicker
+    bool connected = true;                         // else markers alone
 };
 
 struct PlotText {

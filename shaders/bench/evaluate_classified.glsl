@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// One light as shade_brute.comp treats it, and its lobes apart. After lib/light_walk.glsl.
+
+vec3 evaluateClassified(Receiver r, uint light)
+{
+    const Found found = findLights(r, light, 1u, false);
+    vec3 sum = vec3(0.0);
+#if HAS_SPHERES
+    if (HAS_BUDGET)
+        SHADE_FOUND(sum, r, light, found.asPoint, evaluateAsPoint);
+    SHADE_FOUND(sum, r, light, found.above, evaluateAbove);
+    if (IS_CONIC)
+        SHADE_FOUND(sum, r, light, found.near, evaluateNear);
+#endif
+    SHADE_FOUND(sum, r, light, found.general, evaluateGeneral);
+    return sum;
+}
+
+// Makes the channels of the response those of BenchResponse: albedo in x; F0 = F90 = 1 in y gives A,
+// F90 = 1 alone in z gives B.
+void separateLobes(inout ShadingPoint p)
+{
+    p.albedo = vec3(1.0, 0.0, 0.0);
+    p.F0 = vec3(0.0, 1.0, 0.0);
+    p.F90 = vec3(0.0, 1.0, 1.0);
+}

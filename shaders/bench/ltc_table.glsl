@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of lib/specular/ltc.glsl.
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bench.h"
+
+layout(binding = BENCH_LTC) uniform textureBuffer ltcTexels;
+
+vec4 ltcTexel(uint index)
+{
+    return texelFetch(ltcTexels, int(index));
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the slices of sweep_inputs.comp draw. All values are within the documented ranges of CndLight;
+// points may be anything that a G-buffer can hold.
+
+struct SweepPoint {
+    vec3 position, n, v;
+    float perceptualRoughness;
+    vec3 albedo, F0;
+    float F90;
+};
+
+SweepPoint makeSweepPoint(uint slice)
+{
+    SweepPoint p;
+    p.n = chance(0.5) ? vec3(0.0, 0.0, 1.0) : randomDirection();
+    float NoV = chance(0.1) ? randomRange(-1.0, 1.0) : randomRange(0.0, 1.0);
+    if (slice == SWEEP_GRAZING)
+        NoV = hair();
+    p.v = directionAt(p.n, NoV);
+    if (slice == SWEEP_ALIGNED && chance(0.5))
+        p.v = besides(p.n);
+    p.perceptualRoughness = random01();
+    if (slice == SWEEP_EXTREME_ALPHA) {
+        const uint which = randomBelow(4u);
+        p.perceptualRoughness = which == 0u ? 0.0 : which == 1u ? 0.0447213595 : which == 2u ? 1.0 :
+            randomRange(0.0, 0.08);
+    }
+    p.position = vec3(0.0);
+    if (slice == SWEEP_FAR_AWAY)
+        p.position = randomLog10(5.0, 6.0) * randomDirection();
+    else if (chance(0.3))
+        p.position = randomLog10(-2.0, 3.0) * randomDirection();
+    // Half the towards-eye vectors are not unit: they arrive as minus the position.
+    if (slice == SWEEP_DENORMAL && chance(0.5))
+        p.v = p.v * 1e-10 + 1e-39 * randomDirection();
+    p.albedo = vec3(random01(), random01(), chance(0.5) ? 0.0 : 1.0);
+    p.F0 = vec3(random01(), 0.04, chance(0.5) ? 0.0 : 1.0);
+    p.F90 = 1.0;
+    return p;
+}
+
+// Direction to the light and sine of its half angle.
+vec4 sweepDirection(uint slice, SweepPoint p)
+{
+    const vec3 v = normalize(p.v * (slice == SWEEP_DENORMAL ? 1e10 : 1.0));
+    const vec3 mirror = 2.0 * dot(p.n, v) * p.n - v;
+    float s = randomLog10(-7.0, 0.0);
+    if (chance(0.3))
+        s = random01();
+    if (slice == SWEEP_TANGENT) {
+        const float cosine = randomSign() * s * (1.0 + hair());
+        return vec4(directionAt(p.n, cosine), s);
+    }
+    if (slice == SWEEP_GRAZING)
+        return vec4(directionAt(p.n, chance(0.5) ? hair() : hair() - s), s);
+    if (slice == SWEEP_ALIGNED) {
+        const uint which = randomBelow(4u);
+        return vec4(besides(which == 0u ? p.n : which == 1u ? mirror : which == 2u ? v : -p.n), s);
+    }
+    // Half of the lights are where the lobe is.
+    if (chance(0.5))
+        return vec4(normalize(mirror + (s + p.perceptualRoughness * p.perceptualRoughness + 1e-4) *
+                                           random01() * randomDirection()),
+                    s);
+    return vec4(directionAt(p.n, randomRange(-1.0, 1.0)), s);
+}
+
+void makeSweepLight(uint slice, SweepPoint p)
+{
+    const vec4 at = sweepDirection(slice, p);
+    float d = randomLog10(-1.0, 2.0);
+    if (slice == SWEEP_SCALES)
+        d = randomLog10(-6.0, 7.0);
+    else if (slice == SWEEP_DENORMAL)
+        d = randomLog10(-14.0, -6.0);
+    float size = max(at.w, 1e-7) * d;
+    if (slice == SWEEP_CONTACT) {
+        size = max(d, 1e-6);
+        const uint which = randomBelow(4u);
+        d = which == 0u ? 0.0 : which == 1u ? size * random01() : size * (1.0 + hair());
+    }
+    const vec3 centre = p.position + d * at.xyz;
+    // Rounding of the position moves the light; the record holds what the shader saw.
+    vec3 u = randomDirection();
+    if (chance(0.3))
+        u = besides(-at.xyz); // faces the receiver
+    const vec3 w = normalize(cross(u, abs(u.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
+    const float aspect = randomLog10(-2.0, 0.0);
+    float emission = randomLog10(-2.0, 4.0);
+    if (slice == SWEEP_EMISSION)
+        emission = randomLog10(-8.0, 9.0);
+    else if (slice == SWEEP_DENORMAL)
+        emission = 1e-30 * randomLog10(-15.0, 0.0);
+    const vec3 tint = vec3(1.0, random01(), chance(0.2) ? 0.0 : random01());
+    lightAux[0] = vec4(0.0);
+    lightAux[1] = vec4(0.0);
+    float reach = 0.0;
+    if (lightType == LIGHT_SPHERE) {
+        reach = size;
+    } else if (lightType == LIGHT_TUBE) {
+        const float radius = max(size * aspect, 1e-30);
+        lightAux[0] = vec4(max(size, 2e-15) * u, radius);
+        reach = length(lightAux[0].xyz) + radius;
+    } else if (lightType == LIGHT_RECTANGLE) {
+        lightAux[0] = vec4(max(size, 2e-15) * w, 0.0);
+        lightAux[1] = vec4(max(size * aspect, 2e-15) * cross(u, w), chance(0.5) ? 1.0 : 0.0);
+        reach = length(vec2(length(lightAux[0].xyz), length(lightAux[1].xyz)));
+    } else if (lightType == LIGHT_DISC) {
+        lightAux[0] = vec4(u, 0.0);
+        lightAux[1] = vec4(0.0, 0.0, 0.0, chance(0.5) ? 1.0 : 0.0);
+        reach = max(size, 1e-30);
+    } else if (lightType == LIGHT_SPOT) {
+        const float outer = randomRange(0.01, 1.5);
+        const float between = max(cos(outer * random01()) - cos(outer), 1e-6);
+        lightAux[0] = vec4(u, 0.0);
+        lightAux[1] = vec4(1.0 / between, -cos(outer) / between, 0.0, 0.0);
+    }
+    centreReach = vec4(centre, reach);
+    if (IS_DISTANT) {
+        const float sine = lightType == LIGHT_DISTANT_SPHERE ? max(at.w, 1e-7) : 0.0;
+        centreReach = vec4(normalize(at.xyz), sine);
+    }
+    const float influence = chance(0.5) ? uintBitsToFloat(0x7F800000u) : reach * 1.01 + 3.0 * d + 1e-12;
+    emissionInfluence = vec4(emission * tint, influence * influence);
+}

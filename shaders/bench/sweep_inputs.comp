@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random and adversarial inputs for the shipping evaluation of lights: counts responses that are NaN,
+// infinite or negative and keeps the first of them, or records every configuration.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/bench.h"
+#include "lib/gbuffer.glsl"
+#include "lib/brdf.glsl"
+#include "bench/ltc_table.glsl"
+#include "bench/sweep_random.glsl"
+
+layout(local_size_x = BENCH_GROUP) in;
+layout(constant_id = SPEC_SWEEP_RECORD) const uint recordAll = 0u;
+layout(push_constant, scalar) uniform Push
+{
+    SweepParams params;
+};
+layout(scalar, binding = SWEEP_OUTPUT) writeonly buffer Output
+{
+    SweepRecord records[];
+};
+layout(scalar, binding = SWEEP_COUNTERS) buffer Counters
+{
+    SweepCounters counters;
+};
+
+// The light at hand, where light_eval.glsl looks for one.
+vec4 centreReach, emissionInfluence;
+vec4 lightAux[LIGHT_AUX_STRIDE];
+
+vec4 lightCentre(uint light)
+{
+    return centreReach;
+}
+
+vec4 lightEmission(uint light)
+{
+    return emissionInfluence;
+}
+
+uint lightAt(uint k)
+{
+    return k;
+}
+
+#include "lib/light_walk.glsl"
+#include "bench/evaluate_classified.glsl"
+#include "bench/sweep_cases.glsl"
+
+void count(bool condition, uint which)
+{
+    if (!condition)
+        return;
+    if (which == 0u)
+        atomicAdd(counters.nan, 1u);
+    else if (which == 1u)
+        atomicAdd(counters.infinite, 1u);
+    else
+        atomicAdd(counters.negative, 1u);
+}
+
+void main()
+{
+    const uint lane = gl_GlobalInvocationID.x;
+    if (lane >= params.count)
+        return;
+    const uint index = params.firstIndex + lane;
+    seedSweep(params.seed, params.slice, index);
+    const SweepPoint point = makeSweepPoint(params.slice);
+    makeSweepLight(params.slice, point);
+    if (recordAll != 0u)
+        emissionInfluence = vec4(1.0, 1.0, 1.0, uintBitsToFloat(0x7F800000u));
+
+    const Surface surface =
+        Surface(point.n, point.albedo, point.F0, point.F90, point.perceptualRoughness);
+    ShadingPoint p = makeShadingPoint(surface, point.position, point.v);
+    if (recordAll != 0u)
+        separateLobes(p);
+    const vec3 response = evaluateClassified(
+        makeReceiver(p, params.errorBudget, params.sampleCount, params.sampleSeed ^ index), 0u);
+
+    const bool isNan = any(isnan(response));
+    const bool isInfinite = any(isinf(response));
+    const bool isNegative = any(lessThan(response, vec3(0.0)));
+    count(isNan, 0u);
+    count(isInfinite, 1u);
+    count(isNegative, 2u);
+    uint slot = lane;
+    bool keep = recordAll != 0u;
+    if (isNan || isInfinite || isNegative) {
+        const uint bad = atomicAdd(counters.bad, 1u);
+        if (recordAll == 0u) {
+            slot = bad;
+            keep = bad < SWEEP_MAX_BAD;
+        }
+    }
+    if (keep)
+        records[slot] = SweepRecord(point.position, point.n, point.v, point.perceptualRoughness,
+                                    centreReach, emissionInfluence, lightAux[0], lightAux[1], response,
+                                    index);
+}

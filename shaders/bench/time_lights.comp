@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every lane evaluates the same lights in one way, as the inner loop of shade_tiles.comp does: run with
+// two light counts, the difference of the times is the cost of the lights between them.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "bench/lights.glsl"
+
+layout(local_size_x = BENCH_GROUP) in;
+layout(constant_id = SPEC_BENCH_EVALUATION) const uint evaluation = EVALUATE_ABOVE;
+layout(scalar, binding = BENCH_INPUT) readonly buffer Input
+{
+    BenchReceiver receivers[];
+};
+layout(scalar, binding = BENCH_OUTPUT) writeonly buffer Output
+{
+    float sums[];
+};
+
+// A constant: one of the functions is left.
+vec3 evaluate(Receiver r, uint light)
+{
+#if HAS_SPHERES
+    if (evaluation == EVALUATE_POINT)
+        return evaluateAsPoint(r, light);
+    if (evaluation == EVALUATE_ABOVE)
+        return evaluateAbove(r, light);
+    if (evaluation == EVALUATE_NEAR)
+        return evaluateNear(r, light);
+#endif
+    return evaluateGeneral(r, light);
+}
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= params.count)
+        return;
+    const Receiver r = makeBenchReceiver(receivers[i]);
+    vec3 sum = vec3(0.0);
+    for (uint light = 0u; light < params.lightCount; ++light)
+        sum += evaluate(r, light);
+    sums[i] = sum.x + sum.y + sum.z;
+}

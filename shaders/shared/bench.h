@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records that cross between the program's benchmarks (tools/candelabra/bench) and their kernels
+// (shaders/bench), which measure the shipping shader functions.
+#ifndef CND_SHARED_BENCH_H
+#define CND_SHARED_BENCH_H
+
+#include "shared/lighting.h"
+#include "shared/prelude.h"
+
+GPU_BEGIN
+
+const uint BENCH_GROUP = 64u;
+
+const uint BENCH_CORE = 0u; // lights as in lighting.h
+const uint BENCH_CORE_WORDS = 1u;
+const uint BENCH_AUX = 2u;
+const uint BENCH_INPUT = 3u;
+const uint BENCH_OUTPUT = 4u;
+const uint BENCH_LTC = 6u; // also in sweep_inputs
+struct BenchParams {
+    uint count;       // lanes
+    uint lightCount;  // time_lights: lights that every lane evaluates
+    uint sampleCount; // as in ShadeParams
+    uint sampleSeed;
+    float errorBudget;
+};
+GPU_SIZE(BenchParams, 20)
+
+// A shaded point at the origin, before lights are known.
+struct BenchReceiver {
+    vec3 n; // unit
+    vec3 v; // to the eye, any length but 0
+    float perceptualRoughness;
+};
+GPU_SIZE(BenchReceiver, 28)
+
+// What a light of unit emission gives: the form factor, the specular response with F = 1 and with
+// F = (1 - VoH)^5.
+struct BenchResponse {
+    float f, a, b;
+};
+GPU_SIZE(BenchResponse, 12)
+
+// Specialisation constants beside those of lighting.h.
+const uint SPEC_BENCH_EVALUATION = 16u;   // time_lights: EVALUATE_* of light_eval.glsl
+const uint SPEC_BENCH_FORM_FACTOR = 17u;  // time_form_factor: which form
+const uint BENCH_FORM_FACTOR_NONE = 0u;   // the loop alone
+const uint BENCH_FORM_FACTOR_ROBUST = 1u; // lib/lights/sphere.glsl
+const uint BENCH_FORM_FACTOR_NAIVE = 2u;  // acos and atan
+
+// --- sweep_inputs: random and adversarial inputs, made from a seed and an index
+#define CND_SWEEP_SLICES(X)                                                                        \
+    X(0, ANYTHING, "anything: roughness, view, size and direction drawn freely")                   \
+    X(1, SCALES, "distances and sizes from 1e-6 to 1e7 m")                                         \
+    X(2, DENORMAL, "denormal distances, sizes, emissions and vector components")                   \
+    X(3, CONTACT, "receiver on, inside, touching and at the centre of the emitter")                \
+    X(4, ALIGNED, "V = N, L = N, L = R, L = V, and a hair beside them")                            \
+    X(5, GRAZING, "view and light at and below the horizon")                                       \
+    X(6, TANGENT, "emitters that touch the horizon")                                               \
+    X(7, EXTREME_ALPHA, "alpha 0.002, below it, and 1")                                            \
+    X(8, FAR_AWAY, "positions 1e5 to 1e6 m from the origin")                                       \
+    X(9, EMISSION, "emission from 1e-8 to 1e9")
+
+#define X(id, NAME, text) const uint SWEEP_##NAME = id;
+CND_SWEEP_SLICES(X)
+#undef X
+
+const uint SWEEP_OUTPUT = 4u; // SweepRecord, one per lane (recording) or the first bad ones
+const uint SWEEP_COUNTERS = 5u;
+const uint SWEEP_MAX_BAD = 64u; // records of bad responses kept per dispatch
+const uint SPEC_SWEEP_RECORD = 18u; // 1: record every lane, the light with unit emission
+struct SweepParams {
+    uint count; // lanes
+    uint slice; // SWEEP_*
+    uint seed;
+    uint firstIndex;
+    uint sampleCount; // as in ShadeParams
+    uint sampleSeed;
+    float errorBudget;
+};
+GPU_SIZE(SweepParams, 28)
+
+struct SweepCounters {
+    uint nan, infinite, negative, bad; // responses; bad: any of them
+};
+GPU_SIZE(SweepCounters, 16)
+
+// One configuration: the point and the light as light_eval.glsl sees them, and what came out.
+struct SweepRecord {
+    vec3 position; // m
+    vec3 n;
+    vec3 v;
+    float perceptualRoughness;
+    vec4 centreReach;
+    vec4 emissionInfluence; // squared influence radius
+    vec4 axisURadius;
+    vec4 axisVTwoSided;
+    vec3 response; // recording: BenchResponse; else the outgoing luminance
+    uint index;
+};
+GPU_SIZE(SweepRecord, 120)
+
+GPU_END
+
+#endif

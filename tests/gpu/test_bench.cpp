@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The benchmarks at a small size: their kernels run clean, and what they say holds together.
+#include <cmath>
+
+#include "bench/kernel_level.h"
+#include "bench/stability.h"
+#include "harness/gpu_fixture.h"
+
+using namespace candelabra;
+using namespace candelabra::app;
+
+namespace
+{
+
+class Bench : public test::GpuTest
+{
+};
+
+const KernelPoint& pointOf(const KernelLevel& level, CndSpecularMethod method)
+{
+    for (const KernelPoint& p : level.points)
+        if (p.method == method)
+            return p;
+    throw std::runtime_error("no such method");
+}
+
+} // namespace
+
+TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
+{
+    KernelLevelSettings settings{.lightTypes = {CND_LIGHT_RECTANGLE}, .groups = 60};
+    settings.timing = {.lanes = 4096, .fewLights = 4, .manyLights = 12, .rounds = 2};
+    Progress progress(1, false);
+    const KernelLevel level = measureKernelLevel(context(), settings, progress);
+    EXPECT_EQ(level.unconvergedTruths, 0u);
+    ASSERT_EQ(level.points.size(), 3u); // karis, ltc, sampled
+    for (const KernelPoint& p : level.points) {
+        const std::string name = methodName(p.method);
+        const ErrorStatistics& all = p.error.mirror.all;
+        std::cout << "rectangle " << name << ": mean error " << 100 * all.mean
+                  << "% of the peak, form factor within " << p.error.diffuse.all.max << "\n";
+        EXPECT_EQ(p.error.invalid, 0u) << name;
+        EXPECT_EQ(p.error.leak, 0) << name;
+        EXPECT_GT(all.count, 500u) << name;
+        EXPECT_LE(all.mean, all.max) << name;
+        EXPECT_LE(p.error.diffuse.all.max, 1e-5) << name;
+        for (const KernelPoint::Class& c : p.classes)
+            EXPECT_TRUE(std::isfinite(c.both.medianNs)) << name;
+    }
+    EXPECT_LT(pointOf(level, CND_SPECULAR_LTC).error.mirror.all.mean,
+              pointOf(level, CND_SPECULAR_KARIS).error.mirror.all.mean);
+    EXPECT_EQ(Json::parse(kernelJson(settings, level).dump())["points"].size(), 3u);
+    EXPECT_NE(kernelTables(level).find("rectangle ltc"), std::string::npos);
+}
+
+TEST_F(Bench, SweepsAreReproducibleAndValid)
+{
+    const Evaluation karis{.lightType = CND_LIGHT_SPHERE, .method = CND_SPECULAR_KARIS};
+    Sweep sweep(context(), karis, 5);
+    for (uint32_t slice = 0; slice < sweepSliceCount; ++slice) {
+        const SweepCount count = sweep.count(slice, 0, 20000, [](uint64_t) {});
+        EXPECT_EQ(count.tried, 20000u);
+        EXPECT_EQ(count.invalid(), 0u)
+            << sliceText(slice) << ": " << (count.bad.empty() ? "" : describeRecord(count.bad[0]));
+    }
+    const auto a = sweep.record(gpu::SWEEP_ANYTHING, 100),
+               b = sweep.record(gpu::SWEEP_ANYTHING, 100);
+    double largest = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].response, b[i].response);
+        EXPECT_EQ(a[i].index, i);
+        largest = std::max(largest, double(a[i].response.y));
+    }
+    EXPECT_GT(largest, 0);
+}
+
+// The representative point is continuous; a jump would show a wrong classification.
+TEST_F(Bench, RepresentativePointHasNoJumps)
+{
+    const auto checks = checkContinuity(
+        context(), {.lightType = CND_LIGHT_SPHERE, .method = CND_SPECULAR_KARIS}, 20, 1);
+    ASSERT_EQ(checks.size(), 4u);
+    for (const ContinuityCheck& c : checks) {
+        std::cout << "through " << c.through << ": largest jump " << c.jump << " of the peak\n";
+        EXPECT_LE(c.jump, 1e-3) << c.worst;
+    }
+}

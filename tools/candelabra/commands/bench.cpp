@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra bench: what the lights cost and how right they are.
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "commands/bench_commands.h"
+#include "io/report.h"
+#include "render/error.h"
+
+namespace candelabra::app
+{
+
+void addBenchOutput(CLI::App& command, std::string& directory, std::string& json,
+                    const std::string& name)
+{
+    command.add_option("--out", directory, "directory for everything; made if missing")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command
+        .add_option("--json", json,
+                    fmt::format("file of all figures (DIR/{}); - is standard output", name))
+        ->type_name("FILE");
+}
+
+std::string benchOutput(const std::string& directory, const std::string& option,
+                        const std::string& typed, const std::string& name)
+{
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (!std::filesystem::is_directory(directory))
+        throw UsageError("--out " + directory + ": cannot make this directory: " +
+                         (error ? error.message() : "a file has its name"));
+    const std::string path =
+        typed.empty() ? (std::filesystem::path(directory) / name).string() : typed;
+    requireWritable(option, path);
+    return path;
+}
+
+void addBenchCommand(CLI::App& app, Run& run)
+{
+    CLI::App* bench = app.add_subcommand("bench", "Measure accuracy and numerical stability");
+    bench->require_subcommand(1);
+    addBenchAccuracy(*bench, run);
+    addBenchStability(*bench, run);
+}
+
+} // namespace candelabra::app

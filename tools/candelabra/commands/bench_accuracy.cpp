@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra bench accuracy: error of every way to light against truth, and its time.
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "bench/page.h"
+#include "commands/bench_commands.h"
+#include "commands/measure.h"
+#include "render/error.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct AccuracyArguments {
+    DeviceArguments device;
+    std::string groups = "300", rounds = "15", seed = "1", samples = "16";
+    std::string size = "192x144", frames = "5";
+    std::string budgetScene = "hall", budgetLights = "4000", budgetSize = "640x360";
+    std::string directory = "out", json, html;
+};
+
+PixelSize sizeOption(const std::string& option, const std::string& text)
+{
+    const auto size = parseSize(text);
+    if (!size || size->width > maxSide || size->height > maxSide)
+        throw UsageError(fmt::format("{} \"{}\": expected WIDTHxHEIGHT up to {} pixels a side",
+                                     option, text, maxSide));
+    return *size;
+}
+
+KernelLevelSettings kernelSettings(const AccuracyArguments& a)
+{
+    KernelLevelSettings s;
+    s.groups = unsignedOption("--groups", a.groups, 10, 1'000'000);
+    s.seed = unsignedOption("--seed", a.seed, 0, UINT32_MAX);
+    s.sampleCount = unsignedOption("--samples", a.samples, 1, 4096);
+    s.timing.rounds = unsignedOption("--rounds", a.rounds, 1, 10'000);
+    s.timing.seed = s.seed;
+    return s;
+}
+
+ImageLevelSettings imageSettings(const AccuracyArguments& a)
+{
+    ImageLevelSettings s;
+    s.size = sizeOption("--size", a.size);
+    s.rounds = unsignedOption("--frames", a.frames, 1, 10'000);
+    s.sampleCount = unsignedOption("--samples", a.samples, 1, 4096);
+    s.budgetScene = a.budgetScene;
+    if (a.budgetScene == "hall" || a.budgetScene == "field")
+        s.budgetLights = unsignedOption("--lights", a.budgetLights, 1, maxLights);
+    s.budgetSize = sizeOption("--budget-size", a.budgetSize);
+    return s;
+}
+
+int accuracy(const ProgramContext& program, const AccuracyArguments& a)
+{
+    const KernelLevelSettings kernels = kernelSettings(a);
+    const ImageLevelSettings images = imageSettings(a);
+    const std::string json = benchOutput(a.directory, "--json", a.json, "bench_accuracy.json");
+    const std::string html = benchOutput(a.directory, "--html", a.html, "bench_accuracy.html");
+    const std::string kernelSvg = benchOutput(a.directory, "--out", "", "bench_kernels.svg");
+    const std::string imageSvg = benchOutput(a.directory, "--out", "", "bench_images.svg");
+
+    const VulkanContext context(a.device.contextOptions());
+    spdlog::info("accuracy on {}", context.info().name);
+    KernelLevel level;
+    std::vector<ImageScene> scenes;
+    BudgetSweep budgets;
+    {
+        Progress kernelProgress(kernelLevelSteps(kernels), !program.quiet);
+        level = measureKernelLevel(context, kernels, kernelProgress);
+        Progress imageProgress(imageLevelSteps(images), !program.quiet);
+        scenes = measureImages(context, images, imageProgress);
+        budgets = measureBudgets(context, images, imageProgress);
+    }
+    const Json origin = provenance(context.info(), program.commandLine);
+    writeText(kernelSvg, kernelPlot(level, context.info()));
+    writeText(imageSvg, imagePlot(scenes, context.info()));
+    writeText(html, accuracyPage(origin, level, scenes, budgets, context.info()));
+    writeJson(json, {{"provenance", origin},
+                     {"kernels", kernelJson(kernels, level)},
+                     {"images", imageJson(images, scenes, budgets)}});
+    if (json != "-")
+        writeText("-", kernelTables(level) + "\n" + imageTables(scenes, budgets) +
+                           fmt::format("\nLook at {}\n", html));
+    return printValidationMessages(context) ? exitFailed : exitOk;
+}
+
+void addOptions(CLI::App& command, AccuracyArguments& a)
+{
+    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
+        command.add_option(name, value, what)->type_name(type)->capture_default_str();
+    };
+    add("--groups", a.groups,
+        "groups of 89 light directions, of spheres; other shapes have a third", "N");
+    add("--rounds", a.rounds, "rounds of timing kernels, each with every variant once", "N");
+    add("--samples", a.samples, "samples per light of the method \"sampled\"", "N");
+    add("--size", a.size, "images compared with truth", "WxH");
+    add("--frames", a.frames, "timed frames of every method and scene, after one to warm up", "N");
+    add("--scene", a.budgetScene, "scene of the error-budget sweep", "SCENE");
+    add("--lights", a.budgetLights, "its lights, where it is hall or field", "N");
+    add("--budget-size", a.budgetSize, "its image", "WxH");
+    add("--seed", a.seed, "of the random groups and lights", "N");
+    addBenchOutput(command, a.directory, a.json, "bench_accuracy.json");
+    command.add_option("--html", a.html, "the report page (DIR/bench_accuracy.html)")
+        ->type_name("FILE");
+    a.device.addTo(command);
+}
+
+} // namespace
+
+void addBenchAccuracy(CLI::App& bench, Run& run)
+{
+    CLI::App* command = bench.add_subcommand(
+        "accuracy", "Error of every specular method against quadrature, and its time");
+    const auto a = std::make_shared<AccuracyArguments>();
+    addOptions(*command, *a);
+    command->footer("Examples:\n"
+                    "  candelabra bench accuracy\n"
+                    "  candelabra bench accuracy --groups 1500 --rounds 51 --frames 15\n"
+                    "  candelabra bench accuracy --scene field --lights 20000");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return accuracy(program, *a); }; });
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra bench stability: the shader functions under every input they may meet.
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "bench/stability.h"
+#include "commands/bench_commands.h"
+#include "commands/measure.h"
+#include "render/error.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct StabilityArguments {
+    DeviceArguments device;
+    std::string configurations = "20000000", quadrature = "20000", sweeps = "200", seed = "1";
+    std::string directory = "out", json;
+};
+
+int stability(const ProgramContext& program, const StabilityArguments& a)
+{
+    StabilitySettings settings;
+    settings.configurations = uint64_t(numberOption("--configs", a.configurations, 1, 1e12));
+    settings.quadratureSamples = unsignedOption("--quadrature", a.quadrature, 1, 100'000'000);
+    settings.sweeps = unsignedOption("--sweeps", a.sweeps, 1, 100'000);
+    settings.seed = unsignedOption("--seed", a.seed, 0, UINT32_MAX);
+    const std::string json = benchOutput(a.directory, "--json", a.json, "bench_stability.json");
+    const VulkanContext context(a.device.contextOptions());
+    spdlog::info("stability on {}", context.info().name);
+    Stability result;
+    {
+        Progress progress(stabilitySteps(settings), !program.quiet);
+        result = measureStability(context, settings, progress);
+    }
+    Json document{{"provenance", provenance(context.info(), program.commandLine)}};
+    document.update(stabilityJson(settings, result));
+    writeJson(json, document);
+    if (json != "-")
+        writeText("-", stabilityTables(result));
+    if (result.invalid())
+        spdlog::error("candelabra: {} of {} responses are NaN, infinite or negative",
+                      result.invalid(), result.tried());
+    return printValidationMessages(context) || result.invalid() ? exitFailed : exitOk;
+}
+
+} // namespace
+
+void addBenchStability(CLI::App& bench, Run& run)
+{
+    CLI::App* command = bench.add_subcommand(
+        "stability", "Random and adversarial inputs: invalid responses, errors, jumps");
+    const auto a = std::make_shared<StabilityArguments>();
+    command
+        ->add_option("--configs", a->configurations,
+                     "configurations in all; 1e8 takes minutes on two CPU cores")
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        ->add_option("--quadrature", a->quadrature,
+                     "configurations in all whose response is compared with quadrature")
+        ->type_name("N")
+        ->capture_default_str();
+    command->add_option("--sweeps", a->sweeps, "sweeps of each check of continuity")
+        ->type_name("N")
+        ->capture_default_str();
+    command->add_option("--seed", a->seed, "of all random inputs")
+        ->type_name("N")
+        ->capture_default_str();
+    addBenchOutput(*command, a->directory, a->json, "bench_stability.json");
+    a->device.addTo(*command);
+    command->footer("Exit code 1 when any response is NaN, infinite or negative.\n\n"
+                    "Examples:\n"
+                    "  candelabra bench stability\n"
+                    "  candelabra bench stability --configs 1e10 --quadrature 1000000");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return stability(program, *a); }; });
+}
+
+} // namespace candelabra::app
