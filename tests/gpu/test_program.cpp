@@ -191,7 +191,7 @@ TEST_F(ProgramTest, DevicesListsTheOneUnderTest)
 TEST_F(ProgramTest, MoreLightsThanTheDeviceHasRoomForAreRefused)
 {
     const uint64_t most = app::maxLightsOf(context().info());
-    ASSERT_GE(most, (1u << 27) / 56); // Vulkan's least storage buffer, a light's record
+    ASSERT_GE(most, (1u << 27) / 64); // Vulkan's least storage buffer, a light's record
     if (most >= app::maxLights)
         return; // every count that --lights accepts fits
     for (const char* command : {"render hall -o a.png", "stress --out o"}) {
