@@ -2,6 +2,7 @@
 // The benchmarks at a small size: their kernels run clean, and what they say holds together.
 #include <cmath>
 
+#include "bench/image_level.h"
 #include "bench/kernel_level.h"
 #include "bench/stability.h"
 #include "harness/gpu_fixture.h"
@@ -83,5 +84,30 @@ TEST_F(Bench, RepresentativePointHasNoJumps)
     for (const ContinuityCheck& c : checks) {
         std::cout << "through " << c.through << ": largest jump " << c.jump << " of the peak\n";
         EXPECT_LE(c.jump, 1e-3) << c.worst;
+    }
+}
+
+// Whole frames beside their truth. The closed form is for spheres; the last scene has other shapes.
+TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
+{
+    ImageLevelSettings settings{
+        .methods = {CND_SPECULAR_KARIS, CND_SPECULAR_CONIC}, .size = {48, 36}, .rounds = 1};
+    Progress progress(1, false);
+    const std::vector<ImageScene> scenes = measureImages(context(), settings, progress);
+    ASSERT_EQ(scenes.size(), benchScenes().size());
+    for (const ImageScene& scene : scenes) {
+        ASSERT_EQ(scene.points.size(), 2u);
+        const ImageDifference &karis = scene.points[0].error, &conic = scene.points[1].error;
+        std::cout << scene.name << ": relMSE of the closed form " << conic.relMse << ", FLIP "
+                  << conic.flip << "; of the representative point " << karis.relMse << ", "
+                  << karis.flip << "\n";
+        EXPECT_EQ(scene.unconverged, 0u);
+        EXPECT_EQ(conic.invalid + karis.invalid, 0u);
+        EXPECT_LT(conic.relMse, karis.relMse);
+        EXPECT_LT(conic.flip, karis.flip);
+        EXPECT_GT(scene.points[1].time.lightingMs, 0);
+        if (&scene != &scenes.back()) {
+            EXPECT_LE(conic.relMse, 2.5e-4);
+        }
     }
 }

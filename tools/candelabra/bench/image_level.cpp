@@ -75,15 +75,6 @@ Variants runVariants(const VulkanContext& context, Renderer& renderer,
     return out;
 }
 
-std::vector<CndSpecularMethod> imageMethods()
-{
-    std::vector<CndSpecularMethod> out{CND_SPECULAR_KARIS};
-    for (const CndSpecularMethod method : methodsOf(CND_LIGHT_SPHERE))
-        if (method != CND_SPECULAR_KARIS)
-            out.push_back(method);
-    return out;
-}
-
 FrameOptions frameOf(const Scene& scene)
 {
     FrameOptions frame{.camera = selectCamera(scene, ""), .lightsVisible = false};
@@ -131,6 +122,15 @@ BudgetPoint budgetPoint(const Image& full, const Image& image)
 
 } // namespace
 
+std::vector<CndSpecularMethod> imageMethods()
+{
+    std::vector<CndSpecularMethod> out{CND_SPECULAR_KARIS};
+    for (const CndSpecularMethod method : methodsOf(CND_LIGHT_SPHERE))
+        if (method != CND_SPECULAR_KARIS)
+            out.push_back(method);
+    return out;
+}
+
 double imageLevelSteps(const ImageLevelSettings& s)
 {
     return double(benchScenes().size()) * (s.size.height + stepsPerRound * (s.rounds + 1)) +
@@ -146,9 +146,12 @@ std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageL
         progress.doing("truth: " + scene.name);
         integrate(scene, s, progress, measured);
         progress.doing("frames: " + scene.name);
-        Renderer renderer(context, scene, {.size = s.size});
+        uint32_t mask = 0;
+        for (const CndSpecularMethod method : s.methods)
+            mask |= 1u << method;
+        Renderer renderer(context, scene, {.size = s.size, .specularMethods = mask});
         std::vector<FrameOptions> variants;
-        for (const CndSpecularMethod method : imageMethods()) {
+        for (const CndSpecularMethod method : s.methods) {
             variants.push_back(frameOf(scene));
             variants.back().specular = method;
             variants.back().sampleCount = s.sampleCount;
@@ -174,7 +177,9 @@ BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSetting
 {
     progress.doing("error budgets: " + s.budgetScene);
     const Scene scene = loadScene(s.budgetScene, {.lights = s.budgetLights});
-    Renderer renderer(context, scene, {.size = s.budgetSize});
+    Renderer renderer(context, scene,
+                      {.size = s.budgetSize,
+                       .specularMethods = 1u << CND_SPECULAR_KARIS | 1u << CND_SPECULAR_CONIC});
     BudgetSweep out{
         .scene = scene.name, .lights = scene.lights.size(), .size = s.budgetSize, .points = {}};
     std::vector<FrameOptions> variants;

@@ -15,7 +15,11 @@
 namespace candelabra::app
 {
 
+// The methods that frames can be lit by, the representative point first.
+std::vector<CndSpecularMethod> imageMethods();
+
 struct ImageLevelSettings {
+    std::vector<CndSpecularMethod> methods = imageMethods(); // times are relative to the first
     PixelSize size{192, 144};
     uint32_t rounds = 5; // frames of every variant, after one to warm up
     double truthTolerance = 1e-4;

@@ -63,6 +63,7 @@ Scene named(const char* name, const glm::dvec3& eye, const glm::dvec3& target, d
     Scene scene;
     scene.name = name;
     scene.lightsVisible = false;
+    scene.lobes = CND_LOBES_SUM; // what the truth integrates
     scene.cameras.push_back({.name = "eye",
                              .position = eye,
                              .forward = glm::normalize(target - eye),
