@@ -167,10 +167,10 @@ TEST(ReferenceAreaTruth, degenerateShapesMeet)
     // A tube without length is a sphere; beyond its end only the nearer sphere is seen.
     const CndLight sphere = makeSphere({-1, 0.5f, 1}, 0.5f, glm::vec3(1));
     const LightResponse ball = truthResponse(upward, 0.25, sphere, glm::dvec3(0), 1e-8);
-    const LightResponse stub =
+    const LightResponse shortTube =
         truthResponse(upward, 0.25, makeTube({-1, 0.5, 1}, {1e-6, 0, 0}, 0.5f), {}, 1e-8);
-    EXPECT_NEAR(stub.a / ball.a, 1, 1e-5);
-    EXPECT_NEAR(stub.f / ball.f, 1, 1e-5);
+    EXPECT_NEAR(shortTube.a / ball.a, 1, 1e-5);
+    EXPECT_NEAR(shortTube.f / ball.f, 1, 1e-5);
     const glm::dvec3 away = glm::normalize(glm::dvec3(-1, 0.5, 1));
     const LightResponse pointed = truthResponse(
         upward, 0.25, makeTube(glm::dvec3(-1, 0.5, 1) + 2.0 * away, 2.0 * away, 0.5f), {}, 1e-8);
