@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lighting module: culls lights into lists and shades the surfaces of a view.
+#ifndef CANDELABRA_LIGHTING_H
+#define CANDELABRA_LIGHTING_H
+
+#include "candelabra/core.h"
+#include "candelabra/lights.h"
+#include "candelabra/surfaces.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct CndLighting_T* CndLighting; // pipelines and one light set, shared by its views
+typedef struct CndLightingView_T* CndLightingView; // buffers of one view
+
+// How the specular lobe of sphere lights is evaluated. Errors: percent of the highest response over
+// light directions, mean / 99th percentile, lights above the horizon; `candelabra bench accuracy`
+// measures them. Tubes, rectangles and discs use a representative point with POINT, KARIS and KX
+// and linearly transformed cosines with LTC, CONIC and CONIC_FULL.
+typedef enum CndSpecularMethod {
+    CND_SPECULAR_NONE = 0,  // diffuse only
+    CND_SPECULAR_KARIS = 1, // normalised representative point (Karis 2013)
+    CND_SPECULAR_POINT = 2, // all light from the centre
+    CND_SPECULAR_KX = 3,    // representative point, unwidened lobe, exact normalisation of its peak
+    CND_SPECULAR_LTC = 4,   // linearly transformed cosines (Heitz, Dupuy, Hill, Neubelt 2016)
+    CND_SPECULAR_CONIC = 5, // slope-conic closed form; two shading nodes near the horizon. Default.
+    CND_SPECULAR_CONIC_FULL = 6, // slope-conic, two shading nodes everywhere
+    CND_SPECULAR_SAMPLED = 7,    // stochastic: CndLightingFrame::sampleCount samples per light
+    CND_SPECULAR_METHOD_COUNT = 8,
+    CND_SPECULAR_METHOD_MAX_ENUM = 0x7FFFFFFF
+} CndSpecularMethod;
+
+typedef enum CndCulling {
+    CND_CULLING_CLUSTERED = 0, // exact lists per 8x8 tile
+    CND_CULLING_BRUTE = 1, // every light at every pixel, no list, no bound; the check and baseline
+    CND_CULLING_MAX_ENUM = 0x7FFFFFFF
+} CndCulling;
+
+typedef struct CndLightingDesc {
+    uint32_t structSize;
+    uint32_t framesInFlight; // 1..8: frames the host may have recorded or submitted and not yet
+                             // waited for
+    CndGBufferLayout gbufferLayout;
+    // Time every kernel: one timestamp more than there are dispatches, about 50 us each on a
+    // software device; off records none.
+    VkBool32 timestamps;
+    // Mask of 1 << CndSpecularMethod: what frames may ask for; 0: CND_SPECULAR_CONIC. Pipelines are
+    // made for these only; those of a light type with the first set of lights that holds it
+    // (spheres: at creation).
+    uint32_t specularMethods;
+} CndLightingDesc;
+
+typedef struct CndLightingViewDesc {
+    uint32_t structSize;
+    uint32_t maxWidth, maxHeight; // pixels, 1..16384; frames may be smaller
+    // Bytes for light lists, 0 = default (64 MiB). Tiles whose list does not fit are shaded by
+    // walking all lights: slower, never wrong, and counted in CndLightingStats::unlistedTiles.
+    VkDeviceSize listBudget;
+} CndLightingViewDesc;
+
+// One frame of one view.
+// On entry: normalRoughness, albedo, specular and depth in
+// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, radiance in VK_IMAGE_LAYOUT_GENERAL, all made visible
+// to COMPUTE_SHADER (SHADER_SAMPLED_READ, and SHADER_STORAGE_READ | SHADER_STORAGE_WRITE for
+// radiance). On exit: layouts unchanged, radiance written by COMPUTE_SHADER / SHADER_STORAGE_WRITE,
+// not yet made visible.
+typedef struct CndLightingFrame {
+    uint32_t structSize;
+    uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
+    uint32_t width, height; // pixels, 1..max of the view
+    CndCamera camera;
+    float clearDepth; // depth of pixels without a surface: 0 with reversed depth, else 1
+    VkImageView normalRoughness;
+    VkImageView albedo;
+    VkImageView specular; // ignored by CND_GBUFFER_COMPACT (may be VK_NULL_HANDLE)
+    VkImageView depth;    // depth aspect, D32_SFLOAT
+    VkImageView radiance; // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
+    CndSpecularMethod specularMethod; // one of CndLightingDesc::specularMethods
+    uint32_t sampleCount; // CND_SPECULAR_SAMPLED: samples per light and pixel, 1..4096; 0: 64
+    uint32_t sampleSeed;  // CND_SPECULAR_SAMPLED: same seed, same image
+    // 0: every light in full. Else lights are evaluated as cheaply as an a-priori bound of the
+    // error allows: at most about this share of the highest response to the light (0.01: 1%). 0..1.
+    float errorBudget;
+    CndLobeJoining lobes;
+    // Give back what single-bounce microfacets lose (Turquin 2019): a white metal then reflects all
+    // light at any roughness.
+    VkBool32 energyCompensation;
+    CndCulling culling;
+    VkRect2D bruteRect;  // CND_CULLING_BRUTE: pixels to shade; zero extent: all
+    VkBool32 countPairs; // also count (pixel, light) pairs: one more kernel; clustered only
+} CndLightingFrame;
+
+typedef struct CndLightingStats {
+    uint32_t structSize;
+    uint32_t lightCount;
+    uint32_t tileCount;   // 8x8 pixel tiles that hold a surface; 0 without lights
+    uint32_t listEntries; // entries of all tiles' lists
+    uint32_t maxListLength;
+    uint32_t unlistedTiles; // tiles over the list budget, shaded by walking all lights
+    // (pixel, light) pairs, with countPairs, else 0:
+    uint64_t listedPairs;     //   entries walked, summed over the surface pixels
+    uint64_t insidePairs;     //   of those, distance < influence radius
+    uint64_t evaluatedPairs;  //   of those, emitter not wholly below the horizon: BRDF evaluated
+    uint32_t kernelTimeCount; // 0 without timestamps
+    CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
+} CndLightingStats;
+
+CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLightingDesc* desc,
+                                    CndLighting* lighting, CndError* error);
+// The GPU must have finished all work recorded with the object or its views; views go first.
+CND_API void cndDestroyLighting(CndLighting lighting);
+
+// Validates and packs the lights; takes effect at the next recording. On error the previous set
+// stays. May allocate when the count grows, and makes pipelines when a light type is new.
+CND_API CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error);
+
+CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
+                                        CndLightingView* view, CndError* error);
+CND_API void cndDestroyLightingView(CndLightingView view);
+
+// Records culling and shading. Changes compute pipeline, compute descriptor set 0 and push
+// constants; must be outside a render pass. Lights travel in the first recording after
+// cndSetLights, so recordings of all views of one CndLighting are submitted once each, in their
+// order, to one queue.
+CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
+                                    const CndLightingFrame* frame, CndError* error);
+
+// Statistics of the last frame recorded in frameSlot; CND_NOT_READY until the GPU has finished it.
+CND_API CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot,
+                                      CndLightingStats* stats);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
