@@ -14,17 +14,16 @@ extern "C" {
 typedef struct CndLighting_T* CndLighting; // pipelines and one light set, shared by its views
 typedef struct CndLightingView_T* CndLightingView; // buffers of one view
 
-// How the specular lobe of sphere lights is evaluated. Errors: percent of the highest response over
-// light directions, mean / 99th percentile, lights above the horizon; `candelabra bench accuracy`
-// measures them. Tubes, rectangles and discs use a representative point with POINT, KARIS and KX
-// and linearly transformed cosines with LTC, CONIC and CONIC_FULL.
+// How the specular lobe of sphere lights is evaluated; `candelabra bench accuracy` measures time
+// and error of each. Tubes, rectangles and discs use a representative point with POINT, KARIS and
+// KX and linearly transformed cosines with LTC, CONIC and CONIC_FULL.
 typedef enum CndSpecularMethod {
     CND_SPECULAR_NONE = 0,  // diffuse only
     CND_SPECULAR_KARIS = 1, // normalised representative point (Karis 2013)
     CND_SPECULAR_POINT = 2, // all light from the centre
     CND_SPECULAR_KX = 3,    // representative point, unwidened lobe, exact normalisation of its peak
     CND_SPECULAR_LTC = 4,   // linearly transformed cosines (Heitz, Dupuy, Hill, Neubelt 2016)
-    CND_SPECULAR_CONIC = 5, // slope-conic closed form; two shading nodes near the horizon. Default.
+    CND_SPECULAR_CONIC = 5, // slope-conic closed form; two shading nodes near the horizon
     CND_SPECULAR_CONIC_FULL = 6, // slope-conic, two shading nodes everywhere
     CND_SPECULAR_SAMPLED = 7,    // stochastic: CndLightingFrame::sampleCount samples per light
     CND_SPECULAR_METHOD_COUNT = 8,
@@ -76,7 +75,7 @@ typedef struct CndLightingFrame {
     VkImageView specular; // ignored by CND_GBUFFER_COMPACT (may be VK_NULL_HANDLE)
     VkImageView depth;    // depth aspect, D32_SFLOAT
     VkImageView radiance; // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
-    CndSpecularMethod specularMethod; // one of CndLightingDesc::specularMethods
+    CndSpecularMethod specularMethod; // one of CndLightingDesc::specularMethods; 0 is NONE
     uint32_t sampleCount; // CND_SPECULAR_SAMPLED: samples per light and pixel, 1..4096; 0: 64
     uint32_t sampleSeed;  // CND_SPECULAR_SAMPLED: same seed, same image
     // 0: every light in full. Else lights are evaluated as cheaply as an a-priori bound of the
@@ -117,6 +116,7 @@ CND_API CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, Cnd
 
 CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
                                         CndLightingView* view, CndError* error);
+// The GPU must have finished all work recorded with the view.
 CND_API void cndDestroyLightingView(CndLightingView view);
 
 // Records culling and shading. Changes compute pipeline, compute descriptor set 0 and push

@@ -28,11 +28,11 @@ typedef enum CndLightType {
 // window); with r = INFINITY it is neither windowed nor cut. Directional and distant lights have
 // no window.
 typedef struct CndLight {
-    uint32_t type;     // CndLightType
-    float position[3]; // centre, metres, within 1e15 of CndLightSet::origin; all but directional
-                       //   and distant
-    float radius;      // > 0; sphere, tube, disc: metres; distant sphere: radius over distance, the
-                       //   sine of its angular radius, <= 1 (the Sun: 0.00465)
+    uint32_t type;      // CndLightType
+    float position[3];  // centre, metres, within 1e15 of CndLightSet::origin; all but directional
+                        //   and distant
+    float radius;       // 1e-15..1e15; sphere, tube, disc: metres; distant sphere: radius over
+                        //   distance, the sine of its angular radius, <= 1 (the Sun: 0.00465)
     float direction[3]; // unit (1e-3). Spot, directional, distant: the way the light travels;
                         //   disc: its normal, the way it faces
     float emission[3];  // >= 0, finite; unit by type, per Rec.709 channel
@@ -41,10 +41,11 @@ typedef struct CndLight {
     // distant.
     float influenceRadius;
     float innerConeAngle; // radians, 0 <= inner < outer; spot: full intensity inside (half angle)
-    float outerConeAngle; // radians, inner < outer <= pi/2; spot: no light outside (half angle)
-    // Metres, not zero. Tube: from the centre to one end of its segment. Rectangle: from the centre
-    // to the middle of one edge, and of the next (perpendicular within 1e-3); it faces axisU x
-    // axisV.
+    float outerConeAngle; // radians, inner < outer <= pi/2; spot: no light outside (half angle);
+                          //   cos inner - cos outer >= 1e-6
+    // Metres, length at least 1e-15, components within 1e15. Tube: from the centre to one end of
+    // its segment. Rectangle: from the centre to the middle of one edge, and of the next
+    // (perpendicular within 1e-3); it faces axisU x axisV.
     float axisU[3];
     float axisV[3];
     VkBool32 twoSided; // rectangle, disc: emits from its back as well
@@ -74,7 +75,7 @@ CND_API uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits);
 // lights at distance d emission = pi c_light d^2, spheres and distant spheres emission = c_light /
 // s^2.
 //
-// The power functions divide and multiply in single precision and check nothing: lengths are > 0.
+// The power functions compute in double, round once and check nothing: lengths are > 0.
 
 // Luminance (cd/m^2) of a sphere of `radius` metres that emits `luminousPower` lumens evenly:
 // Phi = 4 pi^2 R^2 L. Keeping the power while changing the radius keeps the far field.

@@ -15,7 +15,7 @@ typedef struct CndCamera {
     float clipFromView[16];   // perspective (finite or infinite, reversed or not) or orthographic
 } CndCamera;
 
-// G-buffer layouts the module can read. See shaders/lib/gbuffer.glsl for packing functions and
+// G-buffer layouts the modules can read. See shaders/lib/gbuffer.glsl for packing functions and
 // their declared error bounds.
 typedef enum CndGBufferLayout {
     // normalRoughness R32G32_UINT: view-space octahedral normal 24+24 bits, perceptual roughness
