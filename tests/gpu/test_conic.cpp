@@ -192,4 +192,42 @@ TEST_F(Conic, NeverNanNegativeOrAboveOne)
     std::cout << inputs.size() << " configurations: none NaN, infinite, negative or above 1\n";
 }
 
+// The smaller the light, the nearer to a point: its area has no lower bound but float32's.
+TEST_F(Conic, SmallSpheresArePointLights)
+{
+    constexpr int perSize = 20000;
+    const std::vector<double> sines = {1e-4, 1e-5, 1e-6, 1.9e-7, 1e-7, 1e-8};
+    std::vector<gpu::ConicProbeInput> inputs;
+    for (const double s : sines)
+        for (int i = 0; i < perSize; ++i) {
+            gpu::ConicProbeInput in = randomInput(0.05);
+            in.alpha = float(std::pow(uniform(0.2, 1), 2));
+            const glm::dvec3 mirror(-in.v.x, -in.v.y, in.v.z);
+            const glm::dvec3 l = i % 2 ? direction(uniform(0.05, 1))
+                                       : mirror + double(in.alpha) * direction(uniform(0, 1));
+            in.toLight = glm::vec3(glm::normalize(l));
+            in.radius = float(s);
+            inputs.push_back(in);
+        }
+    const auto outputs = evaluate(inputs);
+    for (size_t size = 0; size < sines.size(); ++size) {
+        double worstToPoint = 0, worstToDouble = 0;
+        size_t worstAt = 0;
+        for (size_t i = size * perSize; i < (size + 1) * perSize; ++i) {
+            const Expected expected = inDouble(inputs[i]);
+            const double toPoint = std::abs(outputs[i].conic.x / expected.point.x - 1);
+            if (!(toPoint <= worstToPoint)) {
+                worstToPoint = toPoint;
+                worstAt = i;
+            }
+            worstToDouble =
+                std::max(worstToDouble, std::abs(outputs[i].conic.x / expected.conic.x - 1));
+        }
+        std::cout << "s " << sines[size] << ": largest relative difference to the point light "
+                  << worstToPoint << ", to the same formula in double " << worstToDouble << "\n";
+        EXPECT_LE(worstToPoint, 1e-3) << describe(inputs[worstAt]);
+        EXPECT_LE(worstToDouble, 1e-3);
+    }
+}
+
 } // namespace candelabra::test

@@ -44,7 +44,7 @@ double conicRoot(double tr, double m2, double D0)
     const double qb = std::sqrt(glm::max(tr * tr - 4.0 * mb, 0.0));
     const double boundB = tr > 0.0 ? -2.0 * mb / (tr + qb) : 0.5 * (qb - tr);
     const double negative = tr > 0.0 ? glm::min(boundA, boundB) : boundB;
-    double lam = m2 < 0.0 ? negative : boundA;
+    double lam = glm::max(m2 < 0.0 ? negative : boundA, 1e-12);
     lam = halley(lam, tr, m2, D0);
     return halley(lam, tr, m2, D0);
 }

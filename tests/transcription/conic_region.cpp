@@ -51,7 +51,7 @@ double halley(double t, double tr, double m2, double D0)
     const double f2 = 3.0 * t + tr;
     const double f = ((t + tr) * t + m2) * t - D0;
     const double f1 = (f2 + tr) * t + m2;
-    return glm::max(t - f * f1 / (f1 * f1 - f * f2), 1e-12);
+    return glm::max(t - f * f1 / (f1 * f1 - f * f2), 1e-7 * t);
 }
 
 ConicRegion wholeCap(ConicPoint p, glm::dvec3 c, double NoC, double s2, double omc)

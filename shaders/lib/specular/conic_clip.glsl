@@ -49,7 +49,7 @@ float conicRoot(float tr, float m2, float D0)
     const float qb = sqrt(max(tr * tr - 4.0 * mb, 0.0));
     const float boundB = tr > 0.0 ? -2.0 * mb / (tr + qb) : 0.5 * (qb - tr);
     const float negative = tr > 0.0 ? min(boundA, boundB) : boundB;
-    float lam = m2 < 0.0 ? negative : boundA;
+    float lam = max(m2 < 0.0 ? negative : boundA, 1e-12); // rounding; no cap here is smaller
     lam = halley(lam, tr, m2, D0);
     return halley(lam, tr, m2, D0);
 }

@@ -64,13 +64,14 @@ struct ConicRegion {
 const float MIN_CONIC_MU = 1e-6;
 
 // One step of Halley's iteration on p(t): from above the root it converges monotonically, because all
-// roots of p are real.
+// roots of p are real. Rounding can take a step below zero; what it is replaced with is relative to t,
+// because the root falls with the light's area, without end.
 float halley(float t, float tr, float m2, float D0)
 {
     const float f2 = 3.0 * t + tr;
     const float f = ((t + tr) * t + m2) * t - D0;
     const float f1 = (f2 + tr) * t + m2;
-    return max(t - f * f1 / (f1 * f1 - f * f2), 1e-12);
+    return max(t - f * f1 / (f1 * f1 - f * f2), 1e-7 * t);
 }
 
 // The region of a whole cap. c: unit direction to its centre, s2, omc: sin^2 and 1 - cos of its half
