@@ -5,54 +5,49 @@
 
 #include "lib/math.glsl"
 
-// (asin(z) - z) / z^3 as a polynomial in z2 = z^2 in [0, 0.5]; minimax, error 9.7e-8.
-float asinTail(float z2)
+// (atan(t) - t) / t^3 as a polynomial in t2 = t^2, t in [0, 1]; minimax, error 9.9e-8.
+float sphereAtanTail(float t2)
 {
-    float k = 0.0878251772;
-    k = k * z2 - 0.0528741847;
-    k = k * z2 + 0.0508166768;
-    k = k * z2 + 0.0247934903;
-    k = k * z2 + 0.0451521326;
-    k = k * z2 + 0.0749828032;
-    return k * z2 + 0.166666761;
+    float k = 0.00386673891;
+    k = k * t2 - 0.0200267476;
+    k = k * t2 + 0.0489143215;
+    k = k * t2 - 0.0800968172;
+    k = k * t2 + 0.108657591;
+    k = k * t2 - 0.142570449;
+    k = k * t2 + 0.199986812;
+    return k * t2 - 0.333333231;
 }
 
-// Form factor F = E / (pi L) of a spherical cap that crosses the horizon, for c >= 0; the exact
-// expression (1/pi) [c s^2 theta + asin(m / sin b) - m cos s] with every term positive.
-float crossingFormFactor(float c2, float s2)
+// Form factor F = E / (pi L) of a spherical cap that crosses the horizon:
+// (1/pi) [c s^2 (pi/2 + atan(c cos s / m)) + atan(m / cos s) - m cos s], m = sqrt(s^2 - c^2). Both arc
+// tangents are of the shorter over the longer side, so the only roots are cos s and m. The last two
+// terms cancel for small lights: they are t s^2 + (atan(t) - t) with t = m / cos s.
+float crossingFormFactor(float c, float s2)
 {
-    const float c = sqrt(c2);
-    const float ib = inversesqrt(max(1.0 - c2, 1e-12));
-    const float cs = sqrt(max(1.0 - s2, 0.0));
-    const float m = sqrt(max(s2 - c2, 0.0));
-    const float v = m * ib; // sine and ...
-    const float q = cs * ib; // ... cosine of one angle
-    const float is = inversesqrt(max(s2, 1e-36));
-    const float ny = c * q * is; // -cos(theta)
-    const float w = v * is;      // sin(theta)
-    const float z1 = min(ny, w);
-    const float t1 = z1 + z1 * z1 * z1 * asinTail(z1 * z1);
-    const float asinNy = ny < w ? t1 : HALF_PI - t1;
-    const float z2 = min(v, q);
-    const float t2 = z2 * z2 * z2 * asinTail(z2 * z2); // asin(z2) - z2
-    const float kk = (c2 + s2 - c2 * s2) * ib / (1.0 + (1.0 - c2) * ib * cs); // (v - m cs) / m
-    const float e = v < q ? t2 + m * kk : HALF_PI - (z2 + t2) - m * cs; // asin(v) - m cs
-    return INV_PI * (c * s2 * (HALF_PI + asinNy) + e);
+    const float cs = sqrt(1.0 - s2);
+    const float m = sqrt(abs(s2 - c * c)); // abs: a fused multiply-add may round below 0
+    const float y = abs(c) * cs;
+    const bool steep = m < y;
+    const float t1 = (steep ? m : y) / ((steep ? y : m) + 1e-30);
+    const float a1 = t1 + t1 * t1 * t1 * sphereAtanTail(t1 * t1);
+    const float elevation = steep ? HALF_PI - a1 : a1;
+    const float theta = HALF_PI + (c < 0.0 ? -elevation : elevation);
+    const bool narrow = m < cs;
+    const float t2 = narrow ? m / cs : cs / m;
+    const float tail = t2 * t2 * t2 * sphereAtanTail(t2 * t2);
+    const float e = narrow ? t2 * s2 + tail : HALF_PI - (t2 + tail) - m * cs;
+    return INV_PI * abs(c * s2 * theta + e);
 }
 
 // Form factor F = E / (pi L) of a sphere seen under c = cos(angle of its centre to the normal) and
-// s2 = (R / d)^2, in [0, 1] for any c in [-1, 1]. s2 is clamped to 1: inside the sphere the value of
-// its surface continues, F = (1 + c) / 2. Absolute error below 2e-7 s^3.
-// Closed form: Snyder 1996 (area light sources), Lagarde and de Rousiers 2014, section 4.7.2; the
-// float32 form uses F(c) - F(-c) = c s^2 so that no terms cancel.
+// s2 = (R / d)^2 in [0, 1], for any c in [-1, 1]. With s2 clamped to 1 inside the sphere, the value of
+// its surface continues there, F = (1 + c) / 2. Absolute error below 2e-7 s^3.
+// Closed form: Snyder 1996 (area light sources), Lagarde and de Rousiers 2014, section 4.7.2.
 float sphereFormFactor(float c, float s2)
 {
-    s2 = min(s2, 1.0);
-    const float c2 = c * c;
-    if (c2 >= s2)
+    if (c * c >= s2)
         return max(c, 0.0) * s2; // wholly above or wholly below the horizon
-    const float f = crossingFormFactor(c2, s2);
-    return max(c < 0.0 ? f + c * s2 : f, 0.0);
+    return crossingFormFactor(c, s2);
 }
 
 #endif

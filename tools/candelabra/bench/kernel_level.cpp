@@ -103,14 +103,18 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
                 classes.push_back({i, out.points[i].classes.size() - 1, both, diffuse});
             }
         }
-    int forms[3];
-    for (uint32_t form = 0; form < 3; ++form)
-        forms[form] = plan.add({.name = {},
-                                .evaluation = {.method = CND_SPECULAR_NONE},
-                                .evaluationClass = EvaluationClass::General,
-                                .formFactor = true,
-                                .form = form},
-                               -1);
+    const auto addForm = [&](uint32_t form, EvaluationClass lights) {
+        return plan.add({.name = {},
+                         .evaluation = {.method = CND_SPECULAR_NONE},
+                         .evaluationClass = lights,
+                         .formFactor = true,
+                         .form = form},
+                        -1);
+    };
+    const int loop = addForm(gpu::BENCH_FORM_FACTOR_NONE, EvaluationClass::General);
+    const int robust = addForm(gpu::BENCH_FORM_FACTOR_ROBUST, EvaluationClass::General);
+    const int naive = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationClass::General);
+    const int naiveAbove = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationClass::Above);
     const int asPoint =
         plan.add({.name = {},
                   .evaluation = {.method = CND_SPECULAR_CONIC, .errorBudget = 0.01f},
@@ -130,7 +134,7 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
         entry.specularNs = entry.both.medianNs - times[size_t(c.diffuse)].medianNs;
     }
     const auto ns = [&](int i) { return times[size_t(i)].medianNs; };
-    out.formFactor = {ns(forms[1]) - ns(forms[0]), ns(forms[2]) - ns(forms[0])};
+    out.formFactor = {ns(robust) - ns(loop), ns(naive) - ns(loop), ns(naiveAbove) - ns(loop)};
     out.pointBudgetNs = ns(asPoint);
 }
 

@@ -39,8 +39,10 @@ struct KernelPoint {
     std::vector<Class> classes; // empty without timestamps
 };
 
+// Without the loop, the light's direction and the product of cosine and s^2, which is all that the
+// engine evaluates for a light above the horizon; the naive form does not tell them apart.
 struct FormFactorTime {
-    double robustNs = 0, naiveNs = 0; // without the loop and the light's direction
+    double robustNs = 0, naiveNs = 0, naiveAboveNs = 0;
 };
 
 struct KernelLevel {

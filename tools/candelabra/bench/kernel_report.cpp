@@ -78,11 +78,13 @@ std::string timeTable(const KernelLevel& level)
         }
         table.add(row);
     }
-    return table.text() + fmt::format("form factor of a sphere: {} ns; with acos and atan: {} ns\n"
-                                      "sphere as a point within an error budget: {} ns\n",
-                                      threeDigits(level.formFactor.robustNs),
-                                      threeDigits(level.formFactor.naiveNs),
-                                      threeDigits(level.pointBudgetNs));
+    return table.text() +
+           fmt::format(
+               "form factor of a sphere across the horizon: {} ns; with acos and atan: {} ns\n"
+               "form factor above the horizon: none; with acos and atan: {} ns\n"
+               "sphere as a point within an error budget: {} ns\n",
+               threeDigits(level.formFactor.robustNs), threeDigits(level.formFactor.naiveNs),
+               threeDigits(level.formFactor.naiveAboveNs), threeDigits(level.pointBudgetNs));
 }
 
 Json toJson(const VariantTime& t)
@@ -130,7 +132,9 @@ Json kernelJson(const KernelLevelSettings& s, const KernelLevel& level)
               {"manyLights", s.timing.manyLights},
               {"rounds", s.timing.rounds}}},
             {"formFactorNs",
-             {{"robust", level.formFactor.robustNs}, {"naive", level.formFactor.naiveNs}}},
+             {{"robust", level.formFactor.robustNs},
+              {"naive", level.formFactor.naiveNs},
+              {"naiveAbove", level.formFactor.naiveAboveNs}}},
             {"asPointNs", level.pointBudgetNs},
             {"points", points}};
 }
