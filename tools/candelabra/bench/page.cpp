@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "io/markup.h"
 #include "io/table.h"
 
 namespace candelabra::app
@@ -28,22 +29,6 @@ svg { max-width: 100%; height: auto; }
 h2 { margin-top: 2em; border-bottom: 1px solid #d0d0d0; }
 </style></head><body>
 )";
-
-std::string escaped(const std::string& text)
-{
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 // RFC 4648.
 std::string base64(const std::vector<uint8_t>& bytes)

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "io/markup.h"
+
 namespace candelabra::app
 {
 namespace
@@ -22,24 +24,6 @@ constexpr std::array<const char*, 8> colours{"#0072b2", "#d55e00", "#009e73", "#
 bool drawable(const std::pair<double, double>& p)
 {
     return std::isfinite(p.first) && std::isfinite(p.second) && p.first > 0 && p.second > 0;
-}
-
-std::string escaped(const std::string& text)
-{
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
 }
 
 // A logarithmic axis from `from` to `to`, both on a 1-2-5 step, mapped to pixels a..b.

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/markup.h"
+
+namespace candelabra::app
+{
+
+std::string escaped(const std::string& text)
+{
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+} // namespace candelabra::app
