@@ -12,26 +12,12 @@ namespace candelabra::app
 namespace
 {
 
-// All texels of a colour image that is in TRANSFER_SRC_OPTIMAL and visible to transfers.
 gpu::Buffer read(const VulkanContext& context, const gpu::Image& image, uint32_t texelBytes)
 {
-    gpu::Buffer buffer = createBuffer(context.device(), "readback",
-                                      VkDeviceSize(image.width) * image.height * texelBytes,
-                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::Readback);
+    gpu::Buffer buffer;
     context.submitAndWait([&](VkCommandBuffer cmd) {
-        const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                       .imageExtent = {image.width, image.height, 1}};
-        vkCmdCopyImageToBuffer(cmd, image.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                               buffer.get(), 1, &region);
-        const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                       .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                       .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                       .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                       .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-        const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                    .memoryBarrierCount = 1,
-                                    .pMemoryBarriers = &barrier};
-        vkCmdPipelineBarrier2(cmd, &info);
+        buffer = recordReadback(context.device(), cmd, image.image.get(),
+                                {image.width, image.height}, texelBytes);
     });
     return buffer;
 }
@@ -56,6 +42,28 @@ std::string extensionOf(const std::string& path)
 }
 
 } // namespace
+
+gpu::Buffer recordReadback(const gpu::Device& device, VkCommandBuffer cmd, VkImage image,
+                           PixelSize size, uint32_t texelBytes)
+{
+    gpu::Buffer buffer =
+        createBuffer(device, "readback", VkDeviceSize(size.width) * size.height * texelBytes,
+                     VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::Readback);
+    const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                   .imageExtent = {size.width, size.height, 1}};
+    vkCmdCopyImageToBuffer(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.get(), 1,
+                           &region);
+    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                   .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .memoryBarrierCount = 1,
+                                .pMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(cmd, &info);
+    return buffer;
+}
 
 Image readRadiance(const VulkanContext& context, const Renderer& renderer)
 {

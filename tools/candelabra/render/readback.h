@@ -11,6 +11,11 @@
 namespace candelabra::app
 {
 
+// Records the copy of all texels of a colour image that is in TRANSFER_SRC_OPTIMAL and visible to
+// transfers; the buffer is read once the GPU is done with it.
+gpu::Buffer recordReadback(const gpu::Device& device, VkCommandBuffer cmd, VkImage image,
+                           PixelSize size, uint32_t texelBytes);
+
 // The last frame of a renderer that the GPU is done with. Throws gpu::Failure.
 Image readRadiance(const VulkanContext& context, const Renderer& renderer); // 3 channels, cd/m^2
 std::vector<uint8_t> readDisplay(const VulkanContext& context, const Renderer& renderer); // RGB

@@ -6,6 +6,7 @@
 #include "gbuffer/gbuffer.h"
 #include "render/camera.h"
 #include "render/error.h"
+#include "render/image_barrier.h"
 #include "render/scene_environment.h"
 #include "render/scene_geometry.h"
 
@@ -19,43 +20,6 @@ gpu::Image createDisplay(const gpu::Device& device, PixelSize size)
     return gpu::createImage(device, "display", VK_FORMAT_R8G8B8A8_UNORM, size.width, size.height,
                             VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                             VK_IMAGE_ASPECT_COLOR_BIT);
-}
-
-struct Access {
-    VkPipelineStageFlags2 stage;
-    VkAccessFlags2 access;
-    VkImageLayout layout;
-};
-constexpr Access shaderWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
-constexpr Access shaderRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                            VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-constexpr Access transferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
-                              VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-// The frame before may still be copying from it; its contents are not wanted.
-constexpr Access discarded{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE,
-                           VK_IMAGE_LAYOUT_UNDEFINED};
-
-void transition(const gpu::Device& device, VkCommandBuffer cmd, const gpu::Image& image,
-                const Access& from, const Access& to)
-{
-    const VkImageMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-        .srcStageMask = from.stage,
-        .srcAccessMask = from.access,
-        .dstStageMask = to.stage,
-        .dstAccessMask = to.access,
-        .oldLayout = from.layout,
-        .newLayout = to.layout,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = image.image.get(),
-        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .imageMemoryBarrierCount = 1,
-                                .pImageMemoryBarriers = &barrier};
-    device.CmdPipelineBarrier2(cmd, &info);
 }
 
 void append(std::vector<PassTime>& out, const CndKernelTime* times, uint32_t count)
@@ -225,13 +189,13 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
 void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
 {
     State& s = *state_;
-    const gpu::Device& device = s.context.device();
     s.recordGBuffer(cmd, slot, frame);
 
     take(s.view.record(cmd, s.lightingFrame(slot, frame)));
 
-    transition(device, cmd, s.targets.radiance, shaderWrite, shaderRead);
-    transition(device, cmd, s.display, discarded, shaderWrite);
+    const VkImage radiance = s.targets.radiance.image.get(), display = s.display.image.get();
+    transition(cmd, radiance, computeWrite, computeRead);
+    transition(cmd, display, discarded, computeWrite);
     take(s.exposure.record(cmd, {.frameSlot = slot,
                                  .width = s.options.size.width,
                                  .height = s.options.size.height,
@@ -242,8 +206,8 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
                                  .ditherSeed = frame.ditherSeed,
                                  .settings = frame.exposure}));
 
-    transition(device, cmd, s.targets.radiance, shaderRead, transferRead);
-    transition(device, cmd, s.display, shaderWrite, transferRead);
+    transition(cmd, radiance, computeRead, transferRead);
+    transition(cmd, display, computeWrite, transferRead);
 }
 
 void Renderer::recordUnlit(VkCommandBuffer cmd, const FrameOptions& frame)
@@ -262,7 +226,7 @@ void Renderer::recordBruteRect(VkCommandBuffer cmd, const FrameOptions& frame, c
 
 void Renderer::recordBruteEnd(VkCommandBuffer cmd)
 {
-    transition(state_->context.device(), cmd, state_->targets.radiance, shaderWrite, transferRead);
+    transition(cmd, state_->targets.radiance.image.get(), computeWrite, transferRead);
 }
 
 CndLightingStats Renderer::lightingStats(uint32_t slot) const

@@ -9,33 +9,12 @@
 
 #include "gpu/memory.h"
 #include "render/error.h"
+#include "render/image_barrier.h"
 
 namespace candelabra::app
 {
 namespace
 {
-
-constexpr VkImageSubresourceRange wholeImage{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-
-void transition(VkCommandBuffer cmd, VkImage image, VkImageLayout from, VkImageLayout to,
-                VkPipelineStageFlags2 stage, VkAccessFlags2 access)
-{
-    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                        .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                        .dstStageMask = stage,
-                                        .dstAccessMask = access,
-                                        .oldLayout = from,
-                                        .newLayout = to,
-                                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .image = image,
-                                        .subresourceRange = wholeImage};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .imageMemoryBarrierCount = 1,
-                                .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(cmd, &info);
-}
 
 gpu::Buffer stage(const gpu::Device& device, const Image& image)
 {
@@ -80,16 +59,12 @@ Environment uploadEnvironment(const VulkanContext& context, const SceneEnvironme
         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
     const gpu::Buffer staging = stage(device, radiance);
     context.submitAndWait([&](VkCommandBuffer cmd) {
-        transition(cmd, image.image.get(), VK_IMAGE_LAYOUT_UNDEFINED,
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                   VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        transition(cmd, image.image.get(), discarded, transferWrite);
         const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                      .imageExtent = {radiance.width, radiance.height, 1}};
         vkCmdCopyBufferToImage(cmd, staging.get(), image.image.get(),
                                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-        transition(cmd, image.image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
+        transition(cmd, image.image.get(), transferWrite, computeRead);
         take(out.recordMap(cmd, {.width = radiance.width,
                                  .height = radiance.height,
                                  .equirectangular = image.view.get()}));

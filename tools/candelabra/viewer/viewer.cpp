@@ -14,6 +14,8 @@
 #include "io/table.h"
 #include "render/camera.h"
 #include "render/error.h"
+#include "render/image_barrier.h"
+#include "render/readback.h"
 
 namespace candelabra::app
 {
@@ -39,42 +41,12 @@ Swapchain::Target checked(const std::optional<Swapchain::Target>& target)
     return *target;
 }
 
-struct Stage {
-    VkPipelineStageFlags2 stage;
-    VkAccessFlags2 access;
-    VkImageLayout layout;
-};
-// Chained to the wait for the image (FrameRing::submit); what was in it is not wanted.
-constexpr Stage acquired{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED};
-constexpr Stage blitTarget{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
-constexpr Stage attachment{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                           VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
-                               VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
-                           VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-constexpr Stage shown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
-constexpr Stage copySource{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
-                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-
-void transition(VkCommandBuffer cmd, VkImage image, const Stage& from, const Stage& to)
-{
-    const VkImageMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-        .srcStageMask = from.stage,
-        .srcAccessMask = from.access,
-        .dstStageMask = to.stage,
-        .dstAccessMask = to.access,
-        .oldLayout = from.layout,
-        .newLayout = to.layout,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = image,
-        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .imageMemoryBarrierCount = 1,
-                                .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(cmd, &info);
-}
+constexpr ImageAccess attachment{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                 VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
+                                     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
+                                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+constexpr ImageAccess shown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
+                            VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
 
 } // namespace
 
@@ -229,7 +201,8 @@ Swapchain::Target Viewer::acquire(uint32_t slot)
 
 void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
 {
-    transition(cmd, target.image, acquired, blitTarget);
+    // Chained to the wait for the image (FrameRing::submit).
+    transition(cmd, target.image, discarded, transferWrite);
     const PixelSize from = renderer_->size(), to = swapchain_.size();
     const VkImageSubresourceLayers layers{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     const VkImageBlit region{
@@ -241,31 +214,15 @@ void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
     vkCmdBlitImage(cmd, renderer_->display().image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                    target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
                    VK_FILTER_NEAREST);
-    transition(cmd, target.image, blitTarget, attachment);
+    transition(cmd, target.image, transferWrite, attachment);
     overlay_.record(cmd, swapchain_, target);
 }
 
 gpu::Buffer Viewer::recordScreenshot(VkCommandBuffer cmd, VkImage image) const
 {
-    const PixelSize size = swapchain_.size();
-    gpu::Buffer pixels =
-        createBuffer(context_.device(), "screenshot", VkDeviceSize(size.width) * size.height * 4,
-                     VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::Readback);
-    transition(cmd, image, shown, copySource);
-    const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                   .imageExtent = {size.width, size.height, 1}};
-    vkCmdCopyImageToBuffer(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels.get(), 1,
-                           &region);
-    transition(cmd, image, copySource, shown);
-    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                   .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .memoryBarrierCount = 1,
-                                .pMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(cmd, &info);
+    transition(cmd, image, shown, transferRead);
+    gpu::Buffer pixels = recordReadback(context_.device(), cmd, image, swapchain_.size(), 4);
+    transition(cmd, image, transferRead, shown);
     return pixels;
 }
 

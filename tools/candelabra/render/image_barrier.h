@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Barriers of single-mip colour images, in terms of who uses them.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+namespace candelabra::app
+{
+
+struct ImageAccess {
+    VkPipelineStageFlags2 stage;
+    VkAccessFlags2 access;
+    VkImageLayout layout;
+};
+inline constexpr ImageAccess computeWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                          VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                                          VK_IMAGE_LAYOUT_GENERAL};
+inline constexpr ImageAccess computeRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                         VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+inline constexpr ImageAccess transferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                          VK_ACCESS_2_TRANSFER_READ_BIT,
+                                          VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+inline constexpr ImageAccess transferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                           VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+// Its contents are not wanted; waits for transfers, which alone may still be reading it.
+inline constexpr ImageAccess discarded{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE,
+                                       VK_IMAGE_LAYOUT_UNDEFINED};
+
+void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, const ImageAccess& to);
+
+} // namespace candelabra::app
