@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Devices that lack something: the host's functions are interposed to hide a feature or a limit.
+#include "candelabra/candelabra.hpp"
 #include "gpu/lighting_harness.h"
 
 namespace candelabra::test
@@ -71,6 +72,25 @@ TEST_F(LightingTest, MissingFeatureIsNamed)
                              sizeof missing),
               CND_ERROR_UNSUPPORTED);
     EXPECT_STREQ(missing, "feature scalarBlockLayout");
+    EXPECT_TRUE(checkDevice(host.instance, host.physicalDevice, host.getInstanceProcAddr));
+    const auto result = checkDevice(poor.instance, poor.physicalDevice, poor.getInstanceProcAddr);
+    EXPECT_EQ(result.error().code, CND_ERROR_UNSUPPORTED);
+    EXPECT_STREQ(result.error().message, "the device lacks: feature scalarBlockLayout");
+}
+
+// "Not yet" and "never" are two answers.
+TEST_F(LightingTest, StatsOfFramesThatNeverWereAreAnError)
+{
+    auto lighting = Lighting::create(deviceDesc(), {.framesInFlight = 2});
+    ASSERT_TRUE(lighting) << lighting.error().message;
+    auto view = lighting.value().createView({.maxWidth = 8, .maxHeight = 8});
+    ASSERT_TRUE(view) << view.error().message;
+    auto exposure = Exposure::create(deviceDesc(), {.framesInFlight = 2});
+    ASSERT_TRUE(exposure) << exposure.error().message;
+    for (const uint32_t slot : {0u, 2u}) { // not recorded; not there
+        EXPECT_EQ(view.value().stats(slot).error().code, CND_ERROR_INVALID_ARGUMENT) << slot;
+        EXPECT_EQ(exposure.value().stats(slot).error().code, CND_ERROR_INVALID_ARGUMENT) << slot;
+    }
 }
 
 // Devices with small texel buffers read lights as storage: another way to the same bits.

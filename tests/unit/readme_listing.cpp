@@ -19,8 +19,8 @@ bool create(MyLighting& my, const CndDeviceDesc& device, uint32_t width, uint32_
     auto view = lighting.value().createView({.maxWidth = width, .maxHeight = height});
     if (!view)
         return false;
+    my.view = std::move(view.value()); // an old view goes before its lighting
     my.lighting = std::move(lighting.value());
-    my.view = std::move(view.value());
     my.exposure = std::move(exposure.value());
 
     const CndLight lamp{.type = CND_LIGHT_SPHERE,

@@ -3,6 +3,8 @@
 // Units, ranges, ownership and thread rules are those of candelabra.h. Nothing throws.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
@@ -78,12 +80,16 @@ template <typename H, void (*destroy)(H)>
 class Owner
 {
 public:
+    using Handle = H;
+
     Owner() = default;
     explicit Owner(H handle) : handle_(handle) {}
     Owner(Owner&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+    // Destroys what was owned before.
     Owner& operator=(Owner&& other) noexcept
     {
-        std::swap(handle_, other.handle_);
+        Owner moved(std::move(other));
+        std::swap(handle_, moved.handle_);
         return *this;
     }
     ~Owner()
@@ -97,7 +103,56 @@ protected:
     H handle_ = nullptr;
 };
 
+// Calls an ABI function that makes an object of `from`: a device, or the object it belongs to.
+template <typename Object, typename Function, typename From, typename Desc>
+Result<Object> create(Function function, From from, Desc desc) noexcept
+{
+    desc.structSize = sizeof desc;
+    typename Object::Handle handle = nullptr;
+    CndError error{};
+    if (function(from, &desc, &handle, &error) != CND_SUCCESS)
+        return error;
+    return Object(handle);
+}
+
+// Calls an ABI function that fills in the statistics of a frame slot.
+template <typename Stats, typename Function, typename H>
+Result<std::optional<Stats>> stats(Function function, H handle, uint32_t frameSlot) noexcept
+{
+    Stats out{};
+    out.structSize = sizeof out;
+    const CndResult code = function(handle, frameSlot, &out);
+    if (code == CND_NOT_READY)
+        return std::optional<Stats>();
+    if (code != CND_SUCCESS)
+        return CndError{code, VK_SUCCESS,
+                        "stats: no frame was recorded in this slot, or there is no such slot"};
+    return std::optional<Stats>(out);
+}
+
 } // namespace detail
+
+// Success, or an error that names what the device lacks.
+inline Result<void> checkDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
+                                PFN_vkGetInstanceProcAddr getInstanceProcAddr) noexcept
+{
+    constexpr char lead[] = "the device lacks: ";
+    constexpr size_t length = sizeof lead - 1;
+    CndError error{};
+    error.code = cndCheckDevice(instance, physicalDevice, getInstanceProcAddr,
+                                error.message + length, sizeof error.message - length);
+    if (error.code == CND_ERROR_UNSUPPORTED)
+        std::copy_n(lead, length, error.message);
+    else if (error.code != CND_SUCCESS)
+        error = {error.code, VK_SUCCESS, "checkDevice: an argument is null"};
+    return error;
+}
+
+// Largest set of lights for a device with these limits.
+inline uint32_t maxLightCount(const VkPhysicalDeviceLimits& limits) noexcept
+{
+    return cndMaxLightCount(&limits);
+}
 
 // One view of a Lighting; destroyed before it.
 class LightingView : public detail::Owner<CndLightingView, cndDestroyLightingView>
@@ -110,14 +165,10 @@ public:
         frame.structSize = sizeof frame;
         return detail::call(cndRecordLighting, handle_, cmd, &frame);
     }
-    // Empty until the GPU has finished the slot's frame.
-    std::optional<CndLightingStats> stats(uint32_t frameSlot) const noexcept
+    // Empty until the GPU has finished the slot's frame; an error before there was one.
+    Result<std::optional<CndLightingStats>> stats(uint32_t frameSlot) const noexcept
     {
-        CndLightingStats stats{};
-        stats.structSize = sizeof stats;
-        if (cndGetLightingStats(handle_, frameSlot, &stats) != CND_SUCCESS)
-            return std::nullopt;
-        return stats;
+        return detail::stats<CndLightingStats>(cndGetLightingStats, handle_, frameSlot);
     }
 };
 
@@ -127,14 +178,10 @@ class Lighting : public detail::Owner<CndLighting, cndDestroyLighting>
 public:
     using Owner::Owner;
 
-    static Result<Lighting> create(const CndDeviceDesc& device, CndLightingDesc desc) noexcept
+    static Result<Lighting> create(const CndDeviceDesc& device,
+                                   const CndLightingDesc& desc) noexcept
     {
-        desc.structSize = sizeof desc;
-        CndLighting handle = nullptr;
-        CndError error{};
-        if (cndCreateLighting(&device, &desc, &handle, &error) != CND_SUCCESS)
-            return error;
-        return Lighting(handle);
+        return detail::create<Lighting>(cndCreateLighting, &device, desc);
     }
     // `origin`: what the lights' positions are relative to, world space.
     Result<void> setLights(std::span<const CndLight> lights, const double (&origin)[3]) noexcept
@@ -143,14 +190,9 @@ public:
             sizeof set, uint32_t(lights.size()), lights.data(), {origin[0], origin[1], origin[2]}};
         return detail::call(cndSetLights, handle_, &set);
     }
-    Result<LightingView> createView(CndLightingViewDesc desc) const noexcept
+    Result<LightingView> createView(const CndLightingViewDesc& desc) const noexcept
     {
-        desc.structSize = sizeof desc;
-        CndLightingView view = nullptr;
-        CndError error{};
-        if (cndCreateLightingView(handle_, &desc, &view, &error) != CND_SUCCESS)
-            return error;
-        return LightingView(view);
+        return detail::create<LightingView>(cndCreateLightingView, handle_, desc);
     }
 };
 
@@ -160,14 +202,10 @@ class Environment : public detail::Owner<CndEnvironment, cndDestroyEnvironment>
 public:
     using Owner::Owner;
 
-    static Result<Environment> create(const CndDeviceDesc& device, CndEnvironmentDesc desc) noexcept
+    static Result<Environment> create(const CndDeviceDesc& device,
+                                      const CndEnvironmentDesc& desc) noexcept
     {
-        desc.structSize = sizeof desc;
-        CndEnvironment handle = nullptr;
-        CndError error{};
-        if (cndCreateEnvironment(&device, &desc, &handle, &error) != CND_SUCCESS)
-            return error;
-        return Environment(handle);
+        return detail::create<Environment>(cndCreateEnvironment, &device, desc);
     }
     Result<void> recordMap(VkCommandBuffer cmd, CndEnvironmentMap map) const noexcept
     {
@@ -179,13 +217,9 @@ public:
         frame.structSize = sizeof frame;
         return detail::call(cndRecordEnvironment, handle_, cmd, &frame);
     }
-    std::optional<CndEnvironmentStats> stats(uint32_t frameSlot) const noexcept
+    Result<std::optional<CndEnvironmentStats>> stats(uint32_t frameSlot) const noexcept
     {
-        CndEnvironmentStats stats{};
-        stats.structSize = sizeof stats;
-        if (cndGetEnvironmentStats(handle_, frameSlot, &stats) != CND_SUCCESS)
-            return std::nullopt;
-        return stats;
+        return detail::stats<CndEnvironmentStats>(cndGetEnvironmentStats, handle_, frameSlot);
     }
 };
 
@@ -195,14 +229,10 @@ class Exposure : public detail::Owner<CndExposure, cndDestroyExposure>
 public:
     using Owner::Owner;
 
-    static Result<Exposure> create(const CndDeviceDesc& device, CndExposureDesc desc) noexcept
+    static Result<Exposure> create(const CndDeviceDesc& device,
+                                   const CndExposureDesc& desc) noexcept
     {
-        desc.structSize = sizeof desc;
-        CndExposure handle = nullptr;
-        CndError error{};
-        if (cndCreateExposure(&device, &desc, &handle, &error) != CND_SUCCESS)
-            return error;
-        return Exposure(handle);
+        return detail::create<Exposure>(cndCreateExposure, &device, desc);
     }
     Result<void> setMask(std::span<const uint8_t> weights, uint32_t width, uint32_t height) noexcept
     {
@@ -216,15 +246,21 @@ public:
         frame.structSize = sizeof frame;
         return detail::call(cndRecordExposure, handle_, cmd, &frame);
     }
-    std::optional<CndExposureStats> stats(uint32_t frameSlot) const noexcept
+    Result<std::optional<CndExposureStats>> stats(uint32_t frameSlot) const noexcept
     {
-        CndExposureStats stats{};
-        stats.structSize = sizeof stats;
-        if (cndGetExposureStats(handle_, frameSlot, &stats) != CND_SUCCESS)
-            return std::nullopt;
-        return stats;
+        return detail::stats<CndExposureStats>(cndGetExposureStats, handle_, frameSlot);
     }
 };
+
+// Lumens per channel that a light emits; directional and distant lights have none.
+inline Result<std::array<float, 3>> luminousPowerOfLight(const CndLight& light) noexcept
+{
+    std::array<float, 3> power{};
+    CndError error{};
+    if (cndLuminousPowerOfLight(&light, power.data(), &error) != CND_SUCCESS)
+        return error;
+    return power;
+}
 
 // One kind of light as another with the same irradiance at a receiver; 0 lets the library choose.
 

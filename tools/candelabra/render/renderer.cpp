@@ -2,6 +2,8 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "gbuffer/gbuffer.h"
 #include "render/camera.h"
@@ -20,6 +22,15 @@ gpu::Image createDisplay(const gpu::Device& device, PixelSize size)
     return gpu::createImage(device, "display", VK_FORMAT_R8G8B8A8_UNORM, size.width, size.height,
                             VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                             VK_IMAGE_ASPECT_COLOR_BIT);
+}
+
+template <typename Stats>
+Stats finished(Result<std::optional<Stats>> result)
+{
+    const std::optional<Stats> stats = take(std::move(result));
+    if (!stats)
+        throw RunError("the statistics of a finished frame are not there");
+    return *stats;
 }
 
 void append(std::vector<PassTime>& out, const CndKernelTime* times, uint32_t count)
@@ -61,6 +72,23 @@ struct Renderer::State {
     void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
     void recordEnvironment(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame) const;
     CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& frame) const;
+    // What lighting and environment are told alike.
+    template <typename Frame>
+    Frame surfaceFrame(uint32_t slot, const FrameOptions& frame) const
+    {
+        return {.frameSlot = slot,
+                .width = options.size.width,
+                .height = options.size.height,
+                .camera = makeCamera(frame.camera, aspect()),
+                .clearDepth = clearDepth,
+                .normalRoughness = targets.normalRoughness.view.get(),
+                .albedo = targets.albedo.view.get(),
+                .specular = targets.specular.view.get(),
+                .depth = targets.depth.view.get(),
+                .radiance = targets.radiance.view.get(),
+                .lobes = scene.lobes,
+                .energyCompensation = scene.energyCompensation};
+    }
 };
 
 void Renderer::State::setLights(double time)
@@ -146,44 +174,23 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
 void Renderer::State::recordEnvironment(VkCommandBuffer cmd, uint32_t slot,
                                         const FrameOptions& frame) const
 {
-    CndEnvironmentFrame out{.frameSlot = slot,
-                            .width = options.size.width,
-                            .height = options.size.height,
-                            .camera = makeCamera(frame.camera, aspect()),
-                            .clearDepth = clearDepth,
-                            .normalRoughness = targets.normalRoughness.view.get(),
-                            .albedo = targets.albedo.view.get(),
-                            .specular = targets.specular.view.get(),
-                            .depth = targets.depth.view.get(),
-                            .radiance = targets.radiance.view.get(),
-                            .scale = float(scene.environment->scale),
-                            .background = VK_TRUE,
-                            .lobes = scene.lobes,
-                            .energyCompensation = scene.energyCompensation};
+    auto out = surfaceFrame<CndEnvironmentFrame>(slot, frame);
+    out.scale = float(scene.environment->scale);
+    out.background = VK_TRUE;
     setEnvironmentRotation(scene.environment->rotation, out.worldFromEnvironment);
     take(environment.record(cmd, out));
 }
 
 CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOptions& frame) const
 {
-    return {.frameSlot = slot,
-            .width = options.size.width,
-            .height = options.size.height,
-            .camera = makeCamera(frame.camera, aspect()),
-            .clearDepth = clearDepth,
-            .normalRoughness = targets.normalRoughness.view.get(),
-            .albedo = targets.albedo.view.get(),
-            .specular = targets.specular.view.get(),
-            .depth = targets.depth.view.get(),
-            .radiance = targets.radiance.view.get(),
-            .specularMethod = frame.specular,
-            .sampleCount = frame.sampleCount,
-            .sampleSeed = frame.sampleSeed,
-            .errorBudget = frame.errorBudget,
-            .lobes = scene.lobes,
-            .energyCompensation = scene.energyCompensation,
-            .culling = frame.culling,
-            .countPairs = frame.countPairs};
+    auto out = surfaceFrame<CndLightingFrame>(slot, frame);
+    out.specularMethod = frame.specular;
+    out.sampleCount = frame.sampleCount;
+    out.sampleSeed = frame.sampleSeed;
+    out.errorBudget = frame.errorBudget;
+    out.culling = frame.culling;
+    out.countPairs = frame.countPairs;
+    return out;
 }
 
 void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
@@ -231,10 +238,7 @@ void Renderer::recordBruteEnd(VkCommandBuffer cmd)
 
 CndLightingStats Renderer::lightingStats(uint32_t slot) const
 {
-    const auto stats = state_->view.stats(slot);
-    if (!stats)
-        throw RunError("the lighting statistics of a finished frame are not there");
-    return *stats;
+    return finished(state_->view.stats(slot));
 }
 
 FrameStats Renderer::stats(uint32_t slot) const
@@ -245,13 +249,11 @@ FrameStats Renderer::stats(uint32_t slot) const
     uint32_t count = 0;
     if (state_->gbuffer.times(slot, raster.data(), count))
         append(out.passes, raster.data(), count);
-    if (state_->environment.get())
-        if (const auto environment = state_->environment.stats(slot))
-            append(out.passes, environment->kernelTimes, environment->kernelTimeCount);
-    const auto exposure = state_->exposure.stats(slot);
-    if (!exposure)
-        throw RunError("the exposure statistics of a finished frame are not there");
-    out.exposure = *exposure;
+    if (state_->environment.get()) {
+        const CndEnvironmentStats environment = finished(state_->environment.stats(slot));
+        append(out.passes, environment.kernelTimes, environment.kernelTimeCount);
+    }
+    out.exposure = finished(state_->exposure.stats(slot));
     append(out.passes, out.lighting.kernelTimes, out.lighting.kernelTimeCount);
     append(out.passes, out.exposure.kernelTimes, out.exposure.kernelTimeCount);
     return out;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra.hpp, as far as it needs no device: ownership, results, what it hands through.
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "candelabra/candelabra.hpp"
+
+namespace candelabra::test
+{
+namespace
+{
+
+std::vector<int> destroyed;
+
+void destroy(const int* handle)
+{
+    destroyed.push_back(*handle);
+}
+
+using Owned = detail::Owner<const int*, destroy>;
+
+TEST(CppFace, MoveAssignmentReleasesWhatWasOwned)
+{
+    destroyed.clear();
+    const int first = 1, second = 2;
+    {
+        Owned a(&first), b(&second);
+        a = std::move(b);
+        EXPECT_EQ(destroyed, std::vector{1});
+        EXPECT_EQ(a.get(), &second);
+        EXPECT_EQ(b.get(), nullptr);
+        Owned& same = a;
+        a = std::move(same);
+        EXPECT_EQ(a.get(), &second);
+    }
+    EXPECT_EQ(destroyed, (std::vector{1, 2}));
+}
+
+TEST(CppFace, PowerOfALight)
+{
+    const CndLight point{.type = CND_LIGHT_POINT, .emission = {1, 2, 3}, .influenceRadius = 1};
+    auto power = luminousPowerOfLight(point);
+    ASSERT_TRUE(power) << power.error().message;
+    EXPECT_FLOAT_EQ(power.value()[2], 12 * 3.14159265f);
+    const auto none = luminousPowerOfLight({.type = CND_LIGHT_DIRECTIONAL});
+    EXPECT_FALSE(none);
+    EXPECT_EQ(none.error().code, CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_STRNE(none.error().message, "");
+}
+
+TEST(CppFace, LargestLightCount)
+{
+    const VkPhysicalDeviceLimits limits{.maxStorageBufferRange = 1u << 27,
+                                        .maxComputeWorkGroupCount = {65535, 65535, 65535}};
+    EXPECT_EQ(maxLightCount(limits), cndMaxLightCount(&limits));
+    EXPECT_GT(maxLightCount(limits), 1000000u);
+}
+
+TEST(CppFace, NoDeviceIsNoSuccess)
+{
+    const auto result = checkDevice(VK_NULL_HANDLE, VK_NULL_HANDLE, nullptr);
+    EXPECT_FALSE(result);
+    EXPECT_STREQ(result.error().message, "checkDevice: an argument is null");
+}
+
+} // namespace
+} // namespace candelabra::test
