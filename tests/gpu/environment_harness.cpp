@@ -67,20 +67,11 @@ void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize
 CndEnvironmentFrame EnvironmentTest::environmentFrame(const CpuGBuffer& g, const Images& images,
                                                       const EnvironmentOptions& options) const
 {
-    CndEnvironmentFrame frame{.structSize = sizeof frame,
-                              .width = g.width,
-                              .height = g.height,
-                              .camera = g.camera,
-                              .clearDepth = g.clearDepth,
-                              .normalRoughness = images.normalRoughness.view.get(),
-                              .albedo = images.albedo.view.get(),
-                              .specular = images.specular.view.get(),
-                              .depth = images.depth.view.get(),
-                              .radiance = images.radiance.view.get(),
-                              .scale = options.scale,
-                              .background = options.background,
-                              .lobes = options.lobes,
-                              .energyCompensation = options.energyCompensation};
+    CndEnvironmentFrame frame = surfaceFrame<CndEnvironmentFrame>(g, images);
+    frame.scale = options.scale;
+    frame.background = options.background;
+    frame.lobes = options.lobes;
+    frame.energyCompensation = options.energyCompensation;
     for (int i = 0; i < 9; ++i)
         frame.worldFromEnvironment[i] = float(options.worldFromEnvironment[i / 3][i % 3]);
     return frame;
@@ -102,11 +93,7 @@ std::vector<glm::vec4> EnvironmentTest::shade(const CpuGBuffer& g,
         EXPECT_EQ(cndRecordEnvironment(environment_, cmd, &frame, &error), CND_SUCCESS)
             << error.message;
     });
-    const std::vector<std::byte> bytes = readImage(images.radiance, VK_IMAGE_ASPECT_COLOR_BIT,
-                                                   VK_IMAGE_LAYOUT_GENERAL, sizeof(glm::vec4));
-    std::vector<glm::vec4> radiance(bytes.size() / sizeof(glm::vec4));
-    std::memcpy(radiance.data(), bytes.data(), bytes.size());
-    return radiance;
+    return readRadiance(images);
 }
 
 } // namespace candelabra::test

@@ -225,23 +225,24 @@ void LightingTest::clearRadiance(VkCommandBuffer cmd, const Images& images)
 CndLightingFrame LightingTest::frameOf(const CpuGBuffer& g, const Images& images,
                                        const RunOptions& options)
 {
-    return {.structSize = sizeof(CndLightingFrame),
-            .width = g.width,
-            .height = g.height,
-            .camera = g.camera,
-            .clearDepth = g.clearDepth,
-            .normalRoughness = images.normalRoughness.view.get(),
-            .albedo = images.albedo.view.get(),
-            .specular = images.specular.view.get(),
-            .depth = images.depth.view.get(),
-            .radiance = images.radiance.view.get(),
-            .specularMethod = options.specular,
-            .sampleCount = options.sampleCount,
-            .errorBudget = options.errorBudget,
-            .lobes = options.lobes,
-            .energyCompensation = options.energyCompensation,
-            .culling = options.culling,
-            .countPairs = options.countPairs};
+    CndLightingFrame frame = surfaceFrame<CndLightingFrame>(g, images);
+    frame.specularMethod = options.specular;
+    frame.sampleCount = options.sampleCount;
+    frame.errorBudget = options.errorBudget;
+    frame.lobes = options.lobes;
+    frame.energyCompensation = options.energyCompensation;
+    frame.culling = options.culling;
+    frame.countPairs = options.countPairs;
+    return frame;
+}
+
+std::vector<glm::vec4> LightingTest::readRadiance(const Images& images) const
+{
+    const std::vector<std::byte> bytes = readImage(images.radiance, VK_IMAGE_ASPECT_COLOR_BIT,
+                                                   VK_IMAGE_LAYOUT_GENERAL, sizeof(glm::vec4));
+    std::vector<glm::vec4> radiance(bytes.size() / sizeof(glm::vec4));
+    std::memcpy(radiance.data(), bytes.data(), bytes.size());
+    return radiance;
 }
 
 LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
@@ -281,10 +282,7 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
         });
     }
     EXPECT_EQ(cndGetLightingStats(view, frame.frameSlot, &result.stats), CND_SUCCESS);
-    const std::vector<std::byte> bytes = readImage(images.radiance, VK_IMAGE_ASPECT_COLOR_BIT,
-                                                   VK_IMAGE_LAYOUT_GENERAL, sizeof(glm::vec4));
-    result.radiance.resize(bytes.size() / sizeof(glm::vec4));
-    std::memcpy(result.radiance.data(), bytes.data(), bytes.size());
+    result.radiance = readRadiance(images);
     cndDestroyLightingView(view);
     cndDestroyLighting(lighting);
     return result;

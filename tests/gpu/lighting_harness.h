@@ -86,6 +86,22 @@ protected:
         gpu::Image normalRoughness, albedo, specular, depth, radiance;
     };
     Images uploadImages(const CpuGBuffer& g);
+    // What the frames of all modules that shade surfaces have in common.
+    template <typename Frame>
+    static Frame surfaceFrame(const CpuGBuffer& g, const Images& images)
+    {
+        return {.structSize = sizeof(Frame),
+                .width = g.width,
+                .height = g.height,
+                .camera = g.camera,
+                .clearDepth = g.clearDepth,
+                .normalRoughness = images.normalRoughness.view.get(),
+                .albedo = images.albedo.view.get(),
+                .specular = images.specular.view.get(),
+                .depth = images.depth.view.get(),
+                .radiance = images.radiance.view.get()};
+    }
+    std::vector<glm::vec4> readRadiance(const Images& images) const;
     void clearRadiance(VkCommandBuffer cmd, const Images& images);
     CndLightingFrame frameOf(const CpuGBuffer& g, const Images& images, const RunOptions& options);
 };

@@ -223,10 +223,12 @@ TEST_F(LightingTest, LightSetGrowsAndShrinksAcrossFrames)
             clearRadiance(cmd, images);
             EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_SUCCESS) << error.message;
         });
-        const std::vector<std::byte> bytes = readImage(images.radiance, VK_IMAGE_ASPECT_COLOR_BIT,
-                                                       VK_IMAGE_LAYOUT_GENERAL, sizeof(glm::vec4));
+        const std::vector<glm::vec4> radiance = readRadiance(images);
         const LightingResult fresh = run(g, lights);
-        EXPECT_EQ(std::memcmp(bytes.data(), fresh.radiance.data(), bytes.size()), 0) << count;
+        EXPECT_EQ(std::memcmp(radiance.data(), fresh.radiance.data(),
+                              radiance.size() * sizeof(glm::vec4)),
+                  0)
+            << count;
     }
     cndDestroyLightingView(view);
     cndDestroyLighting(lighting);
