@@ -162,6 +162,60 @@ TEST(ImageFiles, ReadersAreChosenByExtension)
               std::string::npos);
 }
 
+// Reading it back is as exact as stb's reader.
+TEST(ImageFiles, HdrIsReadAsStbReadsIt)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path("image.hdr");
+    for (const auto& [width, height] : sizes) {
+        Image image = testImage(width, height, 3);
+        if (width == 200) // long runs
+            std::fill_n(image.pixels.begin(), 3 * 1000, 7.0f);
+        saveHdr(path, image);
+        const Image back = loadHdr(path);
+        int w = 0, h = 0, n = 0;
+        const std::unique_ptr<float, void (*)(void*)> pixels(
+            stbi_loadf(path.c_str(), &w, &h, &n, 3), stbi_image_free);
+        ASSERT_TRUE(pixels);
+        ASSERT_EQ(back.pixels.size(), image.pixels.size());
+        for (size_t i = 0; i < back.pixels.size(); ++i)
+            ASSERT_EQ(back.pixels[i], pixels.get()[i]) << i;
+    }
+}
+
+// A file that ends early must be an error at every length: it made the reader before this one wait
+// for ever, or give pixels that are not there.
+TEST(ImageFiles, DamagedHdrIsOneSentence)
+{
+    const TemporaryFolder folder;
+    for (const uint32_t width : {3u, 40u}) { // flat; in runs
+        saveHdr(folder.path("good.hdr"), testImage(width, 5, 3));
+        const Bytes good = readBytes(folder.path("good.hdr"));
+        for (size_t length = 0; length < good.size(); ++length) {
+            const std::string path =
+                folder.write("cut.hdr", Bytes(good.begin(), good.begin() + long(length)));
+            const std::string message = errorOf([&] { loadHdr(path); });
+            EXPECT_EQ(message.find("cannot read " + path + ": "), 0u) << length << " " << message;
+        }
+    }
+    const auto error = [&](const std::string& text) {
+        const std::string path = folder.write("bad.hdr", text);
+        return errorOf([&] { loadHdr(path); });
+    };
+    const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+    using namespace std::string_literals;
+    EXPECT_NE(error(head + "-Y 1 +X 8\n\2\2\0\10"s + std::string(40, '\0')).find("a run of pixels"),
+              std::string::npos);
+    EXPECT_NE(error(head + "-Y 1 +X 8\n\2\2\0\11"s + std::string(40, '\0')).find("as wide"),
+              std::string::npos);
+    EXPECT_NE(error(head + "-Y 1 +X 8\n\2\2\0\10\211"s + std::string(40, '\0')).find("a run of"),
+              std::string::npos);
+    EXPECT_NE(error(head + "-Y 16384 +X 16384\nxx").find("cut short"), std::string::npos);
+    EXPECT_NE(error(head + "-Y 99999 +X 1\n").find("16384"), std::string::npos);
+    EXPECT_NE(error(head + "+Y 1 +X 1\nabcd").find("rows from the top"), std::string::npos);
+    EXPECT_NE(error("#?RADIANCE\n\n-Y 1 +X 1\nabcd").find("FORMAT"), std::string::npos);
+}
+
 TEST(ImageFiles, HdrRefusesWhatItCannotHold)
 {
     const TemporaryFolder folder;

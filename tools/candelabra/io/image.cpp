@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG, Radiance HDR and PFM. OpenEXR is in image_exr.cpp.
+// PNG, PFM and the writing of Radiance HDR. Its reading is in image_hdr.cpp, OpenEXR in
+// image_exr.cpp.
 #include "io/image.h"
 
 #include <algorithm>
 #include <bit>
 #include <cctype>
 #include <charconv>
-#include <climits>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 
-#include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
 #include "io/image_file.h"
@@ -141,30 +139,6 @@ Image loadPfm(const std::string& path)
     if (scale > 0) // big-endian
         for (float& x : image.pixels)
             x = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<uint32_t>(x)));
-    return image;
-}
-
-Image loadHdr(const std::string& path)
-{
-    const std::vector<uint8_t> bytes = readImageFile(path);
-    const int size = static_cast<int>(std::min<size_t>(bytes.size(), INT_MAX));
-    if (!stbi_is_hdr_from_memory(bytes.data(), size))
-        failRead(path, "is not a Radiance HDR file");
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) || width < 1 ||
-        height < 1)
-        failRead(path, "has a broken Radiance HDR header");
-    if (width > int(maxImageSize) || height > int(maxImageSize))
-        failRead(path, "has " + std::to_string(width) + " x " + std::to_string(height) +
-                           " pixels, at most " + std::to_string(maxImageSize) + " a side");
-    const std::unique_ptr<float, void (*)(void*)> pixels(
-        stbi_loadf_from_memory(bytes.data(), size, &width, &height, &channels, 3), stbi_image_free);
-    if (!pixels)
-        failRead(path, stbi_failure_reason());
-    Image image{.width = static_cast<uint32_t>(width),
-                .height = static_cast<uint32_t>(height),
-                .channels = 3};
-    image.pixels.assign(pixels.get(), pixels.get() + size_t{image.width} * image.height * 3);
     return image;
 }
 
