@@ -150,6 +150,31 @@ TEST_F(GltfLights, AreaRectsAndDisksFaceMinusZ)
               std::string::npos);
 }
 
+// The side that emits goes where the node's -z goes, also through a mirror; without z it is the one
+// of a node that does not mirror.
+TEST_F(GltfLights, MirroredAndFlatAreaLights)
+{
+    const glm::dvec3 scales[] = {{1, 1, 1},   {-2, 1, 1}, {1, -2, 1},  {1, 1, -1},
+                                 {-1, -1, 1}, {1, 1, 0},  {-1, -2, -1}};
+    for (const glm::dvec3& scale : scales) {
+        SCOPED_TRACE(testing::Message() << scale.x << " " << scale.y << " " << scale.z);
+        GltfBuilder b = scene("KHR_lights_area", R"([{"shape": "rect", "width": 2, "height": 0.5},
+                                                     {"shape": "disk", "radius": 0.5}])");
+        for (auto& node : b.json["nodes"])
+            node["scale"] = {scale.x, scale.y, scale.z};
+        const Scene s = load(b);
+        ASSERT_EQ(s.lights.size(), 2u);
+        const double z = scale.z < 0 ? 1 : -1;
+        const CndLight& rect = s.lights[0];
+        const glm::dvec3 u(rect.axisU[0], rect.axisU[1], rect.axisU[2]);
+        const glm::dvec3 v(rect.axisV[0], rect.axisV[1], rect.axisV[2]);
+        EXPECT_EQ(glm::normalize(glm::cross(u, v)).z, z);
+        EXPECT_FLOAT_EQ(float(glm::length(u)), float(std::abs(scale.x)));
+        EXPECT_FLOAT_EQ(float(glm::length(v)), float(0.25 * std::abs(scale.y)));
+        EXPECT_EQ(s.lights[1].direction[2], float(z));
+    }
+}
+
 TEST_F(GltfLights, DirectionalLightsBecomeSunsOfTheSameIlluminance)
 {
     const char* lights = R"([{"type": "directional", "intensity": 100000, "color": [1, 1, 0.5]}])";

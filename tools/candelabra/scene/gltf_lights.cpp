@@ -144,6 +144,16 @@ void addPunctual(const GltfDocument& document, size_t index, const glm::dmat4& w
     out.positions.push_back(glm::dvec3(worldFromNode[3]));
 }
 
+// Where the -z side of a node's xy plane faces: perpendicular to the plane whatever the node does,
+// on the other side when it mirrors. With z scaled to nothing that side is lost and taken to be
+// that of a node that does not mirror.
+glm::dvec3 facing(const glm::dmat4& worldFromNode)
+{
+    const glm::dvec3 x(worldFromNode[0]), y(worldFromNode[1]), z(worldFromNode[2]);
+    const glm::dvec3 normal = glm::normalize(glm::cross(glm::normalize(x), glm::normalize(y)));
+    return glm::dot(normal, z) < 0 ? normal : -normal;
+}
+
 // A rect faces -z; `width` lies along x, `height` along y.
 void setSides(const JsonValue& source, const glm::dmat4& worldFromNode, CndLight& light)
 {
@@ -156,9 +166,11 @@ void setSides(const JsonValue& source, const glm::dmat4& worldFromNode, CndLight
         if (!(glm::length(glm::vec3(out[0], out[1], out[2])) > 1e-15f))
             source.fail(std::string(key) + " is too small for single precision");
     };
-    side("width", worldFromNode[0], light.axisU);
-    side("height", -worldFromNode[1], light.axisV);
     const glm::dvec3 x(worldFromNode[0]), y(worldFromNode[1]);
+    // It faces axisU x axisV.
+    const bool alongY = glm::dot(glm::cross(x, y), facing(worldFromNode)) > 0;
+    side("width", worldFromNode[0], light.axisU);
+    side("height", alongY ? worldFromNode[1] : -worldFromNode[1], light.axisV);
     if (!(std::abs(glm::dot(glm::normalize(x), glm::normalize(y))) <= 0.99e-3))
         source.fail("is sheared by its node: its sides must be perpendicular");
 }
@@ -179,7 +191,9 @@ void addArea(const GltfDocument& document, size_t index, const glm::dmat4& world
     const double scales[3] = {glm::length(glm::dvec3(worldFromNode[0])),
                               glm::length(glm::dvec3(worldFromNode[1])),
                               glm::length(glm::dvec3(worldFromNode[2]))};
-    const double scale = std::cbrt(scales[0] * scales[1] * scales[2]);
+    // Rects and disks lie across z, so that its scale means nothing to them.
+    const double scale = name == "sphere" ? std::cbrt(scales[0] * scales[1] * scales[2])
+                                          : std::sqrt(scales[0] * scales[1]);
     if (!(scale > 0)) {
         document.warn(element, "is scaled to nothing by its node and is left out");
         return;
@@ -193,19 +207,19 @@ void addArea(const GltfDocument& document, size_t index, const glm::dmat4& world
     if (name == "rect") {
         setSides(source, worldFromNode, light);
     } else {
-        // A disk lies across z, so that its z scale means nothing.
         const bool disk = name == "disk";
-        const double inPlane = disk ? std::sqrt(scales[0] * scales[1]) : scale;
         for (size_t i = 0; i < (disk ? 2 : 3); ++i)
-            if (std::abs(scales[i] - inPlane) > 1e-3 * inPlane) {
+            if (std::abs(scales[i] - scale) > 1e-3 * scale) {
                 document.warn(element, "is scaled differently along its axes; it stays a " + name);
                 break;
             }
         const auto radius = source.find("radius");
-        setRadius(document, element, (radius ? radius->number() : 1) * inPlane, light);
+        setRadius(document, element, (radius ? radius->number() : 1) * scale, light);
         if (disk) {
             light.type = CND_LIGHT_DISC;
-            direction(worldFromNode, light);
+            const glm::dvec3 n = facing(worldFromNode);
+            for (int i = 0; i < 3; ++i)
+                light.direction[i] = static_cast<float>(n[i]);
         }
     }
     setEmission(document, element, emission, light);
