@@ -38,7 +38,8 @@ glm::dvec3 fromDirection(const SurfacePoint& surface, const Material& material,
     if (hasSpecular(material, method)) {
         const SpecularBrdf lobe = ggxBrdf(surface.normal, surface.toEye, toLight, material.alpha);
         const double p = lobe.schlickWeight;
-        brdf += lobe.value * (material.f0 * (1 - p) + glm::dvec3(material.specularWeight * p));
+        brdf += lobe.value * material.specularGain *
+                (material.f0 * (1 - p) + glm::dvec3(material.specularWeight * p));
     }
     return perpendicular * NoL * brdf;
 }
@@ -71,7 +72,8 @@ glm::dvec3 fromSphere(const SurfacePoint& surface, const Material& material, con
     glm::dvec3 response = material.diffuseAlbedo * sphereDiffuse(surface, center, light.radius);
     if (hasSpecular(material, method)) {
         const auto [a, b] = karisSphereSpecular(surface, material.alpha, center, light.radius);
-        response += material.f0 * (a - b) + glm::dvec3(material.specularWeight * b);
+        response += material.specularGain *
+                    (material.f0 * (a - b) + glm::dvec3(material.specularWeight * b));
     }
     return vec3(light.emission) * window * response;
 }

@@ -12,19 +12,16 @@
 #include <string>
 #include <thread>
 
+#include "reference/joining.h"
 #include "reference/light.h"
 #include "reference/truth.h"
+#include "reference/visible_lights.h"
 
 namespace candelabra::reference
 {
 
 namespace
 {
-
-struct Ray {
-    glm::dvec3 origin;
-    glm::dvec3 direction; // not unit; distances along it are in multiples of its length
-};
 
 Ray pixelRay(const Camera& camera, uint32_t width, uint32_t height, uint32_t column, uint32_t row)
 {
@@ -120,46 +117,88 @@ void inParallel(uint32_t count, uint32_t threads, Work&& work)
         std::rethrow_exception(failure);
 }
 
+struct ObjectHit {
+    const Object* object = nullptr; // none
+    double distance = std::numeric_limits<double>::infinity();
+};
+
+ObjectHit nearestObject(const Scene& scene, const Ray& ray)
+{
+    ObjectHit nearest;
+    for (const Object& object : scene.objects) {
+        const std::optional<double> t = object.type == Object::Type::Plane
+                                            ? intersectPlane(object, ray)
+                                            : intersectBall(object, ray);
+        if (t && *t < nearest.distance)
+            nearest = {&object, *t};
+    }
+    return nearest;
+}
+
+Hit surfaceAt(const ObjectHit& nearest, const Ray& ray)
+{
+    const Object& object = *nearest.object;
+    Hit hit;
+    hit.material = object.material;
+    hit.surface.position = ray.origin + nearest.distance * ray.direction;
+    hit.surface.normal = object.type == Object::Type::Plane
+                             ? object.normal
+                             : glm::normalize(hit.surface.position - object.point);
+    hit.surface.toEye = -glm::normalize(ray.direction);
+    return hit;
+}
+
+// What a pixel shows by itself, and the surface there that lights add to, if it is one.
+struct Seen {
+    glm::dvec3 luminance{0};
+    std::optional<SurfacePoint> surface;
+    Material material; // of the surface, as seen from there
+};
+
+Seen look(const Scene& scene, const Ray& ray)
+{
+    const ObjectHit object = nearestObject(scene, ray);
+    double nearest = object.distance;
+    const CndLight* light = nullptr;
+    for (size_t i = 0; scene.lightsVisible && i < scene.lights.size(); ++i)
+        if (const auto t = intersectLight(scene.lights[i], scene.lightOrigin, ray);
+            t && *t < nearest) {
+            nearest = *t;
+            light = &scene.lights[i];
+        }
+    if (light)
+        return {.luminance = {light->emission[0], light->emission[1], light->emission[2]}};
+    if (!object.object) {
+        const auto distant =
+            scene.lightsVisible ? distantLuminance(scene.lights, ray.direction) : std::nullopt;
+        return {.luminance = distant.value_or(scene.background)};
+    }
+    const Hit hit = surfaceAt(object, ray);
+    const Material& material = scene.materials[hit.material];
+    return {material.emission, hit.surface,
+            joinLobes(material, glm::dot(hit.surface.normal, hit.surface.toEye), scene.lobes,
+                      scene.energyCompensation)};
+}
+
 } // namespace
 
 std::optional<Hit> tracePixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
                               uint32_t row)
 {
     const Ray ray = pixelRay(scene.camera, width, height, column, row);
-    const Object* seen = nullptr;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Object& object : scene.objects) {
-        const std::optional<double> t = object.type == Object::Type::Plane
-                                            ? intersectPlane(object, ray)
-                                            : intersectBall(object, ray);
-        if (t && *t < nearest) {
-            nearest = *t;
-            seen = &object;
-        }
-    }
-    if (!seen)
-        return std::nullopt;
-    Hit hit;
-    hit.material = seen->material;
-    hit.surface.position = ray.origin + nearest * ray.direction;
-    hit.surface.normal = seen->type == Object::Type::Plane
-                             ? seen->normal
-                             : glm::normalize(hit.surface.position - seen->point);
-    hit.surface.toEye = -glm::normalize(ray.direction);
-    return hit;
+    const ObjectHit nearest = nearestObject(scene, ray);
+    return nearest.object ? std::optional(surfaceAt(nearest, ray)) : std::nullopt;
 }
 
 glm::dvec3 renderPixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
                        uint32_t row, CndSpecularMethod specularMethod)
 {
-    const std::optional<Hit> hit = tracePixel(scene, width, height, column, row);
-    if (!hit)
-        return scene.background;
-    const Material& material = scene.materials[hit->material];
-    glm::dvec3 luminance = material.emission;
-    for (const CndLight& light : scene.lights)
-        luminance +=
-            outgoingLuminance(hit->surface, material, light, scene.lightOrigin, specularMethod);
+    const Seen seen = look(scene, pixelRay(scene.camera, width, height, column, row));
+    glm::dvec3 luminance = seen.luminance;
+    if (seen.surface)
+        for (const CndLight& light : scene.lights)
+            luminance += outgoingLuminance(*seen.surface, seen.material, light, scene.lightOrigin,
+                                           specularMethod);
     return luminance;
 }
 
@@ -190,15 +229,14 @@ TruthRows renderTruth(const Scene& scene, uint32_t width, uint32_t height,
     std::mutex rowMutex;
     inParallel(static_cast<uint32_t>(rows.size()), options.threads, [&](uint32_t i) {
         for (uint32_t column = 0; column < width; ++column) {
-            const std::optional<Hit> hit = tracePixel(scene, width, height, column, rows[i]);
+            const Seen seen = look(scene, pixelRay(scene.camera, width, height, column, rows[i]));
             glm::dvec3& pixel = out.pixels[static_cast<size_t>(i) * width + column];
-            pixel = hit ? scene.materials[hit->material].emission : scene.background;
-            if (!hit)
+            pixel = seen.luminance;
+            if (!seen.surface)
                 continue;
-            const Material& material = scene.materials[hit->material];
             for (const CndLight& light : scene.lights) {
-                const Truth truth = truthLuminance(hit->surface, material, light, scene.lightOrigin,
-                                                   options.relative);
+                const Truth truth = truthLuminance(*seen.surface, seen.material, light,
+                                                   scene.lightOrigin, options.relative);
                 pixel += truth.luminance;
                 unconverged += truth.converged ? 0 : 1;
             }

@@ -41,7 +41,10 @@ struct Scene {
     std::vector<Object> objects;
     std::vector<CndLight> lights;
     glm::dvec3 lightOrigin{0};
-    glm::dvec3 background{0}; // cd/m^2 where no object is hit
+    glm::dvec3 background{0};   // cd/m^2 where nothing is seen
+    bool lightsVisible = false; // area lights are seen, and hide what is behind them
+    CndLobeJoining lobes = CND_LOBES_SUM;
+    bool energyCompensation = false; // both: joining.h
 };
 
 struct Image {
@@ -59,11 +62,12 @@ struct Hit {
     uint32_t material = 0;
 };
 
-// What the ray through a pixel's centre sees first; empty for the background.
+// The object that the ray through a pixel's centre meets first; empty where it meets none. Lights
+// are none.
 std::optional<Hit> tracePixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
                               uint32_t row);
 
-// Luminance of one pixel, cd/m^2: emission of the surface plus all lights.
+// Luminance of one pixel, cd/m^2: emission of what is seen plus, of surfaces, all lights.
 glm::dvec3 renderPixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
                        uint32_t row, CndSpecularMethod specularMethod);
 

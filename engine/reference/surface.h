@@ -19,6 +19,7 @@ struct Material {
     double specularWeight = 0;   // Schlick F90, 0..1; with f0 = 0 it removes the specular lobe
     double alpha = 1;            // GGX width, 0 < alpha <= 1; a floor is up to the caller
     glm::dvec3 emission{0};      // cd/m^2
+    glm::dvec3 specularGain{1};  // factor on the specular lobe (joining.h)
 };
 
 } // namespace candelabra::reference

@@ -150,8 +150,9 @@ Truth truthLuminance(const SurfacePoint& surface, const Material& material, cons
     const LightResponse r = truthResponse(surface, hasSpecular(material) ? material.alpha : 0,
                                           light, lightOrigin, relative);
     return {vec3(light.emission) * window *
-                (material.diffuseAlbedo * r.f + material.f0 * (r.a - r.b) +
-                 glm::dvec3(material.specularWeight * r.b)),
+                (material.diffuseAlbedo * r.f +
+                 material.specularGain *
+                     (material.f0 * (r.a - r.b) + glm::dvec3(material.specularWeight * r.b))),
             r.converged};
 }
 

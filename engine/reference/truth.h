@@ -37,7 +37,7 @@ struct Truth {
 
 // Luminance (cd/m^2 per channel) that `light` sends from the surface to the eye: direct light, no
 // shadows, the window included, the material's own emission not included:
-//     L W (albedo f + F0 (a - b) + F90 b)
+//     L W (albedo f + gain (F0 (a - b) + F90 b))
 // to the relative tolerance given (1e-3..1e-9). Point, spot and directional lights have closed
 // forms: outgoingLuminance (light.h).
 Truth truthLuminance(const SurfacePoint& surface, const Material& material, const CndLight& light,

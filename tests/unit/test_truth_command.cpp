@@ -225,3 +225,105 @@ TEST_F(TruthCommand, VisibleLightsAreSeen)
     EXPECT_EQ(on.pixels[12], 10);
     EXPECT_EQ(on.pixels[0], off.pixels[0]);
 }
+
+// Every shape of light against the plain meaning of its parameters: what the middle of the picture
+// shows from the front, from behind and beside it.
+TEST_F(TruthCommand, EveryShapeOfLightIsSeen)
+{
+    const auto seen = [&](const std::string& light, const char* eye, const char* target) {
+        write("shape.json", R"({"camera": {"position": )" + std::string(eye) + R"(, "look_at": )" +
+                                target +
+                                R"(, "up": [0.1, 1, 0.1], "vertical_fov_degrees": 1, "aspect": 1},
+                  "object": {"type": "plane", "point": [0, -9, 0], "normal": [0, 1, 0]},
+                  "material": {"albedo": [0, 0, 0], "F0": [0, 0, 0], "specular": false,
+                               "alpha": 1, "metalness": 0},
+                  "lights": [)" +
+                                light + R"(], "background": [0.5, 0.5, 0.5]})");
+        EXPECT_EQ(run({path("shape.json"), "-o", path("x.pfm"), "-q", "--size", "1x1", "--no-cache",
+                       "--lights-visible", "on"}),
+                  0)
+            << err_;
+        return loadPfm(path("x.pfm")).pixels[0];
+    };
+    const std::string rectangle = R"({"type": "rectangle", "position": [0, 0, 0],
+        "axis_u": [1, 0, 0], "axis_v": [0, 2, 0], "luminance": [7, 7, 7])";
+    EXPECT_EQ(seen(rectangle + "}", "[0, 0, 5]", "[0.9, 1.9, 0]"), 7);
+    EXPECT_NE(seen(rectangle + "}", "[0, 0, 5]", "[1.1, 0, 0]"), 7);
+    EXPECT_NE(seen(rectangle + "}", "[0, 0, -5]", "[0, 0, 0]"), 7); // from behind
+    EXPECT_EQ(seen(rectangle + R"(, "two_sided": true})", "[0, 0, -5]", "[0, 0, 0]"), 7);
+    const std::string disc = R"({"type": "disc", "position": [0, 0, 0], "radius": 1,
+        "normal": [0, 0, 1], "luminance": [7, 7, 7]})";
+    EXPECT_EQ(seen(disc, "[0, 0, 5]", "[0.7, 0.7, 0]"), 7);
+    EXPECT_NE(seen(disc, "[0, 0, 5]", "[0.72, 0.72, 0]"), 7);
+    EXPECT_NE(seen(disc, "[0, 0, -5]", "[0, 0, 0]"), 7);
+    const std::string tube = R"({"type": "tube", "start": [-2, 0, 0], "end": [2, 0, 0],
+        "radius": 0.5, "luminance": [7, 7, 7]})";
+    EXPECT_EQ(seen(tube, "[0, 0, 50]", "[1.9, 0.49, 0]"), 7); // its side
+    EXPECT_NE(seen(tube, "[0, 0, 50]", "[1.9, 0.52, 0]"), 7);
+    EXPECT_EQ(seen(tube, "[0, 0, 50]", "[2.48, 0, 0]"), 7); // its end, which is round
+    EXPECT_NE(seen(tube, "[0, 0, 50]", "[2.48, 0.3, 0]"), 7);
+    EXPECT_EQ(seen(tube, "[9, 0, 0]", "[0, 0, 0]"), 7);  // along it
+    EXPECT_EQ(seen(tube, "[1, 0, 0]", "[1, 0, -1]"), 7); // from inside
+    const std::string sun =
+        R"({"type": "distant_sphere", "sin_angular_radius": 0.1, "direction": [0, 0, -1],
+        "luminance": [7, 7, 7]})";
+    EXPECT_EQ(seen(sun, "[0, 0, 5]", "[0.099, 0, 6]"), 7);
+    EXPECT_NE(seen(sun, "[0, 0, 5]", "[0.102, 0, 6]"), 7);
+    EXPECT_NE(seen(sun, "[0, 0, 5]", "[0, 0, 4]"), 7);
+    EXPECT_EQ(seen(sun + ", " + tube, "[0, 0, 5]", "[0, 0, 0]"), 7);
+}
+
+// A white surrounding seems to be reflected once: what conserving lobes are for.
+TEST_F(TruthCommand, LobesShareTheLight)
+{
+    const auto pixel = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"1x1", "--no-cache"});
+        EXPECT_EQ(runScene("lobes.pfm", more), 0) << err_;
+        return loadPfm(path("lobes.pfm")).pixels[0];
+    };
+    const float sum = pixel({}), conserving = pixel({"--lobes", "conserving"});
+    EXPECT_EQ(pixel({"--lobes", "sum"}), sum);
+    EXPECT_LT(conserving, sum);
+    EXPECT_GT(conserving, 0.5f * sum);
+    EXPECT_GT(pixel({"--energy-compensation"}), sum);
+    EXPECT_EQ(runScene("x.pfm", {"1x1", "--lobes", "both"}), 2);
+}
+
+TEST_F(TruthCommand, NothingThatIsReadIsReplaced)
+{
+    const auto text = [&](const std::string& name) {
+        std::ifstream file(path(name), std::ios::binary);
+        return std::string((std::istreambuf_iterator<char>(file)), {});
+    };
+    const std::string before = text("scene.json");
+    EXPECT_EQ(runScene("scene.json", {"4x4", "--no-cache", "--shard", "1/2"}), 2);
+    EXPECT_NE(err_.find("would replace"), std::string::npos) << err_;
+    EXPECT_EQ(text("scene.json"), before);
+    ASSERT_EQ(runScene("part.pfm", {"4x4", "--no-cache", "--shard", "1/1"}), 0) << err_;
+    const std::string part = text("part.pfm");
+    EXPECT_EQ(run({"--merge", path("part.pfm"), "-o", path("part.pfm")}), 2);
+    EXPECT_NE(err_.find("would replace"), std::string::npos) << err_;
+    EXPECT_EQ(text("part.pfm"), part);
+}
+
+TEST_F(TruthCommand, MergeTakesNoOtherOptions)
+{
+    ASSERT_EQ(runScene("part", {"4x4", "--no-cache", "--shard", "1/1"}), 0) << err_;
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--tolerance", "1e-3"},
+                                                 {"--size", "2x2"},
+                                                 {"--threads", "1"},
+                                                 {"--no-cache"},
+                                                 {"--camera", "0"},
+                                                 {"--lights-visible", "on"},
+                                                 {"--lobes", "sum"},
+                                                 {"--shard", "1/1"},
+                                                 {"--cache", "x"},
+                                                 {"--energy-compensation"}}) {
+        std::vector<std::string> arguments = more;
+        arguments.insert(arguments.end(), {"-o", path("x.pfm"), "--merge", path("part")});
+        EXPECT_EQ(run(arguments), 2) << more[0];
+        EXPECT_NE(err_.find(more[0] + " and --merge exclude each other"), std::string::npos)
+            << err_;
+    }
+    EXPECT_EQ(run({"-q", "-o", path("x.pfm"), "--merge", path("part")}), 0) << err_;
+}

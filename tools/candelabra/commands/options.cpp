@@ -166,6 +166,22 @@ void DeviceArguments::requireRoomFor(uint32_t lights) const
                                      chosen.name, grouped(most)));
 }
 
+void LobeArguments::addTo(CLI::App& command)
+{
+    addChoice(command, "--lobes", lobes, lobeChoices,
+              "how diffuse and specular lobes share the light (default: scene .json sum, else "
+              "conserving)");
+    command.add_flag("--energy-compensation", energyCompensation,
+                     "give back what the specular lobe loses between its microfacets");
+}
+
+void LobeArguments::applyTo(SceneOptions& options) const
+{
+    if (!lobes.empty())
+        options.lobes = choose("--lobes", lobes, lobeChoices);
+    options.energyCompensation = energyCompensation;
+}
+
 void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
 {
     scene = fallback;
@@ -207,11 +223,7 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
         .add_option("--environment-scale", environmentScale,
                     "factor on the environment's luminance (1)")
         ->type_name("FACTOR");
-    addChoice(command, "--lobes", lobes, lobeChoices,
-              "how diffuse and specular lobes share the light (default: scene .json sum, else "
-              "conserving)");
-    command.add_flag("--energy-compensation", energyCompensation,
-                     "give back what the specular lobe loses between its microfacets");
+    lobes.addTo(command);
 }
 
 SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
@@ -228,9 +240,7 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
     if (!sunRadius.empty())
         out.sunRadius = numberOption("--sun-radius", sunRadius, 1e-6, 1);
     out.environment = environment;
-    if (!lobes.empty())
-        out.lobes = choose("--lobes", lobes, lobeChoices);
-    out.energyCompensation = energyCompensation;
+    lobes.applyTo(out);
     if (!environmentRotation.empty())
         out.environmentRotation =
             numberOption("--environment-rotation", environmentRotation, -360, 360) *

@@ -33,13 +33,22 @@ struct DeviceArguments {
     void requireRoomFor(uint32_t lights) const;
 };
 
+// How the lobes of materials share the light.
+struct LobeArguments {
+    std::string lobes;
+    bool energyCompensation = false;
+
+    void addTo(CLI::App& command);
+    void applyTo(SceneOptions& options) const; // throws UsageError
+};
+
 // SCENE and what shapes it. The number of lights is the command's: one for `render`, a list for
 // `stress`.
 struct SceneArguments {
     std::string scene;
     std::string seed, overlaps, punctualRadius, sunRadius;
-    std::string environment, environmentRotation, environmentScale, lobes;
-    bool energyCompensation = false;
+    std::string environment, environmentRotation, environmentScale;
+    LobeArguments lobes;
     bool moving = false;
 
     // With a `fallback` the scene may be left out and named with --scene as well.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra truth: the image that every approximation is measured against, in double precision on
 // the CPU; in one go, or in shards that another call puts together.
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -26,7 +27,9 @@ namespace
 struct TruthArguments {
     std::string scene, output, tolerance = "1e-4", threads, shard, cache;
     std::vector<std::string> merge;
+    std::vector<std::string> notForMerging; // options given that merging has no use for
     bool noCache = false;
+    LobeArguments lobes;
     FrameArguments frame; // of which only size, camera and visible lights are options
 };
 
@@ -58,6 +61,14 @@ void requireLinearImage(const std::string& path)
         throw UsageError("-o " + path + ": a truth is linear luminance; choose .exr, .hdr or .pfm");
 }
 
+// Throws UsageError where writing `output` would replace `input`.
+void requireOther(const std::string& output, const std::string& input)
+{
+    std::error_code missing; // then they are not the same
+    if (std::filesystem::equivalent(output, input, missing))
+        throw UsageError("-o " + output + ": would replace " + input + ", which is read");
+}
+
 void warnOfUnconverged(uint64_t count)
 {
     if (count)
@@ -68,10 +79,13 @@ int merge(const TruthArguments& a)
 {
     if (!a.scene.empty())
         throw UsageError("truth: a SCENE and --merge exclude each other");
-    if (!a.shard.empty())
-        throw UsageError("truth: --shard and --merge exclude each other");
+    if (!a.notForMerging.empty())
+        throw UsageError("truth: " + a.notForMerging[0] +
+                         " and --merge exclude each other: shards are merged as they are");
     requireLinearImage(a.output);
     requireWritable("-o", a.output);
+    for (const std::string& path : a.merge)
+        requireOther(a.output, path);
     std::vector<TruthShard> shards;
     uint64_t unconverged = 0;
     Image image;
@@ -121,6 +135,7 @@ int truth(const ProgramContext& program, const TruthArguments& a)
     if (a.shard.empty())
         requireLinearImage(a.output);
     requireWritable("-o", a.output);
+    requireOther(a.output, a.scene);
     TruthShard shard;
     shard.index = number.index;
     shard.count = number.count;
@@ -128,7 +143,9 @@ int truth(const ProgramContext& program, const TruthArguments& a)
     const uint32_t threads =
         a.threads.empty() ? 0 : unsignedOption("--threads", a.threads, 1, 1024);
 
-    const Scene scene = loadScene(a.scene, {.lights = std::nullopt});
+    SceneOptions options{.lights = std::nullopt};
+    a.lobes.applyTo(options);
+    const Scene scene = loadScene(a.scene, options);
     logWarnings(scene);
     const Camera camera = selectCamera(scene, a.frame.camera);
     const PixelSize size = a.frame.pixelSize(scene, camera);
@@ -180,6 +197,7 @@ void addTruthCommand(CLI::App& app, Run& run)
         ->type_name("T")
         ->capture_default_str();
     a->frame.addViewTo(*command);
+    a->lobes.addTo(*command);
     command->add_option("--threads", a->threads, "default: one for every core")->type_name("N");
     command
         ->add_option("--shard", a->shard,
@@ -198,8 +216,13 @@ void addTruthCommand(CLI::App& app, Run& run)
                     "  candelabra truth scene.json -o truth.exr\n"
                     "  candelabra truth scene.json --shard 3/8 -o part3.truth\n"
                     "  candelabra truth --merge part*.truth -o truth.exr");
-    command->callback(
-        [&run, a] { run = [a](const ProgramContext& program) { return truth(program, *a); }; });
+    command->callback([&run, a, command] {
+        for (const CLI::Option* option : command->get_options())
+            if (const std::string name = option->get_name();
+                option->count() && name != "--merge" && name != "--output" && name != "scene")
+                a->notForMerging.push_back(name);
+        run = [a](const ProgramContext& program) { return truth(program, *a); };
+    });
 }
 
 } // namespace candelabra::app

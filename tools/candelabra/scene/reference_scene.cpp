@@ -25,21 +25,6 @@ reference::Material toReference(const Material& m)
             .emission = m.emission};
 }
 
-void addEmitters(const Scene& scene, reference::Scene& out)
-{
-    for (const CndLight& light : scene.lights) {
-        if (light.type != CND_LIGHT_SPHERE)
-            continue;
-        const glm::dvec3 position(light.position[0], light.position[1], light.position[2]);
-        out.objects.push_back({.type = reference::Object::Type::Ball,
-                               .point = scene.lightOrigin + position,
-                               .radius = light.radius,
-                               .material = static_cast<uint32_t>(out.materials.size())});
-        out.materials.push_back(
-            {.emission = {light.emission[0], light.emission[1], light.emission[2]}});
-    }
-}
-
 void add(Hash& hash, const glm::dvec3& v)
 {
     for (int i = 0; i < 3; ++i)
@@ -65,6 +50,8 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
 {
     if (!scene.instances.empty())
         throw SceneError(scene.name + ": has meshes, and only planes and balls have a truth");
+    if (scene.environment)
+        throw SceneError(scene.name + ": has an environment, and only lights have a truth");
     if (camera.orthographic)
         throw SceneError(scene.name + ": camera " + camera.name +
                          " is orthographic, and only pinhole cameras have a truth");
@@ -84,8 +71,9 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
     out.lights = scene.lights;
     out.lightOrigin = scene.lightOrigin;
     out.background = scene.background;
-    if (lightsVisible)
-        addEmitters(scene, out);
+    out.lightsVisible = lightsVisible;
+    out.lobes = scene.lobes;
+    out.energyCompensation = scene.energyCompensation;
     return out;
 }
 
@@ -99,6 +87,9 @@ uint64_t referenceHash(const reference::Scene& scene)
         add(hash, v);
     hash.add(camera.verticalFov);
     hash.add(camera.aspect);
+    hash.add(scene.lightsVisible);
+    hash.add(static_cast<int>(scene.lobes));
+    hash.add(scene.energyCompensation);
     hash.add(scene.materials.size());
     for (const reference::Material& material : scene.materials) {
         add(hash, material.diffuseAlbedo);

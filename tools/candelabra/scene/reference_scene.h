@@ -12,8 +12,8 @@ namespace candelabra::app
 
 // The planes, balls and lights of `scene` seen from `camera`, the background included.
 // `imageAspect` (width / height) serves cameras without an aspect of their own. With
-// `lightsVisible` sphere lights become balls that emit; other emitters stay unseen. Throws
-// SceneError for what the reference does not know: meshes and orthographic cameras.
+// `lightsVisible` area lights are seen. Throws SceneError for what the reference does not know:
+// meshes, an environment and orthographic cameras.
 reference::Scene toReference(const Scene& scene, const Camera& camera, double imageAspect,
                              bool lightsVisible);
 
