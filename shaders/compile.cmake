@@ -2,9 +2,12 @@
 # Compiles one shader: GLSL -> SPIR-V (warnings are errors) -> spirv-val -> C++ array.
 get_filename_component(dir ${OUTPUT} DIRECTORY)
 file(MAKE_DIRECTORY ${dir})
+if(FAMILY)
+    set(family -DLIGHT_FAMILY=FAMILY_${FAMILY})
+endif()
 set(spv ${OUTPUT}.spv)
 execute_process(
-    COMMAND ${GLSLANG} -V --target-env vulkan1.3 --quiet -I${INCLUDE} -DLIGHT_FAMILY=FAMILY_${FAMILY} --depfile ${OUTPUT}.d.in
+    COMMAND ${GLSLANG} -V --target-env vulkan1.3 --quiet -I${INCLUDE} ${family} --depfile ${OUTPUT}.d.in
         -o ${spv} ${INPUT}
     OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 if(failed OR log MATCHES "WARNING")

@@ -137,7 +137,7 @@ private:
 
     struct Sets {
         gpu::Bindings prepareLights, tileBounds, coarseBounds, coarseMasks, tileLists, countPairs,
-            shadeTiles, shadeHorizon, shadeBrute;
+            shadeTiles, shadeBrute;
     };
     struct SlotState {
         uint64_t recording = 0; // 0: never used
@@ -150,7 +150,7 @@ private:
     Sets sets_;
     gpu::Buffer core_, aux_; // per light
     gpu::Buffer masks_;      // per coarse tile and light
-    gpu::Buffer tileBounds_, coarseBounds_, lists_, entries_, horizon_, counters_;
+    gpu::Buffer tileBounds_, coarseBounds_, lists_, entries_, counters_;
     std::vector<gpu::Buffer> readback_; // per slot
     std::vector<SlotState> slots_;
 };

@@ -66,7 +66,6 @@ namespace
 
 struct Family {
     const gpu::Spirv* tiles;
-    const gpu::Spirv* horizon; // spheres only
     const gpu::Spirv* brute;
 };
 
@@ -76,18 +75,18 @@ Family familyOf(uint32_t lightType, CndSpecularMethod method)
     using namespace spirv;
     switch (lightType) {
     case CND_LIGHT_TUBE:
-        return {&shade_tiles_comp_tube, nullptr, &shade_brute_comp_tube};
+        return {&shade_tiles_comp_tube, &shade_brute_comp_tube};
     case CND_LIGHT_RECTANGLE:
-        return {&shade_tiles_comp_rectangle, nullptr, &shade_brute_comp_rectangle};
+        return {&shade_tiles_comp_rectangle, &shade_brute_comp_rectangle};
     case CND_LIGHT_DISC:
-        return {&shade_tiles_comp_disc, nullptr, &shade_brute_comp_disc};
+        return {&shade_tiles_comp_disc, &shade_brute_comp_disc};
     case CND_LIGHT_SPHERE:
     case CND_LIGHT_DISTANT_SPHERE:
         if (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL)
-            return {&shade_tiles_comp_conic, &shade_horizon_comp_conic, &shade_brute_comp_conic};
-        return {&shade_tiles_comp_sphere, &shade_horizon_comp_sphere, &shade_brute_comp_sphere};
+            return {&shade_tiles_comp_conic, &shade_brute_comp_conic};
+        return {&shade_tiles_comp_sphere, &shade_brute_comp_sphere};
     default:
-        return {&shade_tiles_comp_punctual, nullptr, &shade_brute_comp_punctual};
+        return {&shade_tiles_comp_punctual, &shade_brute_comp_punctual};
     }
 }
 
@@ -105,9 +104,7 @@ ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, uint32_t met
                        {gpu::SPEC_ERROR_BUDGET, withBudget}});
     };
     const Family family = familyOf(lightType, CndSpecularMethod(method));
-    return {.tiles = kernel(*family.tiles),
-            .horizon = family.horizon ? kernel(*family.horizon) : Kernel(),
-            .brute = kernel(*family.brute)};
+    return {.tiles = kernel(*family.tiles), .brute = kernel(*family.brute)};
 }
 
 ShadeKernels::OfType ShadeKernels::make(uint32_t lightType) const

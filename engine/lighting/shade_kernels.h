@@ -16,7 +16,6 @@ uint32_t lightsAsTexels(const gpu::Device& device);
 // The method that stands for `method` where the light type has fewer: punctual lights have one,
 // tubes, rectangles and discs a representative point, cosines and samples.
 CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method);
-// Spheres are shaded in two kernels, the second for those at the horizon.
 bool isSphere(uint32_t lightType);
 // Whether an error budget changes the evaluation: the closed form of spheres has cheaper bounds.
 bool takesBudget(uint32_t lightType, CndSpecularMethod method);
@@ -34,7 +33,7 @@ public:
 
     bool allows(CndSpecularMethod method) const { return methods_ >> method & 1; }
     struct Variant {
-        Kernel tiles, horizon, brute; // horizon: spheres only
+        Kernel tiles, brute;
     };
     const Variant& variant(uint32_t type, CndSpecularMethod method, bool withBudget) const;
     const Kernel& countPairs(uint32_t type) const { return types_[type].countPairs; }

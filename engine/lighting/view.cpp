@@ -108,7 +108,6 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
              .tileLists = k.tileLists.createBindings(slots),
              .countPairs = k.shade.countPairs(CND_LIGHT_SPHERE).createBindings(slots),
              .shadeTiles = k.shade.anyVariant().tiles.createBindings(slots),
-             .shadeHorizon = k.shade.anyVariant().horizon.createBindings(slots),
              .shadeBrute = k.shade.anyVariant().brute.createBindings(slots)};
     const VkDeviceSize tileCount = VkDeviceSize(tiles(desc_.maxWidth)) * tiles(desc_.maxHeight);
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
@@ -118,9 +117,6 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     coarseBounds_ = make("coarse bounds", maxCoarseTiles() * sizeof(gpu::TileBounds), storageUse);
     lists_ = make("tile lists", tileCount * sizeof(gpu::TileList), storageUse);
     entries_ = make("list entries", desc_.listBudget, storageUse);
-    horizon_ =
-        make("horizon tiles", sizeof(gpu::HorizonTiles) + tileCount * sizeof(uint32_t),
-             storageUse | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     counters_ =
         make("lighting counters", sizeof(gpu::LightingCounters),
              storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
@@ -322,8 +318,6 @@ void View::recordLists(const gpu::Frame& f, const Plan& p, Batch batch) const no
     if (batch.first) // the whole of the counters was cleared before the first
         f.device.CmdFillBuffer(f.cmd, counters_.get(), offsetof(gpu::LightingCounters, listCursor),
                                sizeof(uint32_t), 0);
-    const gpu::HorizonTiles none{.groupsX = gpu::HORIZON_ROW, .groupsZ = 1};
-    f.device.CmdUpdateBuffer(f.cmd, horizon_.get(), 0, sizeof none, &none);
     k.coarseMasks.dispatch(f, sets_.coarseMasks.set(f.slot), {batch.first, batch.count, wordCount},
                            divideUp(wordCount, gpu::COARSE_MASKS_GROUP), p.coarseCount);
     f.barrier();
@@ -372,10 +366,6 @@ void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame, con
         return;
     }
     kernels.tiles.dispatch(f, sets_.shadeTiles.set(f.slot), params, p.tileCountX, p.tileCountY);
-    if (isSphere(batch.type)) {
-        f.barrier();
-        kernels.horizon.dispatchIndirect(f, sets_.shadeHorizon.set(f.slot), params, horizon_);
-    }
     if (frame.countPairs)
         shade.countPairs(batch.type)
             .dispatch(f, sets_.countPairs.set(f.slot), params, p.tileCountX, p.tileCountY);

@@ -49,12 +49,10 @@ void View::writeBindings(const CndLightingFrame& frame) const
                          Binding::sampled(SHADE_DEPTH, frame.depth),
                          Binding::storage(SHADE_RADIANCE, frame.radiance),
                          Binding::of(SHADE_LISTS, lists_), Binding::of(SHADE_ENTRIES, entries_),
-                         Binding::of(SHADE_HORIZON, horizon_),
                          Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo()),
                          Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines())});
     };
     writeShade(sets_.shadeTiles);
-    writeShade(sets_.shadeHorizon);
     sets_.countPairs.write(
         slot,
         {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),

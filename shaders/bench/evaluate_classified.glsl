@@ -3,17 +3,9 @@
 
 vec3 evaluateClassified(Receiver r, uint light)
 {
-    const Found found = findLights(r, light, 1u, false);
-    vec3 sum = vec3(0.0);
-#if HAS_SPHERES
-    if (HAS_BUDGET)
-        SHADE_FOUND(sum, r, light, found.asPoint, evaluateAsPoint);
-    SHADE_FOUND(sum, r, light, found.above, evaluateAbove);
-    if (IS_CONIC)
-        SHADE_FOUND(sum, r, light, found.near, evaluateNear);
-#endif
-    SHADE_FOUND(sum, r, light, found.general, evaluateGeneral);
-    return sum;
+    Sums sums = noLight();
+    shadeBlock(sums, r, light, 1u, false);
+    return total(sums);
 }
 
 // Makes the channels of the response those of BenchResponse: albedo in x; F0 = F90 = 1 in y gives A,

@@ -19,13 +19,15 @@ layout(scalar, binding = BENCH_OUTPUT) writeonly buffer Output
 // A constant: one of the functions is left.
 vec3 evaluate(Receiver r, uint light)
 {
-#if HAS_SPHERES
+#if LIGHT_FAMILY == FAMILY_CONIC
     if (evaluation == EVALUATE_POINT)
         return evaluateAsPoint(r, light);
-    if (evaluation == EVALUATE_ABOVE)
-        return evaluateAbove(r, light);
     if (evaluation == EVALUATE_NEAR)
         return evaluateNear(r, light);
+#endif
+#if HAS_SPHERES
+    if (evaluation == EVALUATE_ABOVE)
+        return evaluateAbove(r, light);
 #endif
     return evaluateGeneral(r, light);
 }

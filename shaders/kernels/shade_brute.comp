@@ -26,23 +26,9 @@ void main()
         return;
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
                                     params.sampleCount, pixelSeed(pixel));
-    vec3 asPoint = vec3(0.0), above = vec3(0.0), near = vec3(0.0), general = vec3(0.0);
-    for (uint first = 0u; first < params.lightCount; first += WALK_BLOCK) {
-        const Found found = findLights(r, first, min(WALK_BLOCK, params.lightCount - first), false);
-#if HAS_SPHERES
-        if (HAS_BUDGET) {
-            SHADE_FOUND(asPoint, r, first, found.asPoint, evaluateAsPoint)
-        }
-        SHADE_FOUND(above, r, first, found.above, evaluateAbove)
-        if (IS_CONIC) {
-            SHADE_FOUND(near, r, first, found.near, evaluateNear)
-        }
-#endif
-        SHADE_FOUND(general, r, first, found.general, evaluateGeneral)
-    }
-    // In the order of the clustered kernels, for the same bits: shade_tiles, then shade_horizon.
+    Sums sums = noLight();
+    for (uint first = 0u; first < params.lightCount; first += WALK_BLOCK)
+        shadeBlock(sums, r, first, min(WALK_BLOCK, params.lightCount - first), false);
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
-    const vec3 tiles = before.xyz + (asPoint + above + (IS_SPHERE ? vec3(0.0) : general));
-    const vec3 horizon = IS_SPHERE ? near + general : vec3(0.0);
-    imageStore(radianceImage, ivec2(pixel), vec4(tiles + horizon, before.w));
+    imageStore(radianceImage, ivec2(pixel), before + vec4(total(sums), 0.0));
 }

@@ -102,7 +102,6 @@ void main()
     list.count = listed ? count : params.lightCount;
     list.total += count;
     list.everUnlisted |= listed ? 0u : 1u;
-    list.horizon = 0u;
     lists[tile] = list;
     atomicMax(counters.maxListLength, list.total);
     if (empty || !listed)

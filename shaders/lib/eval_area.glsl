@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Responses to tubes, rectangles and discs of unit luminance. Part of lib/light_eval.glsl.
 
-#if HAS_FAMILY(FAMILY_TUBE) || HAS_FAMILY(FAMILY_RECTANGLE) || HAS_FAMILY(FAMILY_DISC)
+#if LIGHT_FAMILY == FAMILY_TUBE || LIGHT_FAMILY == FAMILY_RECTANGLE || LIGHT_FAMILY == FAMILY_DISC
 // Responses do not depend on the scale, and at a distance of about 1 no product of lengths overflows.
 Light atUnitDistance(Light light, out float scale)
 {
@@ -12,7 +12,7 @@ Light atUnitDistance(Light light, out float scale)
 }
 #endif
 
-#if HAS_FAMILY(FAMILY_TUBE)
+#if LIGHT_FAMILY == FAMILY_TUBE
 vec3 evaluateTube(Receiver r, Light given)
 {
     float scale;
@@ -34,7 +34,7 @@ vec3 evaluateTube(Receiver r, Light given)
 
 #endif
 
-#if HAS_FAMILY(FAMILY_RECTANGLE)
+#if LIGHT_FAMILY == FAMILY_RECTANGLE
 vec3 evaluateRectangle(Receiver r, Light given)
 {
     float scale;
@@ -56,7 +56,7 @@ vec3 evaluateRectangle(Receiver r, Light given)
 
 #endif
 
-#if HAS_FAMILY(FAMILY_DISC)
+#if LIGHT_FAMILY == FAMILY_DISC
 vec3 evaluateDisc(Receiver r, Light given)
 {
     float scale;

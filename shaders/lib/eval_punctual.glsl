@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Responses to lights without size. Part of lib/light_eval.glsl.
 
-#if HAS_FAMILY(FAMILY_PUNCTUAL)
+#if LIGHT_FAMILY == FAMILY_PUNCTUAL
 // Response to unit illuminance on a surface that faces the light, from the unit direction l.
 vec3 evaluatePunctual(ShadingPoint p, vec3 l)
 {

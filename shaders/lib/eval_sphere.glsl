@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Responses to spheres, near and distant, of unit luminance. Part of lib/light_eval.glsl.
 
-#if HAS_FAMILY(FAMILY_SPHERE)
+#if LIGHT_FAMILY == FAMILY_SPHERE
 // Response of the specular lobe to a sphere of unit luminance; the closed form is not among these.
 vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 {
@@ -25,30 +25,33 @@ vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 
 #if HAS_SPHERES
 // A sphere in the four evaluations.
-vec3 sphereAsPoint(Receiver r, Light light)
-{
-    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
-    return r.p.albedo * (cap.NoC * cap.s2) + schlick(r.p, pointResponse(r.p, cap));
-}
-
 vec3 sphereAbove(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
-    vec2 specular = vec2(0.0);
-#if HAS_FAMILY(FAMILY_CONIC)
-    if (specularMethod == SPECULAR_CONIC)
-        specular = conicAbove(r.conic, cap);
-    else if (specularMethod == SPECULAR_CONIC_FULL)
-        specular = conicFullUnclipped(r.conic, cap);
-#endif
-#if HAS_FAMILY(FAMILY_SPHERE)
-    if (!IS_CONIC)
-        specular = cheapSphereSpecular(r, light, cap);
+#if LIGHT_FAMILY == FAMILY_CONIC
+    const vec2 specular = specularMethod == SPECULAR_CONIC ? conicAbove(r.conic, cap)
+                                                           : conicFullUnclipped(r.conic, cap);
+#else
+    const vec2 specular = cheapSphereSpecular(r, light, cap);
 #endif
     return r.p.albedo * (cap.NoC * cap.s2) + schlick(r.p, specular);
 }
 
-#if HAS_FAMILY(FAMILY_CONIC)
+vec3 sphereAcross(Receiver r, Light light)
+{
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
+#if LIGHT_FAMILY == FAMILY_CONIC
+    const vec2 response = conicClipped(r.conic, cap);
+#else
+    const vec2 response = cheapSphereSpecular(r, light, cap);
+#endif
+    // The cap may be below the horizon: rounding, and a receiver inside the sphere.
+    const vec2 specular = cap.NoC > -cap.s ? response : vec2(0.0);
+    return r.p.albedo * sphereFormFactor(cap.NoC, cap.s2) + schlick(r.p, specular);
+}
+#endif
+
+#if LIGHT_FAMILY == FAMILY_CONIC
 vec3 sphereNear(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
@@ -56,21 +59,10 @@ vec3 sphereNear(Receiver r, Light light)
     return r.p.albedo * sphereFormFactor(cap.NoC, cap.s2) +
            schlick(r.p, conicUnclipped(r.conic, cap, mixed));
 }
-#endif
 
-vec3 sphereAcross(Receiver r, Light light)
+vec3 sphereAsPoint(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
-    vec2 specular = vec2(0.0);
-#if HAS_FAMILY(FAMILY_CONIC)
-    if (IS_CONIC) // a receiver inside a sphere may have its cap below the horizon
-        specular = cap.NoC > -cap.s ? conicClipped(r.conic, cap) : vec2(0.0);
-#endif
-#if HAS_FAMILY(FAMILY_SPHERE)
-    if (!IS_CONIC)
-        specular = cheapSphereSpecular(r, light, cap);
-#endif
-    return r.p.albedo * sphereFormFactor(cap.NoC, cap.s2) + schlick(r.p, specular);
+    return r.p.albedo * (cap.NoC * cap.s2) + schlick(r.p, pointResponse(r.p, cap));
 }
-
-#endif // HAS_SPHERES
+#endif

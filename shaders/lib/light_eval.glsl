@@ -8,7 +8,9 @@
 #include "lib/light_families.glsl"
 #include "lib/light_reach.glsl"
 #include "lib/lights/sphere.glsl"
+#if LIGHT_FAMILY == FAMILY_CONIC
 #include "lib/specular/conic.glsl"
+#endif
 #include "lib/specular/karis.glsl"
 #include "lib/specular/kx.glsl"
 #include "lib/specular/sampled.glsl"
@@ -25,14 +27,6 @@ layout(constant_id = SPEC_ERROR_BUDGET) const uint errorBudget = 0u;
 
 const bool HAS_BUDGET = errorBudget != 0u;
 const bool IS_LTC = specularMethod == SPECULAR_LTC;
-const bool IS_CONIC = specularMethod == SPECULAR_CONIC || specularMethod == SPECULAR_CONIC_FULL;
-
-// How a light is evaluated at a point; the cheapest form that is right there. Kernels keep the forms
-// in separate loops: a branch inside one loop is paid by every light on some devices.
-const uint EVALUATE_POINT = 0u;   // sphere whose size is within the error budget
-const uint EVALUATE_ABOVE = 1u;   // sphere above the horizon
-const uint EVALUATE_NEAR = 2u;    // sphere that nearly touches the horizon, or tiny across it
-const uint EVALUATE_GENERAL = 3u; // sphere across the horizon; any light of other types
 
 // The bound of the error of a point is not proven for errors of the specular lobe beyond this.
 const float MAX_POINT_ERROR = 0.3;
@@ -43,14 +37,17 @@ const float ONE_NODE_ERROR = 0.056;
 // What a pixel prepares once for all lights.
 struct Receiver {
     ShadingPoint p;
-    ConicPoint conic; // IS_CONIC
 #if HAS_COSINES
     LtcPoint ltc; // IS_LTC
 #endif
     uint sampleCount; // SPECULAR_SAMPLED
     uint sampleSeed;
-    bool oneNode;     // the budget allows one node wherever a sphere is above the horizon
-    float pointLimit; // (R / d)^2 up to which a sphere above the horizon is evaluated as a point
+    float aboveFrom; // spheres: n . toLight / R from which one is evaluated as above the horizon
+#if LIGHT_FAMILY == FAMILY_CONIC
+    ConicPoint conic;
+    float smallCap;   // (R / d)^2 up to which a sphere across the horizon is not clipped
+    float pointLimit; // (R / d)^2 up to which one above the horizon is evaluated as a point
+#endif
 };
 
 // Largest (R / d)^2 whose evaluation as a point errs by at most `budget` of the highest response.
@@ -80,12 +77,15 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
     if (IS_LTC)
         r.ltc = makeLtcPoint(p);
 #endif
-#if HAS_FAMILY(FAMILY_CONIC)
-    if (IS_SPHERE && IS_CONIC)
-        r.conic = makeConicPoint(p);
-#endif
-    r.oneNode = HAS_BUDGET && specularMethod == SPECULAR_CONIC && budget >= ONE_NODE_ERROR;
+#if LIGHT_FAMILY == FAMILY_CONIC
+    r.conic = makeConicPoint(p);
+    const bool oneNode = specularMethod == SPECULAR_CONIC && budget >= ONE_NODE_ERROR;
+    r.aboveFrom = HAS_BUDGET && oneNode ? 1.0 : 2.0;
+    r.smallCap = SMALL_CAP * r.conic.a2;
     r.pointLimit = HAS_BUDGET ? pointLimit(p, budget) : 0.0;
+#else
+    r.aboveFrom = 1.0;
+#endif
     return r;
 }
 
@@ -131,54 +131,41 @@ uint lightSeed(Receiver r, uint light)
 
 vec3 generalResponse(Receiver r, Light light)
 {
-#if HAS_FAMILY(FAMILY_TUBE)
-    if (lightType == LIGHT_TUBE)
-        return evaluateTube(r, light);
-#endif
-#if HAS_FAMILY(FAMILY_RECTANGLE)
-    if (lightType == LIGHT_RECTANGLE)
-        return evaluateRectangle(r, light);
-#endif
-#if HAS_FAMILY(FAMILY_DISC)
-    if (lightType == LIGHT_DISC)
-        return evaluateDisc(r, light);
-#endif
-#if HAS_FAMILY(FAMILY_PUNCTUAL)
-    if (lightType == LIGHT_DIRECTIONAL)
-        return evaluatePunctual(r.p, light.toLight);
-    if (!IS_SPHERE)
-        return evaluateIntensity(r.p, light);
-#endif
 #if HAS_SPHERES
     return sphereAcross(r, light);
+#elif LIGHT_FAMILY == FAMILY_TUBE
+    return evaluateTube(r, light);
+#elif LIGHT_FAMILY == FAMILY_RECTANGLE
+    return evaluateRectangle(r, light);
+#elif LIGHT_FAMILY == FAMILY_DISC
+    return evaluateDisc(r, light);
 #else
-    return vec3(0.0);
+    return lightType == LIGHT_DIRECTIONAL ? evaluatePunctual(r.p, light.toLight)
+                                          : evaluateIntensity(r.p, light);
 #endif
 }
 
 // Outgoing luminance by evaluation. A function each: drivers inline all of it at every call before
 // they drop what specialisation rules out, and one function for all took minutes to compile.
-#if HAS_SPHERES
+#if LIGHT_FAMILY == FAMILY_CONIC
 vec3 evaluateAsPoint(Receiver r, uint index)
 {
     const Light light = readLight(r, index);
     return light.emission * sphereAsPoint(r, light);
 }
 
+vec3 evaluateNear(Receiver r, uint index)
+{
+    const Light light = readLight(r, index);
+    return light.emission * sphereNear(r, light);
+}
+#endif
+
+#if HAS_SPHERES
 vec3 evaluateAbove(Receiver r, uint index)
 {
     const Light light = readLight(r, index);
     return light.emission * sphereAbove(r, light);
-}
-
-vec3 evaluateNear(Receiver r, uint index)
-{
-#if HAS_FAMILY(FAMILY_CONIC)
-    const Light light = readLight(r, index);
-    return light.emission * sphereNear(r, light);
-#else
-    return vec3(0.0);
-#endif
 }
 #endif
 
@@ -187,22 +174,5 @@ vec3 evaluateGeneral(Receiver r, uint index)
     const Light light = readLight(r, index);
     return light.emission * generalResponse(r, light);
 }
-
-#if LIGHT_FAMILY == FAMILY_ALL
-// For callers that have one light.
-vec3 evaluateLight(Receiver r, uint evaluation, uint index)
-{
-    switch (evaluation) {
-    case EVALUATE_POINT:
-        return evaluateAsPoint(r, index);
-    case EVALUATE_ABOVE:
-        return evaluateAbove(r, index);
-    case EVALUATE_NEAR:
-        return evaluateNear(r, index);
-    }
-    return evaluateGeneral(r, index);
-}
-
-#endif
 
 #endif

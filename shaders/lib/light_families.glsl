@@ -5,7 +5,6 @@
 #ifndef CND_LIB_LIGHT_FAMILIES
 #define CND_LIB_LIGHT_FAMILIES
 
-#define FAMILY_ALL 0
 #define FAMILY_PUNCTUAL 1  // point, spot, directional
 #define FAMILY_CONIC 2     // sphere, distant sphere by SPECULAR_CONIC, SPECULAR_CONIC_FULL
 #define FAMILY_SPHERE 3    // ... by the other methods
@@ -14,10 +13,9 @@
 #define FAMILY_DISC 6
 
 #ifndef LIGHT_FAMILY
-#define LIGHT_FAMILY FAMILY_ALL
+#error "shaders/CMakeLists.txt names the family: FILE:FAMILY"
 #endif
-#define HAS_FAMILY(family) (LIGHT_FAMILY == FAMILY_ALL || LIGHT_FAMILY == (family))
-#define HAS_SPHERES (HAS_FAMILY(FAMILY_CONIC) || HAS_FAMILY(FAMILY_SPHERE))
+#define HAS_SPHERES (LIGHT_FAMILY == FAMILY_CONIC || LIGHT_FAMILY == FAMILY_SPHERE)
 #define HAS_COSINES (LIGHT_FAMILY != FAMILY_PUNCTUAL && LIGHT_FAMILY != FAMILY_CONIC)
 
 #endif

@@ -15,50 +15,60 @@ struct Found {
     uvec2 asPoint, above, near, general;
 };
 
-#if HAS_SPHERES
-// Sorts a sphere that reaches the point by where it stands to the horizon; no division.
-void classifySphere(inout Found found, uvec2 bit, Receiver r, vec3 toLight, float radius)
-{
-    const float dz = dot(r.p.n, toLight);
-    bool above = dz >= radius;
-    bool near = false;
-    bool asPoint = false;
-    if (IS_CONIC) {
-        const float d2 = length2(toLight);
-        const uint region = conicClass(dz, radius, d2, r.conic.a2);
-        asPoint = HAS_BUDGET && above && radius * radius < r.pointLimit * d2;
-        above = region == CONIC_ABOVE || (above && r.oneNode);
-        near = region == CONIC_NEAR && !above;
-    }
-    found.asPoint |= asPoint ? bit : uvec2(0u);
-    found.above |= above && !asPoint ? bit : uvec2(0u);
-    found.near |= near && !asPoint ? bit : uvec2(0u);
-    found.general |= above || near || asPoint ? uvec2(0u) : bit;
-}
-#endif
+// The same for half a block, raw: `reaching` holds all lights that reach the point; the others may also
+// hold lights that do not, and lights of those before them.
+struct FoundWord {
+    uint reaching, asPoint, above, near;
+};
 
+// Lights first .. first + count - 1, 1..32 of them. Spheres are sorted by where they stand to the
+// horizon: no division, and one comparison each, because this runs for every light of a list.
 // `testInfluence`: leave out lights that are beyond their influence (they would add 0).
-Found findLights(Receiver r, uint first, uint count, bool testInfluence)
+FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 {
-    Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
-    for (uint i = 0u; i < count; ++i) {
-        const uint light = lightAt(first + i);
+    FoundWord found = FoundWord(0u, 0u, 0u, 0u);
+    uint bit = 1u;
+    uint k = first;
+    do {
+        const uint light = lightAt(k);
         const vec4 centreReach = lightCentre(light);
         const vec3 toLight = towardsLight(centreReach.xyz, r.p.position);
-        float influence2 = uintBitsToFloat(0x7F800000u);
+        const float radius = centreReach.w;
+        const float height = dot(r.p.n, toLight);
+        const float d2 = length2(toLight);
+        bool reaches = height > -radius;
         if (testInfluence)
-            influence2 = lightEmission(light).w;
-        const uint inWord = 1u << (i & 31u);
-        uvec2 bit = i < 32u ? uvec2(inWord, 0u) : uvec2(0u, inWord);
-        bit = lightReaches(toLight, r.p.n, centreReach.w, influence2) ? bit : uvec2(0u);
+            reaches = reaches && d2 < lightEmission(light).w;
+        found.reaching |= reaches ? bit : 0u;
 #if HAS_SPHERES
-        if (IS_SPHERE) {
-            classifySphere(found, bit, r, toLight, centreReach.w);
-            continue;
-        }
+        found.above |= height >= r.aboveFrom * radius ? bit : 0u;
 #endif
-        found.general |= bit;
-    }
+#if LIGHT_FAMILY == FAMILY_CONIC
+        const float radius2 = radius * radius;
+        found.near |= height >= radius || radius2 <= r.smallCap * d2 ? bit : 0u;
+        if (HAS_BUDGET)
+            found.asPoint |= height >= radius && radius2 < r.pointLimit * d2 ? bit : 0u;
+#endif
+        bit <<= 1u;
+        ++k;
+    } while (k < first + count);
+    return found;
+}
+
+// 1..WALK_BLOCK lights.
+Found findLights(Receiver r, uint first, uint count, bool testInfluence)
+{
+    const FoundWord low = findWord(r, first, min(count, 32u), testInfluence);
+    FoundWord high = FoundWord(0u, 0u, 0u, 0u);
+    if (count > 32u)
+        high = findWord(r, first + 32u, count - 32u, testInfluence);
+    const uvec2 reaching = uvec2(low.reaching, high.reaching);
+    Found found;
+    found.asPoint = uvec2(low.asPoint, high.asPoint) & reaching;
+    found.above = uvec2(low.above, high.above) & reaching & ~found.asPoint;
+    const uvec2 closer = reaching & ~(found.asPoint | found.above);
+    found.near = uvec2(low.near, high.near) & closer;
+    found.general = closer & ~found.near;
     return found;
 }
 
@@ -89,5 +99,36 @@ bool none(uvec2 bits)
             left = withoutLowest(left);                                                            \
         } while (!none(left));                                                                     \
     }
+
+// What lights add, by evaluation.
+struct Sums {
+    vec3 asPoint, above, near, general;
+};
+
+Sums noLight()
+{
+    return Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+}
+
+vec3 total(Sums sums)
+{
+    return (sums.asPoint + sums.above) + (sums.near + sums.general);
+}
+
+// 1..WALK_BLOCK lights; `testInfluence` as above.
+void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
+{
+    const Found found = findLights(r, first, count, testInfluence);
+#if LIGHT_FAMILY == FAMILY_CONIC
+    if (HAS_BUDGET) {
+        SHADE_FOUND(sums.asPoint, r, first, found.asPoint, evaluateAsPoint)
+    }
+    SHADE_FOUND(sums.near, r, first, found.near, evaluateNear)
+#endif
+#if HAS_SPHERES
+    SHADE_FOUND(sums.above, r, first, found.above, evaluateAbove)
+#endif
+    SHADE_FOUND(sums.general, r, first, found.general, evaluateGeneral)
+}
 
 #endif

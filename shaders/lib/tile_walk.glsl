@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light list of a tile as the lights of light_walk.glsl: set `tileList`, then walk.
-layout(scalar, binding = SHADE_LISTS) buffer Lists
+layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
 {
     TileList lists[];
 };

@@ -42,7 +42,12 @@ struct BenchResponse {
 GPU_SIZE(BenchResponse, 12)
 
 // Specialisation constants beside those of lighting.h.
-const uint SPEC_BENCH_EVALUATION = 16u;   // time_lights: EVALUATE_* of light_eval.glsl
+const uint SPEC_BENCH_EVALUATION = 16u; // time_lights: EVALUATE_*
+// The loops of lib/light_walk.glsl.
+const uint EVALUATE_POINT = 0u;   // sphere whose size is within the error budget
+const uint EVALUATE_ABOVE = 1u;   // sphere above the horizon
+const uint EVALUATE_NEAR = 2u;    // sphere that nearly touches the horizon, or tiny across it
+const uint EVALUATE_GENERAL = 3u; // sphere across the horizon; any light of other types
 const uint SPEC_BENCH_FORM_FACTOR = 17u;  // time_form_factor: which form
 const uint BENCH_FORM_FACTOR_NONE = 0u;   // the loop alone
 const uint BENCH_FORM_FACTOR_ROBUST = 1u; // lib/lights/sphere.glsl

@@ -64,17 +64,8 @@ struct TileList {
     uint count;
     uint total;        // count over the frame's batches so far
     uint everUnlisted; // 0 or 1
-    uint horizon;      // 1: the tile is among the HorizonTiles
 };
-GPU_SIZE(TileList, 20)
-
-// Arguments of shade_horizon's indirect dispatch, then the indices of `count` tiles.
-struct HorizonTiles {
-    uint groupsX, groupsY, groupsZ; // HORIZON_ROW, rows begun, 1
-    uint count;
-};
-GPU_SIZE(HorizonTiles, 16)
-const uint HORIZON_ROW = 256u; // tiles per row of groups: 65535 rows hold any frame
+GPU_SIZE(TileList, 16)
 
 // Counters of one frame, cleared before and read back after.
 struct LightingCounters {
@@ -161,8 +152,7 @@ struct TileListsParams {
 };
 GPU_SIZE(TileListsParams, 32)
 
-// --- shade_tiles, shade_horizon, shade_brute, count_pairs: 8x8 pixels per group, one lane per
-// pixel
+// --- shade_tiles, shade_brute, count_pairs: 8x8 pixels per group, one lane per pixel
 const uint SHADE_CORE = 0u;
 const uint SHADE_CORE_WORDS = 1u;
 const uint SHADE_AUX = 2u;
@@ -174,9 +164,8 @@ const uint SHADE_RADIANCE = 7u;
 const uint SHADE_LISTS = 8u;     // not in shade_brute
 const uint SHADE_ENTRIES = 9u;   // not in shade_brute
 const uint SHADE_COUNTERS = 10u; // count_pairs
-const uint SHADE_HORIZON = 11u;  // shade_tiles, shade_horizon
-const uint SHADE_DFG = 12u;      // all that shade: directional albedo (shared/dfg.h)
-const uint SHADE_LTC = 13u;      // all that shade: transformed cosines (shared/ltc.h)
+const uint SHADE_DFG = 11u;      // all that shade: directional albedo (shared/dfg.h)
+const uint SHADE_LTC = 12u;      // all that shade: transformed cosines (shared/ltc.h)
 struct ShadeParams {
     Projection projection;
     uvec2 size;

@@ -11,8 +11,12 @@
 namespace candelabra::app
 {
 
-// EVALUATE_* of shaders/lib/light_eval.glsl.
-enum class EvaluationClass : uint32_t { Point = 0, Above = 1, Near = 2, General = 3 };
+enum class EvaluationClass : uint32_t {
+    Point = gpu::EVALUATE_POINT,
+    Above = gpu::EVALUATE_ABOVE,
+    Near = gpu::EVALUATE_NEAR,
+    General = gpu::EVALUATE_GENERAL
+};
 const char* className(EvaluationClass c);
 
 struct TimedVariant {
