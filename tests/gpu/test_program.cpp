@@ -13,6 +13,7 @@
 
 #include "commands/options.h"
 #include "harness/gpu_fixture.h"
+#include "harness/xml.h"
 #include "io/image.h"
 #include "io/table.h"
 #include "render/renderer.h"
@@ -99,6 +100,9 @@ TEST_F(ProgramTest, RenderWritesImagesAndFigures)
     const auto json = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(json["scene"]["lights"], 150);
     EXPECT_EQ(json["image"]["widthPixels"], 96);
+    EXPECT_EQ(json["scene"]["lobes"], "conserving");
+    EXPECT_EQ(json["scene"]["energyCompensation"], false);
+    EXPECT_TRUE(json["scene"]["environment"].is_null());
     EXPECT_EQ(json["gpuTime"]["frames"], 3);
     EXPECT_EQ(json["warmUpFrames"], 1);
     EXPECT_GT(json["gpuTime"]["total"]["medianMs"], 0.0);
@@ -140,7 +144,8 @@ TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
     const std::string start = "render field --lights 0 --size 64x36 -q -o ";
     ASSERT_EQ(run(start + "dark.pfm").exitCode, 0);
     const Outcome lit = run(start + "lit.pfm --environment sky.hdr --environment-scale 2 "
-                                    "--environment-rotation 30 --validate");
+                                    "--environment-rotation 30 --lobes sum "
+                                    "--energy-compensation --json lit.json --validate");
     ASSERT_EQ(lit.exitCode, 0) << lit.err;
     const auto dark = app::loadPfm(path("dark.pfm")).pixels,
                bright = app::loadPfm(path("lit.pfm")).pixels;
@@ -153,6 +158,12 @@ TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
     EXPECT_NEAR(most, 100, 0.5);
     EXPECT_GT(gained, 5);
 
+    const auto scene = nlohmann::json::parse(text("lit.json"))["scene"];
+    EXPECT_EQ(scene["lobes"], "sum");
+    EXPECT_EQ(scene["energyCompensation"], true);
+    EXPECT_EQ(scene["environment"]["file"], "sky.hdr");
+    EXPECT_EQ(scene["environment"]["scale"], 2);
+    EXPECT_NEAR(scene["environment"]["rotationRadians"], 0.5235988, 1e-6);
     const Outcome idle = run(start + "idle.pfm --environment-scale 2");
     EXPECT_EQ(idle.exitCode, 0);
     EXPECT_NE(idle.err.find("--environment-scale has no effect"), std::string::npos) << idle.err;
@@ -176,6 +187,7 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
     EXPECT_GT(readPng(path("o/hall_50.png")).mean, 5);
     EXPECT_EQ(readPng(path("o/hall_200.png")).width, 128);
     EXPECT_NE(text("o/stress.svg").find("shade_tiles"), std::string::npos);
+    EXPECT_EQ(test::xmlFault(path("o/stress.svg")), "");
 }
 
 TEST_F(ProgramTest, DevicesListsTheOneUnderTest)

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/xml.h"
 #include "io/parse.h"
 #include "io/report.h"
 #include "io/svg_plot.h"
@@ -14,6 +15,7 @@
 #include "render/error.h"
 #include "render/pass_times.h"
 
+using namespace candelabra;
 using namespace candelabra::app;
 
 TEST(Table, AlignsAndRefusesRaggedRows)
@@ -147,6 +149,20 @@ TEST_F(FileTest, TextAppearsWholeAndLeavesNothingElse)
         ++files;
     EXPECT_EQ(files, 1u);
     EXPECT_THROW(writeText(dir_ / "missing" / "a.txt", "x"), RunError);
+}
+
+TEST_F(FileTest, PlotsAreWellFormed)
+{
+    const std::string hard = "a < b & \"c\" > 'd' ]]> \xc2\xb5";
+    const std::vector<PlotSeries> series = {
+        {hard, {{1, 5}, {2, 7}}}, {"none", {{0, 1}, {1, NAN}}}, {"alone", {{3, 3}}, true, false}};
+    for (const std::string& svg :
+         {logLogPlot({hard, hard, hard, hard}, series), logLogPlot({}, {})}) {
+        writeText(dir_ / "plot.svg", svg);
+        EXPECT_EQ(test::xmlFault(dir_ / "plot.svg"), "");
+    }
+    writeText(dir_ / "plot.svg", "<svg><a></svg>");
+    EXPECT_NE(test::xmlFault(dir_ / "plot.svg"), ""); // it is able to fail
 }
 
 TEST_F(FileTest, UnwritablePlacesAreFoundBeforeTheWork)

@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr const char* head = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>Candelabra: error against time</title>
+<html lang="en"><head><meta charset="utf-8"/><title>Candelabra: error against time</title>
 <style>
 body { font: 15px/1.5 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #202020; margin: 2em auto;
        max-width: 1200px; padding: 0 1em; }
@@ -59,7 +59,7 @@ std::string figure(const DisplayImage& image, const std::string& caption)
     std::vector<uint8_t> rgb;
     for (const glm::vec3& p : image.pixels)
         rgb.insert(rgb.end(), {byteOf(p.x), byteOf(p.y), byteOf(p.z)});
-    return fmt::format("<figure><img alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>{}"
+    return fmt::format("<figure><img alt=\"\" src=\"data:image/png;base64,{}\"/><figcaption>{}"
                        "</figcaption></figure>\n",
                        base64(encodePng("page", image.width, image.height, rgb)), escaped(caption));
 }
@@ -104,7 +104,7 @@ std::string sceneSection(const ImageScene& scene)
     for (const ImagePoint& p : scene.points) {
         const Displayed displayed = displayBoth(scene.truth, p.radiance);
         if (&p == &scene.points.front())
-            out += figure(displayed.truth, "truth: double-precision quadrature") + "<br>\n";
+            out += figure(displayed.truth, "truth: double-precision quadrature") + "<br/>\n";
         const std::string figures = fmt::format(
             "{}: {} ms, relMSE {:.1e}, lit mean {:.1e}, FLIP {:.4f}", methodName(p.method),
             threeDigits(p.time.lightingMs), p.error.relMse, p.error.litMeanRel, p.error.flip);

@@ -138,11 +138,19 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
 
 Json sceneJson(const Scene& scene, const Renderer& renderer)
 {
+    Json environment; // null: there is none
+    if (scene.environment)
+        environment = {{"file", scene.environment->file},
+                       {"rotationRadians", scene.environment->rotation},
+                       {"scale", scene.environment->scale}};
     return {{"name", scene.name},
             {"lights", scene.lights.size()},
             {"instances", scene.instances.size()},
             {"triangles", renderer.triangleCount()},
             {"textures", scene.textures.size()},
+            {"lobes", lobesName(scene.lobes)},
+            {"energyCompensation", scene.energyCompensation},
+            {"environment", environment},
             {"warnings", scene.warnings}};
 }
 

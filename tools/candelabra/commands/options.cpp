@@ -103,6 +103,11 @@ const char* gbufferName(CndGBufferLayout layout)
     return nameOf(layout, gbufferChoices);
 }
 
+const char* lobesName(CndLobeJoining lobes)
+{
+    return nameOf(lobes, lobeChoices);
+}
+
 uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,
                         uint32_t max)
 {

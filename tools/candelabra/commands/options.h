@@ -88,6 +88,7 @@ const char* specularName(CndSpecularMethod method);
 const char* cullingName(CndCulling culling);
 const char* toneMapName(CndToneMap toneMap);
 const char* gbufferName(CndGBufferLayout layout);
+const char* lobesName(CndLobeJoining lobes);
 
 // Numbers of options: a sentence that names the option, its text and the range otherwise.
 uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,

@@ -78,7 +78,8 @@ Scene loadWithoutEnvironment(const std::string& scene, const SceneOptions& optio
 SceneEnvironment loadEnvironment(const SceneOptions& options)
 {
     try {
-        return {.radiance = loadImageByExtension(options.environment),
+        return {.file = options.environment,
+                .radiance = loadImageByExtension(options.environment),
                 .rotation = options.environmentRotation,
                 .scale = options.environmentScale};
     } catch (const ImageError& error) {

@@ -106,6 +106,7 @@ struct LightMotion {
 
 // An equirectangular image around the scene: up at the top row, -z in the middle, +x to the right.
 struct SceneEnvironment {
+    std::string file;    // where it is from
     Image radiance;      // cd/m^2
     double rotation = 0; // radians about y, counter-clockwise seen from above
     double scale = 1;    // factor on the radiance

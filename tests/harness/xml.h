@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A real XML parser (Python's expat, which the structure tests need anyway) over what we write.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace candelabra::test
+{
+
+// What is wrong with the file; empty: it is well-formed. `path` without quotes.
+inline std::string xmlFault(const std::string& path)
+{
+    const std::string command = "python3 -c 'import sys, xml.dom.minidom as m\n"
+                                "m.parse(sys.argv[1])' '" +
+                                path + "' 2>&1";
+    std::FILE* pipe = popen(command.c_str(), "r");
+    if (!pipe)
+        return "python3 did not start";
+    std::string said;
+    for (int c; (c = std::fgetc(pipe)) != EOF;)
+        said += static_cast<char>(c);
+    const int status = pclose(pipe);
+    return status == 0 ? "" : path + ": " + said;
+}
+
+} // namespace candelabra::test
