@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the environment's light to every surface pixel, and shows it where there is no surface.
+// Adds the environment's light to every surface pixel, and the environment itself where there is no
+// surface: to distant lights that are seen there already, as surfaces get the light of both.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -68,8 +69,11 @@ void main()
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == params.clearDepth) {
-        if ((params.flags & ENVIRONMENT_BACKGROUND) != 0u)
-            imageStore(radianceImage, ivec2(pixel), vec4(params.scale * background(pixel), 1.0));
+        if ((params.flags & ENVIRONMENT_BACKGROUND) == 0u)
+            return;
+        const vec3 seen = params.scale * background(pixel);
+        imageStore(radianceImage, ivec2(pixel),
+                   vec4(imageLoad(radianceImage, ivec2(pixel)).rgb + seen, 1.0));
         return;
     }
     const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);

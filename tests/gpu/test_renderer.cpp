@@ -196,6 +196,33 @@ TEST_F(RendererTest, EnvironmentLightsTheSceneAndItsBackground)
                              [](const PassTime& p) { return p.name == "shade_environment"; }));
 }
 
+// A sun is seen in front of the environment, which it lights the scene together with.
+TEST_F(RendererTest, EnvironmentDoesNotCoverSuns)
+{
+    Scene scene = generateField({.lights = 10});
+    FrameOptions frame = frameOf(scene);
+    const glm::dvec3 f = frame.camera.forward, up = frame.camera.up;
+    const glm::dvec3 toSun = glm::normalize(f + 0.9 * std::tan(frame.camera.verticalFov / 2) * up);
+    CndLight sun{.type = CND_LIGHT_DISTANT_SPHERE, .radius = 0.02f, .emission = {1000, 2000, 3000}};
+    for (int i = 0; i < 3; ++i)
+        sun.direction[i] = float(-toSun[i]);
+    scene.lights.push_back(sun);
+    scene.environment = SceneEnvironment{
+        .radiance = {.width = 2, .height = 1, .channels = 1, .pixels = {100, 100}}};
+    Renderer renderer(context(), scene, {.size = {160, 90}});
+    const Image hidden = radiance(renderer, frame);
+    frame.lightsVisible = true;
+    const Image seen = radiance(renderer, frame);
+    size_t pixels = 0;
+    for (size_t i = 0; i < seen.pixels.size(); i += 3)
+        if (hidden.pixels[i] == 100 && seen.pixels[i] != 100) {
+            ++pixels;
+            for (size_t c = 0; c < 3; ++c)
+                ASSERT_EQ(seen.pixels[i + c], 100 + sun.emission[c]) << i;
+        }
+    EXPECT_GT(pixels, 5u);
+}
+
 TEST_F(RendererTest, EmittersAreBrighterThanWhatTheyLight)
 {
     const Scene scene = hall(200);

@@ -48,7 +48,9 @@ typedef struct CndEnvironmentFrame {
     VkImageView radiance; // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
     float worldFromEnvironment[9]; // rotation of the image's space, columns
     float scale;                   // >= 0, factor on the image's luminance
-    VkBool32 background; // pixels without a surface show the environment, whatever they held
+    // The environment is seen, ADDED like all luminance, in pixels without a surface: clear those
+    // to 0, or to the distant lights that are seen there.
+    VkBool32 background;
     CndLobeJoining lobes;
     // Light that bounces between microfacets is given back (Turquin 2019): without, a white metal
     // loses up to 69% of it.

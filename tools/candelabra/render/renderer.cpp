@@ -157,11 +157,13 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
 {
     if (!scene.lightMotions.empty() && frame.time != lightTime)
         setLights(frame.time);
+    const glm::vec3 background = environment.get() ? glm::vec3(0) : scene.background;
     gbuffer.record(cmd, geometry,
                    {.slot = slot,
                     .camera = makeCamera(frame.camera, aspect()),
                     .clearDepth = clearDepth,
-                    .background = {scene.background.x, scene.background.y, scene.background.z},
+                    // The environment is the background where there is one.
+                    .background = {background.x, background.y, background.z},
                     .attachments = targets.attachments(),
                     .width = options.size.width,
                     .height = options.size.height,
