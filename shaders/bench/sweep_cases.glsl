@@ -79,8 +79,9 @@ void makeSweepLight(uint slice, SweepPoint p)
         const uint which = randomBelow(4u);
         d = which == 0u ? 0.0 : which == 1u ? size * random01() : size * (1.0 + hair());
     }
-    const vec3 centre = p.position + d * at.xyz;
-    // Rounding of the position moves the light; the record holds what the shader saw.
+    // Rounding of the position moves the light; the record holds what the shader saw. Not precise,
+    // compilers take centre - position back to d * at.
+    precise const vec3 centre = p.position + d * at.xyz;
     vec3 u = randomDirection();
     if (chance(0.3))
         u = besides(-at.xyz); // faces the receiver

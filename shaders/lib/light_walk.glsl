@@ -44,8 +44,10 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
         found.above |= height >= r.aboveFrom * radius ? bit : 0u;
 #endif
 #if LIGHT_FAMILY == FAMILY_CONIC
-        const float radius2 = radius * radius;
-        found.near |= height >= radius || radius2 <= r.smallCap * d2 ? bit : 0u;
+        // Inside a sphere its cap is that of makeSphereCap; in its very centre all of this is 0.
+        const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
+        const bool whole = height * abs(height) > radius2;
+        found.near |= whole || radius2 < r.smallCap * d2 ? bit : 0u;
         if (HAS_BUDGET)
             found.asPoint |= height >= radius && radius2 < r.pointLimit * d2 ? bit : 0u;
 #endif

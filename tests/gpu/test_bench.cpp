@@ -64,8 +64,8 @@ TEST_F(Bench, SweepsAreReproducibleAndValid)
         EXPECT_EQ(count.invalid(), 0u)
             << sliceText(slice) << ": " << (count.bad.empty() ? "" : describeRecord(count.bad[0]));
     }
-    const auto a = sweep.record(gpu::SWEEP_ANYTHING, 100),
-               b = sweep.record(gpu::SWEEP_ANYTHING, 100);
+    const auto a = sweep.record(gpu::SWEEP_ANYTHING, 0, 100),
+               b = sweep.record(gpu::SWEEP_ANYTHING, 0, 100);
     double largest = 0;
     for (size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].response, b[i].response);

@@ -39,10 +39,11 @@ std::string countTable(const Stability& stability)
 
 std::string quadratureTable(const Stability& stability)
 {
-    Table table({"light, method", "samples", "mean %", "p99 %", "max %", "diffuse max"});
+    Table table({"light, method", "samples", "mean %", "p99 %", "max %", "bar %", "diffuse max"});
     for (const QuadratureCheck& q : stability.quadrature)
         table.add({nameOf(q.evaluation), grouped(q.samples), threeDigits(100 * q.mean),
                    threeDigits(100 * q.p99), threeDigits(100 * q.max),
+                   q.bar > 0 ? threeDigits(100 * q.bar) : "-",
                    fmt::format("{:.1e}", q.diffuseMax)});
     return table.text();
 }
@@ -67,6 +68,16 @@ std::string badList(const Stability& stability)
     return out.empty() ? "" : "\nInvalid responses\n" + out;
 }
 
+std::string overBarList(const Stability& stability)
+{
+    std::string out;
+    for (const QuadratureCheck& q : stability.quadrature)
+        if (q.overBar())
+            out += fmt::format("{}: {}% at {}\n", nameOf(q.evaluation), threeDigits(100 * q.max),
+                               q.worst);
+    return out.empty() ? "" : "\nOver the bar\n" + out;
+}
+
 } // namespace
 
 std::string stabilityTables(const Stability& stability)
@@ -77,7 +88,7 @@ std::string stabilityTables(const Stability& stability)
            "\nFormula against quadrature on such inputs, F = 1, relative to the response on the "
            "mirror axis\n" +
            quadratureTable(stability) + "\nContinuity\n" + continuityTable(stability) +
-           badList(stability);
+           badList(stability) + overBarList(stability);
 }
 
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability)
@@ -101,6 +112,7 @@ Json stabilityJson(const StabilitySettings& settings, const Stability& stability
                               {"meanPercent", 100 * q.mean},
                               {"p99Percent", 100 * q.p99},
                               {"maxPercent", 100 * q.max},
+                              {"barPercent", 100 * q.bar},
                               {"diffuseMax", q.diffuseMax},
                               {"worst", q.worst}});
     for (const ContinuityCheck& c : stability.continuity)

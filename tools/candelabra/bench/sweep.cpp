@@ -120,13 +120,14 @@ SweepCount Sweep::count(uint32_t slice, uint32_t first, uint64_t configurations,
     return out;
 }
 
-std::vector<gpu::SweepRecord> Sweep::record(uint32_t slice, uint32_t configurations)
+std::vector<gpu::SweepRecord> Sweep::record(uint32_t slice, uint32_t first, uint32_t configurations)
 {
     const gpu::Buffer records = makeRecords(context_.device(), configurations);
     dispatch(recording_,
              {.count = configurations,
               .slice = slice,
               .seed = seed_,
+              .firstIndex = first,
               .sampleCount = evaluation_.sampleCount,
               .errorBudget = evaluation_.errorBudget},
              records);

@@ -29,8 +29,8 @@ public:
     // `configurations` inputs of a slice, from index `first` on. `onDone` hears how many more.
     SweepCount count(uint32_t slice, uint32_t first, uint64_t configurations,
                      const std::function<void(uint64_t)>& onDone);
-    // The first `configurations` inputs with what came out, emission 1, no window.
-    std::vector<gpu::SweepRecord> record(uint32_t slice, uint32_t configurations);
+    // Inputs from index `first` on with what came out, emission 1, no window.
+    std::vector<gpu::SweepRecord> record(uint32_t slice, uint32_t first, uint32_t configurations);
 
 private:
     void dispatch(const gpu::Kernel<gpu::SweepParams>& kernel, const gpu::SweepParams& params,

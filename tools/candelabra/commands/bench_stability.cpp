@@ -17,7 +17,7 @@ namespace
 
 struct StabilityArguments {
     DeviceArguments device;
-    std::string configurations = "20000000", quadrature = "20000", sweeps = "200", seed = "1";
+    std::string configurations = "20000000", quadrature = "100000", sweeps = "200", seed = "1";
     std::string directory = "out", json;
 };
 
@@ -44,7 +44,10 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
     if (result.invalid())
         spdlog::error("candelabra: {} of {} responses are NaN, infinite or negative",
                       result.invalid(), result.tried());
-    return printValidationMessages(context) || result.invalid() ? exitFailed : exitOk;
+    if (result.overBar())
+        spdlog::error("candelabra: the closed form is farther from quadrature than its bar");
+    return printValidationMessages(context) || result.invalid() || result.overBar() ? exitFailed
+                                                                                    : exitOk;
 }
 
 } // namespace
@@ -72,10 +75,12 @@ void addBenchStability(CLI::App& bench, Run& run)
         ->capture_default_str();
     addBenchOutput(*command, a->directory, a->json, "bench_stability.json");
     a->device.addTo(*command);
-    command->footer("Exit code 1 when any response is NaN, infinite or negative.\n\n"
-                    "Examples:\n"
-                    "  candelabra bench stability\n"
-                    "  candelabra bench stability --configs 1e10 --quadrature 1000000");
+    command->footer(
+        "Exit code 1 when any response is NaN, infinite or negative, or the closed form is "
+        "farther from quadrature than its bar.\n\n"
+        "Examples:\n"
+        "  candelabra bench stability\n"
+        "  candelabra bench stability --configs 1e10 --quadrature 1000000");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return stability(program, *a); }; });
 }
