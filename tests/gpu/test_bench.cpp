@@ -4,8 +4,11 @@
 
 #include "bench/image_level.h"
 #include "bench/kernel_level.h"
+#include "bench/low_roughness.h"
 #include "bench/stability.h"
 #include "harness/gpu_fixture.h"
+#include "io/image.h"
+#include "scene/random.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -110,4 +113,75 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
             EXPECT_LE(conic.relMse, 2.5e-4);
         }
     }
+}
+
+// float32 loses the peak of a lobe this narrow in the usual way to write it: the mirrored light is
+// full of holes. That is what minimum roughnesses of 0.1 are against; the methods here have no need
+// of one.
+TEST_F(Bench, LowRoughnessBreaksTheNaiveRepresentativePointAlone)
+{
+    const auto images = measureLowRoughness(context(), 256);
+    savePng(testing::TempDir() + "low_roughness.png", uint32_t(256 * images.size()), 256,
+            lowRoughnessPicture(images));
+    ASSERT_EQ(images.size(), 3u);
+    const std::vector<float>& conic = images[2].response;
+    for (const LowRoughnessImage& image : images) {
+        size_t mirrored = 0, invalid = 0, broken = 0;
+        for (size_t i = 0; i < conic.size(); ++i) {
+            const float a = image.response[i];
+            invalid += !std::isfinite(a);
+            if (conic[i] < 0.9f) // the mirrored light without its edge
+                continue;
+            ++mirrored;
+            broken += !(a > 0.1f && a < 10);
+        }
+        std::cout << image.method << ": " << invalid << " pixels NaN or infinite; of " << mirrored
+                  << " that mirror the light " << broken
+                  << " are off by more than a factor of 10\n";
+        ASSERT_GT(mirrored, 1000u);
+        if (image.method == "naive karis") {
+            EXPECT_GT(broken, mirrored / 2);
+        } else {
+            EXPECT_EQ(invalid, 0u) << image.method;
+            EXPECT_EQ(broken, 0u) << image.method;
+        }
+    }
+}
+
+// Spheres below the horizon, by a hair and more: nothing, by every method.
+TEST_F(Bench, SpheresBelowTheHorizonGiveExactlyNothing)
+{
+    Random random(1, 7);
+    std::vector<gpu::BenchReceiver> receivers;
+    std::vector<CndLight> lights;
+    for (int i = 0; i < 30000; ++i) {
+        const double s = std::pow(10.0, double(random.uniform(-3, -0.01f)));
+        const double below = std::pow(10.0, double(random.uniform(-6, 0)));
+        const double z = -std::min(s + below, 1.0), r = std::sqrt(std::max(1 - z * z, 0.0));
+        const double azimuth = 6.283185307 * double(random.uniform());
+        const float NoV = random.uniform(0.02f, 1);
+        receivers.push_back({.n = {0, 0, 1},
+                             .v = {std::sqrt(1 - NoV * NoV), 0, NoV},
+                             .perceptualRoughness = random.uniform(0, 1)});
+        CndLight light{.radius = float(s)};
+        const glm::vec3 to(r * std::cos(azimuth), r * std::sin(azimuth), z);
+        for (int k = 0; k < 3; ++k) {
+            light.position[k] = to[k];
+            light.direction[k] = -to[k];
+        }
+        lights.push_back(light);
+    }
+    for (const CndLightType type : {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE})
+        for (const CndSpecularMethod method : methodsOf(type)) {
+            for (CndLight& light : lights)
+                light.type = type;
+            const LightEvaluator evaluator(context(), {.lightType = type, .method = method});
+            double largest = 0;
+            for (const gpu::BenchResponse& response : evaluator.evaluate(receivers, lights))
+                largest =
+                    std::max({largest, double(response.f), double(response.a), double(response.b)});
+            std::cout << lightTypeName(type) << " " << methodName(method) << ": largest " << largest
+                      << "\n";
+            EXPECT_EQ(largest, 0) << lightTypeName(type) << " " << methodName(method);
+        }
 }

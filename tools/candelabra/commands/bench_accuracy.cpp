@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "bench/low_roughness.h"
 #include "bench/page.h"
 #include "commands/bench_commands.h"
 #include "commands/measure.h"
+#include "io/image.h"
 #include "render/error.h"
 
 namespace candelabra::app
@@ -64,6 +66,8 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     const std::string html = benchOutput(a.directory, "--html", a.html, "bench_accuracy.html");
     const std::string kernelSvg = benchOutput(a.directory, "--out", "", "bench_kernels.svg");
     const std::string imageSvg = benchOutput(a.directory, "--out", "", "bench_images.svg");
+    const std::string lowRoughnessPng =
+        benchOutput(a.directory, "--out", "", "bench_low_roughness.png");
 
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("accuracy on {}", context.info().name);
@@ -78,6 +82,9 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
         budgets = measureBudgets(context, images, imageProgress);
     }
     const Json origin = provenance(context.info(), program.commandLine);
+    const auto lowRoughness = measureLowRoughness(context, 256);
+    savePng(lowRoughnessPng, uint32_t(256 * lowRoughness.size()), 256,
+            lowRoughnessPicture(lowRoughness));
     writeText(kernelSvg, kernelPlot(level, context.info()));
     writeText(imageSvg, imagePlot(scenes, context.info()));
     writeText(html, accuracyPage(origin, level, scenes, budgets, context.info()));
@@ -85,8 +92,12 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
                      {"kernels", kernelJson(kernels, level)},
                      {"images", imageJson(images, scenes, budgets)}});
     if (json != "-")
-        writeText("-", kernelTables(level) + "\n" + imageTables(scenes, budgets) +
-                           fmt::format("\nLook at {}\n", html));
+        writeText(
+            "-",
+            kernelTables(level) + "\n" + imageTables(scenes, budgets) +
+                fmt::format("\nLook at {} and {} (perceptual roughness 0.01: naive karis, karis, "
+                            "conic)\n",
+                            html, lowRoughnessPng));
     return printValidationMessages(context) ? exitFailed : exitOk;
 }
 
