@@ -115,6 +115,31 @@ Scene grazing()
     return s;
 }
 
+Scene tinyBright()
+{
+    Scene s = named("tiny bright lights on lacquer", {0, 1.5, 4.5}, {0, 0.5, 0}, 42);
+    addPlane(s, {{0.35f, 0.3f, 0.28f}, 0.3f, 0});
+    const float alphas[] = {0.03f, 0.1f, 0.3f};
+    for (int i = 0; i < 3; ++i)
+        addBall(s, {1.1 * (i - 1), 0.5, 0}, 0.5, {{0.55f, 0.08f, 0.06f}, alphas[i], 0});
+    addSphere(s, {-1.5f, 2.2f, 1.5f}, 0.004f, {2e6f, 1.9e6f, 1.7e6f});
+    addSphere(s, {1.8f, 1.2f, 2}, 0.01f, {1e5f, 1.3e5f, 1.8e5f});
+    return s;
+}
+
+Scene manyOnMetal()
+{
+    Scene s = named("a row of metal under five spheres", {0, 1.1, 5.5}, {0, 0.6, 0}, 44);
+    addPlane(s, {{0.9f, 0.85f, 0.8f}, 0.25f, 1});
+    for (int i = 0; i < 5; ++i)
+        addBall(s, {1.1 * (i - 2), 0.5, 0.2 * (i % 2)}, 0.45,
+                {{0.95f, 0.93f, 0.88f}, 0.02f + 0.12f * float(i), 1});
+    for (int i = 0; i < 5; ++i)
+        addSphere(s, {1.4f * float(i - 2), 1.9f + 0.3f * float(i % 3), 0.8f - 0.5f * float(i % 2)},
+                  0.08f + 0.1f * float(i), {60.0f + 20 * float(i), 90, 150 - 25 * float(i)});
+    return s;
+}
+
 Scene everyShape()
 {
     Scene s = named("tube, rectangle, disc and sun", {0, 2, 5}, {0, 0.5, 0}, 48);
@@ -141,7 +166,8 @@ Scene everyShape()
 
 std::vector<Scene> benchScenes()
 {
-    return {smallLights(), glossyBalls(), cutPlane(), grazing(), everyShape()};
+    return {smallLights(), glossyBalls(), cutPlane(),  grazing(),
+            tinyBright(),  manyOnMetal(), everyShape()};
 }
 
 } // namespace candelabra::app
