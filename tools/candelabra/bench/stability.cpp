@@ -44,7 +44,7 @@ constexpr uint32_t quadratureSlices[] = {gpu::SWEEP_ANYTHING, gpu::SWEEP_CONTACT
                                          gpu::SWEEP_ALIGNED, gpu::SWEEP_TANGENT,
                                          gpu::SWEEP_EXTREME_ALPHA};
 
-// The closed form's error has a bar, far above what is measured (7 and 15% of the on-axis response)
+// The closed form's error has a bar, far above what is measured (5 and 15% of the on-axis response)
 // and far below what a formula that fails somewhere gives.
 constexpr double closedFormBar = 0.3;
 
