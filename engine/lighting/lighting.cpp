@@ -66,12 +66,8 @@ uint32_t maxLights(const VkPhysicalDeviceLimits& limits)
 
 Kernels::Kernels(const gpu::Device& device, const CndLightingDesc& desc)
     : prepareLights(device, spirv::prepare_lights_comp),
-      tileBounds(device, spirv::tile_bounds_comp),
-      coarseBounds(device, spirv::coarse_bounds_comp),
-      coarseMasks(device, spirv::coarse_masks_comp,
-                  {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
-      tileLists(device, spirv::tile_lists_comp,
-                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
+      order(device),
+      clusters(device, desc.gbufferLayout),
       shade(device, desc.gbufferLayout, desc.specularMethods)
 {
 }
@@ -83,7 +79,7 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       dfg_(device_),
       ltc_(createLtcBuffer(device_))
 {
-    grow(0);
+    grow(0, {});
 }
 
 // Walking costs at most this many loop iterations per light. shade_tiles: a test, a turn of one
@@ -120,13 +116,14 @@ void Lighting::setLights(const CndLightSet& set)
         if (counts[type])
             kernels_.shade.require(type);
     freeRetired();
-    grow(set.count);
+    grow(set.count, counts);
     Staging& staging = freeStaging();
     packLights(lights, counts, staging.buffer.as<gpu::LightRecord>());
     pending_ = &staging;
     typeCounts_ = counts;
     lightCount_ = set.count;
     std::copy_n(set.origin, 3, origin_);
+    extent_ = extentOf(lights);
 }
 
 Lighting::Staging& Lighting::freeStaging()
@@ -146,15 +143,17 @@ gpu::Buffer Lighting::createStaging(uint32_t capacity) const
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryUse::Upload);
 }
 
-void Lighting::recordUpload(VkCommandBuffer cmd, uint64_t recording) noexcept
+void Lighting::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
 {
     if (!pending_)
         return;
+    pending_->recording = recording;
     if (lightCount_) {
         const VkBufferCopy copy{.size = lightCount_ * sizeof(gpu::LightRecord)};
-        device_.CmdCopyBuffer(cmd, pending_->buffer.get(), records_.get(), 1, &copy);
+        device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records_.get(), 1, &copy);
+        frame.barrier();
+        kernels_.order.record(frame, sort_, lightCount_, extent_);
     }
-    pending_->recording = recording;
     pending_ = nullptr;
 }
 
@@ -169,10 +168,13 @@ void Lighting::recordTables(const gpu::Frame& frame, bool directionalAlbedo) noe
     device_.CmdUpdateBuffer(frame.cmd, ltc_.get(), 0, table.size_bytes(), table.data());
 }
 
-void Lighting::grow(uint32_t count)
+void Lighting::grow(uint32_t count, const LightTypeCounts& counts)
 {
-    if (lightCapacity_ && count <= lightCapacity_)
+    if (lightCapacity_ && count <= lightCapacity_) {
+        for (View* view : views_)
+            view->makeRoom(counts);
         return;
+    }
     const uint32_t wanted = std::max({count, minCapacity, lightCapacity_ + lightCapacity_ / 2});
     const uint32_t previous = lightCapacity_;
     const uint32_t capacity = std::min(wanted, maxLights(device_.limits));
@@ -180,28 +182,23 @@ void Lighting::grow(uint32_t count)
     gpu::Buffer records =
         gpu::createBuffer(device_, "light records", capacity * sizeof(gpu::LightRecord), storageUse,
                           gpu::MemoryUse::Device);
+    LightOrder::State sort = kernels_.order.createState(capacity, records);
     std::deque<Staging> staging;
     staging.emplace_back(createStaging(capacity)); // what fills the new records
     try {
         lightCapacity_ = capacity;
         for (View* view : views_)
-            view->growLightBuffers();
+            view->makeRoom(counts);
     } catch (...) {
         lightCapacity_ = previous;
         throw;
     }
     replace(records_, std::move(records));
+    replace(sort_, std::move(sort));
     for (Staging& old : staging_)
-        replace(old.buffer, {});
+        replace(old.buffer, gpu::Buffer());
     staging_ = std::move(staging);
     pending_ = nullptr;
-}
-
-void Lighting::replace(gpu::Buffer& buffer, gpu::Buffer&& with)
-{
-    if (buffer.buffer)
-        retired_.push_back({std::move(buffer), recordings_});
-    buffer = std::move(with);
 }
 
 uint64_t Lighting::oldest(uint64_t (View::*ofView)() const) const

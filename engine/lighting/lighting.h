@@ -4,9 +4,12 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <vector>
 
 #include "gpu/kernel.h"
+#include "lighting/clusters.h"
+#include "lighting/light_order.h"
 #include "lighting/pack_lights.h"
 #include "lighting/shade_kernels.h"
 #include "shared/lighting.h"
@@ -23,10 +26,8 @@ uint32_t maxLights(const VkPhysicalDeviceLimits& limits);
 struct Kernels {
     Kernels(const gpu::Device& device, const CndLightingDesc& desc);
     gpu::Kernel<gpu::PrepareLightsParams> prepareLights;
-    gpu::Kernel<gpu::TileBoundsParams> tileBounds;
-    gpu::Kernel<gpu::CoarseBoundsParams> coarseBounds;
-    gpu::Kernel<gpu::CoarseMasksParams> coarseMasks;
-    gpu::Kernel<gpu::TileListsParams> tileLists;
+    LightOrder order;
+    ClusterKernels clusters;
     ShadeKernels shade;
 };
 
@@ -37,16 +38,22 @@ public:
 
     // Validates, packs into the staging slot of the next recording, grows buffers when needed.
     void setLights(const CndLightSet& set);
-    // Copies a changed light set to the device; barriers before and after are the caller's.
-    void recordUpload(VkCommandBuffer cmd, uint64_t recording) noexcept;
+    // Copies a changed light set to the device and sorts it; barriers before and after are the
+    // caller's.
+    void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
     // Fills, once each, the tables that shading reads; directional albedos only on demand.
     void recordTables(const gpu::Frame& frame, bool directionalAlbedo) noexcept;
 
     // Views register to have their light-sized buffers grown with the set.
     void add(View* view) { views_.push_back(view); }
     void remove(View* view) { std::erase(views_, view); }
-    // Replaces a buffer; the old one stays alive until no frame in flight can use it.
-    void replace(gpu::Buffer& buffer, gpu::Buffer&& with);
+    // Replaces buffers or sets; the old ones stay alive until no frame in flight can use them.
+    template <typename T>
+    void replace(T& old, T&& with)
+    {
+        retired_.push_back({std::make_shared<T>(std::move(old)), recordings_});
+        old = std::move(with);
+    }
     // Numbers recordings of all views from 1.
     uint64_t nextRecording() noexcept { return ++recordings_; }
 
@@ -54,10 +61,12 @@ public:
     const CndLightingDesc& desc() const { return desc_; }
     const Kernels& kernels() const { return kernels_; }
     const gpu::Buffer& records() const { return records_; }
+    const gpu::Buffer& lightOrder() const { return sort_.keys[0]; }
     const gpu::Buffer& directionalAlbedo() const { return dfg_.buffer(); }
     const gpu::Buffer& transformedCosines() const { return ltc_; }
     uint32_t lightCount() const { return lightCount_; }
     uint32_t lightCapacity() const { return lightCapacity_; }
+    const LightExtent& extent() const { return extent_; }
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
     const double* origin() const { return origin_; }
     // Lights that are culled and shaded together, at most: all of a type, unless the device limits
@@ -66,10 +75,10 @@ public:
 
 private:
     struct Retired {
-        gpu::Buffer buffer;
+        std::shared_ptr<void> object;
         uint64_t recording; // number of the last recording that may use it
     };
-    void grow(uint32_t count);
+    void grow(uint32_t count, const LightTypeCounts& counts);
     gpu::Buffer createStaging(uint32_t capacity) const;
     void freeRetired();
     // Over all views; recordings_ + 1 when there is none.
@@ -84,6 +93,8 @@ private:
     std::vector<View*> views_;
     std::vector<Retired> retired_;
     gpu::Buffer records_; // device copy of the packed lights
+    LightOrder::State sort_;
+    LightExtent extent_;
     struct Staging {
         gpu::Buffer buffer;
         uint64_t recording = 0; // number of the recording that copies from it, 0: none yet
@@ -109,8 +120,8 @@ public:
     // Throws gpu::Failure on arguments out of range; once recording starts nothing can fail.
     void record(VkCommandBuffer cmd, const CndLightingFrame& frame);
     CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
-    // Called by Lighting when the light capacity grows.
-    void growLightBuffers();
+    // Called by Lighting before a set of lights: buffers grow, old ones are retired.
+    void makeRoom(const LightTypeCounts& types);
     // Number of the oldest recording whose commands have not all run, 0 when all have: what they
     // read may be overwritten.
     uint64_t oldestRunning() const;
@@ -120,24 +131,25 @@ public:
 
 private:
     struct Plan; // sizes derived from a frame
-    VkDeviceSize maxCoarseTiles() const;
-    VkDeviceSize maskRowBytes(uint32_t lights) const;
     Plan plan(const CndLightingFrame& frame) const;
     void validate(const CndLightingFrame& frame) const;
     void writeBindings(const CndLightingFrame& frame) const;
-    struct Batch { // consecutive lights of one type
-        uint32_t type, first, count;
-    };
     void recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept;
-    void recordBounds(const gpu::Frame& f, const Plan& plan) const noexcept;
-    void recordLists(const gpu::Frame& f, const Plan& plan, Batch batch) const noexcept;
-    void recordShading(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& plan,
-                       Batch batch) const noexcept;
+    void recordClusters(const gpu::Frame& f, const Plan& plan) const noexcept;
+    void recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& plan,
+                         uint32_t type) const noexcept;
+    gpu::ShadeParams shadeParams(const CndLightingFrame& frame, const Plan& plan,
+                                 uint32_t type) const noexcept;
+    template <typename Record>
+    void inBatches(const CndLightingFrame& frame, const Plan& plan, uint32_t type,
+                   Record&& record) const noexcept;
+    void recordBrute(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& plan,
+                     uint32_t type) const noexcept;
     void recordReadback(const gpu::Frame& f) const noexcept;
 
+    // Per slot; those of clustered shading per slot and light type.
     struct Sets {
-        gpu::Bindings prepareLights, tileBounds, coarseBounds, coarseMasks, tileLists, countPairs,
-            shadeTiles, shadeBrute;
+        gpu::Bindings prepareLights, shadeTiles, shadeUnlisted, shadeBrute, countPairs;
     };
     struct SlotState {
         uint64_t recording = 0; // 0: never used
@@ -148,9 +160,9 @@ private:
     CndLightingViewDesc desc_;
     gpu::Timer timer_;
     Sets sets_;
+    Clusters clusters_;
     gpu::Buffer core_, aux_; // per light
-    gpu::Buffer masks_;      // per coarse tile and light
-    gpu::Buffer tileBounds_, coarseBounds_, lists_, entries_, counters_;
+    gpu::Buffer counters_;
     std::vector<gpu::Buffer> readback_; // per slot
     std::vector<SlotState> slots_;
 };

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gpu/failure.h"
+#include "lighting/shade_kernels.h"
 
 namespace candelabra::lighting
 {
@@ -48,11 +49,6 @@ bool isNear(const float (&v)[3])
 bool isOneOf(uint32_t type, std::initializer_list<CndLightType> types)
 {
     return std::find(types.begin(), types.end(), CndLightType(type)) != types.end();
-}
-
-bool isDistant(uint32_t type)
-{
-    return isOneOf(type, {CND_LIGHT_DIRECTIONAL, CND_LIGHT_DISTANT_SPHERE});
 }
 
 // From the centre to the farthest point of the emitter.

@@ -50,6 +50,11 @@ void ShadeKernels::require(uint32_t lightType)
         types_[lightType] = make(lightType);
 }
 
+bool isDistant(uint32_t lightType)
+{
+    return lightType == CND_LIGHT_DIRECTIONAL || lightType == CND_LIGHT_DISTANT_SPHERE;
+}
+
 bool isSphere(uint32_t lightType)
 {
     return lightType == CND_LIGHT_SPHERE || lightType == CND_LIGHT_DISTANT_SPHERE;
@@ -66,7 +71,9 @@ namespace
 
 struct Family {
     const gpu::Spirv* tiles;
+    const gpu::Spirv* unlisted;
     const gpu::Spirv* brute;
+    const gpu::Spirv* countPairs;
 };
 
 // shaders/lib/light_families.glsl.
@@ -75,18 +82,24 @@ Family familyOf(uint32_t lightType, CndSpecularMethod method)
     using namespace spirv;
     switch (lightType) {
     case CND_LIGHT_TUBE:
-        return {&shade_tiles_comp_tube, &shade_brute_comp_tube};
+        return {&shade_tiles_comp_tube, &shade_unlisted_comp_tube, &shade_brute_comp_tube,
+                &count_pairs_comp_tube};
     case CND_LIGHT_RECTANGLE:
-        return {&shade_tiles_comp_rectangle, &shade_brute_comp_rectangle};
+        return {&shade_tiles_comp_rectangle, &shade_unlisted_comp_rectangle,
+                &shade_brute_comp_rectangle, &count_pairs_comp_rectangle};
     case CND_LIGHT_DISC:
-        return {&shade_tiles_comp_disc, &shade_brute_comp_disc};
+        return {&shade_tiles_comp_disc, &shade_unlisted_comp_disc, &shade_brute_comp_disc,
+                &count_pairs_comp_disc};
     case CND_LIGHT_SPHERE:
     case CND_LIGHT_DISTANT_SPHERE:
         if (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL)
-            return {&shade_tiles_comp_conic, &shade_brute_comp_conic};
-        return {&shade_tiles_comp_sphere, &shade_brute_comp_sphere};
+            return {&shade_tiles_comp_conic, &shade_unlisted_comp_conic, &shade_brute_comp_conic,
+                    &count_pairs_comp_conic};
+        return {&shade_tiles_comp_sphere, &shade_unlisted_comp_sphere, &shade_brute_comp_sphere,
+                &count_pairs_comp_sphere};
     default:
-        return {&shade_tiles_comp_punctual, &shade_brute_comp_punctual};
+        return {&shade_tiles_comp_punctual, &shade_unlisted_comp_punctual,
+                &shade_brute_comp_punctual, &count_pairs_comp_punctual};
     }
 }
 
@@ -104,7 +117,10 @@ ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, uint32_t met
                        {gpu::SPEC_ERROR_BUDGET, withBudget}});
     };
     const Family family = familyOf(lightType, CndSpecularMethod(method));
-    return {.tiles = kernel(*family.tiles), .brute = kernel(*family.brute)};
+    return {.tiles = kernel(*family.tiles),
+            .unlisted = kernel(*family.unlisted),
+            .brute = kernel(*family.brute),
+            .countPairs = kernel(*family.countPairs)};
 }
 
 ShadeKernels::OfType ShadeKernels::make(uint32_t lightType) const
@@ -121,10 +137,6 @@ ShadeKernels::OfType ShadeKernels::make(uint32_t lightType) const
         if (takesBudget(lightType, CndSpecularMethod(method)))
             out.variants[method][1] = makeVariant(lightType, method, true);
     }
-    out.countPairs = Kernel(*device_, spirv::count_pairs_comp,
-                            {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
-                             {gpu::SPEC_LIGHT_TYPE, lightType},
-                             {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout_)}});
     out.made = true;
     return out;
 }

@@ -16,6 +16,8 @@ uint32_t lightsAsTexels(const gpu::Device& device);
 // The method that stands for `method` where the light type has fewer: punctual lights have one,
 // tubes, rectangles and discs a representative point, cosines and samples.
 CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method);
+// Distant lights have no place: no tree and no lists, they reach everything.
+bool isDistant(uint32_t lightType);
 bool isSphere(uint32_t lightType);
 // Whether an error budget changes the evaluation: the closed form of spheres has cheaper bounds.
 bool takesBudget(uint32_t lightType, CndSpecularMethod method);
@@ -33,10 +35,9 @@ public:
 
     bool allows(CndSpecularMethod method) const { return methods_ >> method & 1; }
     struct Variant {
-        Kernel tiles, brute;
+        Kernel tiles, unlisted, brute, countPairs;
     };
     const Variant& variant(uint32_t type, CndSpecularMethod method, bool withBudget) const;
-    const Kernel& countPairs(uint32_t type) const { return types_[type].countPairs; }
     // One of them: binding layouts are the same for all.
     const Variant& anyVariant() const;
 
@@ -44,7 +45,6 @@ private:
     struct OfType {
         bool made = false;
         Variant variants[CND_SPECULAR_METHOD_COUNT][2]; // [1]: with an error budget
-        Kernel countPairs;
     };
     OfType make(uint32_t lightType) const;
     Variant makeVariant(uint32_t lightType, uint32_t method, bool withBudget) const;

@@ -17,14 +17,15 @@ namespace
 using gpu::divideUp;
 
 constexpr VkDeviceSize defaultListBudget = 64u << 20;
-// Bytes of coarse masks; when light count and resolution need more, coarse tiles get larger.
-constexpr VkDeviceSize maskBudget = 64u << 20;
+// Tiles longer than so many radii of influence are split; shorter ones gain less than the clusters
+// cost (measured: DECISIONS.md).
+constexpr float splitLength = 2;
 constexpr uint32_t maxGroupsPerDimension = 65535; // Vulkan's guaranteed maxComputeWorkGroupCount
 constexpr uint32_t maxSide = 16384;               // pixels, of a view
 constexpr uint32_t defaultSampleCount = 64;
 constexpr uint32_t maxSampleCount = 4096;
 static_assert(maxSide / gpu::TILE_SIZE * (maxSide / gpu::TILE_SIZE) <=
-              maxGroupsPerDimension * gpu::TILE_BOUNDS_GROUP);
+              maxGroupsPerDimension * gpu::TILE_CLUSTERS_GROUP);
 
 constexpr VkBufferUsageFlags storageUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
@@ -85,9 +86,10 @@ struct View::Plan {
     glm::vec2 invImageSize; // one value for all kernels: GPU divisions may differ in the last bit
     float clearDepth;
     uint32_t lightCount;
+    TreeShapes trees;
     uint32_t tileCountX, tileCountY;
-    uint32_t factor, coarseCountX, coarseCount;
     uint32_t sampleCount;
+    float splitLength; // gpu::TileClustersParams
     gpu::PrepareLightsParams prepare;
 };
 
@@ -96,30 +98,23 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
       desc_(checked(lighting.device(), desc)),
       timer_(lighting.device(), "lighting", lighting.desc().framesInFlight,
              lighting.desc().timestamps),
+      clusters_(lighting, {tiles(desc_.maxWidth), tiles(desc_.maxHeight)}, desc_.listBudget),
       slots_(lighting.desc().framesInFlight)
 {
     const gpu::Device& device = lighting.device();
     const uint32_t slots = lighting.desc().framesInFlight;
+    const uint32_t perType = slots * CND_LIGHT_TYPE_COUNT;
     const Kernels& k = lighting.kernels();
+    const ShadeKernels::Variant& shade = k.shade.anyVariant();
     sets_ = {.prepareLights = k.prepareLights.createBindings(slots),
-             .tileBounds = k.tileBounds.createBindings(slots),
-             .coarseBounds = k.coarseBounds.createBindings(slots),
-             .coarseMasks = k.coarseMasks.createBindings(slots),
-             .tileLists = k.tileLists.createBindings(slots),
-             .countPairs = k.shade.countPairs(CND_LIGHT_SPHERE).createBindings(slots),
-             .shadeTiles = k.shade.anyVariant().tiles.createBindings(slots),
-             .shadeBrute = k.shade.anyVariant().brute.createBindings(slots)};
-    const VkDeviceSize tileCount = VkDeviceSize(tiles(desc_.maxWidth)) * tiles(desc_.maxHeight);
-    const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
-        return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Device);
-    };
-    tileBounds_ = make("tile bounds", tileCount * sizeof(gpu::TileBounds), storageUse);
-    coarseBounds_ = make("coarse bounds", maxCoarseTiles() * sizeof(gpu::TileBounds), storageUse);
-    lists_ = make("tile lists", tileCount * sizeof(gpu::TileList), storageUse);
-    entries_ = make("list entries", desc_.listBudget, storageUse);
-    counters_ =
-        make("lighting counters", sizeof(gpu::LightingCounters),
-             storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+             .shadeTiles = shade.tiles.createBindings(perType),
+             .shadeUnlisted = shade.unlisted.createBindings(perType),
+             .shadeBrute = shade.brute.createBindings(slots),
+             .countPairs = shade.countPairs.createBindings(perType)};
+    counters_ = gpu::createBuffer(device, "lighting counters", sizeof(gpu::LightingCounters),
+                                  storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                  gpu::MemoryUse::Device);
     for (uint32_t i = 0; i < slots; ++i) {
         readback_.push_back(gpu::createBuffer(device, "lighting statistics", sizeof(Readback),
                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -127,44 +122,27 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
         // Reused memory may hold the marker of an earlier view's recording.
         readback_.back().as<Readback>()[0].marker = 0;
     }
-    growLightBuffers();
+    makeRoom(lighting.typeCounts());
     lighting.add(this);
 }
 
-// Coarse tiles of the largest frame when they are as small as they get.
-VkDeviceSize View::maxCoarseTiles() const
-{
-    return VkDeviceSize(divideUp(tiles(desc_.maxWidth), gpu::COARSE_FACTOR_MIN)) *
-           divideUp(tiles(desc_.maxHeight), gpu::COARSE_FACTOR_MIN);
-}
-
-// Mask words of one coarse tile and one batch of at most `lights`.
-VkDeviceSize View::maskRowBytes(uint32_t lights) const
-{
-    const uint32_t batch = std::min(lights, lighting_.lightsPerBatch(0));
-    return VkDeviceSize(divideUp(batch, gpu::MASK_BITS)) * sizeof(uint32_t);
-}
-
-void View::growLightBuffers()
+void View::makeRoom(const LightTypeCounts& types)
 {
     const gpu::Device& device = lighting_.device();
     const VkDeviceSize lights = lighting_.lightCapacity();
-    gpu::Buffer core = gpu::createBuffer(
-        device, "light core", lights * gpu::LIGHT_CORE_STRIDE * sizeof(glm::vec4),
-        storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, gpu::MemoryUse::Device);
+    clusters_.grow(uint32_t(lights), types);
+    const VkDeviceSize coreBytes = lights * gpu::LIGHT_CORE_STRIDE * sizeof(glm::vec4);
+    if (coreBytes <= core_.size)
+        return;
+    gpu::Buffer core = gpu::createBuffer(device, "light core", coreBytes,
+                                         storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                                         gpu::MemoryUse::Device);
     gpu::createTexelView(device, core);
     gpu::Buffer aux =
         gpu::createBuffer(device, "light aux", lights * gpu::LIGHT_AUX_STRIDE * sizeof(glm::vec4),
                           storageUse, gpu::MemoryUse::Device);
-    const VkDeviceSize rowBytes = maskRowBytes(uint32_t(lights));
-    const VkDeviceSize budget =
-        std::min<VkDeviceSize>(maskBudget, device.limits.maxStorageBufferRange);
-    gpu::Buffer masks = gpu::createBuffer(
-        device, "coarse masks", std::max(rowBytes, std::min(rowBytes * maxCoarseTiles(), budget)),
-        storageUse, gpu::MemoryUse::Device);
     lighting_.replace(core_, std::move(core));
     lighting_.replace(aux_, std::move(aux));
-    lighting_.replace(masks_, std::move(masks));
 }
 
 void View::validate(const CndLightingFrame& frame) const
@@ -220,18 +198,11 @@ View::Plan View::plan(const CndLightingFrame& frame) const
            .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
            .clearDepth = frame.clearDepth,
            .lightCount = lighting_.lightCount(),
+           .trees = treeShapes(lighting_.typeCounts()),
            .tileCountX = tiles(frame.width),
            .tileCountY = tiles(frame.height),
-           .factor = gpu::COARSE_FACTOR_MIN,
-           .sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount};
-    const VkDeviceSize rowBytes = maskRowBytes(p.lightCount);
-    for (;; p.factor *= 2) {
-        p.coarseCountX = divideUp(p.tileCountX, p.factor);
-        p.coarseCount = p.coarseCountX * divideUp(p.tileCountY, p.factor);
-        if (p.coarseCount == 1 ||
-            (p.coarseCount * rowBytes <= masks_.size && p.coarseCount <= maxGroupsPerDimension))
-            break;
-    }
+           .sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount,
+           .splitLength = splitLength * lighting_.extent().influenceRadius};
     glm::dmat4 viewFromWorld;
     std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
     const double* o = lighting_.origin();
@@ -254,30 +225,26 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     timer_.begin(cmd, slot);
 
     f.barrier(); // against the frame before, which uses the same buffers
-    lighting_.recordUpload(cmd, slots_[slot].recording);
+    lighting_.recordUpload(f, slots_[slot].recording);
     f.device.CmdFillBuffer(cmd, counters_.get(), 0, VK_WHOLE_SIZE, 0);
-    f.barrier();
     if (plan.lightCount) {
+        const bool clustered = frame.culling == CND_CULLING_CLUSTERED;
         lighting_.recordTables(f, readsDirectionalAlbedo(frame));
         recordPrepare(f, plan);
-        if (frame.culling == CND_CULLING_CLUSTERED)
-            recordBounds(f, plan);
+        if (clustered)
+            clusters_.recordReset(f, lighting_.typeCounts());
         f.barrier();
-        uint32_t first = 0;
-        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
-            const uint32_t end = first + lighting_.typeCounts()[type];
-            while (first < end) {
-                const uint32_t largest = lighting_.lightsPerBatch(
-                    loopIterations(type, frame.specularMethod, plan.sampleCount));
-                const Batch batch{type, first, std::min(largest, end - first)};
-                if (frame.culling == CND_CULLING_CLUSTERED)
-                    recordLists(f, plan, batch);
-                recordShading(f, frame, plan, batch);
-                f.barrier();
-                first += batch.count;
+        if (clustered)
+            recordClusters(f, plan);
+        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+            if (lighting_.typeCounts()[type]) {
+                if (clustered)
+                    recordClustered(f, frame, plan, type);
+                else
+                    recordBrute(f, frame, plan, type);
             }
-        }
     }
+    f.barrier();
     recordReadback(f);
     f.device.endLabel(cmd);
 }
@@ -289,72 +256,60 @@ void View::recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept
         divideUp(plan.lightCount, gpu::PREPARE_LIGHTS_GROUP));
 }
 
-void View::recordBounds(const gpu::Frame& f, const Plan& p) const noexcept
+void View::recordClusters(const gpu::Frame& f, const Plan& p) const noexcept
 {
-    const Kernels& k = lighting_.kernels();
-    const uint32_t tileCount = p.tileCountX * p.tileCountY;
-    k.tileBounds.dispatch(f, sets_.tileBounds.set(f.slot),
-                          {.projection = p.projection,
-                           .size = p.size,
-                           .tileCountX = p.tileCountX,
-                           .tileCount = tileCount,
-                           .clearDepth = p.clearDepth,
-                           .invImageSize = p.invImageSize},
-                          divideUp(tileCount, gpu::TILE_BOUNDS_GROUP));
-    f.barrier();
-    k.coarseBounds.dispatch(f, sets_.coarseBounds.set(f.slot),
-                            {.tileCountX = p.tileCountX,
-                             .tileCountY = p.tileCountY,
-                             .coarseCountX = p.coarseCountX,
-                             .coarseCount = p.coarseCount,
-                             .factor = p.factor},
-                            divideUp(p.coarseCount, gpu::COARSE_BOUNDS_GROUP));
+    clusters_.recordClusters(f, {.projection = p.projection,
+                                 .size = p.size,
+                                 .tileCountX = p.tileCountX,
+                                 .tileCount = p.tileCountX * p.tileCountY,
+                                 .clearDepth = p.clearDepth,
+                                 .invImageSize = p.invImageSize,
+                                 .splitLength = p.splitLength});
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (!isDistant(type))
+            clusters_.recordTree(f, p.trees[type]);
 }
 
-void View::recordLists(const gpu::Frame& f, const Plan& p, Batch batch) const noexcept
+gpu::ShadeParams View::shadeParams(const CndLightingFrame& frame, const Plan& p,
+                                   uint32_t type) const noexcept
 {
-    const Kernels& k = lighting_.kernels();
-    const uint32_t wordCount = divideUp(batch.count, gpu::MASK_BITS);
-    if (batch.first) // the whole of the counters was cleared before the first
-        f.device.CmdFillBuffer(f.cmd, counters_.get(), offsetof(gpu::LightingCounters, listCursor),
-                               sizeof(uint32_t), 0);
-    k.coarseMasks.dispatch(f, sets_.coarseMasks.set(f.slot), {batch.first, batch.count, wordCount},
-                           divideUp(wordCount, gpu::COARSE_MASKS_GROUP), p.coarseCount);
-    f.barrier();
-    k.tileLists.dispatch(f, sets_.tileLists.set(f.slot),
-                         {.tileCountX = p.tileCountX,
-                          .tileCountY = p.tileCountY,
-                          .coarseCountX = p.coarseCountX,
-                          .factor = p.factor,
-                          .wordCount = wordCount,
-                          .firstLight = batch.first,
-                          .lightCount = batch.count,
-                          .capacity = uint32_t(entries_.size / sizeof(uint32_t))},
-                         divideUp(p.tileCountX, gpu::TILE_LISTS_GROUP_X),
-                         divideUp(p.tileCountY, gpu::TILE_LISTS_GROUP_Y));
-    f.barrier();
+    return {.projection = p.projection,
+            .size = p.size,
+            .origin = {0, 0},
+            .firstLight = p.trees[type].firstLight,
+            .lightCount = p.trees[type].lightCount,
+            .tileCountX = p.tileCountX,
+            .clearDepth = p.clearDepth,
+            .invImageSize = p.invImageSize,
+            .sampleCount = p.sampleCount,
+            .sampleSeed = frame.sampleSeed,
+            .errorBudget = frame.errorBudget,
+            .lobes = uint32_t(frame.lobes),
+            .energyCompensation = frame.energyCompensation != VK_FALSE,
+            .tree = p.trees[type]};
 }
 
-void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
-                         Batch batch) const noexcept
+// Calls `record` for consecutive lights of a type, as many as a loop of the device may take.
+template <typename Record>
+void View::inBatches(const CndLightingFrame& frame, const Plan& p, uint32_t type,
+                     Record&& record) const noexcept
 {
-    const ShadeKernels& shade = lighting_.kernels().shade;
-    gpu::ShadeParams params{.projection = p.projection,
-                            .size = p.size,
-                            .origin = {0, 0},
-                            .firstLight = batch.first,
-                            .lightCount = batch.count,
-                            .tileCountX = p.tileCountX,
-                            .clearDepth = p.clearDepth,
-                            .invImageSize = p.invImageSize,
-                            .sampleCount = p.sampleCount,
-                            .sampleSeed = frame.sampleSeed,
-                            .errorBudget = frame.errorBudget,
-                            .lobes = uint32_t(frame.lobes),
-                            .energyCompensation = frame.energyCompensation != VK_FALSE};
+    gpu::ShadeParams params = shadeParams(frame, p, type);
+    const uint32_t end = params.firstLight + params.lightCount;
+    const uint32_t largest =
+        lighting_.lightsPerBatch(loopIterations(type, frame.specularMethod, p.sampleCount));
+    for (; params.firstLight < end; params.firstLight += params.lightCount) {
+        params.lightCount = std::min(largest, end - params.firstLight);
+        record(params);
+    }
+}
+
+void View::recordBrute(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
+                       uint32_t type) const noexcept
+{
     const ShadeKernels::Variant& kernels =
-        shade.variant(batch.type, frame.specularMethod, frame.errorBudget > 0);
-    if (frame.culling == CND_CULLING_BRUTE) {
+        lighting_.kernels().shade.variant(type, frame.specularMethod, frame.errorBudget > 0);
+    inBatches(frame, p, type, [&](gpu::ShadeParams params) {
         const VkRect2D& r = frame.bruteRect;
         if (r.extent.width && r.extent.height) {
             params.origin = {r.offset.x, r.offset.y};
@@ -363,12 +318,43 @@ void View::recordShading(const gpu::Frame& f, const CndLightingFrame& frame, con
         const glm::uvec2 pixels = params.size - params.origin;
         kernels.brute.dispatch(f, sets_.shadeBrute.set(f.slot), params, tiles(pixels.x),
                                tiles(pixels.y));
-        return;
+        f.barrier();
+    });
+}
+
+void View::recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
+                           uint32_t type) const noexcept
+{
+    const ShadeKernels::Variant& kernels =
+        lighting_.kernels().shade.variant(type, frame.specularMethod, frame.errorBudget > 0);
+    const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
+    const Clusters::Lists& lists = clusters_.lists(type);
+    const auto shadeLists = [&](const gpu::ShadeParams& params) {
+        kernels.tiles.dispatchIndirect(f, sets_.shadeTiles.set(set), params, clusters_.surfaces());
+        f.barrier();
+    };
+    if (isDistant(type)) { // they reach everything: no lists
+        inBatches(frame, p, type, shadeLists);
+    } else {
+        const uint32_t iterations = loopIterations(type, frame.specularMethod, p.sampleCount);
+        const bool limited = lighting_.device().maxLoopIterations != UINT32_MAX;
+        const uint32_t perBatch = lighting_.lightsPerBatch(iterations);
+        // The other half is for shade_unlisted, which also looks for the lights.
+        clusters_.recordLists(f, type, p.trees[type], {p.tileCountX, p.tileCountY},
+                              limited ? perBatch / 2 : perBatch);
+        f.barrier();
+        shadeLists(shadeParams(frame, p, type));
+        inBatches(frame, p, type, [&](const gpu::ShadeParams& params) {
+            kernels.unlisted.dispatchIndirect(f, sets_.shadeUnlisted.set(set), params,
+                                              lists.unlisted);
+            f.barrier();
+        });
     }
-    kernels.tiles.dispatch(f, sets_.shadeTiles.set(f.slot), params, p.tileCountX, p.tileCountY);
-    if (frame.countPairs)
-        shade.countPairs(batch.type)
-            .dispatch(f, sets_.countPairs.set(f.slot), params, p.tileCountX, p.tileCountY);
+    if (frame.countPairs) {
+        kernels.countPairs.dispatchIndirect(f, sets_.countPairs.set(set),
+                                            shadeParams(frame, p, type), clusters_.surfaces());
+        f.barrier();
+    }
 }
 
 void View::recordReadback(const gpu::Frame& f) const noexcept
@@ -414,12 +400,14 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     const gpu::LightingCounters& c = read.counters;
     out.lightCount = slots_[slot].lightCount;
     out.tileCount = c.surfaceTiles;
+    out.clusterCount = c.clusters;
     out.listEntries = c.listEntries;
     out.maxListLength = c.maxListLength;
-    out.unlistedTiles = c.unlistedTiles;
+    out.unlistedClusters = c.unlistedClusters;
     out.listedPairs = join(c.listedPairs);
-    out.insidePairs = join(c.insidePairs);
     out.evaluatedPairs = join(c.evaluatedPairs);
+    out.insidePairs = join(c.insidePairs);
+    out.contributingPairs = join(c.contributingPairs);
     return timer_.read(slot, out.kernelTimes, out.kernelTimeCount) ? CND_SUCCESS : CND_NOT_READY;
 }
 

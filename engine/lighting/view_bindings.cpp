@@ -12,7 +12,8 @@ void View::writeBindings(const CndLightingFrame& frame) const
     const VkImageView specular = frame.specular ? frame.specular : frame.albedo;
     sets_.prepareLights.write(slot, {Binding::of(PREPARE_LIGHTS_RECORDS, lighting_.records()),
                                      Binding::of(PREPARE_LIGHTS_CORE, core_),
-                                     Binding::of(PREPARE_LIGHTS_AUX, aux_)});
+                                     Binding::of(PREPARE_LIGHTS_AUX, aux_),
+                                     Binding::of(PREPARE_LIGHTS_ORDER, lighting_.lightOrder())});
     if (frame.culling == CND_CULLING_BRUTE) {
         sets_.shadeBrute.write(slot,
                                {Binding::ofTexels(SHADE_CORE, core_),
@@ -26,41 +27,43 @@ void View::writeBindings(const CndLightingFrame& frame) const
                                 Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines())});
         return;
     }
-    sets_.tileBounds.write(slot, {Binding::sampled(TILE_BOUNDS_DEPTH, frame.depth),
-                                  Binding::of(TILE_BOUNDS_BOUNDS, tileBounds_),
-                                  Binding::of(TILE_BOUNDS_COUNTERS, counters_)});
-    sets_.coarseBounds.write(slot, {Binding::of(COARSE_BOUNDS_TILES, tileBounds_),
-                                    Binding::of(COARSE_BOUNDS_COARSE, coarseBounds_)});
-    sets_.coarseMasks.write(slot, {Binding::ofTexels(COARSE_MASKS_CORE, core_),
-                                   Binding::of(COARSE_MASKS_CORE_WORDS, core_),
-                                   Binding::of(COARSE_MASKS_BOUNDS, coarseBounds_),
-                                   Binding::of(COARSE_MASKS_MASKS, masks_)});
-    sets_.tileLists.write(
-        slot, {Binding::ofTexels(TILE_LISTS_CORE, core_), Binding::of(TILE_LISTS_CORE_WORDS, core_),
-               Binding::of(TILE_LISTS_BOUNDS, tileBounds_), Binding::of(TILE_LISTS_MASKS, masks_),
-               Binding::of(TILE_LISTS_LISTS, lists_), Binding::of(TILE_LISTS_ENTRIES, entries_),
-               Binding::of(TILE_LISTS_COUNTERS, counters_)});
-    const auto writeShade = [&](const Bindings& set) {
-        set.write(slot, {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
-                         Binding::of(SHADE_AUX, aux_),
-                         Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
-                         Binding::sampled(SHADE_ALBEDO, frame.albedo),
-                         Binding::sampled(SHADE_SPECULAR, specular),
-                         Binding::sampled(SHADE_DEPTH, frame.depth),
-                         Binding::storage(SHADE_RADIANCE, frame.radiance),
-                         Binding::of(SHADE_LISTS, lists_), Binding::of(SHADE_ENTRIES, entries_),
-                         Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo()),
-                         Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines())});
-    };
-    writeShade(sets_.shadeTiles);
-    sets_.countPairs.write(
-        slot,
-        {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
-         Binding::of(SHADE_AUX, aux_),
-         Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
-         Binding::sampled(SHADE_ALBEDO, frame.albedo), Binding::sampled(SHADE_SPECULAR, specular),
-         Binding::sampled(SHADE_DEPTH, frame.depth), Binding::of(SHADE_LISTS, lists_),
-         Binding::of(SHADE_ENTRIES, entries_), Binding::of(SHADE_COUNTERS, counters_)});
+    const LightTypeCounts& types = lighting_.typeCounts();
+    clusters_.writeBindings(slot, types,
+                            {.depth = frame.depth,
+                             .normalRoughness = frame.normalRoughness,
+                             .core = core_,
+                             .counters = counters_});
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        if (!types[type])
+            continue;
+        const uint32_t set = slot * CND_LIGHT_TYPE_COUNT + type;
+        const Clusters::Lists& lists = clusters_.lists(type);
+        const Binding core = Binding::ofTexels(SHADE_CORE, core_);
+        const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
+        const Binding aux = Binding::of(SHADE_AUX, aux_);
+        const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness);
+        const Binding albedo = Binding::sampled(SHADE_ALBEDO, frame.albedo);
+        const Binding f0 = Binding::sampled(SHADE_SPECULAR, specular);
+        const Binding depth = Binding::sampled(SHADE_DEPTH, frame.depth);
+        const Binding radiance = Binding::storage(SHADE_RADIANCE, frame.radiance);
+        const Binding dfg = Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo());
+        const Binding ltc = Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines());
+        const Binding tiles = Binding::of(SHADE_TILES, clusters_.tiles());
+        const Binding heads = Binding::of(SHADE_LISTS, lists.heads);
+        const Binding entries = Binding::of(SHADE_ENTRIES, clusters_.entries());
+        const Binding surfaces = Binding::of(SHADE_WORK, clusters_.surfaces());
+        const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
+        sets_.shadeTiles.write(set, {core, coreWords, aux, normals, albedo, f0, depth, radiance,
+                                     dfg, ltc, tiles, heads, entries, surfaces});
+        sets_.shadeUnlisted.write(set, {core, coreWords, aux, normals, albedo, f0, depth, radiance,
+                                        dfg, ltc, tiles, heads, unlisted,
+                                        Binding::of(SHADE_CLUSTERS, clusters_.clusters()),
+                                        Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
+                                        Binding::of(SHADE_NODE_WORDS, clusters_.nodes())});
+        sets_.countPairs.write(set,
+                               {core, coreWords, aux, normals, albedo, f0, depth, dfg, ltc, tiles,
+                                heads, entries, surfaces, Binding::of(SHADE_COUNTERS, counters_)});
+    }
 }
 
 } // namespace candelabra::lighting

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what shade_tiles does: entries walked, of those inside influence, of those evaluated.
+// Counts what shade_tiles does: entries walked, lanes that evaluate (masked ones
+// too), lights within their influence, lights that can contribute.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/shade_inputs.glsl"
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_vote : require
+#include "lib/shade_receiver.glsl"
 #include "lib/tile_walk.glsl"
-#include "lib/light_reach.glsl"
+#include "lib/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(scalar, binding = SHADE_COUNTERS) buffer Counters
@@ -12,40 +15,54 @@ layout(scalar, binding = SHADE_COUNTERS) buffer Counters
     LightingCounters counters;
 };
 
-shared uvec3 groupPairs[TILE_SIZE * TILE_SIZE];
+uint bits(uvec2 x)
+{
+    return uint(bitCount(x.x) + bitCount(x.y));
+}
+
+// Lanes that run the loop over `found`, those that wait for others included, per lane.
+uint turns(uvec2 found)
+{
+    return subgroupMax(bits(found));
+}
+
+// 64-bit sum: the addition that wraps carries. (The compiler has no 64-bit atomics to ask for.)
+#define COUNT(counter, n)                                                                          \
+    {                                                                                              \
+        const uint more = subgroupAdd(n);                                                          \
+        if (subgroupElect() && atomicAdd(counter.x, more) + more < more)                           \
+            atomicAdd(counter.y, 1u);                                                              \
+    }
 
 void main()
 {
-    const uvec2 pixel = gl_GlobalInvocationID.xy;
-    const ivec2 readable = ivec2(min(pixel, params.size - 1u));
-    setTileList(gl_WorkGroupID.y * params.tileCountX + gl_WorkGroupID.x);
-    const float depth = texelFetch(depthImage, readable, 0).x;
-    uvec3 pairs = uvec3(0u);
-    if (all(lessThan(pixel, params.size)) && depth != params.clearDepth) {
-        const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
-        const vec3 n = readSurface(readable).normal;
-        pairs.x = tileList.count;
-        for (uint k = 0u; k < tileList.count; ++k) {
-            const uint light = lightAt(k);
-            const vec4 centreReach = lightCentre(light);
-            const float influence2 = lightEmission(light).w;
-            const vec3 toLight = towardsLight(centreReach.xyz, position);
-            pairs.y += length2(toLight) < influence2 ? 1u : 0u;
-            pairs.z += lightReaches(toLight, n, centreReach.w, influence2) ? 1u : 0u;
+    uint tile;
+    uvec2 pixel;
+    const bool inside = takeTile(tile, pixel);
+    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : params.clearDepth;
+    const bool surface = inside && depth != params.clearDepth;
+    uint listed = 0u, evaluated = 0u, influenced = 0u, contributing = 0u;
+    Block block = surface ? beginWalk(tile, depth) : Block(0u, 0u, 0u);
+    Receiver r;
+    if (surface)
+        r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget, 1u, 0u);
+    while (subgroupAny(block.count != 0u)) {
+        Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+        if (block.count != 0u)
+            found = findLights(r, block.first, block.count, true);
+        listed += block.count;
+        evaluated += turns(found.asPoint) + turns(found.above) + turns(found.near) +
+                     turns(found.general);
+        contributing += bits(found.asPoint | found.above | found.near | found.general);
+        for (uint k = 0u; k < block.count; ++k) {
+            const uint light = lightAt(block.first + k);
+            const vec3 toLight = towardsLight(lightCentre(light).xyz, r.p.position);
+            influenced += length2(toLight) < lightEmission(light).w ? 1u : 0u;
         }
+        block = nextBlock(block);
     }
-    groupPairs[gl_LocalInvocationIndex] = pairs;
-    barrier();
-    if (gl_LocalInvocationIndex != 0u)
-        return;
-    uvec3 total = uvec3(0u); // at most 64 x lights: fits 32 bits up to 67 million lights
-    for (uint i = 0u; i < TILE_SIZE * TILE_SIZE; ++i)
-        total += groupPairs[i];
-    // 64-bit sums: the addition that wraps carries.
-    if (atomicAdd(counters.listedPairs.x, total.x) + total.x < total.x)
-        atomicAdd(counters.listedPairs.y, 1u);
-    if (atomicAdd(counters.insidePairs.x, total.y) + total.y < total.y)
-        atomicAdd(counters.insidePairs.y, 1u);
-    if (atomicAdd(counters.evaluatedPairs.x, total.z) + total.z < total.z)
-        atomicAdd(counters.evaluatedPairs.y, 1u);
+    COUNT(counters.listedPairs, listed)
+    COUNT(counters.evaluatedPairs, evaluated)
+    COUNT(counters.insidePairs, influenced)
+    COUNT(counters.contributingPairs, contributing)
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights from the light set's frame to view space, split into what every loop reads and the rest.
+// Lights in sorted order, from the light set's frame to view space, split into what every loop reads
+// and the rest.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/light_order.h"
 #include "shared/lighting.h"
 
 layout(local_size_x = PREPARE_LIGHTS_GROUP) in;
@@ -21,13 +23,17 @@ layout(scalar, binding = PREPARE_LIGHTS_AUX) writeonly buffer Aux
 {
     vec4 aux[];
 };
+layout(scalar, binding = PREPARE_LIGHTS_ORDER) readonly buffer Order
+{
+    LightKey order[];
+};
 
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= params.lightCount)
         return;
-    const LightRecord light = records[i];
+    const LightRecord light = records[order[i].light];
     const uint type = light.type & (LIGHT_TWO_SIDED - 1u);
     const bool distant = type == LIGHT_DIRECTIONAL || type == LIGHT_DISTANT_SPHERE;
     const vec3 origin = distant ? vec3(0.0) : params.originView;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the lights of each tile's list to the scene radiance.
+// Adds the lights of each cluster's list to the scene radiance, in the tiles that hold a surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/shade_receiver.glsl"
@@ -11,18 +11,23 @@ layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
 
 void main()
 {
-    const uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(pixel, params.size)))
+    uint tile;
+    uvec2 pixel;
+    if (!takeTile(tile, pixel))
         return;
-    setTileList(gl_WorkGroupID.y * params.tileCountX + gl_WorkGroupID.x);
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (tileList.count == 0u || depth == params.clearDepth)
+    if (depth == params.clearDepth)
+        return;
+    Block block = beginWalk(tile, depth);
+    if (block.count == 0u)
         return;
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
                                     params.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
-    for (uint first = 0u; first < tileList.count; first += WALK_BLOCK)
-        shadeBlock(sums, r, first, min(WALK_BLOCK, tileList.count - first), true);
+    do { // a lane that is done may run once more (Mesa 22.3): its block is empty then
+        shadeBlock(sums, r, block.first, block.count, true);
+        block = nextBlock(block);
+    } while (block.count != 0u);
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
     imageStore(radianceImage, ivec2(pixel), before + vec4(total(sums), 0.0));
 }

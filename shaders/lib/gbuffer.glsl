@@ -63,6 +63,16 @@ uint packNormalRoughnessCompact(vec3 normal, float perceptualRoughness)
     return codes.x | (codes.y << NORMAL_BITS_COMPACT) | (roughness << 24);
 }
 
+// The normal alone, of either layout.
+vec3 unpackNormal(uint layout_, uvec2 normalRoughness)
+{
+    if (layout_ == GBUFFER_LAYOUT_COMPACT)
+        return dequantizeOctahedral(uvec2(normalRoughness.x,
+                                          normalRoughness.x >> NORMAL_BITS_COMPACT) & 0xFFFu,
+                                    NORMAL_BITS_COMPACT);
+    return dequantizeOctahedral(normalRoughness & 0xFFFFFFu, NORMAL_BITS_FULL);
+}
+
 Surface unpackGBufferFull(uvec2 normalRoughness, vec4 albedo, vec4 specular)
 {
     Surface s;

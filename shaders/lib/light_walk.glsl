@@ -57,14 +57,14 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
     return found;
 }
 
-// 1..WALK_BLOCK lights.
+// Up to WALK_BLOCK lights; without any, `first` still is one that can be read.
 Found findLights(Receiver r, uint first, uint count, bool testInfluence)
 {
     const FoundWord low = findWord(r, first, min(count, 32u), testInfluence);
     FoundWord high = FoundWord(0u, 0u, 0u, 0u);
     if (count > 32u)
         high = findWord(r, first + 32u, count - 32u, testInfluence);
-    const uvec2 reaching = uvec2(low.reaching, high.reaching);
+    const uvec2 reaching = count == 0u ? uvec2(0u) : uvec2(low.reaching, high.reaching);
     Found found;
     found.asPoint = uvec2(low.asPoint, high.asPoint) & reaching;
     found.above = uvec2(low.above, high.above) & reaching & ~found.asPoint;
@@ -117,7 +117,7 @@ vec3 total(Sums sums)
     return (sums.asPoint + sums.above) + (sums.near + sums.general);
 }
 
-// 1..WALK_BLOCK lights; `testInfluence` as above.
+// `first` and `count` as of findLights.
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
     const Found found = findLights(r, first, count, testInfluence);

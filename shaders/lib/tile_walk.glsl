@@ -1,24 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light list of a tile as the lights of light_walk.glsl: set `tileList`, then walk.
+// The lights of a pixel's cluster, as blocks for light_walk.glsl. Distant lights have no lists: every
+// one of them is every cluster's.
+#include "shared/clusters.h"
+#include "lib/light_reach.glsl"
+
+layout(scalar, binding = SHADE_TILES) buffer Tiles
+{
+    TileClusters tiles[];
+};
 layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
 {
-    TileList lists[];
+    uint lists[];
 };
 layout(scalar, binding = SHADE_ENTRIES) readonly buffer Entries
 {
     uint entries[];
 };
-
-TileList tileList;
-
-void setTileList(uint tile)
+layout(scalar, binding = SHADE_WORK) readonly buffer Work
 {
-    tileList.offset = lists[tile].offset;
-    tileList.count = lists[tile].count;
-}
+    WorkList work;
+    uint workTiles[];
+};
 
-// Light at entry k of the list.
+// The k-th light; blocks count in the same numbers.
 uint lightAt(uint k)
 {
-    return tileList.offset == UNLISTED ? params.firstLight + k : entries[tileList.offset + k];
+    return IS_DISTANT ? k : entries[k];
+}
+
+struct Block {
+    uint first, count; // count 0: no more; first still is one that can be read
+    uint next;         // 0: none
+};
+
+Block pageBlock(uint page)
+{
+    const uint header = entries[page * PAGE_WORDS];
+    return Block(page * PAGE_WORDS + 1u, header & ((1u << PAGE_COUNT_BITS) - 1u),
+                 header >> PAGE_COUNT_BITS);
+}
+
+// Of a batch: `at` lights are done.
+Block batchBlock(uint at)
+{
+    const uint left = params.lightCount - at;
+    return Block(params.firstLight + at, min(left, PAGE_WORDS),
+                 left > PAGE_WORDS ? at + PAGE_WORDS : 0u);
+}
+
+uint clusterOf(uint tile, float depth)
+{
+    return tiles[tile].first + ((floatBitsToUint(depth) - tiles[tile].lowest) >> tiles[tile].shift);
+}
+
+// The first block of a sample, without lights where there are none.
+Block beginWalk(uint tile, float depth)
+{
+    if (IS_DISTANT)
+        return batchBlock(0u);
+    const uint list = lists[clusterOf(tile, depth)];
+    const bool listed = list != LIST_EMPTY && list != LIST_UNLISTED && list != LIST_LONG;
+    return listed ? pageBlock(list) : Block(0u, 0u, 0u);
+}
+
+Block nextBlock(Block block)
+{
+    if (block.next == 0u)
+        return Block(block.first, 0u, 0u);
+    const Block next = IS_DISTANT ? batchBlock(block.next) : pageBlock(block.next);
+    return next.count != 0u ? next : Block(block.first, 0u, 0u);
+}
+
+// The tile of this workgroup; none beyond the last.
+bool takeTile(out uint tile, out uvec2 pixel)
+{
+    const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    tile = 0u;
+    pixel = uvec2(0u);
+    if (at >= work.count)
+        return false;
+    tile = workTiles[at];
+    pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
+            gl_LocalInvocationID.xy;
+    return all(lessThan(pixel, params.size));
 }

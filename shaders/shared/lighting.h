@@ -45,46 +45,35 @@ struct Projection {
 };
 GPU_SIZE(Projection, 56)
 
-const uint TILE_SIZE = 8u;         // pixels; one shading workgroup per tile
-const uint COARSE_FACTOR_MIN = 8u; // tiles per coarse tile side, a power of two >= this
-const uint MASK_BITS = 32u;        // lights per mask word
-
-// Bounds of the surface samples of a tile; min > max when there are none.
-struct TileBounds {
-    vec3 min;
-    vec3 max;
+const uint TILE_SIZE = 8u; // pixels; one shading workgroup per tile
+// The light tree (shared/clusters.h) over the lights of one type.
+struct TreeShape {
+    uint firstLight, lightCount;
+    uint firstNode; // in the node buffer
 };
-GPU_SIZE(TileBounds, 24)
-
-const uint UNLISTED = 0xFFFFFFFFu; // TileList.offset: the list did not fit, walk all lights
-// Lights are culled and shaded in batches, one per type (more where the device limits loops); a
-// list is that of the batch at hand.
-struct TileList {
-    uint offset; // first entry in the list buffer
-    uint count;
-    uint total;        // count over the frame's batches so far
-    uint everUnlisted; // 0 or 1
-};
-GPU_SIZE(TileList, 16)
+GPU_SIZE(TreeShape, 12)
 
 // Counters of one frame, cleared before and read back after.
 struct LightingCounters {
-    uint listCursor; // first free entry of the list buffer; back to 0 for every batch
+    uint pageCursor; // pages of lists in use; page 0 is none
     uint listEntries;
     uint maxListLength;
-    uint unlistedTiles;
+    uint unlistedClusters;
+    uint clusters;
     uint surfaceTiles;
     uvec2 listedPairs; // 64 bit: low, high
-    uvec2 insidePairs;
     uvec2 evaluatedPairs;
+    uvec2 insidePairs;
+    uvec2 contributingPairs;
 };
-GPU_SIZE(LightingCounters, 44)
+GPU_SIZE(LightingCounters, 56)
 
 // --- prepare_lights: world -> view, one lane per light
 const uint PREPARE_LIGHTS_GROUP = 64u;
 const uint PREPARE_LIGHTS_RECORDS = 0u;
 const uint PREPARE_LIGHTS_CORE = 1u;
 const uint PREPARE_LIGHTS_AUX = 2u;
+const uint PREPARE_LIGHTS_ORDER = 3u; // shared/light_order.h
 struct PrepareLightsParams {
     mat3 viewFromWorld; // rotation
     vec3 originView;    // the light set's origin in view space, subtracted in double
@@ -92,67 +81,8 @@ struct PrepareLightsParams {
 };
 GPU_SIZE(PrepareLightsParams, 52)
 
-// --- tile_bounds: bounds of the surface samples of each tile, one lane per tile. 128: 16384 x
-// 16384 pixels are 32768 groups, of 65535 that every device allows.
-const uint TILE_BOUNDS_GROUP = 128u;
-const uint TILE_BOUNDS_DEPTH = 0u;
-const uint TILE_BOUNDS_BOUNDS = 1u;
-const uint TILE_BOUNDS_COUNTERS = 2u;
-struct TileBoundsParams {
-    Projection projection;
-    uvec2 size; // pixels
-    uint tileCountX, tileCount;
-    float clearDepth;
-    vec2 invImageSize; // 1 / size; bit for bit that of ShadeParams
-};
-GPU_SIZE(TileBoundsParams, 84)
-
-// --- coarse_bounds: union over a block of tiles, one lane per coarse tile
-const uint COARSE_BOUNDS_GROUP = 64u;
-const uint COARSE_BOUNDS_TILES = 0u;
-const uint COARSE_BOUNDS_COARSE = 1u;
-struct CoarseBoundsParams {
-    uint tileCountX, tileCountY;
-    uint coarseCountX, coarseCount;
-    uint factor;
-};
-GPU_SIZE(CoarseBoundsParams, 20)
-
-// --- coarse_masks: one bit per light and coarse tile; one lane per word, y = coarse tile
-const uint COARSE_MASKS_GROUP = 64u;
-const uint COARSE_MASKS_CORE = 0u;       // texel buffer
-const uint COARSE_MASKS_CORE_WORDS = 1u; // the same data as a storage buffer
-const uint COARSE_MASKS_BOUNDS = 2u;
-const uint COARSE_MASKS_MASKS = 3u;
-struct CoarseMasksParams {
-    uint firstLight; // of the batch
-    uint lightCount; // of the batch
-    uint wordCount;
-};
-GPU_SIZE(CoarseMasksParams, 12)
-
-// --- tile_lists: mask -> exact ordered list per tile; one lane per tile, 8x8 tiles per group
-const uint TILE_LISTS_GROUP_X = 8u;
-const uint TILE_LISTS_GROUP_Y = 8u;
-const uint TILE_LISTS_CORE = 0u;
-const uint TILE_LISTS_CORE_WORDS = 1u;
-const uint TILE_LISTS_BOUNDS = 2u;
-const uint TILE_LISTS_MASKS = 3u;
-const uint TILE_LISTS_LISTS = 4u;
-const uint TILE_LISTS_ENTRIES = 5u;
-const uint TILE_LISTS_COUNTERS = 6u;
-struct TileListsParams {
-    uint tileCountX, tileCountY;
-    uint coarseCountX;
-    uint factor;
-    uint wordCount;
-    uint firstLight; // of the batch
-    uint lightCount; // of the batch
-    uint capacity;   // entries that fit the list buffer
-};
-GPU_SIZE(TileListsParams, 32)
-
-// --- shade_tiles, shade_brute, count_pairs: 8x8 pixels per group, one lane per pixel
+// --- shade_tiles, shade_unlisted, shade_brute, count_pairs: 8x8 pixels per group, one lane per pixel
+// one lane per pixel
 const uint SHADE_CORE = 0u;
 const uint SHADE_CORE_WORDS = 1u;
 const uint SHADE_AUX = 2u;
@@ -161,11 +91,17 @@ const uint SHADE_ALBEDO = 4u;
 const uint SHADE_SPECULAR = 5u;
 const uint SHADE_DEPTH = 6u;
 const uint SHADE_RADIANCE = 7u;
-const uint SHADE_LISTS = 8u;     // not in shade_brute
-const uint SHADE_ENTRIES = 9u;   // not in shade_brute
-const uint SHADE_COUNTERS = 10u; // count_pairs
-const uint SHADE_DFG = 11u;      // all that shade: directional albedo (shared/dfg.h)
-const uint SHADE_LTC = 12u;      // all that shade: transformed cosines (shared/ltc.h)
+const uint SHADE_DFG = 8u; // all that shade: directional albedo (shared/dfg.h)
+const uint SHADE_LTC = 9u; // all that shade: transformed cosines (shared/ltc.h)
+// Not in shade_brute (shared/clusters.h):
+const uint SHADE_TILES = 10u;
+const uint SHADE_LISTS = 11u;
+const uint SHADE_ENTRIES = 12u;
+const uint SHADE_WORK = 13u;     // WorkList of the tiles to shade
+const uint SHADE_COUNTERS = 15u; // count_pairs
+const uint SHADE_CLUSTERS = 16u; // shade_unlisted
+const uint SHADE_NODES = 17u;    // shade_unlisted
+const uint SHADE_NODE_WORDS = 18u;
 struct ShadeParams {
     Projection projection;
     uvec2 size;
@@ -180,8 +116,9 @@ struct ShadeParams {
     float errorBudget;       // relative to the highest response; 0: every light in full
     uint lobes;              // LOBES_*
     uint energyCompensation; // 0 or 1
+    TreeShape tree;          // shade_unlisted
 };
-GPU_SIZE(ShadeParams, 116)
+GPU_SIZE(ShadeParams, 128)
 
 // Specialisation constants of the kernels above.
 const uint SPEC_LIGHTS_AS_TEXELS = 0u; // read core as a texel buffer (else as a storage buffer)

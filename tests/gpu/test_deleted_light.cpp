@@ -4,6 +4,10 @@
 // module, so the test interposes functions of the host's Vulkan to find and change it.
 #include "gpu/lighting_harness.h"
 
+#include <limits>
+
+#include "shared/clusters.h"
+
 namespace candelabra::test
 {
 namespace
@@ -105,6 +109,9 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
     }
     CndLight dark = lights[0];
     dark.emission[0] = dark.emission[1] = dark.emission[2] = 0;
+    // Largest influence and farthest along every axis: the last in the order of the lights.
+    dark.influenceRadius = std::numeric_limits<float>::infinity();
+    dark.position[0] = dark.position[1] = dark.position[2] = 1e6f;
     lights.push_back(dark);
 
     const CndDeviceDesc host = interpose(deviceDesc());
@@ -113,12 +120,14 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
     const LightingResult intact = run(g, lights, {.host = &host});
     EXPECT_LE(maxRelativeDifference(intact.radiance, brute.radiance), 1e-6);
 
-    // All 64 tiles are one group of tile_lists, so tile 0 has entries 0..50 in light order.
+    // Lists are made block by block, then tile by tile, a page each. Of blocks there are at most 4
+    // of 32x32 and one of 128x128 pixels with 8 slices each; so this page is a tile's.
+    constexpr uint32_t tilePage = 5 * 8 + 3;
     interposer.armed = true;
     interposer.replacement = uint32_t(lights.size()) - 1;
     uint32_t noticed = 0;
     for (uint32_t entry = 0; entry < 50; entry += 7) {
-        interposer.entry = entry;
+        interposer.entry = tilePage * gpu::PAGE_WORDS + 1 + entry;
         const LightingResult broken = run(g, lights, {.host = &host});
         noticed += maxRelativeDifference(broken.radiance, brute.radiance) > 1e-6;
     }

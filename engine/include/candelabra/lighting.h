@@ -93,15 +93,17 @@ typedef struct CndLightingFrame {
 typedef struct CndLightingStats {
     uint32_t structSize;
     uint32_t lightCount;
-    uint32_t tileCount;   // 8x8 pixel tiles that hold a surface; 0 without lights
-    uint32_t listEntries; // entries of all tiles' lists
+    uint32_t tileCount;    // 8x8 pixel tiles that hold a surface; 0 without lights
+    uint32_t clusterCount; // of their samples; deep tiles have up to 8
+    uint32_t listEntries;  // lights of all clusters' lists
     uint32_t maxListLength;
-    uint32_t unlistedTiles; // tiles over the list budget, shaded by walking all lights
+    uint32_t unlistedClusters; // over the list budget: lit by walking the light tree per pixel
     // (pixel, light) pairs, with countPairs, else 0:
-    uint64_t listedPairs;     //   entries walked, summed over the surface pixels
-    uint64_t insidePairs;     //   of those, distance < influence radius
-    uint64_t evaluatedPairs;  //   of those, emitter not wholly below the horizon: BRDF evaluated
-    uint32_t kernelTimeCount; // 0 without timestamps
+    uint64_t listedPairs;       // entries walked, summed over the surface pixels
+    uint64_t evaluatedPairs;    // lanes that evaluate a light, those that wait for others included
+    uint64_t insidePairs;       // listed and distance < influence radius
+    uint64_t contributingPairs; // of those, emitter not wholly below the horizon
+    uint32_t kernelTimeCount;   // 0 without timestamps
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
 } CndLightingStats;
 

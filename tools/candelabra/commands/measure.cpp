@@ -102,9 +102,10 @@ Json toJson(const CndLightingStats& stats)
             {"listEntries", stats.listEntries},
             {"meanListLength", stats.listEntries / tiles},
             {"maxListLength", stats.maxListLength},
-            {"unlistedTiles", stats.unlistedTiles},
+            {"unlistedClusters", stats.unlistedClusters},
             {"listedPairs", stats.listedPairs},
             {"insidePairs", stats.insidePairs},
+            {"contributingPairs", stats.contributingPairs},
             {"evaluatedPairs", stats.evaluatedPairs}};
 }
 

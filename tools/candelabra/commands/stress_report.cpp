@@ -45,7 +45,7 @@ std::string listTable(const std::vector<StressPoint>& points)
         table.add({grouped(p.lights), grouped(p.stats.tileCount),
                    threeDigits(meanListLength(p.stats)), grouped(p.stats.maxListLength),
                    millions(p.stats.listedPairs), millions(p.stats.insidePairs),
-                   millions(p.stats.evaluatedPairs), grouped(p.stats.unlistedTiles)});
+                   millions(p.stats.contributingPairs), grouped(p.stats.unlistedClusters)});
     return table.text();
 }
 

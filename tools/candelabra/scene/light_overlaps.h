@@ -36,7 +36,7 @@ struct LightReach {
 
 // The scale at which a mean of `overlaps` lights contributes to a sample: nearer than the influence
 // radius, and not wholly below the sample's horizon. This is what
-// CndLightingStats::evaluatedPairs counts per pixel. When no scale reaches that many, `scale` is
+// CndLightingStats::contributingPairs counts per pixel. When no scale reaches that many, `scale` is
 // 0 and `reachable` the mean at an unlimited scale.
 struct OverlapScale {
     double scale = 0;

@@ -62,7 +62,7 @@ void drawLights(PanelState& state, const PanelFigures& figures)
     if (s.tileCount && state.frame.culling == CND_CULLING_CLUSTERED)
         ImGui::Text("lights per tile: %.1f mean, %u max%s",
                     double(s.listEntries) / double(s.tileCount), s.maxListLength,
-                    s.unlistedTiles ? " (some tiles over budget)" : "");
+                    s.unlistedClusters ? " (some clusters over budget)" : "");
     ImGui::Text("%s", counted(figures.lights, "light").c_str());
     ImGui::SameLine();
     if (ImGui::SmallButton("half"))

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lighting/clusters.h"
+
+#include <algorithm>
+
+#include "candelabra_shaders.h"
+#include "lighting/lighting.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+using gpu::divideUp;
+
+constexpr VkBufferUsageFlags storageUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+constexpr VkBufferUsageFlags workUse =
+    storageUse | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+constexpr VkDeviceSize pageBytes = gpu::PAGE_WORDS * sizeof(uint32_t);
+
+constexpr uint32_t maxRow = 65535; // groups that every device takes in one dimension
+
+// Tiles that can be split, of all. The others keep one cluster: as right, only less tight.
+constexpr uint32_t splitShare = 2;
+constexpr uint32_t minSplits = 64;
+
+// With more lights, blocks of blocks hold so many that walking their lists is no shorter than
+// walking the tree once more.
+constexpr uint32_t largeBlockLights = 131072;
+
+uint32_t nodeCount(uint32_t lights)
+{
+    uint32_t count = 0;
+    for (uint32_t level = lights; level; level = level > 1 ? divideUp(level, gpu::TREE_WIDTH) : 0)
+        count += divideUp(level, gpu::TREE_WIDTH);
+    return count;
+}
+
+glm::uvec2 blocks(glm::uvec2 below)
+{
+    return {divideUp(below.x, gpu::BLOCK_SIDE), divideUp(below.y, gpu::BLOCK_SIDE)};
+}
+
+uint32_t area(glm::uvec2 size)
+{
+    return size.x * size.y;
+}
+
+VkDeviceSize workBytes(uint32_t items)
+{
+    return sizeof(gpu::WorkList) + VkDeviceSize(items) * sizeof(uint32_t);
+}
+
+} // namespace
+
+ClusterKernels::ClusterKernels(const gpu::Device& device, CndGBufferLayout layout)
+    : lightTree(device, spirv::light_tree_comp,
+                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
+      tileClusters(device, spirv::tile_clusters_comp,
+                   {{gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}}),
+      splitTiles(device, spirv::split_tiles_comp, {{gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}}),
+      blockClusters(device, spirv::block_clusters_comp),
+      clusterLists(device, spirv::cluster_lists_comp,
+                   {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}})
+{
+}
+
+TreeShapes treeShapes(const LightTypeCounts& counts)
+{
+    TreeShapes shapes{};
+    uint32_t light = 0, node = 0;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        shapes[type] = {.firstLight = light, .lightCount = counts[type], .firstNode = node};
+        light += counts[type];
+        node += nodeCount(counts[type]);
+    }
+    return shapes;
+}
+
+Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBudget)
+    : lighting_(lighting),
+      maxTiles_(maxTiles),
+      splitCapacity_(std::max(area(maxTiles) / splitShare, minSplits))
+{
+    const gpu::Device& device = lighting.device();
+    uint32_t records = 0, blockCount = 0;
+    for (const Level& level : levels(maxTiles)) {
+        records += area(level.count);
+        blockCount += level.firstCluster ? area(level.count) : 0;
+    }
+    const VkDeviceSize largest = device.limits.maxStorageBufferRange / sizeof(gpu::Cluster);
+    const VkDeviceSize fixed = area(maxTiles) + VkDeviceSize(blockCount) * gpu::BLOCK_SLICES;
+    if (largest < fixed)
+        gpu::failUnsupported("CndLightingViewDesc: " + std::to_string(area(maxTiles)) +
+                             " tiles of 8x8 pixels need " + std::to_string(fixed) +
+                             " clusters, the device's maxStorageBufferRange holds " +
+                             std::to_string(largest));
+    splitCapacity_ =
+        uint32_t(std::min<VkDeviceSize>(splitCapacity_, (largest - fixed) / gpu::SLICES));
+    clusterCount_ = uint32_t(fixed) + splitCapacity_ * gpu::SLICES;
+    const uint32_t slots = lighting.desc().framesInFlight;
+    const ClusterKernels& k = lighting.kernels().clusters;
+    treeSets_ = k.lightTree.createBindings(slots);
+    tileSets_ = k.tileClusters.createBindings(slots);
+    splitSets_ = k.splitTiles.createBindings(slots);
+    blockSets_ = k.blockClusters.createBindings(slots);
+    listSets_ = k.clusterLists.createBindings(slots * CND_LIGHT_TYPE_COUNT);
+    const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
+        return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Device);
+    };
+    tiles_ = make("tiles", VkDeviceSize(records) * sizeof(gpu::TileClusters), storageUse);
+    clusters_ = make("clusters", VkDeviceSize(clusterCount_) * sizeof(gpu::Cluster), storageUse);
+    surfaces_ = make("surface tiles", workBytes(area(maxTiles)), workUse);
+    splits_ = make("split tiles", workBytes(splitCapacity_), workUse);
+    entries_ = make("list entries", std::max(listBudget, 2 * pageBytes), storageUse);
+}
+
+// Clusters: one per tile of the largest frame, the slices of split tiles, then of blocks.
+std::array<Clusters::Level, 1 + gpu::BLOCK_LEVELS> Clusters::levels(glm::uvec2 tileCount) const
+{
+    std::array<Level, 1 + gpu::BLOCK_LEVELS> out{};
+    out[0] = {.count = tileCount};
+    uint32_t cluster = firstSplit() + splitCapacity_ * gpu::SLICES;
+    for (size_t i = 1; i < out.size(); ++i) {
+        out[i] = {.count = blocks(out[i - 1].count),
+                  .first = out[i - 1].first + area(out[i - 1].count),
+                  .firstCluster = cluster};
+        cluster += area(out[i].count) * gpu::BLOCK_SLICES;
+    }
+    return out;
+}
+
+Clusters::Lists Clusters::createLists() const
+{
+    const gpu::Device& device = lighting_.device();
+    const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
+        return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Device);
+    };
+    const VkDeviceSize tileWork = workBytes(area(maxTiles_));
+    return {.heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
+            .unlisted = make("unlisted tiles", tileWork, workUse)};
+}
+
+void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
+{
+    const gpu::Device& device = lighting_.device();
+    // Of any split into types: each may round up on every level.
+    const VkDeviceSize nodes = nodeCount(lightCapacity) + CND_LIGHT_TYPE_COUNT * gpu::TREE_LEVELS;
+    const VkDeviceSize bytes = nodes * gpu::TREE_NODE_STRIDE * sizeof(glm::vec4);
+    if (bytes > nodes_.size) {
+        gpu::Buffer grown = gpu::createBuffer(device, "light tree", bytes,
+                                              storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                                              gpu::MemoryUse::Device);
+        gpu::createTexelView(device, grown);
+        lighting_.replace(nodes_, std::move(grown));
+    }
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (types[type] && !lists_[type].heads.buffer)
+            lists_[type] = createLists();
+}
+
+void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const Inputs& in) const
+{
+    using namespace gpu;
+    treeSets_.write(slot, {Binding::ofTexels(LIGHT_TREE_CORE, in.core),
+                           Binding::of(LIGHT_TREE_CORE_WORDS, in.core),
+                           Binding::of(LIGHT_TREE_NODES, nodes_)});
+    tileSets_.write(slot, {Binding::sampled(TILE_CLUSTERS_DEPTH, in.depth),
+                           Binding::sampled(TILE_CLUSTERS_NORMALS, in.normalRoughness),
+                           Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
+                           Binding::of(TILE_CLUSTERS_TILES, tiles_),
+                           Binding::of(TILE_CLUSTERS_SURFACES, surfaces_),
+                           Binding::of(TILE_CLUSTERS_SPLITS, splits_)});
+    splitSets_.write(slot, {Binding::sampled(TILE_CLUSTERS_DEPTH, in.depth),
+                            Binding::sampled(TILE_CLUSTERS_NORMALS, in.normalRoughness),
+                            Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
+                            Binding::of(TILE_CLUSTERS_TILES, tiles_),
+                            Binding::of(TILE_CLUSTERS_SPLITS, splits_)});
+    blockSets_.write(slot, {Binding::of(BLOCK_CLUSTERS_CLUSTERS, clusters_),
+                            Binding::of(BLOCK_CLUSTERS_TILES, tiles_)});
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (types[type])
+            listSets_.write(slot * CND_LIGHT_TYPE_COUNT + type,
+                            {Binding::ofTexels(CLUSTER_LISTS_CORE, in.core),
+                             Binding::of(CLUSTER_LISTS_CORE_WORDS, in.core),
+                             Binding::ofTexels(CLUSTER_LISTS_NODES, nodes_),
+                             Binding::of(CLUSTER_LISTS_NODE_WORDS, nodes_),
+                             Binding::of(CLUSTER_LISTS_CLUSTERS, clusters_),
+                             Binding::of(CLUSTER_LISTS_TILES, tiles_),
+                             Binding::of(CLUSTER_LISTS_SPLITS, splits_),
+                             Binding::of(CLUSTER_LISTS_LISTS, lists_[type].heads),
+                             Binding::of(CLUSTER_LISTS_ENTRIES, entries_),
+                             Binding::of(CLUSTER_LISTS_UNLISTED, lists_[type].unlisted),
+                             Binding::of(CLUSTER_LISTS_COUNTERS, in.counters)});
+}
+
+void Clusters::recordReset(const gpu::Frame& f, const LightTypeCounts& types) const noexcept
+{
+    const auto reset = [&](const gpu::Buffer& work, uint32_t row) {
+        const gpu::WorkList none{.groupsX = row, .groupsZ = 1};
+        f.device.CmdUpdateBuffer(f.cmd, work.get(), 0, sizeof none, &none);
+    };
+    reset(surfaces_, gpu::TILE_ROW);
+    reset(splits_, gpu::SPLIT_ROW);
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (types[type]) {
+            reset(lists_[type].unlisted, gpu::TILE_ROW);
+        }
+}
+
+void Clusters::recordTree(const gpu::Frame& f, const gpu::TreeShape& tree) const noexcept
+{
+    gpu::LightTreeParams params{.childFirst = tree.firstLight,
+                                .childCount = tree.lightCount,
+                                .lowerFirst = tree.firstNode,
+                                .fromLights = 1};
+    while (params.childCount > (params.fromLights ? 0 : gpu::TREE_WIDTH)) {
+        const uint32_t lower = divideUp(params.childCount, gpu::TREE_WIDTH);
+        const uint32_t upper = divideUp(lower, gpu::TREE_WIDTH);
+        params.upperFirst = params.lowerFirst + lower;
+        lighting_.kernels().clusters.lightTree.dispatch(f, treeSets_.set(f.slot), params,
+                                                        divideUp(upper, gpu::LIGHT_TREE_GROUP));
+        f.barrier();
+        params = {.childFirst = params.upperFirst,
+                  .childCount = upper,
+                  .lowerFirst = params.upperFirst + upper};
+    }
+}
+
+void Clusters::recordClusters(const gpu::Frame& f, gpu::TileClustersParams params) const noexcept
+{
+    const ClusterKernels& k = lighting_.kernels().clusters;
+    params.firstSplit = firstSplit();
+    params.splitCapacity = splitCapacity_;
+    k.tileClusters.dispatch(f, tileSets_.set(f.slot), params,
+                            divideUp(params.tileCount, gpu::TILE_CLUSTERS_GROUP));
+    f.barrier();
+    k.splitTiles.dispatchIndirect(f, splitSets_.set(f.slot), params, splits_);
+    f.barrier();
+    const auto level = levels({params.tileCountX, params.tileCount / params.tileCountX});
+    for (size_t i = 1; i < level.size(); ++i) {
+        const uint32_t blockCount = area(level[i].count);
+        k.blockClusters.dispatch(
+            f, blockSets_.set(f.slot),
+            {.childFirst = level[i - 1].first,
+             .childCountX = level[i - 1].count.x,
+             .childCountY = level[i - 1].count.y,
+             .blockFirst = level[i].first,
+             .blockCountX = level[i].count.x,
+             .blockCount = blockCount,
+             .clusterFirst = level[i].firstCluster},
+            divideUp(blockCount * gpu::BLOCK_SLICES, gpu::BLOCK_CLUSTERS_GROUP));
+        f.barrier();
+    }
+}
+
+void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeShape& tree,
+                           glm::uvec2 tileCount, uint32_t longest) const noexcept
+{
+    const gpu::Kernel<gpu::ClusterListsParams>& kernel = lighting_.kernels().clusters.clusterLists;
+    const VkDescriptorSet set = listSets_.set(f.slot * CND_LIGHT_TYPE_COUNT + type);
+    const uint32_t loops = lighting_.device().maxLoopIterations;
+    const auto level = levels(tileCount);
+    gpu::ClusterListsParams params{.tree = tree,
+                                   .pageCount = uint32_t(entries_.size / pageBytes),
+                                   .longest = UINT32_MAX,
+                                   .maxSteps = loops == UINT32_MAX ? loops : loops / 4 * 3,
+                                   .lightType = type,
+                                   .which = gpu::LISTS_OF_BLOCKS,
+                                   .tileCountX = tileCount.x,
+                                   .tileCountY = tileCount.y};
+    const auto dispatch = [&](uint32_t lanes) {
+        const uint32_t groups = divideUp(lanes, gpu::CLUSTER_LISTS_GROUP);
+        kernel.dispatch(f, set, params, std::min(groups, maxRow), divideUp(groups, maxRow));
+    };
+    for (size_t i = level.size() - 1; i > 0; --i) {
+        if (i > 1 && tree.lightCount > largeBlockLights)
+            continue;
+        params.firstCluster = level[i].firstCluster;
+        params.clusterCount = area(level[i].count) * gpu::BLOCK_SLICES;
+        dispatch(params.clusterCount);
+        f.barrier();
+        params.hasParents = 1;
+    }
+    params.longest = longest;
+    // Of a limited device's iterations, shade_unlisted spends some on the way through the tree, the
+    // others on the lights it finds.
+    params.maxSteps = loops == UINT32_MAX ? loops : loops / 4;
+    params.which = gpu::LISTS_OF_TILES;
+    params.firstCluster = 0;
+    dispatch(area(level[1].count) * gpu::BLOCK_SIDE * gpu::BLOCK_SIDE);
+    params.which = gpu::LISTS_OF_SLICES;
+    params.firstCluster = firstSplit();
+    params.clusterCount = splitCapacity_ * gpu::SLICES;
+    static_assert(gpu::CLUSTER_LISTS_GROUP == gpu::SPLIT_TILES_GROUP);
+    kernel.dispatchIndirect(f, set, params, splits_);
+}
+
+} // namespace candelabra::lighting

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Clusters of surface samples, the light tree, and the lists that the one gives the other: the
+// buffers of one view and the passes that fill them (shared/clusters.h).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "gpu/kernel.h"
+#include "lighting/pack_lights.h"
+#include "shared/clusters.h"
+
+namespace candelabra::lighting
+{
+
+class Lighting;
+
+struct ClusterKernels {
+    ClusterKernels(const gpu::Device& device, CndGBufferLayout layout);
+    gpu::Kernel<gpu::LightTreeParams> lightTree;
+    gpu::Kernel<gpu::TileClustersParams> tileClusters, splitTiles;
+    gpu::Kernel<gpu::BlockClustersParams> blockClusters;
+    gpu::Kernel<gpu::ClusterListsParams> clusterLists;
+};
+
+using TreeShapes = std::array<gpu::TreeShape, CND_LIGHT_TYPE_COUNT>;
+// Trees of lights that are sorted by type.
+TreeShapes treeShapes(const LightTypeCounts& counts);
+
+class Clusters
+{
+public:
+    // Throws gpu::Failure when the device's buffers are too small for so many tiles.
+    Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBudget);
+
+    // Makes room for a set of lights; old buffers are retired.
+    void grow(uint32_t lightCapacity, const LightTypeCounts& types);
+
+    struct Inputs {
+        VkImageView depth, normalRoughness;
+        const gpu::Buffer &core, &counters;
+    };
+    void writeBindings(uint32_t slot, const LightTypeCounts& types, const Inputs& inputs) const;
+
+    // Each begins with what the one before it wrote made visible, and ends with a barrier of its
+    // own or leaves it to the caller as said.
+    void recordReset(const gpu::Frame& frame, const LightTypeCounts& types) const noexcept;
+    void recordTree(const gpu::Frame& frame, const gpu::TreeShape& tree) const noexcept;
+    void recordClusters(const gpu::Frame& frame, gpu::TileClustersParams params) const noexcept;
+    // `longest`: list that shading can walk.
+    void recordLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,
+                     glm::uvec2 tileCount, uint32_t longest) const noexcept;
+
+    // Of a light type.
+    struct Lists {
+        gpu::Buffer heads;    // per cluster
+        gpu::Buffer unlisted; // WorkList of tiles
+    };
+    const Lists& lists(uint32_t type) const { return lists_[type]; }
+    const gpu::Buffer& tiles() const { return tiles_; }
+    const gpu::Buffer& clusters() const { return clusters_; }
+    const gpu::Buffer& entries() const { return entries_; }
+    const gpu::Buffer& nodes() const { return nodes_; }
+    const gpu::Buffer& surfaces() const { return surfaces_; } // WorkList of tiles
+
+private:
+    // Where the records of a level lie: tiles, then blocks of rising size.
+    struct Level {
+        glm::uvec2 count;      // tiles or blocks
+        uint32_t first;        // in the buffer of TileClusters
+        uint32_t firstCluster; // in the buffer of clusters
+    };
+    std::array<Level, 1 + gpu::BLOCK_LEVELS> levels(glm::uvec2 tileCount) const;
+    uint32_t firstSplit() const { return maxTiles_.x * maxTiles_.y; }
+    Lists createLists() const;
+
+    Lighting& lighting_;
+    glm::uvec2 maxTiles_;
+    uint32_t splitCapacity_, clusterCount_;
+    gpu::Bindings treeSets_, tileSets_, splitSets_, blockSets_; // per slot
+    gpu::Bindings listSets_;                                    // per slot and type
+    gpu::Buffer nodes_;                                         // per light
+    gpu::Buffer tiles_, clusters_, surfaces_, splits_;
+    gpu::Buffer entries_;
+    Lists lists_[CND_LIGHT_TYPE_COUNT];
+};
+
+} // namespace candelabra::lighting

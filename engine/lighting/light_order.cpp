@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lighting/light_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "candelabra_shaders.h"
+#include "lighting/shade_kernels.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+using gpu::divideUp;
+
+// Of the Morton code, per axis: together with type and size 24 or 30 bits, four or five passes. The
+// coarser grid still has four cells per light.
+constexpr uint32_t coarseAxisBits = 6, fineAxisBits = 8;
+constexpr uint32_t coarseLights = 65536;
+
+constexpr VkBufferUsageFlags storageUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+uint32_t sumCount(uint32_t runs)
+{
+    return divideUp(gpu::SORT_DIGITS * runs, gpu::SORT_SUM);
+}
+
+} // namespace
+
+LightExtent extentOf(std::span<const CndLight> lights)
+{
+    constexpr size_t samples = 1024;
+    constexpr double outer = 0.02; // of the lights, at either end
+    const size_t step = lights.size() / samples + 1;
+    LightExtent extent;
+    float longest = 0;
+    std::vector<float> along;
+    for (int axis = 0; axis < 3; ++axis) {
+        along.clear();
+        for (size_t i = 0; i < lights.size(); i += step)
+            if (!isDistant(lights[i].type))
+                along.push_back(lights[i].position[axis]);
+        if (along.empty())
+            return extent;
+        std::sort(along.begin(), along.end());
+        const size_t cut = size_t(outer * double(along.size()));
+        const float low = along[cut], high = along[along.size() - 1 - cut];
+        const float border = (high - low) / 8; // the sample's ends are not the set's
+        extent.low[axis] = low - border;
+        longest = std::max(longest, high - low + 2 * border);
+    }
+    along.clear();
+    for (size_t i = 0; i < lights.size(); i += step)
+        if (!isDistant(lights[i].type))
+            along.push_back(lights[i].influenceRadius);
+    std::nth_element(along.begin(), along.begin() + along.size() / 2, along.end());
+    extent.influenceRadius = along[along.size() / 2];
+    constexpr float shortest = 1e-15f; // as of lengths in CndLight
+    extent.size = std::max(longest, shortest);
+    return extent;
+}
+
+LightOrder::LightOrder(const gpu::Device& device)
+    : device_(&device),
+      lightKeys_(device, spirv::light_keys_comp),
+      count_(device, spirv::sort_count_comp),
+      sums_(device, spirv::sort_sums_comp),
+      offsets_(device, spirv::sort_offsets_comp),
+      scatter_(device, spirv::sort_scatter_comp)
+{
+}
+
+LightOrder::State LightOrder::createState(uint32_t capacity, const gpu::Buffer& records) const
+{
+    const auto make = [&](const char* name, VkDeviceSize bytes) {
+        return gpu::createBuffer(*device_, name, bytes, storageUse, gpu::MemoryUse::Device);
+    };
+    const uint32_t runs = divideUp(capacity, gpu::SORT_RUN);
+    State s;
+    for (gpu::Buffer& keys : s.keys)
+        keys = make("light keys", capacity * sizeof(gpu::LightKey));
+    s.counts = make("sort counts", VkDeviceSize(gpu::SORT_DIGITS) * runs * sizeof(uint32_t));
+    s.sums = make("sort sums", sumCount(runs) * sizeof(uint32_t));
+    s.makeKeys = lightKeys_.createBindings(2);
+    s.count = count_.createBindings(2);
+    s.scatter = scatter_.createBindings(2);
+    s.addUp = sums_.createBindings(1);
+    s.offset = offsets_.createBindings(1);
+    using gpu::Binding;
+    for (uint32_t i : {0u, 1u}) {
+        s.makeKeys.write(i, {Binding::of(gpu::LIGHT_KEYS_RECORDS, records),
+                             Binding::of(gpu::LIGHT_KEYS_KEYS, s.keys[i])});
+        s.count.write(i, {Binding::of(gpu::SORT_COUNT_KEYS, s.keys[i]),
+                          Binding::of(gpu::SORT_COUNT_COUNTS, s.counts)});
+        s.scatter.write(i, {Binding::of(gpu::SORT_SCATTER_FROM, s.keys[i]),
+                            Binding::of(gpu::SORT_SCATTER_TO, s.keys[1 - i]),
+                            Binding::of(gpu::SORT_SCATTER_COUNTS, s.counts),
+                            Binding::of(gpu::SORT_SCATTER_SUMS, s.sums)});
+    }
+    s.addUp.write(0, {Binding::of(gpu::SORT_SUMS_COUNTS, s.counts),
+                      Binding::of(gpu::SORT_SUMS_SUMS, s.sums)});
+    s.offset.write(0, {Binding::of(gpu::SORT_OFFSETS_SUMS, s.sums)});
+    return s;
+}
+
+void LightOrder::record(const gpu::Frame& frame, const State& s, uint32_t lightCount,
+                        const LightExtent& extent) const noexcept
+{
+    gpu::Timer untimed; // the passes are one row
+    const gpu::Frame f{frame.device, frame.cmd, untimed, frame.slot};
+    const uint32_t axisBits = lightCount <= coarseLights ? coarseAxisBits : fineAxisBits;
+    const uint32_t keyBits = gpu::ORDER_TYPE_BITS + gpu::ORDER_SIZE_BITS + 3 * axisBits;
+    const uint32_t passes = divideUp(keyBits, gpu::SORT_DIGIT_BITS);
+    int exponent = 0;
+    std::frexp(extent.size, &exponent);
+    uint32_t from = passes % 2; // so that the last pass ends in keys[0]
+    lightKeys_.dispatch(f, s.makeKeys.set(from),
+                        {.low = {extent.low[0], extent.low[1], extent.low[2]},
+                         .cellsPerMetre = float(1u << axisBits) / extent.size,
+                         .lightCount = lightCount,
+                         .axisBits = axisBits,
+                         .largestExponent = exponent},
+                        divideUp(lightCount, gpu::SORT_GROUP));
+    gpu::SortParams params{.lightCount = lightCount,
+                           .runCount = divideUp(lightCount, gpu::SORT_RUN)};
+    const uint32_t runGroups = divideUp(params.runCount, gpu::SORT_GROUP);
+    for (uint32_t pass = 0; pass < passes; ++pass, from = 1 - from) {
+        params.shift = pass * gpu::SORT_DIGIT_BITS;
+        f.barrier();
+        count_.dispatch(f, s.count.set(from), params, runGroups);
+        f.barrier();
+        sums_.dispatch(f, s.addUp.set(0), params,
+                       divideUp(sumCount(params.runCount), gpu::SORT_GROUP));
+        f.barrier();
+        offsets_.dispatch(f, s.offset.set(0), params, 1);
+        f.barrier();
+        scatter_.dispatch(f, s.scatter.set(from), params, runGroups);
+    }
+    f.barrier();
+    frame.timer.stamp(frame.cmd, "light_order");
+}
+
+} // namespace candelabra::lighting

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Clusters of blocks of tiles, or of blocks of blocks: what lies within a slice of their depth. One
+// lane per slice; those of a block walk its children in step.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/clusters.h"
+
+layout(local_size_x = BLOCK_CLUSTERS_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    BlockClustersParams params;
+};
+layout(scalar, binding = BLOCK_CLUSTERS_CLUSTERS) buffer Clusters
+{
+    Cluster clusters[];
+};
+layout(scalar, binding = BLOCK_CLUSTERS_TILES) buffer Tiles
+{
+    TileClusters tiles[];
+};
+
+void main()
+{
+    const uint lane = gl_GlobalInvocationID.x;
+    const uint block = lane / BLOCK_SLICES, slice = lane % BLOCK_SLICES;
+    if (block >= params.blockCount)
+        return;
+    const uvec2 first =
+        BLOCK_SIDE * uvec2(block % params.blockCountX, block / params.blockCountX);
+    const uvec2 end = min(first + BLOCK_SIDE, uvec2(params.childCountX, params.childCountY));
+    uint lowest = 0xFFFFFFFFu, highest = 0u;
+    for (uint y = first.y; y < end.y; ++y)
+        for (uint x = first.x; x < end.x; ++x) {
+            const TileClusters child = tiles[params.childFirst + y * params.childCountX + x];
+            if (child.lowest <= child.highest) {
+                lowest = min(lowest, child.lowest);
+                highest = max(highest, child.highest);
+            }
+        }
+    const uint firstSlice = params.clusterFirst + block * BLOCK_SLICES;
+    const bool empty = lowest > highest;
+    const uint shift = empty ? 0u : uint(max(findMSB(highest - lowest) + 1 - int(BLOCK_SLICE_BITS), 0));
+    if (slice == 0u)
+        tiles[params.blockFirst + block] = TileClusters(firstSlice, lowest, highest, shift, 0u);
+
+    const float infinity = uintBitsToFloat(0x7F800000u);
+    Cluster merged = Cluster(vec3(infinity), 0u, vec3(-infinity), 0u, vec3(0.0), -infinity,
+                             infinity, 0.0, 0xFFFFFFFFu);
+    for (uint y = first.y; y < end.y; ++y)
+        for (uint x = first.x; x < end.x; ++x) {
+            const TileClusters child = tiles[params.childFirst + y * params.childCountX + x];
+            const uint count =
+                child.lowest > child.highest
+                    ? 0u
+                    : min((child.highest - child.lowest) >> child.shift, BLOCK_SLICES - 1u) + 1u;
+            for (uint k = 0u; k < count; ++k) {
+                const uint at = child.first + k;
+                const uint bits = clusters[at].depthBits;
+                // Without samples, the bits are the largest number.
+                if (bits <= highest && (bits - lowest) >> shift == slice) {
+                    merged.min = min(merged.min, clusters[at].min);
+                    merged.max = max(merged.max, clusters[at].max);
+                    merged.depthBits = min(merged.depthBits, bits);
+                    clusters[at].parent = firstSlice + slice;
+                }
+            }
+        }
+    clusters[firstSlice + slice] = merged;
+}

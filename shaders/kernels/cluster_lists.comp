@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of lights of each cluster, exact and in the order of the lights: a lane walks its parent's
+// list, or the light tree where there is none, and writes what it finds into pages of the entry
+// buffer. Where a page lies depends on the schedule, what a list holds does not. A list that finds no
+// page is marked unlisted, one too long for a loop of the device long: their tiles are shaded without
+// lists, with the same result.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/cluster_test.glsl"
+#define LIGHT_STREAM_CORE CLUSTER_LISTS_CORE
+#define LIGHT_STREAM_CORE_WORDS CLUSTER_LISTS_CORE_WORDS
+#include "lib/light_stream.glsl"
+#define TREE_NODES CLUSTER_LISTS_NODES
+#define TREE_NODE_WORDS CLUSTER_LISTS_NODE_WORDS
+#include "lib/light_tree.glsl"
+
+layout(local_size_x = CLUSTER_LISTS_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    ClusterListsParams params;
+};
+layout(scalar, binding = CLUSTER_LISTS_CLUSTERS) readonly buffer Clusters
+{
+    Cluster clusters[];
+};
+layout(scalar, binding = CLUSTER_LISTS_TILES) buffer Tiles
+{
+    TileClusters tiles[];
+};
+layout(scalar, binding = CLUSTER_LISTS_SPLITS) readonly buffer Splits
+{
+    WorkList splits;
+};
+layout(scalar, binding = CLUSTER_LISTS_LISTS) buffer Lists
+{
+    uint lists[];
+};
+layout(scalar, binding = CLUSTER_LISTS_ENTRIES) buffer Entries
+{
+    uint entries[];
+};
+layout(scalar, binding = CLUSTER_LISTS_UNLISTED) buffer Unlisted
+{
+    WorkList unlisted;
+    uint unlistedTiles[];
+};
+layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
+{
+    LightingCounters counters;
+};
+
+// Leaves found before their lights are tested: lanes take turns at walking and testing together.
+const uint QUEUE = 16u;
+
+const uint NO_PAGE = 0u;
+
+// The list that is being written.
+uint headPage = NO_PAGE, page = NO_PAGE;
+uint inPage = 0u; // lights of the page
+uint total = 0u;
+bool full = false; // there was no page left
+
+// Compare-and-swap, so the cursor never passes the capacity and cannot wrap. Page 0 is none.
+uint reservePage()
+{
+    uint next = atomicAdd(counters.pageCursor, 0u);
+    while (next + 1u < params.pageCount) {
+        const uint seen = atomicCompSwap(counters.pageCursor, next, next + 1u);
+        if (seen == next)
+            return next + 1u;
+        next = seen;
+    }
+    return NO_PAGE;
+}
+
+// Makes room for the lights of a leaf.
+void turnPage()
+{
+    const uint next = reservePage();
+    if (page != NO_PAGE)
+        entries[page * PAGE_WORDS] = next << PAGE_COUNT_BITS | inPage;
+    else
+        headPage = next;
+    page = next;
+    inPage = 0u;
+    full = full || next == NO_PAGE;
+}
+
+void appendTile(uint tile)
+{
+    const uint bit = 1u << params.lightType;
+    if ((atomicOr(tiles[tile].unlisted, bit) & bit) != 0u)
+        return;
+    const uint at = atomicAdd(unlisted.count, 1u);
+    unlistedTiles[at] = tile;
+    if (at % TILE_ROW == 0u)
+        atomicAdd(unlisted.groupsY, 1u);
+}
+
+// The cluster of this lane; false without one.
+bool takeCluster(out uint at)
+{
+    const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    const uint lane = group * CLUSTER_LISTS_GROUP + gl_LocalInvocationIndex;
+    at = params.firstCluster + lane;
+    if (params.which != LISTS_OF_TILES)
+        return lane < (params.which == LISTS_OF_BLOCKS
+                           ? params.clusterCount
+                           : min(splits.count * SLICES, params.clusterCount));
+    const uint perBlock = BLOCK_SIDE * BLOCK_SIDE;
+    const uint blocksX = (params.tileCountX + BLOCK_SIDE - 1u) / BLOCK_SIDE;
+    const uint block = lane / perBlock, inBlock = lane % perBlock;
+    const uvec2 tile = BLOCK_SIDE * uvec2(block % blocksX, block / blocksX) +
+                       uvec2(inBlock % BLOCK_SIDE, inBlock / BLOCK_SIDE);
+    if (any(greaterThanEqual(tile, uvec2(params.tileCountX, params.tileCountY))))
+        return false;
+    at = tile.y * params.tileCountX + tile.x;
+    return tiles[at].first == at && tiles[at].shift == UNSPLIT &&
+           tiles[at].lowest <= tiles[at].highest;
+}
+
+void testLight(ClusterBounds bounds, uint light)
+{
+    const vec4 centre = lightCentre(light);
+    if (!lightTouches(bounds, centre.xyz, centre.w, lightEmission(light).w))
+        return;
+    if (!full) {
+        ++inPage;
+        entries[page * PAGE_WORDS + inPage] = light;
+    }
+    ++total;
+}
+
+// Room for TREE_WIDTH lights.
+void makeRoom()
+{
+    if (!full && (page == NO_PAGE || inPage + TREE_WIDTH > PAGE_LIGHTS))
+        turnPage();
+}
+
+void main()
+{
+    uint at;
+    if (!takeCluster(at))
+        return;
+    const Cluster cluster = clusters[at];
+    if (cluster.min.x > cluster.max.x)
+        return;
+    const ClusterBounds bounds = makeClusterBounds(cluster);
+    const uint parent = params.hasParents != 0u ? lists[cluster.parent] : LIST_UNLISTED;
+    const bool byParent = parent != LIST_UNLISTED && parent != LIST_LONG;
+
+    uint steps = 0u;
+    for (uint from = byParent ? parent : NO_PAGE; from != NO_PAGE && steps < params.maxSteps;) {
+        const uint header = entries[from * PAGE_WORDS];
+        const uint count = header & ((1u << PAGE_COUNT_BITS) - 1u);
+        for (uint first = 0u; first < count; first += TREE_WIDTH) {
+            makeRoom();
+            const uint end = min(first + TREE_WIDTH, count);
+            for (uint i = first; i < end; ++i)
+                testLight(bounds, entries[from * PAGE_WORDS + 1u + i]);
+        }
+        steps += count;
+        from = header >> PAGE_COUNT_BITS;
+    }
+
+    // What has no room is walked for its length alone: shade_unlisted takes the way through the tree.
+    const bool viaTree = !byParent || (full && params.which != LISTS_OF_BLOCKS);
+    if (byParent && viaTree)
+        steps = total = 0u;
+    const uint lightEnd = params.tree.firstLight + params.tree.lightCount;
+    uint leaves[QUEUE];
+    TreeWalk walk = beginTreeWalk(params.tree);
+    walk.done = walk.done || !viaTree;
+    while (!walk.done && steps < params.maxSteps) {
+        uint found = 0u;
+        while (!walk.done && found < QUEUE) {
+            const bool touched = boxTouches(bounds, treeNode(walk));
+            if (touched && walk.level == 1u) {
+                leaves[found] = walk.index;
+                ++found;
+            }
+            if (touched && walk.level > 1u)
+                descend(walk);
+            else
+                skipSubtree(params.tree, walk);
+            ++steps;
+        }
+        for (uint k = 0u; k < found; ++k) {
+            makeRoom();
+            const uint first = params.tree.firstLight + leaves[k] * TREE_WIDTH;
+            const uint end = min(first + TREE_WIDTH, lightEnd);
+            for (uint i = first; i < end; ++i)
+                testLight(bounds, i);
+            steps += TREE_WIDTH;
+        }
+    }
+    if (page != NO_PAGE)
+        entries[page * PAGE_WORDS] = inPage;
+    const bool tooLong = steps >= params.maxSteps || total > params.longest;
+    lists[at] = tooLong ? LIST_LONG : full ? LIST_UNLISTED : total == 0u ? LIST_EMPTY : headPage;
+    if (params.which == LISTS_OF_BLOCKS)
+        return;
+    if (tooLong || full) {
+        atomicAdd(counters.unlistedClusters, 1u);
+        appendTile(cluster.tile);
+    }
+    atomicAdd(counters.clusters, 1u);
+    atomicAdd(counters.listEntries, tooLong || full ? 0u : total);
+    atomicMax(counters.maxListLength, total);
+}

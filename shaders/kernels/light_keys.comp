@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lights are sorted by: type, class of influence radius, place along a Morton curve. Equal types
+// have a shader in common; equal sizes and places make tight boxes in the light tree.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/light_order.h"
+#include "shared/lighting.h"
+
+layout(local_size_x = SORT_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    LightKeysParams params;
+};
+layout(scalar, binding = LIGHT_KEYS_RECORDS) readonly buffer Records
+{
+    LightRecord records[];
+};
+layout(scalar, binding = LIGHT_KEYS_KEYS) writeonly buffer Keys
+{
+    LightKey keys[];
+};
+
+// Two zero bits behind each of the low 10 bits.
+uint spread(uint x)
+{
+    x = (x | (x << 16)) & 0x030000FFu;
+    x = (x | (x << 8)) & 0x0300F00Fu;
+    x = (x | (x << 4)) & 0x030C30C3u;
+    return (x | (x << 2)) & 0x09249249u;
+}
+
+uint morton(vec3 position)
+{
+    const float cells = float(1u << params.axisBits);
+    // min first: a NaN would be no problem, but infinities are not converted.
+    const uvec3 cell =
+        uvec3(clamp((position - params.low) * params.cellsPerMetre, vec3(0.0), vec3(cells - 1.0)));
+    return spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
+}
+
+// Two octaves of influence radii each; the last holds all that are larger.
+uint sizeClass(float influenceRadius)
+{
+    const int exponent = int(floatBitsToUint(influenceRadius) >> 23) - 127;
+    const int last = (1 << ORDER_SIZE_BITS) - 1;
+    return uint(clamp(last - 1 + ((exponent - params.largestExponent) >> 1), 0, last));
+}
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= params.lightCount)
+        return;
+    const uint type = records[i].type & (LIGHT_TWO_SIDED - 1u);
+    const uint size = sizeClass(records[i].influenceRadius);
+    const uint place = morton(records[i].position);
+    const uint key = ((type << ORDER_SIZE_BITS) | size) << (3u * params.axisBits) | place;
+    keys[i] = LightKey(key, i);
+}

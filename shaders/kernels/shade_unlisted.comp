@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights the pixels whose cluster has no list, by walking the light tree: same lights, same order,
+// same bits, more time. Where the device limits loops, clusters of too many lights are lit in batches
+// of all lights instead.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/shade_receiver.glsl"
+#include "lib/cluster_test.glsl"
+#define TREE_NODES SHADE_NODES
+#define TREE_NODE_WORDS SHADE_NODE_WORDS
+#include "lib/light_tree.glsl"
+
+// The page of a list that has none in memory; or consecutive lights, without a page.
+uint page[PAGE_LIGHTS];
+bool consecutive = false;
+
+uint lightAt(uint k)
+{
+    return consecutive ? k : page[k];
+}
+
+#include "lib/light_walk.glsl"
+
+layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
+layout(scalar, binding = SHADE_TILES) readonly buffer Tiles
+{
+    TileClusters tiles[];
+};
+layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
+{
+    uint lists[];
+};
+layout(scalar, binding = SHADE_CLUSTERS) readonly buffer Clusters
+{
+    Cluster clusters[];
+};
+layout(scalar, binding = SHADE_WORK) readonly buffer Work
+{
+    WorkList work;
+    uint workTiles[];
+};
+
+void main()
+{
+    const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    if (at >= work.count)
+        return;
+    const uint tile = workTiles[at];
+    const uvec2 pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
+                        gl_LocalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, params.size)))
+        return;
+    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
+    if (depth == params.clearDepth)
+        return;
+    const uint cluster =
+        tiles[tile].first + ((floatBitsToUint(depth) - tiles[tile].lowest) >> tiles[tile].shift);
+    const uint list = lists[cluster];
+    const bool firstBatch = params.firstLight == params.tree.firstLight;
+    const bool inBatches = list == LIST_LONG;
+    if (!inBatches && (list != LIST_UNLISTED || !firstBatch))
+        return;
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
+                                    params.sampleCount, pixelSeed(pixel));
+    Sums sums = noLight();
+    consecutive = inBatches;
+    page[0] = params.tree.firstLight; // read when there is none
+    const uint batch = inBatches ? params.lightCount : 0u;
+    for (uint done = 0u; done < batch; done += WALK_BLOCK)
+        shadeBlock(sums, r, params.firstLight + done, min(WALK_BLOCK, batch - done), true);
+    const uint end = params.tree.firstLight + params.tree.lightCount;
+    const ClusterBounds bounds = makeClusterBounds(clusters[cluster]);
+    TreeWalk walk = beginTreeWalk(params.tree);
+    walk.done = walk.done || inBatches;
+    while (!walk.done) {
+        uint inPage = 0u;
+        while (!walk.done && inPage + TREE_WIDTH <= PAGE_LIGHTS) {
+            const bool touched = boxTouches(bounds, treeNode(walk));
+            const uint first = params.tree.firstLight + walk.index * TREE_WIDTH;
+            const uint count = touched && walk.level == 1u ? min(TREE_WIDTH, end - first) : 0u;
+            for (uint i = 0u; i < count; ++i) {
+                const vec4 centre = lightCentre(first + i);
+                if (lightTouches(bounds, centre.xyz, centre.w, lightEmission(first + i).w)) {
+                    page[inPage] = first + i;
+                    ++inPage;
+                }
+            }
+            if (touched && walk.level > 1u)
+                descend(walk);
+            else
+                skipSubtree(params.tree, walk);
+        }
+        shadeBlock(sums, r, 0u, inPage, true);
+    }
+    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
+    imageStore(radianceImage, ivec2(pixel), before + vec4(total(sums), 0.0));
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// How often each digit occurs in each run of lights.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/sort_run.glsl"
+
+layout(scalar, binding = SORT_COUNT_KEYS) readonly buffer Keys
+{
+    LightKey keys[];
+};
+layout(scalar, binding = SORT_COUNT_COUNTS) writeonly buffer Counts
+{
+    uint counts[];
+};
+
+void main()
+{
+    const uint run = gl_GlobalInvocationID.x;
+    if (run >= params.runCount)
+        return;
+    uint found[SORT_DIGITS];
+    for (uint d = 0u; d < SORT_DIGITS; ++d)
+        found[d] = 0u;
+    const uint end = min(params.lightCount, (run + 1u) * SORT_RUN);
+    for (uint i = run * SORT_RUN; i < end; ++i)
+        ++found[digitOf(keys[i].key)];
+    for (uint d = 0u; d < SORT_DIGITS; ++d)
+        counts[d * params.runCount + run] = found[d];
+}

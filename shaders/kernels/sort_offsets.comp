@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exclusive sums of the totals of sort_sums, in one group.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/sort_run.glsl"
+
+layout(scalar, binding = SORT_OFFSETS_SUMS) buffer Sums
+{
+    uint sums[];
+};
+
+shared uint totals[SORT_GROUP];
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex;
+    const uint count = (SORT_DIGITS * params.runCount + SORT_SUM - 1u) / SORT_SUM;
+    const uint perLane = (count + SORT_GROUP - 1u) / SORT_GROUP;
+    const uint first = min(count, lane * perLane);
+    const uint end = min(count, first + perLane);
+    uint total = 0u;
+    for (uint i = first; i < end; ++i)
+        total += sums[i];
+    totals[lane] = total;
+    barrier();
+    uint before = 0u;
+    for (uint i = 0u; i < lane; ++i)
+        before += totals[i];
+    for (uint i = first; i < end; ++i) {
+        const uint here = sums[i];
+        sums[i] = before;
+        before += here;
+    }
+}

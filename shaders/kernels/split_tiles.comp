@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clusters of deep tiles: one per slice of depth that holds samples. One lane per slice, so that
+// those of a tile walk its pixels in step.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/cluster_bounds.glsl"
+
+layout(local_size_x = SPLIT_TILES_GROUP) in;
+layout(scalar, binding = TILE_CLUSTERS_TILES) readonly buffer Tiles
+{
+    TileClusters tiles[];
+};
+layout(scalar, binding = TILE_CLUSTERS_SPLITS) readonly buffer Splits
+{
+    WorkList splits;
+    uint splitTiles[];
+};
+
+void main()
+{
+    const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    const uint lane = group * SPLIT_TILES_GROUP + gl_LocalInvocationIndex;
+    const uint split = lane / SLICES, slice = lane % SLICES;
+    if (split >= min(splits.count, params.splitCapacity))
+        return;
+    const uint tile = splitTiles[split];
+    const TileClusters at = tiles[tile];
+    const uvec2 first = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX);
+    const uvec2 end = min(first + TILE_SIZE, params.size);
+    Cluster cluster = emptyCluster(tile);
+    for (uint y = first.y; y < end.y; ++y)
+        for (uint x = first.x; x < end.x; ++x) {
+            const float depth = depthAt(uvec2(x, y));
+            const bool here = (floatBitsToUint(depth) - at.lowest) >> at.shift == slice;
+            if (depth != params.clearDepth && here)
+                addSample(cluster, uvec2(x, y), depth);
+        }
+    clusters[at.first + slice] = withMargins(cluster);
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Clusters of surface samples: one per 8x8 pixel tile, or one per slice of its depth where the tile is
+// deep (split_tiles makes those). Tiles without a surface are in no list and cost nothing later.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/cluster_bounds.glsl"
+
+layout(local_size_x = TILE_CLUSTERS_GROUP) in;
+layout(scalar, binding = TILE_CLUSTERS_TILES) writeonly buffer Tiles
+{
+    TileClusters tiles[];
+};
+layout(scalar, binding = TILE_CLUSTERS_SURFACES) buffer Surfaces
+{
+    WorkList surfaces;
+    uint surfaceTiles[];
+};
+layout(scalar, binding = TILE_CLUSTERS_SPLITS) buffer Splits
+{
+    WorkList splits;
+    uint splitTiles[];
+};
+
+void main()
+{
+    const uint tile = gl_GlobalInvocationID.x;
+    if (tile >= params.tileCount)
+        return;
+    const uvec2 first = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX);
+    const uvec2 end = min(first + TILE_SIZE, params.size);
+    Cluster cluster = emptyCluster(tile);
+    uint highest = 0u;
+    for (uint y = first.y; y < end.y; ++y)
+        for (uint x = first.x; x < end.x; ++x) {
+            const float depth = depthAt(uvec2(x, y));
+            if (depth != params.clearDepth) {
+                addSample(cluster, uvec2(x, y), depth);
+                highest = max(highest, floatBitsToUint(depth));
+            }
+        }
+    const uint lowest = cluster.depthBits;
+    if (isEmpty(cluster)) {
+        tiles[tile] = TileClusters(0u, 1u, 0u, UNSPLIT, 0u);
+        return;
+    }
+    const uint surface = atomicAdd(surfaces.count, 1u);
+    if (surface % TILE_ROW == 0u)
+        atomicAdd(surfaces.groupsY, 1u);
+    surfaceTiles[surface] = tile;
+
+    const bool deep = distance(cluster.min, cluster.max) > params.splitLength &&
+                      highest - lowest >= SLICES;
+    const uint split = deep ? atomicAdd(splits.count, 1u) : params.splitCapacity;
+    if (split < params.splitCapacity) {
+        const uint perGroup = SPLIT_TILES_GROUP / SLICES;
+        if (split % (SPLIT_ROW * perGroup) == 0u)
+            atomicAdd(splits.groupsY, 1u);
+        splitTiles[split] = tile;
+        const uint shift = uint(findMSB(highest - lowest) + 1 - int(SLICE_BITS));
+        tiles[tile] =
+            TileClusters(params.firstSplit + split * SLICES, lowest, highest, shift, 0u);
+    } else {
+        tiles[tile] = TileClusters(tile, lowest, highest, UNSPLIT, 0u);
+        clusters[tile] = withMargins(cluster);
+    }
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bounds of surface samples: a box, a slab along an axis near their normals, and a cone of normals.
+// Exact positions, not a frustum slice, so lights are culled against what is really there.
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/clusters.h"
+#include "lib/bounds.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/projection.glsl"
+
+layout(constant_id = SPEC_GBUFFER_LAYOUT) const uint gbufferLayout = 0u;
+layout(push_constant, scalar) uniform Push
+{
+    TileClustersParams params;
+};
+layout(binding = TILE_CLUSTERS_DEPTH) uniform texture2D depthImage;
+layout(binding = TILE_CLUSTERS_NORMALS) uniform utexture2D normalRoughnessImage;
+layout(scalar, binding = TILE_CLUSTERS_CLUSTERS) writeonly buffer Clusters
+{
+    Cluster clusters[];
+};
+float depthAt(uvec2 pixel)
+{
+    return texelFetch(depthImage, ivec2(pixel), 0).x;
+}
+
+vec3 normalAt(uvec2 pixel)
+{
+    return unpackNormal(gbufferLayout, texelFetch(normalRoughnessImage, ivec2(pixel), 0).xy);
+}
+
+Cluster emptyCluster(uint tile)
+{
+    const float infinity = uintBitsToFloat(0x7F800000u);
+    return Cluster(vec3(infinity), tile, vec3(-infinity), 0u, vec3(0.0), infinity, -infinity, 1.0,
+                   0xFFFFFFFFu);
+}
+
+bool isEmpty(Cluster c)
+{
+    return c.min.x > c.max.x;
+}
+
+// The axis is the normal of the first sample.
+void addSample(inout Cluster c, uvec2 pixel, float depth)
+{
+    const vec3 p = viewPosition(params.projection, pixel, params.invImageSize, depth);
+    const vec3 n = normalAt(pixel);
+    c.axis = isEmpty(c) ? n : c.axis;
+    c.depthBits = min(c.depthBits, floatBitsToUint(depth)); // depths are >= 0: bits have their order
+    c.min = min(c.min, p);
+    c.max = max(c.max, p);
+    const float along = dot(c.axis, p);
+    c.slabMin = min(c.slabMin, along);
+    c.slabMax = max(c.slabMax, along);
+    c.minCos = min(c.minCos, dot(c.axis, n));
+}
+
+// Wider by what rounding may have taken.
+Cluster withMargins(Cluster c)
+{
+    const float margin = DOT_MARGIN * max(largest(c.min), largest(c.max));
+    c.slabMin -= margin;
+    c.slabMax += margin;
+    c.minCos -= 4.0 / 16777216.0;
+    return c;
+}

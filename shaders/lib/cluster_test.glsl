@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which lights can add something to a cluster. Conservative in float32: no light that adds to one of
+// the cluster's samples fails.
+#ifndef CND_LIB_CLUSTER_TEST
+#define CND_LIB_CLUSTER_TEST
+
+#include "shared/clusters.h"
+#include "lib/bounds.glsl"
+
+// What a lane keeps of its cluster.
+struct ClusterBounds {
+    Box box;
+    vec3 axis;
+    float slabMin, slabMax;
+    float minCos, maxSin; // of the cone of normals
+};
+
+ClusterBounds makeClusterBounds(Cluster c)
+{
+    const float sin2 = 1.0 - c.minCos * c.minCos;
+    return ClusterBounds(Box(c.min, c.max), c.axis, c.slabMin, c.slabMax, c.minCos,
+                         sqrt(max(sin2, 0.0)));
+}
+
+// Whether a box of influence, margins included, may hold a sample.
+bool boxTouches(ClusterBounds c, Box b)
+{
+    const vec3 up = max(c.axis, vec3(0.0)), down = min(c.axis, vec3(0.0));
+    const float lowest = dot(up, b.min) + dot(down, b.max);
+    const float highest = dot(up, b.max) + dot(down, b.min);
+    return all(lessThanEqual(b.min, c.box.max)) && all(greaterThanEqual(b.max, c.box.min)) &&
+           lowest <= c.slabMax && highest >= c.slabMin;
+}
+
+// Whether a light may reach a sample and be above its horizon. `reach`: of the emitter from its
+// centre; `r2`: square of its radius of influence.
+bool lightTouches(ClusterBounds c, vec3 centre, float reach, float r2)
+{
+    const float margin = DOT_MARGIN * largest(centre);
+    const float along = dot(c.axis, centre);
+    const float beyond = max(along - c.slabMax - margin, 0.0);
+    // With v from a sample to the centre, |v| < r and a.v <= below < 0, no normal within the cone has
+    // more than n.v = cos(cone) a.v + sin(cone) |v|.
+    const float below = along - c.slabMin + margin;
+    const bool hidden = below < 0.0 && c.minCos > 0.0 &&
+                        c.minCos * below + c.maxSin * sqrt(r2) + margin <= -reach;
+    return sphereTouches(c.box, centre, r2) && beyond * beyond <= r2 * BOUNDS_MARGIN && !hidden;
+}
+
+#endif

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The run of consecutive lights that one lane of a sorting pass works on.
+#include "shared/light_order.h"
+
+layout(local_size_x = SORT_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    SortParams params;
+};
+
+uint digitOf(uint key)
+{
+    return key >> params.shift & (SORT_DIGITS - 1u);
+}
