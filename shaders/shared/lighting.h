@@ -81,7 +81,8 @@ struct PrepareLightsParams {
 };
 GPU_SIZE(PrepareLightsParams, 52)
 
-// --- shade_tiles, shade_unlisted, shade_brute, count_pairs: 8x8 pixels per group, one lane per pixel
+// --- shade_tiles, shade_unlisted, shade_brute, count_pairs: 8x8 pixels per group, one lane per
+// pixel
 // one lane per pixel
 const uint SHADE_CORE = 0u;
 const uint SHADE_CORE_WORDS = 1u;
