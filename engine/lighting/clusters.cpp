@@ -110,7 +110,8 @@ Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBud
     };
     tiles_ = make("tiles", VkDeviceSize(records) * sizeof(gpu::TileClusters), storageUse);
     clusters_ = make("clusters", VkDeviceSize(clusterCount_) * sizeof(gpu::Cluster), storageUse);
-    surfaces_ = make("surface tiles", workBytes(area(maxTiles)), workUse);
+    surfaces_ = make("surface tiles", workBytes(area(maxTiles)),
+                     workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     splits_ = make("split tiles", workBytes(splitCapacity_), workUse);
     entries_ = make("list entries", std::max(listBudget, 2 * pageBytes), storageUse);
 }

@@ -265,6 +265,10 @@ void View::recordClusters(const gpu::Frame& f, const Plan& p) const noexcept
                                  .clearDepth = p.clearDepth,
                                  .invImageSize = p.invImageSize,
                                  .splitLength = p.splitLength});
+    const VkBufferCopy tileCount{.srcOffset = offsetof(gpu::WorkList, count),
+                                 .dstOffset = offsetof(gpu::LightingCounters, surfaceTiles),
+                                 .size = sizeof(uint32_t)};
+    f.device.CmdCopyBuffer(f.cmd, clusters_.surfaces().get(), counters_.get(), 1, &tileCount);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (!isDistant(type))
             clusters_.recordTree(f, p.trees[type]);

@@ -49,42 +49,11 @@ layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
     LightingCounters counters;
 };
 
+#include "lib/cluster_of_lane.glsl"
+#include "lib/list_pages.glsl"
+
 // Leaves found before their lights are tested: lanes take turns at walking and testing together.
 const uint QUEUE = 16u;
-
-const uint NO_PAGE = 0u;
-
-// The list that is being written.
-uint headPage = NO_PAGE, page = NO_PAGE;
-uint inPage = 0u; // lights of the page
-uint total = 0u;
-bool full = false; // there was no page left
-
-// Compare-and-swap, so the cursor never passes the capacity and cannot wrap. Page 0 is none.
-uint reservePage()
-{
-    uint next = atomicAdd(counters.pageCursor, 0u);
-    while (next + 1u < params.pageCount) {
-        const uint seen = atomicCompSwap(counters.pageCursor, next, next + 1u);
-        if (seen == next)
-            return next + 1u;
-        next = seen;
-    }
-    return NO_PAGE;
-}
-
-// Makes room for the lights of a leaf.
-void turnPage()
-{
-    const uint next = reservePage();
-    if (page != NO_PAGE)
-        entries[page * PAGE_WORDS] = next << PAGE_COUNT_BITS | inPage;
-    else
-        headPage = next;
-    page = next;
-    inPage = 0u;
-    full = full || next == NO_PAGE;
-}
 
 void appendTile(uint tile)
 {
@@ -95,47 +64,6 @@ void appendTile(uint tile)
     unlistedTiles[at] = tile;
     if (at % TILE_ROW == 0u)
         atomicAdd(unlisted.groupsY, 1u);
-}
-
-// The cluster of this lane; false without one.
-bool takeCluster(out uint at)
-{
-    const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    const uint lane = group * CLUSTER_LISTS_GROUP + gl_LocalInvocationIndex;
-    at = params.firstCluster + lane;
-    if (params.which != LISTS_OF_TILES)
-        return lane < (params.which == LISTS_OF_BLOCKS
-                           ? params.clusterCount
-                           : min(splits.count * SLICES, params.clusterCount));
-    const uint perBlock = BLOCK_SIDE * BLOCK_SIDE;
-    const uint blocksX = (params.tileCountX + BLOCK_SIDE - 1u) / BLOCK_SIDE;
-    const uint block = lane / perBlock, inBlock = lane % perBlock;
-    const uvec2 tile = BLOCK_SIDE * uvec2(block % blocksX, block / blocksX) +
-                       uvec2(inBlock % BLOCK_SIDE, inBlock / BLOCK_SIDE);
-    if (any(greaterThanEqual(tile, uvec2(params.tileCountX, params.tileCountY))))
-        return false;
-    at = tile.y * params.tileCountX + tile.x;
-    return tiles[at].first == at && tiles[at].shift == UNSPLIT &&
-           tiles[at].lowest <= tiles[at].highest;
-}
-
-void testLight(ClusterBounds bounds, uint light)
-{
-    const vec4 centre = lightCentre(light);
-    if (!lightTouches(bounds, centre.xyz, centre.w, lightEmission(light).w))
-        return;
-    if (!full) {
-        ++inPage;
-        entries[page * PAGE_WORDS + inPage] = light;
-    }
-    ++total;
-}
-
-// Room for TREE_WIDTH lights.
-void makeRoom()
-{
-    if (!full && (page == NO_PAGE || inPage + TREE_WIDTH > PAGE_LIGHTS))
-        turnPage();
 }
 
 void main()

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which cluster a lane of cluster_lists makes the list of. The includer provides params, tiles[] and
+// splits.
+#ifndef CND_LIB_CLUSTER_OF_LANE
+#define CND_LIB_CLUSTER_OF_LANE
+
+// The cluster of this lane; false without one.
+bool takeCluster(out uint at)
+{
+    const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    const uint lane = group * CLUSTER_LISTS_GROUP + gl_LocalInvocationIndex;
+    at = params.firstCluster + lane;
+    if (params.which != LISTS_OF_TILES)
+        return lane < (params.which == LISTS_OF_BLOCKS
+                           ? params.clusterCount
+                           : min(splits.count * SLICES, params.clusterCount));
+    const uint perBlock = BLOCK_SIDE * BLOCK_SIDE;
+    const uint blocksX = (params.tileCountX + BLOCK_SIDE - 1u) / BLOCK_SIDE;
+    const uint block = lane / perBlock, inBlock = lane % perBlock;
+    const uvec2 tile = BLOCK_SIDE * uvec2(block % blocksX, block / blocksX) +
+                       uvec2(inBlock % BLOCK_SIDE, inBlock / BLOCK_SIDE);
+    if (any(greaterThanEqual(tile, uvec2(params.tileCountX, params.tileCountY))))
+        return false;
+    at = tile.y * params.tileCountX + tile.x;
+    return tiles[at].first == at && tiles[at].shift == UNSPLIT &&
+           tiles[at].lowest <= tiles[at].highest;
+}
+
+#endif
