@@ -20,7 +20,7 @@ namespace
 #define CND_REQUIRED_LIMITS(X)                                                                     \
     X(maxComputeWorkGroupInvocations, 256) /* exposure: a lane per histogram bin */                \
     X(maxComputeWorkGroupSize[0], 256)                                                             \
-    X(maxPerStageDescriptorStorageBuffers, 6) /* tile_lists */
+    X(maxPerStageDescriptorStorageBuffers, 9) /* cluster_lists */
 
 struct FormatNeed {
     VkFormat format;
@@ -151,6 +151,22 @@ std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice p
         missing.emplace_back(#limit " of at least " #least);
     CND_REQUIRED_LIMITS(X)
 #undef X
+
+    VkPhysicalDeviceVulkan11Properties core11{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties2{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                            .pNext = &core11};
+    const auto getProperties2 = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
+        getInstanceProcAddr(instance, "vkGetPhysicalDeviceProperties2"));
+    if (!getProperties2)
+        return {"an instance of Vulkan 1.1 or newer"};
+    getProperties2(physicalDevice, &properties2);
+    constexpr VkSubgroupFeatureFlags subgroupNeeds = // count_pairs
+        VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
+        VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+    if ((core11.subgroupSupportedOperations & subgroupNeeds) != subgroupNeeds ||
+        !(core11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT))
+        missing.emplace_back("subgroup votes and arithmetic in compute shaders");
 
     const auto getFormat = reinterpret_cast<PFN_vkGetPhysicalDeviceFormatProperties>(
         getInstanceProcAddr(instance, "vkGetPhysicalDeviceFormatProperties"));

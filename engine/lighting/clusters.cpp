@@ -33,7 +33,7 @@ uint32_t nodeCount(uint32_t lights)
     uint32_t count = 0;
     for (uint32_t level = lights; level; level = level > 1 ? divideUp(level, gpu::TREE_WIDTH) : 0)
         count += divideUp(level, gpu::TREE_WIDTH);
-    return count;
+    return lights == 1 ? 2 : count; // levels are made in pairs
 }
 
 glm::uvec2 blocks(glm::uvec2 below)
@@ -112,7 +112,8 @@ Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBud
     clusters_ = make("clusters", VkDeviceSize(clusterCount_) * sizeof(gpu::Cluster), storageUse);
     surfaces_ = make("surface tiles", workBytes(area(maxTiles)),
                      workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    splits_ = make("split tiles", workBytes(splitCapacity_), workUse);
+    splits_ =
+        make("split tiles", workBytes(splitCapacity_), workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     entries_ = make("list entries", std::max(listBudget, 2 * pageBytes), storageUse);
 }
 
@@ -263,9 +264,12 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
     const uint32_t loops = lighting_.device().maxLoopIterations;
     const auto level = levels(tileCount);
     gpu::ClusterListsParams params{.tree = tree,
-                                   .pageCount = uint32_t(entries_.size / pageBytes),
+                                   .pageCount = uint32_t(entries_.size / pageBytes) / 2,
                                    .longest = UINT32_MAX,
                                    .maxSteps = loops == UINT32_MAX ? loops : loops / 4 * 3,
+                                   // In shade_unlisted four clusters may share a row of pixels, and
+                                   // the lights found are evaluated as well.
+                                   .maxUnlistedSteps = loops == UINT32_MAX ? loops : loops / 16,
                                    .lightType = type,
                                    .which = gpu::LISTS_OF_BLOCKS,
                                    .tileCountX = tileCount.x,
@@ -283,10 +287,8 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
         f.barrier();
         params.hasParents = 1;
     }
+    params.pageCount *= 2; // blocks only help: tiles have at least half of the budget
     params.longest = longest;
-    // Of a limited device's iterations, shade_unlisted spends some on the way through the tree, the
-    // others on the lights it finds.
-    params.maxSteps = loops == UINT32_MAX ? loops : loops / 4;
     params.which = gpu::LISTS_OF_TILES;
     params.firstCluster = 0;
     dispatch(area(level[1].count) * gpu::BLOCK_SIDE * gpu::BLOCK_SIDE);

@@ -3,8 +3,8 @@
 // buffers of one view and the passes that fill them (shared/clusters.h).
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <vector>
 
 #include "gpu/kernel.h"
 #include "lighting/pack_lights.h"
@@ -61,6 +61,9 @@ public:
     const gpu::Buffer& clusters() const { return clusters_; }
     const gpu::Buffer& entries() const { return entries_; }
     const gpu::Buffer& nodes() const { return nodes_; }
+    const gpu::Buffer& splits() const { return splits_; }
+    // Of the tiles that asked for it.
+    uint32_t splitTileCount(uint32_t asked) const { return std::min(asked, splitCapacity_); }
     const gpu::Buffer& surfaces() const { return surfaces_; } // WorkList of tiles
 
 private:

@@ -2,6 +2,7 @@
 // Sorts the lights of a set on the device: by type, size and place (shared/light_order.h).
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "candelabra/candelabra.h"
@@ -13,9 +14,10 @@ namespace candelabra::lighting
 
 // Where lights lie, for the grid they are sorted along; lights outside count to its border.
 struct LightExtent {
-    float low[3] = {0, 0, 0};  // metres
-    float size = 1;            // metres, of the longest side, > 0
-    float influenceRadius = 0; // metres, median of the lights that have a place; may be infinite
+    float low[3] = {0, 0, 0}; // metres
+    float size = 1;           // metres, of the longest side, > 0
+    float influenceRadius =
+        std::numeric_limits<float>::infinity(); // metres, median; may be infinite
 };
 
 // Estimated from at most 1024 lights; the outermost are left out, so that one far light does not

@@ -82,17 +82,16 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
     grow(0, {});
 }
 
-// Walking costs at most this many loop iterations per light. shade_tiles: a test, a turn of one
-// class's loop, and per 32 lights at most its own turn and the five exits of a block; tile_lists
-// (two turns, and two more per mask word) needs less.
+// Shading a list takes at most this many loop iterations per light: a test, a turn in each of four
+// classes (the lanes of a vector may differ), and per block of 63 the exits of its loops.
 uint32_t Lighting::lightsPerBatch(uint32_t loopIterations) const
 {
     if (device_.maxLoopIterations == UINT32_MAX)
         return UINT32_MAX;
-    constexpr uint32_t fixedIterations = 1024; // sums over the group and retries of the reservation
-    const uint64_t per32 = 32 * (2 + uint64_t(loopIterations)) + 6;
+    constexpr uint32_t fixedIterations = 1024; // before and behind the walk
+    const uint64_t per32 = 32 * (5 + uint64_t(loopIterations)) + 8;
     const uint64_t lights = uint64_t(device_.maxLoopIterations - fixedIterations) * 32 / per32;
-    return uint32_t(std::max<uint64_t>(lights, 1));
+    return uint32_t(std::max<uint64_t>(lights, gpu::TREE_WIDTH));
 }
 
 void Lighting::setLights(const CndLightSet& set)
@@ -112,6 +111,7 @@ void Lighting::setLights(const CndLightSet& set)
     const std::span lights(set.lights, set.count);
     validateLights(lights);
     const LightTypeCounts counts = countTypes(lights);
+    const LightExtent extent = extentOf(lights);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (counts[type])
             kernels_.shade.require(type);
@@ -123,7 +123,7 @@ void Lighting::setLights(const CndLightSet& set)
     typeCounts_ = counts;
     lightCount_ = set.count;
     std::copy_n(set.origin, 3, origin_);
-    extent_ = extentOf(lights);
+    extent_ = extent;
 }
 
 Lighting::Staging& Lighting::freeStaging()

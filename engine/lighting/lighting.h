@@ -69,8 +69,8 @@ public:
     const LightExtent& extent() const { return extent_; }
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
     const double* origin() const { return origin_; }
-    // Lights that are culled and shaded together, at most: all of a type, unless the device limits
-    // loops. `loopIterations`: that evaluating one light takes.
+    // Lights that one walk may take, at most: all, unless the device limits loops.
+    // `loopIterations`: that evaluating one light takes.
     uint32_t lightsPerBatch(uint32_t loopIterations) const;
 
 private:
@@ -141,8 +141,12 @@ private:
     gpu::ShadeParams shadeParams(const CndLightingFrame& frame, const Plan& plan,
                                  uint32_t type) const noexcept;
     template <typename Record>
-    void inBatches(const CndLightingFrame& frame, const Plan& plan, uint32_t type,
-                   Record&& record) const noexcept;
+    void inBatches(gpu::ShadeParams params, uint32_t largest, Record&& record) const noexcept;
+    uint32_t lightsPerBatch(const CndLightingFrame& frame, const Plan& plan,
+                            uint32_t type) const noexcept;
+    void recordUnlisted(const gpu::Frame& f, const ShadeKernels::Variant& kernels,
+                        gpu::ShadeParams params, uint32_t set, uint32_t type,
+                        uint32_t perBatch) const noexcept;
     void recordBrute(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& plan,
                      uint32_t type) const noexcept;
     void recordReadback(const gpu::Frame& f) const noexcept;

@@ -132,15 +132,15 @@ void View::makeRoom(const LightTypeCounts& types)
     const VkDeviceSize lights = lighting_.lightCapacity();
     clusters_.grow(uint32_t(lights), types);
     const VkDeviceSize coreBytes = lights * gpu::LIGHT_CORE_STRIDE * sizeof(glm::vec4);
-    if (coreBytes <= core_.size)
+    const VkDeviceSize auxBytes = lights * gpu::LIGHT_AUX_STRIDE * sizeof(glm::vec4);
+    if (coreBytes <= core_.size && auxBytes <= aux_.size)
         return;
     gpu::Buffer core = gpu::createBuffer(device, "light core", coreBytes,
                                          storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                                          gpu::MemoryUse::Device);
     gpu::createTexelView(device, core);
     gpu::Buffer aux =
-        gpu::createBuffer(device, "light aux", lights * gpu::LIGHT_AUX_STRIDE * sizeof(glm::vec4),
-                          storageUse, gpu::MemoryUse::Device);
+        gpu::createBuffer(device, "light aux", auxBytes, storageUse, gpu::MemoryUse::Device);
     lighting_.replace(core_, std::move(core));
     lighting_.replace(aux_, std::move(aux));
 }
@@ -265,10 +265,14 @@ void View::recordClusters(const gpu::Frame& f, const Plan& p) const noexcept
                                  .clearDepth = p.clearDepth,
                                  .invImageSize = p.invImageSize,
                                  .splitLength = p.splitLength});
-    const VkBufferCopy tileCount{.srcOffset = offsetof(gpu::WorkList, count),
-                                 .dstOffset = offsetof(gpu::LightingCounters, surfaceTiles),
-                                 .size = sizeof(uint32_t)};
-    f.device.CmdCopyBuffer(f.cmd, clusters_.surfaces().get(), counters_.get(), 1, &tileCount);
+    const auto count = [&](const gpu::Buffer& work, VkDeviceSize counter) {
+        const VkBufferCopy copy{.srcOffset = offsetof(gpu::WorkList, count),
+                                .dstOffset = counter,
+                                .size = sizeof(uint32_t)};
+        f.device.CmdCopyBuffer(f.cmd, work.get(), counters_.get(), 1, &copy);
+    };
+    count(clusters_.surfaces(), offsetof(gpu::LightingCounters, surfaceTiles));
+    count(clusters_.splits(), offsetof(gpu::LightingCounters, splitTiles));
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (!isDistant(type))
             clusters_.recordTree(f, p.trees[type]);
@@ -288,20 +292,16 @@ gpu::ShadeParams View::shadeParams(const CndLightingFrame& frame, const Plan& p,
             .sampleCount = p.sampleCount,
             .sampleSeed = frame.sampleSeed,
             .errorBudget = frame.errorBudget,
-            .lobes = uint32_t(frame.lobes),
-            .energyCompensation = frame.energyCompensation != VK_FALSE,
+            .lobes =
+                uint32_t(frame.lobes) | (frame.energyCompensation ? gpu::COMPENSATE_ENERGY : 0),
             .tree = p.trees[type]};
 }
 
-// Calls `record` for consecutive lights of a type, as many as a loop of the device may take.
+// Calls `record` for consecutive lights of a type, at most `largest` at once.
 template <typename Record>
-void View::inBatches(const CndLightingFrame& frame, const Plan& p, uint32_t type,
-                     Record&& record) const noexcept
+void View::inBatches(gpu::ShadeParams params, uint32_t largest, Record&& record) const noexcept
 {
-    gpu::ShadeParams params = shadeParams(frame, p, type);
     const uint32_t end = params.firstLight + params.lightCount;
-    const uint32_t largest =
-        lighting_.lightsPerBatch(loopIterations(type, frame.specularMethod, p.sampleCount));
     for (; params.firstLight < end; params.firstLight += params.lightCount) {
         params.lightCount = std::min(largest, end - params.firstLight);
         record(params);
@@ -313,17 +313,24 @@ void View::recordBrute(const gpu::Frame& f, const CndLightingFrame& frame, const
 {
     const ShadeKernels::Variant& kernels =
         lighting_.kernels().shade.variant(type, frame.specularMethod, frame.errorBudget > 0);
-    inBatches(frame, p, type, [&](gpu::ShadeParams params) {
-        const VkRect2D& r = frame.bruteRect;
-        if (r.extent.width && r.extent.height) {
-            params.origin = {r.offset.x, r.offset.y};
-            params.size = params.origin + glm::uvec2(r.extent.width, r.extent.height);
-        }
-        const glm::uvec2 pixels = params.size - params.origin;
-        kernels.brute.dispatch(f, sets_.shadeBrute.set(f.slot), params, tiles(pixels.x),
-                               tiles(pixels.y));
-        f.barrier();
-    });
+    inBatches(shadeParams(frame, p, type), lightsPerBatch(frame, p, type),
+              [&](gpu::ShadeParams params) {
+                  const VkRect2D& r = frame.bruteRect;
+                  if (r.extent.width && r.extent.height) {
+                      params.origin = {r.offset.x, r.offset.y};
+                      params.size = params.origin + glm::uvec2(r.extent.width, r.extent.height);
+                  }
+                  const glm::uvec2 pixels = params.size - params.origin;
+                  kernels.brute.dispatch(f, sets_.shadeBrute.set(f.slot), params, tiles(pixels.x),
+                                         tiles(pixels.y));
+                  f.barrier();
+              });
+}
+
+uint32_t View::lightsPerBatch(const CndLightingFrame& frame, const Plan& p,
+                              uint32_t type) const noexcept
+{
+    return lighting_.lightsPerBatch(loopIterations(type, frame.specularMethod, p.sampleCount));
 }
 
 void View::recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
@@ -332,33 +339,52 @@ void View::recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, c
     const ShadeKernels::Variant& kernels =
         lighting_.kernels().shade.variant(type, frame.specularMethod, frame.errorBudget > 0);
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
-    const Clusters::Lists& lists = clusters_.lists(type);
-    const auto shadeLists = [&](const gpu::ShadeParams& params) {
-        kernels.tiles.dispatchIndirect(f, sets_.shadeTiles.set(set), params, clusters_.surfaces());
+    const gpu::ShadeParams params = shadeParams(frame, p, type);
+    const uint32_t perBatch = lightsPerBatch(frame, p, type);
+    const auto shadeLists = [&](const gpu::ShadeParams& batch) {
+        kernels.tiles.dispatchIndirect(f, sets_.shadeTiles.set(set), batch, clusters_.surfaces());
         f.barrier();
     };
     if (isDistant(type)) { // they reach everything: no lists
-        inBatches(frame, p, type, shadeLists);
+        inBatches(params, perBatch, shadeLists);
     } else {
-        const uint32_t iterations = loopIterations(type, frame.specularMethod, p.sampleCount);
-        const bool limited = lighting_.device().maxLoopIterations != UINT32_MAX;
-        const uint32_t perBatch = lighting_.lightsPerBatch(iterations);
-        // The other half is for shade_unlisted, which also looks for the lights.
-        clusters_.recordLists(f, type, p.trees[type], {p.tileCountX, p.tileCountY},
-                              limited ? perBatch / 2 : perBatch);
+        clusters_.recordLists(f, type, p.trees[type], {p.tileCountX, p.tileCountY}, perBatch);
         f.barrier();
-        shadeLists(shadeParams(frame, p, type));
-        inBatches(frame, p, type, [&](const gpu::ShadeParams& params) {
-            kernels.unlisted.dispatchIndirect(f, sets_.shadeUnlisted.set(set), params,
-                                              lists.unlisted);
-            f.barrier();
-        });
+        shadeLists(params);
+        recordUnlisted(f, kernels, params, set, type, perBatch);
     }
     if (frame.countPairs) {
-        kernels.countPairs.dispatchIndirect(f, sets_.countPairs.set(set),
-                                            shadeParams(frame, p, type), clusters_.surfaces());
+        kernels.countPairs.dispatchIndirect(f, sets_.countPairs.set(set), params,
+                                            clusters_.surfaces());
         f.barrier();
     }
+}
+
+// Clusters whose list found no page; then, where the device limits loops, those of too many lights,
+// by parts of the light tree.
+void View::recordUnlisted(const gpu::Frame& f, const ShadeKernels::Variant& kernels,
+                          gpu::ShadeParams params, uint32_t set, uint32_t type,
+                          uint32_t perBatch) const noexcept
+{
+    gpu::Timer untimed; // the parts are one row
+    const gpu::Frame u{f.device, f.cmd, untimed, f.slot};
+    const auto record = [&](const gpu::ShadeParams& part) {
+        kernels.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
+                                          clusters_.lists(type).unlisted);
+        u.barrier();
+    };
+    record(params);
+    if (lighting_.device().maxLoopIterations != UINT32_MAX) {
+        // A row of eight pixels may hold four clusters that take turns at walking the tree;
+        // besides, finding a light takes about as many iterations as evaluating it.
+        const uint32_t largest = std::max(perBatch / (2 * gpu::SLICES), gpu::TREE_WIDTH);
+        uint32_t size = gpu::TREE_WIDTH;
+        for (params.batchLevel = 1; params.batchLevel < 3 && size * gpu::TREE_WIDTH <= largest;
+             ++params.batchLevel)
+            size *= gpu::TREE_WIDTH;
+        inBatches(params, largest / size * size, record);
+    }
+    f.timer.stamp(f.cmd, kernels.unlisted.name());
 }
 
 void View::recordReadback(const gpu::Frame& f) const noexcept
@@ -404,7 +430,7 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     const gpu::LightingCounters& c = read.counters;
     out.lightCount = slots_[slot].lightCount;
     out.tileCount = c.surfaceTiles;
-    out.clusterCount = c.clusters;
+    out.splitTileCount = clusters_.splitTileCount(c.splitTiles);
     out.listEntries = c.listEntries;
     out.maxListLength = c.maxListLength;
     out.unlistedClusters = c.unlistedClusters;

@@ -19,6 +19,15 @@ layout(scalar, binding = BLOCK_CLUSTERS_TILES) buffer Tiles
     TileClusters tiles[];
 };
 
+// Slope of a cone around `ray` that holds a child's. With t = p.childRay, a sample p of the child has
+// |p| <= q t, |p x ray| <= slope t + d |p| and p.ray >= t - d |p|, d the distance of the two rays.
+float slopeAround(vec3 ray, Cluster child)
+{
+    const float q = sqrt(1.0 + child.slope * child.slope);
+    const float turn = q * (distance(ray, child.ray) + 1e-6);
+    return turn < 1.0 ? (child.slope + turn) / (1.0 - turn) : uintBitsToFloat(0x7F800000u);
+}
+
 void main()
 {
     const uint lane = gl_GlobalInvocationID.x;
@@ -29,12 +38,14 @@ void main()
         BLOCK_SIDE * uvec2(block % params.blockCountX, block / params.blockCountX);
     const uvec2 end = min(first + BLOCK_SIDE, uvec2(params.childCountX, params.childCountY));
     uint lowest = 0xFFFFFFFFu, highest = 0u;
+    vec3 rays = vec3(0.0);
     for (uint y = first.y; y < end.y; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const TileClusters child = tiles[params.childFirst + y * params.childCountX + x];
             if (child.lowest <= child.highest) {
                 lowest = min(lowest, child.lowest);
                 highest = max(highest, child.highest);
+                rays += clusters[child.first].ray;
             }
         }
     const uint firstSlice = params.clusterFirst + block * BLOCK_SLICES;
@@ -44,8 +55,9 @@ void main()
         tiles[params.blockFirst + block] = TileClusters(firstSlice, lowest, highest, shift, 0u);
 
     const float infinity = uintBitsToFloat(0x7F800000u);
+    rays = rays == vec3(0.0) ? rays : normalize(rays);
     Cluster merged = Cluster(vec3(infinity), 0u, vec3(-infinity), 0u, vec3(0.0), -infinity,
-                             infinity, 0.0, 0xFFFFFFFFu);
+                             infinity, 0.0, 0xFFFFFFFFu, rays, 0.0);
     for (uint y = first.y; y < end.y; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const TileClusters child = tiles[params.childFirst + y * params.childCountX + x];
@@ -61,9 +73,14 @@ void main()
                     merged.min = min(merged.min, clusters[at].min);
                     merged.max = max(merged.max, clusters[at].max);
                     merged.depthBits = min(merged.depthBits, bits);
+                    merged.slope = max(merged.slope, slopeAround(merged.ray, clusters[at]));
                     clusters[at].parent = firstSlice + slice;
                 }
             }
         }
+    if (isinf(merged.slope)) {
+        merged.ray = vec3(0.0);
+        merged.slope = 0.0;
+    }
     clusters[firstSlice + slice] = merged;
 }

@@ -55,17 +55,6 @@ layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
 // Leaves found before their lights are tested: lanes take turns at walking and testing together.
 const uint QUEUE = 16u;
 
-void appendTile(uint tile)
-{
-    const uint bit = 1u << params.lightType;
-    if ((atomicOr(tiles[tile].unlisted, bit) & bit) != 0u)
-        return;
-    const uint at = atomicAdd(unlisted.count, 1u);
-    unlistedTiles[at] = tile;
-    if (at % TILE_ROW == 0u)
-        atomicAdd(unlisted.groupsY, 1u);
-}
-
 void main()
 {
     uint at;
@@ -78,8 +67,12 @@ void main()
     const uint parent = params.hasParents != 0u ? lists[cluster.parent] : LIST_UNLISTED;
     const bool byParent = parent != LIST_UNLISTED && parent != LIST_LONG;
 
-    uint steps = 0u;
-    for (uint from = byParent ? parent : NO_PAGE; from != NO_PAGE && steps < params.maxSteps;) {
+    // A block without a page for its list is of no use. `expected` counts the lights that the loops
+    // should have tested: devices may cut loops short without a word.
+    const bool isBlock = params.which == LISTS_OF_BLOCKS;
+    uint steps = 0u, expected = 0u;
+    uint from = byParent ? parent : NO_PAGE;
+    while (from != NO_PAGE && steps < params.maxSteps && !(full && isBlock)) {
         const uint header = entries[from * PAGE_WORDS];
         const uint count = header & ((1u << PAGE_COUNT_BITS) - 1u);
         for (uint first = 0u; first < count; first += TREE_WIDTH) {
@@ -88,21 +81,25 @@ void main()
             for (uint i = first; i < end; ++i)
                 testLight(bounds, entries[from * PAGE_WORDS + 1u + i]);
         }
+        expected += count;
         steps += count;
         from = header >> PAGE_COUNT_BITS;
     }
+    bool cut = from != NO_PAGE || tested != expected;
 
-    // What has no room is walked for its length alone: shade_unlisted takes the way through the tree.
-    const bool viaTree = !byParent || (full && params.which != LISTS_OF_BLOCKS);
-    if (byParent && viaTree)
+    // What has no room is walked for its length alone: shade_unlisted goes the way through the tree.
+    const bool measure = full && !isBlock && params.maxUnlistedSteps != 0xFFFFFFFFu;
+    if (byParent && measure)
         steps = total = 0u;
     const uint lightEnd = params.tree.firstLight + params.tree.lightCount;
+    const uint lastLeaf = (params.tree.lightCount - 1u) / TREE_WIDTH;
+    const uint missing = (lastLeaf + 1u) * TREE_WIDTH - params.tree.lightCount; // of a full leaf
     uint leaves[QUEUE];
     TreeWalk walk = beginTreeWalk(params.tree);
-    walk.done = walk.done || !viaTree;
-    while (!walk.done && steps < params.maxSteps) {
+    walk.done = walk.done || (byParent && !measure);
+    while (!walk.done && steps < params.maxSteps && !(full && isBlock)) {
         uint found = 0u;
-        while (!walk.done && found < QUEUE) {
+        while (!walk.done && found < QUEUE && steps < params.maxSteps) {
             const bool touched = boxTouches(bounds, treeNode(walk));
             if (touched && walk.level == 1u) {
                 leaves[found] = walk.index;
@@ -117,23 +114,27 @@ void main()
         for (uint k = 0u; k < found; ++k) {
             makeRoom();
             const uint first = params.tree.firstLight + leaves[k] * TREE_WIDTH;
-            const uint end = min(first + TREE_WIDTH, lightEnd);
-            for (uint i = first; i < end; ++i)
+            for (uint i = first; i < min(first + TREE_WIDTH, lightEnd); ++i)
                 testLight(bounds, i);
-            steps += TREE_WIDTH;
         }
+        const bool atEnd = found != 0u && leaves[found - 1u] == lastLeaf;
+        expected += found * TREE_WIDTH - (atEnd ? missing : 0u);
+        steps += found * TREE_WIDTH;
     }
+    cut = cut || !walk.done || tested != expected;
     if (page != NO_PAGE)
         entries[page * PAGE_WORDS] = inPage;
-    const bool tooLong = steps >= params.maxSteps || total > params.longest;
-    lists[at] = tooLong ? LIST_LONG : full ? LIST_UNLISTED : total == 0u ? LIST_EMPTY : headPage;
-    if (params.which == LISTS_OF_BLOCKS)
+    const bool tooLong =
+        cut || total > params.longest || (full && steps >= params.maxUnlistedSteps);
+    lists[at] = tooLong       ? LIST_LONG
+                : total == 0u ? LIST_EMPTY
+                : full        ? LIST_UNLISTED
+                              : headPage;
+    if (isBlock)
         return;
-    if (tooLong || full) {
-        atomicAdd(counters.unlistedClusters, 1u);
+    const bool withoutList = tooLong || (full && total != 0u);
+    if (withoutList)
         appendTile(cluster.tile);
-    }
-    atomicAdd(counters.clusters, 1u);
-    atomicAdd(counters.listEntries, tooLong || full ? 0u : total);
+    atomicAdd(counters.listEntries, withoutList ? 0u : total);
     atomicMax(counters.maxListLength, total);
 }

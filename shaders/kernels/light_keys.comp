@@ -32,7 +32,6 @@ uint spread(uint x)
 uint morton(vec3 position)
 {
     const float cells = float(1u << params.axisBits);
-    // min first: a NaN would be no problem, but infinities are not converted.
     const uvec3 cell =
         uvec3(clamp((position - params.low) * params.cellsPerMetre, vec3(0.0), vec3(cells - 1.0)));
     return spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;

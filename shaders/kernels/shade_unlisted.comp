@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights the pixels whose cluster has no list, by walking the light tree: same lights, same order,
-// same bits, more time. Where the device limits loops, clusters of too many lights are lit in batches
-// of all lights instead.
+// same bits, more time. Where the device limits loops, clusters of too many lights are lit in batches:
+// parts of the tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/shade_receiver.glsl"
@@ -10,13 +10,12 @@
 #define TREE_NODE_WORDS SHADE_NODE_WORDS
 #include "lib/light_tree.glsl"
 
-// The page of a list that has none in memory; or consecutive lights, without a page.
+// The page of a list that has none in memory.
 uint page[PAGE_LIGHTS];
-bool consecutive = false;
 
 uint lightAt(uint k)
 {
-    return consecutive ? k : page[k];
+    return page[k];
 }
 
 #include "lib/light_walk.glsl"
@@ -55,24 +54,27 @@ void main()
     if (depth == params.clearDepth)
         return;
     const uint cluster =
-        tiles[tile].first + ((floatBitsToUint(depth) - tiles[tile].lowest) >> tiles[tile].shift);
+        tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
     const uint list = lists[cluster];
-    const bool firstBatch = params.firstLight == params.tree.firstLight;
-    const bool inBatches = list == LIST_LONG;
-    if (!inBatches && (list != LIST_UNLISTED || !firstBatch))
+    const bool inBatches = params.batchLevel != 0u;
+    if (list != (inBatches ? LIST_LONG : LIST_UNLISTED))
         return;
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
                                     params.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
-    consecutive = inBatches;
     page[0] = params.tree.firstLight; // read when there is none
-    const uint batch = inBatches ? params.lightCount : 0u;
-    for (uint done = 0u; done < batch; done += WALK_BLOCK)
-        shadeBlock(sums, r, params.firstLight + done, min(WALK_BLOCK, batch - done), true);
     const uint end = params.tree.firstLight + params.tree.lightCount;
     const ClusterBounds bounds = makeClusterBounds(clusters[cluster]);
     TreeWalk walk = beginTreeWalk(params.tree);
-    walk.done = walk.done || inBatches;
+    uint endOfTop = treeLevelSize(params.tree, treeTop);
+    if (inBatches) {
+        treeTop = min(treeTop, params.batchLevel);
+        const uint bits = treeTop * TREE_WIDTH_BITS;
+        const uint behind = params.firstLight + params.lightCount - params.tree.firstLight;
+        walk.level = treeTop;
+        walk.index = (params.firstLight - params.tree.firstLight) >> bits;
+        endOfTop = (behind + (1u << bits) - 1u) >> bits;
+    }
     while (!walk.done) {
         uint inPage = 0u;
         while (!walk.done && inPage + TREE_WIDTH <= PAGE_LIGHTS) {
@@ -90,6 +92,7 @@ void main()
                 descend(walk);
             else
                 skipSubtree(params.tree, walk);
+            walk.done = walk.done || (walk.level == treeTop && walk.index >= endOfTop);
         }
         shadeBlock(sums, r, 0u, inPage, true);
     }

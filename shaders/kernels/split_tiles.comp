@@ -31,7 +31,7 @@ void main()
     for (uint y = first.y; y < end.y; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const float depth = depthAt(uvec2(x, y));
-            const bool here = (floatBitsToUint(depth) - at.lowest) >> at.shift == slice;
+            const bool here = (depthBits(depth) - at.lowest) >> at.shift == slice;
             if (depth != params.clearDepth && here)
                 addSample(cluster, uvec2(x, y), depth);
         }

@@ -35,7 +35,7 @@ void main()
             const float depth = depthAt(uvec2(x, y));
             if (depth != params.clearDepth) {
                 addSample(cluster, uvec2(x, y), depth);
-                highest = max(highest, floatBitsToUint(depth));
+                highest = max(highest, depthBits(depth));
             }
         }
     const uint lowest = cluster.depthBits;

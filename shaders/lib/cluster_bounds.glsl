@@ -31,8 +31,11 @@ vec3 normalAt(uvec2 pixel)
 Cluster emptyCluster(uint tile)
 {
     const float infinity = uintBitsToFloat(0x7F800000u);
+    const uvec2 tileXY = uvec2(tile % params.tileCountX, tile / params.tileCountX);
+    const vec3 ray = viewRay(params.projection, TILE_SIZE * tileXY + TILE_SIZE / 2u,
+                             params.invImageSize);
     return Cluster(vec3(infinity), tile, vec3(-infinity), 0u, vec3(0.0), infinity, -infinity, 1.0,
-                   0xFFFFFFFFu);
+                   0xFFFFFFFFu, normalize(ray), 0.0);
 }
 
 bool isEmpty(Cluster c)
@@ -46,14 +49,21 @@ void addSample(inout Cluster c, uvec2 pixel, float depth)
     const vec3 p = viewPosition(params.projection, pixel, params.invImageSize, depth);
     const vec3 n = normalAt(pixel);
     c.axis = isEmpty(c) ? n : c.axis;
-    c.depthBits = min(c.depthBits, floatBitsToUint(depth)); // depths are >= 0: bits have their order
+    c.depthBits = min(c.depthBits, depthBits(depth));
     c.min = min(c.min, p);
     c.max = max(c.max, p);
     const float along = dot(c.axis, p);
     c.slabMin = min(c.slabMin, along);
     c.slabMax = max(c.slabMax, along);
     c.minCos = min(c.minCos, dot(c.axis, n));
+    const float ahead = dot(p, c.ray);
+    const float slope = length(cross(p, c.ray)) / ahead;
+    c.slope = max(c.slope, ahead > 0.0 ? slope : uintBitsToFloat(0x7F800000u));
 }
+
+// Of the cosine of two normals that are unit to 2 ulp each: the sine made from it is far less exact,
+// and a light just above the horizon must not be taken for one below.
+const float COS_MARGIN = 16.0 / 16777216.0;
 
 // Wider by what rounding may have taken.
 Cluster withMargins(Cluster c)
@@ -61,6 +71,12 @@ Cluster withMargins(Cluster c)
     const float margin = DOT_MARGIN * max(largest(c.min), largest(c.max));
     c.slabMin -= margin;
     c.slabMax += margin;
-    c.minCos -= 4.0 / 16777216.0;
+    c.minCos -= COS_MARGIN;
+    c.slope = c.slope * (1.0 + DOT_MARGIN) + DOT_MARGIN;
+    // Orthographic: the box has the ray's direction. Infinite: a wide view in one tile.
+    if (params.projection.eyeIsPoint == 0.0 || isinf(c.slope)) {
+        c.ray = vec3(0.0);
+        c.slope = 0.0;
+    }
     return c;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cluster a lane of cluster_lists makes the list of. The includer provides params, tiles[] and
-// splits.
+// Which cluster a lane of cluster_lists makes the list of, and where it notes that there is none. The
+// includer provides params, counters, tiles[], splits, unlisted and unlistedTiles[].
 #ifndef CND_LIB_CLUSTER_OF_LANE
 #define CND_LIB_CLUSTER_OF_LANE
 
@@ -24,6 +24,19 @@ bool takeCluster(out uint at)
     at = tile.y * params.tileCountX + tile.x;
     return tiles[at].first == at && tiles[at].shift == UNSPLIT &&
            tiles[at].lowest <= tiles[at].highest;
+}
+
+// The tile is listed once per light type, by whichever lane comes first.
+void appendTile(uint tile)
+{
+    atomicAdd(counters.unlistedClusters, 1u);
+    const uint bit = 1u << params.lightType;
+    if ((atomicOr(tiles[tile].unlisted, bit) & bit) != 0u)
+        return;
+    const uint at = atomicAdd(unlisted.count, 1u);
+    unlistedTiles[at] = tile;
+    if (at % TILE_ROW == 0u)
+        atomicAdd(unlisted.groupsY, 1u);
 }
 
 #endif

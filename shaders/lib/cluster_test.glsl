@@ -13,13 +13,24 @@ struct ClusterBounds {
     vec3 axis;
     float slabMin, slabMax;
     float minCos, maxSin; // of the cone of normals
+    vec3 ray;
+    float slope; // of the cone of samples
 };
 
 ClusterBounds makeClusterBounds(Cluster c)
 {
     const float sin2 = 1.0 - c.minCos * c.minCos;
     return ClusterBounds(Box(c.min, c.max), c.axis, c.slabMin, c.slabMax, c.minCos,
-                         sqrt(max(sin2, 0.0)));
+                         sqrt(max(sin2, 0.0)), c.ray, c.slope);
+}
+
+// Whether a sphere may hold a point of the cone of samples: such a point p has |p x ray| <= slope p.ray
+// and is at most `r` from the centre.
+bool coneTouches(ClusterBounds c, vec3 centre, float r, float margin)
+{
+    const vec3 aside = cross(centre, c.ray);
+    const float wide = c.slope * (dot(centre, c.ray) + margin) + (c.slope + 1.0) * r + margin;
+    return wide >= 0.0 && dot(aside, aside) <= wide * wide;
 }
 
 // Whether a box of influence, margins included, may hold a sample.
@@ -28,23 +39,28 @@ bool boxTouches(ClusterBounds c, Box b)
     const vec3 up = max(c.axis, vec3(0.0)), down = min(c.axis, vec3(0.0));
     const float lowest = dot(up, b.min) + dot(down, b.max);
     const float highest = dot(up, b.max) + dot(down, b.min);
+    const vec3 centre = 0.5 * (b.min + b.max);
+    const float margin = 2.0 * DOT_MARGIN * (largest(b.min) + largest(b.max));
     return all(lessThanEqual(b.min, c.box.max)) && all(greaterThanEqual(b.max, c.box.min)) &&
-           lowest <= c.slabMax && highest >= c.slabMin;
+           lowest <= c.slabMax && highest >= c.slabMin &&
+           coneTouches(c, centre, 0.5 * distance(b.min, b.max), margin);
 }
 
 // Whether a light may reach a sample and be above its horizon. `reach`: of the emitter from its
 // centre; `r2`: square of its radius of influence.
 bool lightTouches(ClusterBounds c, vec3 centre, float reach, float r2)
 {
-    const float margin = DOT_MARGIN * largest(centre);
+    const float margin = 2.0 * DOT_MARGIN * largest(centre);
+    const float r = sqrt(r2);
     const float along = dot(c.axis, centre);
     const float beyond = max(along - c.slabMax - margin, 0.0);
     // With v from a sample to the centre, |v| < r and a.v <= below < 0, no normal within the cone has
     // more than n.v = cos(cone) a.v + sin(cone) |v|.
     const float below = along - c.slabMin + margin;
     const bool hidden = below < 0.0 && c.minCos > 0.0 &&
-                        c.minCos * below + c.maxSin * sqrt(r2) + margin <= -reach;
-    return sphereTouches(c.box, centre, r2) && beyond * beyond <= r2 * BOUNDS_MARGIN && !hidden;
+                        c.minCos * below + c.maxSin * r + margin <= -reach;
+    return sphereTouches(c.box, centre, r2) && beyond * beyond <= r2 * BOUNDS_MARGIN && !hidden &&
+           coneTouches(c, centre, r, margin);
 }
 
 #endif

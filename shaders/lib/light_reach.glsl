@@ -16,11 +16,4 @@ vec3 towardsLight(vec3 centre, vec3 position)
     return IS_DISTANT ? centre : centre - position;
 }
 
-// Whether a light can add anything: inside its influence, and not wholly below the horizon. `reach`:
-// from its centre to its farthest point.
-bool lightReaches(vec3 toLight, vec3 n, float reach, float influenceRadius2)
-{
-    return dot(toLight, toLight) < influenceRadius2 && dot(n, toLight) > -reach;
-}
-
 #endif

@@ -11,20 +11,14 @@ const uint NO_PAGE = 0u;
 // The list that is being written.
 uint headPage = NO_PAGE, page = NO_PAGE;
 uint inPage = 0u; // lights of the page
-uint total = 0u;
+uint tested = 0u, total = 0u; // lights tested, lights found
 bool full = false; // there was no page left
 
-// Compare-and-swap, so the cursor never passes the capacity and cannot wrap. Page 0 is none.
+// A list asks once more than there are pages at most, so the cursor does not wrap. Page 0 is none.
 uint reservePage()
 {
-    uint next = atomicAdd(counters.pageCursor, 0u);
-    while (next + 1u < params.pageCount) {
-        const uint seen = atomicCompSwap(counters.pageCursor, next, next + 1u);
-        if (seen == next)
-            return next + 1u;
-        next = seen;
-    }
-    return NO_PAGE;
+    const uint next = atomicAdd(counters.pageCursor, 1u) + 1u;
+    return next < params.pageCount ? next : NO_PAGE;
 }
 
 // Makes room for the lights of a leaf.
@@ -42,6 +36,7 @@ void turnPage()
 
 void testLight(ClusterBounds bounds, uint light)
 {
+    ++tested;
     const vec4 centre = lightCentre(light);
     if (!lightTouches(bounds, centre.xyz, centre.w, lightEmission(light).w))
         return;

@@ -5,6 +5,12 @@
 
 #include "shared/lighting.h"
 
+// Depths as integers in their order; -0 is 0.
+uint depthBits(float depth)
+{
+    return floatBitsToUint(depth) & 0x7FFFFFFFu;
+}
+
 // View-space position of the centre of `pixel` at `depth`. Every kernel that compares positions must
 // get the same bits, so the arithmetic is precise (not contracted).
 // clip = clipFromView * (x, y, z, 1), ndc = clip / clip.w, depth = (m22 z + m32) / (m23 z + m33).

@@ -18,8 +18,9 @@ ShadingPoint readShadingPoint(uvec2 pixel, float depth)
     const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
     ShadingPoint p = makeShadingPoint(readSurface(ivec2(pixel)), position,
                                       towardsEye(params.projection, position));
-    if (params.lobes != LOBES_SUM || params.energyCompensation != 0u)
-        joinLobes(p, directionalAlbedo(p.NoV, p.alpha), params.lobes, params.energyCompensation);
+    if (params.lobes != LOBES_SUM)
+        joinLobes(p, directionalAlbedo(p.NoV, p.alpha), params.lobes & (COMPENSATE_ENERGY - 1u),
+                  params.lobes & COMPENSATE_ENERGY);
     return p;
 }
 

@@ -50,7 +50,7 @@ Block batchBlock(uint at)
 
 uint clusterOf(uint tile, float depth)
 {
-    return tiles[tile].first + ((floatBitsToUint(depth) - tiles[tile].lowest) >> tiles[tile].shift);
+    return tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
 }
 
 // The first block of a sample, without lights where there are none.

@@ -48,8 +48,11 @@ struct Cluster {
     float slabMin, slabMax; // of dot(axis, sample)
     float minCos;           // of the angles between axis and normals
     uint depthBits;         // of the lowest depth
+    // Unit: the samples lie in a cone around it with its apex in the eye; 0 (and slope 0): unknown.
+    vec3 ray;
+    float slope;
 };
-GPU_SIZE(Cluster, 60)
+GPU_SIZE(Cluster, 76)
 
 // Where the samples of a tile find their cluster: first + ((depth bits - lowest) >> shift). Of
 // blocks: where the clusters of the level below find theirs.
@@ -138,16 +141,17 @@ const uint LISTS_OF_TILES = 1u;  // that are not split; block by block, so that 
 const uint LISTS_OF_SLICES = 2u; // of split tiles; firstCluster
 struct ClusterListsParams {
     TreeShape tree;
-    uint pageCount; // of the entry buffer
-    uint longest;   // list that shading can walk
-    uint maxSteps;  // of the walk through the tree or the parent's list
+    uint pageCount;        // of the entry buffer
+    uint longest;          // list that shading can walk
+    uint maxSteps;         // of the walk through the tree or the parent's list
+    uint maxUnlistedSteps; // of shade_unlisted through the tree
     uint lightType;
     uint which; // LISTS_OF_*
     uint firstCluster, clusterCount;
     uint tileCountX, tileCountY;
     uint hasParents; // 1: parents have lists
 };
-GPU_SIZE(ClusterListsParams, 52)
+GPU_SIZE(ClusterListsParams, 56)
 
 GPU_END
 

@@ -59,7 +59,7 @@ struct LightingCounters {
     uint listEntries;
     uint maxListLength;
     uint unlistedClusters;
-    uint clusters;
+    uint splitTiles;
     uint surfaceTiles;
     uvec2 listedPairs; // 64 bit: low, high
     uvec2 evaluatedPairs;
@@ -99,10 +99,11 @@ const uint SHADE_TILES = 10u;
 const uint SHADE_LISTS = 11u;
 const uint SHADE_ENTRIES = 12u;
 const uint SHADE_WORK = 13u;     // WorkList of the tiles to shade
-const uint SHADE_COUNTERS = 15u; // count_pairs
-const uint SHADE_CLUSTERS = 16u; // shade_unlisted
-const uint SHADE_NODES = 17u;    // shade_unlisted
-const uint SHADE_NODE_WORDS = 18u;
+const uint SHADE_COUNTERS = 14u; // count_pairs
+const uint SHADE_CLUSTERS = 15u; // shade_unlisted
+const uint SHADE_NODES = 16u;    // shade_unlisted
+const uint SHADE_NODE_WORDS = 17u;
+const uint COMPENSATE_ENERGY = 256u;
 struct ShadeParams {
     Projection projection;
     uvec2 size;
@@ -114,10 +115,11 @@ struct ShadeParams {
     vec2 invImageSize; // 1 / pixels of the whole image
     uint sampleCount;  // SPECULAR_SAMPLED: samples per light
     uint sampleSeed;
-    float errorBudget;       // relative to the highest response; 0: every light in full
-    uint lobes;              // LOBES_*
-    uint energyCompensation; // 0 or 1
-    TreeShape tree;          // shade_unlisted
+    float errorBudget; // relative to the highest response; 0: every light in full
+    uint lobes;        // LOBES_*, plus COMPENSATE_ENERGY
+    uint batchLevel;   // shade_unlisted: 0: clusters without a page; else those of too many
+                       //   lights, by parts of the light tree, nodes of this level
+    TreeShape tree;    // shade_unlisted
 };
 GPU_SIZE(ShadeParams, 128)
 

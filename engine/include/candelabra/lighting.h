@@ -93,12 +93,14 @@ typedef struct CndLightingFrame {
 typedef struct CndLightingStats {
     uint32_t structSize;
     uint32_t lightCount;
-    uint32_t tileCount;    // 8x8 pixel tiles that hold a surface; 0 without lights
-    uint32_t clusterCount; // of their samples; deep tiles have up to 8
-    uint32_t listEntries;  // lights of all clusters' lists
-    uint32_t maxListLength;
-    uint32_t unlistedClusters; // over the list budget: lit by walking the light tree per pixel
-    // (pixel, light) pairs, with countPairs, else 0:
+    uint32_t tileCount;      // 8x8 pixel tiles that hold a surface; 0 without lights
+    uint32_t splitTileCount; // of these, deep ones whose slices of depth have a list each
+    uint32_t listEntries;    // lights of all lists
+    uint32_t maxListLength;  // of one cluster and light type
+    // Clusters over the list budget, or of more lights than a loop of the device may take, summed
+    // over light types: lit by walking the light tree per pixel.
+    uint32_t unlistedClusters;
+    // (pixel, light) pairs of clusters that have lists, with countPairs, else 0:
     uint64_t listedPairs;       // entries walked, summed over the surface pixels
     uint64_t evaluatedPairs;    // lanes that evaluate a light, those that wait for others included
     uint64_t insidePairs;       // listed and distance < influence radius
