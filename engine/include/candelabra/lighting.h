@@ -31,7 +31,7 @@ typedef enum CndSpecularMethod {
 } CndSpecularMethod;
 
 typedef enum CndCulling {
-    CND_CULLING_CLUSTERED = 0, // exact lists per 8x8 tile
+    CND_CULLING_CLUSTERED = 0, // exact lists for clusters of surface samples
     CND_CULLING_BRUTE = 1, // every light at every pixel, no list, no bound; the check and baseline
     CND_CULLING_MAX_ENUM = 0x7FFFFFFF
 } CndCulling;
@@ -53,8 +53,9 @@ typedef struct CndLightingDesc {
 typedef struct CndLightingViewDesc {
     uint32_t structSize;
     uint32_t maxWidth, maxHeight; // pixels, 1..16384; frames may be smaller
-    // Bytes for light lists, 0 = default (64 MiB). Tiles whose list does not fit are shaded by
-    // walking all lights: slower, never wrong, and counted in CndLightingStats::unlistedTiles.
+    // Bytes for the light lists of a frame, 0 = default (64 MiB). Clusters whose list does not fit
+    // are shaded by walking the light tree: slower, never wrong, and counted in
+    // CndLightingStats::unlistedClusters.
     VkDeviceSize listBudget;
 } CndLightingViewDesc;
 
