@@ -122,6 +122,7 @@ void Lighting::setLights(const CndLightSet& set)
     pending_ = &staging;
     typeCounts_ = counts;
     lightCount_ = set.count;
+    ++lightSet_;
     std::copy_n(set.origin, 3, origin_);
     extent_ = extent;
 }

@@ -65,6 +65,8 @@ public:
     const gpu::Buffer& directionalAlbedo() const { return dfg_.buffer(); }
     const gpu::Buffer& transformedCosines() const { return ltc_; }
     uint32_t lightCount() const { return lightCount_; }
+    // Number of the light set, from 1: another one has other lights.
+    uint64_t lightSet() const { return lightSet_; }
     uint32_t lightCapacity() const { return lightCapacity_; }
     const LightExtent& extent() const { return extent_; }
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
@@ -104,6 +106,7 @@ private:
     std::deque<Staging> staging_; // elements stay where they are when it grows
     Staging* pending_ = nullptr;  // written and not yet recorded
     uint32_t lightCount_ = 0, lightCapacity_ = 0;
+    uint64_t lightSet_ = 0;
     LightTypeCounts typeCounts_{};
     double origin_[3]{};
     uint64_t recordings_ = 0;
@@ -136,6 +139,8 @@ private:
     void writeBindings(const CndLightingFrame& frame) const;
     void recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept;
     void recordClusters(const gpu::Frame& f, const Plan& plan) const noexcept;
+    void recordLists(const gpu::Frame& f, const CndLightingFrame& frame,
+                     const Plan& plan) const noexcept;
     void recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& plan,
                          uint32_t type) const noexcept;
     gpu::ShadeParams shadeParams(const CndLightingFrame& frame, const Plan& plan,
@@ -155,6 +160,13 @@ private:
     struct Sets {
         gpu::Bindings prepareLights, shadeTiles, shadeUnlisted, shadeBrute, countPairs;
     };
+    // What lists were made for, besides surfaces.
+    struct ListsKey {
+        uint64_t lightSet = 0; // 0: there are none
+        CndSpecularMethod method = CND_SPECULAR_NONE;
+        uint32_t sampleCount = 0;
+        bool operator==(const ListsKey&) const = default;
+    };
     struct SlotState {
         uint64_t recording = 0; // 0: never used
         uint32_t lightCount = 0;
@@ -169,6 +181,7 @@ private:
     gpu::Buffer counters_;
     std::vector<gpu::Buffer> readback_; // per slot
     std::vector<SlotState> slots_;
+    ListsKey lists_; // of the frame recorded last
 };
 
 } // namespace candelabra::lighting

@@ -226,16 +226,27 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
 
     f.barrier(); // against the frame before, which uses the same buffers
     lighting_.recordUpload(f, slots_[slot].recording);
-    f.device.CmdFillBuffer(cmd, counters_.get(), 0, VK_WHOLE_SIZE, 0);
+    const bool clustered = frame.culling == CND_CULLING_CLUSTERED && plan.lightCount;
+    ListsKey key;
+    if (clustered)
+        key = {lighting_.lightSet(), frame.specularMethod, plan.sampleCount};
+    const bool reuse = clustered && frame.surfacesUnchanged && key == lists_;
+    lists_ = key;
+    // Those of lists stay with them.
+    const VkDeviceSize firstCounter =
+        reuse ? offsetof(gpu::LightingCounters, listedPairs) : VkDeviceSize(0);
+    f.device.CmdFillBuffer(cmd, counters_.get(), firstCounter, VK_WHOLE_SIZE, 0);
     if (plan.lightCount) {
-        const bool clustered = frame.culling == CND_CULLING_CLUSTERED;
         lighting_.recordTables(f, readsDirectionalAlbedo(frame));
-        recordPrepare(f, plan);
-        if (clustered)
+        if (!reuse)
+            recordPrepare(f, plan);
+        if (clustered && !reuse)
             clusters_.recordReset(f, lighting_.typeCounts());
         f.barrier();
-        if (clustered)
+        if (clustered && !reuse) {
             recordClusters(f, plan);
+            recordLists(f, frame, plan);
+        }
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
             if (lighting_.typeCounts()[type]) {
                 if (clustered)
@@ -276,6 +287,16 @@ void View::recordClusters(const gpu::Frame& f, const Plan& p) const noexcept
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (!isDistant(type))
             clusters_.recordTree(f, p.trees[type]);
+}
+
+void View::recordLists(const gpu::Frame& f, const CndLightingFrame& frame,
+                       const Plan& p) const noexcept
+{
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (lighting_.typeCounts()[type] && !isDistant(type))
+            clusters_.recordLists(f, type, p.trees[type], {p.tileCountX, p.tileCountY},
+                                  lightsPerBatch(frame, p, type));
+    f.barrier();
 }
 
 gpu::ShadeParams View::shadeParams(const CndLightingFrame& frame, const Plan& p,
@@ -348,8 +369,6 @@ void View::recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, c
     if (isDistant(type)) { // they reach everything: no lists
         inBatches(params, perBatch, shadeLists);
     } else {
-        clusters_.recordLists(f, type, p.trees[type], {p.tileCountX, p.tileCountY}, perBatch);
-        f.barrier();
         shadeLists(params);
         recordUnlisted(f, kernels, params, set, type, perBatch);
     }

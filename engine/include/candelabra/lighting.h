@@ -87,6 +87,10 @@ typedef struct CndLightingFrame {
     // light at any roughness.
     VkBool32 energyCompensation;
     CndCulling culling;
+    // The host promises: size, camera, clearDepth, depth and normals are those of the frame
+    // recorded with this view before. With the same lights too, its clusters and lists are used
+    // again.
+    VkBool32 surfacesUnchanged;
     VkRect2D bruteRect;  // CND_CULLING_BRUTE: pixels to shade; zero extent: all
     VkBool32 countPairs; // also count (pixel, light) pairs: one more kernel; clustered only
 } CndLightingFrame;
