@@ -23,7 +23,6 @@ constexpr float splitLength = 2;
 constexpr uint32_t maxGroupsPerDimension = 65535; // Vulkan's guaranteed maxComputeWorkGroupCount
 constexpr uint32_t maxSide = 16384;               // pixels, of a view
 constexpr uint32_t defaultSampleCount = 64;
-constexpr uint32_t maxSampleCount = 4096;
 static_assert(maxSide / gpu::TILE_SIZE * (maxSide / gpu::TILE_SIZE) <=
               maxGroupsPerDimension * gpu::TILE_CLUSTERS_GROUP);
 
@@ -143,52 +142,6 @@ void View::makeRoom(const LightTypeCounts& types)
         gpu::createBuffer(device, "light aux", auxBytes, storageUse, gpu::MemoryUse::Device);
     lighting_.replace(core_, std::move(core));
     lighting_.replace(aux_, std::move(aux));
-}
-
-void View::validate(const CndLightingFrame& frame) const
-{
-    if (frame.structSize != sizeof frame)
-        gpu::failArgument("CndLightingFrame: structSize is " + std::to_string(frame.structSize) +
-                          ", this library expects " + std::to_string(sizeof frame));
-    if (frame.frameSlot >= slots_.size())
-        gpu::failArgument("CndLightingFrame: frameSlot is " + std::to_string(frame.frameSlot) +
-                          ", framesInFlight is " + std::to_string(slots_.size()));
-    if (!frame.width || !frame.height || frame.width > desc_.maxWidth ||
-        frame.height > desc_.maxHeight)
-        gpu::failArgument("CndLightingFrame: size " + std::to_string(frame.width) + "x" +
-                          std::to_string(frame.height) + " is outside 1x1.." +
-                          std::to_string(desc_.maxWidth) + "x" + std::to_string(desc_.maxHeight));
-    if (frame.clearDepth != 0 && frame.clearDepth != 1)
-        gpu::failArgument("CndLightingFrame: clearDepth must be 0 or 1");
-    if (uint32_t(frame.specularMethod) >= CND_SPECULAR_METHOD_COUNT)
-        gpu::failArgument("CndLightingFrame: specularMethod is not a CndSpecularMethod");
-    if (!lighting_.kernels().shade.allows(frame.specularMethod))
-        gpu::failArgument("CndLightingFrame: specularMethod " +
-                          std::to_string(frame.specularMethod) +
-                          " is not among CndLightingDesc::specularMethods");
-    if (frame.sampleCount > maxSampleCount)
-        gpu::failArgument("CndLightingFrame: sampleCount must be at most " +
-                          std::to_string(maxSampleCount) + ", is " +
-                          std::to_string(frame.sampleCount));
-    if (!(frame.errorBudget >= 0 && frame.errorBudget <= 1))
-        gpu::failArgument("CndLightingFrame: errorBudget must be 0..1");
-    if (frame.lobes != CND_LOBES_CONSERVING && frame.lobes != CND_LOBES_SUM)
-        gpu::failArgument("CndLightingFrame: lobes is not a CndLobeJoining");
-    if (uint32_t(frame.culling) > CND_CULLING_BRUTE)
-        gpu::failArgument("CndLightingFrame: culling is not a CndCulling");
-    if (!frame.normalRoughness || !frame.albedo || !frame.depth || !frame.radiance ||
-        (lighting_.desc().gbufferLayout == CND_GBUFFER_FULL && !frame.specular))
-        gpu::failArgument("CndLightingFrame: a G-buffer or radiance view is null");
-    const auto isInside = [](int32_t offset, uint32_t extent, uint32_t size) {
-        return offset >= 0 && uint32_t(offset) <= size && extent <= size - uint32_t(offset);
-    };
-    const VkRect2D& r = frame.bruteRect;
-    if (!r.extent.width != !r.extent.height)
-        gpu::failArgument("CndLightingFrame: bruteRect has only one side of 0 (both mean all)");
-    if (!isInside(r.offset.x, r.extent.width, frame.width) ||
-        !isInside(r.offset.y, r.extent.height, frame.height))
-        gpu::failArgument("CndLightingFrame: bruteRect is not inside the frame");
-    checkCamera(frame.camera);
 }
 
 View::Plan View::plan(const CndLightingFrame& frame) const
