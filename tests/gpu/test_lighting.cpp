@@ -59,6 +59,17 @@ std::vector<CndLight> mixedLights(const CpuGBuffer& g, uint32_t count, uint32_t 
     return lights;
 }
 
+// `light` as a tube, rectangle or disc of about its size.
+CndLight everyAreaLight(CndLight light, size_t which)
+{
+    light.type = which % 3 == 0   ? uint32_t{CND_LIGHT_TUBE}
+                 : which % 3 == 1 ? uint32_t{CND_LIGHT_RECTANGLE}
+                                  : uint32_t{CND_LIGHT_DISC};
+    light.axisU[0] = light.axisV[1] = light.radius;
+    light.influenceRadius = std::max(light.influenceRadius, 3 * light.radius);
+    return light;
+}
+
 } // namespace
 
 class LightingSizes : public LightingTest,
@@ -165,13 +176,20 @@ TEST_F(LightingTest, EqualsDoublePrecisionReference)
 TEST_F(LightingTest, ListsOverBudgetLoseNothing)
 {
     const CpuGBuffer g = randomGBuffer(160, 96, defaultCamera(160, 96), 0, 2);
-    const auto lights = randomSpheres(g, 2000, 9);
-    const LightingResult whole = run(g, lights);
-    const LightingResult tiny = run(g, lights, {.listBudget = 4096});
-    EXPECT_EQ(whole.stats.unlistedClusters, 0u);
-    EXPECT_GT(tiny.stats.unlistedClusters, 0u);
-    EXPECT_LE(tiny.stats.listEntries, 1024u);
-    expectSameBits(whole.radiance, tiny.radiance);
+    const auto spheres = randomSpheres(g, 2000, 9);
+    std::vector<CndLight> mixed = mixedLights(g, 600, 4);
+    for (size_t i = 0; i < mixed.size(); i += 6) // area lights too
+        mixed[i] = everyAreaLight(mixed[i], i / 6);
+    for (const auto& [lights, method] :
+         {std::pair(spheres, CND_SPECULAR_KARIS), std::pair(spheres, CND_SPECULAR_CONIC),
+          std::pair(mixed, CND_SPECULAR_CONIC), std::pair(mixed, CND_SPECULAR_KARIS)}) {
+        const LightingResult whole = run(g, lights, {.specular = method});
+        const LightingResult tiny = run(g, lights, {.specular = method, .listBudget = 4096});
+        EXPECT_EQ(whole.stats.unlistedClusters, 0u);
+        EXPECT_GT(tiny.stats.unlistedClusters, 0u);
+        EXPECT_LE(tiny.stats.listEntries, 1024u);
+        expectSameBits(whole.radiance, tiny.radiance);
+    }
 }
 
 TEST_F(LightingTest, RunsAreBitIdentical)
