@@ -145,6 +145,7 @@ TEST(Cli, HelpNamesTheCamerasOfGeneratedScenes)
     };
     expectNames("hall", generateHall({.lights = 0}));
     expectNames("field", generateField({.lights = 0}));
+    expectNames("fence", generateFence({.lights = 0}));
     expectNames("showcase", generateShowcase({}));
 }
 

@@ -45,9 +45,9 @@ void describe(CLI::App& app, ProgramContext& context)
     app.set_version_flag("--version", fmt::format("candelabra {}.{}.{}", version >> 22,
                                                   (version >> 12) & 0x3ff, version & 0xfff));
     app.footer(
-        "SCENE is hall or field (generated, with --lights N --seed S --overlaps K), showcase "
-        "(one\nlight of every type), or a file: glTF 2.0 (.gltf, .glb) or a small scene "
-        "description (.json).\n\n"
+        "SCENE is hall, field or fence (generated, with --lights N --seed S --overlaps K), "
+        "showcase\n(one light of every type), or a file: glTF 2.0 (.gltf, .glb) or a small scene "
+        "description\n(.json).\n\n"
         "Examples:\n"
         "  candelabra stress                        sweep the number of lights, into out/\n"
         "  candelabra render hall --lights 16000 -o hall.png\n"

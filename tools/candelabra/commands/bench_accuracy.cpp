@@ -52,7 +52,7 @@ ImageLevelSettings imageSettings(const AccuracyArguments& a)
     s.rounds = unsignedOption("--frames", a.frames, 1, 10'000);
     s.sampleCount = unsignedOption("--samples", a.samples, 1, 4096);
     s.budgetScene = a.budgetScene;
-    if (a.budgetScene == "hall" || a.budgetScene == "field")
+    if (isGenerated(a.budgetScene))
         s.budgetLights = unsignedOption("--lights", a.budgetLights, 1, maxLights);
     s.budgetSize = sizeOption("--budget-size", a.budgetSize);
     return s;
@@ -113,7 +113,7 @@ void addOptions(CLI::App& command, AccuracyArguments& a)
     add("--size", a.size, "images compared with truth", "WxH");
     add("--frames", a.frames, "timed frames of every method and scene, after one to warm up", "N");
     add("--scene", a.budgetScene, "scene of the error-budget sweep", "SCENE");
-    add("--lights", a.budgetLights, "its lights, where it is hall or field", "N");
+    add("--lights", a.budgetLights, "its lights, where it is hall, field or fence", "N");
     add("--budget-size", a.budgetSize, "its image", "WxH");
     add("--seed", a.seed, "of the random groups and lights", "N");
     addBenchOutput(command, a.directory, a.json, "bench_accuracy.json");

@@ -192,8 +192,8 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
     scene = fallback;
     CLI::Option* option = command
                               .add_option(fallback.empty() ? "scene" : "scene,--scene", scene,
-                                          "hall, field, showcase, or a .gltf, .glb or scene .json "
-                                          "file")
+                                          "hall, field, fence, showcase, or a .gltf, .glb or scene "
+                                          ".json file")
                               ->type_name("SCENE");
     if (fallback.empty())
         option->required();
@@ -203,7 +203,7 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
         ->type_name("S");
     command
         .add_option("--overlaps", overlaps,
-                    "mean number of lights whose influence covers a pixel (hall, field: 8)")
+                    "mean number of lights whose influence covers a pixel (hall, field, fence: 8)")
         ->type_name("K");
     command.add_flag("--moving", moving, "lights move");
     command
@@ -257,7 +257,7 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
 
 void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
 {
-    const bool generated = scene == "hall" || scene == "field";
+    const bool generated = isGenerated(scene);
     const bool file = !generated && scene != "showcase";
     const auto warn = [](const char* option, const std::string& reason) {
         spdlog::warn("warning: {} has no effect: {}", option, reason);
@@ -290,7 +290,8 @@ void FrameArguments::addViewTo(CLI::App& command)
     command
         .add_option(
             "--camera", camera,
-            "camera of the scene by name (hall: nave, gallery; field: terrace, overview; showcase: "
+            "camera of the scene by name (hall: nave, gallery; field: terrace, overview; fence: "
+            "path, above; showcase: "
             "front, above) or index, or position and target in metres and vertical field of view "
             "in degrees; default: the first")
         ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");

@@ -149,7 +149,7 @@ void addRenderCommand(CLI::App& app, Run& run)
     a->scene.addTo(*command);
     command
         ->add_option("--lights", a->lights,
-                     "hall, field: number of sphere lights (4000); files: extra random ones")
+                     "hall, field, fence: number of sphere lights (4000); files: extra random ones")
         ->type_name("N");
     command
         ->add_option("-o,--output", a->outputs,

@@ -78,7 +78,7 @@ void addViewCommand(CLI::App& app, Run& run)
     a->scene.addTo(*command, "hall");
     command
         ->add_option("--lights", a->lights,
-                     "hall, field: number of sphere lights (4000); files: extra random ones")
+                     "hall, field, fence: number of sphere lights (4000); files: extra random ones")
         ->type_name("N");
     command->add_option("--frames", a->frames, "stop after N frames, 1/60 s apart; 0: run on")
         ->type_name("N")

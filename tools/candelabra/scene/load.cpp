@@ -51,7 +51,7 @@ SceneFormat fileFormat(const std::string& path)
     if (path.find('\0') != std::string::npos || !std::filesystem::exists(path, ignored))
         throw SceneError(
             "unknown scene \"" + printable(path, 4096) +
-            "\": use hall, field, showcase, or the path of a .gltf, .glb or .json file");
+            "\": use hall, field, fence, showcase, or the path of a .gltf, .glb or .json file");
     return formatFromContent(path);
 }
 
@@ -66,6 +66,8 @@ Scene loadWithoutEnvironment(const std::string& scene, const SceneOptions& optio
         return generateHall(options);
     if (scene == "field")
         return generateField(options);
+    if (scene == "fence")
+        return generateFence(options);
     if (scene == "showcase")
         return generateShowcase(options);
     Scene loaded =
@@ -88,6 +90,11 @@ SceneEnvironment loadEnvironment(const SceneOptions& options)
 }
 
 } // namespace
+
+bool isGenerated(const std::string& scene)
+{
+    return scene == "hall" || scene == "field" || scene == "fence";
+}
 
 Scene loadScene(const std::string& scene, const SceneOptions& options)
 {

@@ -18,7 +18,7 @@ struct SceneError : std::runtime_error {
 };
 
 struct SceneOptions {
-    std::optional<uint32_t> lights; // hall/field: number of sphere lights (default 4000);
+    std::optional<uint32_t> lights; // hall/field/fence: number of sphere lights (default 4000);
                                     // files: extra random sphere lights inside the bounds
     uint32_t seed = 1;
     std::optional<double> overlaps; // mean lights that contribute to a pixel that shows a surface:
@@ -35,13 +35,17 @@ struct SceneOptions {
     bool energyCompensation = false;
 };
 
-// `scene` is "hall", "field", "showcase", or the path of a .gltf, .glb or .json file. Throws
-// SceneError.
+// `scene` is "hall", "field", "fence", "showcase", or the path of a .gltf, .glb or .json file.
+// Throws SceneError.
 Scene loadScene(const std::string& scene, const SceneOptions& options);
+
+// Whether `scene` is made for any number of lights: hall, field and fence.
+bool isGenerated(const std::string& scene);
 
 // The pieces behind it.
 Scene generateHall(const SceneOptions& options);
 Scene generateField(const SceneOptions& options);
+Scene generateFence(const SceneOptions& options);
 Scene generateShowcase(const SceneOptions& options); // one light of every type
 Scene loadGltf(const std::string& path, const SceneOptions& options);
 Scene loadSceneJson(const std::string& path);

@@ -113,7 +113,7 @@ void Viewer::rebuild(uint32_t wanted)
     SceneOptions sceneOptions = options_.sceneOptions;
     // Files bring lights of their own; the option says how many to add to them.
     const uint32_t own = uint32_t(scene_.lights.size()) - options_.sceneOptions.lights.value_or(0);
-    const bool generated = options_.scene == "hall" || options_.scene == "field";
+    const bool generated = isGenerated(options_.scene);
     sceneOptions.lights = generated ? lights : lights > own ? lights - own : 0;
     try {
         Scene scene = loadScene(options_.scene, sceneOptions);

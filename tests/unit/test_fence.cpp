@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene of depth discontinuities.
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "scene/load.h"
+#include "scene/ray_caster.h"
+#include "unit/scene_invariants.h"
+
+namespace candelabra::app
+{
+
+TEST(Fence, HoldsWhatTheLoadersPromise)
+{
+    SceneOptions options{.lights = 500};
+    const Scene scene = generateFence(options);
+    EXPECT_EQ(test::brokenInvariant(scene), "");
+    EXPECT_EQ(scene.lights.size(), 500u);
+    EXPECT_GE(scene.instances.size(), 3000u);
+    EXPECT_LE(scene.instances.size(), 40000u);
+    for (const Instance& instance : scene.instances)
+        ASSERT_GT(glm::determinant(glm::dmat3(instance.worldFromObject)), 0);
+}
+
+TEST(Fence, DependsOnTheSeedAlone)
+{
+    SceneOptions options{.lights = 100, .moving = true};
+    const Scene a = generateFence(options), b = generateFence(options);
+    options.seed = 2;
+    const Scene c = generateFence(options);
+    const auto same = [](const Scene& x, const Scene& y) {
+        return std::memcmp(x.lights.data(), y.lights.data(), 100 * sizeof(CndLight)) == 0 &&
+               x.instances.back().worldFromObject == y.instances.back().worldFromObject;
+    };
+    EXPECT_EQ(a.lightMotions.size(), 100u);
+    EXPECT_TRUE(same(a, b));
+    EXPECT_FALSE(same(a, c));
+}
+
+TEST(Fence, IsTheSamePlaceForAnyNumberOfLights)
+{
+    const Scene none = generateFence({.lights = 0}), some = generateFence({.lights = 50});
+    ASSERT_EQ(none.instances.size(), some.instances.size());
+    for (size_t i = 0; i < none.instances.size(); ++i)
+        ASSERT_EQ(none.instances[i].worldFromObject, some.instances[i].worldFromObject);
+}
+
+// What it is for: most tiles of 16x16 pixels see things metres apart.
+TEST(Fence, TilesHoldSeveralDepths)
+{
+    const Scene scene = generateFence({.lights = 0});
+    const Camera& camera = scene.cameras[0];
+    RayCaster caster(scene);
+    constexpr uint32_t columns = 160, rows = 90; // of 1280x720: 8 pixels apart, 2x2 per tile
+    std::vector<double> depth(columns * rows, 0);
+    size_t hits = 0;
+    for (uint32_t y = 0; y < rows; ++y)
+        for (uint32_t x = 0; x < columns; ++x)
+            if (const auto hit = caster.cast(cameraRay(camera, x, y, columns, rows))) {
+                depth[y * columns + x] = glm::dot(hit->position - camera.position, camera.forward);
+                ++hits;
+            }
+    EXPECT_GT(hits, size_t(columns * rows * 3 / 4));
+    size_t deep = 0;
+    for (uint32_t y = 0; y + 1 < rows; y += 2)
+        for (uint32_t x = 0; x + 1 < columns; x += 2) {
+            const double a = depth[y * columns + x], b = depth[y * columns + x + 1],
+                         c = depth[(y + 1) * columns + x], d = depth[(y + 1) * columns + x + 1];
+            deep += std::max({a, b, c, d}) - std::min({a, b, c, d}) > 2;
+        }
+    std::cout << deep << " of " << columns * rows / 4 << " tiles hold depths 2 m apart\n";
+    EXPECT_GT(deep, size_t(columns * rows / 4 / 3));
+}
+
+} // namespace candelabra::app
