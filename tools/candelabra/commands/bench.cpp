@@ -39,9 +39,11 @@ std::string benchOutput(const std::string& directory, const std::string& option,
 
 void addBenchCommand(CLI::App& app, Run& run)
 {
-    CLI::App* bench = app.add_subcommand("bench", "Measure accuracy and numerical stability");
+    CLI::App* bench =
+        app.add_subcommand("bench", "Measure accuracy, numerical stability and culling");
     bench->require_subcommand(1);
     addBenchAccuracy(*bench, run);
+    addBenchCulling(*bench, run);
     addBenchStability(*bench, run);
 }
 

@@ -238,6 +238,11 @@ void Renderer::recordBruteEnd(VkCommandBuffer cmd)
     transition(cmd, state_->targets.radiance.image.get(), computeWrite, transferRead);
 }
 
+CndLightingFrame Renderer::lightingFrame(uint32_t slot, const FrameOptions& frame) const
+{
+    return state_->lightingFrame(slot, frame);
+}
+
 CndLightingStats Renderer::lightingStats(uint32_t slot) const
 {
     return finished(state_->view.stats(slot));

@@ -74,6 +74,9 @@ public:
     void recordBruteRect(VkCommandBuffer cmd, const FrameOptions& options, const VkRect2D& rect);
     void recordBruteEnd(VkCommandBuffer cmd);
 
+    // What the lighting module is told of such a frame; images change with resize().
+    CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& options) const;
+
     // Of the last frame recorded in `slot`, which the GPU must have finished.
     FrameStats stats(uint32_t slot) const;
     CndLightingStats lightingStats(uint32_t slot) const;

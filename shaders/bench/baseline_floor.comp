@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What shading costs when nothing is looked for: every pixel evaluates as many lights in each way as
+// contribute to it, from a tiny fixed list. The image means nothing.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/shade_receiver.glsl"
+#include "shared/baselines.h"
+
+uint lightAt(uint k)
+{
+    return k % FLOOR_LIGHTS;
+}
+
+#include "lib/light_walk.glsl"
+
+layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
+layout(scalar, binding = BASELINE_FOUND) readonly buffer FoundPerPixel
+{
+    uint foundPerPixel[];
+};
+
+#define EVALUATE(sum, count, evaluate)                                                             \
+    if (count != 0u) {                                                                             \
+        uint k = 0u;                                                                               \
+        do {                                                                                       \
+            sum += evaluate(r, lightAt(k));                                                        \
+            ++k;                                                                                   \
+        } while (k < count);                                                                       \
+    }
+
+void main()
+{
+    const uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, params.size)))
+        return;
+    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
+    if (depth == params.clearDepth)
+        return;
+    const uint found = foundPerPixel[pixel.y * params.size.x + pixel.x];
+    const uint above = found & 255u, near = found >> 8 & 255u, general = found >> 16;
+    if (found == 0u)
+        return;
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
+                                    params.sampleCount, pixelSeed(pixel));
+    Sums sums = noLight();
+    EVALUATE(sums.near, near, evaluateNear)
+    EVALUATE(sums.above, above, evaluateAbove)
+    EVALUATE(sums.general, general, evaluateGeneral)
+    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
+    imageStore(radianceImage, ivec2(pixel), before + vec4(total(sums), 0.0));
+}

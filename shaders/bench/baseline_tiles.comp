@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights of 16x16 pixel tiles: sphere against the planes of the tile's frustum and its range of depth.
+// One lane per tile, so that eight or more tiles test a light that all of them read; 32 lights are
+// tested before those that passed are written.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/baselines.h"
+#include "shared/clusters.h"
+#include "lib/projection.glsl"
+
+layout(local_size_x = BASELINE_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    BaselineTilesParams params;
+};
+layout(binding = BASELINE_TILES_DEPTH) uniform texture2D depthImage;
+layout(binding = BASELINE_TILES_SPHERES) uniform textureBuffer spheres;
+layout(scalar, binding = BASELINE_TILES_HEADS) writeonly buffer Heads
+{
+    uint heads[];
+};
+layout(scalar, binding = BASELINE_TILES_ENTRIES) buffer Entries
+{
+    uint entries[];
+};
+layout(scalar, binding = BASELINE_TILES_COUNTERS) buffer Counters
+{
+    BaselineCounters counters;
+};
+layout(scalar, binding = BASELINE_TILES_RANGES) writeonly buffer Ranges
+{
+    vec2 ranges[];
+};
+
+// Of a frustum's side through the eye: its components along one axis and z.
+vec2 side(float m, float m2, float ndc, float m23, float inwards)
+{
+    return inwards * normalize(vec2(m, m2 - ndc * m23));
+}
+
+void main()
+{
+    const uint tile = gl_GlobalInvocationID.x;
+    if (tile >= params.tileCount)
+        return;
+    const uvec2 first =
+        BASELINE_TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX);
+    const uvec2 end = min(first + BASELINE_TILE_SIZE, params.size);
+    float lowest = 2.0, highest = -1.0;
+    for (uint y = first.y; y < end.y; ++y)
+        for (uint x = first.x; x < end.x; ++x) {
+            const float depth = texelFetch(depthImage, ivec2(x, y), 0).x;
+            const bool surface = depth != params.clearDepth;
+            lowest = surface ? min(lowest, depth) : lowest;
+            highest = surface ? max(highest, depth) : highest;
+        }
+    const Projection m = params.projection;
+    const bool empty = highest < lowest;
+    const float a = viewPosition(m, first, params.invImageSize, lowest).z;
+    const float b = viewPosition(m, first, params.invImageSize, highest).z;
+    const float zMin = min(a, b), zMax = max(a, b);
+    ranges[tile] = empty ? vec2(0.0) : vec2(-zMax, -zMin);
+
+    const vec2 low = 2.0 * vec2(first) * params.invImageSize - 1.0;
+    const vec2 high = 2.0 * vec2(end) * params.invImageSize - 1.0;
+    // Inside: clip.x >= low w and clip.x <= high w, and so on, for w > 0.
+    const vec2 left = side(m.m00, m.m20, low.x, m.m23, 1.0);
+    const vec2 right = side(m.m00, m.m20, high.x, m.m23, -1.0);
+    const vec2 top = side(m.m11, m.m21, low.y, m.m23, 1.0);
+    const vec2 bottom = side(m.m11, m.m21, high.y, m.m23, -1.0);
+
+    uint head = 0u, page = 0u, inPage = PAGE_LIGHTS, total = 0u;
+    const uint lights = empty ? 0u : params.lightCount;
+    for (uint begin = 0u; begin < lights; begin += 32u) {
+        const uint count = min(32u, lights - begin);
+        uint passed = 0u;
+        for (uint k = 0u; k < count; ++k) {
+            const vec4 s = texelFetch(spheres, int(begin + k));
+            const float inside =
+                min(min(dot(left, s.xz), dot(right, s.xz)), min(dot(top, s.yz), dot(bottom, s.yz)));
+            const float within = min(inside, min(s.z - zMin, zMax - s.z));
+            passed |= within > -s.w ? 1u << k : 0u;
+        }
+        total += uint(bitCount(passed));
+        while (passed != 0u) {
+            if (inPage == PAGE_LIGHTS) { // a page never ends a chain empty
+                const uint next = atomicAdd(counters.entryCursor, PAGE_WORDS) + PAGE_WORDS;
+                if (next + PAGE_WORDS > params.entryCapacity) {
+                    counters.overflowed = 1u;
+                    break;
+                }
+                if (page != 0u)
+                    entries[page] = next / PAGE_WORDS << PAGE_COUNT_BITS | inPage;
+                else
+                    head = next;
+                page = next;
+                inPage = 0u;
+            }
+            ++inPage;
+            entries[page + inPage] = begin + findLSB(passed);
+            passed &= passed - 1u;
+        }
+    }
+    if (page != 0u)
+        entries[page] = inPage;
+    heads[tile] = head;
+    atomicAdd(counters.listEntries, total);
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The benchmark of culling at a small size: every way to cull gives the image of brute force, or
+// comparing their times would mean nothing.
+#include "bench/culling.h"
+#include "harness/gpu_fixture.h"
+
+using namespace candelabra;
+using namespace candelabra::app;
+
+namespace
+{
+
+class BenchCulling : public test::GpuTest
+{
+};
+
+} // namespace
+
+TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
+{
+    const CullingSettings settings{
+        .sizes = {{200, 120}}, .lights = {300}, .overlaps = {8}, .rounds = 1};
+    Progress progress(1, false);
+    const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
+    ASSERT_EQ(points.size(), 3u);
+    for (const CullingPoint& p : points) {
+        const Contender& engine = p.of(engineName);
+        for (const char* name : {engineName, tilesName, froxelsName, bruteName}) {
+            const Contender& c = p.of(name);
+            ASSERT_FALSE(c.skippedMs);
+            ASSERT_TRUE(c.difference) << name;
+            std::cout << p.scene << ", " << name << ": " << *c.difference << ", " << c.listedPairs
+                      << " listed for " << c.contributingPairs << "\n";
+            EXPECT_LE(*c.difference, 1e-6) << p.scene << " " << name;
+            EXPECT_EQ(c.times.frames(), 1u) << name;
+            if (name == bruteName)
+                continue;
+            // All find the same lights, in lists that hold more.
+            EXPECT_EQ(c.contributingPairs, engine.contributingPairs) << p.scene << " " << name;
+            EXPECT_EQ(c.insidePairs >= c.contributingPairs, true) << name;
+            EXPECT_GE(c.listedPairs, c.insidePairs) << name;
+            EXPECT_GT(c.listEntries, 0u) << name;
+        }
+        EXPECT_LE(engine.listedPairs, p.of(tilesName).listedPairs) << p.scene;
+        EXPECT_GT(p.of(floorName).totalMs(), 0) << p.scene;
+    }
+    EXPECT_EQ(cullingFailures(points).size(), 0u);
+    EXPECT_EQ(Json::parse(cullingJson(settings, points).dump())["points"].size(), 3u);
+    EXPECT_EQ(cullingPlots(points, context().info()).size(), 3u);
+    EXPECT_NE(cullingTables(points).find("200x120"), std::string::npos);
+}
+
+TEST_F(BenchCulling, BruteForceOverTheLimitIsListedWithItsEstimate)
+{
+    const CullingSettings settings{.scenes = {"fence"},
+                                   .sizes = {{64, 48}},
+                                   .lights = {200},
+                                   .overlaps = {8, 100000},
+                                   .rounds = 1,
+                                   .bruteLimit = 0};
+    Progress progress(1, false);
+    const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
+    ASSERT_EQ(points.size(), 1u); // so many overlaps cannot be
+    EXPECT_GT(points[0].of(bruteName).skippedMs.value_or(0), 0);
+    EXPECT_NE(cullingTables(points).find("skipped"), std::string::npos);
+    const Json brute = cullingJson(settings, points)["points"][0]["contenders"][3];
+    EXPECT_EQ(brute["skipped"], true);
+    EXPECT_GT(brute["estimatedMs"].get<double>(), 0);
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Other ways to cull the lights of a frame: 16x16 pixel tiles between their lowest and highest
+// depth (Lauritzen 2010), a grid of froxels (Persson 2013), and the floor: no culling at all. They
+// shade with the shipping functions by the closed form, so that only culling and lists differ.
+// Lights stand in the order of the scene, emitters are spheres, the camera is a perspective one.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "gpu/kernel.h"
+#include "render/renderer.h"
+#include "shared/baselines.h"
+#include "tables/dfg_table.h"
+
+namespace candelabra::app
+{
+
+enum class Baseline { Tiles, Froxels, Floor };
+
+struct BaselineStats {
+    uint64_t listEntries = 0, listBytes = 0;
+    uint64_t listedPairs = 0, evaluatedPairs = 0, insidePairs = 0, contributingPairs = 0;
+};
+
+class Baselines
+{
+public:
+    // Of one frame that `renderer` draws of `scene`; both must outlive it. Sizes every buffer by
+    // drawing the frame, so that no list is cut. Throws RunError where the lists do not fit the
+    // device, and for lights that are not spheres.
+    Baselines(const VulkanContext& context, Renderer& renderer, const Scene& scene,
+              const FrameOptions& options);
+
+    // Draws the frame; leaves the radiance like Renderer::record. Times of its passes.
+    std::vector<PassTime> draw(Baseline baseline);
+    // Of the tiles or the froxels.
+    BaselineStats stats(Baseline baseline) const { return lists_[size_t(baseline)].stats; }
+
+private:
+    struct Kernels {
+        explicit Kernels(const gpu::Device& device, CndGBufferLayout layout);
+        gpu::Kernel<gpu::PrepareLightsParams> prepare;
+        gpu::Kernel<gpu::BaselineSpheresParams> spheres;
+        gpu::Kernel<gpu::BaselineTilesParams> tiles;
+        gpu::Kernel<gpu::BaselineFroxelsParams> count, enter;
+        gpu::Kernel<gpu::BaselineScanParams> scan;
+        gpu::Kernel<gpu::ShadeParams> shade[2], pairs[2], floor;
+    };
+    struct Lists {
+        gpu::Buffer heads, entries, counters, grid;
+        BaselineStats stats;
+    };
+    void createLights(const Scene& scene);
+    void createFroxels();
+    void writeBindings();
+    void fitLists(Baseline baseline);
+    void countPairs(Baseline baseline);
+    void recordLights(const gpu::Frame& f) const;
+    void recordTiles(const gpu::Frame& f) const;
+    void recordFroxels(const gpu::Frame& f) const;
+    void recordCulling(const gpu::Frame& f, Baseline baseline) const;
+    void submit(const std::function<void(const gpu::Frame&)>& record);
+    gpu::BaselineCounters counters(Baseline baseline) const;
+    gpu::ShadeParams shadeParams() const;
+    glm::uvec2 groups() const; // of shading
+
+    const VulkanContext& context_;
+    Renderer& renderer_;
+    FrameOptions options_;
+    CndLightingFrame frame_;
+    gpu::Projection projection_;
+    Kernels kernels_;
+    gpu::Timer timer_;
+    tables::DfgTable dfg_;
+    gpu::Buffer ltc_;
+    uint32_t lightCount_ = 0;
+    glm::dvec3 lightOrigin_{0};
+    gpu::Buffer records_, order_, core_, aux_, spheres_;
+    gpu::Buffer ranges_, boxes_, cursors_, found_;
+    Lists lists_[2];
+    gpu::BaselineGrid froxels_{};
+    struct Sets {
+        gpu::Bindings prepare, spheres, tiles, count, enter, scan, shade[2], pairs[2], floor;
+    } sets_;
+};
+
+} // namespace candelabra::app

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// What finding the lights of every pixel costs: the engine, other ways to cull, brute force, and
+// the floor, in interleaved rounds of the same frame.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/parse.h"
+#include "io/progress.h"
+#include "io/report.h"
+#include "render/pass_times.h"
+#include "render/vulkan_context.h"
+
+namespace candelabra::app
+{
+
+struct CullingSettings {
+    std::vector<std::string> scenes{"hall", "field", "fence"};
+    std::vector<PixelSize> sizes{{1280, 720}};
+    std::vector<uint32_t> lights{1000, 4000, 16000, 64000};
+    std::vector<uint32_t> overlaps{8, 30};
+    uint32_t rounds = 5;
+    uint32_t seed = 1;
+    double bruteLimit = 60; // s: brute force is left out where a frame is estimated to take longer
+};
+
+// One way to light the frame.
+struct Contender {
+    std::string name;
+    PassTimes times;
+    uint64_t listEntries = 0, listBytes = 0;
+    uint64_t listedPairs = 0, evaluatedPairs = 0, insidePairs = 0, contributingPairs = 0;
+    std::optional<double> skippedMs; // not drawn: estimated to take so long
+    // Of any channel to the engine's image, relative to its largest value; the floor has no image.
+    std::optional<double> difference;
+
+    double totalMs() const;
+    double shadingMs() const; // of which kernels that shade
+    double cullingMs() const { return totalMs() - shadingMs(); }
+    double contributingPerListed() const;
+    double contributingPerEvaluated() const;
+};
+
+struct CullingPoint {
+    std::string scene;
+    PixelSize size;
+    uint32_t lights = 0, overlaps = 0;
+    uint32_t tiles = 0, clusters = 0, unlistedClusters = 0; // of the engine
+    std::vector<Contender> contenders;
+
+    const Contender& of(const std::string& name) const;
+    // The fastest of the other ways to cull that were drawn.
+    const Contender& bestBaseline() const;
+};
+// Names of contenders.
+inline constexpr const char* engineName = "candelabra";
+inline constexpr const char* tilesName = "16x16 tiles";
+inline constexpr const char* froxelsName = "froxels";
+inline constexpr const char* floorName = "floor";
+inline constexpr const char* bruteName = "brute force";
+
+double cullingSteps(const CullingSettings& settings);
+// Configurations whose overlaps cannot be reached are left out with a warning.
+std::vector<CullingPoint> measureCulling(const VulkanContext& context,
+                                         const CullingSettings& settings, Progress& progress);
+
+std::string cullingTables(const std::vector<CullingPoint>& points);
+Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint>& points);
+struct CullingPlot {
+    std::string name; // of a file, without extension
+    std::string svg;
+};
+// One per scene, size and overlaps: time against lights.
+std::vector<CullingPlot> cullingPlots(const std::vector<CullingPoint>& points,
+                                      const DeviceInfo& device);
+// Sentences about images that differ by more than the bound; empty: none does.
+std::vector<std::string> cullingFailures(const std::vector<CullingPoint>& points);
+
+} // namespace candelabra::app

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra bench culling: what finding the lights of every pixel costs, beside other ways.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "bench/culling.h"
+#include "commands/bench_commands.h"
+#include "commands/measure.h"
+#include "render/error.h"
+#include "render/renderer.h"
+#include "scene/load.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct CullingArguments {
+    DeviceArguments device;
+    std::string scenes = "hall,field,fence", lights = "1000,4000,16000,64000", overlaps = "8,30";
+    std::string sizes = "1280x720", rounds = "5", seed = "1", bruteLimit = "60";
+    std::string directory = "out", json;
+};
+
+std::vector<std::string> splitAtCommas(const std::string& text)
+{
+    std::vector<std::string> out;
+    for (size_t start = 0; start <= text.size();) {
+        const size_t end = std::min(text.find(',', start), text.size());
+        out.push_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    return out;
+}
+
+CullingSettings settingsOf(const CullingArguments& a)
+{
+    CullingSettings s;
+    s.scenes = splitAtCommas(a.scenes);
+    for (const std::string& scene : s.scenes)
+        if (!isGenerated(scene))
+            throw UsageError(
+                fmt::format("--scenes \"{}\": choose among hall, field, fence", a.scenes));
+    s.sizes.clear();
+    for (const std::string& text : splitAtCommas(a.sizes)) {
+        const auto size = parseSize(text);
+        if (!size || size->width > maxSide || size->height > maxSide)
+            throw UsageError(fmt::format("--size \"{}\": expected WIDTHxHEIGHT,... up to {} "
+                                         "pixels a side",
+                                         a.sizes, maxSide));
+        s.sizes.push_back(*size);
+    }
+    s.lights = unsignedListOption("--lights", a.lights, 1, 1'000'000);
+    s.overlaps = unsignedListOption("--overlaps", a.overlaps, 1, 10'000);
+    s.rounds = unsignedOption("--rounds", a.rounds, 1, 10'000);
+    s.seed = unsignedOption("--seed", a.seed, 0, UINT32_MAX);
+    s.bruteLimit = numberOption("--brute-limit", a.bruteLimit, 0, 1e6);
+    a.device.requireRoomFor(*std::max_element(s.lights.begin(), s.lights.end()));
+    return s;
+}
+
+int culling(const ProgramContext& program, const CullingArguments& a)
+{
+    const CullingSettings settings = settingsOf(a);
+    const std::string json = benchOutput(a.directory, "--json", a.json, "bench_culling.json");
+    const VulkanContext context(a.device.contextOptions());
+    spdlog::info("culling on {}", context.info().name);
+    std::vector<CullingPoint> points;
+    {
+        Progress progress(cullingSteps(settings), !program.quiet);
+        points = measureCulling(context, settings, progress);
+    }
+    for (const CullingPlot& plot : cullingPlots(points, context.info()))
+        writeText((std::filesystem::path(a.directory) / (plot.name + ".svg")).string(), plot.svg);
+    Json document{{"provenance", provenance(context.info(), program.commandLine)}};
+    document.update(cullingJson(settings, points));
+    writeJson(json, document);
+    if (json != "-")
+        writeText("-", cullingTables(points) +
+                           fmt::format("\nLook at {}/bench_culling_*.svg (time against lights) and "
+                                       "{} (all figures)\n",
+                                       a.directory, json));
+    const std::vector<std::string> failures = cullingFailures(points);
+    for (const std::string& failure : failures)
+        spdlog::error("candelabra: {}", failure);
+    return printValidationMessages(context) || !failures.empty() ? exitFailed : exitOk;
+}
+
+} // namespace
+
+void addBenchCulling(CLI::App& bench, Run& run)
+{
+    CLI::App* command =
+        bench.add_subcommand("culling", "Time and lists of the engine beside 2D tiles, froxels, "
+                                        "brute force and no culling at all");
+    const auto a = std::make_shared<CullingArguments>();
+    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
+        command->add_option(name, value, what)->type_name(type)->capture_default_str();
+    };
+    add("--scenes", a->scenes, "generated scenes", "NAME,...");
+    add("--lights", a->lights, "light counts, up to 1,000,000", "N,N,...");
+    add("--overlaps", a->overlaps, "mean lights that contribute to a pixel", "K,K,...");
+    add("--size", a->sizes, "sizes of the image", "WxH,...");
+    add("--rounds", a->rounds, "rounds, in each of which everything is drawn once", "N");
+    add("--brute-limit", a->bruteLimit,
+        "brute force is skipped, with its estimate, where a frame would take longer", "SECONDS");
+    add("--seed", a->seed, "of the scenes and lights", "N");
+    addBenchOutput(*command, a->directory, a->json, "bench_culling.json");
+    a->device.addTo(*command);
+    command->footer(
+        "GPU times of lighting alone: preparing lights, culling, shading; without the raster "
+        "pass.\n"
+        "Emitters are not drawn. All shade with the engine's functions by the closed form:\n"
+        "  16x16 tiles   every light against every tile's frustum and range of depth\n"
+        "  froxels       64x64 pixels x 32 slices, exponential between the nearest and the\n"
+        "                farthest surface; sphere against box\n"
+        "  brute force   all lights at all pixels; once where it takes more than a second\n"
+        "  floor         as many evaluations per pixel as lights contribute, none looked for\n"
+        "Exit code 1 when an image differs from the engine's by more than 1e-6 of the largest\n"
+        "radiance.\n\n"
+        "Examples:\n"
+        "  candelabra bench culling\n"
+        "  candelabra bench culling --scenes hall --lights 4000 --overlaps 30 --rounds 15\n"
+        "  candelabra bench culling --lights 256000,1000000 --overlaps 8 --size 1920x1080");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return culling(program, *a); }; });
+}
+
+} // namespace candelabra::app
