@@ -312,8 +312,8 @@ gpu::ShadeParams Baselines::shadeParams() const
             .invImageSize = 1.0f / glm::vec2(frame_.width, frame_.height),
             .sampleCount = 64,
             .errorBudget = 0,
-            .lobes = uint32_t(frame_.lobes),
-            .energyCompensation = frame_.energyCompensation != VK_FALSE};
+            .lobes =
+                uint32_t(frame_.lobes) | (frame_.energyCompensation ? gpu::COMPENSATE_ENERGY : 0)};
 }
 
 void Baselines::recordLights(const gpu::Frame& f) const
