@@ -153,7 +153,7 @@ Contender engineContender(const CndLightingStats& s)
     Contender c{.name = engineName, .difference = 0};
     c.listEntries = s.listEntries;
     // Whole pages are handed out; what they hold is all that the statistics say.
-    c.listBytes = uint64_t(s.listEntries + s.clusterCount) * sizeof(uint32_t);
+    c.listBytes = uint64_t(s.listEntries) * sizeof(uint32_t);
     c.listedPairs = s.listedPairs;
     c.evaluatedPairs = s.evaluatedPairs;
     c.insidePairs = s.insidePairs;
@@ -168,7 +168,7 @@ CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& s
     Frame frame(context, scene, point.size);
     const CndLightingStats stats = frame.countPairs();
     point.tiles = stats.tileCount;
-    point.clusters = stats.clusterCount;
+    point.splitTiles = stats.splitTileCount;
     point.unlistedClusters = stats.unlistedClusters;
     Contender engine = engineContender(stats), floor{.name = floorName};
     Contender tiles = withStats(tilesName, frame.statsOf(Baseline::Tiles));

@@ -47,7 +47,7 @@ struct CullingPoint {
     std::string scene;
     PixelSize size;
     uint32_t lights = 0, overlaps = 0;
-    uint32_t tiles = 0, clusters = 0, unlistedClusters = 0; // of the engine
+    uint32_t tiles = 0, splitTiles = 0, unlistedClusters = 0; // of the engine
     std::vector<Contender> contenders;
 
     const Contender& of(const std::string& name) const;

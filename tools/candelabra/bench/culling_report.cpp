@@ -172,7 +172,7 @@ Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint
                         {"lights", p.lights},
                         {"overlaps", p.overlaps},
                         {"tiles", p.tiles},
-                        {"clusters", p.clusters},
+                        {"splitTiles", p.splitTiles},
                         {"unlistedClusters", p.unlistedClusters},
                         {"ratioToBestBaseline", r.toBest},
                         {"bestBaseline", r.best},
