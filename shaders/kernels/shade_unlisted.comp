@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/shade_receiver.glsl"
 #include "lib/cluster_test.glsl"
+#include "lib/tile_of_group.glsl"
 #define TREE_NODES SHADE_NODES
 #define TREE_NODE_WORDS SHADE_NODE_WORDS
 #include "lib/light_tree.glsl"
@@ -22,39 +23,21 @@ uint lightAt(uint k)
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
-layout(scalar, binding = SHADE_TILES) readonly buffer Tiles
-{
-    TileClusters tiles[];
-};
-layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
-{
-    uint lists[];
-};
 layout(scalar, binding = SHADE_CLUSTERS) readonly buffer Clusters
 {
     Cluster clusters[];
 };
-layout(scalar, binding = SHADE_WORK) readonly buffer Work
-{
-    WorkList work;
-    uint workTiles[];
-};
 
 void main()
 {
-    const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    if (at >= work.count)
-        return;
-    const uint tile = workTiles[at];
-    const uvec2 pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
-                        gl_LocalInvocationID.xy;
-    if (any(greaterThanEqual(pixel, params.size)))
+    uint tile;
+    uvec2 pixel;
+    if (!takeTile(tile, pixel))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == params.clearDepth)
         return;
-    const uint cluster =
-        tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
+    const uint cluster = clusterOf(tile, depth);
     const uint list = lists[cluster];
     const bool inBatches = params.batchLevel != 0u;
     if (list != (inBatches ? LIST_LONG : LIST_UNLISTED))

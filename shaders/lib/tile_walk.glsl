@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lights of a pixel's cluster, as blocks for light_walk.glsl. Distant lights have no lists: every
 // one of them is every cluster's.
-#include "shared/clusters.h"
 #include "lib/light_reach.glsl"
+#include "lib/tile_of_group.glsl"
 
-layout(scalar, binding = SHADE_TILES) buffer Tiles
-{
-    TileClusters tiles[];
-};
-layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
-{
-    uint lists[];
-};
 layout(scalar, binding = SHADE_ENTRIES) readonly buffer Entries
 {
     uint entries[];
 };
-layout(scalar, binding = SHADE_WORK) readonly buffer Work
-{
-    WorkList work;
-    uint workTiles[];
-};
-
 // The k-th light; blocks count in the same numbers.
 uint lightAt(uint k)
 {
@@ -48,11 +34,6 @@ Block batchBlock(uint at)
                  left > PAGE_WORDS ? at + PAGE_WORDS : 0u);
 }
 
-uint clusterOf(uint tile, float depth)
-{
-    return tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
-}
-
 // The first block of a sample, without lights where there are none.
 Block beginWalk(uint tile, float depth)
 {
@@ -69,18 +50,4 @@ Block nextBlock(Block block)
         return Block(block.first, 0u, 0u);
     const Block next = IS_DISTANT ? batchBlock(block.next) : pageBlock(block.next);
     return next.count != 0u ? next : Block(block.first, 0u, 0u);
-}
-
-// The tile of this workgroup; none beyond the last.
-bool takeTile(out uint tile, out uvec2 pixel)
-{
-    const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    tile = 0u;
-    pixel = uvec2(0u);
-    if (at >= work.count)
-        return false;
-    tile = workTiles[at];
-    pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
-            gl_LocalInvocationID.xy;
-    return all(lessThan(pixel, params.size));
 }

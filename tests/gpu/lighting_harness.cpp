@@ -245,6 +245,23 @@ std::vector<glm::vec4> LightingTest::readRadiance(const Images& images) const
     return radiance;
 }
 
+std::pair<CndLighting, CndLightingView> LightingTest::createLighting(const CpuGBuffer& g,
+                                                                     uint32_t framesInFlight)
+{
+    CndError error{};
+    const CndLightingDesc desc{.structSize = sizeof desc,
+                               .framesInFlight = framesInFlight,
+                               .specularMethods = 1u << RunOptions{}.specular};
+    CndLighting lighting{};
+    EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
+        << error.message;
+    const CndLightingViewDesc viewDesc{sizeof viewDesc, g.width, g.height, 0};
+    CndLightingView view{};
+    EXPECT_EQ(cndCreateLightingView(lighting, &viewDesc, &view, &error), CND_SUCCESS)
+        << error.message;
+    return {lighting, view};
+}
+
 LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
                                  const RunOptions& options)
 {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -81,6 +82,10 @@ class LightingTest : public GpuTest
 protected:
     LightingResult run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
                        const RunOptions& options = {});
+
+    // A lighting and a view for `g`, with the method of RunOptions; to be destroyed by the caller.
+    std::pair<CndLighting, CndLightingView> createLighting(const CpuGBuffer& g,
+                                                           uint32_t framesInFlight);
 
     // The images of one G-buffer on the device.
     struct Images {

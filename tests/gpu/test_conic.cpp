@@ -211,7 +211,7 @@ TEST_F(Conic, SmallSpheresArePointLights)
         }
     const auto outputs = evaluate(inputs);
     for (size_t size = 0; size < sines.size(); ++size) {
-        double worstToPoint = 0, worstToDouble = 0;
+        double worstToPoint = 0, worstToFormula = 0;
         size_t worstAt = 0;
         for (size_t i = size * perSize; i < (size + 1) * perSize; ++i) {
             const Expected expected = inDouble(inputs[i]);
@@ -220,13 +220,13 @@ TEST_F(Conic, SmallSpheresArePointLights)
                 worstToPoint = toPoint;
                 worstAt = i;
             }
-            worstToDouble =
-                std::max(worstToDouble, std::abs(outputs[i].conic.x / expected.conic.x - 1));
+            worstToFormula =
+                std::max(worstToFormula, std::abs(outputs[i].conic.x / expected.conic.x - 1));
         }
         std::cout << "s " << sines[size] << ": largest relative difference to the point light "
-                  << worstToPoint << ", to the same formula in double " << worstToDouble << "\n";
+                  << worstToPoint << ", to the same formula in double " << worstToFormula << "\n";
         EXPECT_LE(worstToPoint, 1e-3) << describe(inputs[worstAt]);
-        EXPECT_LE(worstToDouble, 1e-3);
+        EXPECT_LE(worstToFormula, 1e-3);
     }
 }
 

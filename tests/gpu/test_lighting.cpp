@@ -224,22 +224,16 @@ TEST_F(LightingTest, LightSetGrowsAndShrinksAcrossFrames)
     const CpuGBuffer g = randomGBuffer(64, 48, defaultCamera(64, 48), 0, 8);
     const Images images = uploadImages(g);
     CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc,
-                               .framesInFlight = 3,
-                               .specularMethods = 1u << RunOptions{}.specular};
-    CndLighting lighting{};
-    ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
-        << error.message;
-    const CndLightingViewDesc viewDesc{sizeof viewDesc, g.width, g.height, 0};
-    CndLightingView view{};
-    ASSERT_EQ(cndCreateLightingView(lighting, &viewDesc, &view, &error), CND_SUCCESS);
+    constexpr uint32_t framesInFlight = 3;
+    const auto [lighting, view] = createLighting(g, framesInFlight);
+    ASSERT_TRUE(lighting && view);
     uint32_t slot = 0;
     for (const uint32_t count : {3u, 5000u, 0u, 100u, 20000u, 7u}) {
         const auto lights = randomSpheres(g, count, count);
         const CndLightSet set{sizeof set, count, lights.data(), {}};
         ASSERT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
         CndLightingFrame frame = frameOf(g, images, {});
-        frame.frameSlot = slot++ % desc.framesInFlight;
+        frame.frameSlot = slot++ % framesInFlight;
         context().submitAndWait([&](VkCommandBuffer cmd) {
             clearRadiance(cmd, images);
             EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_SUCCESS) << error.message;

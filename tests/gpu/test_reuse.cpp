@@ -64,15 +64,8 @@ TEST_F(LightingTest, ChangedLightsAreListedAgainDespiteThePromise)
     const CpuGBuffer g = surfaces(4);
     const Images images = uploadImages(g);
     CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc,
-                               .framesInFlight = 1,
-                               .specularMethods = 1u << RunOptions{}.specular};
-    CndLighting lighting{};
-    ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
-        << error.message;
-    const CndLightingViewDesc viewDesc{sizeof viewDesc, g.width, g.height, 0};
-    CndLightingView view{};
-    ASSERT_EQ(cndCreateLightingView(lighting, &viewDesc, &view, &error), CND_SUCCESS);
+    const auto [lighting, view] = createLighting(g, 1);
+    ASSERT_TRUE(lighting && view);
     for (const uint32_t seed : {1u, 2u}) {
         const auto lights = randomSpheres(g, 100, seed);
         const CndLightSet set{sizeof set, uint32_t(lights.size()), lights.data(), {}};

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tile that a workgroup shades, one of a WorkList, and the lists of its pixels.
+#ifndef CND_LIB_TILE_OF_GROUP
+#define CND_LIB_TILE_OF_GROUP
+
+#include "shared/clusters.h"
+#include "lib/projection.glsl"
+
+layout(scalar, binding = SHADE_TILES) readonly buffer Tiles
+{
+    TileClusters tiles[];
+};
+layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
+{
+    uint lists[];
+};
+layout(scalar, binding = SHADE_WORK) readonly buffer Work
+{
+    WorkList work;
+    uint workTiles[];
+};
+
+uint clusterOf(uint tile, float depth)
+{
+    return tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
+}
+
+// False behind the last tile and outside the image.
+bool takeTile(out uint tile, out uvec2 pixel)
+{
+    const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    tile = 0u;
+    pixel = uvec2(0u);
+    if (at >= work.count)
+        return false;
+    tile = workTiles[at];
+    pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
+            gl_LocalInvocationID.xy;
+    return all(lessThan(pixel, params.size));
+}
+
+#endif
