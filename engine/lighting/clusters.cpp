@@ -20,10 +20,6 @@ constexpr VkDeviceSize pageBytes = gpu::PAGE_WORDS * sizeof(uint32_t);
 
 constexpr uint32_t maxRow = 65535; // groups that every device takes in one dimension
 
-// Tiles that can be split, of all. The others keep one cluster: as right, only less tight.
-constexpr uint32_t splitShare = 2;
-constexpr uint32_t minSplits = 64;
-
 // With more lights, blocks walk the tree themselves: blocks of blocks hold so many that their lists
 // are no shorter a way. Between the counts where either was measured to be faster (DECISIONS 25).
 constexpr uint32_t largeBlockLights = 131072;
@@ -78,9 +74,7 @@ TreeShapes treeShapes(const LightTypeCounts& counts)
 }
 
 Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBudget)
-    : lighting_(lighting),
-      maxTiles_(maxTiles),
-      splitCapacity_(std::max(area(maxTiles) / splitShare, minSplits))
+    : lighting_(lighting), maxTiles_(maxTiles), splitCapacity_(area(maxTiles))
 {
     const gpu::Device& device = lighting.device();
     uint32_t records = 0, blockCount = 0;
@@ -95,6 +89,8 @@ Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBud
                              " tiles of 8x8 pixels need " + std::to_string(fixed) +
                              " clusters, the device's maxStorageBufferRange holds " +
                              std::to_string(largest));
+    // All tiles, unless the frame is too large for the device's buffers. Those that find no room
+    // keep one cluster: as right, only less tight, and which they are depends on the schedule.
     splitCapacity_ =
         uint32_t(std::min<VkDeviceSize>(splitCapacity_, (largest - fixed) / gpu::SLICES));
     clusterCount_ = uint32_t(fixed) + splitCapacity_ * gpu::SLICES;
