@@ -31,7 +31,7 @@ const bool IS_LTC = specularMethod == SPECULAR_LTC;
 // The bound of the error of a point is not proven for errors of the specular lobe beyond this.
 const float MAX_POINT_ERROR = 0.3;
 
-// Of the highest response, the largest error of one shading node above the horizon that was measured.
+// Of the lobe's highest response, the largest error of one shading node above the horizon that was measured.
 const float ONE_NODE_ERROR = 0.056;
 
 // What a pixel prepares once for all lights.
@@ -50,20 +50,27 @@ struct Receiver {
 #endif
 };
 
-// Largest (R / d)^2 whose evaluation as a point errs by at most `budget` of the highest response.
-// The error is below 2 q of the specular peak, q = (s^2 / 8 alpha^2) (1 + 1 / NoV^2): measured; a
-// point has L1 L2 where the peak is L1 L2 / sqrt((1 + L1^2) (1 + L2^2)), L1 = s / 2 alpha and
-// L2 = L1 / NoV.
-// The diffuse part is exact either way, so the budget grows by what it adds to the response: a
-// specular peak of F s^2 / (4 alpha^2 NoV) against albedo s^2.
-float pointLimit(ShadingPoint p, float budget)
+// An error budget as a share of the specular lobe's highest response. The diffuse part is exact, so
+// the budget grows by what that adds to the response: a specular peak of at most F s^2 / (4 alpha^2 NoV)
+// against albedo s^2.
+float specularShare(ShadingPoint p, float budget)
 {
     const vec3 F = mix(p.F0, vec3(p.F90), pow5(1.0 - p.NoV));
     const float F1 = max(max(F.x, F.y), max(F.z, 1e-6));
     const float albedo = min(p.albedo.x, min(p.albedo.y, p.albedo.z));
-    const float a2 = p.alpha * p.alpha;
-    const float share = budget * (1.0 + 4.0 * a2 * p.NoV * albedo / F1);
-    return min(share, MAX_POINT_ERROR) * 4.0 * a2 / (1.0 + 1.0 / (p.NoV * p.NoV));
+    return budget * (1.0 + 4.0 * p.alpha * p.alpha * p.NoV * albedo / F1);
+}
+
+// Largest (R / d)^2 whose evaluation as a point, at least two of its half angles above the horizon, errs
+// by at most `share` of the lobe's highest response. With q = (s^2 / 8 alpha^2) (1 + 1 / NoV^2) the error
+// was below 1.1 q for F0 = 1 and below (1.15 + 3.9 alpha) q for F0 = 0.04, whose Fresnel term changes
+// over the light: measured, q < 0.3, 1,400 surfaces with 80 lights each.
+float pointLimit(ShadingPoint p, float share)
+{
+    const float F0 = min(p.F0.x, min(p.F0.y, p.F0.z));
+    const float perQ = 1.15 + 3.9 * p.alpha * (1.0 - F0);
+    const float q = min(share, MAX_POINT_ERROR) / perQ;
+    return q * 8.0 * p.alpha * p.alpha / (1.0 + 1.0 / (p.NoV * p.NoV));
 }
 
 // `sampleSeed`: of the pixel.
@@ -79,10 +86,11 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
 #endif
 #if LIGHT_FAMILY == FAMILY_CONIC
     r.conic = makeConicPoint(p);
-    const bool oneNode = specularMethod == SPECULAR_CONIC && budget >= ONE_NODE_ERROR;
-    r.aboveFrom = HAS_BUDGET && oneNode ? 1.0 : 2.0;
+    const float share = HAS_BUDGET ? specularShare(p, budget) : 0.0;
+    const bool oneNode = specularMethod == SPECULAR_CONIC && share >= ONE_NODE_ERROR;
+    r.aboveFrom = oneNode ? 1.0 : 2.0;
     r.smallCap = SMALL_CAP * r.conic.a2;
-    r.pointLimit = HAS_BUDGET ? pointLimit(p, budget) : 0.0;
+    r.pointLimit = pointLimit(p, share);
 #else
     r.aboveFrom = 1.0;
 #endif

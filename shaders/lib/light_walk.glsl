@@ -49,7 +49,7 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
         const bool whole = height * abs(height) > radius2;
         found.near |= whole || radius2 < r.smallCap * d2 ? bit : 0u;
         if (HAS_BUDGET)
-            found.asPoint |= height >= radius && radius2 < r.pointLimit * d2 ? bit : 0u;
+            found.asPoint |= height >= 2.0 * radius && radius2 < r.pointLimit * d2 ? bit : 0u;
 #endif
         bit <<= 1u;
         ++k;

@@ -91,6 +91,9 @@ std::string tickLabel(double value)
         return fmt::format("{:g}M", value / 1e6);
     if (value >= 1e3)
         return fmt::format("{:g}k", value / 1e3);
+    const double exponent = std::floor(std::log10(value) + 1e-9);
+    if (exponent < -3)
+        return fmt::format("{:g}e{:g}", value / std::pow(10.0, exponent), exponent);
     return fmt::format("{:g}", value);
 }
 
@@ -128,9 +131,17 @@ std::string frame(const PlotText& text, const Axis& x, const Axis& y)
     return out;
 }
 
+constexpr size_t markerShapes = 4;
+
+// Series that share a colour have different ones.
+size_t markerOf(size_t series)
+{
+    return (series + series / colours.size()) % markerShapes;
+}
+
 std::string marker(size_t shape, double x, double y, const char* colour)
 {
-    switch (shape % 4) {
+    switch (shape) {
     case 0:
         return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"/>\n", x, y,
                            colour);
@@ -187,7 +198,7 @@ std::string lines(const std::vector<PlotSeries>& series, const Axis& x, const Ax
             const double px = x.pixel(point.first);
             lastY = y.pixel(point.second);
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px, lastY);
-            markers += marker(i, px, lastY, colour);
+            markers += marker(markerOf(i), px, lastY, colour);
         }
         if (path.empty())
             continue;
