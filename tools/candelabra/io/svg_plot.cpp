@@ -162,6 +162,7 @@ struct Label {
     double y;
     std::string text;
     const char* colour;
+    size_t shape;
 };
 
 // Moves labels apart until none overlaps, keeping their order and the middle of each cluster.
@@ -206,12 +207,13 @@ std::string lines(const std::vector<PlotSeries>& series, const Axis& x, const Ax
             out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
                                path, colour, series[i].emphasised ? 3.5 : 1.8);
         out += markers;
-        labels.push_back({lastY, series[i].name, colour});
+        labels.push_back({lastY, series[i].name, colour, markerOf(i)});
     }
     spread(labels);
     for (const Label& label : labels)
-        out += fmt::format("<text x=\"{}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n",
-                           width - right + 12, label.y + 4.5, label.colour, escaped(label.text));
+        out += marker(label.shape, width - right + 14, label.y, label.colour) +
+               fmt::format("<text x=\"{}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n",
+                           width - right + 26, label.y + 4.5, label.colour, escaped(label.text));
     return out;
 }
 
