@@ -3,6 +3,7 @@
 // contribute to it, from a tiny fixed list. The image means nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/pixel_of_lane.glsl"
 #include "lib/shade_receiver.glsl"
 #include "shared/baselines.h"
 
@@ -31,7 +32,7 @@ layout(scalar, binding = BASELINE_FOUND) readonly buffer FoundPerPixel
 
 void main()
 {
-    const uvec2 pixel = gl_GlobalInvocationID.xy;
+    const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane();
     if (any(greaterThanEqual(pixel, params.size)))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_vote : require
+#include "lib/pixel_of_lane.glsl"
 #include "lib/shade_receiver.glsl"
 #include "bench/baseline_walk.glsl"
 #include "lib/light_walk.glsl"
@@ -39,7 +40,7 @@ uint turns(uvec2 found)
 
 void main()
 {
-    const uvec2 pixel = gl_GlobalInvocationID.xy;
+    const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane();
     const bool inside = all(lessThan(pixel, params.size));
     const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : params.clearDepth;
     const bool surface = depth != params.clearDepth;

@@ -2,6 +2,7 @@
 // shade_tiles.comp over the lists of a baseline.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/pixel_of_lane.glsl"
 #include "lib/shade_receiver.glsl"
 #include "bench/baseline_walk.glsl"
 #include "lib/light_walk.glsl"
@@ -11,7 +12,7 @@ layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
 
 void main()
 {
-    const uvec2 pixel = gl_GlobalInvocationID.xy;
+    const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane();
     if (any(greaterThanEqual(pixel, params.size)))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;

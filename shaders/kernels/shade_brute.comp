@@ -3,6 +3,7 @@
 // against, and the baseline it is timed against.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/pixel_of_lane.glsl"
 #include "lib/shade_receiver.glsl"
 
 // The k-th light of the batch.
@@ -18,7 +19,7 @@ layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
 
 void main()
 {
-    const uvec2 pixel = gl_GlobalInvocationID.xy + params.origin;
+    const uvec2 pixel = params.origin + TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane();
     if (any(greaterThanEqual(pixel, params.size)))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;

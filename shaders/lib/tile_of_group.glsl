@@ -4,6 +4,7 @@
 #define CND_LIB_TILE_OF_GROUP
 
 #include "shared/clusters.h"
+#include "lib/pixel_of_lane.glsl"
 #include "lib/projection.glsl"
 
 layout(scalar, binding = SHADE_TILES) readonly buffer Tiles
@@ -35,7 +36,7 @@ bool takeTile(out uint tile, out uvec2 pixel)
         return false;
     tile = workTiles[at];
     pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
-            gl_LocalInvocationID.xy;
+            pixelOfLane();
     return all(lessThan(pixel, params.size));
 }
 
