@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "candelabra_shaders.h"
+#include "candelabra_gbuffer_shaders.h"
 #include "gbuffer/camera.h"
 #include "gbuffer/emitters.h"
 #include "gbuffer/geometry_impl.h"

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "candelabra_shaders.h"
+#include "candelabra_gbuffer_shaders.h"
 #include "gbuffer/geometry_impl.h"
 #include "gbuffer/meshes.h"
 #include "gbuffer/mipmaps.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "candelabra_shaders.h"
+#include "candelabra_gbuffer_shaders.h"
 #include "gbuffer/geometry_impl.h"
 #include "gbuffer/targets.h"
 

@@ -1,37 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes the headers of this folder compile as C++ and as GLSL (with scalar block layout). The only
 // file that knows which of the two is reading it. Data crosses this border, formulas never do.
+// The C++ half has a file of its own: hosts' shaders get this one alone, and it names no library.
 #ifndef CND_SHARED_PRELUDE_H
 #define CND_SHARED_PRELUDE_H
 
 #ifdef __cplusplus
-#include <cstdint>
-
-#include <glm/mat3x3.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-namespace candelabra::gpu
-{
-using uint = std::uint32_t;
-using glm::mat3;
-using glm::mat4;
-using glm::uvec2;
-using glm::uvec3;
-using glm::uvec4;
-using glm::vec2;
-using glm::vec3;
-using glm::vec4;
-} // namespace candelabra::gpu
-
-#define GPU_BEGIN                                                                                  \
-    namespace candelabra::gpu                                                                      \
-    {
-#define GPU_END }
-// Size in bytes; push constant structs must fit Vulkan's guaranteed 128.
-#define GPU_SIZE(Type, bytes) static_assert(sizeof(Type) == bytes);
+#include "shared/prelude_cpp.h"
 #else
 #extension GL_EXT_scalar_block_layout : require
 #define GPU_BEGIN

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Vulkan program that the headless samples put Candelabra into: a device, a G-buffer that shows
+// a wall, one command buffer. A real renderer has all of this already. Vulkan errors end the
+// program with a message: this is a sample.
+#ifndef CANDELABRA_SAMPLES_HOST_H
+#define CANDELABRA_SAMPLES_HOST_H
+
+#include <candelabra/candelabra.h>
+#include <vulkan/vulkan.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct HostImage {
+    VkImage image;
+    VkDeviceMemory memory;
+    VkImageView view;
+    VkImageAspectFlags aspect;
+} HostImage;
+
+typedef struct Host {
+    VkInstance instance;
+    VkPhysicalDevice physicalDevice;
+    VkDevice device;
+    VkQueue queue;
+    VkCommandPool pool;
+    VkCommandBuffer cmd;
+    uint32_t width, height;
+    CndCamera camera; // at the world's origin, looks down -z, reversed depth
+    HostImage normalRoughness, albedo, specular, depth, radiance, display;
+} Host;
+
+// The wall: it fills the picture, faces the camera, and is matt.
+#define WALL_DISTANCE 2.0f // metres
+#define WALL_ALBEDO 0.5f
+
+Host createHost(uint32_t width, uint32_t height);
+void destroyHost(Host* host);
+
+// Begins the command buffer.
+VkCommandBuffer beginFrame(Host* host);
+// The G-buffer pass: leaves its images as CndLightingFrame wants them, radiance black, and display
+// ready to be written.
+void drawWall(Host* host);
+// Submits and waits.
+void endFrame(Host* host);
+
+// Where an image is used: its layout there, and what must be done before or see it after.
+typedef struct ImageUse {
+    VkImageLayout layout;
+    VkPipelineStageFlags2 stage;
+    VkAccessFlags2 access;
+} ImageUse;
+void imageBarrier(VkCommandBuffer cmd, const HostImage* image, ImageUse from, ImageUse to);
+
+// Copies the pixel in the middle, of `size` bytes, after the frame.
+void readCentre(Host* host, const HostImage* image, VkImageLayout layout, void* pixel, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

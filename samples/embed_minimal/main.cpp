@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Candelabra in a Vulkan program of one's own: a lamp before a wall, one frame, no window. Says
+// what the pixel in the middle should be and ends with 1 when it is something else.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <type_traits>
+#include <utility>
+
+#include <candelabra/candelabra.hpp>
+
+#include "host.h"
+
+template <typename T>
+T orExit(candelabra::Result<T> result)
+{
+    if (!result) {
+        std::fprintf(stderr, "%s\n", result.error().message);
+        std::exit(2);
+    }
+    if constexpr (!std::is_void_v<T>)
+        return std::move(result.value());
+}
+
+// [readme]
+// `host` stands for your renderer: its device, images and command buffer. orExit() prints
+// error().message, one sentence that names the fault.
+constexpr CndLight lamp{.type = CND_LIGHT_SPHERE,
+                        .position = {0, 0, -1}, // metres, relative to the origin of the set
+                        .radius = 0.1f,
+                        .emission = {8000, 7000, 5000}, // luminance, cd/m^2
+                        .influenceRadius = 10};
+
+CndExposureStats drawFrame(Host& host)
+{
+    const CndDeviceDesc device{.instance = host.instance, // borrowed, as is all you pass
+                               .physicalDevice = host.physicalDevice,
+                               .device = host.device,
+                               .getInstanceProcAddr = vkGetInstanceProcAddr};
+    auto lighting = orExit(candelabra::Lighting::create(device, {.framesInFlight = 1}));
+    auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
+    auto exposure = orExit(candelabra::Exposure::create(device, {.framesInFlight = 1}));
+    orExit(lighting.setLights({&lamp, 1}, {0, 0, 0}));
+
+    VkCommandBuffer cmd = beginFrame(&host);
+    drawWall(&host); // your G-buffer pass; radiance is cleared or holds what you emit
+    orExit(view.record(cmd, {.width = host.width,
+                             .height = host.height,
+                             .camera = host.camera,
+                             .clearDepth = 0, // of pixels without a surface; depth is reversed
+                             .normalRoughness = host.normalRoughness.view,
+                             .albedo = host.albedo.view,
+                             .specular = host.specular.view,
+                             .depth = host.depth.view,
+                             .radiance = host.radiance.view,
+                             .specularMethod = CND_SPECULAR_CONIC}));
+    constexpr auto compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    imageBarrier(
+        cmd, &host.radiance,
+        {VK_IMAGE_LAYOUT_GENERAL, compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+        {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, compute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT});
+    orExit(exposure.record(cmd, {.width = host.width,
+                                 .height = host.height,
+                                 .radiance = host.radiance.view,
+                                 .display = host.display.view,
+                                 .reset = true, // the first frame has nothing to adapt from
+                                 .settings = candelabra::defaultExposureSettings()}));
+    endFrame(&host);
+    return *orExit(exposure.stats(0)); // never waits; this frame is finished
+}
+// [readme]
+
+// A Lambertian wall that faces a sphere at distance d: albedo times luminance times (radius / d)^2,
+// times the lamp's window.
+static float wallLuminance(int channel)
+{
+    const float distance = WALL_DISTANCE + lamp.position[2];
+    const float s = lamp.radius / distance;
+    const float window = 1 - std::pow(distance / lamp.influenceRadius, 4.0f);
+    return WALL_ALBEDO * lamp.emission[channel] * s * s * window * window;
+}
+
+// PBR Neutral below where it compresses highlights (Khronos 2024), then sRGB.
+static float displayed(float exposed, float darkest)
+{
+    const float offset = darkest < 0.08f ? darkest - 6.25f * darkest * darkest : 0.04f;
+    const float linear = exposed - offset;
+    return 255 *
+           (linear < 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f);
+}
+
+int main()
+{
+    Host host = createHost(65, 65); // odd, so that one pixel is the middle
+    const float exposure = drawFrame(host).exposure;
+    float radiance[4];
+    unsigned char display[4];
+    readCentre(&host, &host.radiance, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, radiance,
+               sizeof radiance);
+    readCentre(&host, &host.display, VK_IMAGE_LAYOUT_GENERAL, display, sizeof display);
+    destroyHost(&host);
+
+    bool right = true;
+    const float darkest =
+        exposure * std::min({wallLuminance(0), wallLuminance(1), wallLuminance(2)});
+    for (int i = 0; i < 3; ++i) {
+        const float expected = wallLuminance(i);
+        const float expectedDisplay = displayed(exposure * expected, darkest);
+        std::printf("channel %d: %.5f cd/m^2 (expected %.5f), on the display %d (%.1f)\n", i,
+                    radiance[i], expected, display[i], expectedDisplay);
+        right = right && std::abs(radiance[i] - expected) < 1e-5f * expected &&
+                std::abs(float(display[i]) - expectedDisplay) < 2; // rounded and dithered
+    }
+    std::puts(right ? "right" : "WRONG");
+    return right ? 0 : 1;
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// A host's shader that writes the G-buffer with the installed functions.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/gbuffer.glsl"
+
+layout(location = 0) in vec3 normalView;
+layout(location = 0) out uvec2 normalRoughness;
+
+void main()
+{
+    normalRoughness = packNormalRoughnessFull(normalize(normalView), 0.5);
+}

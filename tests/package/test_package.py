@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Candelabra as other projects get it: installed into a folder that is then moved, found from clean
+build folders, or fetched. Usage: test_package.py STEP SOURCE BUILD GENERATOR; `install` goes first.
+Everything is written to BUILD/package."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+step, source, build, generator = sys.argv[1], *map(pathlib.Path, sys.argv[2:4]), sys.argv[4]
+work = build / "package"
+prefix = work / "prefix"
+# Validation with synchronization validation for the samples; the loader says which layers it took.
+LAYERS = {"VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
+          "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
+          "VK_LOADER_DEBUG": "layer"}
+
+
+def run(*command, **environment):
+    """What the command prints; ends the test when it fails."""
+    print("$", *command, flush=True)
+    done = subprocess.run([str(c) for c in command], env=os.environ | environment, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if done.returncode:
+        sys.exit(f"{done.stdout}\nended with {done.returncode}")
+    return done.stdout
+
+
+def require(condition, why):
+    if not condition:
+        sys.exit(why)
+
+
+def clean(folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    return folder
+
+
+def configure_and_build(project, folder, *options):
+    launcher = shutil.which("ccache")
+    launchers = [f"-DCMAKE_{l}_COMPILER_LAUNCHER={launcher}" for l in ("C", "CXX")] if launcher else []
+    run("cmake", "-G", generator, "-S", project, "-B", clean(folder), *launchers, *options)
+    run("cmake", "--build", folder, "--parallel", 2)
+
+
+def run_sample(program):
+    log = run(program, **LAYERS)
+    require(re.search(r"Insert instance layer.*VK_LAYER_KHRONOS_validation", log),
+            log + "\nvalidation was not active")
+    require(not re.search("VUID|SYNC-HAZARD|Validation Error|Validation Warning", log), log)
+    print("\n".join(line for line in log.split("\n") if not line.startswith("[Vulkan Loader]")))
+
+
+def libdir():
+    return next(prefix.glob("lib*/**/libcandelabra.so")).parent
+
+
+def install():
+    clean(work)
+    run("cmake", "--install", build, "--prefix", work / "first")
+    (work / "first").rename(prefix)  # whoever remembers the first place is found out
+
+    symbols = {line.split()[-1] for line in
+               run("nm", "-D", "--defined-only", libdir() / "libcandelabra.so").splitlines()}
+    headers = "".join(h.read_text() for h in (prefix / "include").rglob("*.h"))
+    declared = set(re.findall(r"CND_API[^;(]*?\b(cnd\w+)\(", headers))
+    require(symbols == declared, f"exported and declared differ in {symbols ^ declared}")
+    major_minor = re.search(r"SONAME.*\[(.*)\]", run("readelf", "-d", libdir() / "libcandelabra.so"))
+    require(re.fullmatch(r"libcandelabra\.so\.\d+\.\d+", major_minor[1]), f"SONAME {major_minor[1]}")
+
+    texts = [p for p in prefix.rglob("*")
+             if p.suffix in (".h", ".hpp", ".glsl", ".cmake", ".pc") and p.is_file()]
+    require(len(texts) > 10, f"only {len(texts)} files were installed")
+    for path in texts:
+        text = path.read_text()
+        require("glm" not in text.lower(), f"{path} names GLM")
+        for place in (source, build, work / "first"):
+            require(f"{place}/" not in text, f"{path} names {place}")
+    run("glslangValidator", "-V", "--target-env", "vulkan1.3", f"-I{prefix}/share/candelabra/shaders",
+        "-o", work / "pack.spv", source / "tests/package/pack.frag")
+
+
+def sample(name):
+    configure_and_build(source / "samples" / name, work / name, f"-DCMAKE_PREFIX_PATH={prefix}")
+    run_sample(work / name / name)
+
+
+def consume(folder, *options):
+    configure_and_build(source / "tests/package/consumer", folder, *options)
+    for library in ("candelabra", "candelabra_static"):
+        run(folder / f"with_{library}")
+    dynamic = run("readelf", "-d", folder / "with_candelabra_static")
+    require("libcandelabra" not in dynamic, "the static library was linked as a shared one")
+
+
+def found():
+    consume(work / "found", f"-DCMAKE_PREFIX_PATH={prefix}")
+
+
+def fetched():
+    consume(work / "fetched", f"-DCANDELABRA_SOURCE={source}", "-DCMAKE_BUILD_TYPE=Release")
+    run_sample(work / "fetched/embed_minimal/embed_minimal")
+
+
+def pkg_config():
+    where = {"PKG_CONFIG_PATH": str(libdir() / "pkgconfig")}
+    flags = run("pkg-config", "--cflags", "--libs", "candelabra", **where).split()
+    static = run("pkg-config", "--cflags", "--libs", "--static", "candelabra", **where).split()
+    main = source / "tests/package/consumer/main.c"
+    run("cc", main, "-o", work / "pc_shared", *flags)
+    run(work / "pc_shared", LD_LIBRARY_PATH=str(libdir()))
+    run("cc", main, "-o", work / "pc_static",
+        *(f.replace("-lcandelabra", "-l:libcandelabra.a") for f in static))
+    run(work / "pc_static")
+    shaders = run("pkg-config", "--variable=shaderdir", "candelabra", **where).strip()
+    require((pathlib.Path(shaders) / "lib/gbuffer.glsl").exists(), f"no shaders in {shaders}")
+
+
+def debian():
+    folder = clean(work / "debian")
+    run("cpack", "--config", build / "CPackConfig.cmake", "-B", folder)
+    package, = folder.glob("*.deb")
+    listing = run("dpkg-deb", "--contents", package)
+    for path in (r"lib/(.*/)?libcandelabra\.so\.\d+\.\d+\.\d+", "include/candelabra/candelabra.h"):
+        require(re.search(f"/usr/{path}\n", listing), f"no {path} in\n{listing}")
+    fields = run("dpkg-deb", "--field", package)
+    require(re.search("^Depends:.*libstdc", fields, re.MULTILINE), fields)
+    print(fields)
+
+
+if step.startswith("sample:"):
+    sample(step.removeprefix("sample:"))
+else:
+    {"install": install, "found": found, "fetched": fetched, "pkg_config": pkg_config,
+     "debian": debian}[step]()
