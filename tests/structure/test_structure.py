@@ -109,10 +109,10 @@ for path in SOURCES:
     if name.startswith(("engine/include", "shaders/lib")) and BANNED.search(path.read_text()):
         fail(path, "uses a banned quantity name (brightness, roughness, color)")
 
-# The README's embedding listing is the one that is compiled.
-listing = (root / "tests/unit/readme_listing.cpp").read_text().split("// [readme]\n")[1]
-if listing.strip() not in (root / "README.md").read_text():
-    fail(root / "README.md", "does not hold the listing of tests/unit/readme_listing.cpp")
+# The README's embedding listing is the sample that the package tests build and run.
+sample = (root / "samples/embed_minimal/main.cpp").read_text().split("// [readme]\n")
+if len(sample) != 3 or f"```cpp\n{sample[1]}```" not in (root / "README.md").read_text():
+    fail(root / "README.md", "does not hold the listing of samples/embed_minimal/main.cpp")
 
 # The version that headers say is the one that packages carry.
 project = re.search(r"project\(candelabra VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text())[1]
