@@ -52,8 +52,8 @@ struct Receiver {
 };
 
 // An error budget as a share of the specular lobe's highest response. The diffuse part is exact, so
-// the budget grows by what that adds to the response: a specular peak of at most F s^2 / (4 alpha^2 NoV)
-// against albedo s^2.
+// the budget grows by what that adds to the response: a specular peak of at most
+// F s^2 / (4 alpha^2 NoV) against albedo s^2.
 float specularShare(ShadingPoint p, float budget)
 {
     const vec3 F = mix(p.F0, vec3(p.F90), pow5(1.0 - p.NoV));
@@ -67,10 +67,10 @@ float lowestF0(ShadingPoint p)
     return min(p.F0.x, min(p.F0.y, p.F0.z));
 }
 
-// Largest (R / d)^2 whose evaluation as a point, at least two of its half angles above the horizon, errs
-// by at most `share` of the lobe's highest response. With q = (s^2 / 8 alpha^2) (1 + 1 / NoV^2) the error
-// was below 1.1 q for F0 = 1 and below (1.15 + 3.9 alpha) q for F0 = 0.04, whose Fresnel term changes
-// over the light: measured, q < 0.3, 1,400 surfaces with 80 lights each.
+// Largest (R / d)^2 whose evaluation as a point, at least two of its half angles above the horizon,
+// errs by at most `share` of the lobe's highest response. With q = (s^2 / 8 alpha^2) (1 + 1 / NoV^2)
+// the error was below 1.1 q for F0 = 1 and below (1.15 + 3.9 alpha) q for F0 = 0.04, whose Fresnel
+// term changes over the light: measured, q < 0.3, 1,400 surfaces with 80 lights each.
 float pointLimit(ShadingPoint p, float share)
 {
     const float perQ = 1.15 + 3.9 * p.alpha * (1.0 - lowestF0(p));
