@@ -146,7 +146,7 @@ void Bindings::write(uint32_t index, std::initializer_list<Binding> given) const
         if (reflected == bindings_.end())
             failArgument(std::string("internal: ") + name_ + " has no binding " +
                          std::to_string(b.binding));
-        buffers[n] = {b.buffer, 0, VK_WHOLE_SIZE};
+        buffers[n] = {b.buffer, b.offset, b.range};
         images[n] = {b.sampler, b.image, b.layout};
         texels[n] = b.texels;
         writes[n] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,

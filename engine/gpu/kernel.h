@@ -35,11 +35,12 @@ struct SpecConstant {
 // One descriptor of a set: the binding number and what goes there.
 struct Binding {
     uint32_t binding;
-    VkBuffer buffer = VK_NULL_HANDLE; // whole buffer
+    VkBuffer buffer = VK_NULL_HANDLE;
     VkImageView image = VK_NULL_HANDLE;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkBufferView texels = VK_NULL_HANDLE;
     VkSampler sampler = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0, range = VK_WHOLE_SIZE; // of the buffer
 
     static Binding of(uint32_t b, const Buffer& x) { return {.binding = b, .buffer = x.get()}; }
     static Binding ofTexels(uint32_t b, const Buffer& x)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "candelabra_shaders.h"
 #include "tables/ltc_table.h"
@@ -77,7 +78,8 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       desc_(checked(desc)),
       kernels_(device_, desc_),
       dfg_(device_),
-      ltc_(createLtcBuffer(device_))
+      ltc_(createLtcBuffer(device_)),
+      deviceLights_(device_)
 {
     grow(0, {});
 }
@@ -101,8 +103,12 @@ void Lighting::setLights(const CndLightSet& set)
                           ", this library expects " + std::to_string(sizeof set));
     if (set.count && !set.lights)
         gpu::failArgument("CndLightSet: lights is null but count is " + std::to_string(set.count));
-    if (set.count > maxLights(device_.limits))
-        gpu::failUnsupported("CndLightSet: " + std::to_string(set.count) +
+    const CndDeviceLights* const device = set.deviceLights;
+    if (device)
+        checkDeviceLights(device_, *device);
+    const uint64_t total = uint64_t(set.count) + (device ? device->maxCount : 0);
+    if (total > maxLights(device_.limits))
+        gpu::failUnsupported("CndLightSet: " + std::to_string(total) +
                              " lights are more than the device can take, " +
                              std::to_string(maxLights(device_.limits)));
     for (const double o : set.origin)
@@ -110,18 +116,34 @@ void Lighting::setLights(const CndLightSet& set)
             gpu::failArgument("CndLightSet: origin must be finite");
     const std::span lights(set.lights, set.count);
     validateLights(lights);
-    const LightTypeCounts counts = countTypes(lights);
-    const LightExtent extent = extentOf(lights);
+    LightTypeCounts counts = countTypes(lights);
+    LightExtent extent = extentOf(lights);
+    uint32_t deviceRecord = 0; // behind the host's of that type
+    if (device) {
+        const size_t distant = counts[CND_LIGHT_DIRECTIONAL] + counts[CND_LIGHT_DISTANT_SPHERE];
+        extent = extentWith(extent, lights.size() - distant, *device);
+        deviceRecord = std::accumulate(counts.begin(), counts.begin() + device->type + 1, 0u);
+        counts[device->type] += device->maxCount;
+    }
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (counts[type])
             kernels_.shade.require(type);
     freeRetired();
-    grow(set.count, counts);
+    gpu::Bindings bindings;
+    if (device)
+        bindings = deviceLights_.prepare(*device, total > lightCapacity_);
+    grow(uint32_t(total), counts);
     Staging& staging = freeStaging();
     packLights(lights, counts, staging.buffer.as<gpu::LightRecord>());
+    if (device)
+        deviceLights_.take(*device, deviceRecord, records_, std::move(bindings),
+                           [&](gpu::Bindings& old) { replace(old, gpu::Bindings()); });
+    else
+        deviceLights_.takeNone();
     pending_ = &staging;
     typeCounts_ = counts;
-    lightCount_ = set.count;
+    lightCount_ = uint32_t(total);
+    uploadCount_ = set.count ? lightCount_ : 0;
     ++lightSet_;
     std::copy_n(set.origin, 3, origin_);
     extent_ = extent;
@@ -150,12 +172,32 @@ void Lighting::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcep
         return;
     pending_->recording = recording;
     if (lightCount_) {
-        const VkBufferCopy copy{.size = lightCount_ * sizeof(gpu::LightRecord)};
-        device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records_.get(), 1, &copy);
+        if (uploadCount_) {
+            const VkBufferCopy copy{.size = uploadCount_ * sizeof(gpu::LightRecord)};
+            device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records_.get(), 1, &copy);
+        }
+        if (deviceLights_.present()) {
+            device_.CmdFillBuffer(frame.cmd, deviceLights_.counts().get(), 0, VK_WHOLE_SIZE, 0);
+            frame.barrier();
+            deviceLights_.record(frame);
+        }
         frame.barrier();
         kernels_.order.record(frame, sort_, lightCount_, extent_);
     }
     pending_ = nullptr;
+}
+
+void Lighting::recordDeviceCounts(const gpu::Frame& frame,
+                                  const gpu::Buffer& counters) const noexcept
+{
+    if (!deviceLights_.present())
+        return;
+    static_assert(offsetof(gpu::LightingCounters, rejectedLights) ==
+                  offsetof(gpu::LightingCounters, deviceLights) +
+                      offsetof(gpu::DeviceLightCounts, rejected));
+    const VkBufferCopy copy{.dstOffset = offsetof(gpu::LightingCounters, deviceLights),
+                            .size = sizeof(gpu::DeviceLightCounts)};
+    device_.CmdCopyBuffer(frame.cmd, deviceLights_.counts().get(), counters.get(), 1, &copy);
 }
 
 void Lighting::recordTables(const gpu::Frame& frame, bool directionalAlbedo) noexcept

@@ -9,6 +9,7 @@
 
 #include "gpu/kernel.h"
 #include "lighting/clusters.h"
+#include "lighting/device_lights.h"
 #include "lighting/light_order.h"
 #include "lighting/pack_lights.h"
 #include "lighting/shade_kernels.h"
@@ -41,6 +42,8 @@ public:
     // Copies a changed light set to the device and sorts it; barriers before and after are the
     // caller's.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
+    // What was found of lights on the device, into LightingCounters.
+    void recordDeviceCounts(const gpu::Frame& frame, const gpu::Buffer& counters) const noexcept;
     // Fills, once each, the tables that shading reads; directional albedos only on demand.
     void recordTables(const gpu::Frame& frame, bool directionalAlbedo) noexcept;
 
@@ -96,6 +99,7 @@ private:
     std::vector<Retired> retired_;
     gpu::Buffer records_; // device copy of the packed lights
     LightOrder::State sort_;
+    DeviceLights deviceLights_;
     LightExtent extent_;
     struct Staging {
         gpu::Buffer buffer;
@@ -106,6 +110,7 @@ private:
     std::deque<Staging> staging_; // elements stay where they are when it grows
     Staging* pending_ = nullptr;  // written and not yet recorded
     uint32_t lightCount_ = 0, lightCapacity_ = 0;
+    uint32_t uploadCount_ = 0; // records that staging fills
     uint64_t lightSet_ = 0;
     LightTypeCounts typeCounts_{};
     double origin_[3]{};

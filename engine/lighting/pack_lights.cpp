@@ -10,6 +10,7 @@
 
 #include "gpu/failure.h"
 #include "lighting/shade_kernels.h"
+#include "shared/device_lights.h"
 
 namespace candelabra::lighting
 {
@@ -33,10 +34,8 @@ double cosBetween(const CndLight& light)
     return std::cos(double(light.innerConeAngle)) - std::cos(double(light.outerConeAngle));
 }
 
-// Farther from their origin than this, squared distances are not finite floats.
-constexpr float maxCoordinate = 1e15f;
-// Shorter lengths have no square in single precision.
-constexpr float minLength = 1e-15f;
+const float maxCoordinate = gpu::MAX_LIGHT_COORDINATE;
+const float minLength = gpu::MIN_LIGHT_LENGTH;
 // Between the cones of a spot light: what the device's float cosines can still resolve.
 constexpr double minCosBetween = 1e-6;
 

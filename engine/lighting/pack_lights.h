@@ -19,8 +19,8 @@ void validateLights(std::span<const CndLight> lights);
 // Of valid lights.
 LightTypeCounts countTypes(std::span<const CndLight> lights);
 
-// Packs valid lights by type, in their order within a type; `out` has at least lights.size()
-// elements.
+// Packs valid lights by type, in their order within a type. `counts`: room for each type, at least
+// what there is; `out` has as many elements.
 void packLights(std::span<const CndLight> lights, const LightTypeCounts& counts,
                 std::span<gpu::LightRecord> out);
 

@@ -196,6 +196,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
         if (clustered && !reuse)
             clusters_.recordReset(f, lighting_.typeCounts());
         f.barrier();
+        lighting_.recordDeviceCounts(f, counters_);
         if (clustered && !reuse) {
             recordClusters(f, plan);
             recordLists(f, frame, plan);
@@ -401,6 +402,8 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
         return CND_NOT_READY;
     const gpu::LightingCounters& c = read.counters;
     out.lightCount = slots_[slot].lightCount;
+    out.deviceLights = c.deviceLights;
+    out.rejectedLights = c.rejectedLights;
     out.tileCount = c.surfaceTiles;
     out.splitTileCount = clusters_.splitTileCount(c.splitTiles);
     out.listEntries = c.listEntries;

@@ -31,9 +31,13 @@ void childBox(uint child, out vec3 lowest, out vec3 highest)
         highest = nodes[child * TREE_NODE_STRIDE + 1u].xyz;
         return;
     }
+    lowest = vec3(LARGEST);
+    highest = vec3(-LARGEST);
+    if (lightEmission(child).w <= 0.0) // no light (device_lights)
+        return;
     const vec3 centre = lightCentre(child).xyz;
     const vec3 size = abs(centre);
-    const float r = min(sqrt(max(lightEmission(child).w, 0.0)), LARGEST);
+    const float r = min(sqrt(lightEmission(child).w), LARGEST);
     const float reach = r + BOX_MARGIN * (r + max(size.x, max(size.y, size.z)));
     lowest = centre - reach;
     highest = centre + reach;

@@ -61,12 +61,13 @@ struct LightingCounters {
     uint unlistedClusters;
     uint splitTiles;
     uint surfaceTiles;
-    uvec2 listedPairs; // 64 bit: low, high
+    uint deviceLights, rejectedLights; // shared/device_lights.h
+    uvec2 listedPairs;                 // 64 bit: low, high
     uvec2 evaluatedPairs;
     uvec2 insidePairs;
     uvec2 contributingPairs;
 };
-GPU_SIZE(LightingCounters, 56)
+GPU_SIZE(LightingCounters, 64)
 
 // --- prepare_lights: world -> view, one lane per light
 const uint PREPARE_LIGHTS_GROUP = 64u;

@@ -286,6 +286,7 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     CndLightSet set{
         .structSize = sizeof set, .count = uint32_t(lights.size()), .lights = lights.data()};
     std::copy_n(options.lightOrigin, 3, set.origin);
+    set.deviceLights = options.deviceLights;
     EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
 
     CndLightingFrame frame = frameOf(g, images, options);

@@ -69,6 +69,7 @@ struct RunOptions {
     bool countPairs = false;
     const CndDeviceDesc* host = nullptr; // instead of the fixture's, for interposed functions
     double lightOrigin[3] = {0, 0, 0};
+    const CndDeviceLights* deviceLights = nullptr;
     uint32_t sampleCount = 0;
     float errorBudget = 0;
     CndLobeJoining lobes = CND_LOBES_SUM;

@@ -186,8 +186,15 @@ public:
     // `origin`: what the lights' positions are relative to, world space.
     Result<void> setLights(std::span<const CndLight> lights, const double (&origin)[3]) noexcept
     {
-        const CndLightSet set{
-            sizeof set, uint32_t(lights.size()), lights.data(), {origin[0], origin[1], origin[2]}};
+        return setLights({0,
+                          uint32_t(lights.size()),
+                          lights.data(),
+                          {origin[0], origin[1], origin[2]},
+                          nullptr});
+    }
+    Result<void> setLights(CndLightSet set) noexcept
+    {
+        set.structSize = sizeof set;
         return detail::call(cndSetLights, handle_, &set);
     }
     Result<LightingView> createView(const CndLightingViewDesc& desc) const noexcept

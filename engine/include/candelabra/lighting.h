@@ -97,7 +97,9 @@ typedef struct CndLightingFrame {
 
 typedef struct CndLightingStats {
     uint32_t structSize;
-    uint32_t lightCount;
+    uint32_t lightCount;     // of the set, CndDeviceLights::maxCount included
+    uint32_t deviceLights;   // taken from CndDeviceLights
+    uint32_t rejectedLights; // in CndDeviceLights, but outside the range of a field, or too many
     uint32_t tileCount;      // 8x8 pixel tiles that hold a surface; 0 without lights
     uint32_t splitTileCount; // of these, deep ones whose slices of depth have a list each
     uint32_t listEntries;    // lights of all lists

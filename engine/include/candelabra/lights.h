@@ -51,16 +51,45 @@ typedef struct CndLight {
     VkBool32 twoSided; // rectangle, disc: emits from its back as well
 } CndLight;
 
+// A light in a buffer of the device, written by a particle simulation for instance. 32 bytes, two
+// vec4 in GLSL. Ranges are those of CndLight.
+typedef struct CndDeviceLight {
+    float position[3];     // metres, relative to CndLightSet::origin
+    float radius;          // metres; ignored for point lights
+    float emission[3];     // as CndLight, by type
+    float influenceRadius; // metres
+} CndDeviceLight;
+
+// Lights of one type that never visit the host. Buffers are borrowed: they must stay as they are
+// until the GPU has finished the first recording after cndSetLights, which reads them; call it
+// again, with the same values, for what was written since (it allocates nothing then). On entry
+// their contents are made visible to COMPUTE_SHADER / SHADER_STORAGE_READ.
+// The host cannot check them: what is outside its range gives no light and is counted in
+// CndLightingStats::rejectedLights, like what is beyond maxCount.
+typedef struct CndDeviceLights {
+    uint32_t type;            // CND_LIGHT_POINT or CND_LIGHT_SPHERE
+    uint32_t maxCount;        // CndDeviceLight in `buffer`, > 0; time and memory are paid for all
+    VkBuffer buffer;          // usage STORAGE_BUFFER
+    VkDeviceSize offset;      // bytes, a multiple of minStorageBufferOffsetAlignment
+    VkBuffer countBuffer;     // holds how many there are, one uint32_t; VK_NULL_HANDLE: maxCount
+    VkDeviceSize countOffset; // bytes, a multiple of minStorageBufferOffsetAlignment
+    // Where most of them are and how far most of them reach, metres: for speed alone.
+    float boundsMin[3], boundsMax[3];
+    float influenceRadius;
+} CndDeviceLights;
+
 // A set of lights around an origin. The engine subtracts the camera from the origin in double, so
 // precision depends on the distance from a light to its origin only.
 typedef struct CndLightSet {
     uint32_t structSize;
     uint32_t count;
-    const CndLight* lights; // count elements, read before the call returns
-    double origin[3];       // world space, metres
+    const CndLight* lights;              // count elements, read before the call returns
+    double origin[3];                    // world space, metres
+    const CndDeviceLights* deviceLights; // may be NULL: none
 } CndLightSet;
 
-// Largest CndLightSet::count for a device with these limits; `limits` may not be NULL.
+// Largest CndLightSet::count, with CndDeviceLights::maxCount, for a device with these limits;
+// `limits` may not be NULL.
 CND_API uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits);
 
 // Conversions of photometric units

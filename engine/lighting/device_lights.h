@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of a light set that the host left on the device (CndDeviceLights).
+#pragma once
+
+#include "candelabra/candelabra.h"
+#include "gpu/kernel.h"
+#include "lighting/light_order.h"
+#include "shared/device_lights.h"
+
+namespace candelabra::lighting
+{
+
+// Throws gpu::Failure naming the first field outside its documented range.
+void checkDeviceLights(const gpu::Device& device, const CndDeviceLights& lights);
+
+// Where the lights of both parts lie. `placed`: lights of the host that have a place.
+LightExtent extentWith(const LightExtent& host, size_t placed, const CndDeviceLights& device);
+
+class DeviceLights
+{
+public:
+    explicit DeviceLights(const gpu::Device& device); // must outlive it
+
+    // Descriptors to be given to take(); none when those of the last call still hold, which they do
+    // for the same buffers and records.
+    gpu::Bindings prepare(const CndDeviceLights& lights, bool newRecords) const;
+    // Throws nothing. `retire` keeps what earlier recordings use.
+    template <typename Retire>
+    void take(const CndDeviceLights& lights, uint32_t firstRecord, const gpu::Buffer& records,
+              gpu::Bindings bindings, Retire&& retire)
+    {
+        if (bindings.layout()) {
+            retire(bindings_);
+            bindings_ = std::move(bindings);
+            write(lights, records);
+        }
+        lights_ = lights;
+        firstRecord_ = firstRecord;
+        present_ = true;
+    }
+    void takeNone() { present_ = false; }
+    bool present() const { return present_; }
+
+    // Fills the records of the device's lights; counts are cleared before, by the caller.
+    void record(const gpu::Frame& frame) const noexcept;
+    const gpu::Buffer& counts() const { return counts_; } // gpu::DeviceLightCounts
+
+private:
+    void write(const CndDeviceLights& lights, const gpu::Buffer& records) const;
+
+    gpu::Kernel<gpu::DeviceLightsParams> kernel_;
+    gpu::Buffer counts_;
+    gpu::Bindings bindings_;
+    CndDeviceLights lights_{}; // of bindings_
+    uint32_t firstRecord_ = 0;
+    bool present_ = false;
+};
+
+} // namespace candelabra::lighting

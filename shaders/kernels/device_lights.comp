@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights that were written on the device, checked like the host checks its own. What is no light
+// becomes a record without influence: no list, no box of the light tree holds it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/device_lights.h"
+#include "shared/lighting.h"
+
+layout(local_size_x = DEVICE_LIGHTS_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    DeviceLightsParams params;
+};
+layout(scalar, binding = DEVICE_LIGHTS_FROM) readonly buffer From
+{
+    DeviceLight from[];
+};
+layout(scalar, binding = DEVICE_LIGHTS_COUNT) readonly buffer Count
+{
+    uint count;
+};
+layout(scalar, binding = DEVICE_LIGHTS_RECORDS) writeonly buffer Records
+{
+    LightRecord records[];
+};
+layout(scalar, binding = DEVICE_LIGHTS_COUNTS) buffer Counts
+{
+    DeviceLightCounts counts;
+};
+
+// Every comparison is false for NaN.
+bool isLight(DeviceLight light, float reach)
+{
+    const float largest = uintBitsToFloat(0x7F7FFFFFu);
+    return all(lessThanEqual(abs(light.position), vec3(MAX_LIGHT_COORDINATE))) &&
+           all(greaterThanEqual(light.emission, vec3(0.0))) &&
+           all(lessThanEqual(light.emission, vec3(largest))) &&
+           (params.type == LIGHT_POINT ||
+            (reach >= MIN_LIGHT_LENGTH && reach <= MAX_LIGHT_COORDINATE)) &&
+           light.influenceRadius > reach;
+}
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= params.maxCount)
+        return;
+    const uint written = params.hasCount != 0u ? count : params.maxCount;
+    // Far away, so that no distance to it is 0.
+    LightRecord record = LightRecord(vec3(MAX_LIGHT_COORDINATE), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0,
+                                     vec3(0.0), params.type);
+    if (i < written) {
+        const DeviceLight light = from[i];
+        const float reach = params.type == LIGHT_POINT ? 0.0 : light.radius;
+        if (isLight(light, reach)) {
+            record.position = light.position;
+            record.reach = reach;
+            record.emission = light.emission;
+            record.influenceRadius = light.influenceRadius;
+            atomicAdd(counts.taken, 1u);
+        } else {
+            atomicAdd(counts.rejected, 1u);
+        }
+    }
+    records[params.firstRecord + i] = record;
+    if (i == 0u && written > params.maxCount)
+        atomicAdd(counts.rejected, written - params.maxCount);
+}
