@@ -69,6 +69,17 @@ CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* e
     });
 }
 
+CndResult cndUpdateLights(CndLighting lighting, uint32_t first, uint32_t count,
+                          const CndLight* lights, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndUpdateLights", {lighting});
+        if (count)
+            gpu::requireNotNull("cndUpdateLights", {lights});
+        lighting->impl.updateLights(first, {lights, count});
+    });
+}
+
 CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
                                 CndLightingView* view, CndError* error)
 {

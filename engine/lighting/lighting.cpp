@@ -134,7 +134,8 @@ void Lighting::setLights(const CndLightSet& set)
         bindings = deviceLights_.prepare(*device, total > lightCapacity_);
     grow(uint32_t(total), counts);
     Staging& staging = freeStaging();
-    packLights(lights, counts, staging.buffer.as<gpu::LightRecord>());
+    recordOf_ = packLights(lights, counts, staging.buffer.as<gpu::LightRecord>());
+    staging.regions.assign(set.count ? 1 : 0, {.size = total * sizeof(gpu::LightRecord)});
     if (device)
         deviceLights_.take(*device, deviceRecord, records_, std::move(bindings),
                            [&](gpu::Bindings& old) { replace(old, gpu::Bindings()); });
@@ -143,10 +144,55 @@ void Lighting::setLights(const CndLightSet& set)
     pending_ = &staging;
     typeCounts_ = counts;
     lightCount_ = uint32_t(total);
-    uploadCount_ = set.count ? lightCount_ : 0;
+    deviceLightsPending_ = device;
     ++lightSet_;
     std::copy_n(set.origin, 3, origin_);
     extent_ = extent;
+}
+
+uint32_t Lighting::typeOfRecord(uint32_t record) const
+{
+    uint32_t type = 0;
+    for (uint32_t end = typeCounts_[0]; end <= record; end += typeCounts_[type])
+        ++type;
+    return type;
+}
+
+void Lighting::updateLights(uint32_t first, std::span<const CndLight> lights)
+{
+    if (first > recordOf_.size() || lights.size() > recordOf_.size() - first)
+        gpu::failArgument("cndUpdateLights: lights " + std::to_string(first) + " to " +
+                          std::to_string(uint64_t(first) + lights.size()) +
+                          " are not all of the set, which has " + std::to_string(recordOf_.size()));
+    validateLights(lights);
+    for (size_t i = 0; i < lights.size(); ++i)
+        if (const uint32_t type = typeOfRecord(recordOf_[first + i]); lights[i].type != type)
+            gpu::failArgument("lights[" + std::to_string(i) + "]: type is " +
+                              std::to_string(lights[i].type) + ", of the light it replaces " +
+                              std::to_string(type));
+    if (lights.empty())
+        return;
+    freeRetired();
+    Staging& staging = freeStaging();
+    std::vector<VkBufferCopy> regions;
+    if (pending_)
+        regions = staging.regions;
+    const VkDeviceSize all = lightCount_ * sizeof(gpu::LightRecord);
+    const bool whole = !regions.empty() && regions[0].size == all;
+    constexpr VkDeviceSize bytes = sizeof(gpu::LightRecord);
+    for (size_t i = 0; i < lights.size() && !whole; ++i) {
+        const VkDeviceSize at = recordOf_[first + i] * bytes;
+        if (!regions.empty() && regions.back().dstOffset + regions.back().size == at)
+            regions.back().size += bytes;
+        else
+            regions.push_back({at, at, bytes});
+    }
+    const std::span records = staging.buffer.as<gpu::LightRecord>();
+    for (size_t i = 0; i < lights.size(); ++i)
+        records[recordOf_[first + i]] = packLight(lights[i]);
+    staging.regions = std::move(regions);
+    pending_ = &staging;
+    ++lightSet_;
 }
 
 Lighting::Staging& Lighting::freeStaging()
@@ -172,11 +218,10 @@ void Lighting::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcep
         return;
     pending_->recording = recording;
     if (lightCount_) {
-        if (uploadCount_) {
-            const VkBufferCopy copy{.size = uploadCount_ * sizeof(gpu::LightRecord)};
-            device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records_.get(), 1, &copy);
-        }
-        if (deviceLights_.present()) {
+        if (!pending_->regions.empty())
+            device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records_.get(),
+                                  uint32_t(pending_->regions.size()), pending_->regions.data());
+        if (deviceLightsPending_) {
             device_.CmdFillBuffer(frame.cmd, deviceLights_.counts().get(), 0, VK_WHOLE_SIZE, 0);
             frame.barrier();
             deviceLights_.record(frame);
@@ -185,6 +230,7 @@ void Lighting::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcep
         kernels_.order.record(frame, sort_, lightCount_, extent_);
     }
     pending_ = nullptr;
+    deviceLightsPending_ = false;
 }
 
 void Lighting::recordDeviceCounts(const gpu::Frame& frame,

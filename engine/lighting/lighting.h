@@ -39,6 +39,8 @@ public:
 
     // Validates, packs into the staging slot of the next recording, grows buffers when needed.
     void setLights(const CndLightSet& set);
+    // Replaces lights of the set, each by one of its type.
+    void updateLights(uint32_t first, std::span<const CndLight> lights);
     // Copies a changed light set to the device and sorts it; barriers before and after are the
     // caller's.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
@@ -104,13 +106,16 @@ private:
     struct Staging {
         gpu::Buffer buffer;
         uint64_t recording = 0; // number of the recording that copies from it, 0: none yet
+        std::vector<VkBufferCopy> regions; // to the same place in the records
     };
     Staging& freeStaging();
+    uint32_t typeOfRecord(uint32_t record) const;
 
     std::deque<Staging> staging_; // elements stay where they are when it grows
     Staging* pending_ = nullptr;  // written and not yet recorded
     uint32_t lightCount_ = 0, lightCapacity_ = 0;
-    uint32_t uploadCount_ = 0; // records that staging fills
+    std::vector<uint32_t> recordOf_; // of each light of the host's set
+    bool deviceLightsPending_ = false;
     uint64_t lightSet_ = 0;
     LightTypeCounts typeCounts_{};
     double origin_[3]{};

@@ -155,7 +155,9 @@ glm::vec3 unit(const float (&v)[3])
     return d / std::hypot(d.x, d.y, d.z);
 }
 
-gpu::LightRecord pack(const CndLight& light)
+} // namespace
+
+gpu::LightRecord packLight(const CndLight& light)
 {
     gpu::LightRecord r{};
     r.type = light.type;
@@ -190,8 +192,6 @@ gpu::LightRecord pack(const CndLight& light)
     return r;
 }
 
-} // namespace
-
 void validateLights(std::span<const CndLight> lights)
 {
     for (size_t i = 0; i < lights.size(); ++i)
@@ -207,13 +207,17 @@ LightTypeCounts countTypes(std::span<const CndLight> lights)
     return counts;
 }
 
-void packLights(std::span<const CndLight> lights, const LightTypeCounts& counts,
-                std::span<gpu::LightRecord> out)
+std::vector<uint32_t> packLights(std::span<const CndLight> lights, const LightTypeCounts& counts,
+                                 std::span<gpu::LightRecord> out)
 {
+    std::vector<uint32_t> recordOf(lights.size());
     LightTypeCounts next{};
     std::exclusive_scan(counts.begin(), counts.end(), next.begin(), 0u);
-    for (const CndLight& light : lights)
-        out[next[light.type]++] = pack(light);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        recordOf[i] = next[lights[i].type]++;
+        out[recordOf[i]] = packLight(lights[i]);
+    }
+    return recordOf;
 }
 
 } // namespace candelabra::lighting

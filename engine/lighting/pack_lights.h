@@ -4,6 +4,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "candelabra/candelabra.h"
 #include "shared/lighting.h"
@@ -21,7 +22,10 @@ LightTypeCounts countTypes(std::span<const CndLight> lights);
 
 // Packs valid lights by type, in their order within a type. `counts`: room for each type, at least
 // what there is; `out` has as many elements.
-void packLights(std::span<const CndLight> lights, const LightTypeCounts& counts,
-                std::span<gpu::LightRecord> out);
+// Returns which element each light became.
+std::vector<uint32_t> packLights(std::span<const CndLight> lights, const LightTypeCounts& counts,
+                                 std::span<gpu::LightRecord> out);
+// One valid light.
+gpu::LightRecord packLight(const CndLight& light);
 
 } // namespace candelabra::lighting

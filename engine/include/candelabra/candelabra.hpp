@@ -197,6 +197,12 @@ public:
         set.structSize = sizeof set;
         return detail::call(cndSetLights, handle_, &set);
     }
+    // From element `first` of the set, of the same types.
+    Result<void> updateLights(uint32_t first, std::span<const CndLight> lights) noexcept
+    {
+        return detail::call(cndUpdateLights, handle_, first, uint32_t(lights.size()),
+                            lights.data());
+    }
     Result<LightingView> createView(const CndLightingViewDesc& desc) const noexcept
     {
         return detail::create<LightingView>(cndCreateLightingView, handle_, desc);

@@ -125,6 +125,14 @@ CND_API void cndDestroyLighting(CndLighting lighting);
 // stays. May allocate when the count grows, and makes pipelines when a light type is new.
 CND_API CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error);
 
+// Replaces `count` lights of the set, from its element `first`, by lights of the same types, for
+// sets of which few lights change: only these are validated, packed and uploaded (64 bytes each).
+// Takes effect at the next recording. Where lights are is still what cndSetLights was told, so sets
+// that wander far are better given anew. Lights on the device are not read again. On error nothing
+// is replaced.
+CND_API CndResult cndUpdateLights(CndLighting lighting, uint32_t first, uint32_t count,
+                                  const CndLight* lights, CndError* error);
+
 CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
                                         CndLightingView* view, CndError* error);
 // The GPU must have finished all work recorded with the view.
