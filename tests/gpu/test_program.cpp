@@ -190,6 +190,52 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
     EXPECT_EQ(test::xmlFault(path("o/stress.svg")), "");
 }
 
+TEST_F(ProgramTest, ProfileTimesEveryPass)
+{
+    const Outcome outcome = run("profile hall --lights 100 --size 64x36 --frames 8 --path turn "
+                                "--moving --csv f.csv --json p.json --validate");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("shade_tiles"), std::string::npos) << outcome.out;
+    const auto json = nlohmann::json::parse(text("p.json"));
+    EXPECT_EQ(json["schema"], "candelabra profile 1");
+    ASSERT_EQ(json["variants"].size(), 1u);
+    const auto& time = json["variants"][0]["time"];
+    EXPECT_EQ(time["frames"], 8);
+    double largest = 0;
+    for (const auto& pass : time["passes"]) {
+        EXPECT_LE(pass["minMs"], pass["medianMs"]) << pass;
+        EXPECT_LE(pass["p95Ms"], pass["p99Ms"]) << pass;
+        largest = std::max(largest, double(pass["medianMs"]));
+    }
+    EXPECT_GT(largest, 0);
+    EXPECT_LE(largest, time["gpu"]["medianMs"]);
+    EXPECT_LE(time["gpu"]["minMs"], time["frame"]["minMs"]);
+    EXPECT_GT(time["record"]["medianMs"], 0);
+    const std::string csv = text("f.csv");
+    EXPECT_EQ(csv.rfind("variant,frame,", 0), 0u);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 8);
+}
+
+TEST_F(ProgramTest, ProfileTellsADifferenceFromNone)
+{
+    const Outcome outcome = run("profile hall --lights 300 --size 128x72 --frames 10 -q --json - "
+                                "--ab '' '--specular sampled --samples 256'");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["variants"][0]["settings"]["specular"], "conic");
+    EXPECT_EQ(json["variants"][1]["settings"]["specular"], "sampled");
+    bool found = false;
+    for (const auto& row : json["comparison"]) {
+        EXPECT_LE(row["low"], row["ratio"]) << row;
+        if (row["name"] != "shade_tiles")
+            continue;
+        found = true;
+        EXPECT_EQ(row["verdict"], "slower") << row;
+        EXPECT_GT(row["low"], 2.0) << row;
+    }
+    EXPECT_TRUE(found);
+}
+
 TEST_F(ProgramTest, DevicesListsTheOneUnderTest)
 {
     const Outcome outcome = run("devices --json");

@@ -39,6 +39,24 @@ Outcome runWith(std::vector<const char*> arguments)
 
 } // namespace
 
+TEST(Cli, ProfileRefusesWhatItCannotCompare)
+{
+    const auto refused = [](std::vector<const char*> arguments, const std::string& sentence) {
+        arguments.insert(arguments.begin(), {"profile", "hall"});
+        const Outcome outcome = runWith(arguments);
+        EXPECT_EQ(outcome.exitCode, exitUsage);
+        EXPECT_NE(outcome.err.find(sentence), std::string::npos) << outcome.err;
+    };
+    refused({"--path", "x"}, "--path \"x\"");
+    refused({"--frames", "0"}, "--frames \"0\"");
+    refused({"--frames", "5", "--ab", "", ""}, "--ab needs at least 6");
+    refused({"--ab", "--specular foo", ""}, "--ab \"--specular foo\": --specular \"foo\"");
+    refused({"--ab", "", "--size 8x8"}, "--ab \"--size 8x8\": size, camera");
+    refused({"--ab", "", "--frob"}, "--ab \"--frob\"");
+    refused({"--ab", ""}, "--ab");
+    refused({"--json", "p", "--csv", "p"}, "--csv writes there");
+}
+
 TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)
 {
     const struct {

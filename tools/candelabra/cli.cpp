@@ -51,6 +51,7 @@ void describe(CLI::App& app, ProgramContext& context)
         "Examples:\n"
         "  candelabra stress                        sweep the number of lights, into out/\n"
         "  candelabra render hall --lights 16000 -o hall.png\n"
+        "  candelabra profile hall --lights 4000    where the time of a frame goes\n"
         "  candelabra view hall --lights 4000       fly through it\n"
         "  candelabra render --help                 options of one command");
 }
@@ -63,9 +64,9 @@ std::string parseSentence(const CLI::App& app, int argc, const char* const* argv
     const auto commands =
         app.get_subcommands([&](const CLI::App* c) { return c->get_name() == first; });
     if (first[0] != '-' && commands.empty())
-        return fmt::format(
-            "\"{}\" is no command; there are render, stress, view, truth, bench and devices",
-            first);
+        return fmt::format("\"{}\" is no command; there are render, stress, profile, view, truth, "
+                           "bench and devices",
+                           first);
     const std::string command = commands.empty() ? "" : first + " ";
     return fmt::format("{} (see: candelabra {}--help)", error.what(), command);
 }
@@ -89,7 +90,8 @@ void refuseEmptyValues(const CLI::App& app)
     for (const CLI::App* command : app.get_subcommands())
         for (const CLI::Option* option : command->get_options())
             for (const std::string& value : option->results())
-                if (value.empty())
+                // Of two texts of options one may be empty: nothing is changed.
+                if (value.empty() && option->get_items_expected_min() < 2)
                     throw UsageError(option->get_name() + ": its value is empty");
 }
 
@@ -101,6 +103,7 @@ int parseAndRun(int argc, const char* const* argv)
     describe(app, context);
     addRenderCommand(app, run);
     addStressCommand(app, run);
+    addProfileCommand(app, run);
     addViewCommand(app, run);
     addTruthCommand(app, run);
     addBenchCommand(app, run);

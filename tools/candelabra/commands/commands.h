@@ -16,6 +16,7 @@ using Run = std::function<int(const ProgramContext&)>;
 
 void addBenchCommand(CLI::App& app, Run& run);
 void addDevicesCommand(CLI::App& app, Run& run);
+void addProfileCommand(CLI::App& app, Run& run);
 void addRenderCommand(CLI::App& app, Run& run);
 void addStressCommand(CLI::App& app, Run& run);
 void addTruthCommand(CLI::App& app, Run& run);

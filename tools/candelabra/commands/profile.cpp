@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra profile: where the time of a frame goes, and whether one way of drawing it is faster
+// than another.
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "commands/commands.h"
+#include "commands/measure.h"
+#include "commands/profile_frames.h"
+#include "io/progress.h"
+#include "io/statistics.h"
+#include "io/table.h"
+#include "render/camera.h"
+#include "render/error.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct ProfileArguments {
+    DeviceArguments device;
+    SceneArguments scene;
+    FrameArguments frame;
+    std::string lights, frames = "60", path = "still", json, csv;
+    std::vector<std::string> ab;
+};
+
+CameraPath cameraPath(const std::string& text)
+{
+    if (text == "still")
+        return CameraPath::Still;
+    if (text == "turn")
+        return CameraPath::Turn;
+    throw UsageError("--path \"" + text + "\": choose one of still, turn");
+}
+
+FrameOptions frameOptions(const FrameArguments& frame)
+{
+    return {.specular = frame.specularMethod(),
+            .sampleCount = frame.samples(),
+            .errorBudget = frame.budget(),
+            .culling = frame.cullingMode(),
+            .exposure = frame.exposureSettings()};
+}
+
+// `text`: options of a frame, which replace those of the command line.
+FrameOptions variant(const FrameArguments& base, const std::string& text)
+{
+    FrameArguments frame = base;
+    CLI::App app;
+    frame.addTo(app);
+    frame.addCullingTo(app);
+    frame.specular = base.specular;
+    const auto refuse = [&](const char* why) {
+        throw UsageError(fmt::format("--ab \"{}\": {}", text, why));
+    };
+    try {
+        app.parse(text, false);
+    } catch (const CLI::ParseError& error) {
+        refuse(error.what());
+    }
+    if (frame.size != base.size || frame.camera != base.camera || frame.gbuffer != base.gbuffer ||
+        frame.lightsVisible != base.lightsVisible)
+        refuse("size, camera, G-buffer layout and visible lights are the same for both");
+    try {
+        return frameOptions(frame);
+    } catch (const UsageError& error) {
+        refuse(error.what());
+        throw;
+    }
+}
+
+struct ProfilePlan {
+    SceneOptions scene;
+    std::vector<std::string> names;
+    CndGBufferLayout gbufferLayout;
+    ProfileSettings settings;
+};
+
+ProfilePlan plan(const ProfileArguments& a)
+{
+    for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
+        if (!file->empty())
+            requireWritable(option, *file);
+    if (!a.json.empty() && a.json == a.csv)
+        throw UsageError("--json " + a.json + ": --csv writes there");
+    std::optional<uint32_t> lights;
+    if (!a.lights.empty())
+        lights = unsignedOption("--lights", a.lights, 0, maxLights);
+    ProfilePlan p{.scene = a.scene.options(lights),
+                  .gbufferLayout = a.frame.gbufferLayout(),
+                  .settings = {.path = cameraPath(a.path),
+                               .rounds = unsignedOption("--frames", a.frames, 1, 1'000'000)}};
+    if (a.ab.empty()) {
+        p.names = {"frame"};
+        p.settings.variants = {frameOptions(a.frame)};
+        return p;
+    }
+    if (p.settings.rounds < minPairs)
+        throw UsageError(fmt::format("--frames {}: --ab needs at least {}, fewer pairs have no "
+                                     "interval of 95%",
+                                     a.frames, minPairs));
+    p.names = {"A", "B"};
+    for (const std::string& text : a.ab)
+        p.settings.variants.push_back(variant(a.frame, text));
+    return p;
+}
+
+Json describe(const ProgramContext& program, const ProfileArguments& a, const ProfilePlan& p,
+              const VulkanContext& context, const Scene& scene, const Renderer& renderer,
+              const Profile& profile)
+{
+    Json variants = Json::array();
+    for (size_t v = 0; v < p.names.size(); ++v) {
+        Json one{{"name", p.names[v]}};
+        if (!a.ab.empty())
+            one["options"] = a.ab[v];
+        one["settings"] = toJson(p.settings.variants[v], p.gbufferLayout);
+        one["time"] = toJson(profile.series[v]);
+        one["lighting"] = toJson(profile.last[v].lighting);
+        variants.push_back(one);
+    }
+    Json out{{"schema", "candelabra profile 1"},
+             {"provenance", provenance(context.info(), program.commandLine)},
+             {"scene", sceneJson(scene, renderer)},
+             {"image",
+              {{"widthPixels", renderer.size().width}, {"heightPixels", renderer.size().height}}},
+             {"path", a.path},
+             {"warmUp", {{"rounds", profile.warmUpRounds}, {"settled", profile.settled}}},
+             {"variants", variants}};
+    if (!a.ab.empty())
+        out["comparison"] = comparisonJson(profile.series[0], profile.series[1]);
+    return out;
+}
+
+std::string text(const ProfileArguments& a, const Profile& profile)
+{
+    if (a.ab.empty())
+        return seriesTable(profile.series[0]);
+    const auto shown = [](const std::string& options) {
+        return options.empty() ? std::string("as the command line says") : options;
+    };
+    return fmt::format("A: {}\nB: {}\n", shown(a.ab[0]), shown(a.ab[1])) +
+           comparisonTable(profile.series[0], profile.series[1]) +
+           "Of twenty rows that are alike, one is called faster or slower by chance.\n";
+}
+
+int profile(const ProgramContext& program, const ProfileArguments& a)
+{
+    ProfilePlan p = plan(a);
+    a.scene.warnOfIdleOptions(p.scene.lights);
+    a.device.requireRoomFor(p.scene.lights.value_or(0));
+    const Scene scene = loadScene(a.scene.scene, p.scene);
+    logWarnings(scene);
+    const Camera camera = selectCamera(scene, a.frame.camera);
+    const PixelSize size = a.frame.pixelSize(scene, camera);
+    makeCamera(camera, double(size.width) / size.height); // refuses before the GPU is asked
+    uint32_t methods = 0;
+    for (FrameOptions& options : p.settings.variants) {
+        options.camera = camera;
+        options.lightsVisible = a.frame.lightsVisibleOverride().value_or(scene.lightsVisible);
+        methods |= 1u << options.specular;
+    }
+    p.settings.moving = !scene.lightMotions.empty();
+
+    const VulkanContext context(a.device.contextOptions());
+    spdlog::info("{}: {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
+                 size.width, size.height, counted(p.settings.rounds, "frame"), context.info().name);
+    Renderer renderer(context, scene,
+                      {.size = size, .gbufferLayout = p.gbufferLayout, .specularMethods = methods});
+    Profile result;
+    {
+        Progress progress(p.settings.rounds + maxWarmUp, !program.quiet);
+        progress.doing("profiling");
+        result = profileFrames(context, renderer, p.settings, [&] { progress.advance(1); });
+    }
+    if (!result.settled)
+        spdlog::warn("warning: times had not settled after {} of warming up; the machine is busy",
+                     counted(result.warmUpRounds, "frame"));
+    if (a.json != "-" && a.csv != "-")
+        writeText("-", text(a, result));
+    if (!a.csv.empty())
+        writeText(a.csv, toCsv(p.names, result.series));
+    if (!a.json.empty())
+        writeJson(a.json, describe(program, a, p, context, scene, renderer, result));
+    return printValidationMessages(context) ? exitFailed : exitOk;
+}
+
+} // namespace
+
+void addProfileCommand(CLI::App& app, Run& run)
+{
+    CLI::App* command =
+        app.add_subcommand("profile", "Time every pass of a frame, or compare two ways to draw it");
+    const auto a = std::make_shared<ProfileArguments>();
+    a->scene.addTo(*command);
+    command
+        ->add_option("--lights", a->lights,
+                     "hall, field, fence: number of sphere lights (4000); files: extra random ones")
+        ->type_name("N");
+    command
+        ->add_option("--frames", a->frames,
+                     "frames measured, after as many as it takes until their times are stable "
+                     "(at most 24)")
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        ->add_option("--path", a->path,
+                     "still, or turn: the camera once around the vertical, in N frames")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command
+        ->add_option("--ab", a->ab,
+                     "two texts of frame options, the second compared with the first: frames take "
+                     "turns, and the ratio of each pass comes with a 95% interval")
+        ->type_name("OPTIONS OPTIONS")
+        ->type_size(2); // takes two even where they begin with dashes
+    command->add_option("--csv", a->csv, "all times, a line per frame; - is standard output")
+        ->type_name("FILE");
+    command
+        ->add_option("--json", a->json,
+                     "summary of all times and where they come from; - is standard output")
+        ->type_name("FILE");
+    a->frame.addTo(*command);
+    a->frame.addCullingTo(*command);
+    a->device.addTo(*command);
+    command->footer("One frame at a time is drawn, waited for and timed by the GPU's clock.\n\n"
+                    "Examples:\n"
+                    "  candelabra profile hall --lights 16000\n"
+                    "  candelabra profile hall --path turn --frames 120 --csv frames.csv\n"
+                    "  candelabra profile hall --ab '--specular karis' '--specular conic'");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return profile(program, *a); }; });
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/profile_frames.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "commands/measure.h"
+#include "render/frame_ring.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double median(std::vector<double> values)
+{
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
+                     values.end());
+    return values[values.size() / 2];
+}
+
+// Whether the last warmUpWindow values say the same as those before.
+bool isStable(const std::vector<double>& ms)
+{
+    if (ms.size() < 2 * warmUpWindow)
+        return false;
+    const auto middle = ms.end() - warmUpWindow;
+    const double before = median({middle - warmUpWindow, middle}), now = median({middle, ms.end()});
+    return std::abs(now - before) <= stable * before;
+}
+
+} // namespace
+
+void FrameSeries::add(const FrameStats& frame, double record, double whole)
+{
+    for (Pass& pass : passes)
+        pass.ms.push_back(0);
+    double sum = 0;
+    for (const PassTime& time : frame.passes) {
+        auto pass = std::find_if(passes.begin(), passes.end(),
+                                 [&](const Pass& p) { return p.name == time.name; });
+        if (pass == passes.end())
+            pass = passes.insert(pass, {time.name, std::vector<double>(gpuMs.size() + 1)});
+        pass->ms.back() += time.ms;
+        sum += time.ms;
+    }
+    gpuMs.push_back(sum);
+    recordMs.push_back(record);
+    frameMs.push_back(whole);
+}
+
+Camera cameraAt(const Camera& camera, CameraPath path, uint32_t i, uint32_t rounds)
+{
+    if (path == CameraPath::Still)
+        return camera;
+    Camera turned = camera;
+    const double angle = 2 * std::numbers::pi * i / std::max(rounds, 1u);
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0));
+    turned.forward = glm::dvec3(turn * glm::dvec4(camera.forward, 0));
+    turned.up = glm::dvec3(turn * glm::dvec4(camera.up, 0));
+    return turned;
+}
+
+Profile profileFrames(const VulkanContext& context, Renderer& renderer,
+                      const ProfileSettings& settings, const std::function<void()>& onRound)
+{
+    FrameRing ring(context, 1);
+    Profile out{.series = std::vector<FrameSeries>(settings.variants.size())};
+    out.last.resize(settings.variants.size());
+    double time = settings.variants[0].time;
+    const auto round = [&](uint32_t i, std::vector<FrameSeries>& into) {
+        for (size_t k = 0; k < settings.variants.size(); ++k) {
+            // Whatever grows through a round weighs on each variant alike.
+            const size_t v = i % 2 ? settings.variants.size() - 1 - k : k;
+            FrameOptions options = settings.variants[v];
+            options.camera = cameraAt(options.camera, settings.path, i, settings.rounds);
+            options.time = time;
+            const auto [cmd, slot, reused] = ring.begin();
+            const Clock::time_point start = Clock::now();
+            renderer.record(cmd, slot, options);
+            const double record = msSince(start);
+            ring.submit();
+            ring.wait();
+            const double whole = msSince(start);
+            out.last[v] = renderer.stats(slot);
+            into[v].add(out.last[v], record, whole);
+        }
+        if (settings.moving)
+            time += frameTime;
+        onRound();
+    };
+    std::vector<FrameSeries> warmUp(settings.variants.size());
+    while (!out.settled && out.warmUpRounds < maxWarmUp) {
+        round(out.warmUpRounds++, warmUp);
+        out.settled = std::all_of(warmUp.begin(), warmUp.end(),
+                                  [](const FrameSeries& s) { return isStable(s.frameMs); });
+    }
+    time = settings.variants[0].time;
+    for (uint32_t i = 0; i < settings.rounds; ++i)
+        round(i, out.series);
+    return out;
+}
+
+} // namespace candelabra::app
