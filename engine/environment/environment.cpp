@@ -324,9 +324,10 @@ CndResult Environment::stats(uint32_t slot, CndEnvironmentStats& out) const noex
 {
     if (slot >= recorded_.size() || !recorded_[slot] || out.structSize != sizeof out)
         return CND_ERROR_INVALID_ARGUMENT;
-    const bool finished = timer_.read(slot, out.kernelTimes, out.kernelTimeCount) &&
-                          timer_.read(mapSlot(), out.mapKernelTimes, out.mapKernelTimeCount);
-    return finished ? CND_SUCCESS : CND_NOT_READY;
+    const CndResult result = timer_.read(slot, out.kernelTimes, out.kernelTimeCount);
+    if (result != CND_SUCCESS)
+        return result;
+    return timer_.read(mapSlot(), out.mapKernelTimes, out.mapKernelTimeCount);
 }
 
 } // namespace candelabra::environment

@@ -207,7 +207,7 @@ CndResult Exposure::stats(uint32_t slot, CndExposureStats& out) const noexcept
     out.exposure = read.state.exposure;
     out.invalidPixels = read.data.invalidPixels;
     std::copy_n(read.data.counts, CND_HISTOGRAM_BINS, out.histogram);
-    return timer_.read(slot, out.kernelTimes, out.kernelTimeCount) ? CND_SUCCESS : CND_NOT_READY;
+    return timer_.read(slot, out.kernelTimes, out.kernelTimeCount);
 }
 
 } // namespace candelabra::exposure

@@ -291,7 +291,7 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
 
 bool GBuffer::times(uint32_t slot, CndKernelTime* times, uint32_t& count) const noexcept
 {
-    return impl_->timer.read(slot, times, count);
+    return impl_->timer.read(slot, times, count) == CND_SUCCESS;
 }
 
 } // namespace candelabra::gbuffer

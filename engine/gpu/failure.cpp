@@ -6,15 +6,25 @@
 namespace candelabra::gpu
 {
 
+CndResult resultOf(VkResult result) noexcept
+{
+    switch (result) {
+    case VK_NOT_READY:
+        return CND_NOT_READY;
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+        return CND_ERROR_OUT_OF_MEMORY;
+    default:
+        return result < 0 ? CND_ERROR_DEVICE : CND_SUCCESS;
+    }
+}
+
 void check(VkResult result, const std::string& what)
 {
-    if (result >= 0)
-        return;
-    const bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY ||
-                        result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
-                        result == VK_ERROR_OUT_OF_POOL_MEMORY;
-    throw Failure{memory ? CND_ERROR_OUT_OF_MEMORY : CND_ERROR_DEVICE, result,
-                  what + " failed (VkResult " + std::to_string(int(result)) + ")"};
+    if (result < 0)
+        throw Failure{resultOf(result), result,
+                      what + " failed (VkResult " + std::to_string(int(result)) + ")"};
 }
 
 void failArgument(std::string message)

@@ -20,6 +20,9 @@ struct Failure {
     std::string message; // one sentence without the final full stop
 };
 
+// CND_SUCCESS for success codes but VK_NOT_READY.
+CndResult resultOf(VkResult result) noexcept;
+
 // Throws a Failure when `result` is an error; `what` names the call and the object.
 void check(VkResult result, const std::string& what);
 

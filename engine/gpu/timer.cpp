@@ -56,25 +56,28 @@ void Timer::begin(VkCommandBuffer cmd, uint32_t slot) noexcept
 
 void Timer::stamp(VkCommandBuffer cmd, const char* name) noexcept
 {
+    if (!pool_) // nor are there slots, when it was never given any
+        return;
     Slot& slot = slots_[current_];
-    if (!pool_ || slot.count == maxScopes)
+    if (slot.count == maxScopes)
         return;
     slot.names[slot.count++] = name;
     device_->CmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
                                 current_ * stampsPerSlot + slot.count);
 }
 
-bool Timer::read(uint32_t slotIndex, CndKernelTime* times, uint32_t& count) const noexcept
+CndResult Timer::read(uint32_t slotIndex, CndKernelTime* times, uint32_t& count) const noexcept
 {
     const Slot& slot = slots_[slotIndex];
     count = 0;
     if (!pool_ || !slot.count)
-        return true;
+        return CND_SUCCESS;
     std::array<uint64_t, stampsPerSlot> ticks{};
-    if (device_->GetQueryPoolResults(device_->handle, pool_.get(), slotIndex * stampsPerSlot,
-                                     slot.count + 1, sizeof ticks, ticks.data(), sizeof ticks[0],
-                                     VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
-        return false;
+    const CndResult result = resultOf(device_->GetQueryPoolResults(
+        device_->handle, pool_.get(), slotIndex * stampsPerSlot, slot.count + 1, sizeof ticks,
+        ticks.data(), sizeof ticks[0], VK_QUERY_RESULT_64_BIT));
+    if (result != CND_SUCCESS)
+        return result;
     const double msPerTick = double(device_->limits.timestampPeriod) * 1e-6;
     for (uint32_t i = 0; i < slot.count; ++i) {
         const double ms = double((ticks[i + 1] - ticks[i]) & tickMask_) * msPerTick;
@@ -86,7 +89,7 @@ bool Timer::read(uint32_t slotIndex, CndKernelTime* times, uint32_t& count) cons
         else if (count < CND_MAX_KERNEL_TIMES)
             times[count++] = {slot.names[i], ms};
     }
-    return true;
+    return CND_SUCCESS;
 }
 
 } // namespace candelabra::gpu

@@ -26,9 +26,9 @@ public:
     // Ends the scope `name` (static storage). Outside a render pass.
     void stamp(VkCommandBuffer cmd, const char* name) noexcept;
 
-    // Writes the times of the last frame in `slot`; returns false while the GPU has not finished
-    // it.
-    bool read(uint32_t slot, CndKernelTime* times, uint32_t& count) const noexcept;
+    // Writes the times of the last frame in `slot`. CND_NOT_READY while the GPU has not finished
+    // it, an error when it never will.
+    CndResult read(uint32_t slot, CndKernelTime* times, uint32_t& count) const noexcept;
 
 private:
     struct Slot {

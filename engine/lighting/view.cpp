@@ -413,7 +413,7 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.evaluatedPairs = join(c.evaluatedPairs);
     out.insidePairs = join(c.insidePairs);
     out.contributingPairs = join(c.contributingPairs);
-    return timer_.read(slot, out.kernelTimes, out.kernelTimeCount) ? CND_SUCCESS : CND_NOT_READY;
+    return timer_.read(slot, out.kernelTimes, out.kernelTimeCount);
 }
 
 } // namespace candelabra::lighting

@@ -124,9 +124,11 @@ Result<std::optional<Stats>> stats(Function function, H handle, uint32_t frameSl
     const CndResult code = function(handle, frameSlot, &out);
     if (code == CND_NOT_READY)
         return std::optional<Stats>();
-    if (code != CND_SUCCESS)
+    if (code == CND_ERROR_INVALID_ARGUMENT)
         return CndError{code, VK_SUCCESS,
                         "stats: no frame was recorded in this slot, or there is no such slot"};
+    if (code != CND_SUCCESS)
+        return CndError{code, VK_SUCCESS, "stats: reading timestamps failed"};
     return std::optional<Stats>(out);
 }
 

@@ -145,7 +145,8 @@ CND_API void cndDestroyLightingView(CndLightingView view);
 CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
                                     const CndLightingFrame* frame, CndError* error);
 
-// Statistics of the last frame recorded in frameSlot; CND_NOT_READY until the GPU has finished it.
+// Statistics of the last frame recorded in frameSlot; CND_NOT_READY until the GPU has finished it,
+// which a lost device never does (CND_ERROR_DEVICE where timestamps tell).
 CND_API CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot,
                                       CndLightingStats* stats);
 

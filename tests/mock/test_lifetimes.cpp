@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two views with three frames in flight each, changing sizes and sets of lights, on the mock
+// driver, which knows what a submission uses until it is finished: nothing may be destroyed or
+// written before, and nothing may pile up.
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "candelabra/candelabra.hpp"
+#include "mock/mock_vulkan.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+constexpr uint32_t slots = 3, largestSide = 500, largestCount = 4000;
+constexpr int frames = 500;
+
+struct FlightingView {
+    LightingView view;
+    uint32_t maxWidth = 0, maxHeight = 0;
+    uint64_t submissions[slots] = {}; // 0: none
+    uint64_t frame = 0;
+};
+
+class Storm
+{
+public:
+    Storm()
+    {
+        auto made = Lighting::create(vulkan_.desc(), {.framesInFlight = slots});
+        EXPECT_TRUE(made) << made.error().message;
+        lighting_ = std::move(made.value());
+    }
+
+    void setLights(uint32_t count)
+    {
+        lights_.resize(count);
+        for (CndLight& light : lights_) {
+            light = {.type = pick(2) ? CND_LIGHT_SPHERE : CND_LIGHT_TUBE,
+                     .radius = 0.1f,
+                     .emission = {float(pick(1000)), 1, 1},
+                     .influenceRadius = 5};
+            light.axisU[0] = 0.5f;
+        }
+        const auto set = lighting_.setLights(lights_, {0, 0, 0});
+        ASSERT_TRUE(set) << set.error().message;
+    }
+
+    void updateLights()
+    {
+        const uint32_t size = uint32_t(lights_.size());
+        const uint32_t first = pick(size), count = pick(size - first);
+        const std::span some = std::span(lights_).subspan(first, count);
+        for (CndLight& light : some)
+            light.emission[1] = float(pick(1000));
+        const auto updated = lighting_.updateLights(first, some);
+        ASSERT_TRUE(updated) << updated.error().message;
+    }
+
+    void randomFrame(FlightingView& v)
+    {
+        const uint32_t what = pick(4); // while frames are in flight
+        if (what == 0)
+            setLights(pick(largestCount));
+        else if (what == 1 && !lights_.empty())
+            updateLights();
+        frame(v, 1 + pick(largestSide), 1 + pick(largestSide));
+    }
+
+    void frame(FlightingView& v, uint32_t width, uint32_t height)
+    {
+        const uint32_t slot = uint32_t(v.frame++ % slots);
+        wait(v, slot);
+        if (width > v.maxWidth || height > v.maxHeight)
+            resize(v, width, height);
+        CndLightingFrame frame{.frameSlot = slot, .width = width, .height = height};
+        for (int i = 0; i < 4; ++i)
+            frame.camera.viewFromWorld[5 * i] = 1;
+        frame.camera.clipFromView[0] = 1;
+        frame.camera.clipFromView[5] = -1;
+        frame.camera.clipFromView[11] = -1;
+        frame.camera.clipFromView[14] = 0.1f;
+        frame.normalRoughness = frame.albedo = frame.specular = frame.depth = frame.radiance =
+            MockVulkan::imageView();
+        frame.specularMethod = CND_SPECULAR_CONIC;
+        const auto recorded = v.view.record(MockVulkan::commandBuffer(), frame);
+        ASSERT_TRUE(recorded) << recorded.error().message;
+        v.submissions[slot] = vulkan_.submit();
+    }
+
+    void wait(FlightingView& v, uint32_t slot)
+    {
+        if (const uint64_t submission = std::exchange(v.submissions[slot], 0))
+            vulkan_.finish(submission);
+    }
+
+    // Bytes in all memory, and objects.
+    std::pair<VkDeviceSize, size_t> held() const
+    {
+        VkDeviceSize bytes = 0;
+        for (const auto& [handle, memory] : vulkan_.memories)
+            bytes += memory.size;
+        return {bytes, vulkan_.alive.size()};
+    }
+
+    const MockVulkan& vulkan() const { return vulkan_; }
+
+private:
+    // 0 .. below - 1.
+    uint32_t pick(uint32_t below) { return uint32_t(random_() % below); }
+
+    void resize(FlightingView& v, uint32_t width, uint32_t height)
+    {
+        for (uint32_t slot = 0; slot < slots; ++slot)
+            wait(v, slot);
+        v.maxWidth = std::max(width, v.maxWidth);
+        v.maxHeight = std::max(height, v.maxHeight);
+        auto made = lighting_.createView(
+            {.maxWidth = v.maxWidth, .maxHeight = v.maxHeight, .listBudget = 1 << 20});
+        ASSERT_TRUE(made) << made.error().message;
+        v.view = std::move(made.value());
+    }
+
+    MockVulkan vulkan_;
+    std::mt19937 random_{5};
+    Lighting lighting_;
+    std::vector<CndLight> lights_;
+};
+
+} // namespace
+
+TEST(Lifetimes, StormOfSizesAndLights)
+{
+    Storm storm;
+    FlightingView views[2];
+    std::pair<VkDeviceSize, size_t> early{};
+    for (int i = 0; i < frames && !::testing::Test::HasFailure(); ++i) {
+        for (FlightingView& v : views)
+            storm.randomFrame(v);
+        if (i == frames / 2)
+            early = storm.held();
+    }
+    for (const std::string& what : storm.vulkan().misuse)
+        ADD_FAILURE() << what;
+    EXPECT_GT(early.first, 1u << 20);
+    // Sizes and counts have seen their largest long before; what waits to be freed varies.
+    const auto [bytes, objects] = storm.held();
+    EXPECT_LT(double(bytes), 1.5 * double(early.first));
+    EXPECT_LT(double(objects), 1.2 * double(early.second));
+    for (FlightingView& v : views)
+        for (uint32_t slot = 0; slot < slots; ++slot)
+            storm.wait(v, slot);
+}
+
+// What a larger set of lights replaced is kept for the frames in flight, and no longer.
+TEST(Lifetimes, OutgrownBuffersAreFreed)
+{
+    Storm storm;
+    FlightingView view;
+    const auto allSlots = [&] {
+        for (uint32_t slot = 0; slot < slots; ++slot)
+            storm.frame(view, 64, 64);
+    };
+    allSlots();
+    storm.setLights(10 * largestCount);
+    const VkDeviceSize both = storm.held().first;
+    allSlots();
+    allSlots(); // the host promises that the frames before growing are finished
+    storm.setLights(10 * largestCount);
+    storm.setLights(10 * largestCount);
+    EXPECT_LT(storm.held().first, both);
+    for (uint32_t slot = 0; slot < slots; ++slot)
+        storm.wait(view, slot);
+    for (const std::string& what : storm.vulkan().misuse)
+        ADD_FAILURE() << what;
+}
+
+} // namespace candelabra::test
