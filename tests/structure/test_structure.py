@@ -121,6 +121,16 @@ header = re.findall(r"#define CND_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", core.rea
 if ".".join(header) != project:
     fail(core, f"says version {'.'.join(header)}, CMakeLists.txt {project}")
 
+# What the integration guide names is in the headers.
+headers = "".join(p.read_text() for p in (root / "engine/include/candelabra").iterdir())
+for name in ("INTEGRATION.md", "UPDATE.md"):
+    guide = root / "engine" / name
+    text = guide.read_text()
+    fields = re.findall(r"[{,]\s*\.(\w+) =", "".join(re.findall(r"```cpp\n(.*?)```", text, re.DOTALL)))
+    for word in sorted(set(re.findall(r"\b(?:Cnd|cnd|CND_)\w+", text) + fields)):
+        if not re.search(rf"\b{word}\b", headers):
+            fail(guide, f"names {word}, which is not in the headers")
+
 TOP_LEVEL = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "engine", "samples",
              "shaders", "tests", "tools", "build", "out"}
 for path in root.iterdir():
