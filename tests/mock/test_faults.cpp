@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -272,6 +273,7 @@ TEST(Faults, EveryVulkanCallFailsInTurn)
         expectClean(h, "without faults");
     }
     ASSERT_GT(calls, 100u);
+    std::cout << calls << " calls that can fail\n";
     std::map<std::string, int> failures; // by step
     std::set<std::string> functions;
     for (uint64_t call = 0; call < calls && !HasFailure(); ++call)
@@ -311,6 +313,7 @@ TEST(Faults, TheHeapFailsInTurn)
         total = allocations.count();
     }
     ASSERT_GT(total, 1000u);
+    std::cout << total << " allocations\n";
     // The first ones one by one, then ever more apart: most are alike, of reading SPIR-V.
     for (uint64_t failing = 0; failing < total && !HasFailure(); failing += 1 + failing / 100) {
         Host h;
