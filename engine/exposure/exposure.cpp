@@ -58,7 +58,7 @@ Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
       timer_(device_, "exposure", checked(desc).framesInFlight, desc.timestamps),
       histogram_(device_, spirv::luminance_histogram_comp),
       adapt_(device_, spirv::adapt_exposure_comp),
-      markers_(desc.framesInFlight),
+      slots_(desc.framesInFlight),
       owner_(nextOwner())
 {
     for (uint32_t curve = 0; curve < CND_TONEMAP_COUNT; ++curve)
@@ -96,9 +96,9 @@ void Exposure::validate(const CndExposureFrame& frame) const
     if (frame.structSize != sizeof frame)
         gpu::failArgument("CndExposureFrame: structSize is " + std::to_string(frame.structSize) +
                           ", this library expects " + std::to_string(sizeof frame));
-    if (frame.frameSlot >= markers_.size())
+    if (frame.frameSlot >= slots_.size())
         gpu::failArgument("CndExposureFrame: frameSlot is " + std::to_string(frame.frameSlot) +
-                          ", framesInFlight is " + std::to_string(markers_.size()));
+                          ", framesInFlight is " + std::to_string(slots_.size()));
     for (const uint32_t side : {frame.width, frame.height})
         if (side < 1 || side > 16384)
             gpu::failArgument("CndExposureFrame: size " + std::to_string(frame.width) + "x" +
@@ -133,7 +133,8 @@ void Exposure::record(VkCommandBuffer cmd, const CndExposureFrame& frame)
     writeBindings(frame);
     if (!++recordings_) // 0 means unused
         ++recordings_;
-    markers_[frame.frameSlot] = recordings_;
+    slots_[frame.frameSlot] = {recordings_, frame.settings.manual == VK_TRUE,
+                               frame.display != VK_NULL_HANDLE};
 
     const gpu::Frame f{device_, cmd, timer_, frame.frameSlot};
     device_.beginLabel(cmd, "candelabra exposure");
@@ -191,21 +192,25 @@ void Exposure::recordReadback(const gpu::Frame& f) const noexcept
     device_.CmdCopyBuffer(f.cmd, state_.get(), target, 1, &state);
     f.barrier(); // the marker says that all of the frame is done
     device_.CmdFillBuffer(f.cmd, target, offsetof(Readback, marker), sizeof(uint32_t),
-                          markers_[f.slot]);
+                          slots_[f.slot].marker);
     f.hostBarrier();
 }
 
 CndResult Exposure::stats(uint32_t slot, CndExposureStats& out) const noexcept
 {
-    if (slot >= markers_.size() || !markers_[slot] || out.structSize != sizeof out)
+    if (slot >= slots_.size() || !slots_[slot].marker || out.structSize != sizeof out)
         return CND_ERROR_INVALID_ARGUMENT;
     Readback& read = readback_[slot].as<Readback>()[0];
-    if (std::atomic_ref(read.marker).load(std::memory_order_acquire) != markers_[slot])
+    if (std::atomic_ref(read.marker).load(std::memory_order_acquire) != slots_[slot].marker)
         return CND_NOT_READY;
     out.targetEv100 = read.state.targetEv100;
     out.adaptedEv100 = read.state.adaptedEv100;
     out.exposure = read.state.exposure;
     out.invalidPixels = read.data.invalidPixels;
+    out.passCount = 3;
+    out.passes[0] = {"luminance_histogram", slots_[slot].manual ? "manual exposure" : nullptr};
+    out.passes[1] = {"adapt_exposure", nullptr};
+    out.passes[2] = {"tone_map", slots_[slot].toneMapped ? nullptr : "no display image"};
     std::copy_n(read.data.counts, CND_HISTOGRAM_BINS, out.histogram);
     return timer_.read(slot, out.kernelTimes, out.kernelTimeCount);
 }

@@ -49,7 +49,11 @@ private:
     Sets sets_;
     gpu::Buffer data_, state_, mask_;
     std::vector<gpu::Buffer> readback_; // per slot
-    std::vector<uint32_t> markers_;     // per slot: what the GPU writes when it is done, 0: unused
+    struct Slot {
+        uint32_t marker = 0; // what the GPU writes when it is done, 0: unused
+        bool manual = false, toneMapped = false;
+    };
+    std::vector<Slot> slots_;
     glm::uvec2 maskSize_{0};
     uint32_t recordings_ = 0;
     uint32_t owner_; // see EXPOSURE_FIRST_OWNER

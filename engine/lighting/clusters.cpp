@@ -225,7 +225,8 @@ void Clusters::recordTree(const gpu::Frame& f, const gpu::TreeShape& tree) const
     }
 }
 
-void Clusters::recordClusters(const gpu::Frame& f, gpu::TileClustersParams params) const noexcept
+void Clusters::recordClusters(const gpu::Frame& f, gpu::TileClustersParams params,
+                              bool forLists) const noexcept
 {
     const ClusterKernels& k = lighting_.kernels().clusters;
     params.firstSplit = firstSplit();
@@ -233,6 +234,8 @@ void Clusters::recordClusters(const gpu::Frame& f, gpu::TileClustersParams param
     k.tileClusters.dispatch(f, tileSets_.set(f.slot), params,
                             divideUp(params.tileCount, gpu::TILE_CLUSTERS_GROUP));
     f.barrier();
+    if (!forLists)
+        return;
     k.splitTiles.dispatchIndirect(f, splitSets_.set(f.slot), params, splits_);
     f.barrier();
     const auto level = levels({params.tileCountX, params.tileCount / params.tileCountX});

@@ -46,7 +46,9 @@ public:
     // own or leaves it to the caller as said.
     void recordReset(const gpu::Frame& frame, const LightTypeCounts& types) const noexcept;
     void recordTree(const gpu::Frame& frame, const gpu::TreeShape& tree) const noexcept;
-    void recordClusters(const gpu::Frame& frame, gpu::TileClustersParams params) const noexcept;
+    // Without lists only the tiles that hold a surface are found.
+    void recordClusters(const gpu::Frame& frame, gpu::TileClustersParams params,
+                        bool forLists) const noexcept;
     // `longest`: list that shading can walk.
     void recordLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,
                      glm::uvec2 tileCount, uint32_t longest) const noexcept;

@@ -10,6 +10,7 @@
 #include "gpu/kernel.h"
 #include "lighting/clusters.h"
 #include "lighting/device_lights.h"
+#include "lighting/frame_passes.h"
 #include "lighting/light_order.h"
 #include "lighting/pack_lights.h"
 #include "lighting/shade_kernels.h"
@@ -75,6 +76,10 @@ public:
     uint32_t lightCapacity() const { return lightCapacity_; }
     const LightExtent& extent() const { return extent_; }
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
+    // There is a light set that no recording has uploaded yet.
+    bool lightsChanged() const { return pending_; }
+    bool hasDeviceLights() const { return deviceLights_.present(); }
+    bool albedoTableFilled() const { return dfg_.filled(); }
     const double* origin() const { return origin_; }
     // Lights that one walk may take, at most: all, unless the device limits loops.
     // `loopIterations`: that evaluating one light takes.
@@ -146,9 +151,12 @@ private:
     struct Plan; // sizes derived from a frame
     Plan plan(const CndLightingFrame& frame) const;
     void validate(const CndLightingFrame& frame) const;
+    bool keepsLists(const CndLightingFrame& frame, uint32_t sampleCount);
+    FrameContent contentOf(const CndLightingFrame& frame, bool listsKept) const;
     void writeBindings(const CndLightingFrame& frame) const;
     void recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept;
-    void recordClusters(const gpu::Frame& f, const Plan& plan) const noexcept;
+    void recordClusters(const gpu::Frame& f, const Plan& plan,
+                        const FramePasses& passes) const noexcept;
     void recordLists(const gpu::Frame& f, const CndLightingFrame& frame,
                      const Plan& plan) const noexcept;
     void recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& plan,
@@ -179,7 +187,8 @@ private:
     };
     struct SlotState {
         uint64_t recording = 0; // 0: never used
-        uint32_t lightCount = 0;
+        LightTypeCounts lights{};
+        FramePasses passes;
     };
 
     Lighting& lighting_;

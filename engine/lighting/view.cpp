@@ -43,11 +43,6 @@ uint64_t join(glm::uvec2 lowHigh)
     return uint64_t(lowHigh.y) << 32 | lowHigh.x;
 }
 
-bool readsDirectionalAlbedo(const CndLightingFrame& frame)
-{
-    return frame.lobes != CND_LOBES_SUM || frame.energyCompensation;
-}
-
 // Of loops inside the evaluation of one light, at most: outlines of tubes have 16 edges and are
 // walked for the diffuse lobe and two specular ones, discs have a series of 9 terms.
 uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t sampleCount)
@@ -172,38 +167,34 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     writeBindings(frame);
 
     const uint32_t slot = frame.frameSlot;
-    slots_[slot] = {lighting_.nextRecording(), plan.lightCount};
+    const bool keep = keepsLists(frame, plan.sampleCount);
+    const FramePasses passes(contentOf(frame, keep));
+    slots_[slot] = {lighting_.nextRecording(), lighting_.typeCounts(), passes};
     const gpu::Frame f{lighting_.device(), cmd, timer_, slot};
     f.device.beginLabel(cmd, "candelabra lighting");
     timer_.begin(cmd, slot);
 
     f.barrier(); // against the frame before, which uses the same buffers
     lighting_.recordUpload(f, slots_[slot].recording);
-    const bool clustered = frame.culling == CND_CULLING_CLUSTERED && plan.lightCount;
-    ListsKey key;
-    if (clustered)
-        key = {lighting_.lightSet(), frame.specularMethod, plan.sampleCount};
-    const bool reuse = clustered && frame.surfacesUnchanged && key == lists_;
-    lists_ = key;
     // Those of lists stay with them.
     const VkDeviceSize firstCounter =
-        reuse ? offsetof(gpu::LightingCounters, listedPairs) : VkDeviceSize(0);
+        keep ? offsetof(gpu::LightingCounters, listedPairs) : VkDeviceSize(0);
     f.device.CmdFillBuffer(cmd, counters_.get(), firstCounter, VK_WHOLE_SIZE, 0);
+    f.barrier();
+    lighting_.recordDeviceCounts(f, counters_);
     if (plan.lightCount) {
-        lighting_.recordTables(f, readsDirectionalAlbedo(frame));
-        if (!reuse)
+        lighting_.recordTables(f, passes.runs(Pass::DfgTable));
+        if (passes.runs(Pass::PrepareLights))
             recordPrepare(f, plan);
-        if (clustered && !reuse)
+        if (passes.runs(Pass::TileClusters))
             clusters_.recordReset(f, lighting_.typeCounts());
         f.barrier();
-        lighting_.recordDeviceCounts(f, counters_);
-        if (clustered && !reuse) {
-            recordClusters(f, plan);
+        recordClusters(f, plan, passes);
+        if (passes.runs(Pass::ClusterLists))
             recordLists(f, frame, plan);
-        }
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
             if (lighting_.typeCounts()[type]) {
-                if (clustered)
+                if (passes.runs(Pass::ShadeTiles))
                     recordClustered(f, frame, plan, type);
                 else
                     recordBrute(f, frame, plan, type);
@@ -221,26 +212,32 @@ void View::recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept
         divideUp(plan.lightCount, gpu::PREPARE_LIGHTS_GROUP));
 }
 
-void View::recordClusters(const gpu::Frame& f, const Plan& p) const noexcept
+void View::recordClusters(const gpu::Frame& f, const Plan& p,
+                          const FramePasses& passes) const noexcept
 {
-    clusters_.recordClusters(f, {.projection = p.projection,
-                                 .size = p.size,
-                                 .tileCountX = p.tileCountX,
-                                 .tileCount = p.tileCountX * p.tileCountY,
-                                 .clearDepth = p.clearDepth,
-                                 .invImageSize = p.invImageSize,
-                                 .splitLength = p.splitLength});
-    const auto count = [&](const gpu::Buffer& work, VkDeviceSize counter) {
-        const VkBufferCopy copy{.srcOffset = offsetof(gpu::WorkList, count),
-                                .dstOffset = counter,
-                                .size = sizeof(uint32_t)};
-        f.device.CmdCopyBuffer(f.cmd, work.get(), counters_.get(), 1, &copy);
-    };
-    count(clusters_.surfaces(), offsetof(gpu::LightingCounters, surfaceTiles));
-    count(clusters_.splits(), offsetof(gpu::LightingCounters, splitTiles));
-    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (!isDistant(type))
-            clusters_.recordTree(f, p.trees[type]);
+    if (passes.runs(Pass::TileClusters)) {
+        clusters_.recordClusters(f,
+                                 {.projection = p.projection,
+                                  .size = p.size,
+                                  .tileCountX = p.tileCountX,
+                                  .tileCount = p.tileCountX * p.tileCountY,
+                                  .clearDepth = p.clearDepth,
+                                  .invImageSize = p.invImageSize,
+                                  .splitLength = p.splitLength},
+                                 passes.runs(Pass::BlockClusters));
+        const auto count = [&](const gpu::Buffer& work, VkDeviceSize counter) {
+            const VkBufferCopy copy{.srcOffset = offsetof(gpu::WorkList, count),
+                                    .dstOffset = counter,
+                                    .size = sizeof(uint32_t)};
+            f.device.CmdCopyBuffer(f.cmd, work.get(), counters_.get(), 1, &copy);
+        };
+        count(clusters_.surfaces(), offsetof(gpu::LightingCounters, surfaceTiles));
+        count(clusters_.splits(), offsetof(gpu::LightingCounters, splitTiles));
+    }
+    if (passes.runs(Pass::LightTree))
+        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+            if (!isDistant(type))
+                clusters_.recordTree(f, p.trees[type]);
 }
 
 void View::recordLists(const gpu::Frame& f, const CndLightingFrame& frame,
@@ -401,7 +398,9 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     if (read.marker != uint32_t(slots_[slot].recording))
         return CND_NOT_READY;
     const gpu::LightingCounters& c = read.counters;
-    out.lightCount = slots_[slot].lightCount;
+    out.lightCount = 0;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        out.lightCount += out.lightTypeCounts[type] = slots_[slot].lights[type];
     out.deviceLights = c.deviceLights;
     out.rejectedLights = c.rejectedLights;
     out.tileCount = c.surfaceTiles;
@@ -413,6 +412,9 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.evaluatedPairs = join(c.evaluatedPairs);
     out.insidePairs = join(c.insidePairs);
     out.contributingPairs = join(c.contributingPairs);
+    FramePasses passes = slots_[slot].passes;
+    passes.addFindings(c);
+    passes.write(out.passes, out.passCount);
     return timer_.read(slot, out.kernelTimes, out.kernelTimeCount);
 }
 

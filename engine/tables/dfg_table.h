@@ -22,6 +22,8 @@ public:
     // first recording must be submitted before any that reads the table.
     void recordFill(const gpu::Frame& frame) noexcept;
 
+    bool filled() const { return recorded_; }
+
     // For Binding::ofTexels, at the DFG_BINDING of lib/dfg.glsl. 147 KB.
     const gpu::Buffer& buffer() const { return entries_; }
 

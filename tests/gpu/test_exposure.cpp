@@ -281,8 +281,13 @@ TEST_F(ExposureTest, manualBuildsNoHistogram)
     expectSameHistogram(stats, {}, "manual");
     expectSameAdaptation(stats, reference::adapt({}, frame.settings, 0, 0, false), "manual");
     EXPECT_EQ(stats.adaptedEv100, 7.5f);
+    ASSERT_EQ(stats.passCount, 3u);
+    EXPECT_STREQ(stats.passes[0].skipped, "manual exposure");
+    EXPECT_EQ(stats.passes[2].skipped, nullptr);
     frame.display = VK_NULL_HANDLE;
-    EXPECT_EQ(kernelNames(run(frame)), std::vector<std::string>{"adapt_exposure"});
+    const CndExposureStats adapted = run(frame);
+    EXPECT_EQ(kernelNames(adapted), std::vector<std::string>{"adapt_exposure"});
+    EXPECT_STREQ(adapted.passes[2].skipped, "no display image");
 }
 
 // Frames submitted without waiting adapt as the same frames one by one.

@@ -16,6 +16,28 @@ bool ran(const CndLightingStats& stats, const char* kernel)
                        [&](const CndKernelTime& t) { return std::string(t.name) == kernel; });
 }
 
+// Why the frame did without a pass; empty: it ran.
+std::string skipped(const CndLightingStats& stats, const char* pass)
+{
+    const CndPassPlan* end = stats.passes + stats.passCount;
+    const CndPassPlan* p = std::find_if(
+        stats.passes, end, [&](const CndPassPlan& x) { return std::string(x.name) == pass; });
+    if (p == end)
+        return "not a pass";
+    return p->skipped ? p->skipped : "";
+}
+
+// A pass that is said to have run has a time, and what has a time is planned.
+void expectPlanOfWhatRan(const CndLightingStats& stats)
+{
+    for (uint32_t i = 0; i < stats.passCount; ++i)
+        EXPECT_TRUE(stats.passes[i].skipped || ran(stats, stats.passes[i].name))
+            << stats.passes[i].name;
+    for (uint32_t i = 0; i < stats.kernelTimeCount; ++i)
+        EXPECT_NE(skipped(stats, stats.kernelTimes[i].name), "not a pass")
+            << stats.kernelTimes[i].name;
+}
+
 bool sameBits(const LightingResult& a, const LightingResult& b)
 {
     return a.radiance.size() == b.radiance.size() &&
@@ -50,6 +72,13 @@ TEST_F(LightingTest, UnchangedFramesKeepTheirLists)
             EXPECT_TRUE(ran(fresh.stats, kernel)) << kernel;
             EXPECT_FALSE(ran(kept.stats, kernel)) << kernel;
         }
+        for (const LightingResult* result : {&fresh, &kept})
+            expectPlanOfWhatRan(result->stats);
+        EXPECT_EQ(skipped(kept.stats, "prepare_lights"), "surfaces and lights unchanged");
+        EXPECT_EQ(skipped(kept.stats, "cluster_lists"), "surfaces and lights unchanged");
+        EXPECT_EQ(skipped(kept.stats, "light_order"), "lights unchanged");
+        EXPECT_EQ(skipped(kept.stats, "shade_unlisted"),
+                  budget ? "" : "every cluster has its list");
         EXPECT_EQ(fresh.stats.tileCount, kept.stats.tileCount);
         EXPECT_EQ(fresh.stats.unlistedClusters > 0, kept.stats.unlistedClusters > 0);
         if (!budget) {
@@ -94,9 +123,13 @@ TEST_F(LightingTest, FramesWithoutSurfacesOrLightsShadeNothing)
     EXPECT_EQ(empty.stats.listedPairs, 0u);
     for (const glm::vec4& v : empty.radiance)
         ASSERT_EQ(v, glm::vec4(0));
+    for (const char* pass : {"split_tiles", "shade_tiles", "count_pairs"})
+        EXPECT_EQ(skipped(empty.stats, pass), "no surface") << pass;
 
     const LightingResult dark = run(surfaces(5), {});
     EXPECT_EQ(dark.stats.kernelTimeCount, 0u);
+    for (uint32_t i = 0; i < dark.stats.passCount; ++i)
+        EXPECT_STREQ(dark.stats.passes[i].skipped, "no lights") << dark.stats.passes[i].name;
 
     // Lights that reach everything need no clusters' lists.
     CndLight sun{.type = CND_LIGHT_DIRECTIONAL, .direction = {0, 0, -1}, .emission = {1, 1, 1}};
@@ -104,6 +137,14 @@ TEST_F(LightingTest, FramesWithoutSurfacesOrLightsShadeNothing)
     EXPECT_TRUE(ran(sunny.stats, "shade_tiles"));
     EXPECT_FALSE(ran(sunny.stats, "cluster_lists"));
     EXPECT_FALSE(ran(sunny.stats, "light_tree"));
+    EXPECT_EQ(sunny.stats.lightTypeCounts[CND_LIGHT_DIRECTIONAL], 1u);
+    for (const char* pass : {"split_tiles", "block_clusters", "light_tree", "cluster_lists"})
+        EXPECT_EQ(skipped(sunny.stats, pass), "distant lights only") << pass;
+    expectPlanOfWhatRan(sunny.stats);
+    const LightingResult brute = run(surfaces(5), {sun}, {.culling = CND_CULLING_BRUTE});
+    EXPECT_TRUE(sameBits(sunny, brute));
+    EXPECT_EQ(skipped(brute.stats, "shade_tiles"), "brute force");
+    expectPlanOfWhatRan(brute.stats);
 }
 
 } // namespace candelabra::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every module shares: version, results, the device contract, kernel times.
+// What every module shares: version, results, the device contract, kernel times, plans of passes.
 #ifndef CANDELABRA_CORE_H
 #define CANDELABRA_CORE_H
 
@@ -74,6 +74,15 @@ typedef struct CndKernelTime {
 } CndKernelTime;
 
 #define CND_MAX_KERNEL_TIMES 16
+
+// A pass of a module and what became of it in one frame: the content decides. Rows of kernel times
+// have the same names; a pass whose work the GPU itself found to be empty has a row as well.
+typedef struct CndPassPlan {
+    const char* name;    // static storage
+    const char* skipped; // NULL: it ran; else why it did not, static storage
+} CndPassPlan;
+
+#define CND_MAX_PASSES 16
 
 #ifdef __cplusplus
 }

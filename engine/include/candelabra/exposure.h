@@ -96,6 +96,8 @@ typedef struct CndExposureStats {
     uint32_t histogram[CND_HISTOGRAM_BINS]; // weighted counts; zero in manual mode
     uint32_t kernelTimeCount;
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
+    uint32_t passCount; // all the module has, in order
+    CndPassPlan passes[CND_MAX_PASSES];
 } CndExposureStats;
 
 CND_API CndResult cndCreateExposure(const CndDeviceDesc* device, const CndExposureDesc* desc,

@@ -100,6 +100,8 @@ typedef struct CndLightingStats {
     uint32_t lightCount;     // of the set, CndDeviceLights::maxCount included
     uint32_t deviceLights;   // taken from CndDeviceLights
     uint32_t rejectedLights; // in CndDeviceLights, but outside the range of a field, or too many
+    // By type, CndDeviceLights::maxCount included; types without lights have no passes.
+    uint32_t lightTypeCounts[CND_LIGHT_TYPE_COUNT];
     uint32_t tileCount;      // 8x8 pixel tiles that hold a surface; 0 without lights
     uint32_t splitTileCount; // of these, deep ones whose slices of depth have a list each
     uint32_t listEntries;    // lights of all lists
@@ -114,6 +116,8 @@ typedef struct CndLightingStats {
     uint64_t contributingPairs; // of those, emitter not wholly below the horizon
     uint32_t kernelTimeCount;   // 0 without timestamps
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
+    uint32_t passCount; // all the module has, in order
+    CndPassPlan passes[CND_MAX_PASSES];
 } CndLightingStats;
 
 CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLightingDesc* desc,

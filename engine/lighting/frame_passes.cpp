@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lighting/frame_passes.h"
+
+#include "lighting/lighting.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+// By Pass: names of kernels.
+constexpr std::array<const char*, passCount> names = {
+    "device_lights",  "light_order",    "dfg_table",  "prepare_lights", "tile_clusters",
+    "split_tiles",    "block_clusters", "light_tree", "cluster_lists",  "shade_tiles",
+    "shade_unlisted", "shade_brute",    "count_pairs"};
+
+constexpr Pass clustering[] = {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters,
+                               Pass::LightTree, Pass::ClusterLists};
+
+} // namespace
+
+// Whether the lists of the frame recorded before are this one's; remembers what this one's are for.
+bool View::keepsLists(const CndLightingFrame& frame, uint32_t sampleCount)
+{
+    ListsKey key;
+    if (frame.culling == CND_CULLING_CLUSTERED && lighting_.lightCount())
+        key = {lighting_.lightSet(), frame.specularMethod, sampleCount};
+    const bool same = frame.surfacesUnchanged && key.lightSet && key == lists_;
+    lists_ = key;
+    return same;
+}
+
+FrameContent View::contentOf(const CndLightingFrame& frame, bool listsKept) const
+{
+    const LightTypeCounts& counts = lighting_.typeCounts();
+    FrameContent out{.lights = lighting_.lightCount() > 0,
+                     .lightsChanged = lighting_.lightsChanged(),
+                     .deviceLights = lighting_.hasDeviceLights(),
+                     .brute = frame.culling == CND_CULLING_BRUTE,
+                     .listsKept = listsKept,
+                     .readsAlbedoTable = frame.lobes != CND_LOBES_SUM || frame.energyCompensation,
+                     .albedoTableFilled = lighting_.albedoTableFilled(),
+                     .countPairs = frame.countPairs == VK_TRUE};
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        out.placedLights = out.placedLights || (counts[type] && !isDistant(type));
+    return out;
+}
+
+FramePasses::FramePasses(const FrameContent& c)
+{
+    if (!c.lights)
+        for (size_t pass = 0; pass < passCount; ++pass)
+            skip(Pass(pass), "no lights");
+    if (!c.deviceLights)
+        skip(Pass::DeviceLights, "no lights of the device's");
+    if (!c.lightsChanged)
+        for (const Pass pass : {Pass::DeviceLights, Pass::LightOrder})
+            skip(pass, "lights unchanged");
+    if (!c.readsAlbedoTable)
+        skip(Pass::DfgTable, "lobes are added as they are");
+    if (c.albedoTableFilled)
+        skip(Pass::DfgTable, "filled by an earlier frame");
+    if (c.brute)
+        for (const Pass pass :
+             {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters, Pass::LightTree,
+              Pass::ClusterLists, Pass::ShadeTiles, Pass::ShadeUnlisted, Pass::CountPairs})
+            skip(pass, "brute force");
+    else
+        skip(Pass::ShadeBrute, "lights are culled");
+    if (c.listsKept)
+        skip(Pass::PrepareLights, "surfaces and lights unchanged");
+    if (!c.placedLights)
+        for (const Pass pass : {Pass::SplitTiles, Pass::BlockClusters, Pass::LightTree,
+                                Pass::ClusterLists, Pass::ShadeUnlisted})
+            skip(pass, "distant lights only");
+    if (c.listsKept)
+        for (const Pass pass : clustering)
+            skip(pass, "surfaces and lights unchanged");
+    if (!c.countPairs)
+        skip(Pass::CountPairs, "not asked for");
+}
+
+void FramePasses::skip(Pass pass, const char* reason)
+{
+    const char*& skipped = skipped_[size_t(pass)];
+    if (!skipped)
+        skipped = reason;
+}
+
+void FramePasses::addFindings(const gpu::LightingCounters& counters)
+{
+    if (!runs(Pass::ShadeTiles)) // brute force, or nothing at all
+        return;
+    if (!counters.surfaceTiles)
+        for (const Pass pass : {Pass::SplitTiles, Pass::ShadeTiles, Pass::CountPairs})
+            skip(pass, "no surface");
+    if (!counters.splitTiles)
+        skip(Pass::SplitTiles, "no deep tile");
+    if (!counters.unlistedClusters)
+        skip(Pass::ShadeUnlisted, "every cluster has its list");
+}
+
+void FramePasses::write(CndPassPlan (&out)[CND_MAX_PASSES], uint32_t& count) const
+{
+    count = passCount;
+    for (size_t pass = 0; pass < passCount; ++pass)
+        out[pass] = {names[pass], skipped_[pass]};
+}
+
+} // namespace candelabra::lighting
