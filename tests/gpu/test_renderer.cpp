@@ -315,3 +315,57 @@ TEST_F(RendererTest, FramesInFlightAreTimedAndCounted)
     EXPECT_LE(stats.insidePairs, stats.listedPairs);
     EXPECT_GE(stats.maxListLength, stats.listEntries / std::max(stats.tileCount, 1u));
 }
+
+// Frames that keep lists or the lit image have the bits of frames that keep nothing, whatever
+// changes in between.
+TEST_F(RendererTest, KeptFramesHaveTheSameBits)
+{
+    const Scene scene = hall(300, true);
+    Renderer keeping(context(), scene, {.size = {160, 90}}),
+        fresh(context(), scene, {.size = {160, 90}});
+    FrameOptions frame = frameOf(scene);
+    frame.deltaTime = 0.01f;
+    const auto runs = [](const FrameStats& stats, const std::string& pass) {
+        return std::any_of(stats.plan.begin(), stats.plan.end(),
+                           [&](const CndPassPlan& p) { return p.name == pass && !p.skipped; });
+    };
+    const auto expectSame = [&](bool lit, bool lists, const char* what) {
+        const FrameStats stats = draw(keeping, frame);
+        EXPECT_EQ(stats.lit, lit) << what;
+        EXPECT_EQ(runs(stats, "gbuffer_raster"), lit) << what;
+        EXPECT_EQ(runs(stats, "cluster_lists"), lists) << what;
+        FrameOptions all = frame;
+        all.reuse = Reuse::None;
+        const FrameStats whole = draw(fresh, all);
+        EXPECT_TRUE(runs(whole, "cluster_lists")) << what;
+        EXPECT_EQ(firstDifference(readRadiance(context(), keeping), readRadiance(context(), fresh)),
+                  -1)
+            << what;
+        EXPECT_EQ(readDisplay(context(), keeping), readDisplay(context(), fresh)) << what;
+        EXPECT_EQ(stats.exposure.adaptedEv100, whole.exposure.adaptedEv100) << what;
+        frame.resetExposure = false;
+    };
+    for (const Reuse reuse : {Reuse::Lists, Reuse::Lighting}) {
+        const bool image = reuse == Reuse::Lighting;
+        frame.reuse = Reuse::None;
+        expectSame(true, true, "without");
+        frame.reuse = reuse;
+        frame.exposure.compensation += 1;
+        expectSame(!image, false, "exposure");
+        frame.errorBudget += 0.01f;
+        expectSame(true, false, "budget");
+        frame.countPairs = true;
+        expectSame(true, false, "count");
+        frame.countPairs = false;
+        frame.time += 1;
+        expectSame(true, true, "lights");
+        expectSame(!image, false, "nothing");
+        frame.camera.position.y += 0.1;
+        expectSame(true, true, "camera");
+        frame.lightsVisible = !frame.lightsVisible;
+        expectSame(true, true, "emitters");
+        keeping.resize({200, 90});
+        fresh.resize({200, 90});
+        expectSame(true, true, "size");
+    }
+}

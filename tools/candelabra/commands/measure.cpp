@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "bench/light_kernels.h"
 #include "commands/options.h"
 #include "io/table.h"
 #include "render/frame_ring.h"
@@ -80,6 +81,33 @@ std::string passTable(const PassTimes& times)
     return table.text();
 }
 
+std::string planText(const FrameStats& frame)
+{
+    std::string types;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (const uint32_t count = frame.lighting.lightTypeCounts[type])
+            types += fmt::format("{}{} {}", types.empty() ? "" : ", ", grouped(count),
+                                 lightTypeName(type));
+    std::string out;
+    if (frame.lit)
+        out =
+            fmt::format("lights: {}; other types have no passes\n", types.empty() ? "none" : types);
+    for (const CndPassPlan& pass : frame.plan)
+        out += fmt::format("{:<20} {}\n", pass.name,
+                           pass.skipped ? fmt::format("skipped: {}", pass.skipped) : "runs");
+    return out;
+}
+
+Json toJson(const std::vector<CndPassPlan>& plan)
+{
+    Json out = Json::array();
+    for (const CndPassPlan& pass : plan)
+        out.push_back({{"pass", pass.name},
+                       {"runs", !pass.skipped},
+                       {"skipped", pass.skipped ? Json(pass.skipped) : Json()}});
+    return out;
+}
+
 Json toJson(const PassTimes& times)
 {
     const auto one = [](const PassSummary& pass) {
@@ -130,6 +158,7 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"sampleCount", options.sampleCount},
             {"errorBudget", options.errorBudget},
             {"culling", cullingName(options.culling)},
+            {"reuse", reuseName(options.reuse)},
             {"gbuffer", gbufferName(layout)},
             {"toneMap", toneMapName(options.exposure.toneMap)},
             {"lightsVisible", options.lightsVisible},

@@ -43,8 +43,11 @@ CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, Fr
 size_t printValidationMessages(const VulkanContext& context);
 
 std::string passTable(const PassTimes& times);
+// Lights by type, and every pass with why it was skipped, a line each.
+std::string planText(const FrameStats& frame);
 
 Json toJson(const PassTimes& times);
+Json toJson(const std::vector<CndPassPlan>& plan);
 Json toJson(const CndLightingStats& stats); // pairs are 0 when they were not counted
 Json toJson(const CndExposureStats& stats);
 Json toJson(const FrameOptions& options, CndGBufferLayout layout);

@@ -34,6 +34,8 @@ constexpr Choice<CndSpecularMethod> specularChoices[] = {
 };
 constexpr Choice<CndCulling> cullingChoices[] = {{"clustered", CND_CULLING_CLUSTERED},
                                                  {"brute", CND_CULLING_BRUTE}};
+constexpr Choice<Reuse> reuseChoices[] = {
+    {"none", Reuse::None}, {"lists", Reuse::Lists}, {"lighting", Reuse::Lighting}};
 constexpr Choice<CndGBufferLayout> gbufferChoices[] = {{"full", CND_GBUFFER_FULL},
                                                        {"compact", CND_GBUFFER_COMPACT}};
 constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NONE},
@@ -93,6 +95,10 @@ const char* specularName(CndSpecularMethod method)
 const char* cullingName(CndCulling culling)
 {
     return nameOf(culling, cullingChoices);
+}
+const char* reuseName(Reuse reuse)
+{
+    return nameOf(reuse, reuseChoices);
 }
 const char* toneMapName(CndToneMap toneMap)
 {
@@ -331,6 +337,14 @@ void FrameArguments::addCullingTo(CLI::App& command)
     addChoice(command, "--culling", culling, cullingChoices, "which lights a pixel looks at");
 }
 
+void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
+{
+    reuse = reuseName(fallback);
+    addChoice(command, "--reuse", reuse, reuseChoices,
+              "what a frame keeps of the one before where nothing has changed; the image is the "
+              "same");
+}
+
 PixelSize FrameArguments::pixelSize(const Scene& scene, const Camera& chosen) const
 {
     PixelSize out{1280, 720};
@@ -375,6 +389,11 @@ float FrameArguments::budget() const
 CndCulling FrameArguments::cullingMode() const
 {
     return choose("--culling", culling, cullingChoices);
+}
+
+Reuse FrameArguments::reuseMode() const
+{
+    return choose("--reuse", reuse, reuseChoices);
 }
 
 std::optional<bool> FrameArguments::lightsVisibleOverride() const

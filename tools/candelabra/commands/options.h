@@ -10,6 +10,7 @@
 
 #include "candelabra/candelabra.h"
 #include "io/parse.h"
+#include "render/renderer.h"
 #include "render/vulkan_context.h"
 #include "scene/load.h"
 
@@ -64,13 +65,14 @@ struct FrameArguments {
     std::string size, camera;
     std::string gbuffer = "full", specular, culling = "clustered";
     std::string sampleCount = "64", errorBudget = "0";
-    std::string lightsVisible;
+    std::string lightsVisible, reuse;
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
 
     void addTo(CLI::App& command);
     // Of those only what is seen: size, camera and visible lights.
     void addViewTo(CLI::App& command);
     void addCullingTo(CLI::App& command);
+    void addReuseTo(CLI::App& command, Reuse fallback);
 
     // All throw UsageError for what they cannot read.
     PixelSize pixelSize(const Scene& scene, const Camera& camera) const;
@@ -79,6 +81,7 @@ struct FrameArguments {
     uint32_t samples() const; // per light, of the specular method "sampled"
     float budget() const;     // CndLightingFrame::errorBudget
     CndCulling cullingMode() const;
+    Reuse reuseMode() const;
     std::optional<bool> lightsVisibleOverride() const;
     CndExposureSettings exposureSettings() const;
 };
@@ -86,6 +89,7 @@ struct FrameArguments {
 // Names on the command line, as they appear in results.
 const char* specularName(CndSpecularMethod method);
 const char* cullingName(CndCulling culling);
+const char* reuseName(Reuse reuse);
 const char* toneMapName(CndToneMap toneMap);
 const char* gbufferName(CndGBufferLayout layout);
 const char* lobesName(CndLobeJoining lobes);

@@ -25,6 +25,7 @@ struct RenderArguments {
     SceneArguments scene;
     FrameArguments frame;
     std::string lights, frames = "1", time = "0", json;
+    bool explain = false;
     std::vector<std::string> outputs;
 };
 
@@ -62,9 +63,9 @@ void requireOutputs(const RenderArguments& a)
 
 RenderPlan plan(const RenderArguments& a)
 {
-    if (a.outputs.empty() && a.json.empty())
-        throw UsageError("render: nothing to write; give -o FILE (.png, .exr, .hdr, .pfm) or "
-                         "--json FILE");
+    if (a.outputs.empty() && a.json.empty() && !a.explain)
+        throw UsageError("render: nothing to write; give -o FILE (.png, .exr, .hdr, .pfm), "
+                         "--json FILE or --explain");
     requireOutputs(a);
     std::optional<uint32_t> lights;
     if (!a.lights.empty())
@@ -75,6 +76,7 @@ RenderPlan plan(const RenderArguments& a)
                       .sampleCount = a.frame.samples(),
                       .errorBudget = a.frame.budget(),
                       .culling = a.frame.cullingMode(),
+                      .reuse = a.frame.reuseMode(),
                       .exposure = a.frame.exposureSettings()},
             .gbufferLayout = a.frame.gbufferLayout(),
             .counts = {.measured = unsignedOption("--frames", a.frames, 1, 1'000'000)}};
@@ -96,6 +98,7 @@ Json describe(const ProgramContext& program, const RenderArguments& a, const Ren
             {"settings", toJson(p.frame, p.gbufferLayout)},
             {"warmUpFrames", p.counts.warmUp},
             {"gpuTime", toJson(frames.times)},
+            {"plan", toJson(frames.last.plan)},
             {"lighting", toJson(lighting)},
             {"exposure", toJson(frames.last.exposure)},
             {"outputs", a.outputs}};
@@ -133,6 +136,8 @@ int render(const ProgramContext& program, const RenderArguments& a)
         saveFrame(context, renderer, output);
         spdlog::info("wrote {}", output);
     }
+    if (a.explain && a.json != "-")
+        writeText("-", planText(frames.last));
     if (a.json != "-" && !program.quiet)
         writeText("-", passTable(frames.times));
     if (!a.json.empty())
@@ -168,8 +173,11 @@ void addRenderCommand(CLI::App& app, Run& run)
         ->add_option("--json", a->json,
                      "timings, statistics and where they come from; - is standard output")
         ->type_name("FILE");
+    command->add_flag("--explain", a->explain,
+                      "say which passes the last frame ran, and why it did without the others");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
+    a->frame.addReuseTo(*command, Reuse::None);
     a->device.addTo(*command);
     command->footer("Examples:\n"
                     "  candelabra render hall --lights 16000 -o hall.png\n"

@@ -50,6 +50,7 @@ StressSettings settingsOf(const StressArguments& a)
             .frame = {.specular = a.frame.specularMethod(),
                       .sampleCount = a.frame.samples(),
                       .errorBudget = a.frame.budget(),
+                      .reuse = a.frame.reuseMode(),
                       .exposure = a.frame.exposureSettings()},
             .lightsVisible = a.frame.lightsVisibleOverride(),
             .counts = {.warmUp = 2, .measured = unsignedOption("--frames", a.frames, 1, 1'000'000)},
@@ -167,6 +168,7 @@ void addStressCommand(CLI::App& app, Run& run)
         ->type_name("FILE");
     a->frame.size = "1280x720";
     a->frame.addTo(*command);
+    a->frame.addReuseTo(*command, Reuse::None);
     a->device.addTo(*command);
     command->footer("Exit code 1 when clustered lighting differs from brute force by more than "
                     "1e-6 of\nthe largest radiance, or when two runs differ in any bit.\n\n"

@@ -38,6 +38,7 @@ ViewerOptions optionsOf(const ViewArguments& a)
                                 .sampleCount = a.frame.samples(),
                                 .errorBudget = a.frame.budget(),
                                 .culling = a.frame.cullingMode(),
+                                .reuse = a.frame.reuseMode(),
                                 .exposure = a.frame.exposureSettings()},
                       .lightsVisible = a.frame.lightsVisibleOverride(),
                       .overlay = !a.noOverlay,
@@ -89,6 +90,7 @@ void addViewCommand(CLI::App& app, Run& run)
     command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
+    a->frame.addReuseTo(*command, Reuse::Lighting);
     a->device.addTo(*command);
     command->footer("Keys: W A S D fly, Q E down and up, Shift fast, drag to look, wheel changes "
                     "the speed,\n[ ] half and double the lights, - = exposure, F1 panel, Esc "

@@ -39,12 +39,30 @@ void append(std::vector<PassTime>& out, const CndKernelTime* times, uint32_t cou
         out.push_back({passName(times[i].name), times[i].ms});
 }
 
+// All that shapes the lit image of one scene at one size.
+struct Lit {
+    Camera camera;
+    double lightTime;
+    bool lightsVisible;
+    CndSpecularMethod specular;
+    uint32_t sampleCount, sampleSeed;
+    float errorBudget;
+    CndCulling culling;
+
+    bool operator==(const Lit&) const = default;
+    bool sameSurfaces(const Lit& other) const
+    {
+        return camera == other.camera && lightsVisible == other.lightsVisible;
+    }
+};
+
 } // namespace
 
 struct Renderer::State {
     const VulkanContext& context;
     const Scene& scene;
     RendererOptions options;
+    std::vector<bool> litSlots; // by slot: its frame was lit, not kept
     gbuffer::Geometry geometry;
     gbuffer::GBuffer gbuffer;
     gbuffer::Targets targets;
@@ -55,11 +73,13 @@ struct Renderer::State {
     Environment environment; // empty: the scene has none
     std::vector<CndLight> lights;
     double lightTime = 0;
+    std::optional<Lit> drawn; // what the images hold
 
     State(const VulkanContext& c, const Scene& s, const RendererOptions& o)
         : context(c),
           scene(s),
           options(o),
+          litSlots(o.framesInFlight),
           geometry(uploadGeometry(c, s)),
           gbuffer(
               c.device(),
@@ -68,7 +88,10 @@ struct Renderer::State {
     }
     double aspect() const { return double(options.size.width) / options.size.height; }
     void setLights(double time);
+    void moveLights(double time);
     void createSized();
+    Lit litBy(const FrameOptions& frame) const;
+    std::vector<CndPassPlan> plan(const FrameStats& stats) const;
     void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
     void recordEnvironment(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame) const;
     CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& frame) const;
@@ -95,13 +118,21 @@ void Renderer::State::setLights(double time)
 {
     lightsAtTime(scene, time, lights);
     lightTime = time;
+    drawn.reset();
     const double origin[3] = {scene.lightOrigin.x, scene.lightOrigin.y, scene.lightOrigin.z};
     take(lighting.setLights(lights, origin));
     gbuffer.setEmitters(lights, origin);
 }
 
+void Renderer::State::moveLights(double time)
+{
+    if (!scene.lightMotions.empty() && time != lightTime)
+        setLights(time);
+}
+
 void Renderer::State::createSized()
 {
+    drawn.reset();
     const gpu::Device& device = context.device();
     const auto [width, height] = options.size;
     // The old ones go first, so that both never take memory at once.
@@ -155,8 +186,7 @@ PixelSize Renderer::size() const
 
 void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
 {
-    if (!scene.lightMotions.empty() && frame.time != lightTime)
-        setLights(frame.time);
+    drawn.reset();
     const glm::vec3 background = environment.get() ? glm::vec3(0) : scene.background;
     gbuffer.record(cmd, geometry,
                    {.slot = slot,
@@ -195,15 +225,31 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
     return out;
 }
 
+Lit Renderer::State::litBy(const FrameOptions& f) const
+{
+    return {f.camera,      lightTime,    f.lightsVisible, f.specular,
+            f.sampleCount, f.sampleSeed, f.errorBudget,   f.culling};
+}
+
 void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
 {
     State& s = *state_;
-    s.recordGBuffer(cmd, slot, frame);
-
-    take(s.view.record(cmd, s.lightingFrame(slot, frame)));
-
+    s.moveLights(frame.time);
+    const Lit lit = s.litBy(frame);
+    const bool kept = frame.reuse == Reuse::Lighting && !frame.countPairs && s.drawn == lit;
+    const bool sameSurfaces = frame.reuse != Reuse::None && s.drawn && s.drawn->sameSurfaces(lit);
     const VkImage radiance = s.targets.radiance.image.get(), display = s.display.image.get();
-    transition(cmd, radiance, computeWrite, computeRead);
+    s.litSlots[slot] = !kept;
+    if (kept) {
+        transition(cmd, radiance, transferRead, computeRead);
+    } else {
+        s.recordGBuffer(cmd, slot, frame);
+        CndLightingFrame lighting = s.lightingFrame(slot, frame);
+        lighting.surfacesUnchanged = sameSurfaces;
+        take(s.view.record(cmd, lighting));
+        s.drawn = lit;
+        transition(cmd, radiance, computeWrite, computeRead);
+    }
     transition(cmd, display, discarded, computeWrite);
     take(s.exposure.record(cmd, {.frameSlot = slot,
                                  .width = s.options.size.width,
@@ -221,6 +267,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
 
 void Renderer::recordUnlit(VkCommandBuffer cmd, const FrameOptions& frame)
 {
+    state_->moveLights(frame.time);
     state_->recordGBuffer(cmd, 0, frame);
 }
 
@@ -248,21 +295,44 @@ CndLightingStats Renderer::lightingStats(uint32_t slot) const
     return finished(state_->view.stats(slot));
 }
 
+std::vector<CndPassPlan> Renderer::State::plan(const FrameStats& stats) const
+{
+    const char* kept = stats.lit ? nullptr : "nothing has changed";
+    const char* noMeshes = geometry.counts().instances ? nullptr : "no meshes";
+    const char* noEnvironment = environment.get() ? nullptr : "no environment";
+    std::vector<CndPassPlan> out{{"cull_instances", kept ? kept : noMeshes},
+                                 {"compact_instances", kept ? kept : noMeshes},
+                                 {"gbuffer_raster", kept},
+                                 {"shade_environment", noEnvironment ? noEnvironment : kept}};
+    const auto add = [&](const CndPassPlan* passes, uint32_t count) {
+        out.insert(out.end(), passes, passes + count);
+    };
+    if (kept)
+        out.push_back({"lighting", kept});
+    else
+        add(stats.lighting.passes, stats.lighting.passCount);
+    add(stats.exposure.passes, stats.exposure.passCount);
+    return out;
+}
+
 FrameStats Renderer::stats(uint32_t slot) const
 {
-    FrameStats out;
-    out.lighting = lightingStats(slot);
+    FrameStats out{.lit = state_->litSlots[slot]};
     std::vector<CndKernelTime> raster(CND_MAX_KERNEL_TIMES);
     uint32_t count = 0;
-    if (state_->gbuffer.times(slot, raster.data(), count))
-        append(out.passes, raster.data(), count);
-    if (state_->environment.get()) {
-        const CndEnvironmentStats environment = finished(state_->environment.stats(slot));
-        append(out.passes, environment.kernelTimes, environment.kernelTimeCount);
+    if (out.lit) {
+        out.lighting = lightingStats(slot);
+        if (state_->gbuffer.times(slot, raster.data(), count))
+            append(out.passes, raster.data(), count);
+        if (state_->environment.get()) {
+            const CndEnvironmentStats environment = finished(state_->environment.stats(slot));
+            append(out.passes, environment.kernelTimes, environment.kernelTimeCount);
+        }
+        append(out.passes, out.lighting.kernelTimes, out.lighting.kernelTimeCount);
     }
     out.exposure = finished(state_->exposure.stats(slot));
-    append(out.passes, out.lighting.kernelTimes, out.lighting.kernelTimeCount);
     append(out.passes, out.exposure.kernelTimes, out.exposure.kernelTimeCount);
+    out.plan = state_->plan(out);
     return out;
 }
 

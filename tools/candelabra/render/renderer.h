@@ -24,6 +24,14 @@ struct RendererOptions {
     uint32_t specularMethods = 0; // mask of 1 << CndSpecularMethod that frames may use; 0: all
 };
 
+// What a frame takes over from the one before it where nothing has changed: the image is the same,
+// the time is not, so what is timed asks for it by name.
+enum class Reuse {
+    None,    // everything is done again
+    Lists,   // prepared lights, clusters and lists: camera and lights have not changed
+    Lighting // the lit image as well: nothing that shapes it has changed
+};
+
 struct FrameOptions {
     Camera camera;
     double time = 0;           // s: where moving lights are
@@ -37,12 +45,15 @@ struct FrameOptions {
     uint32_t sampleSeed = 0;
     float errorBudget = 0; // as CndLightingFrame::errorBudget
     CndCulling culling = CND_CULLING_CLUSTERED;
+    Reuse reuse = Reuse::None;
     CndExposureSettings exposure{};
 };
 
 // Of one finished frame.
 struct FrameStats {
-    std::vector<PassTime> passes; // in order; empty without timestamps
+    std::vector<PassTime> passes;  // in order; empty without timestamps
+    std::vector<CndPassPlan> plan; // of all modules, in order
+    bool lit = true;               // false: Reuse kept the image, and `lighting` is empty
     CndLightingStats lighting{};
     CndExposureStats exposure{};
 };
@@ -79,6 +90,7 @@ public:
 
     // Of the last frame recorded in `slot`, which the GPU must have finished.
     FrameStats stats(uint32_t slot) const;
+    // Of the last lighting recorded in `slot`.
     CndLightingStats lightingStats(uint32_t slot) const;
 
     const gpu::Image& radiance() const; // R32G32B32A32_SFLOAT, cd/m^2

@@ -94,6 +94,8 @@ struct Camera {
     std::optional<double> aspect;  // width / height; empty: that of the image
     double nearPlane = 0.05;       // metres
     double farPlane = 0;           // metres; 0: infinite (perspective only)
+
+    bool operator==(const Camera&) const = default;
 };
 
 // How a light moves, as a function of time alone: position + offset on a circle.

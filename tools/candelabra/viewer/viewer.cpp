@@ -159,7 +159,8 @@ void Viewer::collectStats(const FrameRing::Frame& frame)
     figures_.passes.push_back(std::move(stats.passes));
     while (figures_.passes.size() > panelFrames)
         figures_.passes.pop_front();
-    figures_.lighting = stats.lighting;
+    if (stats.lit)
+        figures_.lighting = stats.lighting;
     figures_.exposure = stats.exposure;
 }
 
