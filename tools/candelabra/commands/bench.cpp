@@ -40,10 +40,11 @@ std::string benchOutput(const std::string& directory, const std::string& option,
 void addBenchCommand(CLI::App& app, Run& run)
 {
     CLI::App* bench =
-        app.add_subcommand("bench", "Measure accuracy, numerical stability and culling");
+        app.add_subcommand("bench", "Measure accuracy, numerical stability, culling and skips");
     bench->require_subcommand(1);
     addBenchAccuracy(*bench, run);
     addBenchCulling(*bench, run);
+    addBenchSkip(*bench, run);
     addBenchStability(*bench, run);
 }
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every skip leaves the image as it is, in small frames of the benchmark.
+#include "bench/skip.h"
+#include "harness/gpu_fixture.h"
+
+using namespace candelabra;
+using namespace candelabra::app;
+
+namespace
+{
+
+class BenchSkip : public test::GpuTest
+{
+};
+
+} // namespace
+
+TEST_F(BenchSkip, ImagesAreThoseOfFramesThatSkipNothing)
+{
+    const SkipSettings settings{.size = {200, 120}, .lights = 300, .rounds = 2, .pointRounds = 1};
+    Progress progress(1, false);
+    const std::vector<SkipRow> rows = measureSkips(context(), settings, progress);
+    ASSERT_EQ(rows.size(), 9u);
+    for (const SkipRow& row : rows) {
+        EXPECT_LE(row.difference, row.bound) << row.name;
+        EXPECT_EQ(row.with.frames(), row.without.frames()) << row.name;
+        EXPECT_GT(row.without.total().medianMs, 0) << row.name;
+    }
+    EXPECT_EQ(rows[0].with.total().medianMs, 0); // no lights
+    EXPECT_TRUE(skipFailures(rows).empty());
+    EXPECT_EQ(Json::parse(skipJson(settings, rows).dump())["skips"].size(), rows.size());
+    EXPECT_NE(skipTable(rows).find("manual exposure"), std::string::npos);
+
+    std::vector<SkipRow> wrong = rows;
+    wrong[0].difference = 1e-3;
+    EXPECT_EQ(skipFailures(wrong).size(), 1u);
+}

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/skip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "bench/skip_stage.h"
+#include "commands/brute_check.h"
+#include "render/error.h"
+#include "scene/load.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+using Lights = SkipStage::Lights;
+
+constexpr double lightingBar = 0.05, pointBar = 1.03; // issue 4, acceptance 7
+
+struct Pair {
+    Drawing with, without;
+};
+
+struct Skip {
+    SkipRow row;
+    Pair pair;
+    Drawing unskipped; // its image is that of pair.with
+    std::optional<Pair> idle{};
+};
+
+Lights dark(Lights lights)
+{
+    for (CndLight& light : lights)
+        std::fill_n(light.emission, 3, 0.0f);
+    return lights;
+}
+
+Lights outOfView(Lights lights)
+{
+    for (CndLight& light : lights)
+        light.position[1] += 1e5f; // m
+    return lights;
+}
+
+// The same lights without a size.
+Lights points(Lights lights)
+{
+    for (CndLight& light : lights) {
+        const CndLight sphere = light;
+        light = take(pointFromSphere(sphere));
+    }
+    return lights;
+}
+
+// With one dark light of every type but points, or as many dark points.
+Lights withOthers(Lights lights, bool ofOtherTypes)
+{
+    const CndLight first = lights.front();
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (type != CND_LIGHT_POINT)
+            lights.push_back({.type = ofOtherTypes ? type : uint32_t(CND_LIGHT_POINT),
+                              .position = {first.position[0], first.position[1], first.position[2]},
+                              .radius = 0.01f,
+                              .direction = {0, -1, 0},
+                              .influenceRadius = first.influenceRadius,
+                              .innerConeAngle = 0.2f,
+                              .outerConeAngle = 0.4f,
+                              .axisU = {0.02f, 0, 0},
+                              .axisV = {0, 0, 0.02f}});
+    return lights;
+}
+
+// No scene reaches up there.
+void lookAtSky(FrameOptions& options)
+{
+    options.camera.position = {0, 1e4, 0};
+    options.camera.forward = {0, 1, 0};
+    options.camera.up = {0, 0, 1};
+}
+
+bool isExposure(const std::string& pass)
+{
+    return pass == "luminance_histogram" || pass == "adapt_exposure" || pass == "tone_map";
+}
+
+bool isRaster(const std::string& pass)
+{
+    return pass == "cull_instances" || pass == "compact_instances" || pass == "gbuffer_raster";
+}
+
+Skip noLights(SkipStage& stage)
+{
+    const Drawing darkLights = stage.lighting(dark(stage.lights()));
+    return {{.name = "no lights",
+             .against = "as many lights, dark",
+             .passes = "lighting",
+             .bar = lightingBar},
+            {stage.lighting({}), darkLights},
+            darkLights};
+}
+
+Skip noSurface(SkipStage& stage)
+{
+    return {{.name = "no surface in view",
+             .against = "the scene in view",
+             .passes = "lighting",
+             .bar = lightingBar},
+            {stage.lighting(stage.lights(), {.edit = lookAtSky}), stage.lighting(stage.lights())},
+            stage.lighting({}, {.edit = lookAtSky})};
+}
+
+Skip lightsOutOfView(SkipStage& stage)
+{
+    return {{.name = "all lights out of view",
+             .against = "in view",
+             .passes = "lighting",
+             .bar = lightingBar},
+            {stage.lighting(outOfView(stage.lights())), stage.lighting(stage.lights())},
+            stage.lighting(dark(stage.lights()))};
+}
+
+Skip otherTypesAbsent(SkipStage& stage)
+{
+    const Lights lights = points(stage.lights());
+    const Drawing others = stage.lighting(withOthers(lights, true));
+    return {{.name = "other light types absent",
+             .against = "points and one dark light of each",
+             .passes = "lighting",
+             .bound = BruteCheck::bound},
+            {stage.lighting(withOthers(lights, false)), others},
+            others};
+}
+
+Skip otherTypesNeverMet(SkipStage& stage)
+{
+    const Lights lights = points(stage.lights());
+    const Drawing metBefore = stage.lighting(lights, {.before = withOthers(lights, true)});
+    return {{.name = "other light types never met",
+             .against = "points, all types met before",
+             .passes = "lighting",
+             .bar = pointBar},
+            {stage.lighting(lights), metBefore},
+            metBefore};
+}
+
+Skip unchangedLists(SkipStage& stage)
+{
+    const Drawing again = stage.lighting(stage.lights());
+    return {{.name = "lights and surfaces unchanged",
+             .against = "lists made again",
+             .passes = "lighting"},
+            {stage.lighting(stage.lights(), {.surfacesUnchanged = true}), again},
+            again};
+}
+
+Skip unchangedFrame(SkipStage& still, SkipStage& other)
+{
+    const auto any = [](const std::string& pass) { return !isExposure(pass); };
+    const auto keeping = [](Reuse reuse, bool moving) {
+        return [=](FrameOptions& options, uint32_t drawn) {
+            options.reuse = reuse;
+            options.camera.position.y += moving && drawn % 2 ? 0.001 : 0; // m
+        };
+    };
+    const Drawing again = other.frames(keeping(Reuse::None, false), any);
+    return {{.name = "nothing changed", .against = "drawn again", .passes = "raster and lighting"},
+            {still.frames(keeping(Reuse::Lighting, false), any), again},
+            again,
+            Pair{still.frames(keeping(Reuse::Lighting, true), any),
+                 other.frames(keeping(Reuse::None, true), any)}};
+}
+
+Skip manualExposure(SkipStage& stage)
+{
+    const Drawing automatic = stage.frames([](FrameOptions&, uint32_t) {}, isExposure);
+    automatic.draw();
+    const float ev = stage.exposureStats().adaptedEv100;
+    const auto fixed = [ev](FrameOptions& options, uint32_t) {
+        options.exposure.manual = VK_TRUE;
+        options.exposure.manualEv100 = ev;
+    };
+    return {{.name = "manual exposure", .against = "automatic, the same EV", .passes = "exposure"},
+            {stage.frames(fixed, isExposure), automatic},
+            automatic};
+}
+
+Skip noEnvironment(SkipStage& without, SkipStage& black)
+{
+    const auto lighting = [](const std::string& pass) {
+        return !isExposure(pass) && !isRaster(pass);
+    };
+    const auto as = [](FrameOptions&, uint32_t) {};
+    const Drawing shaded = black.frames(as, lighting);
+    return {
+        {.name = "no environment", .against = "a black one", .passes = "environment and lighting"},
+        {without.frames(as, lighting), shaded},
+        shaded};
+}
+
+std::vector<float> imageOf(const Drawing& drawing)
+{
+    drawing.draw(); // compiles, uploads
+    drawing.draw();
+    return drawing.image();
+}
+
+double largestDifference(const std::vector<float>& image, const std::vector<float>& reference)
+{
+    float largest = 0, difference = 0;
+    for (size_t i = 0; i < reference.size(); ++i) {
+        const float d = std::abs(image[i] - reference[i]);
+        if (!std::isfinite(d))
+            return std::numeric_limits<double>::infinity();
+        largest = std::max(largest, std::abs(reference[i]));
+        difference = std::max(difference, d);
+    }
+    return largest > 0 ? double(difference) / double(largest) : double(difference);
+}
+
+void interleave(const Pair& pair, uint32_t rounds, PassTimes& with, PassTimes& without,
+                const std::function<void()>& onRound)
+{
+    imageOf(pair.without); // warm, as the other is
+    for (uint32_t round = 0; round < rounds; ++round) {
+        const bool first = round % 2 == 0; // neither always comes first
+        if (first)
+            with.add(pair.with.draw());
+        without.add(pair.without.draw());
+        if (!first)
+            with.add(pair.with.draw());
+        onRound();
+    }
+}
+
+SkipRow measure(Skip skip, uint32_t rounds, const std::function<void()>& onRound)
+{
+    SkipRow& row = skip.row;
+    const std::vector<float> image = imageOf(skip.pair.with);
+    row.difference = largestDifference(image, imageOf(skip.unskipped));
+    interleave(skip.pair, rounds, row.with, row.without, onRound);
+    if (skip.idle) {
+        imageOf(skip.idle->with);
+        interleave(*skip.idle, rounds, row.idleWith, row.idleWithout, onRound);
+    }
+    return row;
+}
+
+Scene withBlackEnvironment(Scene scene)
+{
+    SceneEnvironment environment;
+    environment.radiance.width = 4;
+    environment.radiance.height = 2;
+    environment.radiance.channels = 3;
+    environment.radiance.pixels.assign(4 * 2 * 3, 0);
+    scene.environment = environment;
+    return scene;
+}
+
+} // namespace
+
+double SkipRow::ratio() const
+{
+    const double other = without.total().medianMs;
+    return other > 0 ? with.total().medianMs / other : 0;
+}
+
+// Rows, one of them with two pairs; and that of points.
+double skipSteps(const SkipSettings& s)
+{
+    return 9.0 * s.rounds + s.pointRounds;
+}
+
+std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettings& settings,
+                                  Progress& progress)
+{
+    SceneOptions options{.lights = settings.lights, .seed = settings.seed};
+    Scene scene = loadScene(settings.scene, options);
+    scene.background = {}; // an environment would stand in its place
+    const Scene black = withBlackEnvironment(scene);
+    std::vector<SkipRow> rows;
+    const auto add = [&](Skip skip, uint32_t rounds) {
+        progress.doing(skip.row.name);
+        rows.push_back(measure(std::move(skip), rounds, [&] { progress.advance(1); }));
+    };
+    SkipStage stage(context, scene, settings.size);
+    const auto ofStage = {noLights,         noSurface,      lightsOutOfView,
+                          otherTypesAbsent, unchangedLists, manualExposure};
+    for (Skip (*make)(SkipStage&) : ofStage)
+        add(make(stage), settings.rounds);
+    add(otherTypesNeverMet(stage), settings.pointRounds);
+    {
+        SkipStage other(context, scene, settings.size);
+        add(unchangedFrame(stage, other), settings.rounds);
+    }
+    SkipStage shaded(context, black, settings.size);
+    add(noEnvironment(stage, shaded), settings.rounds);
+    return rows;
+}
+
+} // namespace candelabra::app

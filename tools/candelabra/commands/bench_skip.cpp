@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra bench skip: what frames save by leaving out what they do not need.
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "bench/skip.h"
+#include "commands/bench_commands.h"
+#include "commands/measure.h"
+#include "commands/options.h"
+#include "render/error.h"
+#include "scene/load.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct SkipArguments {
+    DeviceArguments device;
+    std::string scene = "hall", lights = "4000", size = "1280x720";
+    std::string rounds = "7", pointRounds = "50", seed = "1";
+    std::string directory = "out", json;
+};
+
+SkipSettings settingsOf(const SkipArguments& a)
+{
+    if (!isGenerated(a.scene))
+        throw UsageError(fmt::format("--scene \"{}\": choose one of hall, field, fence", a.scene));
+    const auto size = parseSize(a.size);
+    if (!size || size->width > maxSide || size->height > maxSide)
+        throw UsageError(fmt::format("--size \"{}\": expected WIDTHxHEIGHT up to {} pixels a side",
+                                     a.size, maxSide));
+    const SkipSettings s{.scene = a.scene,
+                         .size = *size,
+                         .lights = unsignedOption("--lights", a.lights, 1, 1'000'000),
+                         .rounds = unsignedOption("--rounds", a.rounds, 1, 10'000),
+                         .pointRounds = unsignedOption("--point-rounds", a.pointRounds, 1, 10'000),
+                         .seed = unsignedOption("--seed", a.seed, 0, UINT32_MAX)};
+    a.device.requireRoomFor(s.lights);
+    return s;
+}
+
+int skip(const ProgramContext& program, const SkipArguments& a)
+{
+    const SkipSettings settings = settingsOf(a);
+    const std::string json = benchOutput(a.directory, "--json", a.json, "bench_skip.json");
+    const VulkanContext context(a.device.contextOptions());
+    spdlog::info("skips on {}", context.info().name);
+    std::vector<SkipRow> rows;
+    {
+        Progress progress(skipSteps(settings), !program.quiet);
+        rows = measureSkips(context, settings, progress);
+    }
+    Json document{{"provenance", provenance(context.info(), program.commandLine)}};
+    document.update(skipJson(settings, rows));
+    writeJson(json, document);
+    if (json != "-")
+        writeText("-", fmt::format("{}, {}, {}x{}; medians\n{}\nAll figures: {}\n", settings.scene,
+                                   settings.lights, settings.size.width, settings.size.height,
+                                   skipTable(rows), json));
+    const std::vector<std::string> failures = skipFailures(rows);
+    for (const std::string& failure : failures)
+        spdlog::error("candelabra: {}", failure);
+    return printValidationMessages(context) || !failures.empty() ? exitFailed : exitOk;
+}
+
+} // namespace
+
+void addBenchSkip(CLI::App& bench, Run& run)
+{
+    CLI::App* command = bench.add_subcommand(
+        "skip", "What a frame saves by leaving out what its content does not need");
+    const auto a = std::make_shared<SkipArguments>();
+    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
+        command->add_option(name, value, what)->type_name(type)->capture_default_str();
+    };
+    add("--scene", a->scene, "generated scene", "NAME");
+    add("--lights", a->lights, "sphere lights, up to 1,000,000", "N");
+    add("--size", a->size, "size of the image", "WxH");
+    add("--rounds", a->rounds, "rounds, in each of which both frames of a row are drawn", "N");
+    add("--point-rounds", a->pointRounds, "rounds of the row that compares points with points",
+        "N");
+    add("--seed", a->seed, "of the scene and lights", "N");
+    addBenchOutput(*command, a->directory, a->json, "bench_skip.json");
+    a->device.addTo(*command);
+    command->footer(
+        "One row per skip: GPU time of the passes it is about, with the skip and without it, in\n"
+        "interleaved rounds; what looking for it takes where it is not found (nothing: known\n"
+        "before recording, or what the GPU finds anyway); and how much the images differ.\n"
+        "Exit code 1 when they differ by more than the row allows (nothing; 1e-6 of the largest\n"
+        "radiance where sums may change their order).\n\n"
+        "Examples:\n"
+        "  candelabra bench skip\n"
+        "  candelabra bench skip --scene field --lights 16000 --rounds 15");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return skip(program, *a); }; });
+}
+
+} // namespace candelabra::app
