@@ -136,6 +136,7 @@ Clusters::Lists Clusters::createLists() const
     };
     const VkDeviceSize tileWork = workBytes(area(maxTiles_));
     return {.heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
+            .lit = make("lit tiles", tileWork, workUse),
             .unlisted = make("unlisted tiles", tileWork, workUse)};
 }
 
@@ -188,8 +189,14 @@ void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const 
                              Binding::of(CLUSTER_LISTS_SPLITS, splits_),
                              Binding::of(CLUSTER_LISTS_LISTS, lists_[type].heads),
                              Binding::of(CLUSTER_LISTS_ENTRIES, entries_),
+                             Binding::of(CLUSTER_LISTS_LIT, lists_[type].lit),
                              Binding::of(CLUSTER_LISTS_UNLISTED, lists_[type].unlisted),
                              Binding::of(CLUSTER_LISTS_COUNTERS, in.counters)});
+}
+
+const gpu::Buffer& Clusters::tilesToShade(uint32_t type) const
+{
+    return isDistant(type) ? surfaces_ : lists_[type].lit;
 }
 
 void Clusters::recordReset(const gpu::Frame& f, const LightTypeCounts& types) const noexcept
@@ -202,6 +209,7 @@ void Clusters::recordReset(const gpu::Frame& f, const LightTypeCounts& types) co
     reset(splits_, gpu::SPLIT_ROW);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (types[type]) {
+            reset(lists_[type].lit, gpu::TILE_ROW);
             reset(lists_[type].unlisted, gpu::TILE_ROW);
         }
 }

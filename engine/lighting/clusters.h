@@ -55,10 +55,12 @@ public:
 
     // Of a light type.
     struct Lists {
-        gpu::Buffer heads;    // per cluster
-        gpu::Buffer unlisted; // WorkList of tiles
+        gpu::Buffer heads;         // per cluster
+        gpu::Buffer lit, unlisted; // WorkLists of tiles
     };
     const Lists& lists(uint32_t type) const { return lists_[type]; }
+    // WorkList of the tiles that shade_tiles takes: all with a surface where there are no lists.
+    const gpu::Buffer& tilesToShade(uint32_t type) const;
     const gpu::Buffer& tiles() const { return tiles_; }
     const gpu::Buffer& clusters() const { return clusters_; }
     const gpu::Buffer& entries() const { return entries_; }

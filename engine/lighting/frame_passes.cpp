@@ -30,32 +30,39 @@ bool View::keepsLists(const CndLightingFrame& frame, uint32_t sampleCount)
     return same;
 }
 
-FrameContent View::contentOf(const CndLightingFrame& frame, bool listsKept) const
+FrameContent View::contentOf(const CndLightingFrame& frame, const LightTypeCounts& inView,
+                             bool listsKept) const
 {
-    const LightTypeCounts& counts = lighting_.typeCounts();
     FrameContent out{.lights = lighting_.lightCount() > 0,
                      .lightsChanged = lighting_.lightsChanged(),
                      .deviceLights = lighting_.hasDeviceLights(),
+                     .deviceLightsChanged = lighting_.deviceLightsChanged(),
                      .brute = frame.culling == CND_CULLING_BRUTE,
                      .listsKept = listsKept,
                      .readsAlbedoTable = frame.lobes != CND_LOBES_SUM || frame.energyCompensation,
                      .albedoTableFilled = lighting_.albedoTableFilled(),
                      .countPairs = frame.countPairs == VK_TRUE};
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        out.placedLights = out.placedLights || (counts[type] && !isDistant(type));
+        if (inView[type])
+            (isDistant(type) ? out.distantInView : out.placedInView) = true;
     return out;
 }
 
-FramePasses::FramePasses(const FrameContent& c)
+FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
 {
     if (!c.lights)
         for (size_t pass = 0; pass < passCount; ++pass)
             skip(Pass(pass), "no lights");
     if (!c.deviceLights)
         skip(Pass::DeviceLights, "no lights of the device's");
+    if (!c.deviceLightsChanged)
+        skip(Pass::DeviceLights, "lights unchanged");
     if (!c.lightsChanged)
-        for (const Pass pass : {Pass::DeviceLights, Pass::LightOrder})
-            skip(pass, "lights unchanged");
+        skip(Pass::LightOrder, "lights unchanged");
+    // A light set travels with the first recording, whatever it shows.
+    if (!c.placedInView && !c.distantInView)
+        for (size_t pass = size_t(Pass::LightOrder) + 1; pass < passCount; ++pass)
+            skip(Pass(pass), "no light reaches the view");
     if (!c.readsAlbedoTable)
         skip(Pass::DfgTable, "lobes are added as they are");
     if (c.albedoTableFilled)
@@ -69,7 +76,7 @@ FramePasses::FramePasses(const FrameContent& c)
         skip(Pass::ShadeBrute, "lights are culled");
     if (c.listsKept)
         skip(Pass::PrepareLights, "surfaces and lights unchanged");
-    if (!c.placedLights)
+    if (!c.placedInView)
         for (const Pass pass : {Pass::SplitTiles, Pass::BlockClusters, Pass::LightTree,
                                 Pass::ClusterLists, Pass::ShadeUnlisted})
             skip(pass, "distant lights only");
@@ -94,6 +101,8 @@ void FramePasses::addFindings(const gpu::LightingCounters& counters)
     if (!counters.surfaceTiles)
         for (const Pass pass : {Pass::SplitTiles, Pass::ShadeTiles, Pass::CountPairs})
             skip(pass, "no surface");
+    if (listsAlone_ && !counters.listEntries)
+        skip(Pass::ShadeTiles, "every list is empty");
     if (!counters.splitTiles)
         skip(Pass::SplitTiles, "no deep tile");
     if (!counters.unlistedClusters)

@@ -30,10 +30,12 @@ static_assert(passCount <= CND_MAX_PASSES);
 
 // What the host knows of a frame before it is recorded.
 struct FrameContent {
-    bool lights = false;        // there are any
-    bool placedLights = false;  // there are some that are not distant
+    bool lights = false; // there are any
+    // Some reach the view: of the types that have a place, of the distant ones.
+    bool placedInView = false, distantInView = false;
     bool lightsChanged = false; // since the frame before
     bool deviceLights = false;  // some come from the device
+    bool deviceLightsChanged = false;
     bool brute = false;
     bool listsKept = false; // those of the frame before are this frame's
     bool readsAlbedoTable = false, albedoTableFilled = false;
@@ -55,6 +57,7 @@ private:
     void skip(Pass pass, const char* reason); // the first reason stays
 
     std::array<const char*, passCount> skipped_{};
+    bool listsAlone_ = true; // no distant lights, which every surface has
 };
 
 } // namespace candelabra::lighting

@@ -118,12 +118,14 @@ void Lighting::setLights(const CndLightSet& set)
     validateLights(lights);
     LightTypeCounts counts = countTypes(lights);
     LightExtent extent = extentOf(lights);
+    ReachBoxes reach = reachOf(lights);
     uint32_t deviceRecord = 0; // behind the host's of that type
     if (device) {
         const size_t distant = counts[CND_LIGHT_DIRECTIONAL] + counts[CND_LIGHT_DISTANT_SPHERE];
         extent = extentWith(extent, lights.size() - distant, *device);
         deviceRecord = std::accumulate(counts.begin(), counts.begin() + device->type + 1, 0u);
         counts[device->type] += device->maxCount;
+        reach[device->type] = endlessReach(); // nobody here knows where they are
     }
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (counts[type])
@@ -148,6 +150,16 @@ void Lighting::setLights(const CndLightSet& set)
     ++lightSet_;
     std::copy_n(set.origin, 3, origin_);
     extent_ = extent;
+    reach_ = reach;
+}
+
+LightTypeCounts Lighting::countsInView(const CndCamera& camera) const
+{
+    LightTypeCounts out = typeCounts_;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (out[type] && !reachesView(reach_[type], origin_, camera))
+            out[type] = 0;
+    return out;
 }
 
 uint32_t Lighting::typeOfRecord(uint32_t record) const
@@ -190,6 +202,7 @@ void Lighting::updateLights(uint32_t first, std::span<const CndLight> lights)
     const std::span records = staging.buffer.as<gpu::LightRecord>();
     for (size_t i = 0; i < lights.size(); ++i)
         records[recordOf_[first + i]] = packLight(lights[i]);
+    widen(reach_, reachOf(lights)); // what was replaced stays in the boxes
     staging.regions = std::move(regions);
     pending_ = &staging;
     ++lightSet_;

@@ -13,6 +13,7 @@
 #include "lighting/frame_passes.h"
 #include "lighting/light_order.h"
 #include "lighting/pack_lights.h"
+#include "lighting/reach.h"
 #include "lighting/shade_kernels.h"
 #include "shared/lighting.h"
 #include "tables/dfg_table.h"
@@ -75,10 +76,13 @@ public:
     uint64_t lightSet() const { return lightSet_; }
     uint32_t lightCapacity() const { return lightCapacity_; }
     const LightExtent& extent() const { return extent_; }
+    // Lights by type, 0 for types none of which reaches the view.
+    LightTypeCounts countsInView(const CndCamera& camera) const;
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
     // There is a light set that no recording has uploaded yet.
     bool lightsChanged() const { return pending_; }
     bool hasDeviceLights() const { return deviceLights_.present(); }
+    bool deviceLightsChanged() const { return deviceLightsPending_; }
     bool albedoTableFilled() const { return dfg_.filled(); }
     const double* origin() const { return origin_; }
     // Lights that one walk may take, at most: all, unless the device limits loops.
@@ -108,6 +112,7 @@ private:
     LightOrder::State sort_;
     DeviceLights deviceLights_;
     LightExtent extent_;
+    ReachBoxes reach_;
     struct Staging {
         gpu::Buffer buffer;
         uint64_t recording = 0; // number of the recording that copies from it, 0: none yet
@@ -152,7 +157,8 @@ private:
     Plan plan(const CndLightingFrame& frame) const;
     void validate(const CndLightingFrame& frame) const;
     bool keepsLists(const CndLightingFrame& frame, uint32_t sampleCount);
-    FrameContent contentOf(const CndLightingFrame& frame, bool listsKept) const;
+    FrameContent contentOf(const CndLightingFrame& frame, const LightTypeCounts& inView,
+                           bool listsKept) const;
     void writeBindings(const CndLightingFrame& frame) const;
     void recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept;
     void recordClusters(const gpu::Frame& f, const Plan& plan,

@@ -80,6 +80,7 @@ struct View::Plan {
     glm::vec2 invImageSize; // one value for all kernels: GPU divisions may differ in the last bit
     float clearDepth;
     uint32_t lightCount;
+    LightTypeCounts lights; // by type, 0 for types none of which reaches the view
     TreeShapes trees;
     uint32_t tileCountX, tileCountY;
     uint32_t sampleCount;
@@ -146,6 +147,9 @@ View::Plan View::plan(const CndLightingFrame& frame) const
            .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
            .clearDepth = frame.clearDepth,
            .lightCount = lighting_.lightCount(),
+           // Brute force is the check: it knows no bound.
+           .lights = frame.culling == CND_CULLING_BRUTE ? lighting_.typeCounts()
+                                                        : lighting_.countsInView(frame.camera),
            .trees = treeShapes(lighting_.typeCounts()),
            .tileCountX = tiles(frame.width),
            .tileCountY = tiles(frame.height),
@@ -168,7 +172,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
 
     const uint32_t slot = frame.frameSlot;
     const bool keep = keepsLists(frame, plan.sampleCount);
-    const FramePasses passes(contentOf(frame, keep));
+    const FramePasses passes(contentOf(frame, plan.lights, keep));
     slots_[slot] = {lighting_.nextRecording(), lighting_.typeCounts(), passes};
     const gpu::Frame f{lighting_.device(), cmd, timer_, slot};
     f.device.beginLabel(cmd, "candelabra lighting");
@@ -182,7 +186,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     f.device.CmdFillBuffer(cmd, counters_.get(), firstCounter, VK_WHOLE_SIZE, 0);
     f.barrier();
     lighting_.recordDeviceCounts(f, counters_);
-    if (plan.lightCount) {
+    if (passes.runs(Pass::ShadeTiles) || passes.runs(Pass::ShadeBrute)) {
         lighting_.recordTables(f, passes.runs(Pass::DfgTable));
         if (passes.runs(Pass::PrepareLights))
             recordPrepare(f, plan);
@@ -193,7 +197,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
         if (passes.runs(Pass::ClusterLists))
             recordLists(f, frame, plan);
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-            if (lighting_.typeCounts()[type]) {
+            if (plan.lights[type]) {
                 if (passes.runs(Pass::ShadeTiles))
                     recordClustered(f, frame, plan, type);
                 else
@@ -236,7 +240,7 @@ void View::recordClusters(const gpu::Frame& f, const Plan& p,
     }
     if (passes.runs(Pass::LightTree))
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-            if (!isDistant(type))
+            if (p.lights[type] && !isDistant(type))
                 clusters_.recordTree(f, p.trees[type]);
 }
 
@@ -244,7 +248,7 @@ void View::recordLists(const gpu::Frame& f, const CndLightingFrame& frame,
                        const Plan& p) const noexcept
 {
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (lighting_.typeCounts()[type] && !isDistant(type))
+        if (p.lights[type] && !isDistant(type))
             clusters_.recordLists(f, type, p.trees[type], {p.tileCountX, p.tileCountY},
                                   lightsPerBatch(frame, p, type));
     f.barrier();
@@ -313,18 +317,21 @@ void View::recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, c
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
     const gpu::ShadeParams params = shadeParams(frame, p, type);
     const uint32_t perBatch = lightsPerBatch(frame, p, type);
-    const auto shadeLists = [&](const gpu::ShadeParams& batch) {
-        kernels.tiles.dispatchIndirect(f, sets_.shadeTiles.set(set), batch, clusters_.surfaces());
+    const auto shade = [&](const gpu::ShadeParams& batch) {
+        kernels.tiles.dispatchIndirect(f, sets_.shadeTiles.set(set), batch,
+                                       clusters_.tilesToShade(type));
         f.barrier();
     };
     if (isDistant(type)) { // they reach everything: no lists
-        inBatches(params, perBatch, shadeLists);
+        inBatches(params, perBatch, shade);
     } else {
-        shadeLists(params);
+        shade(params);
         recordUnlisted(f, kernels, params, set, type, perBatch);
     }
     if (frame.countPairs) {
-        kernels.countPairs.dispatchIndirect(f, sets_.countPairs.set(set), params,
+        gpu::ShadeParams counted = params;
+        counted.batchLevel = frame.pairImage ? 1 : 0;
+        kernels.countPairs.dispatchIndirect(f, sets_.countPairs.set(set), counted,
                                             clusters_.surfaces());
         f.barrier();
     }

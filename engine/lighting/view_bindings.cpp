@@ -52,17 +52,21 @@ void View::writeBindings(const CndLightingFrame& frame) const
         const Binding heads = Binding::of(SHADE_LISTS, lists.heads);
         const Binding entries = Binding::of(SHADE_ENTRIES, clusters_.entries());
         const Binding surfaces = Binding::of(SHADE_WORK, clusters_.surfaces());
+        const Binding toShade = Binding::of(SHADE_WORK, clusters_.tilesToShade(type));
         const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
         sets_.shadeTiles.write(set, {core, coreWords, aux, normals, albedo, f0, depth, radiance,
-                                     dfg, ltc, tiles, heads, entries, surfaces});
+                                     dfg, ltc, tiles, heads, entries, toShade});
         sets_.shadeUnlisted.write(set, {core, coreWords, aux, normals, albedo, f0, depth, radiance,
                                         dfg, ltc, tiles, heads, unlisted,
                                         Binding::of(SHADE_CLUSTERS, clusters_.clusters()),
                                         Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
                                         Binding::of(SHADE_NODE_WORDS, clusters_.nodes())});
-        sets_.countPairs.write(set,
-                               {core, coreWords, aux, normals, albedo, f0, depth, dfg, ltc, tiles,
-                                heads, entries, surfaces, Binding::of(SHADE_COUNTERS, counters_)});
+        sets_.countPairs.write(
+            set,
+            {core, coreWords, aux, normals, albedo, f0, depth, dfg, ltc, tiles, heads, entries,
+             surfaces, Binding::of(SHADE_COUNTERS, counters_),
+             // Without one it is not written.
+             Binding::storage(SHADE_PAIRS, frame.pairImage ? frame.pairImage : frame.radiance)});
     }
 }
 

@@ -58,7 +58,7 @@ void main()
     rays = rays == vec3(0.0) ? rays : normalize(rays);
     Cluster merged = Cluster(vec3(infinity), 0u, vec3(-infinity), 0u, vec3(0.0), -infinity,
                              infinity, 0.0, 0xFFFFFFFFu, rays, 0.0);
-    for (uint y = first.y; y < end.y; ++y)
+    for (uint y = first.y; y < end.y && !empty; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const TileClusters child = tiles[params.childFirst + y * params.childCountX + x];
             const uint count =

@@ -39,11 +39,6 @@ layout(scalar, binding = CLUSTER_LISTS_ENTRIES) buffer Entries
 {
     uint entries[];
 };
-layout(scalar, binding = CLUSTER_LISTS_UNLISTED) buffer Unlisted
-{
-    WorkList unlisted;
-    uint unlistedTiles[];
-};
 layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
 {
     LightingCounters counters;
@@ -134,7 +129,9 @@ void main()
         return;
     const bool withoutList = tooLong || (full && total != 0u);
     if (withoutList)
-        appendTile(cluster.tile);
+        appendUnlisted(cluster.tile);
+    else if (total != 0u)
+        appendLit(cluster.tile);
     atomicAdd(counters.listEntries, withoutList ? 0u : total);
     atomicMax(counters.maxListLength, total);
 }

@@ -15,6 +15,19 @@ layout(scalar, binding = SHADE_COUNTERS) buffer Counters
     LightingCounters counters;
 };
 
+layout(binding = SHADE_PAIRS, rgba32f) uniform image2D pairImage;
+
+uint classOf(uint tile, float depth)
+{
+    if (IS_DISTANT)
+        return PIXEL_OF_TILE;
+    const uint list = lists[clusterOf(tile, depth)];
+    const bool slices = tiles[tile].shift != UNSPLIT;
+    return list == LIST_UNLISTED || list == LIST_LONG ? PIXEL_UNLISTED
+           : slices                                   ? PIXEL_OF_SLICE
+                                                      : PIXEL_OF_TILE;
+}
+
 uint bits(uvec2 x)
 {
     return uint(bitCount(x.x) + bitCount(x.y));
@@ -60,6 +73,12 @@ void main()
             influenced += length2(toLight) < lightEmission(light).w ? 1u : 0u;
         }
         block = nextBlock(block);
+    }
+    if (surface && params.batchLevel != 0u) {
+        const vec4 before = imageLoad(pairImage, ivec2(pixel));
+        imageStore(pairImage, ivec2(pixel),
+                   vec4(before.xyz + vec3(listed, evaluated, contributing),
+                        max(before.w, float(classOf(tile, depth)))));
     }
     COUNT(counters.listedPairs, listed)
     COUNT(counters.evaluatedPairs, evaluated)

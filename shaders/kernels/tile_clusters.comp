@@ -28,18 +28,25 @@ void main()
         return;
     const uvec2 first = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX);
     const uvec2 end = min(first + TILE_SIZE, params.size);
-    Cluster cluster = emptyCluster(tile);
-    uint highest = 0u;
+    // Of depth alone: where there is none, the loops over samples end at once.
+    uint lowest = 0xFFFFFFFFu, highest = 0u;
     for (uint y = first.y; y < end.y; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const float depth = depthAt(uvec2(x, y));
             if (depth != params.clearDepth) {
-                addSample(cluster, uvec2(x, y), depth);
+                lowest = min(lowest, depthBits(depth));
                 highest = max(highest, depthBits(depth));
             }
         }
-    const uint lowest = cluster.depthBits;
-    if (isEmpty(cluster)) {
+    const bool empty = lowest > highest;
+    Cluster cluster = emptyCluster(tile);
+    for (uint y = first.y; y < end.y && !empty; ++y)
+        for (uint x = first.x; x < end.x; ++x) {
+            const float depth = depthAt(uvec2(x, y));
+            if (depth != params.clearDepth)
+                addSample(cluster, uvec2(x, y), depth);
+        }
+    if (empty) {
         tiles[tile] = TileClusters(0u, 1u, 0u, UNSPLIT, 0u);
         return;
     }

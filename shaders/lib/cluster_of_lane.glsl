@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cluster a lane of cluster_lists makes the list of, and where it notes that there is none. The
-// includer provides params, counters, tiles[], splits, unlisted and unlistedTiles[].
+// Which cluster a lane of cluster_lists makes the list of, and the work lists of tiles it is for. The
+// includer provides params, counters, tiles[] and splits.
 #ifndef CND_LIB_CLUSTER_OF_LANE
 #define CND_LIB_CLUSTER_OF_LANE
+
+layout(scalar, binding = CLUSTER_LISTS_LIT) buffer Lit
+{
+    WorkList lit;
+    uint litTiles[];
+};
+layout(scalar, binding = CLUSTER_LISTS_UNLISTED) buffer Unlisted
+{
+    WorkList unlisted;
+    uint unlistedTiles[];
+};
 
 // The cluster of this lane; false without one.
 bool takeCluster(out uint at)
@@ -26,17 +37,27 @@ bool takeCluster(out uint at)
            tiles[at].lowest <= tiles[at].highest;
 }
 
-// The tile is listed once per light type, by whichever lane comes first.
-void appendTile(uint tile)
+// A tile is on a work list once per light type, by whichever lane comes first.
+#define APPEND_TILE(work, workTiles, tile, firstBit)                                               \
+    const uint bit = 1u << ((firstBit) + params.lightType);                                        \
+    if ((atomicOr(tiles[tile].onLists, bit) & bit) == 0u) {                                        \
+        const uint place = atomicAdd(work.count, 1u);                                              \
+        workTiles[place] = tile;                                                                   \
+        if (place % TILE_ROW == 0u)                                                                \
+            atomicAdd(work.groupsY, 1u);                                                           \
+    }
+
+// For shade_tiles.
+void appendLit(uint tile)
+{
+    APPEND_TILE(lit, litTiles, tile, LIT_BITS)
+}
+
+// For shade_unlisted.
+void appendUnlisted(uint tile)
 {
     atomicAdd(counters.unlistedClusters, 1u);
-    const uint bit = 1u << params.lightType;
-    if ((atomicOr(tiles[tile].unlisted, bit) & bit) != 0u)
-        return;
-    const uint at = atomicAdd(unlisted.count, 1u);
-    unlistedTiles[at] = tile;
-    if (at % TILE_ROW == 0u)
-        atomicAdd(unlisted.groupsY, 1u);
+    APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS)
 }
 
 #endif

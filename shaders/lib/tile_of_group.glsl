@@ -34,7 +34,9 @@ bool takeTile(out uint tile, out uvec2 pixel)
     pixel = uvec2(0u);
     if (at >= work.count)
         return false;
-    tile = workTiles[at];
+    // Both halves of the list by turns: some devices deal out groups in equal shares, and tiles that
+    // take longer come last.
+    tile = workTiles[(at & 1u) * ((work.count + 1u) / 2u) + (at >> 1u)];
     pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
             pixelOfLane();
     return all(lessThan(pixel, params.size));

@@ -60,10 +60,12 @@ struct TileClusters {
     uint first;
     uint lowest, highest; // depth bits; lowest > highest: no sample
     uint shift;
-    uint unlisted; // bit per light type: among the tiles of shade_unlisted
+    uint onLists; // bit per light type, from each of these on
 };
 GPU_SIZE(TileClusters, 20)
-const uint UNSPLIT = 31u; // shift of a tile with one cluster
+const uint UNLISTED_BITS = 0u; // the tiles of shade_unlisted
+const uint LIT_BITS = 16u;     // the tiles of shade_tiles: some cluster has lights
+const uint UNSPLIT = 31u;      // shift of a tile with one cluster
 
 // A list of lights: pages of the entry buffer. A page begins with a header, the number of its
 // lights and, above PAGE_COUNT_BITS, the next page (0: none).
@@ -135,6 +137,7 @@ const uint CLUSTER_LISTS_LISTS = 7u;
 const uint CLUSTER_LISTS_ENTRIES = 8u;
 const uint CLUSTER_LISTS_UNLISTED = 9u; // WorkList of tiles with unlisted clusters
 const uint CLUSTER_LISTS_COUNTERS = 10u;
+const uint CLUSTER_LISTS_LIT = 11u; // WorkList of tiles with lists that hold lights
 // Which clusters:
 const uint LISTS_OF_BLOCKS = 0u; // firstCluster, clusterCount
 const uint LISTS_OF_TILES = 1u;  // that are not split; block by block, so that lanes share parents

@@ -104,6 +104,10 @@ const uint SHADE_COUNTERS = 14u; // count_pairs
 const uint SHADE_CLUSTERS = 15u; // shade_unlisted
 const uint SHADE_NODES = 16u;    // shade_unlisted
 const uint SHADE_NODE_WORDS = 17u;
+const uint SHADE_PAIRS = 18u;  // count_pairs: CndLightingFrame::pairImage
+const uint PIXEL_OF_TILE = 1u; // CndPixelClass
+const uint PIXEL_OF_SLICE = 2u;
+const uint PIXEL_UNLISTED = 3u;
 const uint COMPENSATE_ENERGY = 256u;
 struct ShadeParams {
     Projection projection;
@@ -119,7 +123,8 @@ struct ShadeParams {
     float errorBudget; // relative to the highest response; 0: every light in full
     uint lobes;        // LOBES_*, plus COMPENSATE_ENERGY
     uint batchLevel;   // shade_unlisted: 0: clusters without a page; else those of too many
-                       //   lights, by parts of the light tree, nodes of this level
+                       //   lights, by parts of the light tree, nodes of this level.
+                       //   count_pairs: 1: also writes the image
     TreeShape tree;    // shade_unlisted
 };
 GPU_SIZE(ShadeParams, 128)

@@ -147,4 +147,43 @@ TEST_F(LightingTest, FramesWithoutSurfacesOrLightsShadeNothing)
     expectPlanOfWhatRan(brute.stats);
 }
 
+// Types of which no light reaches the view take no part, and tiles without lights are not shaded.
+TEST_F(LightingTest, WhatIsLitIsAllThatIsShaded)
+{
+    const CpuGBuffer g = surfaces(6);
+    std::vector<CndLight> lights = randomSpheres(g, 60, 7);
+    std::vector<CndLight> behind = lights;
+    for (CndLight& light : behind)
+        light.position[2] = 1000; // m; the view looks down -z
+    const LightingResult none = run(g, behind, {.countPairs = true});
+    for (const char* pass : {"prepare_lights", "tile_clusters", "cluster_lists", "shade_tiles"})
+        EXPECT_EQ(skipped(none.stats, pass), "no light reaches the view") << pass;
+    EXPECT_EQ(skipped(none.stats, "light_order"), ""); // once per set, whatever is in view
+    EXPECT_EQ(none.stats.kernelTimeCount, 1u);
+    EXPECT_TRUE(sameBits(none, run(g, behind, {.culling = CND_CULLING_BRUTE})));
+
+    // One type in view, one behind; the same image as without the one behind.
+    std::vector<CndLight> both = lights;
+    for (CndLight light : behind) {
+        light.type = CND_LIGHT_POINT;
+        both.push_back(light);
+    }
+    const LightingResult half = run(g, both), alone = run(g, lights);
+    EXPECT_LE(maxRelativeDifference(half.radiance, alone.radiance), 1e-6); // the order may differ
+    EXPECT_EQ(half.stats.lightTypeCounts[CND_LIGHT_POINT], 60u);
+
+    // In the view, but short of every surface: lists are made and are empty.
+    std::vector<CndLight> inTheAir = randomSpheres(g, 1, 3);
+    inTheAir[0].position[0] = inTheAir[0].position[1] = 0;
+    inTheAir[0].position[2] = -0.2f;
+    inTheAir[0].radius = 0.001f;
+    inTheAir[0].influenceRadius = 0.01f;
+    const LightingResult air = run(g, inTheAir);
+    EXPECT_EQ(air.stats.listEntries, 0u);
+    EXPECT_GT(air.stats.tileCount, 0u);
+    EXPECT_EQ(skipped(air.stats, "shade_tiles"), "every list is empty");
+    for (const glm::vec4& v : air.radiance)
+        ASSERT_EQ(v, glm::vec4(0));
+}
+
 } // namespace candelabra::test

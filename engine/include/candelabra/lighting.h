@@ -36,6 +36,15 @@ typedef enum CndCulling {
     CND_CULLING_MAX_ENUM = 0x7FFFFFFF
 } CndCulling;
 
+// How a pixel finds its lights (CndLightingFrame::pairImage). Of several light types the highest.
+typedef enum CndPixelClass {
+    CND_PIXEL_NO_SURFACE = 0,
+    CND_PIXEL_OF_TILE = 1,  // one list for all of its 8x8 pixel tile
+    CND_PIXEL_OF_SLICE = 2, // the tile is deep: a list per slice of depth
+    CND_PIXEL_UNLISTED = 3, // no room for the list, or too long: walks the light tree
+    CND_PIXEL_CLASS_MAX_ENUM = 0x7FFFFFFF
+} CndPixelClass;
+
 typedef struct CndLightingDesc {
     uint32_t structSize;
     uint32_t framesInFlight; // 1..8: frames the host may have recorded or submitted and not yet
@@ -93,6 +102,11 @@ typedef struct CndLightingFrame {
     VkBool32 surfacesUnchanged;
     VkRect2D bruteRect;  // CND_CULLING_BRUTE: pixels to shade; zero extent: all
     VkBool32 countPairs; // also count (pixel, light) pairs: one more kernel; clustered only
+    // With countPairs, or VK_NULL_HANDLE: what every pixel costs. R32G32B32A32_SFLOAT, storage,
+    // layout and visibility as of radiance. ADDED: r lights of its list, g lights evaluated (turns
+    // in which it waits for its neighbours included), b lights that contribute. a becomes a
+    // CndPixelClass, 0 stays without a surface.
+    VkImageView pairImage;
 } CndLightingFrame;
 
 typedef struct CndLightingStats {
@@ -102,7 +116,7 @@ typedef struct CndLightingStats {
     uint32_t rejectedLights; // in CndDeviceLights, but outside the range of a field, or too many
     // By type, CndDeviceLights::maxCount included; types without lights have no passes.
     uint32_t lightTypeCounts[CND_LIGHT_TYPE_COUNT];
-    uint32_t tileCount;      // 8x8 pixel tiles that hold a surface; 0 without lights
+    uint32_t tileCount;      // 8x8 pixel tiles that hold a surface; 0 without lights in view
     uint32_t splitTileCount; // of these, deep ones whose slices of depth have a list each
     uint32_t listEntries;    // lights of all lists
     uint32_t maxListLength;  // of one cluster and light type

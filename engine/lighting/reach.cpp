@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lighting/reach.h"
+
+#include <cstring>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "lighting/shade_kernels.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Of the terms of a clip coordinate: what the kernels' single precision may differ by, and more.
+constexpr double margin = 1e-4;
+
+} // namespace
+
+ReachBox endlessReach()
+{
+    return {glm::dvec3(-infinity), glm::dvec3(infinity)};
+}
+
+ReachBoxes reachOf(std::span<const CndLight> lights)
+{
+    ReachBoxes out;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        out[type] = isDistant(type) ? endlessReach()
+                                    : ReachBox{glm::dvec3(infinity), glm::dvec3(-infinity)};
+    for (const CndLight& light : lights) {
+        if (isDistant(light.type))
+            continue;
+        const glm::dvec3 centre(light.position[0], light.position[1], light.position[2]);
+        ReachBox& box = out[light.type];
+        box.low = glm::min(box.low, centre - double(light.influenceRadius));
+        box.high = glm::max(box.high, centre + double(light.influenceRadius));
+    }
+    return out;
+}
+
+void widen(ReachBoxes& boxes, const ReachBoxes& more)
+{
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        boxes[type].low = glm::min(boxes[type].low, more[type].low);
+        boxes[type].high = glm::max(boxes[type].high, more[type].high);
+    }
+}
+
+bool reachesView(const ReachBox& box, const double origin[3], const CndCamera& camera)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if (box.low[axis] > box.high[axis])
+            return false;
+        if (box.low[axis] == -infinity || box.high[axis] == infinity)
+            return true;
+    }
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, camera.viewFromWorld, sizeof viewFromWorld);
+    const float* m = camera.clipFromView;
+    // Each side of the view is a half space, |x| <= w and |y| <= w: the box is behind one of them
+    // when all its corners are.
+    bool behind[4] = {true, true, true, true};
+    for (int corner = 0; corner < 8; ++corner) {
+        glm::dvec4 p(0, 0, 0, 1);
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = origin[axis] + (corner >> axis & 1 ? box.high : box.low)[axis];
+        const glm::dvec4 v = viewFromWorld * p;
+        const double w = m[11] * v.z + m[15];
+        for (int side = 0; side < 4; ++side) {
+            const int axis = side / 2;
+            const double sign = side % 2 ? -1 : 1;
+            const double along = m[5 * axis] * v[axis], shift = m[8 + axis] * v.z + m[12 + axis];
+            const double slack =
+                margin * (glm::abs(along) + glm::abs(shift) + glm::abs(w) +
+                          glm::length(glm::dvec3(v)) * glm::abs(double(m[5 * axis])));
+            behind[side] = behind[side] && w + sign * (along + shift) < -slack;
+        }
+    }
+    return !(behind[0] || behind[1] || behind[2] || behind[3]);
+}
+
+} // namespace candelabra::lighting

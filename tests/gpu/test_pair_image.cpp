@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pair image holds, pixel by pixel, what the statistics sum.
+#include "gpu/lighting_harness.h"
+
+#include <cmath>
+
+namespace candelabra::test
+{
+
+TEST_F(LightingTest, PairImageSumsToTheStatistics)
+{
+    CndCamera camera;
+    setPerspective(camera, 1.0, 1.5, 0.1);
+    const CpuGBuffer g = randomGBuffer(120, 80, camera, 0, 8);
+    std::vector<CndLight> lights = randomSpheres(g, 400, 5);
+    for (size_t i = 0; i < lights.size(); i += 3)
+        lights[i].type = CND_LIGHT_POINT; // two types are added up
+    const Images images = uploadImages(g), pairs = uploadImages(g);
+    CndError error{};
+    const auto [lighting, view] = createLighting(g, 1);
+    ASSERT_TRUE(lighting && view);
+    const CndLightSet set{sizeof set, uint32_t(lights.size()), lights.data(), {}};
+    ASSERT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+    CndLightingFrame frame = frameOf(g, images, {.countPairs = true});
+    frame.pairImage = pairs.radiance.view.get();
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        clearRadiance(cmd, images);
+        clearRadiance(cmd, pairs);
+        EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_SUCCESS) << error.message;
+    });
+    CndLightingStats stats{.structSize = sizeof stats};
+    ASSERT_EQ(cndGetLightingStats(view, 0, &stats), CND_SUCCESS);
+    const std::vector<glm::vec4> counted = readRadiance(pairs);
+    glm::dvec3 sum(0);
+    int ofClass[4] = {};
+    for (size_t i = 0; i < counted.size(); ++i) {
+        sum += glm::dvec3(counted[i]);
+        const bool surface = g.depth[i] != g.clearDepth;
+        ASSERT_EQ(counted[i].w > 0, surface) << i;
+        ASSERT_LE(counted[i].z, counted[i].x) << i; // of the listed ones
+        ++ofClass[size_t(counted[i].w)];
+    }
+    EXPECT_EQ(uint64_t(sum.x), stats.listedPairs);
+    // Statistics also count the lanes without a surface that wait in a tile.
+    EXPECT_LE(uint64_t(sum.y), stats.evaluatedPairs);
+    EXPECT_GE(sum.y, sum.z);
+    EXPECT_EQ(uint64_t(sum.z), stats.contributingPairs);
+    EXPECT_GT(ofClass[CND_PIXEL_OF_SLICE], 0);
+    EXPECT_LE(ofClass[CND_PIXEL_OF_SLICE], int(64 * stats.splitTileCount));
+    EXPECT_EQ(ofClass[CND_PIXEL_UNLISTED], 0);
+    cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+}
+
+} // namespace candelabra::test
