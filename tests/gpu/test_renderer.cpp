@@ -369,3 +369,24 @@ TEST_F(RendererTest, KeptFramesHaveTheSameBits)
         expectSame(true, true, "size");
     }
 }
+
+TEST_F(RendererTest, HeatMapsShowWhatWasCounted)
+{
+    const Scene scene = hall(400);
+    Renderer renderer(context(), scene, {.size = {320, 400}}); // room beside the legend
+    FrameOptions frame = frameOf(scene);
+    const Image plain = radiance(renderer, frame);
+    std::vector<std::vector<uint8_t>> pictures{readDisplay(context(), renderer)};
+    for (int i = 1; i < heatMapCount; ++i) {
+        frame.heatMap = HeatMap(i);
+        EXPECT_EQ(firstDifference(radiance(renderer, frame), plain), -1); // the light is the same
+        pictures.push_back(readDisplay(context(), renderer));
+        for (int k = 0; k < i; ++k)
+            EXPECT_NE(pictures[size_t(i)], pictures[size_t(k)]) << i << " " << k;
+    }
+    const CndLightingStats stats = renderer.lightingStats(0);
+    EXPECT_GT(stats.contributingPairs, 0u);
+    frame.heatMap = HeatMap::None;
+    draw(renderer, frame);
+    EXPECT_EQ(readDisplay(context(), renderer), pictures[0]);
+}

@@ -53,6 +53,7 @@ MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
 CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, FrameOptions options)
 {
     options.countPairs = true;
+    options.heatMap = HeatMap::None;
     options.culling = CND_CULLING_CLUSTERED;
     context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
     return renderer.stats(0).lighting;
@@ -159,6 +160,7 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"errorBudget", options.errorBudget},
             {"culling", cullingName(options.culling)},
             {"reuse", reuseName(options.reuse)},
+            {"debug", heatMapName(options.heatMap)},
             {"gbuffer", gbufferName(layout)},
             {"toneMap", toneMapName(options.exposure.toneMap)},
             {"lightsVisible", options.lightsVisible},

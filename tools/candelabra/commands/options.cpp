@@ -36,6 +36,11 @@ constexpr Choice<CndCulling> cullingChoices[] = {{"clustered", CND_CULLING_CLUST
                                                  {"brute", CND_CULLING_BRUTE}};
 constexpr Choice<Reuse> reuseChoices[] = {
     {"none", Reuse::None}, {"lists", Reuse::Lists}, {"lighting", Reuse::Lighting}};
+constexpr Choice<HeatMap> heatMapChoices[] = {{"none", HeatMap::None},
+                                              {"lights-per-pixel", HeatMap::LightsPerPixel},
+                                              {"evaluated", HeatMap::Evaluated},
+                                              {"efficiency", HeatMap::Efficiency},
+                                              {"class", HeatMap::Class}};
 constexpr Choice<CndGBufferLayout> gbufferChoices[] = {{"full", CND_GBUFFER_FULL},
                                                        {"compact", CND_GBUFFER_COMPACT}};
 constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NONE},
@@ -99,6 +104,10 @@ const char* cullingName(CndCulling culling)
 const char* reuseName(Reuse reuse)
 {
     return nameOf(reuse, reuseChoices);
+}
+const char* heatMapName(HeatMap heatMap)
+{
+    return nameOf(heatMap, heatMapChoices);
 }
 const char* toneMapName(CndToneMap toneMap)
 {
@@ -345,6 +354,12 @@ void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
               "same");
 }
 
+void FrameArguments::addDebugTo(CLI::App& command)
+{
+    addChoice(command, "--debug", heatMap, heatMapChoices,
+              "instead of the display image, what the lights cost each pixel, with a legend");
+}
+
 PixelSize FrameArguments::pixelSize(const Scene& scene, const Camera& chosen) const
 {
     PixelSize out{1280, 720};
@@ -394,6 +409,14 @@ CndCulling FrameArguments::cullingMode() const
 Reuse FrameArguments::reuseMode() const
 {
     return choose("--reuse", reuse, reuseChoices);
+}
+
+HeatMap FrameArguments::heatMapMode() const
+{
+    const HeatMap out = choose("--debug", heatMap, heatMapChoices);
+    if (out != HeatMap::None && cullingMode() != CND_CULLING_CLUSTERED)
+        throw UsageError("--debug is about lists: it needs --culling clustered");
+    return out;
 }
 
 std::optional<bool> FrameArguments::lightsVisibleOverride() const

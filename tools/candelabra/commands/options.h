@@ -65,7 +65,7 @@ struct FrameArguments {
     std::string size, camera;
     std::string gbuffer = "full", specular, culling = "clustered";
     std::string sampleCount = "64", errorBudget = "0";
-    std::string lightsVisible, reuse;
+    std::string lightsVisible, reuse, heatMap = "none";
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
 
     void addTo(CLI::App& command);
@@ -73,6 +73,7 @@ struct FrameArguments {
     void addViewTo(CLI::App& command);
     void addCullingTo(CLI::App& command);
     void addReuseTo(CLI::App& command, Reuse fallback);
+    void addDebugTo(CLI::App& command);
 
     // All throw UsageError for what they cannot read.
     PixelSize pixelSize(const Scene& scene, const Camera& camera) const;
@@ -82,6 +83,7 @@ struct FrameArguments {
     float budget() const;     // CndLightingFrame::errorBudget
     CndCulling cullingMode() const;
     Reuse reuseMode() const;
+    HeatMap heatMapMode() const; // with clustered culling only
     std::optional<bool> lightsVisibleOverride() const;
     CndExposureSettings exposureSettings() const;
 };
@@ -90,6 +92,7 @@ struct FrameArguments {
 const char* specularName(CndSpecularMethod method);
 const char* cullingName(CndCulling culling);
 const char* reuseName(Reuse reuse);
+const char* heatMapName(HeatMap heatMap);
 const char* toneMapName(CndToneMap toneMap);
 const char* gbufferName(CndGBufferLayout layout);
 const char* lobesName(CndLobeJoining lobes);

@@ -77,6 +77,7 @@ RenderPlan plan(const RenderArguments& a)
                       .errorBudget = a.frame.budget(),
                       .culling = a.frame.cullingMode(),
                       .reuse = a.frame.reuseMode(),
+                      .heatMap = a.frame.heatMapMode(),
                       .exposure = a.frame.exposureSettings()},
             .gbufferLayout = a.frame.gbufferLayout(),
             .counts = {.measured = unsignedOption("--frames", a.frames, 1, 1'000'000)}};
@@ -177,13 +178,15 @@ void addRenderCommand(CLI::App& app, Run& run)
                       "say which passes the last frame ran, and why it did without the others");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
+    a->frame.addDebugTo(*command);
     a->frame.addReuseTo(*command, Reuse::None);
     a->device.addTo(*command);
     command->footer("Examples:\n"
                     "  candelabra render hall --lights 16000 -o hall.png\n"
                     "  candelabra render field --moving --frames 60 -o last.png --json times.json\n"
                     "  candelabra render model.glb --lights 500 --camera 0 -o m.png -o m.exr\n"
-                    "  candelabra render hall --camera 0,2,10,0,1,0,60 --exposure 8 -o e.png");
+                    "  candelabra render hall --camera 0,2,10,0,1,0,60 --exposure 8 -o e.png\n"
+                    "  candelabra render hall --debug efficiency --explain -o heat.png");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return render(program, *a); }; });
 }

@@ -39,6 +39,7 @@ ViewerOptions optionsOf(const ViewArguments& a)
                                 .errorBudget = a.frame.budget(),
                                 .culling = a.frame.cullingMode(),
                                 .reuse = a.frame.reuseMode(),
+                                .heatMap = a.frame.heatMapMode(),
                                 .exposure = a.frame.exposureSettings()},
                       .lightsVisible = a.frame.lightsVisibleOverride(),
                       .overlay = !a.noOverlay,
@@ -90,15 +91,17 @@ void addViewCommand(CLI::App& app, Run& run)
     command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
+    a->frame.addDebugTo(*command);
     a->frame.addReuseTo(*command, Reuse::Lighting);
     a->device.addTo(*command);
-    command->footer("Keys: W A S D fly, Q E down and up, Shift fast, drag to look, wheel changes "
-                    "the speed,\n[ ] half and double the lights, - = exposure, F1 panel, Esc "
-                    "quits.\n\n"
-                    "Examples:\n"
-                    "  candelabra view hall --lights 4000 --moving\n"
-                    "  candelabra view model.glb --lights 200\n"
-                    "  xvfb-run -a candelabra view hall --frames 30 --screenshot view.png");
+    command->footer(
+        "Keys: W A S D fly, Q E down and up, Shift fast, drag to look, wheel changes "
+        "the speed,\n[ ] half and double the lights, - = exposure, H heat maps, F1 panel, Esc "
+        "quits.\n\n"
+        "Examples:\n"
+        "  candelabra view hall --lights 4000 --moving\n"
+        "  candelabra view model.glb --lights 200\n"
+        "  xvfb-run -a candelabra view hall --frames 30 --screenshot view.png");
     command->callback([&run, a] { run = [a](const ProgramContext&) { return view(*a); }; });
 }
 

@@ -73,7 +73,8 @@ struct Renderer::State {
     Environment environment; // empty: the scene has none
     std::vector<CndLight> lights;
     double lightTime = 0;
-    std::optional<Lit> drawn; // what the images hold
+    std::optional<Lit> drawn;            // what the images hold
+    std::optional<HeatMapPass> heatMaps; // once one is asked for
 
     State(const VulkanContext& c, const Scene& s, const RendererOptions& o)
         : context(c),
@@ -133,6 +134,7 @@ void Renderer::State::moveLights(double time)
 void Renderer::State::createSized()
 {
     drawn.reset();
+    heatMaps.reset();
     const gpu::Device& device = context.device();
     const auto [width, height] = options.size;
     // The old ones go first, so that both never take memory at once.
@@ -236,7 +238,10 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
     State& s = *state_;
     s.moveLights(frame.time);
     const Lit lit = s.litBy(frame);
-    const bool kept = frame.reuse == Reuse::Lighting && !frame.countPairs && s.drawn == lit;
+    const bool counts = frame.countPairs || frame.heatMap != HeatMap::None;
+    const bool kept = frame.reuse == Reuse::Lighting && !counts && s.drawn == lit;
+    if (frame.heatMap != HeatMap::None && !s.heatMaps)
+        s.heatMaps.emplace(s.context.device(), s.options.size, s.options.framesInFlight);
     const bool sameSurfaces = frame.reuse != Reuse::None && s.drawn && s.drawn->sameSurfaces(lit);
     const VkImage radiance = s.targets.radiance.image.get(), display = s.display.image.get();
     s.litSlots[slot] = !kept;
@@ -246,6 +251,11 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
         s.recordGBuffer(cmd, slot, frame);
         CndLightingFrame lighting = s.lightingFrame(slot, frame);
         lighting.surfacesUnchanged = sameSurfaces;
+        if (frame.heatMap != HeatMap::None) {
+            s.heatMaps->recordClear(cmd);
+            lighting.countPairs = VK_TRUE;
+            lighting.pairImage = s.heatMaps->pairs();
+        }
         take(s.view.record(cmd, lighting));
         s.drawn = lit;
         transition(cmd, radiance, computeWrite, computeRead);
@@ -261,6 +271,8 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
                                  .ditherSeed = frame.ditherSeed,
                                  .settings = frame.exposure}));
 
+    if (frame.heatMap != HeatMap::None)
+        s.heatMaps->record(cmd, slot, frame.heatMap, s.display.view.get());
     transition(cmd, radiance, computeRead, transferRead);
     transition(cmd, display, computeWrite, transferRead);
 }

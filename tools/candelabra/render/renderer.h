@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/heat_map.h"
 #include "candelabra/candelabra.h"
 #include "gpu/memory.h"
 #include "io/parse.h"
@@ -46,6 +47,7 @@ struct FrameOptions {
     float errorBudget = 0; // as CndLightingFrame::errorBudget
     CndCulling culling = CND_CULLING_CLUSTERED;
     Reuse reuse = Reuse::None;
+    HeatMap heatMap = HeatMap::None; // on the display image; clustered culling only
     CndExposureSettings exposure{};
 };
 

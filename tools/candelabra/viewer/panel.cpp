@@ -75,6 +75,10 @@ void drawLights(PanelState& state, const PanelFigures& figures)
     ImGui::Checkbox("show lights as emitters", &state.frame.lightsVisible);
     combo("specular", state.frame.specular, CND_SPECULAR_METHOD_COUNT, specularName);
     combo("culling", state.frame.culling, 2, cullingName);
+    if (state.frame.culling == CND_CULLING_CLUSTERED)
+        combo("heat map", state.frame.heatMap, heatMapCount, heatMapName);
+    else
+        state.frame.heatMap = HeatMap::None;
 }
 
 void drawHistogram(const CndExposureStats& stats)
@@ -150,7 +154,7 @@ void drawPanel(PanelState& state, const PanelFigures& figures)
             drawExposure(state, figures);
         ImGui::Separator();
         ImGui::TextWrapped("W A S D fly, Q E down and up, Shift fast, drag to look, wheel: %.1f "
-                           "m/s, [ ] lights, - = exposure, F1 hides this, Esc quits",
+                           "m/s, [ ] lights, - = exposure, H heat maps, F1 hides this, Esc quits",
                            figures.speed);
     }
     ImGui::End();

@@ -89,6 +89,10 @@ void Viewer::onKey(int key)
     case GLFW_KEY_F1:
         panel_.visible = !panel_.visible;
         break;
+    case GLFW_KEY_H:
+        if (panel_.frame.culling == CND_CULLING_CLUSTERED)
+            panel_.frame.heatMap = HeatMap((uint32_t(panel_.frame.heatMap) + 1) % heatMapCount);
+        break;
     case GLFW_KEY_LEFT_BRACKET:
         panel_.wantedLights = std::max(lights / 2, 1u);
         break;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the lights cost each pixel, in false colours with a legend.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/heat_map.h"
+
+layout(local_size_x = HEAT_MAP_GROUP, local_size_y = HEAT_MAP_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    HeatMapParams params;
+};
+layout(binding = HEAT_MAP_PAIRS, rgba32f) uniform readonly image2D pairImage;
+layout(binding = HEAT_MAP_DISPLAY, rgba8) uniform writeonly image2D displayImage;
+layout(scalar, binding = HEAT_MAP_COLOURS) readonly buffer Colours
+{
+    uint colours[];
+};
+
+uint colourOf(vec4 pairs)
+{
+    const uint pixelClass = uint(pairs.w);
+    if (params.which == HEAT_MAP_CLASS || pixelClass == 0u) // none: no surface
+        return HEAT_MAP_STEPS + min(pixelClass, HEAT_MAP_CLASSES - 1u);
+    const float lights = params.which == HEAT_MAP_LISTED ? pairs.x : pairs.y;
+    const float place = params.which == HEAT_MAP_EFFICIENCY
+                            ? pairs.z / max(pairs.x, 1.0)
+                            : log(1.0 + lights) / log(1.0 + HEAT_MAP_MOST);
+    return uint(clamp(place, 0.0, 1.0) * float(HEAT_MAP_STEPS - 1u) + 0.5);
+}
+
+void main()
+{
+    const uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, params.size)))
+        return;
+    uint at = colourOf(imageLoad(pairImage, ivec2(pixel)));
+    const uint fromBottom = params.size.y - 1u - pixel.y;
+    if (pixel.x < params.legendSize.x && fromBottom < params.legendSize.y)
+        at = HEAT_MAP_STEPS + HEAT_MAP_CLASSES +
+             (params.legendSize.y - 1u - fromBottom) * params.legendSize.x + pixel.x;
+    imageStore(displayImage, ivec2(pixel), unpackUnorm4x8(colours[at]));
+}
