@@ -34,9 +34,10 @@ bool takeTile(out uint tile, out uvec2 pixel)
     pixel = uvec2(0u);
     if (at >= work.count)
         return false;
-    // Both halves of the list by turns: some devices deal out groups in equal shares, and tiles that
-    // take longer come last.
-    tile = workTiles[(at & 1u) * ((work.count + 1u) / 2u) + (at >> 1u)];
+    // Every second tile, then the others: some devices deal out groups in equal shares from the front,
+    // and tiles that take longer come last.
+    const uint firsts = (work.count + 1u) / 2u;
+    tile = workTiles[at < firsts ? 2u * at : 2u * (at - firsts) + 1u];
     pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
             pixelOfLane();
     return all(lessThan(pixel, params.size));
