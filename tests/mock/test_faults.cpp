@@ -305,7 +305,7 @@ TEST(Faults, EveryVulkanCallFailsInTurn)
 TEST(Faults, TheHeapFailsInTurn)
 {
     uint64_t total = 0;
-    {
+    for (int i = 0; i < 2; ++i) { // the first time also makes what lasts as long as the program
         Host h;
         const HostAllocations allocations;
         for (const Step& step : steps())
