@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bench/light_kernels.h"
+#include "io/statistics.h"
 #include "reference/render.h"
 #include "render/camera.h"
 #include "render/readback.h"
@@ -15,13 +16,6 @@ namespace candelabra::app
 {
 namespace
 {
-
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    const size_t n = values.size();
-    return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 struct Variants {
     std::vector<FrameTime> times;
@@ -70,7 +64,7 @@ Variants runVariants(const VulkanContext& context, Renderer& renderer,
             ratios.push_back(out.lightingMs[0][round] > 0
                                  ? out.lightingMs[i][round] / out.lightingMs[0][round]
                                  : 0);
-        out.times.push_back({median(out.lightingMs[i]), median(shading[i]), median(ratios)});
+        out.times.push_back({medianOf(out.lightingMs[i]), medianOf(shading[i]), medianOf(ratios)});
     }
     return out;
 }
@@ -204,7 +198,7 @@ BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSetting
             ratios.push_back(run.lightingMs[full][round] > 0
                                  ? run.lightingMs[i][round] / run.lightingMs[full][round]
                                  : 0);
-        point.ratioToFull = median(ratios);
+        point.ratioToFull = medianOf(ratios);
         out.points.push_back(point);
     }
     return out;

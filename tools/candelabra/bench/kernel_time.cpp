@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "candelabra_bench_shaders.h"
+#include "io/statistics.h"
 #include "lighting/shade_kernels.h"
 #include "scene/random.h"
 
@@ -144,15 +145,6 @@ private:
     std::map<std::pair<uint32_t, EvaluationClass>, DeviceLights> lights_;
 };
 
-double median(std::vector<double> values)
-{
-    if (values.empty())
-        return 0;
-    std::sort(values.begin(), values.end());
-    const size_t n = values.size();
-    return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
 } // namespace
 
 const char* className(EvaluationClass c)
@@ -187,13 +179,13 @@ std::vector<VariantTime> timeVariants(const VulkanContext& context,
     }
     std::vector<VariantTime> out;
     for (size_t i = 0; i < variants.size(); ++i) {
-        VariantTime t{.medianNs = median(ns[i]),
+        VariantTime t{.medianNs = medianOf(ns[i]),
                       .minNs = *std::min_element(ns[i].begin(), ns[i].end())};
         if (baseline[i] >= 0) {
             std::vector<double> ratios;
             for (uint32_t round = 0; round < settings.rounds; ++round)
                 ratios.push_back(ns[i][round] / ns[size_t(baseline[i])][round]);
-            t.ratio = median(ratios);
+            t.ratio = medianOf(ratios);
         }
         out.push_back(t);
     }

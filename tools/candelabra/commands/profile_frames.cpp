@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "commands/measure.h"
+#include "io/statistics.h"
 #include "render/frame_ring.h"
 
 namespace candelabra::app
@@ -23,20 +24,14 @@ double msSince(Clock::time_point start)
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-double median(std::vector<double> values)
-{
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
-
 // Whether the last warmUpWindow values say the same as those before.
 bool isStable(const std::vector<double>& ms)
 {
     if (ms.size() < 2 * warmUpWindow)
         return false;
     const auto middle = ms.end() - warmUpWindow;
-    const double before = median({middle - warmUpWindow, middle}), now = median({middle, ms.end()});
+    const double before = medianOf({middle - warmUpWindow, middle}),
+                 now = medianOf({middle, ms.end()});
     return std::abs(now - before) <= stable * before;
 }
 

@@ -71,7 +71,7 @@ const char* verdict(const PairedRatio& ratio)
 std::string seriesTable(const FrameSeries& series)
 {
     Table table({"GPU pass", "min ms", "median ms", "p95 ms", "p99 ms", "variation", "share"});
-    const double gpu = spreadOf(series.gpuMs).median;
+    const double gpu = medianOf(series.gpuMs);
     const auto add = [&](const std::string& name, const std::vector<double>& ms, bool ofGpu) {
         const Spread s = spreadOf(ms);
         table.add({name, threeDigits(s.min), threeDigits(s.median), threeDigits(s.p95),
@@ -91,8 +91,9 @@ std::string comparisonTable(const FrameSeries& a, const FrameSeries& b)
     Table table({"GPU pass", "A median ms", "B median ms", "B / A", "95% interval", "B is"});
     forBoth(a, b, [&](const std::string& name, const auto& aMs, const auto& bMs) {
         const PairedRatio r = pairedRatio(aMs, bMs);
-        const bool both = spreadOf(aMs).median > 0 && spreadOf(bMs).median > 0;
-        table.add({name, threeDigits(spreadOf(aMs).median), threeDigits(spreadOf(bMs).median),
+        const double aMedian = medianOf(aMs), bMedian = medianOf(bMs);
+        const bool both = aMedian > 0 && bMedian > 0;
+        table.add({name, threeDigits(aMedian), threeDigits(bMedian),
                    both ? fmt::format("{:.3f}", r.median) : "-",
                    both ? fmt::format("{:.3f} .. {:.3f}", r.low, r.high) : "-",
                    both ? verdict(r) : "-"});
@@ -120,8 +121,8 @@ Json comparisonJson(const FrameSeries& a, const FrameSeries& b)
     forBoth(a, b, [&](const std::string& name, const auto& aMs, const auto& bMs) {
         const PairedRatio r = pairedRatio(aMs, bMs);
         out.push_back({{"name", name},
-                       {"aMedianMs", spreadOf(aMs).median},
-                       {"bMedianMs", spreadOf(bMs).median},
+                       {"aMedianMs", medianOf(aMs)},
+                       {"bMedianMs", medianOf(bMs)},
                        {"ratio", r.median},
                        {"low", r.low},
                        {"high", r.high},

@@ -11,7 +11,7 @@ namespace candelabra::app
 namespace
 {
 
-double medianOf(const std::vector<double>& sorted)
+double middleOf(const std::vector<double>& sorted)
 {
     const size_t n = sorted.size();
     return n % 2 ? sorted[n / 2] : (sorted[n / 2 - 1] + sorted[n / 2]) / 2;
@@ -39,6 +39,12 @@ size_t intervalRank(size_t n)
 
 } // namespace
 
+double medianOf(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    return middleOf(values);
+}
+
 Spread spreadOf(std::vector<double> values)
 {
     std::sort(values.begin(), values.end());
@@ -49,7 +55,7 @@ Spread spreadOf(std::vector<double> values)
         squares += (value - mean) * (value - mean);
     const double deviation = n > 1 ? std::sqrt(squares / (n - 1)) : 0;
     return {.min = values.front(),
-            .median = medianOf(values),
+            .median = middleOf(values),
             .p95 = rank(values, 0.95),
             .p99 = rank(values, 0.99),
             .cv = mean > 0 ? deviation / mean : 0};
@@ -69,8 +75,8 @@ PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b)
     const size_t k = n <= 1000 ? intervalRank(n)
                                : size_t(double(n) / 2 - 0.98 * std::sqrt(double(n))); // 1.96 / 2
     if (n < minPairs || !k)
-        return {medianOf(ratios), 0, std::numeric_limits<double>::infinity()};
-    return {medianOf(ratios), ratios[k - 1], ratios[n - k]};
+        return {middleOf(ratios), 0, std::numeric_limits<double>::infinity()};
+    return {middleOf(ratios), ratios[k - 1], ratios[n - k]};
 }
 
 } // namespace candelabra::app

@@ -14,7 +14,8 @@ struct Spread {
     double cv = 0; // coefficient of variation: standard deviation over mean; 0 for one value
 };
 
-// `values` may not be empty.
+// Of both: `values` may not be empty.
+double medianOf(std::vector<double> values);
 Spread spreadOf(std::vector<double> values);
 
 // Of paired measurements: median of b / a, and an interval that holds the true median with at least

@@ -2,7 +2,8 @@
 #include "render/pass_times.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "io/statistics.h"
 
 namespace candelabra::app
 {
@@ -13,13 +14,8 @@ PassSummary summarise(const std::string& name, std::vector<double> ms)
 {
     if (ms.empty())
         return {.name = name};
-    std::sort(ms.begin(), ms.end());
-    const size_t n = ms.size();
-    const size_t rank = size_t(std::ceil(0.95 * double(n)));
-    return {.name = name,
-            .minMs = ms.front(),
-            .medianMs = n % 2 ? ms[n / 2] : (ms[n / 2 - 1] + ms[n / 2]) / 2,
-            .p95Ms = ms[rank - 1]};
+    const Spread s = spreadOf(std::move(ms));
+    return {.name = name, .minMs = s.min, .medianMs = s.median, .p95Ms = s.p95};
 }
 
 } // namespace
