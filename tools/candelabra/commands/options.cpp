@@ -246,6 +246,21 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
     lobes.addTo(command);
 }
 
+void SceneArguments::addLightsTo(CLI::App& command)
+{
+    command
+        .add_option("--lights", lightsOption,
+                    "hall, field, fence: number of sphere lights (4000); files: extra random ones")
+        ->type_name("N");
+}
+
+std::optional<uint32_t> SceneArguments::lightCount() const
+{
+    if (lightsOption.empty())
+        return {};
+    return unsignedOption("--lights", lightsOption, 0, maxLights);
+}
+
 SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
 {
     SceneOptions out;

@@ -46,7 +46,7 @@ struct LobeArguments {
 // SCENE and what shapes it. The number of lights is the command's: one for `render`, a list for
 // `stress`.
 struct SceneArguments {
-    std::string scene;
+    std::string scene, lightsOption;
     std::string seed, overlaps, punctualRadius, sunRadius;
     std::string environment, environmentRotation, environmentScale;
     LobeArguments lobes;
@@ -54,6 +54,9 @@ struct SceneArguments {
 
     // With a `fallback` the scene may be left out and named with --scene as well.
     void addTo(CLI::App& command, const std::string& fallback = "");
+    // For commands that draw one number of lights.
+    void addLightsTo(CLI::App& command);
+    std::optional<uint32_t> lightCount() const; // empty: not given. Throws UsageError
     // Throws UsageError.
     SceneOptions options(std::optional<uint32_t> lights) const;
     // Warns on stderr of options given that change nothing about this scene.

@@ -24,7 +24,7 @@ struct ProfileArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string lights, frames = "60", path = "still", json, csv;
+    std::string frames = "60", path = "still", json, csv;
     std::vector<std::string> ab;
 };
 
@@ -87,10 +87,7 @@ ProfilePlan plan(const ProfileArguments& a)
             requireWritable(option, *file);
     if (!a.json.empty() && a.json == a.csv)
         throw UsageError("--json " + a.json + ": --csv writes there");
-    std::optional<uint32_t> lights;
-    if (!a.lights.empty())
-        lights = unsignedOption("--lights", a.lights, 0, maxLights);
-    ProfilePlan p{.scene = a.scene.options(lights),
+    ProfilePlan p{.scene = a.scene.options(a.scene.lightCount()),
                   .gbufferLayout = a.frame.gbufferLayout(),
                   .settings = {.path = cameraPath(a.path),
                                .rounds = unsignedOption("--frames", a.frames, 1, 1'000'000)}};
@@ -197,10 +194,7 @@ void addProfileCommand(CLI::App& app, Run& run)
         app.add_subcommand("profile", "Time every pass of a frame, or compare two ways to draw it");
     const auto a = std::make_shared<ProfileArguments>();
     a->scene.addTo(*command);
-    command
-        ->add_option("--lights", a->lights,
-                     "hall, field, fence: number of sphere lights (4000); files: extra random ones")
-        ->type_name("N");
+    a->scene.addLightsTo(*command);
     command
         ->add_option("--frames", a->frames,
                      "frames measured, after as many as it takes until their times are stable "

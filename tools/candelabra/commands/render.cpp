@@ -24,7 +24,7 @@ struct RenderArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string lights, frames = "1", time = "0", json;
+    std::string frames = "1", time = "0", json;
     bool explain = false;
     std::vector<std::string> outputs;
 };
@@ -67,10 +67,7 @@ RenderPlan plan(const RenderArguments& a)
         throw UsageError("render: nothing to write; give -o FILE (.png, .exr, .hdr, .pfm), "
                          "--json FILE or --explain");
     requireOutputs(a);
-    std::optional<uint32_t> lights;
-    if (!a.lights.empty())
-        lights = unsignedOption("--lights", a.lights, 0, maxLights);
-    return {.scene = a.scene.options(lights),
+    return {.scene = a.scene.options(a.scene.lightCount()),
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
                       .specular = a.frame.specularMethod(),
                       .sampleCount = a.frame.samples(),
@@ -153,10 +150,7 @@ void addRenderCommand(CLI::App& app, Run& run)
     CLI::App* command = app.add_subcommand("render", "Render a scene into image files");
     const auto a = std::make_shared<RenderArguments>();
     a->scene.addTo(*command);
-    command
-        ->add_option("--lights", a->lights,
-                     "hall, field, fence: number of sphere lights (4000); files: extra random ones")
-        ->type_name("N");
+    a->scene.addLightsTo(*command);
     command
         ->add_option("-o,--output", a->outputs,
                      "image file: .png for display, .exr, .hdr or .pfm for linear scene "

@@ -21,17 +21,14 @@ struct ViewArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string lights, frames = "0", screenshot;
+    std::string frames = "0", screenshot;
     bool noOverlay = false;
 };
 
 ViewerOptions optionsOf(const ViewArguments& a)
 {
-    std::optional<uint32_t> lights;
-    if (!a.lights.empty())
-        lights = unsignedOption("--lights", a.lights, 0, maxLights);
     ViewerOptions out{.scene = a.scene.scene,
-                      .sceneOptions = a.scene.options(lights),
+                      .sceneOptions = a.scene.options(a.scene.lightCount()),
                       .camera = a.frame.camera,
                       .gbufferLayout = a.frame.gbufferLayout(),
                       .frame = {.specular = a.frame.specularMethod(),
@@ -78,10 +75,7 @@ void addViewCommand(CLI::App& app, Run& run)
     CLI::App* command = app.add_subcommand("view", "Fly through a scene in a window");
     const auto a = std::make_shared<ViewArguments>();
     a->scene.addTo(*command, "hall");
-    command
-        ->add_option("--lights", a->lights,
-                     "hall, field, fence: number of sphere lights (4000); files: extra random ones")
-        ->type_name("N");
+    a->scene.addLightsTo(*command);
     command->add_option("--frames", a->frames, "stop after N frames, 1/60 s apart; 0: run on")
         ->type_name("N")
         ->capture_default_str();
