@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "candelabra/candelabra.hpp"
+#include "commands/choice.h"
+#include "commands/options.h"
+#include "shared/specular_methods.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr Choice<CndSpecularMethod> specularChoices[] = {
+#define X(id, NAME, name) {name, CND_SPECULAR_##NAME},
+    CND_SPECULAR_METHODS(X)
+#undef X
+};
+constexpr Choice<CndCulling> cullingChoices[] = {{"clustered", CND_CULLING_CLUSTERED},
+                                                 {"brute", CND_CULLING_BRUTE}};
+constexpr Choice<Reuse> reuseChoices[] = {
+    {"none", Reuse::None}, {"lists", Reuse::Lists}, {"lighting", Reuse::Lighting}};
+constexpr Choice<HeatMap> heatMapChoices[] = {{"none", HeatMap::None},
+                                              {"lights-per-pixel", HeatMap::LightsPerPixel},
+                                              {"evaluated", HeatMap::Evaluated},
+                                              {"efficiency", HeatMap::Efficiency},
+                                              {"class", HeatMap::Class}};
+constexpr Choice<CndGBufferLayout> gbufferChoices[] = {{"full", CND_GBUFFER_FULL},
+                                                       {"compact", CND_GBUFFER_COMPACT}};
+constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NONE},
+                                                 {"reinhard", CND_TONEMAP_REINHARD},
+                                                 {"aces", CND_TONEMAP_ACES},
+                                                 {"neutral", CND_TONEMAP_PBR_NEUTRAL},
+                                                 {"agx", CND_TONEMAP_AGX}};
+constexpr Choice<CndMetering> meteringChoices[] = {{"average", CND_METERING_AVERAGE},
+                                                   {"centre", CND_METERING_CENTRE_WEIGHTED}};
+constexpr Choice<bool> onOffChoices[] = {{"on", true}, {"off", false}};
+
+} // namespace
+
+const char* specularName(CndSpecularMethod method)
+{
+    return nameOf(method, specularChoices);
+}
+const char* cullingName(CndCulling culling)
+{
+    return nameOf(culling, cullingChoices);
+}
+const char* reuseName(Reuse reuse)
+{
+    return nameOf(reuse, reuseChoices);
+}
+const char* heatMapName(HeatMap heatMap)
+{
+    return nameOf(heatMap, heatMapChoices);
+}
+const char* toneMapName(CndToneMap toneMap)
+{
+    return nameOf(toneMap, toneMapChoices);
+}
+const char* gbufferName(CndGBufferLayout layout)
+{
+    return nameOf(layout, gbufferChoices);
+}
+
+void FrameArguments::addViewTo(CLI::App& command)
+{
+    command.add_option("--size", size, "image size in pixels; default: the scene's, else 1280x720")
+        ->type_name("WxH");
+    command
+        .add_option(
+            "--camera", camera,
+            "camera of the scene by name (hall: nave, gallery; field: terrace, overview; fence: "
+            "path, above; showcase: "
+            "front, above) or index, or position and target in metres and vertical field of view "
+            "in degrees; default: the first")
+        ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
+    addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
+              "draw area lights as emitters (default: as the scene says)");
+}
+
+void FrameArguments::addTo(CLI::App& command)
+{
+    specular = specularName(CND_SPECULAR_CONIC);
+    addViewTo(command);
+    command.add_option("--exposure", exposure, "auto, or a fixed EV100")
+        ->type_name("auto|EV")
+        ->capture_default_str();
+    command.add_option("--compensation", compensation, "brighter by this many EV")
+        ->type_name("EV")
+        ->capture_default_str();
+    addChoice(command, "--metering", metering, meteringChoices, "weights of automatic exposure");
+    addChoice(command, "--tonemap", toneMap, toneMapChoices, "tone map of display images");
+    addChoice(command, "--specular", specular, specularChoices, "specular method");
+    command
+        .add_option("--samples", sampleCount,
+                    "samples per light and pixel of --specular sampled (1..4096)")
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option("--error-budget", errorBudget,
+                    "evaluate lights as cheaply as a bound of the error allows, as a share of the "
+                    "highest response (0.01: 1%); 0: every light in full")
+        ->type_name("E")
+        ->capture_default_str();
+    addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "G-buffer layout");
+}
+
+void FrameArguments::addCullingTo(CLI::App& command)
+{
+    addChoice(command, "--culling", culling, cullingChoices, "which lights a pixel looks at");
+}
+
+void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
+{
+    reuse = reuseName(fallback);
+    addChoice(command, "--reuse", reuse, reuseChoices,
+              "what a frame keeps of the one before where nothing has changed; the image is the "
+              "same");
+}
+
+void FrameArguments::addDebugTo(CLI::App& command)
+{
+    addChoice(command, "--debug", heatMap, heatMapChoices,
+              "instead of the display image, what the lights cost each pixel, with a legend");
+}
+
+PixelSize FrameArguments::pixelSize(const Scene& scene, const Camera& chosen) const
+{
+    PixelSize out{1280, 720};
+    if (!size.empty()) {
+        const auto parsed = parseSize(size);
+        if (!parsed)
+            throw UsageError("--size \"" + size + "\": expected WIDTHxHEIGHT such as 1280x720");
+        out = *parsed;
+    } else if (scene.resolution) {
+        out = {scene.resolution->x, scene.resolution->y};
+    } else if (chosen.aspect) {
+        // Square pixels at the default height.
+        const double width = std::round(out.height * *chosen.aspect);
+        out.width = uint32_t(std::clamp(width, 1.0, double(maxSide)));
+    }
+    if (out.width > maxSide || out.height > maxSide)
+        throw UsageError(fmt::format("image size {}x{}: at most {} pixels per side", out.width,
+                                     out.height, maxSide));
+    return out;
+}
+
+CndGBufferLayout FrameArguments::gbufferLayout() const
+{
+    return choose("--gbuffer", gbuffer, gbufferChoices);
+}
+
+CndSpecularMethod FrameArguments::specularMethod() const
+{
+    return choose("--specular", specular, specularChoices);
+}
+
+uint32_t FrameArguments::samples() const
+{
+    return unsignedOption("--samples", sampleCount, 1, 4096);
+}
+
+float FrameArguments::budget() const
+{
+    return float(numberOption("--error-budget", errorBudget, 0, 1));
+}
+
+CndCulling FrameArguments::cullingMode() const
+{
+    return choose("--culling", culling, cullingChoices);
+}
+
+Reuse FrameArguments::reuseMode() const
+{
+    return choose("--reuse", reuse, reuseChoices);
+}
+
+HeatMap FrameArguments::heatMapMode() const
+{
+    const HeatMap out = choose("--debug", heatMap, heatMapChoices);
+    if (out != HeatMap::None && cullingMode() != CND_CULLING_CLUSTERED)
+        throw UsageError("--debug is about lists: it needs --culling clustered");
+    return out;
+}
+
+std::optional<bool> FrameArguments::lightsVisibleOverride() const
+{
+    if (lightsVisible.empty())
+        return std::nullopt;
+    return choose("--lights-visible", lightsVisible, onOffChoices);
+}
+
+CndExposureSettings FrameArguments::exposureSettings() const
+{
+    CndExposureSettings out = defaultExposureSettings();
+    if (exposure != "auto") {
+        const auto ev = parseNumber(exposure);
+        if (!ev || std::abs(*ev) > 40)
+            throw UsageError("--exposure \"" + exposure +
+                             "\": must be auto or an EV100 from -40 to 40");
+        out.manual = VK_TRUE;
+        out.manualEv100 = float(*ev);
+    }
+    out.compensation = float(numberOption("--compensation", compensation, -20, 20));
+    out.metering = choose("--metering", metering, meteringChoices);
+    out.toneMap = choose("--tonemap", toneMap, toneMapChoices);
+    return out;
+}
+
+} // namespace candelabra::app
