@@ -307,6 +307,11 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     return result;
 }
 
+bool sameBits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    return a.size() == b.size() && !std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]);
+}
+
 double maxRelativeDifference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
 {
     double largest = 0, peak = 0;

@@ -113,6 +113,12 @@ protected:
     CndLightingFrame frameOf(const CpuGBuffer& g, const Images& images, const RunOptions& options);
 };
 
+bool sameBits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b);
+inline bool sameBits(const LightingResult& a, const LightingResult& b)
+{
+    return sameBits(a.radiance, b.radiance);
+}
+
 // Largest |a - b| over all channels, divided by the largest value of b.
 double maxRelativeDifference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b);
 

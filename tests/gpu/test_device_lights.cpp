@@ -23,11 +23,6 @@ CndDeviceLight onDevice(const CndLight& light)
     return out;
 }
 
-bool sameBits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
-{
-    return a.size() == b.size() && !std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]);
-}
-
 class DeviceLightsTest : public LightingTest
 {
 protected:

@@ -38,13 +38,6 @@ void expectPlanOfWhatRan(const CndLightingStats& stats)
             << stats.kernelTimes[i].name;
 }
 
-bool sameBits(const LightingResult& a, const LightingResult& b)
-{
-    return a.radiance.size() == b.radiance.size() &&
-           std::memcmp(a.radiance.data(), b.radiance.data(),
-                       a.radiance.size() * sizeof a.radiance[0]) == 0;
-}
-
 CpuGBuffer surfaces(uint32_t seed)
 {
     CndCamera camera;
