@@ -78,13 +78,26 @@ DeviceLights::DeviceLights(const gpu::Device& device)
 {
 }
 
-gpu::Bindings DeviceLights::prepare(const CndDeviceLights& lights, bool newRecords) const
+std::shared_ptr<gpu::Bindings> DeviceLights::prepare(const CndDeviceLights& lights,
+                                                     bool newRecords) const
 {
-    const bool same = bindings_.layout() && !newRecords && lights.buffer == lights_.buffer &&
+    const bool same = bindings_ && !newRecords && lights.buffer == lights_.buffer &&
                       lights.offset == lights_.offset && lights.maxCount == lights_.maxCount &&
                       lights.countBuffer == lights_.countBuffer &&
                       lights.countOffset == lights_.countOffset;
-    return same ? gpu::Bindings() : kernel_.createBindings(1);
+    return same ? nullptr : std::make_shared<gpu::Bindings>(kernel_.createBindings(1));
+}
+
+void DeviceLights::take(const CndDeviceLights& lights, uint32_t firstRecord,
+                        const gpu::Buffer& records, std::shared_ptr<gpu::Bindings> bindings)
+{
+    if (bindings) {
+        bindings_ = std::move(bindings);
+        write(lights, records);
+    }
+    lights_ = lights;
+    firstRecord_ = firstRecord;
+    present_ = true;
 }
 
 void DeviceLights::write(const CndDeviceLights& lights, const gpu::Buffer& records) const
@@ -99,13 +112,18 @@ void DeviceLights::write(const CndDeviceLights& lights, const gpu::Buffer& recor
                  .buffer = lights.countBuffer,
                  .offset = lights.countOffset,
                  .range = sizeof(uint32_t)};
-    bindings_.write(0, {from, count, gpu::Binding::of(gpu::DEVICE_LIGHTS_RECORDS, records),
-                        gpu::Binding::of(gpu::DEVICE_LIGHTS_COUNTS, counts_)});
+    bindings_->write(0, {from, count, gpu::Binding::of(gpu::DEVICE_LIGHTS_RECORDS, records),
+                         gpu::Binding::of(gpu::DEVICE_LIGHTS_COUNTS, counts_)});
+}
+
+void DeviceLights::recordReset(const gpu::Frame& frame) const noexcept
+{
+    frame.device.CmdFillBuffer(frame.cmd, counts_.get(), 0, VK_WHOLE_SIZE, 0);
 }
 
 void DeviceLights::record(const gpu::Frame& frame) const noexcept
 {
-    kernel_.dispatch(frame, bindings_.set(0),
+    kernel_.dispatch(frame, bindings_->set(0),
                      {.type = lights_.type,
                       .firstRecord = firstRecord_,
                       .maxCount = lights_.maxCount,

@@ -2,6 +2,8 @@
 // The part of a light set that the host left on the device (CndDeviceLights).
 #pragma once
 
+#include <memory>
+
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
 #include "lighting/light_order.h"
@@ -23,25 +25,16 @@ public:
 
     // Descriptors to be given to take(); none when those of the last call still hold, which they do
     // for the same buffers and records.
-    gpu::Bindings prepare(const CndDeviceLights& lights, bool newRecords) const;
-    // Throws nothing. `retire` keeps what earlier recordings use.
-    template <typename Retire>
+    std::shared_ptr<gpu::Bindings> prepare(const CndDeviceLights& lights, bool newRecords) const;
+    // Those of the last call, for the caller to keep while recordings use them.
+    const std::shared_ptr<gpu::Bindings>& bindings() const { return bindings_; }
     void take(const CndDeviceLights& lights, uint32_t firstRecord, const gpu::Buffer& records,
-              gpu::Bindings bindings, Retire&& retire)
-    {
-        if (bindings.layout()) {
-            retire(bindings_);
-            bindings_ = std::move(bindings);
-            write(lights, records);
-        }
-        lights_ = lights;
-        firstRecord_ = firstRecord;
-        present_ = true;
-    }
+              std::shared_ptr<gpu::Bindings> bindings);
     void takeNone() { present_ = false; }
     bool present() const { return present_; }
 
-    // Fills the records of the device's lights; counts are cleared before, by the caller.
+    // Clears the counts; then, behind a barrier, fills the records of the device's lights.
+    void recordReset(const gpu::Frame& frame) const noexcept;
     void record(const gpu::Frame& frame) const noexcept;
     const gpu::Buffer& counts() const { return counts_; } // gpu::DeviceLightCounts
 
@@ -50,7 +43,7 @@ private:
 
     gpu::Kernel<gpu::DeviceLightsParams> kernel_;
     gpu::Buffer counts_;
-    gpu::Bindings bindings_;
+    std::shared_ptr<gpu::Bindings> bindings_;
     CndDeviceLights lights_{}; // of bindings_
     uint32_t firstRecord_ = 0;
     bool present_ = false;

@@ -131,18 +131,23 @@ void Lighting::setLights(const CndLightSet& set)
         if (counts[type])
             kernels_.shade.require(type);
     freeRetired();
-    gpu::Bindings bindings;
+    std::vector<uint32_t> recordOf = recordsOf(lights, counts);
+    std::vector<VkBufferCopy> regions(set.count ? 1 : 0,
+                                      {.size = total * sizeof(gpu::LightRecord)});
+    std::shared_ptr<gpu::Bindings> bindings;
     if (device)
         bindings = deviceLights_.prepare(*device, total > lightCapacity_);
-    grow(uint32_t(total), counts);
+    if (bindings) // to be replaced
+        retired_.push_back({deviceLights_.bindings(), recordings_});
+    grow(uint32_t(total), counts); // the last that can fail
     Staging& staging = freeStaging();
-    recordOf_ = packLights(lights, counts, staging.buffer.as<gpu::LightRecord>());
-    staging.regions.assign(set.count ? 1 : 0, {.size = total * sizeof(gpu::LightRecord)});
     if (device)
-        deviceLights_.take(*device, deviceRecord, records_, std::move(bindings),
-                           [&](gpu::Bindings& old) { replace(old, gpu::Bindings()); });
+        deviceLights_.take(*device, deviceRecord, records_, std::move(bindings));
     else
         deviceLights_.takeNone();
+    packLights(lights, recordOf, staging.buffer.as<gpu::LightRecord>());
+    recordOf_ = std::move(recordOf);
+    staging.regions = std::move(regions);
     pending_ = &staging;
     typeCounts_ = counts;
     lightCount_ = uint32_t(total);
@@ -199,9 +204,8 @@ void Lighting::updateLights(uint32_t first, std::span<const CndLight> lights)
         else
             regions.push_back({at, at, bytes});
     }
-    const std::span records = staging.buffer.as<gpu::LightRecord>();
-    for (size_t i = 0; i < lights.size(); ++i)
-        records[recordOf_[first + i]] = packLight(lights[i]);
+    packLights(lights, std::span(recordOf_).subspan(first, lights.size()),
+               staging.buffer.as<gpu::LightRecord>());
     widen(reach_, reachOf(lights)); // what was replaced stays in the boxes
     staging.regions = std::move(regions);
     pending_ = &staging;
@@ -235,7 +239,7 @@ void Lighting::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcep
             device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records_.get(),
                                   uint32_t(pending_->regions.size()), pending_->regions.data());
         if (deviceLightsPending_) {
-            device_.CmdFillBuffer(frame.cmd, deviceLights_.counts().get(), 0, VK_WHOLE_SIZE, 0);
+            deviceLights_.recordReset(frame);
             frame.barrier();
             deviceLights_.record(frame);
         }

@@ -58,7 +58,8 @@ public:
     template <typename T>
     void replace(T& old, T&& with)
     {
-        retired_.push_back({std::make_shared<T>(std::move(old)), recordings_});
+        retired_.push_back({nullptr, recordings_}); // first: when it fails, `old` may be in use
+        retired_.back().object = std::make_shared<T>(std::move(old));
         old = std::move(with);
     }
     // Numbers recordings of all views from 1.

@@ -155,9 +155,7 @@ glm::vec3 unit(const float (&v)[3])
     return d / std::hypot(d.x, d.y, d.z);
 }
 
-} // namespace
-
-gpu::LightRecord packLight(const CndLight& light)
+gpu::LightRecord pack(const CndLight& light)
 {
     gpu::LightRecord r{};
     r.type = light.type;
@@ -192,6 +190,8 @@ gpu::LightRecord packLight(const CndLight& light)
     return r;
 }
 
+} // namespace
+
 void validateLights(std::span<const CndLight> lights)
 {
     for (size_t i = 0; i < lights.size(); ++i)
@@ -207,17 +207,21 @@ LightTypeCounts countTypes(std::span<const CndLight> lights)
     return counts;
 }
 
-std::vector<uint32_t> packLights(std::span<const CndLight> lights, const LightTypeCounts& counts,
-                                 std::span<gpu::LightRecord> out)
+std::vector<uint32_t> recordsOf(std::span<const CndLight> lights, const LightTypeCounts& counts)
 {
-    std::vector<uint32_t> recordOf(lights.size());
+    std::vector<uint32_t> out(lights.size());
     LightTypeCounts next{};
     std::exclusive_scan(counts.begin(), counts.end(), next.begin(), 0u);
-    for (size_t i = 0; i < lights.size(); ++i) {
-        recordOf[i] = next[lights[i].type]++;
-        out[recordOf[i]] = packLight(lights[i]);
-    }
-    return recordOf;
+    for (size_t i = 0; i < lights.size(); ++i)
+        out[i] = next[lights[i].type]++;
+    return out;
+}
+
+void packLights(std::span<const CndLight> lights, std::span<const uint32_t> recordOf,
+                std::span<gpu::LightRecord> records) noexcept
+{
+    for (size_t i = 0; i < lights.size(); ++i)
+        records[recordOf[i]] = pack(lights[i]);
 }
 
 } // namespace candelabra::lighting

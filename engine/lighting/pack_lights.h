@@ -20,12 +20,12 @@ void validateLights(std::span<const CndLight> lights);
 // Of valid lights.
 LightTypeCounts countTypes(std::span<const CndLight> lights);
 
-// Packs valid lights by type, in their order within a type. `counts`: room for each type, at least
-// what there is; `out` has as many elements.
-// Returns which element each light became.
-std::vector<uint32_t> packLights(std::span<const CndLight> lights, const LightTypeCounts& counts,
-                                 std::span<gpu::LightRecord> out);
-// One valid light.
-gpu::LightRecord packLight(const CndLight& light);
+// Which record each of these valid lights becomes: by type, in their order within a type. `counts`:
+// room for each type, at least what there is.
+std::vector<uint32_t> recordsOf(std::span<const CndLight> lights, const LightTypeCounts& counts);
+
+// Valid lights into their records, as many numbers as lights.
+void packLights(std::span<const CndLight> lights, std::span<const uint32_t> recordOf,
+                std::span<gpu::LightRecord> records) noexcept;
 
 } // namespace candelabra::lighting

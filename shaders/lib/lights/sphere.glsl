@@ -45,9 +45,10 @@ float crossingFormFactor(float c, float s2)
 // Closed form: Snyder 1996 (area light sources), Lagarde and de Rousiers 2014, section 4.7.2.
 float sphereFormFactor(float c, float s2)
 {
-    // No branch: a masked one is always paid on llvmpipe, and its callers have few others.
+    // No branch: on llvmpipe it cost more than the terms that it skips (DECISIONS 24).
     const float crossing = crossingFormFactor(c, s2);
-    return c * c >= s2 ? max(c, 0.0) * s2 : crossing; // else wholly above or wholly below the horizon
+    const bool whole = c * c >= s2; // above the horizon or below it
+    return whole ? max(c, 0.0) * s2 : crossing;
 }
 
 #endif

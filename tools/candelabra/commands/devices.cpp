@@ -14,7 +14,7 @@ namespace candelabra::app
 namespace
 {
 
-Json toJson(const DeviceInfo& device)
+Json deviceJson(const DeviceInfo& device)
 {
     return {{"index", device.index},
             {"name", device.name},
@@ -32,7 +32,7 @@ int listDevices(bool json)
     if (json) {
         Json out = Json::array();
         for (const DeviceInfo& device : devices)
-            out.push_back(toJson(device));
+            out.push_back(deviceJson(device));
         writeJson("-", out);
         return exitOk;
     }
