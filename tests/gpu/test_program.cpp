@@ -236,6 +236,21 @@ TEST_F(ProgramTest, ProfileTellsADifferenceFromNone)
     EXPECT_TRUE(found);
 }
 
+TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
+{
+    for (int i = 0; i < 2; ++i)
+        ASSERT_EQ(run("profile hall --lights 50 --size 32x18 --frames 2 -q --json r.json --append")
+                      .exitCode,
+                  0);
+    ASSERT_EQ(nlohmann::json::parse(text("r.json")).size(), 2u);
+    // Not run(): compare takes no device.
+    const std::string compare = "cd '" + dir_.string() + "' && '" + CANDELABRA_PROGRAM +
+                                "' compare r.json r.json >out.txt 2>err.txt";
+    ASSERT_EQ(WEXITSTATUS(std::system(compare.c_str())), 0) << text("err.txt");
+    EXPECT_NE(text("out.txt").find("shade_tiles"), std::string::npos) << text("out.txt");
+    EXPECT_NE(text("out.txt").find("Fewer than 4 runs"), std::string::npos) << text("out.txt");
+}
+
 TEST_F(ProgramTest, DevicesListsTheOneUnderTest)
 {
     const Outcome outcome = run("devices --json");

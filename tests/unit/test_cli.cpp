@@ -11,33 +11,14 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
-#include "cli.h"
 #include "commands/brute_check.h"
 #include "commands/options.h"
+#include "harness/run_program.h"
 #include "render/error.h"
 
 using namespace candelabra::app;
-
-namespace
-{
-
-struct Outcome {
-    int exitCode;
-    std::string out, err;
-};
-
-Outcome runWith(std::vector<const char*> arguments)
-{
-    arguments.insert(arguments.begin(), "candelabra");
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    const int exitCode = runProgram(int(arguments.size()), arguments.data());
-    std::fflush(stdout);
-    return {exitCode, testing::internal::GetCapturedStdout(),
-            testing::internal::GetCapturedStderr()};
-}
-
-} // namespace
+using candelabra::test::runWith;
+using Outcome = candelabra::test::ProgramOutcome;
 
 TEST(Cli, ProfileRefusesWhatItCannotCompare)
 {
@@ -55,6 +36,8 @@ TEST(Cli, ProfileRefusesWhatItCannotCompare)
     refused({"--ab", "", "--frob"}, "--ab \"--frob\"");
     refused({"--ab", ""}, "--ab");
     refused({"--json", "p", "--csv", "p"}, "--csv writes there");
+    refused({"--append"}, "--append: needs --json");
+    refused({"--append", "--json", "p", "--ab", "", ""}, "--append: --ab compares by itself");
 }
 
 TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)

@@ -63,10 +63,13 @@ std::string parseSentence(const CLI::App& app, int argc, const char* const* argv
     const std::string first = argc > 1 ? argv[1] : "-";
     const auto commands =
         app.get_subcommands([&](const CLI::App* c) { return c->get_name() == first; });
-    if (first[0] != '-' && commands.empty())
-        return fmt::format("\"{}\" is no command; there are render, stress, profile, view, truth, "
-                           "bench and devices",
-                           first);
+    if (first[0] != '-' && commands.empty()) {
+        std::string names;
+        const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+        for (size_t i = 0; i < all.size(); ++i)
+            names += (!i ? "" : i + 1 < all.size() ? ", " : " and ") + all[i]->get_name();
+        return fmt::format("\"{}\" is no command; there are {}", first, names);
+    }
     const std::string command = commands.empty() ? "" : first + " ";
     return fmt::format("{} (see: candelabra {}--help)", error.what(), command);
 }
@@ -104,6 +107,7 @@ int parseAndRun(int argc, const char* const* argv)
     addRenderCommand(app, run);
     addStressCommand(app, run);
     addProfileCommand(app, run);
+    addCompareCommand(app, run);
     addViewCommand(app, run);
     addTruthCommand(app, run);
     addBenchCommand(app, run);

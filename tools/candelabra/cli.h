@@ -7,7 +7,7 @@ namespace candelabra::app
 {
 
 // 0: done; 1: something failed that should have worked, or a check failed; 2: arguments, files or
-// an environment that cannot be worked with.
+// an environment that cannot be worked with; 3: `compare` found something slower.
 int runProgram(int argc, const char* const* argv) noexcept;
 
 } // namespace candelabra::app

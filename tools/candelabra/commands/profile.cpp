@@ -9,6 +9,7 @@
 #include "commands/commands.h"
 #include "commands/measure.h"
 #include "commands/profile_frames.h"
+#include "commands/run_file.h"
 #include "io/progress.h"
 #include "io/statistics.h"
 #include "io/table.h"
@@ -26,6 +27,7 @@ struct ProfileArguments {
     FrameArguments frame;
     std::string frames = "60", path = "still", json, csv;
     std::vector<std::string> ab;
+    bool append = false;
 };
 
 CameraPath cameraPath(const std::string& text)
@@ -87,6 +89,13 @@ ProfilePlan plan(const ProfileArguments& a)
             requireWritable(option, *file);
     if (!a.json.empty() && a.json == a.csv)
         throw UsageError("--json " + a.json + ": --csv writes there");
+    if (a.append) {
+        if (a.json.empty() || a.json == "-")
+            throw UsageError("--append: needs --json with a file");
+        if (!a.ab.empty())
+            throw UsageError("--append: --ab compares by itself, its results are not collected");
+        withRun(a.json, {}); // refuses a file that cannot be continued
+    }
     ProfilePlan p{.scene = a.scene.options(a.scene.lightCount()),
                   .gbufferLayout = a.frame.gbufferLayout(),
                   .settings = {.path = cameraPath(a.path),
@@ -120,7 +129,7 @@ Json describe(const ProgramContext& program, const ProfileArguments& a, const Pr
         one["lighting"] = toJson(profile.last[v].lighting);
         variants.push_back(one);
     }
-    Json out{{"schema", "candelabra profile 1"},
+    Json out{{"schema", profileSchema},
              {"provenance", provenance(context.info(), program.commandLine)},
              {"scene", sceneJson(scene, renderer)},
              {"image",
@@ -181,8 +190,10 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
         writeText("-", text(a, result));
     if (!a.csv.empty())
         writeText(a.csv, toCsv(p.names, result.series));
-    if (!a.json.empty())
-        writeJson(a.json, describe(program, a, p, context, scene, renderer, result));
+    if (!a.json.empty()) {
+        const Json run = describe(program, a, p, context, scene, renderer, result);
+        writeJson(a.json, a.append ? withRun(a.json, run) : run);
+    }
     return printValidationMessages(context) ? exitFailed : exitOk;
 }
 
@@ -218,6 +229,8 @@ void addProfileCommand(CLI::App& app, Run& run)
         ->add_option("--json", a->json,
                      "summary of all times and where they come from; - is standard output")
         ->type_name("FILE");
+    command->add_flag("--append", a->append,
+                      "add to the runs that the file of --json holds, for candelabra compare");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
     a->device.addTo(*command);

@@ -26,6 +26,17 @@ struct FrameSeries {
     void add(const FrameStats& frame, double record, double whole);
 };
 
+// Of a frame beside its passes: rows behind theirs.
+struct WholeTime {
+    const char* name; // for people
+    const char* key;  // in results
+    const std::vector<double> FrameSeries::*ms;
+};
+constexpr WholeTime wholeTimes[] = {
+    {"GPU, sum of passes", "gpu", &FrameSeries::gpuMs},
+    {"CPU, recording", "record", &FrameSeries::recordMs},
+    {"frame, until the GPU is done", "frame", &FrameSeries::frameMs}};
+
 enum class CameraPath { Still, Turn };
 
 struct ProfileSettings {

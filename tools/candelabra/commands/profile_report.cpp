@@ -13,16 +13,6 @@ namespace candelabra::app
 namespace
 {
 
-// Rows behind those of the passes.
-struct Whole {
-    const char* name;
-    const char* key;
-    const std::vector<double> FrameSeries::*ms;
-};
-constexpr Whole wholes[] = {{"GPU, sum of passes", "gpu", &FrameSeries::gpuMs},
-                            {"CPU, recording", "record", &FrameSeries::recordMs},
-                            {"frame, until the GPU is done", "frame", &FrameSeries::frameMs}};
-
 std::string percent(double share)
 {
     return fmt::format("{:.1f}%", 100 * share);
@@ -57,7 +47,7 @@ void forBoth(const FrameSeries& a, const FrameSeries& b, Row&& row)
     for (const FrameSeries::Pass& pass : b.passes)
         if (!timesOf(a, pass.name))
             row(pass.name, none, pass.ms);
-    for (const Whole& whole : wholes)
+    for (const WholeTime& whole : wholeTimes)
         row(whole.name, a.*whole.ms, b.*whole.ms);
 }
 
@@ -81,7 +71,7 @@ std::string seriesTable(const FrameSeries& series)
     for (const FrameSeries::Pass& pass : series.passes)
         add(pass.name, pass.ms, true);
     table.rule();
-    for (const Whole& whole : wholes)
+    for (const WholeTime& whole : wholeTimes)
         add(whole.name, series.*whole.ms, false);
     return table.text();
 }
@@ -110,7 +100,7 @@ Json toJson(const FrameSeries& series)
         passes.push_back(one);
     }
     Json out{{"frames", series.gpuMs.size()}, {"passes", passes}};
-    for (const Whole& whole : wholes)
+    for (const WholeTime& whole : wholeTimes)
         out[whole.key] = spreadJson(spreadOf(series.*whole.ms));
     return out;
 }
@@ -142,7 +132,7 @@ std::string toCsv(const std::vector<std::string>& names, const std::vector<Frame
     std::string out = "variant,frame";
     for (const std::string& pass : passes)
         out += "," + pass;
-    for (const Whole& whole : wholes)
+    for (const WholeTime& whole : wholeTimes)
         out += fmt::format(",{}", whole.key);
     out += "\n";
     for (size_t v = 0; v < series.size(); ++v)
@@ -152,7 +142,7 @@ std::string toCsv(const std::vector<std::string>& names, const std::vector<Frame
                 const std::vector<double>* ms = timesOf(series[v], pass);
                 out += fmt::format(",{:.6f}", ms ? (*ms)[i] : 0.0);
             }
-            for (const Whole& whole : wholes)
+            for (const WholeTime& whole : wholeTimes)
                 out += fmt::format(",{:.6f}", (series[v].*whole.ms)[i]);
             out += "\n";
         }

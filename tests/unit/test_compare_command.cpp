@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra compare: on files as candelabra profile writes them. Nothing here reaches Vulkan.
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "harness/run_program.h"
+#include "render/error.h"
+
+using namespace candelabra::app;
+using candelabra::test::ProgramOutcome;
+using candelabra::test::runWith;
+using nlohmann::json;
+
+namespace
+{
+
+class CompareCommand : public testing::Test
+{
+protected:
+    void SetUp() override { std::filesystem::create_directories(dir_); }
+    void TearDown() override { std::filesystem::remove_all(dir_); }
+    std::string write(const std::string& name, const json& content) const
+    {
+        std::ofstream(dir_ / name) << content;
+        return (dir_ / name).string();
+    }
+    json run(double shadingMs)
+    {
+        const auto noisy = [&](double ms) { return json{{"medianMs", ms * noise_(random_)}}; };
+        const auto pass = [&](const char* name, double ms) {
+            json out = noisy(ms);
+            out["name"] = name;
+            return out;
+        };
+        const json time{{"passes", {pass("cull", 10), pass("shade", shadingMs)}},
+                        {"gpu", noisy(10 + shadingMs)},
+                        {"record", noisy(1)},
+                        {"frame", noisy(15 + shadingMs)}};
+        return {{"schema", "candelabra profile 1"},
+                {"provenance", {{"device", "d"}, {"driver", "1"}, {"commit", "c"}}},
+                {"scene", {{"name", "hall"}}},
+                {"image", {{"widthPixels", 1}}},
+                {"path", "still"},
+                {"variants", {{{"name", "frame"}, {"settings", json::object()}, {"time", time}}}}};
+    }
+    json runs(int count, double shadingMs)
+    {
+        json out = json::array();
+        for (int i = 0; i < count; ++i)
+            out.push_back(run(shadingMs));
+        return out;
+    }
+    ProgramOutcome compare(std::vector<std::string> arguments)
+    {
+        std::vector<const char*> pointers{"compare"};
+        for (const std::string& argument : arguments)
+            pointers.push_back(argument.c_str());
+        return runWith(pointers);
+    }
+
+    std::mt19937 random_{3};
+    std::lognormal_distribution<double> noise_{0, 0.005};
+    const std::filesystem::path dir_ =
+        std::filesystem::temp_directory_path() / ("candelabra_compare_" + std::to_string(getpid()));
+};
+
+} // namespace
+
+TEST_F(CompareCommand, SaysWhatIsSlowerAndEndsWithThree)
+{
+    const std::string a = write("a.json", runs(5, 50)), b = write("b.json", runs(5, 52.5));
+    const ProgramOutcome outcome = compare({a, b, "--json", "-"});
+    EXPECT_EQ(outcome.exitCode, exitSlower) << outcome.err;
+    const json out = json::parse(outcome.out);
+    EXPECT_EQ(out["schema"], "candelabra compare 1");
+    EXPECT_EQ(out["slower"], true);
+    EXPECT_EQ(out["a"]["runs"], 5);
+    ASSERT_EQ(out["rows"].size(), 5u);
+    EXPECT_EQ(out["rows"][0]["verdict"], "cannot tell");
+    EXPECT_EQ(out["rows"][1]["name"], "shade");
+    EXPECT_EQ(out["rows"][1]["verdict"], "slower");
+    EXPECT_NEAR(out["rows"][1]["ratio"], 1.05, 0.02);
+    EXPECT_LE(out["rows"][1]["low"], out["rows"][1]["ratio"]);
+
+    const ProgramOutcome back = compare({b, a});
+    EXPECT_EQ(back.exitCode, exitOk);
+    EXPECT_NE(back.out.find("faster"), std::string::npos) << back.out;
+    EXPECT_EQ(compare({a, b, "--tolerance", "10"}).exitCode, exitOk);
+}
+
+TEST_F(CompareCommand, RunsMayLieInManyFilesAndInPairs)
+{
+    std::vector<std::string> arguments{"--paired"};
+    for (const char* side : {"--a", "--b"}) {
+        arguments.push_back(side);
+        for (int i = 0; i < 6; ++i)
+            arguments.push_back(write(side + std::to_string(i) + ".json", run(50)));
+    }
+    const ProgramOutcome outcome = compare(arguments);
+    EXPECT_EQ(outcome.exitCode, exitOk) << outcome.err;
+    EXPECT_NE(outcome.out.find("A: 6 runs, B: 6 runs, in pairs"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("slower"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CompareCommand, PassesOfOneSideAreNamed)
+{
+    json b = runs(5, 50);
+    for (json& one : b)
+        one["variants"][0]["time"]["passes"].push_back({{"name", "extra"}, {"medianMs", 2}});
+    const ProgramOutcome outcome = compare({write("a.json", runs(5, 50)), write("b.json", b)});
+    EXPECT_EQ(outcome.exitCode, exitOk) << outcome.err;
+    EXPECT_NE(outcome.out.find("not in all of A"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CompareCommand, RefusesWhatIsNotComparable)
+{
+    const std::string a = write("a.json", runs(5, 50));
+    const auto refused = [&](const json& b, const std::string& sentence, bool forcible = false) {
+        const std::string file = write("b.json", b);
+        const ProgramOutcome outcome = compare({a, file});
+        EXPECT_EQ(outcome.exitCode, exitUsage) << sentence;
+        EXPECT_NE(outcome.err.find(sentence), std::string::npos) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_EQ(compare({a, file, "--force"}).exitCode, forcible ? exitOk : exitUsage);
+    };
+    json other = runs(5, 50);
+    other[2]["provenance"]["device"] = "e";
+    refused(other, "b.json: [2] e; --force", true);
+    other = runs(5, 50);
+    for (json& one : other)
+        one["scene"]["name"] = "field";
+    refused(other, "\"field\"", true);
+    other = runs(5, 50);
+    other[4]["provenance"]["commit"] = "later"; // within one side
+    refused(other, "has commit c,", true);
+    other = run(50);
+    other["schema"] = "candelabra profile 99";
+    refused(other, "b.json: schema: must be \"candelabra profile 1\"");
+    other = run(50);
+    other["variants"].push_back(other["variants"][0]);
+    refused(other, "what --ab compared");
+    other = run(50);
+    other["variants"][0]["time"]["passes"][1]["medianMs"] = "fast";
+    refused(other, "medianMs: must be a number");
+    refused(json::array(), "holds no run");
+    refused(1, "must be an object");
+
+    EXPECT_EQ(compare({a}).exitCode, exitUsage);
+    EXPECT_EQ(compare({a, "no-such.json"}).exitCode, exitUsage);
+    EXPECT_EQ(compare({a, a, "--a", a}).exitCode, exitUsage);
+    EXPECT_EQ(compare({a, write("b.json", runs(2, 50)), "--paired"}).exitCode, exitUsage);
+}

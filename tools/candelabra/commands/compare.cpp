@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra compare: whether runs of `candelabra profile`, before a change and after it, differ by
+// more than runs of the same thing do.
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "commands/commands.h"
+#include "commands/run_file.h"
+#include "io/run_comparison.h"
+#include "io/statistics.h"
+#include "io/table.h"
+#include "render/error.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct CompareArguments {
+    std::string fileA, fileB;
+    std::vector<std::string> a, b;
+    std::string tolerance = "0", json;
+    bool paired = false, force = false;
+};
+
+struct ComparedRow {
+    std::string name;
+    RunQuantity times;
+    RunRatio ratio;
+    std::string verdict;
+};
+
+std::vector<ProfiledRun> runsOf(const std::vector<std::string>& files)
+{
+    std::vector<ProfiledRun> out;
+    for (const std::string& file : files)
+        for (ProfiledRun& run : readRuns(file))
+            out.push_back(std::move(run));
+    return out;
+}
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+// A sentence for each fact of `other` that `first` has not.
+void findDifferences(const ProfiledRun& first, const ProfiledRun& other, const Facts& of,
+                     const Facts& ofOther, std::vector<std::string>& out)
+{
+    for (size_t i = 0; i < of.size(); ++i)
+        if (of[i] != ofOther[i])
+            out.push_back(fmt::format("{} has {} {}, {} {}", first.where, of[i].first, of[i].second,
+                                      other.where, ofOther[i].second));
+}
+
+// Why these runs should not be compared.
+std::vector<std::string> objections(const std::vector<ProfiledRun>& a,
+                                    const std::vector<ProfiledRun>& b)
+{
+    std::vector<std::string> out;
+    for (const auto* side : {&a, &b})
+        for (const ProfiledRun& run : *side) {
+            findDifferences(a[0], run, a[0].conditions, run.conditions, out);
+            findDifferences((*side)[0], run, (*side)[0].version, run.version, out);
+        }
+    return out;
+}
+
+// Medians of `name` in every run; 0 where it did not take place.
+std::vector<double> mediansOf(const std::vector<ProfiledRun>& runs, const std::string& name)
+{
+    std::vector<double> out;
+    for (const ProfiledRun& run : runs) {
+        const auto row = std::find_if(run.medianMs.begin(), run.medianMs.end(),
+                                      [&](const auto& r) { return r.first == name; });
+        out.push_back(row == run.medianMs.end() ? 0 : row->second);
+    }
+    return out;
+}
+
+bool allPositive(const std::vector<double>& values)
+{
+    return std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
+}
+
+std::vector<ComparedRow> rowsOf(const std::vector<ProfiledRun>& a,
+                                const std::vector<ProfiledRun>& b, bool paired)
+{
+    std::vector<ComparedRow> rows;
+    for (const auto* side : {&a, &b})
+        for (const ProfiledRun& run : *side)
+            for (const auto& [name, ms] : run.medianMs)
+                if (std::none_of(rows.begin(), rows.end(),
+                                 [&](const ComparedRow& r) { return r.name == name; }))
+                    rows.push_back({.name = name,
+                                    .times = {mediansOf(a, name), mediansOf(b, name)},
+                                    .ratio = {},
+                                    .verdict = ""});
+    std::vector<RunQuantity> comparable;
+    for (const ComparedRow& row : rows)
+        if (allPositive(row.times.a) && allPositive(row.times.b))
+            comparable.push_back(row.times);
+    const std::vector<RunRatio> ratios = compareRuns(comparable, paired);
+    auto next = ratios.begin();
+    for (ComparedRow& row : rows) {
+        const bool inA = allPositive(row.times.a), inB = allPositive(row.times.b);
+        if (inA && inB) {
+            row.ratio = *next++;
+            row.verdict = row.ratio.isFaster()   ? "faster"
+                          : row.ratio.isSlower() ? "slower"
+                                                 : "cannot tell";
+        } else {
+            row.verdict = inA ? "not in all of B" : inB ? "not in all of A" : "not in all runs";
+        }
+    }
+    return rows;
+}
+
+bool hasRatio(const ComparedRow& row)
+{
+    return allPositive(row.times.a) && allPositive(row.times.b);
+}
+
+std::string comparedTable(const std::vector<ComparedRow>& rows)
+{
+    Table table({"median of", "A ms", "B ms", "B / A", "95% interval", "p", "B is"});
+    for (const ComparedRow& row : rows) {
+        const bool both = hasRatio(row);
+        table.add({row.name, threeDigits(medianOf(row.times.a)), threeDigits(medianOf(row.times.b)),
+                   both ? fmt::format("{:.3f}", row.ratio.ratio) : "-",
+                   both ? fmt::format("{:.3f} .. {:.3f}", row.ratio.low, row.ratio.high) : "-",
+                   both ? fmt::format("{:.3f}", row.ratio.p) : "-", row.verdict});
+    }
+    return table.text();
+}
+
+Json sideJson(const std::vector<std::string>& files, const std::vector<ProfiledRun>& runs)
+{
+    Json out{{"files", files}, {"runs", runs.size()}};
+    for (const auto& [name, value] : runs[0].version)
+        out[name] = name == "settings" ? Json::parse(value) : Json(value);
+    return out;
+}
+
+Json comparedJson(const std::vector<ComparedRow>& rows)
+{
+    Json out = Json::array();
+    for (const ComparedRow& row : rows) {
+        Json one{{"name", row.name},
+                 {"aMedianMs", medianOf(row.times.a)},
+                 {"bMedianMs", medianOf(row.times.b)}};
+        if (hasRatio(row))
+            one.update(Json{{"ratio", row.ratio.ratio},
+                            {"low", row.ratio.low},
+                            {"high", row.ratio.high},
+                            {"p", row.ratio.p}});
+        one["verdict"] = row.verdict;
+        out.push_back(one);
+    }
+    return out;
+}
+
+int compare(const ProgramContext& program, const CompareArguments& given)
+{
+    CompareArguments args = given;
+    if (!args.json.empty())
+        requireWritable("--json", args.json);
+    const double tolerance = numberOption("--tolerance", args.tolerance, 0, 1000) / 100;
+    if (!args.fileA.empty() && (!args.a.empty() || !args.b.empty()))
+        throw UsageError("compare: give two files, or lists of them with --a and --b, not both");
+    if (!args.fileA.empty())
+        args.a = {args.fileA};
+    if (!args.fileB.empty())
+        args.b = {args.fileB};
+    if (args.a.empty() || args.b.empty())
+        throw UsageError("compare: needs results of candelabra profile --json, for A and for B");
+    const std::vector<ProfiledRun> a = runsOf(args.a), b = runsOf(args.b);
+    if (args.paired && a.size() != b.size())
+        throw UsageError(fmt::format("--paired: A has {}, B {}: there must be as many",
+                                     counted(a.size(), "run"), counted(b.size(), "run")));
+    const std::vector<std::string> differences = objections(a, b);
+    if (!differences.empty() && !args.force)
+        throw UsageError(differences[0] + "; --force compares all the same");
+    for (const std::string& difference : differences)
+        spdlog::warn("warning: {}", difference);
+
+    const std::vector<ComparedRow> rows = rowsOf(a, b, args.paired);
+    const bool slower = std::any_of(rows.begin(), rows.end(), [&](const ComparedRow& row) {
+        return row.ratio.low > 1 + tolerance;
+    });
+    const size_t needed = args.paired ? minPairedRuns : minRuns;
+    const bool tooFew = std::min(a.size(), b.size()) < needed;
+    if (args.json != "-") {
+        std::string text =
+            fmt::format("A: {}, B: {}{}\n{}", counted(a.size(), "run"), counted(b.size(), "run"),
+                        args.paired ? ", in pairs" : "", comparedTable(rows));
+        if (tooFew)
+            text += fmt::format("Fewer than {} runs of each have no interval.\n", needed);
+        else
+            text += "All intervals hold together: of twenty such comparisons of what is alike, one "
+                    "finds a difference.\n";
+        writeText("-", text);
+    }
+    if (!args.json.empty())
+        writeJson(args.json, {{"schema", "candelabra compare 1"},
+                              {"commandLine", program.commandLine},
+                              {"a", sideJson(args.a, a)},
+                              {"b", sideJson(args.b, b)},
+                              {"paired", args.paired},
+                              {"forcedOver", differences},
+                              {"confidence", 0.95},
+                              {"tolerance", tolerance},
+                              {"rows", comparedJson(rows)},
+                              {"slower", slower}});
+    return slower ? exitSlower : exitOk;
+}
+
+} // namespace
+
+void addCompareCommand(CLI::App& app, Run& run)
+{
+    CLI::App* command = app.add_subcommand(
+        "compare", "Tell whether runs of profile differ by more than chance makes them differ");
+    const auto a = std::make_shared<CompareArguments>();
+    command->add_option("A", a->fileA, "runs before: a file of profile --json, --append");
+    command->add_option("B", a->fileB, "runs after")->needs("A");
+    command->add_option("--a", a->a, "instead: files with runs of A")->type_name("FILE...");
+    command->add_option("--b", a->b, "and of B")->type_name("FILE...");
+    command->add_flag("--paired", a->paired,
+                      "the n-th run of A was made beside the n-th of B: what drifts meanwhile is "
+                      "left out; needs at least 6 of each");
+    command
+        ->add_option("--tolerance", a->tolerance,
+                     "exit with 3 only where something is slower by more than this")
+        ->type_name("PERCENT")
+        ->capture_default_str();
+    command->add_flag("--force", a->force,
+                      "compare runs of different devices, scenes, sizes or paths as well");
+    command->add_option("--json", a->json, "all figures for machines; - is standard output")
+        ->type_name("FILE");
+    command->footer(
+        "A run is one call of profile; its medians are compared, at least 4 runs with 4, better 5\n"
+        "with 5 and more. Take the runs of A and B in turn, so that a machine that slows down "
+        "slows\n"
+        "both. \"cannot tell\": the interval is wider than the change.\n"
+        "Exit code 3: something is slower; 0: nothing is, or chance cannot be excluded.\n\n"
+        "Examples:\n"
+        "  for i in 1 2 3 4 5; do\n"
+        "    old/candelabra profile hall --json a.json --append -q\n"
+        "    new/candelabra profile hall --json b.json --append -q\n"
+        "  done\n"
+        "  candelabra compare a.json b.json --tolerance 2\n"
+        "  candelabra compare --a before*.json --b after*.json --json -");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return compare(program, *a); }; });
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `candelabra profile --json` left behind: one run, or several in one file (--append).
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/report.h"
+
+namespace candelabra::app
+{
+
+constexpr const char* profileSchema = "candelabra profile 1";
+
+struct ProfiledRun {
+    std::string where; // "a.json", or "a.json: [2]"
+    // What has to be alike for times to be comparable, and what runs of one side share besides;
+    // names with values.
+    std::vector<std::pair<std::string, std::string>> conditions, version;
+    std::vector<std::pair<std::string, double>> medianMs; // of passes, then of wholeTimes by key
+};
+
+// All runs in a file, in order. Throws SceneError for a file that is none of that command, and for
+// runs with --ab, whose variants are compared already.
+std::vector<ProfiledRun> readRuns(const std::string& path);
+
+// `run` behind those that the file holds; there need not be one. Throws SceneError as above.
+Json withRun(const std::string& path, const Json& run);
+
+} // namespace candelabra::app
