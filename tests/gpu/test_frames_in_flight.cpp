@@ -4,7 +4,9 @@
 #include "gpu/lighting_harness.h"
 
 #include <array>
+#include <cstdlib>
 #include <map>
+#include <random>
 
 namespace candelabra::test
 {
@@ -72,14 +74,14 @@ protected:
         ASSERT_EQ(vkQueueSubmit(context().queue(), 1, &info, slot.fence), VK_SUCCESS);
         slot.used = true;
     }
-    static void copyRadiance(VkCommandBuffer cmd, const Images& images, const gpu::Buffer& to)
+    static void copyRadiance(VkCommandBuffer cmd, const Images& images, const gpu::Buffer& to,
+                             VkExtent2D size)
     {
         const VkImage image = images.radiance.image.get();
         transition(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL,
                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-        const VkBufferImageCopy copy{
-            .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-            .imageExtent = {images.radiance.width, images.radiance.height, 1}};
+        const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                     .imageExtent = {size.width, size.height, 1}};
         vkCmdCopyImageToBuffer(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.get(), 1,
                                &copy);
         transition(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
@@ -146,7 +148,8 @@ TEST_F(FramesInFlight, ViewsAndGrowingSetsStayRight)
             CndLightingFrame frame = frameOf(buffers[v], images[v], {});
             frame.frameSlot = i % slotCount;
             ASSERT_EQ(cndRecordLighting(views[v], slot.cmd, &frame, &error), CND_SUCCESS);
-            copyRadiance(slot.cmd, images[v], slot.images[v]);
+            copyRadiance(slot.cmd, images[v], slot.images[v],
+                         {buffers[v].width, buffers[v].height});
         }
         submit(slot);
     }
@@ -154,6 +157,127 @@ TEST_F(FramesInFlight, ViewsAndGrowingSetsStayRight)
         check(slot);
     cndDestroyLightingView(views[0]);
     cndDestroyLightingView(views[1]);
+    cndDestroyLighting(lighting);
+}
+
+// Two views, three frames in flight, another size with every frame, views made anew while lights
+// come, go and move: every image is that of brute force recorded beside it. (What is allocated and
+// freed meanwhile is counted on the mock driver: tests/mock/test_lifetimes.cpp.)
+TEST_F(FramesInFlight, StormOfSizesAndLightsEqualsBrute)
+{
+    const char* full = std::getenv("CANDELABRA_FULL_TESTS");
+    const int frames = full && *full == '1' ? 500 : 60;
+    constexpr uint32_t maxWidth = 150, maxHeight = 110;
+    constexpr VkDeviceSize imageBytes = maxWidth * maxHeight * sizeof(glm::vec4);
+    std::mt19937 random(3);
+    const auto pick = [&](uint32_t below) { return uint32_t(random() % below); };
+
+    struct StormView {
+        CpuGBuffer g;
+        CndLightingView clustered{}, brute{};
+        CndLightingViewDesc desc{.structSize = sizeof desc};
+        std::array<std::array<Images, 2>, slotCount> images; // clustered, brute
+        std::array<std::array<gpu::Buffer, 2>, slotCount> pixels;
+        std::array<VkExtent2D, slotCount> sizes{};
+    };
+    std::array<StormView, 2> views;
+    for (uint32_t v = 0; v < 2; ++v) {
+        CndCamera camera;
+        setPerspective(camera, 0.6 + v, 1.4, 0.1, 0, v == 0);
+        views[v].g = randomGBuffer(maxWidth, maxHeight, camera, v == 0 ? 0.f : 1.f, 50 + v);
+        for (uint32_t slot = 0; slot < slotCount; ++slot)
+            for (uint32_t way = 0; way < 2; ++way) {
+                views[v].images[slot][way] = uploadImages(views[v].g);
+                views[v].pixels[slot][way] = readback("radiance", imageBytes);
+            }
+    }
+    CndError error{};
+    const CndLightingDesc desc{.structSize = sizeof desc,
+                               .framesInFlight = slotCount,
+                               .specularMethods = 1u << RunOptions{}.specular};
+    CndLighting lighting{};
+    ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS);
+
+    const auto check = [&](uint32_t index) {
+        Slot& slot = slots_[index];
+        if (!slot.used)
+            return;
+        wait(slot);
+        slot.used = false;
+        for (StormView& view : views) {
+            const size_t count = size_t(view.sizes[index].width) * view.sizes[index].height;
+            std::array<std::vector<glm::vec4>, 2> got;
+            for (uint32_t way = 0; way < 2; ++way) {
+                const std::span all = view.pixels[index][way].as<glm::vec4>();
+                got[way].assign(all.begin(), all.begin() + std::ptrdiff_t(count));
+            }
+            EXPECT_LE(maxRelativeDifference(got[0], got[1]), 1e-6)
+                << view.sizes[index].width << "x" << view.sizes[index].height;
+        }
+    };
+    const auto makeViews = [&](StormView& view, uint32_t width, uint32_t height) {
+        for (uint32_t slot = 0; slot < slotCount; ++slot)
+            check(slot);
+        cndDestroyLightingView(view.clustered);
+        cndDestroyLightingView(view.brute);
+        view.desc.maxWidth = width;
+        view.desc.maxHeight = height;
+        ASSERT_EQ(cndCreateLightingView(lighting, &view.desc, &view.clustered, &error),
+                  CND_SUCCESS);
+        ASSERT_EQ(cndCreateLightingView(lighting, &view.desc, &view.brute, &error), CND_SUCCESS);
+    };
+    std::vector<CndLight> lights;
+    for (int i = 0; i < frames && !HasFatalFailure(); ++i) {
+        const uint32_t index = uint32_t(i) % slotCount;
+        Slot& slot = slots_[index];
+        check(index);
+        if (i == 0 || pick(3) == 0) {
+            lights = randomSpheres(views[pick(2)].g, pick(400), uint32_t(random()));
+            const CndLightSet set{sizeof set, uint32_t(lights.size()), lights.data(), {}};
+            ASSERT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+        } else if (!lights.empty()) {
+            const uint32_t first = pick(uint32_t(lights.size()));
+            const uint32_t count = 1 + pick(uint32_t(lights.size()) - first);
+            for (uint32_t k = first; k < first + count; ++k)
+                lights[k].position[pick(3)] += 0.5f;
+            ASSERT_EQ(cndUpdateLights(lighting, first, count, &lights[first], &error), CND_SUCCESS)
+                << error.message;
+        }
+        std::array<VkExtent2D, 2> sizes;
+        for (uint32_t v = 0; v < 2; ++v) {
+            sizes[v] = {1 + pick(maxWidth), 1 + pick(maxHeight)};
+            const CndLightingViewDesc& had = views[v].desc;
+            if (sizes[v].width > had.maxWidth || sizes[v].height > had.maxHeight || pick(20) == 0)
+                makeViews(views[v], sizes[v].width, sizes[v].height);
+        }
+        const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+        ASSERT_EQ(vkBeginCommandBuffer(slot.cmd, &begin), VK_SUCCESS);
+        fullBarrier(slot.cmd);
+        for (uint32_t v = 0; v < 2; ++v)
+            for (uint32_t way = 0; way < 2; ++way) {
+                StormView& view = views[v];
+                view.sizes[index] = sizes[v];
+                const Images& images = view.images[index][way];
+                clearRadiance(slot.cmd, images);
+                CndLightingFrame frame = frameOf(view.g, images, {});
+                frame.frameSlot = index;
+                frame.width = sizes[v].width;
+                frame.height = sizes[v].height;
+                frame.culling = way == 0 ? CND_CULLING_CLUSTERED : CND_CULLING_BRUTE;
+                ASSERT_EQ(cndRecordLighting(way == 0 ? view.clustered : view.brute, slot.cmd,
+                                            &frame, &error),
+                          CND_SUCCESS)
+                    << error.message;
+                copyRadiance(slot.cmd, images, view.pixels[index][way], sizes[v]);
+            }
+        submit(slot);
+    }
+    for (uint32_t slot = 0; slot < slotCount; ++slot)
+        check(slot);
+    for (StormView& view : views) {
+        cndDestroyLightingView(view.clustered);
+        cndDestroyLightingView(view.brute);
+    }
     cndDestroyLighting(lighting);
 }
 
