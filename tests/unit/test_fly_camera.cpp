@@ -73,10 +73,29 @@ TEST(FlyCamera, LooksRightAndDownWithTheMouse)
 TEST(FlyCamera, WheelScalesSpeedWithinBounds)
 {
     FlyCamera camera(looking({0, 0, -1}), 1);
-    camera.scaleSpeed(2);
+    camera.wheel(2);
     EXPECT_NEAR(camera.speed(), 1.25 * 1.25, 1e-12);
-    camera.scaleSpeed(-1e6);
+    camera.wheel(-1e6);
     EXPECT_GT(camera.speed(), 0);
-    camera.scaleSpeed(1e6);
+    camera.wheel(1e6);
     EXPECT_TRUE(std::isfinite(camera.speed()));
+}
+
+TEST(FlyCamera, OrbitKeepsThePointInTheMiddle)
+{
+    FlyCamera camera(looking({0, 0, -1}), 1);
+    camera.orbit(4);
+    const glm::dvec3 pivot = camera.camera().position + 4.0 * camera.camera().forward;
+    camera.update({.look = {300, -100}}, 0.1);
+    expectNear(camera.camera().position + 4.0 * camera.camera().forward, pivot);
+    camera.wheel(1); // nearer
+    expectNear(camera.camera().position + 4 / 1.25 * camera.camera().forward, pivot);
+    camera.update({.move = {0, 0, 1}}, 0.2); // as does moving forward, never through it
+    expectNear(camera.camera().position + (4 / 1.25 - 0.2) * camera.camera().forward, pivot);
+    camera.update({.move = {0, 0, 1}}, 1e6);
+    EXPECT_GT(glm::dot(pivot - camera.camera().position, camera.camera().forward), 0);
+    const glm::dvec3 place = camera.camera().position;
+    camera.fly();
+    camera.update({.look = {50, 0}}, 0.1);
+    expectNear(camera.camera().position, place);
 }

@@ -10,6 +10,7 @@
 #include "io/table.h"
 #include "render/camera.h"
 #include "render/error.h"
+#include "viewer/keys.h"
 #include "viewer/viewer.h"
 
 namespace candelabra::app
@@ -63,7 +64,7 @@ int view(const ViewArguments& a)
     const Camera camera = selectCamera(scene, options.camera);
     options.size = a.frame.pixelSize(scene, camera);
     Viewer viewer(options, a.device.contextOptions(Presentation::Window), system, std::move(scene));
-    spdlog::info("on {}; keys are listed in the window", viewer.context().info().name);
+    spdlog::info("on {}; F2 lists keys and mouse", viewer.context().info().name);
     viewer.run();
     return printValidationMessages(viewer.context()) ? exitFailed : exitOk;
 }
@@ -88,14 +89,12 @@ void addViewCommand(CLI::App& app, Run& run)
     a->frame.addDebugTo(*command);
     a->frame.addReuseTo(*command, Reuse::Lighting);
     a->device.addTo(*command);
-    command->footer(
-        "Keys: W A S D fly, Q E down and up, Shift fast, drag to look, wheel changes "
-        "the speed,\n[ ] half and double the lights, - = exposure, H heat maps, F1 panel, Esc "
-        "quits.\n\n"
-        "Examples:\n"
-        "  candelabra view hall --lights 4000 --moving\n"
-        "  candelabra view model.glb --lights 200\n"
-        "  xvfb-run -a candelabra view hall --frames 30 --screenshot view.png");
+    command->footer("Keys and mouse:\n" + keyHelpText() +
+                    "\n"
+                    "Examples:\n"
+                    "  candelabra view hall --lights 4000 --moving\n"
+                    "  candelabra view model.glb --lights 200\n"
+                    "  xvfb-run -a candelabra view hall --frames 30 --screenshot view.png");
     command->callback([&run, a] { run = [a](const ProgramContext&) { return view(*a); }; });
 }
 

@@ -175,6 +175,11 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
 
 Renderer::~Renderer() = default;
 
+void Renderer::lightsChanged()
+{
+    state_->setLights(state_->lightTime);
+}
+
 void Renderer::resize(PixelSize size)
 {
     state_->options.size = size;

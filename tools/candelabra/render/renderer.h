@@ -77,6 +77,10 @@ public:
     void resize(PixelSize size);
     PixelSize size() const;
 
+    // The scene's lights are others than they were: frames recorded from now on have them. Throws
+    // UsageError for lights that the module refuses.
+    void lightsChanged();
+
     // A whole frame; the GPU must be done with the slot's previous one. Leaves radiance and display
     // in TRANSFER_SRC_OPTIMAL, visible to transfers.
     void record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options);

@@ -12,6 +12,7 @@ namespace
 
 constexpr double radiansPerPixel = 0.0025; // about 800 pixels for a half turn
 constexpr double fastFactor = 6;
+constexpr double nearest = 0.05;                           // metres from the pivot
 constexpr double pitchLimit = std::numbers::pi / 2 - 0.01; // never parallel to up
 
 glm::dvec3 direction(double yaw, double pitch)
@@ -39,13 +40,32 @@ void FlyCamera::update(const FlyInput& input, double seconds)
     const double distance = speed_ * (input.fast ? fastFactor : 1) * seconds;
     const glm::dvec3 forward = direction(yaw_, pitch_);
     const glm::dvec3 right{std::cos(yaw_), 0, -std::sin(yaw_)};
-    position_ += distance * (input.move.x * right + input.move.y * glm::dvec3(0, 1, 0) +
-                             input.move.z * forward);
+    const glm::dvec3 across =
+        distance * (input.move.x * right + input.move.y * glm::dvec3(0, 1, 0));
+    if (orbits()) {
+        pivot_ += across;
+        distance_ = std::max(distance_ - distance * input.move.z, nearest);
+        position_ = pivot_ - distance_ * forward;
+    } else {
+        position_ += across + distance * input.move.z * forward;
+    }
 }
 
-void FlyCamera::scaleSpeed(double notches)
+void FlyCamera::wheel(double notches)
 {
-    speed_ = std::clamp(speed_ * std::pow(1.25, notches), 1e-3, 1e5);
+    const double factor = std::pow(1.25, notches);
+    if (orbits()) {
+        distance_ = std::clamp(distance_ / factor, nearest, 1e6);
+        position_ = pivot_ - distance_ * direction(yaw_, pitch_);
+    } else {
+        speed_ = std::clamp(speed_ * factor, 1e-3, 1e5);
+    }
+}
+
+void FlyCamera::orbit(double distance)
+{
+    distance_ = std::max(distance, nearest);
+    pivot_ = position_ + distance_ * direction(yaw_, pitch_);
 }
 
 Camera FlyCamera::camera() const
@@ -55,6 +75,13 @@ Camera FlyCamera::camera() const
     out.forward = direction(yaw_, pitch_);
     out.up = {0, 1, 0};
     return out;
+}
+
+double cruisingSpeed(const Scene& scene)
+{
+    const Bounds bounds = sceneBounds(scene);
+    const double diagonal = glm::length(bounds.max - bounds.min);
+    return std::clamp(diagonal / 15, 0.2, 200.0);
 }
 
 } // namespace candelabra::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// FlyCamera: first-person camera without gravity. No window here.
+// FlyCamera: first-person camera without gravity, or one that orbits a point. No window here.
 #pragma once
 
 #include "scene/scene.h"
@@ -21,8 +21,13 @@ public:
     FlyCamera(const Camera& camera, double speed);
 
     void update(const FlyInput& input, double seconds);
-    // The wheel: one notch is a factor of 1.25.
-    void scaleSpeed(double notches);
+    // One notch is a factor of 1.25: of the speed, in orbit of the distance.
+    void wheel(double notches);
+    // Around the point `distance` metres ahead, until fly(): looking goes around it, moving takes
+    // it along, but forward is nearer.
+    void orbit(double distance);
+    void fly() { distance_ = 0; }
+    bool orbits() const { return distance_ > 0; }
     Camera camera() const;
     double speed() const { return speed_; }
 
@@ -32,6 +37,11 @@ private:
     double yaw_ = 0;   // radians, 0 looks down -z, positive turns left
     double pitch_ = 0; // radians, positive looks up
     double speed_ = 1;
+    glm::dvec3 pivot_{0};
+    double distance_ = 0; // to the pivot; 0: flies
 };
+
+// m/s: crossing the scene takes about fifteen seconds.
+double cruisingSpeed(const Scene& scene);
 
 } // namespace candelabra::app

@@ -9,6 +9,7 @@
 
 #include "commands/options.h"
 #include "io/table.h"
+#include "viewer/keys.h"
 
 namespace candelabra::app
 {
@@ -30,11 +31,29 @@ void combo(const char* label, T& value, int count, const char* (*name)(T))
     ImGui::EndCombo();
 }
 
+// GPU time of the last frames, newest right.
+void drawTimeLine(const PanelFigures& figures)
+{
+    std::vector<float> totals;
+    for (const auto& frame : figures.passes) {
+        double sum = 0;
+        for (const PassTime& pass : frame)
+            sum += pass.ms;
+        totals.push_back(float(sum));
+    }
+    const float most = *std::max_element(totals.begin(), totals.end());
+    const std::string label = "GPU, 0 to " + threeDigits(double(most)) + " ms";
+    ImGui::PlotLines("##times", totals.data(), int(totals.size()), 0, label.c_str(), 0, most,
+                     {ImGui::GetContentRegionAvail().x, 40});
+}
+
 void drawTimes(const PanelFigures& figures)
 {
     PassTimes times;
     for (const auto& frame : figures.passes)
         times.add(frame);
+    if (times.frames())
+        drawTimeLine(figures);
     if (!times.frames() || !ImGui::BeginTable("times", 3, ImGuiTableFlags_RowBg))
         return;
     ImGui::TableSetupColumn("GPU pass", ImGuiTableColumnFlags_WidthStretch, 2);
@@ -56,6 +75,83 @@ void drawTimes(const PanelFigures& figures)
     ImGui::EndTable();
 }
 
+void drawBudget(const char* label, float& budget)
+{
+    float percent = budget * 100;
+    if (ImGui::SliderFloat(label, &percent, 0, 10, "%.1f%%", ImGuiSliderFlags_AlwaysClamp))
+        budget = percent / 100;
+}
+
+void drawWipe(PanelState& state)
+{
+    Wipe& wipe = state.wipe;
+    ImGui::Checkbox("compare with", &wipe.on);
+    if (!wipe.on)
+        return;
+    ImGui::SliderFloat("wipe", &wipe.at, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    combo("specular##other", wipe.specular, CND_SPECULAR_METHOD_COUNT, specularName);
+    drawBudget("error budget##other", wipe.errorBudget);
+    combo("culling##other", wipe.culling, 2, cullingName);
+}
+
+// The line between the two, and which is which.
+void drawWipeLine(const PanelState& state)
+{
+    const auto name = [](CndSpecularMethod specular, float budget, CndCulling culling) {
+        std::string out = specularName(specular);
+        if (budget > 0)
+            out += ", " + threeDigits(double(budget) * 100) + "%";
+        return culling == CND_CULLING_BRUTE ? out + ", brute" : out;
+    };
+    const Wipe& wipe = state.wipe;
+    const std::string left =
+        name(state.frame.specular, state.frame.errorBudget, state.frame.culling);
+    const std::string right = name(wipe.specular, wipe.errorBudget, wipe.culling);
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float x = wipe.at * size.x, y = size.y - 24;
+    constexpr ImU32 white = IM_COL32(255, 255, 255, 200);
+    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    list->AddLine({x, 0}, {x, size.y}, white);
+    list->AddText({x - 8 - ImGui::CalcTextSize(left.c_str()).x, y}, white, left.c_str());
+    list->AddText({x + 8, y}, white, right.c_str());
+}
+
+void drawMaterials(PanelState& state)
+{
+    MaterialOverride& m = state.materials;
+    // Applied when the mouse is released: geometry goes to the device again.
+    state.materialsChosen |= ImGui::Checkbox("one material for everything", &m.on);
+    if (!m.on)
+        return;
+    ImGui::SliderFloat("roughness", &m.perceptualRoughness, 0, 1, "%.2f",
+                       ImGuiSliderFlags_AlwaysClamp);
+    state.materialsChosen |= ImGui::IsItemDeactivatedAfterEdit();
+    ImGui::SliderFloat("metalness", &m.metalness, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    state.materialsChosen |= ImGui::IsItemDeactivatedAfterEdit();
+}
+
+void drawHelp(PanelState& state)
+{
+    if (!state.help)
+        return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    constexpr ImGuiWindowFlags flags =
+        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove;
+    if (ImGui::Begin("keys and mouse", &state.help, flags) &&
+        ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+        for (const KeyHelp& help : keyHelp) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(help.keys);
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(help.what);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
 void drawLights(PanelState& state, const PanelFigures& figures)
 {
     const CndLightingStats& s = figures.lighting;
@@ -74,6 +170,7 @@ void drawLights(PanelState& state, const PanelFigures& figures)
         ImGui::Checkbox("move lights", &state.animate);
     ImGui::Checkbox("show lights as emitters", &state.frame.lightsVisible);
     combo("specular", state.frame.specular, CND_SPECULAR_METHOD_COUNT, specularName);
+    drawBudget("error budget", state.frame.errorBudget);
     combo("culling", state.frame.culling, 2, cullingName);
     if (state.frame.culling == CND_CULLING_CLUSTERED)
         combo("heat map", state.frame.heatMap, heatMapCount, heatMapName);
@@ -135,8 +232,11 @@ void drawExposure(PanelState& state, const PanelFigures& figures)
 
 } // namespace
 
-void drawPanel(PanelState& state, const PanelFigures& figures)
+void drawPanel(PanelState& state, const PanelFigures& figures, Scene& scene)
 {
+    if (state.wipe.on)
+        drawWipeLine(state);
+    drawHelp(state);
     if (!state.visible)
         return;
     ImGui::SetNextWindowPos({12, 12}, ImGuiCond_FirstUseEver);
@@ -146,16 +246,24 @@ void drawPanel(PanelState& state, const PanelFigures& figures)
     if (ImGui::Begin("candelabra", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::TextWrapped("%s, %ux%u, %s", figures.scene.c_str(), figures.size.width,
                            figures.size.height, figures.device.c_str());
-        ImGui::Text("%.1f ms between frames", figures.wallMs);
+        ImGui::Text("%.1f ms between frames, camera %.1f m/s", figures.wallMs, figures.speed);
+        if (!figures.note.empty())
+            ImGui::TextWrapped("%s", figures.note.c_str());
         drawTimes(figures);
         if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen))
             drawLights(state, figures);
+        if (ImGui::CollapsingHeader("Light editor", state.editor.selected
+                                                        ? ImGuiTreeNodeFlags_DefaultOpen
+                                                        : ImGuiTreeNodeFlags_None))
+            drawLightEditor(scene, state.editor);
+        if (ImGui::CollapsingHeader("A/B"))
+            drawWipe(state);
+        if (ImGui::CollapsingHeader("Materials"))
+            drawMaterials(state);
         if (ImGui::CollapsingHeader("Exposure", ImGuiTreeNodeFlags_DefaultOpen))
             drawExposure(state, figures);
         ImGui::Separator();
-        ImGui::TextWrapped("W A S D fly, Q E down and up, Shift fast, drag to look, wheel: %.1f "
-                           "m/s, [ ] lights, - = exposure, H heat maps, F1 hides this, Esc quits",
-                           figures.speed);
+        ImGui::TextUnformatted("F2: keys and mouse");
     }
     ImGui::End();
 }

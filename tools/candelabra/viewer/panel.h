@@ -6,21 +6,46 @@
 #include <string>
 
 #include "render/renderer.h"
+#include "viewer/light_editor.h"
 
 namespace candelabra::app
 {
+
+// One roughness and metalness for everything, to see lights and nothing else.
+struct MaterialOverride {
+    bool on = false;
+    float perceptualRoughness = 0.4f;
+    float metalness = 0;
+
+    bool operator==(const MaterialOverride&) const = default;
+};
+
+// The other way of shading beside which the chosen one is seen, left of the wipe.
+struct Wipe {
+    bool on = false;
+    float at = 0.5f; // share of the window's width that is the chosen one's
+    CndSpecularMethod specular = CND_SPECULAR_KARIS;
+    CndCulling culling = CND_CULLING_CLUSTERED;
+    float errorBudget = 0;
+};
 
 // What the switches change.
 struct PanelState {
     FrameOptions frame; // camera, time and deltaTime are the viewer's
     bool visible = true;
-    bool animate = true;       // moving lights move
-    uint32_t wantedLights = 0; // differs from the scene's: rebuild with as many
+    bool help = false;
+    Wipe wipe;
+    LightEditor editor;
+    MaterialOverride materials;
+    bool materialsChosen = false; // the override is to be applied
+    bool animate = true;          // moving lights move
+    uint32_t wantedLights = 0;    // differs from the scene's: rebuild with as many
 };
 
 // What there is to see.
 struct PanelFigures {
     std::string scene, device;
+    std::string note; // what became of the last request, one sentence
     uint32_t lights = 0;
     bool moving = false;
     double wallMs = 0; // between frames
@@ -33,6 +58,7 @@ struct PanelFigures {
 
 constexpr size_t panelFrames = 60; // frames the times are taken over
 
-void drawPanel(PanelState& state, const PanelFigures& figures);
+// `scene`: its lights are edited.
+void drawPanel(PanelState& state, const PanelFigures& figures, Scene& scene);
 
 } // namespace candelabra::app

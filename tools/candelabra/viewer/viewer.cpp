@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -26,14 +27,6 @@ constexpr double fixedFrameTime = 1.0 / 60; // s, with a frame limit
 // A stall (building a scene, a dragged window) must not become a leap.
 constexpr double longestStep = 0.25; // s
 
-// Crossing the scene takes about fifteen seconds.
-double cruisingSpeed(const Scene& scene)
-{
-    const Bounds bounds = sceneBounds(scene);
-    const double diagonal = glm::length(bounds.max - bounds.min);
-    return std::clamp(diagonal / 15, 0.2, 200.0);
-}
-
 Swapchain::Target checked(const std::optional<Swapchain::Target>& target)
 {
     if (!target)
@@ -47,6 +40,23 @@ constexpr ImageAccess attachment{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT
                                  VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
 constexpr ImageAccess shown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
                             VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
+
+// Columns of the display image, first .. end - 1, into the window's image; both have the same size.
+// A blit and not a copy: the window may order its channels differently.
+void blitColumns(VkCommandBuffer cmd, const Renderer& renderer, VkImage to, int32_t first,
+                 int32_t end)
+{
+    if (first == end)
+        return;
+    const int32_t height = int32_t(renderer.size().height);
+    const VkImageSubresourceLayers layers{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    const VkImageBlit region{.srcSubresource = layers,
+                             .srcOffsets = {{first, 0, 0}, {end, height, 1}},
+                             .dstSubresource = layers,
+                             .dstOffsets = {{first, 0, 0}, {end, height, 1}}};
+    vkCmdBlitImage(cmd, renderer.display().image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+}
 
 } // namespace
 
@@ -64,50 +74,56 @@ Viewer::Viewer(const ViewerOptions& options, const ContextOptions& contextOption
       camera_(selectCamera(scene_, options.camera), cruisingSpeed(scene_)),
       panel_{.frame = options.frame, .visible = options.overlay}
 {
-    panel_.frame.lightsVisible = options.lightsVisible.value_or(scene_.lightsVisible);
-    panel_.wantedLights = uint32_t(scene_.lights.size());
+    takeScene();
     figures_.device = context_.info().name;
     time_ = options.frame.time;
-    window_.onKey = [this](int key) { onKey(key); };
-    window_.onWheel = [this](double notches) {
-        if (!overlay_.takesMouse())
-            camera_.scaleSpeed(notches);
-    };
+    connectInput();
     if (!options.screenshot.empty() && !swapchain_.readable())
         throw RunError("--screenshot: images of this window cannot be read back");
 }
 
-void Viewer::onKey(int key)
+bool Viewer::open(const std::string& scene, const SceneOptions& options)
 {
-    if (overlay_.takesKeyboard())
-        return;
-    const uint32_t lights = uint32_t(scene_.lights.size());
-    switch (key) {
-    case GLFW_KEY_ESCAPE:
-        window_.close();
-        break;
-    case GLFW_KEY_F1:
-        panel_.visible = !panel_.visible;
-        break;
-    case GLFW_KEY_H:
-        if (panel_.frame.culling == CND_CULLING_CLUSTERED)
-            panel_.frame.heatMap = HeatMap((uint32_t(panel_.frame.heatMap) + 1) % heatMapCount);
-        break;
-    case GLFW_KEY_LEFT_BRACKET:
-        panel_.wantedLights = std::max(lights / 2, 1u);
-        break;
-    case GLFW_KEY_RIGHT_BRACKET:
-        panel_.wantedLights = std::min(std::max(lights, 1u) * 2, maxLights);
-        break;
-    case GLFW_KEY_MINUS:
-        panel_.frame.exposure.compensation -= 0.5f;
-        break;
-    case GLFW_KEY_EQUAL:
-        panel_.frame.exposure.compensation += 0.5f;
-        break;
-    default:
-        break;
+    try {
+        Scene loaded = loadScene(scene, options);
+        ring_.wait();
+        renderer_.reset(); // they refer to the scene
+        other_.reset();
+        scene_ = std::move(loaded);
+    } catch (const SceneError& error) {
+        spdlog::error("candelabra: {}", error.what());
+        figures_.note = error.what();
+        return false;
     }
+    options_.scene = scene;
+    options_.sceneOptions = options;
+    figures_.note.clear();
+    takeScene();
+    makeRenderer();
+    return true;
+}
+
+// Of the scene there is now.
+void Viewer::takeScene()
+{
+    materials_ = scene_.materials;
+    ownLights_ = scene_.lights.size() - options_.sceneOptions.lights.value_or(0);
+    panel_.frame.lightsVisible = options_.lightsVisible.value_or(scene_.lightsVisible);
+    panel_.wantedLights = uint32_t(scene_.lights.size());
+    panel_.editor = {};
+    panel_.materialsChosen = panel_.materials.on;
+}
+
+void Viewer::makeRenderer()
+{
+    ring_.wait();
+    renderer_.reset();
+    other_.reset();
+    renderer_ = std::make_unique<Renderer>(
+        context_, scene_, RendererOptions{swapchain_.size(), options_.gbufferLayout, slotCount});
+    figures_.passes.clear();
+    recorded_ = {};
+    resetExposure_ = true;
 }
 
 void Viewer::rebuild(uint32_t wanted)
@@ -116,26 +132,47 @@ void Viewer::rebuild(uint32_t wanted)
     spdlog::info("building {} with {}", options_.scene, counted(lights, "light"));
     SceneOptions sceneOptions = options_.sceneOptions;
     // Files bring lights of their own; the option says how many to add to them.
-    const uint32_t own = uint32_t(scene_.lights.size()) - options_.sceneOptions.lights.value_or(0);
-    const bool generated = isGenerated(options_.scene);
-    sceneOptions.lights = generated ? lights : lights > own ? lights - own : 0;
-    try {
-        Scene scene = loadScene(options_.scene, sceneOptions);
-        ring_.wait();
-        renderer_.reset(); // refers to the scene
-        scene_ = std::move(scene);
-        options_.sceneOptions = sceneOptions;
-    } catch (const SceneError& error) {
-        spdlog::error("candelabra: {}", error.what());
+    const uint32_t own = uint32_t(ownLights_);
+    sceneOptions.lights = isGenerated(options_.scene) ? lights : lights > own ? lights - own : 0;
+    if (!open(options_.scene, sceneOptions))
         panel_.wantedLights = uint32_t(scene_.lights.size());
+}
+
+void Viewer::applyMaterials()
+{
+    scene_.materials = materials_;
+    if (panel_.materials.on)
+        for (Material& material : scene_.materials) {
+            material.perceptualRoughness = panel_.materials.perceptualRoughness;
+            material.metalness = panel_.materials.metalness;
+            material.metallicRoughnessTexture = {};
+        }
+    panel_.materialsChosen = false;
+    makeRenderer();
+}
+
+void Viewer::applyEdits()
+{
+    if (panel_.materialsChosen)
+        applyMaterials();
+    if (!std::exchange(panel_.editor.changed, false))
         return;
-    }
-    renderer_ = std::make_unique<Renderer>(
-        context_, scene_, RendererOptions{swapchain_.size(), options_.gbufferLayout, slotCount});
     panel_.wantedLights = uint32_t(scene_.lights.size());
-    figures_.passes.clear();
-    recorded_ = {};
-    resetExposure_ = true;
+    renderer_->lightsChanged();
+    if (other_)
+        other_->lightsChanged();
+}
+
+void Viewer::fitWipe()
+{
+    if (!panel_.wipe.on && other_) {
+        ring_.wait();
+        other_.reset();
+    }
+    if (panel_.wipe.on && !other_)
+        other_ = std::make_unique<Renderer>(
+            context_, scene_,
+            RendererOptions{renderer_->size(), options_.gbufferLayout, slotCount});
 }
 
 // Makes window images and renderer as large as the window is.
@@ -151,6 +188,8 @@ void Viewer::fitToWindow()
     if (wanted.width != drawn.width || wanted.height != drawn.height) {
         ring_.wait();
         renderer_->resize(wanted);
+        if (other_)
+            other_->resize(wanted);
         recorded_ = {};
     }
 }
@@ -168,33 +207,6 @@ void Viewer::collectStats(const FrameRing::Frame& frame)
     figures_.exposure = stats.exposure;
 }
 
-void Viewer::moveCamera(double seconds)
-{
-    GLFWwindow* w = window_.get();
-    FlyInput input;
-    if (!overlay_.takesKeyboard()) {
-        const auto axis = [&](int plus, int minus) {
-            return double(glfwGetKey(w, plus) == GLFW_PRESS) -
-                   double(glfwGetKey(w, minus) == GLFW_PRESS);
-        };
-        input.move = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
-                      axis(GLFW_KEY_W, GLFW_KEY_S)};
-        input.fast = glfwGetKey(w, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
-                     glfwGetKey(w, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
-    }
-    double x = 0, y = 0;
-    glfwGetCursorPos(w, &x, &y);
-    const bool pressed = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
-                         glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
-    // A drag that began on the scene stays a look, wherever it goes.
-    if (pressed && looking_)
-        input.look = {x - lastX_, y - lastY_};
-    looking_ = pressed && (looking_ || !overlay_.takesMouse());
-    lastX_ = x;
-    lastY_ = y;
-    camera_.update(input, seconds);
-}
-
 Swapchain::Target Viewer::acquire(uint32_t slot)
 {
     if (const auto target = swapchain_.acquire(slot))
@@ -208,17 +220,11 @@ void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
 {
     // Chained to the wait for the image (FrameRing::submit).
     transition(cmd, target.image, discarded, transferWrite);
-    const PixelSize from = renderer_->size(), to = swapchain_.size();
-    const VkImageSubresourceLayers layers{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    const VkImageBlit region{
-        .srcSubresource = layers,
-        .srcOffsets = {{0, 0, 0}, {int32_t(from.width), int32_t(from.height), 1}},
-        .dstSubresource = layers,
-        .dstOffsets = {{0, 0, 0}, {int32_t(to.width), int32_t(to.height), 1}}};
-    // A blit and not a copy: the window may order its channels differently.
-    vkCmdBlitImage(cmd, renderer_->display().image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                   target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
-                   VK_FILTER_NEAREST);
+    const int32_t width = int32_t(swapchain_.size().width);
+    const int32_t split = other_ ? int32_t(std::lround(panel_.wipe.at * float(width))) : width;
+    blitColumns(cmd, *renderer_, target.image, 0, split);
+    if (other_)
+        blitColumns(cmd, *other_, target.image, split, width);
     transition(cmd, target.image, transferWrite, attachment);
     overlay_.record(cmd, swapchain_, target);
 }
@@ -257,8 +263,16 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     options.resetExposure = std::exchange(resetExposure_, false);
     ++options.ditherSeed; // noise that moves is seen less
     overlay_.begin();
-    drawPanel(panel_, figures_);
+    drawPanel(panel_, figures_, scene_);
     renderer_->record(frame.cmd, frame.slot, options);
+    if (other_) {
+        FrameOptions beside = options;
+        beside.specular = panel_.wipe.specular;
+        beside.culling = panel_.wipe.culling;
+        beside.errorBudget = panel_.wipe.errorBudget;
+        beside.heatMap = HeatMap::None;
+        other_->record(frame.cmd, frame.slot, beside);
+    }
     recorded_[frame.slot] = true;
     recordWindow(frame.cmd, target);
     gpu::Buffer pixels;
@@ -271,6 +285,8 @@ void Viewer::drawFrame(double seconds, bool screenshot)
         ring_.wait();
         saveScreenshot(pixels);
     }
+    if (const char* extension = std::exchange(saveAs_, nullptr))
+        saveImage(extension);
 }
 
 void Viewer::run()
@@ -293,9 +309,13 @@ void Viewer::run()
         moveCamera(seconds);
         if (panel_.animate)
             time_ += seconds;
+        if (!dropped_.empty())
+            onDrop(std::exchange(dropped_, ""));
+        applyEdits();
         if (panel_.wantedLights != scene_.lights.size())
             rebuild(panel_.wantedLights);
         fitToWindow();
+        fitWipe();
         figures_.scene = scene_.name;
         figures_.lights = uint32_t(scene_.lights.size());
         figures_.moving = !scene_.lightMotions.empty();

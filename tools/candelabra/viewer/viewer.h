@@ -45,11 +45,25 @@ public:
 private:
     static constexpr uint32_t slotCount = 2;
 
+    // viewer_input.cpp
+    void connectInput();
+    void moveCamera(double seconds);
     void onKey(int key);
+    bool onLightKey(int key);
+    void toggleOrbit();
+    void onDrop(const std::string& path);
+    void saveImage(const char* extension);
+
+    // Takes another scene, or the same with other options. Keeps the one there is where that fails.
+    bool open(const std::string& scene, const SceneOptions& options);
+    void takeScene();
     void rebuild(uint32_t wanted);
+    void makeRenderer();
+    void applyMaterials();
+    void applyEdits();
+    void fitWipe();
     void fitToWindow();
     void collectStats(const FrameRing::Frame& frame);
-    void moveCamera(double seconds);
     Swapchain::Target acquire(uint32_t slot);
     void drawFrame(double seconds, bool screenshot);
     void recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target);
@@ -61,7 +75,10 @@ private:
     Window window_;
     VulkanContext context_;
     Scene scene_;
+    std::vector<Material> materials_; // as the scene has them
+    size_t ownLights_ = 0;            // of a file, without those added
     std::unique_ptr<Renderer> renderer_;
+    std::unique_ptr<Renderer> other_; // right of the wipe, while there is one
     Swapchain swapchain_;
     Overlay overlay_;
     FrameRing ring_;
@@ -75,6 +92,9 @@ private:
     double time_ = 0;
     double lastX_ = 0, lastY_ = 0;
     bool looking_ = false;
+    std::string dropped_; // waits for the frame to end
+    uint32_t savedImages_ = 0;
+    const char* saveAs_ = nullptr; // extension of the image to be saved after this frame
 };
 
 } // namespace candelabra::app

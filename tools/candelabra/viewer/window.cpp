@@ -57,6 +57,10 @@ Window::Window(const WindowSystem&, const std::string& title, PixelSize size)
         if (windowOf(w).onWheel)
             windowOf(w).onWheel(y);
     });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+        for (int i = 0; i < count && windowOf(w).onDrop; ++i)
+            windowOf(w).onDrop(paths[i]);
+    });
 }
 
 Window::~Window()
@@ -69,6 +73,12 @@ PixelSize Window::framebufferSize() const
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     return {uint32_t(width), uint32_t(height)};
+}
+
+bool Window::shiftPressed() const
+{
+    return glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
+           glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }
 
 bool Window::wantsToClose() const

@@ -35,13 +35,15 @@ public:
 
     GLFWwindow* get() const { return window_; }
     PixelSize framebufferSize() const; // 0x0 while minimised
+    bool shiftPressed() const;
     bool wantsToClose() const;
     void close();
     void setTitle(const std::string& title);
 
     // Called from poll().
-    std::function<void(int key)> onKey;          // GLFW_KEY_*, presses and repeats
-    std::function<void(double notches)> onWheel; // up is positive
+    std::function<void(int key)> onKey;                  // GLFW_KEY_*, presses and repeats
+    std::function<void(double notches)> onWheel;         // up is positive
+    std::function<void(const std::string& path)> onDrop; // a file dropped on the window
     void poll();
     // Waits for events; for minimised windows.
     void wait();

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+# Drives `candelabra view` ($PROGRAM) with keys and mouse, in an empty folder (tests/gpu/test_viewer.cpp).
+# Every image is waited for: when it is there, all keys before it have been taken.
+fail() {
+    echo "$1" >&2
+    kill $viewer
+    exit 99
+}
+shot=0
+save() {
+    shot=$((shot + 1))
+    xdotool key p
+    for i in $(seq 600); do
+        [ -f "$(printf 'candelabra-%03d.png' $shot)" ] && return
+        kill -0 $viewer 2>/dev/null || fail "the viewer ended before image $shot"
+        sleep 0.1
+    done
+    fail "image $shot never came"
+}
+"$PROGRAM" view hall --lights 40 --size 320x200 --exposure 4 --validate --no-overlay \
+    ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} &
+viewer=$!
+window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)
+xdotool windowfocus --sync $window
+save # 1
+xdotool key n period period period Up
+save # 2: a light in front of the camera
+xdotool key Delete
+save # 3: and without it again
+xdotool keydown w
+sleep 0.5
+xdotool keyup w
+save # 4: flown
+xdotool key o mousemove 200 100 mousedown 1 mousemove 230 110 mouseup 1 key o
+for method in 1 2 3 4 5 6 7 8; do xdotool key m; done # once around
+xdotool key c
+save # 5: brute force
+xdotool key c h h h h h F1 F2
+save # 6: heat maps once around, panel, help
+xdotool key b bracketright
+save # 7: wipe, twice the lights
+for i in $(seq 20); do
+    xdotool windowsize $window $((200 + i * 13 % 170)) $((150 + i * 29 % 110))
+done
+xdotool windowsize --sync $window 260 180
+save # 8
+xdotool key F1 F2 b Escape
+wait $viewer

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the viewer does with keys, mouse and dropped files.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "commands/options.h"
+#include "io/table.h"
+#include "render/camera.h"
+#include "render/readback.h"
+#include "viewer/viewer.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr double lightDistance = 2.5; // metres from the camera to a new light
+constexpr float lightStep = 0.1f;     // metres
+constexpr float radiusStep = 1.1f;
+
+} // namespace
+
+void Viewer::connectInput()
+{
+    window_.onKey = [this](int key) {
+        if (!overlay_.takesKeyboard() && !onLightKey(key))
+            onKey(key);
+    };
+    window_.onWheel = [this](double notches) {
+        if (!overlay_.takesMouse())
+            camera_.wheel(notches);
+    };
+    window_.onDrop = [this](const std::string& path) { dropped_ = path; };
+}
+
+void Viewer::onKey(int key)
+{
+    const uint32_t lights = uint32_t(scene_.lights.size());
+    FrameOptions& frame = panel_.frame;
+    switch (key) {
+    case GLFW_KEY_ESCAPE:
+        window_.close();
+        break;
+    case GLFW_KEY_F1:
+        panel_.visible = !panel_.visible;
+        break;
+    case GLFW_KEY_F2:
+        panel_.help = !panel_.help;
+        break;
+    case GLFW_KEY_O:
+        toggleOrbit();
+        break;
+    case GLFW_KEY_M:
+        frame.specular =
+            CndSpecularMethod((uint32_t(frame.specular) + 1) % CND_SPECULAR_METHOD_COUNT);
+        break;
+    case GLFW_KEY_C:
+        frame.culling =
+            frame.culling == CND_CULLING_CLUSTERED ? CND_CULLING_BRUTE : CND_CULLING_CLUSTERED;
+        if (frame.culling == CND_CULLING_BRUTE)
+            frame.heatMap = HeatMap::None;
+        break;
+    case GLFW_KEY_H:
+        if (frame.culling == CND_CULLING_CLUSTERED)
+            frame.heatMap = HeatMap((uint32_t(frame.heatMap) + 1) % heatMapCount);
+        break;
+    case GLFW_KEY_B:
+        panel_.wipe.on = !panel_.wipe.on;
+        break;
+    case GLFW_KEY_P:
+        saveAs_ = ".png";
+        break;
+    case GLFW_KEY_X:
+        saveAs_ = ".exr";
+        break;
+    case GLFW_KEY_LEFT_BRACKET:
+        panel_.wantedLights = std::max(lights / 2, 1u);
+        break;
+    case GLFW_KEY_RIGHT_BRACKET:
+        panel_.wantedLights = std::min(std::max(lights, 1u) * 2, maxLights);
+        break;
+    case GLFW_KEY_MINUS:
+        frame.exposure.compensation -= 0.5f;
+        break;
+    case GLFW_KEY_EQUAL:
+        frame.exposure.compensation += 0.5f;
+        break;
+    default:
+        break;
+    }
+}
+
+// Along the world's axes, of which the arrows take those that the camera sees left, right and
+// ahead.
+bool Viewer::onLightKey(int key)
+{
+    LightEditor& editor = panel_.editor;
+    const Camera camera = camera_.camera();
+    const glm::vec3 f = camera.forward;
+    const bool alongX = std::abs(f.x) > std::abs(f.z);
+    const glm::vec3 ahead =
+        alongX ? glm::vec3(f.x < 0 ? -1 : 1, 0, 0) : glm::vec3(0, 0, f.z < 0 ? -1 : 1);
+    const glm::vec3 right{-ahead.z, 0, ahead.x};
+    switch (key) {
+    case GLFW_KEY_N:
+        addLight(scene_, editor, camera.position + lightDistance * camera.forward);
+        return true;
+    case GLFW_KEY_TAB:
+        selectLight(scene_, editor, window_.shiftPressed() ? -1 : 1);
+        return true;
+    case GLFW_KEY_DELETE:
+        removeLight(scene_, editor);
+        return true;
+    case GLFW_KEY_COMMA:
+        scaleLightRadius(scene_, editor, 1 / radiusStep);
+        return true;
+    case GLFW_KEY_PERIOD:
+        scaleLightRadius(scene_, editor, radiusStep);
+        return true;
+    case GLFW_KEY_UP:
+        moveLight(scene_, editor, lightStep * ahead);
+        return true;
+    case GLFW_KEY_DOWN:
+        moveLight(scene_, editor, -lightStep * ahead);
+        return true;
+    case GLFW_KEY_RIGHT:
+        moveLight(scene_, editor, lightStep * right);
+        return true;
+    case GLFW_KEY_LEFT:
+        moveLight(scene_, editor, -lightStep * right);
+        return true;
+    case GLFW_KEY_PAGE_UP:
+        moveLight(scene_, editor, {0, lightStep, 0});
+        return true;
+    case GLFW_KEY_PAGE_DOWN:
+        moveLight(scene_, editor, {0, -lightStep, 0});
+        return true;
+    default:
+        return false;
+    }
+}
+
+void Viewer::toggleOrbit()
+{
+    if (camera_.orbits())
+        return camera_.fly();
+    // As far ahead as the scene's middle; where that is behind, a third of the scene.
+    const Bounds bounds = sceneBounds(scene_);
+    const Camera camera = camera_.camera();
+    const double middle =
+        glm::dot(0.5 * (bounds.min + bounds.max) - camera.position, camera.forward);
+    const double third = glm::length(bounds.max - bounds.min) / 3;
+    camera_.orbit(middle > 0 ? middle : std::max(third, 1.0));
+}
+
+void Viewer::onDrop(const std::string& path)
+{
+    SceneOptions options = options_.sceneOptions;
+    const auto ends = [&](const char* extension) { return path.ends_with(extension); };
+    if (ends(".hdr") || ends(".exr") || ends(".pfm")) {
+        options.environment = path;
+        open(options_.scene, options);
+        return;
+    }
+    options.lights.reset();
+    if (!open(path, options))
+        return;
+    const Camera camera = selectCamera(scene_, "");
+    camera_ = FlyCamera(camera, cruisingSpeed(scene_));
+    spdlog::info("{}: {}", scene_.name, counted(scene_.lights.size(), "light"));
+}
+
+// A name that nothing has yet, where the program was started.
+void Viewer::saveImage(const char* extension)
+{
+    std::string path;
+    do
+        path = fmt::format("candelabra-{:03}{}", ++savedImages_, extension);
+    while (std::filesystem::exists(path));
+    ring_.wait();
+    try {
+        saveFrame(context_, *renderer_, path);
+        figures_.note = "wrote " + path;
+        spdlog::info("{}", figures_.note);
+    } catch (const ImageError& error) {
+        figures_.note = error.what();
+        spdlog::error("candelabra: {}", error.what());
+    }
+}
+
+void Viewer::moveCamera(double seconds)
+{
+    GLFWwindow* w = window_.get();
+    FlyInput input;
+    if (!overlay_.takesKeyboard()) {
+        const auto axis = [&](int plus, int minus) {
+            return double(glfwGetKey(w, plus) == GLFW_PRESS) -
+                   double(glfwGetKey(w, minus) == GLFW_PRESS);
+        };
+        input.move = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
+                      axis(GLFW_KEY_W, GLFW_KEY_S)};
+        input.fast = window_.shiftPressed();
+    }
+    double x = 0, y = 0;
+    glfwGetCursorPos(w, &x, &y);
+    const bool pressed = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
+                         glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
+    // A drag that began on the scene stays a look, wherever it goes.
+    if (pressed && looking_)
+        input.look = {x - lastX_, y - lastY_};
+    looking_ = pressed && (looking_ || !overlay_.takesMouse());
+    lastX_ = x;
+    lastY_ = y;
+    camera_.update(input, seconds);
+}
+
+} // namespace candelabra::app
