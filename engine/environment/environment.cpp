@@ -35,8 +35,6 @@ CndEnvironmentDesc checked(CndEnvironmentDesc desc)
     if (desc.framesInFlight < 1 || desc.framesInFlight > 8)
         gpu::failArgument("CndEnvironmentDesc: framesInFlight must be 1..8, is " +
                           std::to_string(desc.framesInFlight));
-    if (desc.gbufferLayout != CND_GBUFFER_FULL && desc.gbufferLayout != CND_GBUFFER_COMPACT)
-        gpu::failArgument("CndEnvironmentDesc: gbufferLayout is not a CndGBufferLayout");
     if (!desc.cubeSize)
         desc.cubeSize = defaultCubeSize;
     if (desc.cubeSize < 64 || desc.cubeSize > 2048 || !std::has_single_bit(desc.cubeSize))
@@ -118,14 +116,15 @@ glm::dmat3 rotationOf(const float (&columns)[9])
 Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& desc)
     : device_(device),
       desc_(checked(desc)),
+      gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
+      gbufferParams_(device_, desc_.framesInFlight),
       timer_(device_, "environment", desc_.framesInFlight + 1, desc_.timestamps),
       dfg_(device_),
       cube_(device_, spirv::environment_cube_comp),
       mip_(device_, spirv::environment_mip_comp),
       prefilter_(device_, spirv::environment_prefilter_comp),
       irradianceKernel_(device_, spirv::environment_irradiance_comp),
-      shade_(device_, spirv::shade_environment_comp,
-             {{gpu::SPEC_GBUFFER_LAYOUT, uint32_t(desc_.gbufferLayout)}}),
+      shade_(device_, spirv::shade_environment_comp, {{gpu::SPEC_GBUFFER, gbuffer_.code()}}),
       sampler_(createSampler(device_)),
       recorded_(desc_.framesInFlight)
 {
@@ -177,6 +176,7 @@ void Environment::recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map)
     timer_.begin(cmd, f.slot);
     f.barrier(); // against frames before, which use the same images
     recordLayouts(f);
+    gbuffer_.record(f);
     dfg_.recordFill(f);
     recordCube(f, map);
     recordPrefiltering(f);
@@ -263,8 +263,7 @@ void Environment::validate(const CndEnvironmentFrame& frame) const
                               std::to_string(frame.height) + " is outside 1x1..16384x16384");
     if (frame.clearDepth != 0 && frame.clearDepth != 1)
         gpu::failArgument("CndEnvironmentFrame: clearDepth must be 0 or 1");
-    if (!frame.normalRoughness || !frame.albedo || !frame.depth || !frame.radiance ||
-        (desc_.gbufferLayout == CND_GBUFFER_FULL && !frame.specular))
+    if (!gbuffer_.hasImages(frame) || !frame.radiance)
         gpu::failArgument("CndEnvironmentFrame: a G-buffer or radiance view is null");
     if (!(frame.scale >= 0 && std::isfinite(frame.scale)))
         gpu::failArgument("CndEnvironmentFrame: scale must be finite and >= 0");
@@ -281,12 +280,15 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
     validate(frame);
     const Projection projection =
         lighting::projectionOf(frame.camera.clipFromView, frame.clearDepth);
-    const VkImageView specular = frame.specular ? frame.specular : frame.albedo;
+    gbufferParams_.write(frame.frameSlot, gbuffer_, frame.camera);
+    const lighting::GBufferViews images = gbuffer_.views(frame, gbufferParams_);
     sets_.shade.write(frame.frameSlot,
-                      {Binding::sampled(SHADE_ENVIRONMENT_NORMAL_ROUGHNESS, frame.normalRoughness),
-                       Binding::sampled(SHADE_ENVIRONMENT_ALBEDO, frame.albedo),
-                       Binding::sampled(SHADE_ENVIRONMENT_SPECULAR, specular),
-                       Binding::sampled(SHADE_ENVIRONMENT_DEPTH, frame.depth),
+                      {Binding::sampled(SHADE_ENVIRONMENT_NORMAL_ROUGHNESS, images.packedNormal),
+                       Binding::sampled(SHADE_ENVIRONMENT_HOST_NORMAL, images.hostNormal),
+                       Binding::sampled(SHADE_ENVIRONMENT_ALBEDO, images.albedo),
+                       Binding::sampled(SHADE_ENVIRONMENT_SPECULAR, images.specular),
+                       Binding::sampled(SHADE_ENVIRONMENT_DEPTH, images.depth),
+                       images.params(SHADE_ENVIRONMENT_GBUFFER_VIEW),
                        Binding::storage(SHADE_ENVIRONMENT_RADIANCE, frame.radiance),
                        cubeSampled(SHADE_ENVIRONMENT_CUBE, source_, sampler_.get()),
                        cubeSampled(SHADE_ENVIRONMENT_PREFILTERED, prefiltered_, sampler_.get()),

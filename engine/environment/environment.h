@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/kernel.h"
+#include "lighting/host_gbuffer.h"
 #include "shared/environment.h"
 #include "tables/dfg_table.h"
 
@@ -36,6 +37,8 @@ private:
 
     gpu::Device device_;
     CndEnvironmentDesc desc_;
+    lighting::GBufferSource gbuffer_;
+    lighting::GBufferParams gbufferParams_;
     gpu::Timer timer_;
     tables::DfgTable dfg_;
     gpu::Kernel<gpu::EnvironmentCubeParams> cube_;

@@ -103,6 +103,16 @@ CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
     });
 }
 
+CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer cmd,
+                                  const CndLightingFrame* frame, const CndSurfaceOverlay* overlay,
+                                  CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndRecordSurfaceOverlay", {view, cmd, frame, overlay});
+        view->impl.recordOverlay(cmd, *frame, *overlay);
+    });
+}
+
 CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot, CndLightingStats* stats)
 {
     return view && stats ? view->impl.stats(frameSlot, *stats) : CND_ERROR_INVALID_ARGUMENT;

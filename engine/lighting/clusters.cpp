@@ -49,12 +49,11 @@ VkDeviceSize workBytes(uint32_t items)
 
 } // namespace
 
-ClusterKernels::ClusterKernels(const gpu::Device& device, CndGBufferLayout layout)
+ClusterKernels::ClusterKernels(const gpu::Device& device, uint32_t gbuffer)
     : lightTree(device, spirv::light_tree_comp,
                 {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
-      tileClusters(device, spirv::tile_clusters_comp,
-                   {{gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}}),
-      splitTiles(device, spirv::split_tiles_comp, {{gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)}}),
+      tileClusters(device, spirv::tile_clusters_comp, {{gpu::SPEC_GBUFFER, gbuffer}}),
+      splitTiles(device, spirv::split_tiles_comp, {{gpu::SPEC_GBUFFER, gbuffer}}),
       blockClusters(device, spirv::block_clusters_comp),
       clusterLists(device, spirv::cluster_lists_comp,
                    {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}})
@@ -164,14 +163,16 @@ void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const 
     treeSets_.write(slot, {Binding::ofTexels(LIGHT_TREE_CORE, in.core),
                            Binding::of(LIGHT_TREE_CORE_WORDS, in.core),
                            Binding::of(LIGHT_TREE_NODES, nodes_)});
-    tileSets_.write(slot, {Binding::sampled(TILE_CLUSTERS_DEPTH, in.depth),
-                           Binding::sampled(TILE_CLUSTERS_NORMALS, in.normalRoughness),
+    const Binding depth = Binding::sampled(TILE_CLUSTERS_DEPTH, in.gbuffer.depth);
+    const Binding normals = Binding::sampled(TILE_CLUSTERS_NORMALS, in.gbuffer.packedNormal);
+    const Binding hostNormals = Binding::sampled(TILE_CLUSTERS_HOST_NORMALS, in.gbuffer.hostNormal);
+    const Binding gbufferView = in.gbuffer.params(TILE_CLUSTERS_GBUFFER_VIEW);
+    tileSets_.write(slot, {depth, normals, hostNormals, gbufferView,
                            Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
                            Binding::of(TILE_CLUSTERS_TILES, tiles_),
                            Binding::of(TILE_CLUSTERS_SURFACES, surfaces_),
                            Binding::of(TILE_CLUSTERS_SPLITS, splits_)});
-    splitSets_.write(slot, {Binding::sampled(TILE_CLUSTERS_DEPTH, in.depth),
-                            Binding::sampled(TILE_CLUSTERS_NORMALS, in.normalRoughness),
+    splitSets_.write(slot, {depth, normals, hostNormals, gbufferView,
                             Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
                             Binding::of(TILE_CLUSTERS_TILES, tiles_),
                             Binding::of(TILE_CLUSTERS_SPLITS, splits_)});

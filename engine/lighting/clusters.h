@@ -7,6 +7,7 @@
 #include <array>
 
 #include "gpu/kernel.h"
+#include "lighting/host_gbuffer.h"
 #include "lighting/pack_lights.h"
 #include "shared/clusters.h"
 
@@ -16,7 +17,8 @@ namespace candelabra::lighting
 class Lighting;
 
 struct ClusterKernels {
-    ClusterKernels(const gpu::Device& device, CndGBufferLayout layout);
+    // `gbuffer`: value of SPEC_GBUFFER.
+    ClusterKernels(const gpu::Device& device, uint32_t gbuffer);
     gpu::Kernel<gpu::LightTreeParams> lightTree;
     gpu::Kernel<gpu::TileClustersParams> tileClusters, splitTiles;
     gpu::Kernel<gpu::BlockClustersParams> blockClusters;
@@ -37,7 +39,7 @@ public:
     void grow(uint32_t lightCapacity, const LightTypeCounts& types);
 
     struct Inputs {
-        VkImageView depth, normalRoughness;
+        const GBufferViews& gbuffer;
         const gpu::Buffer &core, &counters;
     };
     void writeBindings(uint32_t slot, const LightTypeCounts& types, const Inputs& inputs) const;

@@ -28,8 +28,6 @@ CndLightingDesc checked(CndLightingDesc desc)
     if (desc.framesInFlight < 1 || desc.framesInFlight > 8)
         gpu::failArgument("CndLightingDesc: framesInFlight must be 1..8, is " +
                           std::to_string(desc.framesInFlight));
-    if (desc.gbufferLayout != CND_GBUFFER_FULL && desc.gbufferLayout != CND_GBUFFER_COMPACT)
-        gpu::failArgument("CndLightingDesc: gbufferLayout is not a CndGBufferLayout");
     if (desc.specularMethods >> CND_SPECULAR_METHOD_COUNT)
         gpu::failArgument("CndLightingDesc: specularMethods has bits beyond the last "
                           "CndSpecularMethod");
@@ -65,18 +63,20 @@ uint32_t maxLights(const VkPhysicalDeviceLimits& limits)
     return uint32_t(std::min({countable, stored, dispatched}));
 }
 
-Kernels::Kernels(const gpu::Device& device, const CndLightingDesc& desc)
+Kernels::Kernels(const gpu::Device& device, const CndLightingDesc& desc, uint32_t gbuffer)
     : prepareLights(device, spirv::prepare_lights_comp),
       order(device),
-      clusters(device, desc.gbufferLayout),
-      shade(device, desc.gbufferLayout, desc.specularMethods)
+      clusters(device, gbuffer),
+      shade(device, gbuffer, desc.specularMethods),
+      surfaceOverlay(device, spirv::surface_overlay_comp, {{gpu::SPEC_GBUFFER, gbuffer}})
 {
 }
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
     : device_(device),
       desc_(checked(desc)),
-      kernels_(device_, desc_),
+      gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
+      kernels_(device_, desc_, gbuffer_.code()),
       dfg_(device_),
       ltc_(createLtcBuffer(device_)),
       deviceLights_(device_)

@@ -11,11 +11,13 @@
 #include "lighting/clusters.h"
 #include "lighting/device_lights.h"
 #include "lighting/frame_passes.h"
+#include "lighting/host_gbuffer.h"
 #include "lighting/light_order.h"
 #include "lighting/pack_lights.h"
 #include "lighting/reach.h"
 #include "lighting/shade_kernels.h"
 #include "shared/lighting.h"
+#include "shared/surface_overlay.h"
 #include "tables/dfg_table.h"
 
 namespace candelabra::lighting
@@ -27,11 +29,13 @@ class View;
 uint32_t maxLights(const VkPhysicalDeviceLimits& limits);
 
 struct Kernels {
-    Kernels(const gpu::Device& device, const CndLightingDesc& desc);
+    // `gbuffer`: value of SPEC_GBUFFER.
+    Kernels(const gpu::Device& device, const CndLightingDesc& desc, uint32_t gbuffer);
     gpu::Kernel<gpu::PrepareLightsParams> prepareLights;
     LightOrder order;
     ClusterKernels clusters;
     ShadeKernels shade;
+    gpu::Kernel<gpu::SurfaceOverlayParams> surfaceOverlay;
 };
 
 class Lighting
@@ -48,6 +52,8 @@ public:
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
     // What was found of lights on the device, into LightingCounters.
     void recordDeviceCounts(const gpu::Frame& frame, const gpu::Buffer& counters) const noexcept;
+    // Makes what reads the G-buffer ready, once; before all that does.
+    void recordGBuffer(const gpu::Frame& frame) noexcept { gbuffer_.record(frame); }
     // Fills, once each, the tables that shading reads; directional albedos only on demand.
     void recordTables(const gpu::Frame& frame, bool directionalAlbedo) noexcept;
 
@@ -67,6 +73,7 @@ public:
 
     const gpu::Device& device() const { return device_; }
     const CndLightingDesc& desc() const { return desc_; }
+    const GBufferSource& gbuffer() const { return gbuffer_; }
     const Kernels& kernels() const { return kernels_; }
     const gpu::Buffer& records() const { return records_; }
     const gpu::Buffer& lightOrder() const { return sort_.keys[0]; }
@@ -103,6 +110,7 @@ private:
 
     gpu::Device device_;
     CndLightingDesc desc_;
+    GBufferSource gbuffer_;
     Kernels kernels_;
     tables::DfgTable dfg_;
     gpu::Buffer ltc_;
@@ -143,6 +151,9 @@ public:
 
     // Throws gpu::Failure on arguments out of range; once recording starts nothing can fail.
     void record(VkCommandBuffer cmd, const CndLightingFrame& frame);
+    // The same of the overlay (surface_overlay.cpp).
+    void recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
+                       const CndSurfaceOverlay& overlay);
     CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
     // Called by Lighting before a set of lights: buffers grow, old ones are retired.
     void makeRoom(const LightTypeCounts& types);
@@ -156,6 +167,7 @@ public:
 private:
     struct Plan; // sizes derived from a frame
     Plan plan(const CndLightingFrame& frame) const;
+    void validateSurfaces(const CndLightingFrame& frame) const;
     void validate(const CndLightingFrame& frame) const;
     bool keepsLists(const CndLightingFrame& frame, uint32_t sampleCount);
     FrameContent contentOf(const CndLightingFrame& frame, const LightTypeCounts& inView,
@@ -183,7 +195,8 @@ private:
 
     // Per slot; those of clustered shading per slot and light type.
     struct Sets {
-        gpu::Bindings prepareLights, shadeTiles, shadeUnlisted, shadeBrute, countPairs;
+        gpu::Bindings prepareLights, shadeTiles, shadeUnlisted, shadeBrute, countPairs,
+            surfaceOverlay;
     };
     // What lists were made for, besides surfaces.
     struct ListsKey {
@@ -203,6 +216,7 @@ private:
     gpu::Timer timer_;
     Sets sets_;
     Clusters clusters_;
+    GBufferParams gbufferParams_;
     gpu::Buffer core_, aux_; // per light
     gpu::Buffer counters_;
     std::vector<gpu::Buffer> readback_; // per slot

@@ -38,8 +38,8 @@ CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method)
     }
 }
 
-ShadeKernels::ShadeKernels(const gpu::Device& device, CndGBufferLayout layout, uint32_t methods)
-    : device_(&device), layout_(layout), methods_(methods)
+ShadeKernels::ShadeKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t methods)
+    : device_(&device), gbuffer_(gbuffer), methods_(methods)
 {
     require(CND_LIGHT_SPHERE);
 }
@@ -113,7 +113,7 @@ ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, uint32_t met
                       {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
                        {gpu::SPEC_SPECULAR_METHOD, method},
                        {gpu::SPEC_LIGHT_TYPE, lightType},
-                       {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout_)},
+                       {gpu::SPEC_GBUFFER, gbuffer_},
                        {gpu::SPEC_ERROR_BUDGET, withBudget}});
     };
     const Family family = familyOf(lightType, CndSpecularMethod(method));

@@ -29,7 +29,8 @@ class ShadeKernels
 public:
     using Kernel = gpu::Kernel<gpu::ShadeParams>;
     // `methods`: mask of 1 << CndSpecularMethod.
-    ShadeKernels(const gpu::Device& device, CndGBufferLayout layout, uint32_t methods);
+    // `gbuffer`: value of SPEC_GBUFFER.
+    ShadeKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t methods);
     // Makes the pipelines of a light type unless they exist.
     void require(uint32_t lightType);
 
@@ -50,7 +51,7 @@ private:
     Variant makeVariant(uint32_t lightType, uint32_t method, bool withBudget) const;
 
     const gpu::Device* device_;
-    CndGBufferLayout layout_;
+    uint32_t gbuffer_;
     uint32_t methods_;
     OfType types_[CND_LIGHT_TYPE_COUNT];
 };

@@ -94,6 +94,7 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
       timer_(lighting.device(), "lighting", lighting.desc().framesInFlight,
              lighting.desc().timestamps),
       clusters_(lighting, {tiles(desc_.maxWidth), tiles(desc_.maxHeight)}, desc_.listBudget),
+      gbufferParams_(lighting.device(), lighting.desc().framesInFlight),
       slots_(lighting.desc().framesInFlight)
 {
     const gpu::Device& device = lighting.device();
@@ -105,7 +106,8 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
              .shadeTiles = shade.tiles.createBindings(perType),
              .shadeUnlisted = shade.unlisted.createBindings(perType),
              .shadeBrute = shade.brute.createBindings(slots),
-             .countPairs = shade.countPairs.createBindings(perType)};
+             .countPairs = shade.countPairs.createBindings(perType),
+             .surfaceOverlay = k.surfaceOverlay.createBindings(slots)};
     counters_ = gpu::createBuffer(device, "lighting counters", sizeof(gpu::LightingCounters),
                                   storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -187,6 +189,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     f.barrier();
     lighting_.recordDeviceCounts(f, counters_);
     if (passes.runs(Pass::ShadeTiles) || passes.runs(Pass::ShadeBrute)) {
+        lighting_.recordGBuffer(f);
         lighting_.recordTables(f, passes.runs(Pass::DfgTable));
         if (passes.runs(Pass::PrepareLights))
             recordPrepare(f, plan);

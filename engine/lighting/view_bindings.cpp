@@ -9,30 +9,29 @@ void View::writeBindings(const CndLightingFrame& frame) const
 {
     using namespace gpu;
     const uint32_t slot = frame.frameSlot;
-    const VkImageView specular = frame.specular ? frame.specular : frame.albedo;
+    gbufferParams_.write(slot, lighting_.gbuffer(), frame.camera);
+    const GBufferViews images = lighting_.gbuffer().views(frame, gbufferParams_);
+    const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal);
+    const Binding hostNormals = Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal);
+    const Binding albedo = Binding::sampled(SHADE_ALBEDO, images.albedo);
+    const Binding f0 = Binding::sampled(SHADE_SPECULAR, images.specular);
+    const Binding depth = Binding::sampled(SHADE_DEPTH, images.depth);
+    const Binding gbufferView = images.params(SHADE_GBUFFER_VIEW);
     sets_.prepareLights.write(slot, {Binding::of(PREPARE_LIGHTS_RECORDS, lighting_.records()),
                                      Binding::of(PREPARE_LIGHTS_CORE, core_),
                                      Binding::of(PREPARE_LIGHTS_AUX, aux_),
                                      Binding::of(PREPARE_LIGHTS_ORDER, lighting_.lightOrder())});
     if (frame.culling == CND_CULLING_BRUTE) {
-        sets_.shadeBrute.write(slot,
-                               {Binding::ofTexels(SHADE_CORE, core_),
-                                Binding::of(SHADE_CORE_WORDS, core_), Binding::of(SHADE_AUX, aux_),
-                                Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness),
-                                Binding::sampled(SHADE_ALBEDO, frame.albedo),
-                                Binding::sampled(SHADE_SPECULAR, specular),
-                                Binding::sampled(SHADE_DEPTH, frame.depth),
-                                Binding::storage(SHADE_RADIANCE, frame.radiance),
-                                Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo()),
-                                Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines())});
+        sets_.shadeBrute.write(
+            slot, {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
+                   Binding::of(SHADE_AUX, aux_), normals, hostNormals, albedo, f0, depth,
+                   gbufferView, Binding::storage(SHADE_RADIANCE, frame.radiance),
+                   Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo()),
+                   Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines())});
         return;
     }
     const LightTypeCounts& types = lighting_.typeCounts();
-    clusters_.writeBindings(slot, types,
-                            {.depth = frame.depth,
-                             .normalRoughness = frame.normalRoughness,
-                             .core = core_,
-                             .counters = counters_});
+    clusters_.writeBindings(slot, types, {.gbuffer = images, .core = core_, .counters = counters_});
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
         if (!types[type])
             continue;
@@ -41,10 +40,6 @@ void View::writeBindings(const CndLightingFrame& frame) const
         const Binding core = Binding::ofTexels(SHADE_CORE, core_);
         const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
         const Binding aux = Binding::of(SHADE_AUX, aux_);
-        const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame.normalRoughness);
-        const Binding albedo = Binding::sampled(SHADE_ALBEDO, frame.albedo);
-        const Binding f0 = Binding::sampled(SHADE_SPECULAR, specular);
-        const Binding depth = Binding::sampled(SHADE_DEPTH, frame.depth);
         const Binding radiance = Binding::storage(SHADE_RADIANCE, frame.radiance);
         const Binding dfg = Binding::ofTexels(SHADE_DFG, lighting_.directionalAlbedo());
         const Binding ltc = Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines());
@@ -54,17 +49,18 @@ void View::writeBindings(const CndLightingFrame& frame) const
         const Binding surfaces = Binding::of(SHADE_WORK, clusters_.surfaces());
         const Binding toShade = Binding::of(SHADE_WORK, clusters_.tilesToShade(type));
         const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
-        sets_.shadeTiles.write(set, {core, coreWords, aux, normals, albedo, f0, depth, radiance,
-                                     dfg, ltc, tiles, heads, entries, toShade});
-        sets_.shadeUnlisted.write(set, {core, coreWords, aux, normals, albedo, f0, depth, radiance,
-                                        dfg, ltc, tiles, heads, unlisted,
-                                        Binding::of(SHADE_CLUSTERS, clusters_.clusters()),
+        sets_.shadeTiles.write(set,
+                               {core, coreWords, aux, normals, hostNormals, albedo, f0, depth,
+                                gbufferView, radiance, dfg, ltc, tiles, heads, entries, toShade});
+        sets_.shadeUnlisted.write(set, {core, coreWords, aux, normals, hostNormals, albedo, f0,
+                                        depth, gbufferView, radiance, dfg, ltc, tiles, heads,
+                                        unlisted, Binding::of(SHADE_CLUSTERS, clusters_.clusters()),
                                         Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
                                         Binding::of(SHADE_NODE_WORDS, clusters_.nodes())});
         sets_.countPairs.write(
             set,
-            {core, coreWords, aux, normals, albedo, f0, depth, dfg, ltc, tiles, heads, entries,
-             surfaces, Binding::of(SHADE_COUNTERS, counters_),
+            {core, coreWords, aux, normals, hostNormals, albedo, f0, depth, gbufferView, dfg, ltc,
+             tiles, heads, entries, surfaces, Binding::of(SHADE_COUNTERS, counters_),
              // Without one it is not written.
              Binding::storage(SHADE_PAIRS, frame.pairImage ? frame.pairImage : frame.radiance)});
     }

@@ -14,7 +14,8 @@ constexpr uint32_t maxSampleCount = 4096;
 
 } // namespace
 
-void View::validate(const CndLightingFrame& frame) const
+// What the surfaces of a frame are: also of an overlay.
+void View::validateSurfaces(const CndLightingFrame& frame) const
 {
     if (frame.structSize != sizeof frame)
         gpu::failArgument("CndLightingFrame: structSize is " + std::to_string(frame.structSize) +
@@ -29,6 +30,16 @@ void View::validate(const CndLightingFrame& frame) const
                           std::to_string(desc_.maxWidth) + "x" + std::to_string(desc_.maxHeight));
     if (frame.clearDepth != 0 && frame.clearDepth != 1)
         gpu::failArgument("CndLightingFrame: clearDepth must be 0 or 1");
+    if (!lighting_.gbuffer().hasImages(frame))
+        gpu::failArgument("CndLightingFrame: a G-buffer view is null");
+    checkCamera(frame.camera);
+}
+
+void View::validate(const CndLightingFrame& frame) const
+{
+    validateSurfaces(frame);
+    if (!frame.radiance)
+        gpu::failArgument("CndLightingFrame: radiance is null");
     if (uint32_t(frame.specularMethod) >= CND_SPECULAR_METHOD_COUNT)
         gpu::failArgument("CndLightingFrame: specularMethod is not a CndSpecularMethod");
     if (!lighting_.kernels().shade.allows(frame.specularMethod))
@@ -45,9 +56,6 @@ void View::validate(const CndLightingFrame& frame) const
         gpu::failArgument("CndLightingFrame: lobes is not a CndLobeJoining");
     if (uint32_t(frame.culling) > CND_CULLING_BRUTE)
         gpu::failArgument("CndLightingFrame: culling is not a CndCulling");
-    if (!frame.normalRoughness || !frame.albedo || !frame.depth || !frame.radiance ||
-        (lighting_.desc().gbufferLayout == CND_GBUFFER_FULL && !frame.specular))
-        gpu::failArgument("CndLightingFrame: a G-buffer or radiance view is null");
     const auto isInside = [](int32_t offset, uint32_t extent, uint32_t size) {
         return offset >= 0 && uint32_t(offset) <= size && extent <= size - uint32_t(offset);
     };
@@ -57,7 +65,6 @@ void View::validate(const CndLightingFrame& frame) const
     if (!isInside(r.offset.x, r.extent.width, frame.width) ||
         !isInside(r.offset.y, r.extent.height, frame.height))
         gpu::failArgument("CndLightingFrame: bruteRect is not inside the frame");
-    checkCamera(frame.camera);
 }
 
 } // namespace candelabra::lighting

@@ -3,37 +3,29 @@
 // surface: to distant lights that are seen there already, as surfaces get the light of both.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_samplerless_texture_functions : require
 #include "shared/environment.h"
 #define DFG_BINDING SHADE_ENVIRONMENT_DFG
 #include "lib/dfg.glsl"
-#include "lib/gbuffer.glsl"
+#define GBUFFER_CODE SPEC_GBUFFER
+#define GBUFFER_PACKED SHADE_ENVIRONMENT_NORMAL_ROUGHNESS
+#define GBUFFER_NORMAL SHADE_ENVIRONMENT_HOST_NORMAL
+#define GBUFFER_VIEW SHADE_ENVIRONMENT_GBUFFER_VIEW
+#define GBUFFER_ALBEDO SHADE_ENVIRONMENT_ALBEDO
+#define GBUFFER_SPECULAR SHADE_ENVIRONMENT_SPECULAR
+#include "lib/read_gbuffer.glsl"
 #include "lib/joining.glsl"
 #include "lib/projection.glsl"
 
 layout(local_size_x = SHADE_ENVIRONMENT_GROUP, local_size_y = SHADE_ENVIRONMENT_GROUP) in;
-layout(constant_id = SPEC_GBUFFER_LAYOUT) const uint gbufferLayout = 0u;
 layout(push_constant, scalar) uniform Push
 {
     ShadeEnvironmentParams params;
 };
-layout(binding = SHADE_ENVIRONMENT_NORMAL_ROUGHNESS) uniform utexture2D normalRoughnessImage;
-layout(binding = SHADE_ENVIRONMENT_ALBEDO) uniform texture2D albedoImage;
-layout(binding = SHADE_ENVIRONMENT_SPECULAR) uniform texture2D specularImage;
 layout(binding = SHADE_ENVIRONMENT_DEPTH) uniform texture2D depthImage;
 layout(binding = SHADE_ENVIRONMENT_RADIANCE, rgba32f) uniform image2D radianceImage;
 layout(binding = SHADE_ENVIRONMENT_CUBE) uniform samplerCube environment;
 layout(binding = SHADE_ENVIRONMENT_PREFILTERED) uniform samplerCube prefiltered;
 layout(binding = SHADE_ENVIRONMENT_IRRADIANCE) uniform samplerCube irradiance;
-
-Surface readSurface(ivec2 pixel)
-{
-    const uvec2 normalRoughness = texelFetch(normalRoughnessImage, pixel, 0).xy;
-    const vec4 albedo = texelFetch(albedoImage, pixel, 0);
-    if (gbufferLayout == GBUFFER_LAYOUT_COMPACT)
-        return unpackGBufferCompact(normalRoughness.x, albedo);
-    return unpackGBufferFull(normalRoughness, albedo, texelFetch(specularImage, pixel, 0));
-}
 
 // What the eye sees beyond all surfaces: from the mip whose texels are as large as the pixel.
 vec3 background(uvec2 pixel)

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bounds of surface samples: a box, a slab along an axis near their normals, and a cone of normals.
 // Exact positions, not a frustum slice, so lights are culled against what is really there.
-#extension GL_EXT_samplerless_texture_functions : require
 #include "shared/clusters.h"
 #include "lib/bounds.glsl"
-#include "lib/gbuffer.glsl"
+#define GBUFFER_CODE SPEC_GBUFFER
+#define GBUFFER_PACKED TILE_CLUSTERS_NORMALS
+#define GBUFFER_NORMAL TILE_CLUSTERS_HOST_NORMALS
+#define GBUFFER_VIEW TILE_CLUSTERS_GBUFFER_VIEW
+#include "lib/read_gbuffer.glsl"
 #include "lib/projection.glsl"
 
-layout(constant_id = SPEC_GBUFFER_LAYOUT) const uint gbufferLayout = 0u;
 layout(push_constant, scalar) uniform Push
 {
     TileClustersParams params;
 };
 layout(binding = TILE_CLUSTERS_DEPTH) uniform texture2D depthImage;
-layout(binding = TILE_CLUSTERS_NORMALS) uniform utexture2D normalRoughnessImage;
 layout(scalar, binding = TILE_CLUSTERS_CLUSTERS) writeonly buffer Clusters
 {
     Cluster clusters[];
@@ -21,11 +22,6 @@ layout(scalar, binding = TILE_CLUSTERS_CLUSTERS) writeonly buffer Clusters
 float depthAt(uvec2 pixel)
 {
     return texelFetch(depthImage, ivec2(pixel), 0).x;
-}
-
-vec3 normalAt(uvec2 pixel)
-{
-    return unpackNormal(gbufferLayout, texelFetch(normalRoughnessImage, ivec2(pixel), 0).xy);
 }
 
 Cluster emptyCluster(uint tile)
@@ -47,7 +43,7 @@ bool isEmpty(Cluster c)
 void addSample(inout Cluster c, uvec2 pixel, float depth)
 {
     const vec3 p = viewPosition(params.projection, pixel, params.invImageSize, depth);
-    const vec3 n = normalAt(pixel);
+    const vec3 n = readNormal(ivec2(pixel));
     c.axis = isEmpty(c) ? n : c.axis;
     c.depthBits = min(c.depthBits, depthBits(depth));
     c.min = min(c.min, p);

@@ -78,11 +78,11 @@ struct BaselineScanParams {
 GPU_SIZE(BaselineScanParams, 8)
 
 // --- baseline_shade, baseline_pairs, baseline_floor: bindings of lighting.h, and
-const uint BASELINE_HEADS = 20u;
-const uint BASELINE_ENTRIES = 21u;
-const uint BASELINE_GRID = 22u;
-const uint BASELINE_COUNTERS = 23u; // baseline_pairs
-const uint BASELINE_FOUND = 24u;    // uint per pixel: evaluations above, near, general, 8 bits each
+const uint BASELINE_HEADS = 30u;
+const uint BASELINE_ENTRIES = 31u;
+const uint BASELINE_GRID = 32u;
+const uint BASELINE_COUNTERS = 33u; // baseline_pairs
+const uint BASELINE_FOUND = 34u;    // uint per pixel: evaluations above, near, general, 8 bits each
 struct BaselineGrid {
     uvec2 count; // tiles or froxels in x and y
     float nearest, slicesPerOctave;

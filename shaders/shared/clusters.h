@@ -95,8 +95,10 @@ const uint TILE_CLUSTERS_DEPTH = 0u;
 const uint TILE_CLUSTERS_NORMALS = 1u;
 const uint TILE_CLUSTERS_CLUSTERS = 2u;
 const uint TILE_CLUSTERS_TILES = 3u;
-const uint TILE_CLUSTERS_SURFACES = 4u; // WorkList of tiles with a surface
-const uint TILE_CLUSTERS_SPLITS = 5u;   // WorkList of tiles to be split
+const uint TILE_CLUSTERS_SURFACES = 4u;     // WorkList of tiles with a surface
+const uint TILE_CLUSTERS_SPLITS = 5u;       // WorkList of tiles to be split
+const uint TILE_CLUSTERS_HOST_NORMALS = 6u; // lib/read_gbuffer.glsl
+const uint TILE_CLUSTERS_GBUFFER_VIEW = 7u; // GBufferViewParams
 struct TileClustersParams {
     Projection projection;
     uvec2 size; // pixels

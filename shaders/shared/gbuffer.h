@@ -19,6 +19,7 @@ GPU_BEGIN
 // CndGBufferLayout.
 const uint GBUFFER_LAYOUT_FULL = 0u;
 const uint GBUFFER_LAYOUT_COMPACT = 1u;
+const uint GBUFFER_LAYOUT_HOST = 2u;
 
 // Octahedral coordinates are signed: k / (2^(bits-1) - 1). The most negative code is not a
 // direction.

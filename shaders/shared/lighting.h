@@ -5,6 +5,7 @@
 #define CND_SHARED_LIGHTING_H
 
 #include "shared/dfg.h"
+#include "shared/host_gbuffer.h"
 #include "shared/light_types.h"
 #include "shared/prelude.h"
 #include "shared/specular_methods.h"
@@ -104,8 +105,10 @@ const uint SHADE_COUNTERS = 14u; // count_pairs
 const uint SHADE_CLUSTERS = 15u; // shade_unlisted
 const uint SHADE_NODES = 16u;    // shade_unlisted
 const uint SHADE_NODE_WORDS = 17u;
-const uint SHADE_PAIRS = 18u;  // count_pairs: CndLightingFrame::pairImage
-const uint PIXEL_OF_TILE = 1u; // CndPixelClass
+const uint SHADE_PAIRS = 18u;        // count_pairs: CndLightingFrame::pairImage
+const uint SHADE_HOST_NORMAL = 19u;  // all that shade (lib/read_gbuffer.glsl)
+const uint SHADE_GBUFFER_VIEW = 20u; // all that shade: GBufferViewParams
+const uint PIXEL_OF_TILE = 1u;       // CndPixelClass
 const uint PIXEL_OF_SLICE = 2u;
 const uint PIXEL_UNLISTED = 3u;
 const uint COMPENSATE_ENERGY = 256u;
@@ -133,7 +136,7 @@ GPU_SIZE(ShadeParams, 128)
 const uint SPEC_LIGHTS_AS_TEXELS = 0u; // read core as a texel buffer (else as a storage buffer)
 const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
 const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
-const uint SPEC_GBUFFER_LAYOUT = 3u;   // CndGBufferLayout
+const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer.h)
 const uint SPEC_ERROR_BUDGET = 4u;     // 1: ShadeParams::errorBudget may be > 0
 
 // Specular is evaluated at alpha >= this: below it float32 NoH loses the peak (measured: relative

@@ -29,16 +29,21 @@ void EnvironmentTest::TearDown()
     LightingTest::TearDown();
 }
 
-void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize)
+void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize,
+                               const CndGBufferDesc* gbuffer)
 {
     cndDestroyEnvironment(environment_);
     environment_ = nullptr;
     CndError error{};
-    const CndEnvironmentDesc desc{.structSize = sizeof desc,
-                                  .framesInFlight = 2,
-                                  .gbufferLayout = CND_GBUFFER_FULL,
-                                  .cubeSize = cubeSize,
-                                  .timestamps = VK_TRUE};
+    CndEnvironmentDesc desc{.structSize = sizeof desc,
+                            .framesInFlight = 2,
+                            .gbufferLayout = CND_GBUFFER_FULL,
+                            .cubeSize = cubeSize,
+                            .timestamps = VK_TRUE};
+    if (gbuffer) {
+        desc.gbufferLayout = CND_GBUFFER_HOST;
+        desc.gbuffer = *gbuffer;
+    }
     ASSERT_EQ(cndCreateEnvironment(&deviceDesc(), &desc, &environment_, &error), CND_SUCCESS)
         << error.message;
     const gpu::Image image = gpu::createImage(

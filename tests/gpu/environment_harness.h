@@ -36,8 +36,10 @@ class EnvironmentTest : public LightingTest
 {
 protected:
     void TearDown() override;
-    // Keeps the device's cube of `image` until the next call.
-    void setImage(const EnvironmentImage& image, uint32_t cubeSize = 0);
+    // Keeps the device's cube of `image` until the next call. `gbuffer`: surfaces will be of
+    // CND_GBUFFER_HOST, else FULL.
+    void setImage(const EnvironmentImage& image, uint32_t cubeSize = 0,
+                  const CndGBufferDesc* gbuffer = nullptr);
     std::vector<glm::vec4> shade(const CpuGBuffer& g, const EnvironmentOptions& options = {});
     CndEnvironmentFrame environmentFrame(const CpuGBuffer& g, const Images& images,
                                          const EnvironmentOptions& options) const;

@@ -105,8 +105,11 @@ const std::vector<Step>& steps()
         {"create lighting", false,
          [](Host& h, CndError* error) {
              const CndDeviceDesc device = h.vulkan.desc();
-             const CndLightingDesc desc{
-                 .structSize = sizeof desc, .framesInFlight = 2, .timestamps = true};
+             const CndLightingDesc desc{.structSize = sizeof desc,
+                                        .framesInFlight = 2,
+                                        .gbufferLayout = CND_GBUFFER_HOST,
+                                        .timestamps = true,
+                                        .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A}};
              return cndCreateLighting(&device, &desc, &h.lighting, error);
          }},
         {"create view", false,
@@ -125,8 +128,11 @@ const std::vector<Step>& steps()
         {"create environment", false,
          [](Host& h, CndError* error) {
              const CndDeviceDesc device = h.vulkan.desc();
-             const CndEnvironmentDesc desc{
-                 .structSize = sizeof desc, .framesInFlight = 2, .timestamps = true};
+             const CndEnvironmentDesc desc{.structSize = sizeof desc,
+                                           .framesInFlight = 2,
+                                           .gbufferLayout = CND_GBUFFER_HOST,
+                                           .timestamps = true,
+                                           .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A}};
              return cndCreateEnvironment(&device, &desc, &h.environment, error);
          }},
         {"set lights", false,
@@ -139,6 +145,14 @@ const std::vector<Step>& steps()
              frame.specularMethod = CND_SPECULAR_CONIC;
              frame.countPairs = VK_TRUE;
              return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
+         }},
+        {"record overlay", true,
+         [](Host& h, CndError* error) {
+             const CndLightingFrame frame = surfaces<CndLightingFrame>();
+             const CndSurfaceOverlay overlay{.structSize = sizeof overlay,
+                                             .image = MockVulkan::imageView()};
+             return cndRecordSurfaceOverlay(h.view, MockVulkan::commandBuffer(), &frame, &overlay,
+                                            error);
          }},
         {"set more lights of another type", false,
          [](Host& h, CndError* error) { return setLights(h, CND_LIGHT_TUBE, secondCount, error); }},

@@ -167,6 +167,14 @@ public:
         frame.structSize = sizeof frame;
         return detail::call(cndRecordLighting, handle_, cmd, &frame);
     }
+    // Instead of the above or besides it: what is read of the G-buffer, as a picture.
+    Result<void> recordOverlay(VkCommandBuffer cmd, CndLightingFrame frame,
+                               CndSurfaceOverlay overlay) const noexcept
+    {
+        frame.structSize = sizeof frame;
+        overlay.structSize = sizeof overlay;
+        return detail::call(cndRecordSurfaceOverlay, handle_, cmd, &frame, &overlay);
+    }
     // Empty until the GPU has finished the slot's frame; an error before there was one.
     Result<std::optional<CndLightingStats>> stats(uint32_t frameSlot) const noexcept
     {

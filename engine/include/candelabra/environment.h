@@ -19,7 +19,8 @@ typedef struct CndEnvironmentDesc {
     // Texels of a cube face's side, a power of two 64..2048, 0 = default (256): what mirrors and
     // the background show. 256 * cubeSize^2 bytes (256: 17 MB).
     uint32_t cubeSize;
-    VkBool32 timestamps; // time every kernel
+    VkBool32 timestamps;    // time every kernel
+    CndGBufferDesc gbuffer; // of CND_GBUFFER_HOST
 } CndEnvironmentDesc;
 
 // An equirectangular image: up (+y) at the top row, -z in the middle, +x to the right of it;
@@ -43,8 +44,8 @@ typedef struct CndEnvironmentFrame {
     float clearDepth; // depth of pixels without a surface: 0 with reversed depth, else 1
     VkImageView normalRoughness;
     VkImageView albedo;
-    VkImageView specular; // ignored by CND_GBUFFER_COMPACT (may be VK_NULL_HANDLE)
-    VkImageView depth;    // depth aspect, D32_SFLOAT
+    VkImageView specular; // may be VK_NULL_HANDLE where the layout reads none (COMPACT)
+    VkImageView depth;    // depth aspect of a depth format, or R32_SFLOAT
     VkImageView radiance; // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
     float worldFromEnvironment[9]; // rotation of the image's space, columns
     float scale;                   // >= 0, factor on the image's luminance

@@ -57,6 +57,7 @@ typedef struct CndLightingDesc {
     // made for these only; those of a light type with the first set of lights that holds it
     // (spheres: at creation).
     uint32_t specularMethods;
+    CndGBufferDesc gbuffer; // of CND_GBUFFER_HOST
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -82,8 +83,8 @@ typedef struct CndLightingFrame {
     float clearDepth; // depth of pixels without a surface: 0 with reversed depth, else 1
     VkImageView normalRoughness;
     VkImageView albedo;
-    VkImageView specular; // ignored by CND_GBUFFER_COMPACT (may be VK_NULL_HANDLE)
-    VkImageView depth;    // depth aspect, D32_SFLOAT
+    VkImageView specular; // may be VK_NULL_HANDLE where the layout reads none (COMPACT)
+    VkImageView depth;    // depth aspect of a depth format, or R32_SFLOAT
     VkImageView radiance; // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
     CndSpecularMethod specularMethod; // one of CndLightingDesc::specularMethods; 0 is NONE
     uint32_t sampleCount; // CND_SPECULAR_SAMPLED: samples per light and pixel, 1..4096; 0: 64
@@ -108,6 +109,32 @@ typedef struct CndLightingFrame {
     // CndPixelClass, 0 stays without a surface.
     VkImageView pairImage;
 } CndLightingFrame;
+
+// What cndRecordSurfaceOverlay shows, black where there is no surface.
+typedef enum CndSurfaceQuantity {
+    CND_SURFACE_ALL = 0,       // the six below, small: three beside each other, above three
+    CND_SURFACE_NORMAL = 1,    // 0.5 + 0.5 * normal, world space
+    CND_SURFACE_ROUGHNESS = 2, // perceptual; white: 1
+    CND_SURFACE_ALBEDO = 3,    // diffuse, sRGB-encoded
+    CND_SURFACE_F0 = 4,        // sRGB-encoded
+    // World position: red, green and blue rise and fall again every two metres of x, y and z. Fixed
+    // to the surfaces when the camera moves, unless depth or matrices are read wrongly.
+    CND_SURFACE_POSITION = 5,
+    // Grey, the darker the more grazing the view, with what cannot be right on top: magenta, a NaN
+    // or infinite value; blue, a position that is not in front of the eye; yellow, a normal that
+    // was not of length 1, by 2%; red, one that faces away from the eye by more than 10 degrees;
+    // cyan, roughness outside 0..1; orange, albedo or F0 outside 0..1.
+    CND_SURFACE_FAULTS = 6,
+    CND_SURFACE_QUANTITY_MAX_ENUM = 0x7FFFFFFF
+} CndSurfaceQuantity;
+
+// On entry: image in VK_IMAGE_LAYOUT_GENERAL, visible to COMPUTE_SHADER / SHADER_STORAGE_WRITE. On
+// exit: the same layout, written by COMPUTE_SHADER / SHADER_STORAGE_WRITE.
+typedef struct CndSurfaceOverlay {
+    uint32_t structSize;
+    CndSurfaceQuantity quantity;
+    VkImageView image; // R8G8B8A8_UNORM, storage; to be shown like CndExposureFrame::display
+} CndSurfaceOverlay;
 
 typedef struct CndLightingStats {
     uint32_t structSize;
@@ -162,6 +189,14 @@ CND_API void cndDestroyLightingView(CndLightingView view);
 // order, to one queue.
 CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
                                     const CndLightingFrame* frame, CndError* error);
+
+// Records a picture of what the module reads out of the host's G-buffer, to find mistakes of the
+// integration. `frame` as for cndRecordLighting, of which frameSlot, size, camera, clearDepth and
+// the G-buffer are used. At most once per frame and slot; changes and needs what cndRecordLighting
+// does, which need not be recorded.
+CND_API CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer cmd,
+                                          const CndLightingFrame* frame,
+                                          const CndSurfaceOverlay* overlay, CndError* error);
 
 // Statistics of the last frame recorded in frameSlot; CND_NOT_READY until the GPU has finished it,
 // which a lost device never does (CND_ERROR_DEVICE where timestamps tell).

@@ -43,7 +43,7 @@ gpu::Buffer texels(const gpu::Device& device, const char* name, VkDeviceSize cou
 
 } // namespace
 
-Baselines::Kernels::Kernels(const gpu::Device& device, CndGBufferLayout layout)
+Baselines::Kernels::Kernels(const gpu::Device& device)
     : prepare(device, spirv::prepare_lights_comp),
       spheres(device, spirv::baseline_spheres_comp),
       tiles(device, spirv::baseline_tiles_comp),
@@ -57,7 +57,7 @@ Baselines::Kernels::Kernels(const gpu::Device& device, CndGBufferLayout layout)
             {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
              {gpu::SPEC_SPECULAR_METHOD, CND_SPECULAR_CONIC},
              {gpu::SPEC_LIGHT_TYPE, CND_LIGHT_SPHERE},
-             {gpu::SPEC_GBUFFER_LAYOUT, uint32_t(layout)},
+             {gpu::SPEC_GBUFFER, CND_GBUFFER_FULL},
              {gpu::SPEC_ERROR_BUDGET, 0},
              {gpu::SPEC_BASELINE, baseline}});
     };
@@ -75,7 +75,7 @@ Baselines::Baselines(const VulkanContext& context, Renderer& renderer, const Sce
       options_(options),
       frame_(renderer.lightingFrame(0, options)),
       projection_(lighting::projectionOf(frame_.camera.clipFromView, frame_.clearDepth)),
-      kernels_(context.device(), CND_GBUFFER_FULL),
+      kernels_(context.device()),
       timer_(context.device(), "baselines", 1, true),
       dfg_(context.device()),
       ltc_(uploadLtcTable(context.device()))
@@ -94,6 +94,9 @@ Baselines::Baselines(const VulkanContext& context, Renderer& renderer, const Sce
     ranges_ = buffer("baseline ranges", tiles * sizeof(glm::vec2), MemoryUse::Readback);
     boxes_ = texels(device, "froxel boxes", 2 * froxels, MemoryUse::Upload);
     cursors_ = buffer("froxel cursors", froxels * sizeof(uint32_t), MemoryUse::Device);
+    gbufferView_ =
+        gpu::createBuffer(device, "baseline G-buffer view", sizeof(gpu::GBufferViewParams),
+                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryUse::Device);
     found_ = buffer("baseline evaluations", size.x * size.y * sizeof(uint32_t), MemoryUse::Device);
     for (size_t i = 0; i < 2; ++i) {
         Lists& l = lists_[i];
@@ -218,6 +221,9 @@ void Baselines::writeBindings()
     const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
     const Binding aux = Binding::of(SHADE_AUX, aux_);
     const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame_.normalRoughness);
+    // Of hosts' own layouts: bound, not read.
+    const Binding hostNormals = Binding::sampled(SHADE_HOST_NORMAL, frame_.albedo);
+    const Binding gbufferView = Binding::of(SHADE_GBUFFER_VIEW, gbufferView_);
     const Binding albedo = Binding::sampled(SHADE_ALBEDO, frame_.albedo);
     const Binding specular = Binding::sampled(SHADE_SPECULAR, frame_.specular);
     const Binding depth = Binding::sampled(SHADE_DEPTH, frame_.depth);
@@ -229,14 +235,14 @@ void Baselines::writeBindings()
         const Binding heads = Binding::of(BASELINE_HEADS, lists_[i].heads);
         const Binding entries = Binding::of(BASELINE_ENTRIES, lists_[i].entries);
         const Binding grid = Binding::of(BASELINE_GRID, lists_[i].grid);
-        sets_.shade[i].write(0, {core, coreWords, aux, normals, albedo, specular, depth, radiance,
-                                 dfg, ltc, heads, entries, grid});
-        sets_.pairs[i].write(0, {core, coreWords, aux, normals, albedo, specular, depth, dfg, ltc,
-                                 heads, entries, grid,
+        sets_.shade[i].write(0, {core, coreWords, aux, normals, hostNormals, gbufferView, albedo,
+                                 specular, depth, radiance, dfg, ltc, heads, entries, grid});
+        sets_.pairs[i].write(0, {core, coreWords, aux, normals, hostNormals, gbufferView, albedo,
+                                 specular, depth, dfg, ltc, heads, entries, grid,
                                  Binding::of(BASELINE_COUNTERS, lists_[i].counters), found});
     }
-    sets_.floor.write(
-        0, {core, coreWords, aux, normals, albedo, specular, depth, radiance, dfg, ltc, found});
+    sets_.floor.write(0, {core, coreWords, aux, normals, hostNormals, gbufferView, albedo, specular,
+                          depth, radiance, dfg, ltc, found});
 }
 
 void Baselines::submit(const std::function<void(const gpu::Frame&)>& record)

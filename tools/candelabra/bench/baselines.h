@@ -40,7 +40,7 @@ public:
 
 private:
     struct Kernels {
-        explicit Kernels(const gpu::Device& device, CndGBufferLayout layout);
+        explicit Kernels(const gpu::Device& device);
         gpu::Kernel<gpu::PrepareLightsParams> prepare;
         gpu::Kernel<gpu::BaselineSpheresParams> spheres;
         gpu::Kernel<gpu::BaselineTilesParams> tiles;
@@ -78,7 +78,7 @@ private:
     uint32_t lightCount_ = 0;
     glm::dvec3 lightOrigin_{0};
     gpu::Buffer records_, order_, core_, aux_, spheres_;
-    gpu::Buffer ranges_, boxes_, cursors_, found_;
+    gpu::Buffer ranges_, boxes_, cursors_, found_, gbufferView_;
     Lists lists_[2];
     gpu::BaselineGrid froxels_{};
     struct Sets {

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which layouts of a G-buffer there can be.
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "lighting/host_gbuffer.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+enum class Numbers { Unsigned, Signed, Encoded }; // of colour: 0..1 or up, both signs, sRGB
+
+struct ColourFormat {
+    VkFormat format;
+    uint32_t channels;
+    Numbers numbers;
+    const char* name;
+};
+
+#define FORMAT(name, channels, numbers)                                                            \
+    {                                                                                              \
+        VK_FORMAT_##name, channels, Numbers::numbers, #name                                        \
+    }
+// Those that shaders read as floats and G-buffers are made of.
+constexpr ColourFormat colourFormats[] = {FORMAT(R8_UNORM, 1, Unsigned),
+                                          FORMAT(R8_SNORM, 1, Signed),
+                                          FORMAT(R8G8_UNORM, 2, Unsigned),
+                                          FORMAT(R8G8_SNORM, 2, Signed),
+                                          FORMAT(R5G6B5_UNORM_PACK16, 3, Unsigned),
+                                          FORMAT(R8G8B8A8_UNORM, 4, Unsigned),
+                                          FORMAT(R8G8B8A8_SNORM, 4, Signed),
+                                          FORMAT(R8G8B8A8_SRGB, 4, Encoded),
+                                          FORMAT(B8G8R8A8_UNORM, 4, Unsigned),
+                                          FORMAT(B8G8R8A8_SRGB, 4, Encoded),
+                                          FORMAT(A8B8G8R8_UNORM_PACK32, 4, Unsigned),
+                                          FORMAT(A8B8G8R8_SNORM_PACK32, 4, Signed),
+                                          FORMAT(A8B8G8R8_SRGB_PACK32, 4, Encoded),
+                                          FORMAT(A2R10G10B10_UNORM_PACK32, 4, Unsigned),
+                                          FORMAT(A2B10G10R10_UNORM_PACK32, 4, Unsigned),
+                                          FORMAT(A2B10G10R10_SNORM_PACK32, 4, Signed),
+                                          FORMAT(B10G11R11_UFLOAT_PACK32, 3, Unsigned),
+                                          FORMAT(E5B9G9R9_UFLOAT_PACK32, 3, Unsigned),
+                                          FORMAT(R16_UNORM, 1, Unsigned),
+                                          FORMAT(R16_SNORM, 1, Signed),
+                                          FORMAT(R16_SFLOAT, 1, Signed),
+                                          FORMAT(R16G16_UNORM, 2, Unsigned),
+                                          FORMAT(R16G16_SNORM, 2, Signed),
+                                          FORMAT(R16G16_SFLOAT, 2, Signed),
+                                          FORMAT(R16G16B16A16_UNORM, 4, Unsigned),
+                                          FORMAT(R16G16B16A16_SNORM, 4, Signed),
+                                          FORMAT(R16G16B16A16_SFLOAT, 4, Signed),
+                                          FORMAT(R32_SFLOAT, 1, Signed),
+                                          FORMAT(R32G32_SFLOAT, 2, Signed),
+                                          FORMAT(R32G32B32A32_SFLOAT, 4, Signed)};
+#undef FORMAT
+
+constexpr VkFormat depthFormats[] = {VK_FORMAT_D16_UNORM,           VK_FORMAT_D16_UNORM_S8_UINT,
+                                     VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_D24_UNORM_S8_UINT,
+                                     VK_FORMAT_D32_SFLOAT,          VK_FORMAT_D32_SFLOAT_S8_UINT,
+                                     VK_FORMAT_R32_SFLOAT};
+
+[[noreturn]] void fail(const std::string& sentence)
+{
+    gpu::failArgument("CndGBufferDesc: " + sentence);
+}
+
+void requireSampled(const gpu::Device& device, const char* member, VkFormat format)
+{
+    VkFormatProperties2 properties{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2};
+    device.GetPhysicalDeviceFormatProperties2(device.physicalDevice, format, &properties);
+    if (!(properties.formatProperties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
+        gpu::failUnsupported(std::string("CndGBufferDesc: the device cannot sample ") + member +
+                             " (VkFormat " + std::to_string(format) + ")");
+}
+
+// One of the three colour images of a frame.
+struct Image {
+    const char* name;
+    VkFormat format;
+    const ColourFormat* known; // null: not told
+    uint32_t taken;            // channels that hold the normal or a colour, from red on
+    const char* takenBy;
+};
+
+const ColourFormat* find(const gpu::Device& device, const char* image, VkFormat format)
+{
+    if (format == VK_FORMAT_UNDEFINED)
+        return nullptr;
+    const auto* const known = std::ranges::find(colourFormats, format, &ColourFormat::format);
+    const std::string member = std::string(image) + "Format";
+    if (known == std::end(colourFormats))
+        fail(member + " " + std::to_string(format) +
+             " is no colour format that shaders read as floats");
+    requireSampled(device, member.c_str(), format);
+    return known;
+}
+
+void checkTaken(const Image& image)
+{
+    if (image.known && image.known->channels < image.taken)
+        fail(std::string(image.takenBy) + " needs " + std::to_string(image.taken) + " channels, " +
+             image.name + "Format " + image.known->name + " has " +
+             std::to_string(image.known->channels));
+}
+
+// A scalar that shares an image with others.
+void checkChannel(const char* member, CndGBufferChannel channel, const Image (&images)[3])
+{
+    constexpr const char* letters[] = {"red", "green", "blue", "alpha"};
+    if (uint32_t(channel) > CND_CHANNEL_SPECULAR_A)
+        fail(std::string(member) + " is not a CndGBufferChannel");
+    if (channel == CND_CHANNEL_NONE)
+        return;
+    const Image& image = images[(channel - 1) / 4];
+    const uint32_t component = uint32_t(channel - 1) % 4;
+    const std::string where =
+        std::string(member) + " is " + letters[component] + " of " + image.name;
+    if (component < image.taken)
+        fail(where + ", where " + image.takenBy + " is");
+    if (!image.known)
+        return;
+    if (component >= image.known->channels)
+        fail(where + ", which its format " + image.known->name + " has not");
+    if (image.known->numbers == Numbers::Encoded && component < 3)
+        fail(where + ", whose format " + image.known->name + " decodes it as a colour");
+}
+
+void checkNormal(const CndGBufferDesc& d, const Image& image)
+{
+    const bool isSigned =
+        d.normalEncoding == CND_NORMAL_SNORM || d.normalEncoding == CND_NORMAL_OCTAHEDRAL_SNORM;
+    if (!image.known)
+        return;
+    const std::string format = std::string("normalRoughnessFormat ") + image.known->name;
+    if (image.known->numbers == Numbers::Encoded)
+        fail(format + " decodes normals as colours");
+    if (isSigned && image.known->numbers == Numbers::Unsigned)
+        fail(format + " has no negative values, which normalEncoding asks for");
+    const bool isSnorm = image.known->numbers == Numbers::Signed &&
+                         std::string(image.known->name).find("SNORM") != std::string::npos;
+    if (!isSigned && isSnorm)
+        fail(format + " holds negative values, normalEncoding says 0..1");
+}
+
+void checkEnumerators(const CndGBufferDesc& d)
+{
+    const auto check = [](const char* what, int value, int last) {
+        if (value < 0 || value > last)
+            fail(what);
+    };
+    check("normalEncoding is not a CndNormalEncoding", d.normalEncoding,
+          CND_NORMAL_OCTAHEDRAL_SNORM);
+    check("normalSpace is not a CndNormalSpace", d.normalSpace, CND_NORMALS_WORLD);
+    check("roughnessKind is not a CndRoughnessKind", d.roughnessKind, CND_ROUGHNESS_SMOOTHNESS);
+    check("reflectance is not a CndReflectance", d.reflectance, CND_REFLECTANCE_SPECULAR);
+}
+
+} // namespace
+
+void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& d)
+{
+    if (uint32_t(layout) > CND_GBUFFER_HOST)
+        gpu::failArgument("gbufferLayout is not a CndGBufferLayout");
+    if (layout != CND_GBUFFER_HOST) {
+        if (d.roughness != CND_CHANNEL_NONE)
+            fail("it is filled in, but gbufferLayout is not CND_GBUFFER_HOST");
+        return;
+    }
+    checkEnumerators(d);
+    const bool octahedral = d.normalEncoding == CND_NORMAL_OCTAHEDRAL_UNORM ||
+                            d.normalEncoding == CND_NORMAL_OCTAHEDRAL_SNORM;
+    const bool specularColour = d.reflectance == CND_REFLECTANCE_SPECULAR;
+    const auto image = [&](const char* name, VkFormat format, uint32_t taken, const char* takenBy) {
+        return Image{name, format, find(device, name, format), taken, takenBy};
+    };
+    const Image images[3] = {
+        image("normalRoughness", d.normalRoughnessFormat, octahedral ? 2 : 3, "the normal"),
+        image("albedo", d.albedoFormat, 3, specularColour ? "the albedo" : "the base colour"),
+        image("specular", d.specularFormat, specularColour ? 3 : 0, "F0")};
+    for (const Image& i : images)
+        checkTaken(i);
+    checkNormal(d, images[0]);
+    if (d.roughness == CND_CHANNEL_NONE)
+        fail("roughness names no channel");
+    checkChannel("roughness", d.roughness, images);
+    checkChannel("metalness", d.metalness, images);
+    checkChannel("f90", d.f90, images);
+    if (d.roughness == d.metalness || d.roughness == d.f90)
+        fail("roughness is in the channel of another quantity");
+    if (specularColour && (d.metalness != CND_CHANNEL_NONE || d.dielectricF0 != 0))
+        fail("metalness and dielectricF0 are of CND_REFLECTANCE_METALNESS, reflectance is "
+             "CND_REFLECTANCE_SPECULAR");
+    if (!specularColour && d.f90 != CND_CHANNEL_NONE)
+        fail("f90 is of CND_REFLECTANCE_SPECULAR, reflectance is CND_REFLECTANCE_METALNESS");
+    if (!(d.dielectricF0 >= 0 && d.dielectricF0 <= 1))
+        fail("dielectricF0 must be 0..1");
+    if (d.depthFormat == VK_FORMAT_UNDEFINED)
+        return;
+    if (std::ranges::find(depthFormats, d.depthFormat) == std::end(depthFormats))
+        fail("depthFormat " + std::to_string(d.depthFormat) +
+             " is neither a depth format nor R32_SFLOAT");
+    requireSampled(device, "depthFormat", d.depthFormat);
+}
+
+} // namespace candelabra::lighting

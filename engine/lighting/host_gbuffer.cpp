@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lighting/host_gbuffer.h"
+
+#include <cstring>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+static_assert(gpu::GBUFFER_LAYOUT_FULL == CND_GBUFFER_FULL);
+static_assert(gpu::GBUFFER_LAYOUT_COMPACT == CND_GBUFFER_COMPACT);
+static_assert(gpu::GBUFFER_LAYOUT_HOST == CND_GBUFFER_HOST);
+static_assert(gpu::GBUFFER_NORMAL_UNORM == CND_NORMAL_UNORM);
+static_assert(gpu::GBUFFER_NORMAL_SNORM == CND_NORMAL_SNORM);
+static_assert(gpu::GBUFFER_NORMAL_OCTAHEDRAL_UNORM == CND_NORMAL_OCTAHEDRAL_UNORM);
+static_assert(gpu::GBUFFER_NORMAL_OCTAHEDRAL_SNORM == CND_NORMAL_OCTAHEDRAL_SNORM);
+static_assert(gpu::GBUFFER_ROUGHNESS_ALPHA == CND_ROUGHNESS_ALPHA);
+static_assert(gpu::GBUFFER_ROUGHNESS_SMOOTHNESS == CND_ROUGHNESS_SMOOTHNESS);
+
+uint32_t codeOf(CndGBufferLayout layout, const CndGBufferDesc& d)
+{
+    if (layout != CND_GBUFFER_HOST)
+        return layout;
+    return layout | d.normalEncoding << gpu::GBUFFER_NORMAL_SHIFT |
+           d.normalSpace << gpu::GBUFFER_WORLD_SHIFT |
+           d.roughnessKind << gpu::GBUFFER_ROUGHNESS_KIND_SHIFT |
+           d.reflectance << gpu::GBUFFER_SPECULAR_COLOUR_SHIFT |
+           d.roughness << gpu::GBUFFER_ROUGHNESS_SHIFT |
+           d.metalness << gpu::GBUFFER_METALNESS_SHIFT | d.f90 << gpu::GBUFFER_F90_SHIFT;
+}
+
+bool readsSpecular(CndGBufferLayout layout, const CndGBufferDesc& d)
+{
+    if (layout != CND_GBUFFER_HOST)
+        return layout == CND_GBUFFER_FULL;
+    return d.reflectance == CND_REFLECTANCE_SPECULAR || d.roughness >= CND_CHANNEL_SPECULAR_R ||
+           d.metalness >= CND_CHANNEL_SPECULAR_R;
+}
+
+} // namespace
+
+GBufferSource::GBufferSource(const gpu::Device& device, CndGBufferLayout layout,
+                             const CndGBufferDesc& desc)
+{
+    checkGBuffer(device, layout, desc);
+    code_ = codeOf(layout, desc);
+    dielectricF0_ = desc.dielectricF0 > 0 ? desc.dielectricF0 : gpu::DIELECTRIC_F0;
+    readsSpecular_ = readsSpecular(layout, desc);
+    if (isHosts())
+        standIn_ = gpu::createImage(device, "no packed normals", VK_FORMAT_R32_UINT, 1, 1,
+                                    VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+}
+
+void GBufferSource::record(const gpu::Frame& frame) noexcept
+{
+    if (standInReady_ || !isHosts())
+        return;
+    standInReady_ = true;
+    const VkImageMemoryBarrier2 barrier{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+        .dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+        .dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+        .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+        .newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = standIn_.image.get(),
+        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .imageMemoryBarrierCount = 1,
+                                .pImageMemoryBarriers = &barrier};
+    frame.device.CmdPipelineBarrier2(frame.cmd, &info);
+}
+
+GBufferParams::GBufferParams(const gpu::Device& device, uint32_t slots)
+    : buffer_(gpu::createBuffer(device, "G-buffer view", slots * stride,
+                                VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryUse::Upload))
+{
+}
+
+void GBufferParams::write(uint32_t slot, const GBufferSource& source,
+                          const CndCamera& camera) const noexcept
+{
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, camera.viewFromWorld, sizeof viewFromWorld);
+    const gpu::GBufferViewParams params{.viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
+                                        .dielectricF0 = source.dielectricF0()};
+    std::memcpy(buffer_.mapped + offset(slot), &params, sizeof params);
+}
+
+} // namespace candelabra::lighting

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the surfaces of a host are read: what of its G-buffer is checked, and what the shaders of
+// lib/read_gbuffer.glsl get.
+#pragma once
+
+#include "gpu/kernel.h"
+#include "shared/host_gbuffer.h"
+
+namespace candelabra::lighting
+{
+
+class GBufferParams;
+
+// Throws gpu::Failure, with a sentence, when the layout cannot be, or cannot be of the formats that
+// are told, or the device cannot read those.
+void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& desc);
+
+// What a frame binds. Each normal binding has an image that it can read, whichever is used.
+struct GBufferViews {
+    VkImageView packedNormal, hostNormal, albedo, specular, depth;
+    VkBuffer paramsBuffer;
+    VkDeviceSize paramsOffset;
+
+    gpu::Binding params(uint32_t binding) const
+    {
+        return {.binding = binding,
+                .buffer = paramsBuffer,
+                .offset = paramsOffset,
+                .range = sizeof(gpu::GBufferViewParams)};
+    }
+};
+
+// One layout, for all views.
+class GBufferSource
+{
+public:
+    // Checks the layout (checkGBuffer).
+    GBufferSource(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& desc);
+
+    // The value of SPEC_GBUFFER.
+    uint32_t code() const { return code_; }
+    float dielectricF0() const { return dielectricF0_; }
+
+    // Frames of both modules that shade surfaces have the same members for them.
+    template <typename Frame>
+    bool hasImages(const Frame& f) const
+    {
+        return f.normalRoughness && f.albedo && f.depth && (f.specular || !readsSpecular_);
+    }
+    template <typename Frame>
+    GBufferViews views(const Frame& f, const GBufferParams& params) const;
+
+    // The first time: makes the image that stands in for packed normals readable.
+    void record(const gpu::Frame& frame) noexcept;
+
+private:
+    bool isHosts() const { return (code_ & gpu::GBUFFER_LAYOUT_MASK) == gpu::GBUFFER_LAYOUT_HOST; }
+
+    uint32_t code_;
+    float dielectricF0_;
+    bool readsSpecular_;
+    gpu::Image standIn_; // with a layout of the host's
+    bool standInReady_ = false;
+};
+
+// GBufferViewParams of the frames in flight of one view.
+class GBufferParams
+{
+public:
+    GBufferParams(const gpu::Device& device, uint32_t slots);
+    // The GPU must have finished the slot's previous frame.
+    void write(uint32_t slot, const GBufferSource& source, const CndCamera& camera) const noexcept;
+    VkBuffer buffer() const { return buffer_.get(); }
+    static VkDeviceSize offset(uint32_t slot) { return slot * stride; }
+
+private:
+    // No device asks for a larger alignment of uniform buffers (Vulkan: at most 256).
+    static constexpr VkDeviceSize stride = 256;
+    gpu::Buffer buffer_;
+};
+
+template <typename Frame>
+GBufferViews GBufferSource::views(const Frame& f, const GBufferParams& params) const
+{
+    return {.packedNormal = isHosts() ? standIn_.view.get() : f.normalRoughness,
+            .hostNormal = isHosts() ? f.normalRoughness : f.albedo,
+            .albedo = f.albedo,
+            .specular = f.specular ? f.specular : f.albedo,
+            .depth = f.depth,
+            .paramsBuffer = params.buffer(),
+            .paramsOffset = GBufferParams::offset(f.frameSlot)};
+}
+
+} // namespace candelabra::lighting

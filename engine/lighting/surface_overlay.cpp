@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of what is read of a G-buffer: one kernel.
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "lighting/camera.h"
+#include "lighting/lighting.h"
+
+namespace candelabra::lighting
+{
+
+static_assert(gpu::SURFACE_ALL == CND_SURFACE_ALL);
+static_assert(gpu::SURFACE_NORMAL == CND_SURFACE_NORMAL);
+static_assert(gpu::SURFACE_ROUGHNESS == CND_SURFACE_ROUGHNESS);
+static_assert(gpu::SURFACE_ALBEDO == CND_SURFACE_ALBEDO);
+static_assert(gpu::SURFACE_F0 == CND_SURFACE_F0);
+static_assert(gpu::SURFACE_POSITION == CND_SURFACE_POSITION);
+static_assert(gpu::SURFACE_FAULTS == CND_SURFACE_FAULTS);
+
+void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
+                         const CndSurfaceOverlay& overlay)
+{
+    using namespace gpu;
+    validateSurfaces(frame);
+    if (overlay.structSize != sizeof overlay)
+        failArgument("CndSurfaceOverlay: structSize is " + std::to_string(overlay.structSize) +
+                     ", this library expects " + std::to_string(sizeof overlay));
+    if (uint32_t(overlay.quantity) > CND_SURFACE_FAULTS)
+        failArgument("CndSurfaceOverlay: quantity is not a CndSurfaceQuantity");
+    if (!overlay.image)
+        failArgument("CndSurfaceOverlay: image is null");
+    const Projection projection = projectionOf(frame.camera.clipFromView, frame.clearDepth);
+    gbufferParams_.write(frame.frameSlot, lighting_.gbuffer(), frame.camera);
+    const GBufferViews images = lighting_.gbuffer().views(frame, gbufferParams_);
+    sets_.surfaceOverlay.write(frame.frameSlot,
+                               {Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal),
+                                Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal),
+                                Binding::sampled(SHADE_ALBEDO, images.albedo),
+                                Binding::sampled(SHADE_SPECULAR, images.specular),
+                                Binding::sampled(SHADE_DEPTH, images.depth),
+                                images.params(SHADE_GBUFFER_VIEW),
+                                Binding::storage(SURFACE_OVERLAY_IMAGE, overlay.image)});
+
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
+    const glm::dmat3 worldFromView = glm::transpose(glm::dmat3(viewFromWorld)); // a rotation
+    const glm::dvec3 eye = -(worldFromView * glm::dvec3(viewFromWorld[3]));
+    glm::vec3 eyeInPeriod;
+    for (int i = 0; i < 3; ++i) // float32 would not resolve metres far from the origin
+        eyeInPeriod[i] = float(std::fmod(eye[i], double(SURFACE_PERIOD)));
+
+    Timer untimed; // times are of cndRecordLighting
+    const Frame f{lighting_.device(), cmd, untimed, frame.frameSlot};
+    f.device.beginLabel(cmd, "candelabra surface overlay");
+    lighting_.recordGBuffer(f);
+    lighting_.kernels().surfaceOverlay.dispatch(
+        f, sets_.surfaceOverlay.set(f.slot),
+        {.projection = projection,
+         .size = {frame.width, frame.height},
+         .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
+         .clearDepth = frame.clearDepth,
+         .quantity = uint32_t(overlay.quantity),
+         .eyeWorld = eyeInPeriod,
+         .worldFromView = glm::mat3(worldFromView)},
+        divideUp(frame.width, SURFACE_OVERLAY_GROUP),
+        divideUp(frame.height, SURFACE_OVERLAY_GROUP));
+    f.device.endLabel(cmd);
+}
+
+} // namespace candelabra::lighting

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shows what is read of the G-buffer, and marks what cannot be right.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/surface_overlay.h"
+#define GBUFFER_CODE SPEC_GBUFFER
+#define GBUFFER_PACKED SHADE_NORMAL_ROUGHNESS
+#define GBUFFER_NORMAL SHADE_HOST_NORMAL
+#define GBUFFER_VIEW SHADE_GBUFFER_VIEW
+#define GBUFFER_ALBEDO SHADE_ALBEDO
+#define GBUFFER_SPECULAR SHADE_SPECULAR
+#include "lib/read_gbuffer.glsl"
+#include "lib/projection.glsl"
+#include "lib/tone_map.glsl"
+
+layout(local_size_x = SURFACE_OVERLAY_GROUP, local_size_y = SURFACE_OVERLAY_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    SurfaceOverlayParams params;
+};
+layout(binding = SHADE_DEPTH) uniform texture2D depthImage;
+layout(binding = SURFACE_OVERLAY_IMAGE, rgba8) uniform writeonly image2D overlayImage;
+
+bool isFinite(vec4 x)
+{
+    return !any(isnan(x)) && !any(isinf(x));
+}
+
+bool isOutside(vec4 x)
+{
+    const float margin = SURFACE_RANGE_TOLERANCE;
+    return any(lessThan(x, vec4(-margin))) || any(greaterThan(x, vec4(1.0 + margin)));
+}
+
+// Of the host's own layout; those of ours are what they are.
+vec3 normalBeforeReading(HostTexels t, vec3 normal)
+{
+    return gbufferLayout == GBUFFER_LAYOUT_HOST ? storedNormal(t.normal) : normal;
+}
+
+float roughnessBeforeReading(HostTexels t, float perceptualRoughness)
+{
+    return gbufferLayout == GBUFFER_LAYOUT_HOST ? storedRoughness(t) : perceptualRoughness;
+}
+
+// The first fault that is found.
+vec3 faults(Surface s, HostTexels t, vec3 position)
+{
+    const vec3 view = normalize(towardsEye(params.projection, position));
+    const float facing = dot(s.normal, view);
+    const vec3 stored = normalBeforeReading(t, s.normal);
+    const float rough = roughnessBeforeReading(t, s.perceptualRoughness);
+    const vec4 reflected = vec4(s.albedo, s.specularWeight);
+    if (!isFinite(vec4(stored, rough)) || !isFinite(reflected) || !isFinite(vec4(s.F0, 0.0)))
+        return vec3(1.0, 0.0, 1.0);
+    // The eye looks along -z or +z, as the projection has it.
+    const vec3 ahead = viewRay(params.projection, params.size / 2u, params.invImageSize);
+    const bool inFront = params.projection.eyeIsPoint == 0.0 || dot(position, ahead) > 0.0;
+    if (!inFront || !isFinite(vec4(position, 0.0)))
+        return vec3(0.0, 0.0, 1.0);
+    if (abs(length(stored) - 1.0) > SURFACE_LENGTH_TOLERANCE)
+        return vec3(1.0, 1.0, 0.0);
+    if (facing < -SURFACE_FACING_TOLERANCE)
+        return vec3(1.0, 0.0, 0.0);
+    if (isOutside(vec4(rough)))
+        return vec3(0.0, 1.0, 1.0);
+    if (isOutside(reflected) || isOutside(vec4(s.F0, 0.0)))
+        return vec3(1.0, 0.5, 0.0);
+    return vec3(0.5 * max(facing, 0.0));
+}
+
+// As the display takes it.
+vec3 quantityAt(uint quantity, uvec2 pixel)
+{
+    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
+    if (depth == params.clearDepth)
+        return vec3(0.0);
+    const Surface s = readSurface(ivec2(pixel));
+    const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
+    switch (quantity) {
+    case SURFACE_NORMAL:
+        return 0.5 + 0.5 * (params.worldFromView * s.normal);
+    case SURFACE_ROUGHNESS:
+        return vec3(s.perceptualRoughness);
+    case SURFACE_ALBEDO:
+        return encodeSrgb(s.albedo);
+    case SURFACE_F0:
+        return encodeSrgb(s.F0);
+    case SURFACE_POSITION: {
+        const vec3 world = params.worldFromView * position + params.eyeWorld;
+        return abs(fract(world / SURFACE_PERIOD) * 2.0 - 1.0);
+    }
+    default:
+        return faults(s, readHostTexels(ivec2(pixel)), position);
+    }
+}
+
+void main()
+{
+    const uvec2 at = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(at, params.size)))
+        return;
+    uint quantity = params.quantity;
+    uvec2 pixel = at;
+    if (quantity == SURFACE_ALL) {
+        const uvec2 panels = uvec2(SURFACE_COLUMNS, SURFACE_ROWS);
+        const uvec2 panel = at * panels / params.size;
+        const uvec2 first = (panel * params.size + panels - 1u) / panels;
+        quantity = SURFACE_NORMAL + panel.y * SURFACE_COLUMNS + panel.x;
+        pixel = min((at - first) * panels, params.size - 1u);
+    }
+    imageStore(overlayImage, ivec2(at), vec4(quantityAt(quantity, pixel), 1.0));
+}

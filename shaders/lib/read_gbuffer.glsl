@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads a G-buffer of any layout. The layout is a specialisation constant, so that what it does not
+// need is compiled away. The includer defines the numbers of the bindings: GBUFFER_CODE (of the
+// constant), GBUFFER_PACKED (normals of our layouts), GBUFFER_NORMAL (of the host's), GBUFFER_VIEW
+// and, unless it reads normals only, GBUFFER_ALBEDO and GBUFFER_SPECULAR.
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/host_gbuffer.h"
+#include "lib/gbuffer.glsl"
+
+layout(constant_id = GBUFFER_CODE) const uint gbufferCode = 0u;
+const uint gbufferLayout = gbufferCode & GBUFFER_LAYOUT_MASK;
+const uint normalEncoding = (gbufferCode >> GBUFFER_NORMAL_SHIFT) & GBUFFER_NORMAL_MASK;
+const bool normalsOfWorld = ((gbufferCode >> GBUFFER_WORLD_SHIFT) & 1u) != 0u;
+const uint roughnessKind = (gbufferCode >> GBUFFER_ROUGHNESS_KIND_SHIFT) & GBUFFER_ROUGHNESS_KIND_MASK;
+const bool specularColour = ((gbufferCode >> GBUFFER_SPECULAR_COLOUR_SHIFT) & 1u) != 0u;
+const uint roughnessChannel = (gbufferCode >> GBUFFER_ROUGHNESS_SHIFT) & GBUFFER_CHANNEL_MASK;
+const uint metalnessChannel = (gbufferCode >> GBUFFER_METALNESS_SHIFT) & GBUFFER_CHANNEL_MASK;
+const uint f90Channel = (gbufferCode >> GBUFFER_F90_SHIFT) & GBUFFER_CHANNEL_MASK;
+
+layout(binding = GBUFFER_PACKED) uniform utexture2D packedNormalImage;
+layout(binding = GBUFFER_NORMAL) uniform texture2D normalImage;
+layout(scalar, binding = GBUFFER_VIEW) uniform GBufferView
+{
+    GBufferViewParams gbufferView;
+};
+
+// As the host stored it: its space, any length.
+vec3 storedNormal(vec4 texel)
+{
+    if (normalEncoding == GBUFFER_NORMAL_OCTAHEDRAL_UNORM)
+        return decodeOctahedral(2.0 * texel.xy - 1.0);
+    if (normalEncoding == GBUFFER_NORMAL_OCTAHEDRAL_SNORM)
+        return decodeOctahedral(texel.xy);
+    return normalEncoding == GBUFFER_NORMAL_UNORM ? 2.0 * texel.xyz - 1.0 : texel.xyz;
+}
+
+// Unit, view space. Precise: every kernel gets the same bits.
+vec3 hostNormal(vec4 texel)
+{
+    precise vec3 n = storedNormal(texel);
+    if (normalsOfWorld) {
+        const mat3 m = gbufferView.viewFromWorld;
+        precise vec3 turned = m[0] * n.x + m[1] * n.y + m[2] * n.z;
+        n = turned;
+    }
+    const float length2 = dot(n, n);
+    // False for NaN; the ends keep the square root away from denormals and infinity.
+    return length2 > 1e-12 && length2 < 1e12 ? normalize(n) : vec3(0.0, 0.0, 1.0);
+}
+
+vec3 readNormal(ivec2 pixel)
+{
+    if (gbufferLayout == GBUFFER_LAYOUT_HOST)
+        return hostNormal(texelFetch(normalImage, pixel, 0));
+    return unpackNormal(gbufferLayout, texelFetch(packedNormalImage, pixel, 0).xy);
+}
+
+#ifdef GBUFFER_ALBEDO
+
+layout(binding = GBUFFER_ALBEDO) uniform texture2D albedoImage;
+layout(binding = GBUFFER_SPECULAR) uniform texture2D specularImage;
+
+struct HostTexels {
+    vec4 normal, albedo, specular;
+};
+
+HostTexels readHostTexels(ivec2 pixel)
+{
+    return HostTexels(texelFetch(normalImage, pixel, 0), texelFetch(albedoImage, pixel, 0),
+                      texelFetch(specularImage, pixel, 0));
+}
+
+float channelOf(HostTexels t, uint channel)
+{
+    const uint image = (channel - 1u) >> 2;
+    const vec4 texel = image == 0u ? t.normal : image == 1u ? t.albedo : t.specular;
+    return texel[(channel - 1u) & 3u];
+}
+
+// Perceptual, as the host stored it: may be out of range.
+float storedRoughness(HostTexels t)
+{
+    const float stored = channelOf(t, roughnessChannel);
+    if (roughnessKind == GBUFFER_ROUGHNESS_ALPHA)
+        return stored < 0.0 ? stored : sqrt(stored);
+    return roughnessKind == GBUFFER_ROUGHNESS_SMOOTHNESS ? 1.0 - stored : stored;
+}
+
+Surface hostSurface(HostTexels t)
+{
+    Surface s;
+    s.normal = hostNormal(t.normal);
+    s.perceptualRoughness = clamp(storedRoughness(t), 0.0, 1.0);
+    if (specularColour) {
+        s.albedo = t.albedo.rgb;
+        s.F0 = t.specular.rgb;
+        s.specularWeight = f90Channel == 0u ? 1.0 : channelOf(t, f90Channel);
+        return s;
+    }
+    const float metalness = metalnessChannel == 0u ? 0.0 : channelOf(t, metalnessChannel);
+    s.albedo = t.albedo.rgb * (1.0 - metalness);
+    s.F0 = mix(vec3(gbufferView.dielectricF0), t.albedo.rgb, metalness);
+    s.specularWeight = 1.0;
+    return s;
+}
+
+Surface readSurface(ivec2 pixel)
+{
+    if (gbufferLayout == GBUFFER_LAYOUT_HOST)
+        return hostSurface(readHostTexels(pixel));
+    const uvec2 packedNormal = texelFetch(packedNormalImage, pixel, 0).xy;
+    const vec4 albedo = texelFetch(albedoImage, pixel, 0);
+    if (gbufferLayout == GBUFFER_LAYOUT_COMPACT)
+        return unpackGBufferCompact(packedNormal.x, albedo);
+    return unpackGBufferFull(packedNormal, albedo, texelFetch(specularImage, pixel, 0));
+}
+
+#endif

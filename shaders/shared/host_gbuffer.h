@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// A layout of the G-buffer, the host's own among them (CndGBufferDesc), as one specialisation
+// constant: bit fields.
+#ifndef CND_SHARED_HOST_GBUFFER_H
+#define CND_SHARED_HOST_GBUFFER_H
+
+#include "shared/gbuffer.h"
+
+GPU_BEGIN
+
+const uint GBUFFER_LAYOUT_MASK = 3u; // CndGBufferLayout; the rest is of GBUFFER_LAYOUT_HOST
+const uint GBUFFER_NORMAL_SHIFT = 2u;
+const uint GBUFFER_NORMAL_MASK = 3u; // CndNormalEncoding
+const uint GBUFFER_NORMAL_UNORM = 0u;
+const uint GBUFFER_NORMAL_SNORM = 1u;
+const uint GBUFFER_NORMAL_OCTAHEDRAL_UNORM = 2u;
+const uint GBUFFER_NORMAL_OCTAHEDRAL_SNORM = 3u;
+const uint GBUFFER_WORLD_SHIFT = 4u; // 1 bit: normals are of the world
+const uint GBUFFER_ROUGHNESS_KIND_SHIFT = 5u;
+const uint GBUFFER_ROUGHNESS_KIND_MASK = 3u; // CndRoughnessKind
+const uint GBUFFER_ROUGHNESS_ALPHA = 1u;
+const uint GBUFFER_ROUGHNESS_SMOOTHNESS = 2u;
+const uint GBUFFER_SPECULAR_COLOUR_SHIFT = 7u; // 1 bit: CND_REFLECTANCE_SPECULAR
+const uint GBUFFER_CHANNEL_MASK = 15u;         // CndGBufferChannel
+const uint GBUFFER_ROUGHNESS_SHIFT = 8u;
+const uint GBUFFER_METALNESS_SHIFT = 12u;
+const uint GBUFFER_F90_SHIFT = 16u;
+
+// What reading depends on besides, per frame.
+struct GBufferViewParams {
+    mat3 viewFromWorld; // rotation
+    float dielectricF0;
+};
+GPU_SIZE(GBufferViewParams, 40)
+
+GPU_END
+
+#endif

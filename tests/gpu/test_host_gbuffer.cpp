@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+// G-buffers of hosts: any layout that CndGBufferDesc can say is lit like the FULL layout of the
+// same surfaces. What a layout rounds differs from what another rounds, so both get what is left
+// after the host's rounding; how much that rounding costs is said beside it.
+#include "gpu/host_gbuffer_harness.h"
+
+#include <array>
+#include <cmath>
+#include <iostream>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "candelabra/candelabra.hpp"
+
+namespace candelabra::test
+{
+namespace
+{
+
+constexpr uint32_t width = 72, height = 48;
+// m. With nearer planes depth that is not reversed shows how a device rounds 24 bits to a float: at
+// 0.1 m the last bit is 0.7 mm of the farthest wall.
+constexpr double nearPlane = 0.5;
+
+struct Layout {
+    const char* name;
+    CndGBufferDesc desc;
+    bool reversed; // depth, and then infinitely far
+    // Devices may decode sRGB as they like within half a step of 8 bits; llvmpipe's curve is off
+    // by 1.3e-3.
+    double tolerance = 1e-3;
+    CndSpecularMethod method = CND_SPECULAR_KARIS;
+};
+
+const Layout layouts[] = {
+    // What the acceptance of the module names.
+    {"WorldRgb10",
+     {.normalEncoding = CND_NORMAL_UNORM,
+      .normalSpace = CND_NORMALS_WORLD,
+      .roughness = CND_CHANNEL_SPECULAR_R,
+      .metalness = CND_CHANNEL_SPECULAR_G,
+      .normalRoughnessFormat = VK_FORMAT_A2B10G10R10_UNORM_PACK32,
+      .albedoFormat = VK_FORMAT_R8G8B8A8_UNORM,
+      .specularFormat = VK_FORMAT_R8G8_UNORM,
+      .depthFormat = VK_FORMAT_D32_SFLOAT},
+     false,
+     1e-3,
+     CND_SPECULAR_CONIC},
+    {"OctahedralSpecularColour",
+     {.normalEncoding = CND_NORMAL_OCTAHEDRAL_UNORM,
+      .normalSpace = CND_NORMALS_VIEW,
+      .roughness = CND_CHANNEL_ALBEDO_A,
+      .roughnessKind = CND_ROUGHNESS_SMOOTHNESS,
+      .reflectance = CND_REFLECTANCE_SPECULAR,
+      .normalRoughnessFormat = VK_FORMAT_R16G16_UNORM,
+      .albedoFormat = VK_FORMAT_R8G8B8A8_UNORM,
+      .specularFormat = VK_FORMAT_R8G8B8A8_UNORM,
+      .depthFormat = VK_FORMAT_X8_D24_UNORM_PACK32},
+     false},
+    {"SnormAlpha",
+     {.normalEncoding = CND_NORMAL_SNORM,
+      .normalSpace = CND_NORMALS_WORLD,
+      .roughness = CND_CHANNEL_NORMAL_A,
+      .roughnessKind = CND_ROUGHNESS_ALPHA,
+      .metalness = CND_CHANNEL_ALBEDO_A,
+      .dielectricF0 = 0.06f,
+      .normalRoughnessFormat = VK_FORMAT_R8G8B8A8_SNORM,
+      .albedoFormat = VK_FORMAT_R8G8B8A8_SRGB,
+      .specularFormat = VK_FORMAT_R8G8_UNORM,
+      .depthFormat = VK_FORMAT_D16_UNORM},
+     false,
+     2e-3},
+    {"HalfOctahedral",
+     {.normalEncoding = CND_NORMAL_OCTAHEDRAL_SNORM,
+      .normalSpace = CND_NORMALS_WORLD,
+      .roughness = CND_CHANNEL_NORMAL_B,
+      .metalness = CND_CHANNEL_NORMAL_A,
+      .normalRoughnessFormat = VK_FORMAT_R16G16B16A16_SFLOAT,
+      .albedoFormat = VK_FORMAT_R16G16B16A16_SFLOAT,
+      .specularFormat = VK_FORMAT_R16G16B16A16_SFLOAT,
+      .depthFormat = VK_FORMAT_R32_SFLOAT},
+     true},
+    {"SnormOctahedralF90",
+     {.normalEncoding = CND_NORMAL_OCTAHEDRAL_SNORM,
+      .normalSpace = CND_NORMALS_VIEW,
+      .roughness = CND_CHANNEL_ALBEDO_A,
+      .reflectance = CND_REFLECTANCE_SPECULAR,
+      .f90 = CND_CHANNEL_SPECULAR_A,
+      .normalRoughnessFormat = VK_FORMAT_R16G16_SNORM,
+      .albedoFormat = VK_FORMAT_R8G8B8A8_SRGB,
+      .specularFormat = VK_FORMAT_R16G16B16A16_SFLOAT,
+      .depthFormat = VK_FORMAT_D32_SFLOAT_S8_UINT},
+     true,
+     2e-3},
+};
+
+CndCamera camera(bool reversed)
+{
+    CndCamera out;
+    setPerspective(out, 1.0, double(width) / height, nearPlane, reversed ? 0 : 60, reversed);
+    const glm::dmat4 viewFromWorld =
+        glm::translate(glm::rotate(glm::dmat4(1), 1.1, glm::normalize(glm::dvec3(1, 2, -0.5))),
+                       glm::dvec3(4, -7, 2));
+    std::memcpy(out.viewFromWorld, &viewFromWorld, sizeof out.viewFromWorld);
+    return out;
+}
+
+// Walls at several depths, holes among them, bumps and materials of their own at every pixel.
+HostPixels randomSurfaces(const Layout& layout)
+{
+    const CndCamera c = camera(layout.reversed);
+    const float clearDepth = layout.reversed ? 0.0f : 1.0f;
+    const CpuGBuffer walls = randomGBuffer(width, height, c, clearDepth, 4);
+    HostPacking packing(layout.desc, width, height, c, clearDepth);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (size_t i = 0; i < walls.depth.size(); ++i) {
+        HostSurface s{.normal = storedNormal(walls, i),
+                      .perceptualRoughness = 0.2 + 0.8 * uniform(random),
+                      .metalness = std::floor(3 * uniform(random)) / 2};
+        s.baseColour = {uniform(random), uniform(random), uniform(random)};
+        packing.add(s, double(walls.depth[i]));
+    }
+    return packing.pixels();
+}
+
+// Near the surfaces, in world space.
+std::vector<CndLight> lightsOf(const CpuGBuffer& g)
+{
+    std::vector<CndLight> lights = randomSpheres(g, 60, 3);
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, g.camera.viewFromWorld, sizeof viewFromWorld);
+    const glm::dmat4 worldFromView = glm::inverse(viewFromWorld);
+    for (CndLight& light : lights) {
+        const glm::dvec4 view(light.position[0], light.position[1], light.position[2], 1);
+        for (int i = 0; i < 3; ++i)
+            light.position[i] = float((worldFromView * view)[i]);
+        light.influenceRadius *= 3;
+    }
+    return lights;
+}
+
+class Layouts : public HostGBufferTest, public ::testing::WithParamInterface<Layout>
+{
+protected:
+    void SetUp() override
+    {
+        HostGBufferTest::SetUp();
+        VkFormatProperties properties{};
+        vkGetPhysicalDeviceFormatProperties(context().info().handle, GetParam().desc.depthFormat,
+                                            &properties);
+        if (!(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
+            GTEST_SKIP() << "the device has no depth of this format";
+    }
+    // With lists and by brute force.
+    std::array<std::vector<glm::vec4>, 2> light(const HostPixels& pixels,
+                                                const std::vector<CndLight>& lights)
+    {
+        const Images images = uploadImages(pixels.asFull);
+        const HostImages host = uploadHost(pixels);
+        auto lighting = Lighting::create(deviceDesc(), {.framesInFlight = 1,
+                                                        .gbufferLayout = CND_GBUFFER_HOST,
+                                                        .specularMethods = 1u << GetParam().method,
+                                                        .gbuffer = pixels.desc});
+        EXPECT_TRUE(lighting) << lighting.error().message;
+        auto view = lighting.value().createView({.maxWidth = width, .maxHeight = height});
+        EXPECT_TRUE(view) << view.error().message;
+        EXPECT_TRUE(lighting.value().setLights(lights, {0, 0, 0}));
+        std::array<std::vector<glm::vec4>, 2> out;
+        for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
+            const RunOptions options{.specular = GetParam().method, .culling = culling};
+            const CndLightingFrame frame = withHost(frameOf(pixels.asFull, images, options), host);
+            context().submitAndWait([&](VkCommandBuffer cmd) {
+                clearRadiance(cmd, images);
+                const auto recorded = view.value().record(cmd, frame);
+                EXPECT_TRUE(recorded) << recorded.error().message;
+            });
+            out[culling] = readRadiance(images);
+        }
+        return out;
+    }
+};
+
+TEST_P(Layouts, AreLitLikeOurOwn)
+{
+    const HostPixels pixels = randomSurfaces(GetParam());
+    const std::vector<CndLight> lights = lightsOf(pixels.asFull);
+    const auto own = [&](const CpuGBuffer& g) {
+        return run(g, lights, {.specular = GetParam().method}).radiance;
+    };
+    const auto [host, brute] = light(pixels, lights);
+    const double decoded = maxRelativeDifference(host, own(pixels.asFull));
+    std::cout << GetParam().name << ": largest difference of the peak " << decoded
+              << ", with what the host's formats round "
+              << maxRelativeDifference(host, own(pixels.unrounded)) << '\n';
+    EXPECT_LT(decoded, GetParam().tolerance);
+    EXPECT_TRUE(sameBits(host, brute));
+}
+
+TEST_P(Layouts, AreLitByTheEnvironmentLikeOurOwn)
+{
+    const HostPixels pixels = randomSurfaces(GetParam());
+    const EnvironmentImage sky =
+        imageOf([](const glm::dvec3& d) { return 1.5 + d.y + 0.5 * std::sin(4 * d.x); }, 64);
+    setImage(sky, 64);
+    const std::vector<glm::vec4> own = shade(pixels.asFull);
+    setImage(sky, 64, &GetParam().desc);
+    const Images images = uploadImages(pixels.asFull);
+    const HostImages host = uploadHost(pixels);
+    const CndEnvironmentFrame frame = withHost(environmentFrame(pixels.asFull, images, {}), host);
+    CndError error{};
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        clearRadiance(cmd, images);
+        EXPECT_EQ(cndRecordEnvironment(environment_, cmd, &frame, &error), CND_SUCCESS)
+            << error.message;
+    });
+    EXPECT_LT(maxRelativeDifference(readRadiance(images), own), GetParam().tolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(HostGBuffer, Layouts, ::testing::ValuesIn(layouts),
+                         [](const auto& test) { return test.param.name; });
+
+// --- The overlay.
+
+const CndGBufferDesc floats{.normalEncoding = CND_NORMAL_SNORM,
+                            .normalSpace = CND_NORMALS_WORLD,
+                            .roughness = CND_CHANNEL_NORMAL_A,
+                            .metalness = CND_CHANNEL_ALBEDO_A,
+                            .normalRoughnessFormat = VK_FORMAT_R32G32B32A32_SFLOAT,
+                            .albedoFormat = VK_FORMAT_R32G32B32A32_SFLOAT,
+                            .specularFormat = VK_FORMAT_R8G8_UNORM,
+                            .depthFormat = VK_FORMAT_R32_SFLOAT};
+
+// One row of pixels, as they are stored.
+struct Planted {
+    const char* what;
+    glm::dvec4 normalRoughness, albedoMetalness;
+    double depth;
+    glm::u8vec3 colour;
+};
+
+class SurfaceOverlay : public HostGBufferTest
+{
+protected:
+    using Picture = std::vector<glm::u8vec4>;
+    // By CndSurfaceQuantity.
+    std::vector<Picture> show(const HostPixels& pixels)
+    {
+        const HostImages host = uploadHost(pixels);
+        const gpu::Image picture = gpu::createImage(
+            device(), "overlay", VK_FORMAT_R8G8B8A8_UNORM, pixels.width, pixels.height,
+            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+            VK_IMAGE_ASPECT_COLOR_BIT);
+        auto lighting = Lighting::create(deviceDesc(), {.framesInFlight = 1,
+                                                        .gbufferLayout = CND_GBUFFER_HOST,
+                                                        .specularMethods = 1u << CND_SPECULAR_NONE,
+                                                        .gbuffer = pixels.desc});
+        auto view =
+            lighting.value().createView({.maxWidth = pixels.width, .maxHeight = pixels.height});
+        const CndLightingFrame frame =
+            withHost(CndLightingFrame{.width = pixels.width,
+                                      .height = pixels.height,
+                                      .camera = pixels.asFull.camera,
+                                      .clearDepth = pixels.asFull.clearDepth},
+                     host);
+        std::vector<Picture> out;
+        for (int quantity = CND_SURFACE_ALL; quantity <= CND_SURFACE_FAULTS; ++quantity) {
+            context().submitAndWait([&](VkCommandBuffer cmd) {
+                transition(cmd, picture.image.get(), VK_IMAGE_ASPECT_COLOR_BIT,
+                           VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+                const auto recorded = view.value().recordOverlay(
+                    cmd, frame,
+                    {.quantity = CndSurfaceQuantity(quantity), .image = picture.view.get()});
+                EXPECT_TRUE(recorded) << recorded.error().message;
+            });
+            const std::vector<std::byte> bytes =
+                readImage(picture, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL, 4);
+            out.emplace_back(bytes.size() / 4);
+            std::memcpy(out.back().data(), bytes.data(), bytes.size());
+        }
+        return out;
+    }
+};
+
+TEST_F(SurfaceOverlay, MarksPlantedMistakes)
+{
+    CndCamera c;
+    setPerspective(c, 0.2, 1, nearPlane);
+    const double near = double(depthAt(c, 3)), nan = std::nan(""), infinity = HUGE_VAL;
+    const glm::dvec4 good(0, 0, 1, 0.5), grey(0.5, 0.5, 0.5, 0);
+    const glm::u8vec3 magenta(255, 0, 255), blue(0, 0, 255), yellow(255, 255, 0), red(255, 0, 0),
+        cyan(0, 255, 255), orange(255, 128, 0);
+    const Planted pixels[] = {
+        {"nothing", good, grey, near, {128, 128, 128}},
+        {"no surface", {nan, 0, 0, 9}, {9, 9, 9, 9}, 0, {0, 0, 0}},
+        {"NaN in a normal", {nan, 0, 1, 0.5}, grey, near, magenta},
+        {"infinite normal", {infinity, 0, 1, 0.5}, grey, near, magenta},
+        {"NaN roughness", {0, 0, 1, nan}, grey, near, magenta},
+        {"NaN in a colour", good, {0.5, nan, 0.5, 0}, near, magenta},
+        {"behind the eye", good, grey, -near, blue},
+        {"normal too long", {0, 0, 1.1, 0.5}, grey, near, yellow},
+        {"no normal", {0, 0, 0, 0.5}, grey, near, yellow},
+        {"normal turned round", {0, 0, -1, 0.5}, grey, near, red},
+        {"roughness in steps of 255", {0, 0, 1, 128}, grey, near, cyan},
+        {"negative roughness", {0, 0, 1, -0.1}, grey, near, cyan},
+        {"base colour beyond 1", good, {0.5, 1.4, 0.5, 0}, near, orange},
+        {"metalness beyond 1", good, {0.5, 0.5, 0.5, 1.5}, near, orange},
+    };
+    HostPixels p{.desc = floats, .width = uint32_t(std::size(pixels)), .height = 1};
+    p.asFull = {.width = p.width, .height = 1, .camera = c, .clearDepth = 0};
+    for (const Planted& pixel : pixels) {
+        appendTexel(p.images[0], floats.normalRoughnessFormat, pixel.normalRoughness);
+        appendTexel(p.images[1], floats.albedoFormat, pixel.albedoMetalness);
+        appendTexel(p.images[2], floats.specularFormat, {});
+        appendDepth(p.depth, floats.depthFormat, pixel.depth);
+    }
+    const Picture shown = show(p)[CND_SURFACE_FAULTS];
+    for (size_t i = 0; i < std::size(pixels); ++i)
+        for (int k = 0; k < 3; ++k) // NoV of the first is almost 1
+            EXPECT_NEAR(shown[i][k], pixels[i].colour[k], 2) << pixels[i].what << ' ' << k;
+}
+
+// Every quantity, and the six of them small.
+TEST_F(SurfaceOverlay, ShowsWhatIsRead)
+{
+    const HostPixels p = randomSurfaces({"", floats, true});
+    const std::vector<Picture> shown = show(p);
+    const Picture& all = shown[CND_SURFACE_ALL];
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, p.asFull.camera.viewFromWorld, sizeof viewFromWorld);
+    const glm::dmat4 worldFromView = glm::inverse(viewFromWorld);
+    const auto srgb = [](double x) {
+        return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    };
+    for (int q = CND_SURFACE_NORMAL; q <= CND_SURFACE_FAULTS; ++q) {
+        const Picture& one = shown[size_t(q)];
+        for (uint32_t y = 0; y < height; ++y)
+            for (uint32_t x = 0; x < width; ++x) {
+                const size_t i = size_t(y) * width + x;
+                const glm::vec4 albedo = storedHalf4(p.asFull.albedo[i]);
+                const glm::vec4 f0 = storedHalf4(p.asFull.specular[i]);
+                const glm::dvec4 world =
+                    worldFromView * glm::dvec4(viewPosition(p.asFull, x, y), 1);
+                for (int k = 0; k < 3; ++k) {
+                    const double expected[] = {
+                        0.5 + 0.5 * (glm::dmat3(worldFromView) * storedNormal(p.asFull, i))[k],
+                        storedRoughness(p.asFull, i), srgb(double(albedo[k])), srgb(double(f0[k])),
+                        std::abs(2 * (world[k] / 2 - std::floor(world[k] / 2)) - 1)};
+                    const bool surface = p.asFull.depth[i] != p.asFull.clearDepth;
+                    if (q == CND_SURFACE_FAULTS)
+                        continue;
+                    ASSERT_NEAR(one[i][k], surface ? 255 * expected[q - 1] : 0, 1.1)
+                        << q << ' ' << x << ' ' << y << ' ' << k;
+                }
+                const uint32_t column = uint32_t(q - 1) % 3, row = uint32_t(q - 1) / 3;
+                if (x % 3 == 0 && y % 2 == 0) { // 72 = 3 * 24, 48 = 2 * 24
+                    ASSERT_EQ(all[(row * 24 + y / 2) * width + column * 24 + x / 3].x, one[i].x);
+                }
+            }
+    }
+}
+
+} // namespace
+} // namespace candelabra::test
