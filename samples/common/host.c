@@ -11,12 +11,13 @@ static void stop(const char* what, int code)
     exit(2);
 }
 
-#define VK(call)                                                                                   \
-    do {                                                                                           \
-        const VkResult result_ = (call);                                                           \
-        if (result_ != VK_SUCCESS)                                                                 \
-            stop(#call " failed", result_);                                                        \
-    } while (0)
+void checkVulkan(VkResult result, const char* what)
+{
+    if (result != VK_SUCCESS)
+        stop(what, result);
+}
+
+#define VK(call) checkVulkan((call), #call " failed")
 
 // The first device that has what Candelabra needs.
 static VkPhysicalDevice choosePhysicalDevice(VkInstance instance)
@@ -47,15 +48,19 @@ static uint32_t chooseQueueFamily(VkPhysicalDevice device)
     return 0;
 }
 
-static void createDevice(Host* host)
+void createHostDevice(Host* host, uint32_t instanceExtensionCount,
+                      const char* const* instanceExtensions, uint32_t deviceExtensionCount,
+                      const char* const* deviceExtensions)
 {
     const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                            .apiVersion = VK_API_VERSION_1_3};
     const VkInstanceCreateInfo instance = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                           .pApplicationInfo = &application};
+                                           .pApplicationInfo = &application,
+                                           .enabledExtensionCount = instanceExtensionCount,
+                                           .ppEnabledExtensionNames = instanceExtensions};
     VK(vkCreateInstance(&instance, NULL, &host->instance));
     host->physicalDevice = choosePhysicalDevice(host->instance);
-    const uint32_t family = chooseQueueFamily(host->physicalDevice);
+    host->queueFamily = chooseQueueFamily(host->physicalDevice);
 
     VkPhysicalDeviceVulkan13Features core13 = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
@@ -66,19 +71,21 @@ static void createDevice(Host* host)
     cndRequireFeatures(&features.features, &core12, &core13);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-                                           .queueFamilyIndex = family,
+                                           .queueFamilyIndex = host->queueFamily,
                                            .queueCount = 1,
                                            .pQueuePriorities = &priority};
     const VkDeviceCreateInfo device = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                        .pNext = &features,
                                        .queueCreateInfoCount = 1,
-                                       .pQueueCreateInfos = &queue};
+                                       .pQueueCreateInfos = &queue,
+                                       .enabledExtensionCount = deviceExtensionCount,
+                                       .ppEnabledExtensionNames = deviceExtensions};
     VK(vkCreateDevice(host->physicalDevice, &device, NULL, &host->device));
-    vkGetDeviceQueue(host->device, family, 0, &host->queue);
+    vkGetDeviceQueue(host->device, host->queueFamily, 0, &host->queue);
 
     const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                           .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-                                          .queueFamilyIndex = family};
+                                          .queueFamilyIndex = host->queueFamily};
     VK(vkCreateCommandPool(host->device, &pool, NULL, &host->pool));
     const VkCommandBufferAllocateInfo buffer = {.sType =
                                                     VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
@@ -87,8 +94,15 @@ static void createDevice(Host* host)
     VK(vkAllocateCommandBuffers(host->device, &buffer, &host->cmd));
 }
 
-static VkDeviceMemory allocate(const Host* host, VkMemoryRequirements needs,
-                               VkMemoryPropertyFlags flags)
+void destroyHostDevice(Host* host)
+{
+    vkDestroyCommandPool(host->device, host->pool, NULL);
+    vkDestroyDevice(host->device, NULL);
+    vkDestroyInstance(host->instance, NULL);
+}
+
+VkDeviceMemory allocateHostMemory(const Host* host, VkMemoryRequirements needs,
+                                  VkMemoryPropertyFlags flags)
 {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(host->physicalDevice, &memory);
@@ -107,14 +121,16 @@ static VkDeviceMemory allocate(const Host* host, VkMemoryRequirements needs,
     return result;
 }
 
-static HostImage createImage(const Host* host, VkFormat format, VkImageUsageFlags usage)
+HostImage createHostImage(const Host* host, VkFormat format, uint32_t width, uint32_t height,
+                          VkImageUsageFlags usage)
 {
-    HostImage result = {.aspect = format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT
+    HostImage result = {.format = format,
+                        .aspect = format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT
                                                                  : VK_IMAGE_ASPECT_COLOR_BIT};
     const VkImageCreateInfo image = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                      .imageType = VK_IMAGE_TYPE_2D,
                                      .format = format,
-                                     .extent = {host->width, host->height, 1},
+                                     .extent = {width, height, 1},
                                      .mipLevels = 1,
                                      .arrayLayers = 1,
                                      .samples = VK_SAMPLE_COUNT_1_BIT,
@@ -123,7 +139,7 @@ static HostImage createImage(const Host* host, VkFormat format, VkImageUsageFlag
     VK(vkCreateImage(host->device, &image, NULL, &result.image));
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(host->device, result.image, &needs);
-    result.memory = allocate(host, needs, 0);
+    result.memory = allocateHostMemory(host, needs, 0);
     VK(vkBindImageMemory(host->device, result.image, result.memory, 0));
     const VkImageViewCreateInfo view = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                         .image = result.image,
@@ -134,11 +150,16 @@ static HostImage createImage(const Host* host, VkFormat format, VkImageUsageFlag
     return result;
 }
 
-static void destroyImage(const Host* host, HostImage image)
+void destroyHostImage(const Host* host, HostImage image)
 {
     vkDestroyImageView(host->device, image.view, NULL);
     vkDestroyImage(host->device, image.image, NULL);
     vkFreeMemory(host->device, image.memory, NULL);
+}
+
+static HostImage createImage(const Host* host, VkFormat format, VkImageUsageFlags usage)
+{
+    return createHostImage(host, format, host->width, host->height, usage);
 }
 
 #define NEAR_PLANE 0.1f // metres
@@ -146,7 +167,7 @@ static void destroyImage(const Host* host, HostImage image)
 Host createHost(uint32_t width, uint32_t height)
 {
     Host host = {.width = width, .height = height};
-    createDevice(&host);
+    createHostDevice(&host, 0, NULL, 0, NULL);
     const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
     const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
     host.normalRoughness = createImage(&host, VK_FORMAT_R32G32_UINT, sampled);
@@ -172,10 +193,8 @@ void destroyHost(Host* host)
     const HostImage images[] = {host->normalRoughness, host->albedo,   host->specular,
                                 host->depth,           host->radiance, host->display};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; ++i)
-        destroyImage(host, images[i]);
-    vkDestroyCommandPool(host->device, host->pool, NULL);
-    vkDestroyDevice(host->device, NULL);
-    vkDestroyInstance(host->instance, NULL);
+        destroyHostImage(host, images[i]);
+    destroyHostDevice(host);
 }
 
 VkCommandBuffer beginFrame(Host* host)
@@ -263,7 +282,7 @@ void readCentre(Host* host, const HostImage* image, VkImageLayout layout, void* 
     VK(vkCreateBuffer(host->device, &info, NULL, &buffer));
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(host->device, buffer, &needs);
-    const VkDeviceMemory memory = allocate(
+    const VkDeviceMemory memory = allocateHostMemory(
         host, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     VK(vkBindBufferMemory(host->device, buffer, memory, 0));
 

@@ -14,6 +14,7 @@ extern "C" {
 
 typedef struct HostImage {
     VkImage image;
+    VkFormat format;
     VkDeviceMemory memory;
     VkImageView view;
     VkImageAspectFlags aspect;
@@ -23,6 +24,7 @@ typedef struct Host {
     VkInstance instance;
     VkPhysicalDevice physicalDevice;
     VkDevice device;
+    uint32_t queueFamily;
     VkQueue queue;
     VkCommandPool pool;
     VkCommandBuffer cmd;
@@ -37,6 +39,21 @@ typedef struct Host {
 
 Host createHost(uint32_t width, uint32_t height);
 void destroyHost(Host* host);
+
+// The parts of it, for hosts that draw something else: what is above the images, with the
+// extensions of a window (count 0: none); and images of two dimensions, which can be cleared and
+// copied too.
+void createHostDevice(Host* host, uint32_t instanceExtensionCount,
+                      const char* const* instanceExtensions, uint32_t deviceExtensionCount,
+                      const char* const* deviceExtensions);
+void destroyHostDevice(Host* host);
+HostImage createHostImage(const Host* host, VkFormat format, uint32_t width, uint32_t height,
+                          VkImageUsageFlags usage);
+void destroyHostImage(const Host* host, HostImage image);
+VkDeviceMemory allocateHostMemory(const Host* host, VkMemoryRequirements needs,
+                                  VkMemoryPropertyFlags flags);
+// Ends the program, with a message, unless `result` is VK_SUCCESS.
+void checkVulkan(VkResult result, const char* what);
 
 // Begins the command buffer.
 VkCommandBuffer beginFrame(Host* host);

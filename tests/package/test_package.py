@@ -46,8 +46,8 @@ def configure_and_build(project, folder, *options):
     run("cmake", "--build", folder, "--parallel", 2)
 
 
-def run_sample(program):
-    log = run(program, **LAYERS)
+def run_sample(*command):
+    log = run(*command, **LAYERS)
     require(re.search(r"Insert instance layer.*VK_LAYER_KHRONOS_validation", log),
             log + "\nvalidation was not active")
     require(not re.search("VUID|SYNC-HAZARD|Validation Error|Validation Warning", log), log)
@@ -85,7 +85,24 @@ def install():
 
 def sample(name):
     configure_and_build(source / "samples" / name, work / name, f"-DCMAKE_PREFIX_PATH={prefix}")
-    run_sample(work / name / name)
+    {"embed_window": show_window}.get(name, run_sample)(work / name / name)
+
+
+def show_window(program):
+    """Pictures of a window that changed its size half way: lit, and what Candelabra read."""
+    for name, options in {"lit": (), "faults": ("--overlay", "6")}.items():
+        file = work / f"{name}.ppm"
+        run_sample("xvfb-run", "-a", program, "--size", "640x360", "--frames", "12", "--resize",
+                   "--screenshot", file, *options)
+        _, size, _, pixels = file.read_bytes().split(b"\n", 3)
+        require(size == b"480 270" and len(pixels) == 480 * 270 * 3, f"{file} is {size}")
+        # Right of the panel.
+        shown = [pixels[i:i + 3] for y in range(270) for i in range((480 * y + 300) * 3,
+                                                                    480 * (y + 1) * 3, 3)]
+        mean = sum(map(sum, shown)) / len(shown) / 3
+        require(20 < mean < 150 and len(set(shown)) > 50, f"{file}: mean {mean}, {len(set(shown))} colours")
+        coloured = sum(max(p) - min(p) > 2 for p in shown)
+        require((coloured == 0) == (name == "faults"), f"{file}: {coloured} coloured pixels")
 
 
 def consume(folder, *options):

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A window with its device and swapchain, and two frames in flight: what a renderer has anyway.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host.h"
+
+struct GLFWwindow;
+
+constexpr uint32_t framesInFlight = 2;
+
+// Layout, stage and access of an image where it is used.
+constexpr ImageUse unused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_NONE, 0};
+constexpr ImageUse colourAttachment{
+    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr ImageUse depthAttachment{
+    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr ImageUse sampledInCompute{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+constexpr ImageUse storageInCompute{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                                        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+constexpr ImageUse blitSource{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_BLIT_BIT,
+                              VK_ACCESS_2_TRANSFER_READ_BIT};
+constexpr ImageUse blitTarget{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_BLIT_BIT,
+                              VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr ImageUse copySource{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                              VK_ACCESS_2_TRANSFER_READ_BIT};
+constexpr ImageUse presented{VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_PIPELINE_STAGE_2_NONE, 0};
+
+class Window
+{
+public:
+    Window(const char* title, uint32_t width, uint32_t height);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    const Host& host() const { return host_; }
+    GLFWwindow* get() const { return window_; }
+    VkExtent2D size() const { return size_; } // pixels of the swapchain
+    VkFormat format() const { return format_; }
+    uint32_t imageCount() const { return uint32_t(images_.size()); }
+
+    struct Frame {
+        VkCommandBuffer cmd; // begun
+        uint32_t slot;       // whose last frame the GPU has finished
+        uint32_t image;      // of the swapchain
+        HostImage target;    // that image, as a HostImage; unused when the frame begins
+    };
+    // None while the window has no area, or its size has just changed: ask size() again.
+    std::optional<Frame> begin();
+    // `target` must be as `presented` says.
+    void end(const Frame& frame);
+
+    // Records a copy of the target, which must be as copySource says; end() of the same frame waits
+    // for it and writes a PPM.
+    void copyTo(const Frame& frame, const std::string& file);
+
+private:
+    void createSwapchain();
+    void destroyViews();
+    void writeCopy();
+
+    GLFWwindow* window_ = nullptr;
+    Host host_{};
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    VkFormat format_ = VK_FORMAT_UNDEFINED;
+    VkExtent2D size_{};
+    std::vector<HostImage> images_;
+    std::vector<VkSemaphore> rendered_; // per image
+    struct Slot {
+        VkCommandBuffer cmd;
+        VkFence fence;
+        VkSemaphore acquired;
+    } slots_[framesInFlight]{};
+    uint64_t frames_ = 0;
+    bool stale_ = false; // the swapchain is to be made anew
+
+    std::string copyFile_; // empty: no copy is under way
+    VkBuffer copy_ = VK_NULL_HANDLE;
+    VkDeviceMemory copyMemory_ = VK_NULL_HANDLE;
+};
