@@ -247,22 +247,33 @@ protected:
     std::vector<Picture> show(const HostPixels& pixels)
     {
         const HostImages host = uploadHost(pixels);
+        return show(withHost(frameOf(pixels.asFull), host), CND_GBUFFER_HOST, pixels.desc);
+    }
+    std::vector<Picture> show(const CpuGBuffer& full)
+    {
+        const Images images = uploadImages(full);
+        return show(surfaceFrame<CndLightingFrame>(full, images), CND_GBUFFER_FULL, {});
+    }
+
+private:
+    static CndLightingFrame frameOf(const CpuGBuffer& g)
+    {
+        return {
+            .width = g.width, .height = g.height, .camera = g.camera, .clearDepth = g.clearDepth};
+    }
+    std::vector<Picture> show(const CndLightingFrame& frame, CndGBufferLayout layout,
+                              const CndGBufferDesc& gbuffer)
+    {
         const gpu::Image picture = gpu::createImage(
-            device(), "overlay", VK_FORMAT_R8G8B8A8_UNORM, pixels.width, pixels.height,
+            device(), "overlay", VK_FORMAT_R8G8B8A8_UNORM, frame.width, frame.height,
             VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
             VK_IMAGE_ASPECT_COLOR_BIT);
         auto lighting = Lighting::create(deviceDesc(), {.framesInFlight = 1,
-                                                        .gbufferLayout = CND_GBUFFER_HOST,
+                                                        .gbufferLayout = layout,
                                                         .specularMethods = 1u << CND_SPECULAR_NONE,
-                                                        .gbuffer = pixels.desc});
+                                                        .gbuffer = gbuffer});
         auto view =
-            lighting.value().createView({.maxWidth = pixels.width, .maxHeight = pixels.height});
-        const CndLightingFrame frame =
-            withHost(CndLightingFrame{.width = pixels.width,
-                                      .height = pixels.height,
-                                      .camera = pixels.asFull.camera,
-                                      .clearDepth = pixels.asFull.clearDepth},
-                     host);
+            lighting.value().createView({.maxWidth = frame.width, .maxHeight = frame.height});
         std::vector<Picture> out;
         for (int quantity = CND_SURFACE_ALL; quantity <= CND_SURFACE_FAULTS; ++quantity) {
             context().submitAndWait([&](VkCommandBuffer cmd) {
@@ -358,6 +369,36 @@ TEST_F(SurfaceOverlay, ShowsWhatIsRead)
                 }
             }
     }
+}
+
+// FULL surfaces that face the eye, under every kind of camera: nothing is marked, and positions
+// are where they are.
+TEST_F(SurfaceOverlay, MarksNothingThatIsRight)
+{
+    for (const bool reversed : {false, true})
+        for (const bool perspective : {false, true}) {
+            CndCamera c;
+            if (perspective)
+                setPerspective(c, 0.4, 1, nearPlane, 60, reversed);
+            else
+                setOrthographic(c, 8, 1, nearPlane, 60, reversed);
+            CpuGBuffer g{.width = 32, .height = 32, .camera = c, .clearDepth = reversed ? 0.0f : 1};
+            for (int i = 0; i < 32 * 32; ++i)
+                addPixel(g, {.depth = depthAt(c, 2 + i % 37),
+                             .normal = {0.03 * (i % 32 - 15), 0.02 * (i % 29 - 14), 1},
+                             .perceptualRoughness = (i % 9) / 8.0,
+                             .albedo = glm::vec3(0.25f * float(i % 5)),
+                             .F0F90 = glm::vec4(0.04f, 0.5f, 1, 1)});
+            const std::vector<Picture> shown = show(g);
+            for (uint32_t i = 0; i < 32 * 32; ++i) {
+                const glm::u8vec4 mark = shown[CND_SURFACE_FAULTS][i];
+                ASSERT_TRUE(mark.x == mark.y && mark.y == mark.z && mark.x > 80) << i;
+                const glm::dvec3 at = viewPosition(g, i % 32, i / 32) / 2.0;
+                for (int k = 0; k < 3; ++k)
+                    ASSERT_NEAR(shown[CND_SURFACE_POSITION][i][k],
+                                255 * std::abs(2 * (at[k] - std::floor(at[k])) - 1), 1.1);
+            }
+        }
 }
 
 } // namespace
