@@ -122,9 +122,14 @@ Image loadExr(const std::string& path)
     }
     const bool isColor = red >= 0 && green >= 0 && blue >= 0;
     ExrImage exr;
+    // When it fails tinyexr 1.0.1 frees as many channels as are counted here, and leaves the
+    // pointers.
+    exr.value.num_channels = header.value.num_channels;
     if (LoadEXRImageFromMemory(&exr.value, &header.value, bytes.data(), bytes.size(), &message) !=
-        TINYEXR_SUCCESS)
+        TINYEXR_SUCCESS) {
+        InitEXRImage(&exr.value);
         failRead(path, takeMessage(message));
+    }
     if (!exr.value.images || exr.value.width < 1 || exr.value.height < 1)
         failRead(path, "is tiled, which is not supported");
     Image image;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Command lines, one argument a line: parsed and not run.
+#include <sstream>
+
+#include "commands/commands.h"
+#include "fuzz/fuzz_target.h"
+
+namespace candelabra::test
+{
+
+Seeds fuzzSeeds()
+{
+    return {"render\nhall\n--lights\n16000\n-o\nhall.png\n--camera\n0,1,2,3,4,5,60\n--size\n64x48",
+            "stress\n--lights\n1000,4000\n--size=1280x720\n--json\ns.json",
+            "profile\nhall\n--ab\n--specular karis\n--specular conic\n--frames\n30",
+            "compare\na.json\nb.json\n--tolerance\n2",
+            "view\nfield\n--moving\n--frames\n3",
+            "truth\nscene.json\n-o\nt.exr\n--shard\n1/3",
+            "bench\naccuracy\n--groups\n20\n--seed\n4",
+            "bench\nskip\n--rounds\n3",
+            "devices\n--json",
+            "render\n--help"};
+}
+
+} // namespace candelabra::test
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
+{
+    using namespace candelabra::app;
+    std::vector<std::string> arguments;
+    std::istringstream lines(std::string(data, data + size));
+    for (std::string line; std::getline(lines, line);)
+        arguments.push_back(line.substr(0, line.find('\0')));
+    std::vector<const char*> argv{"candelabra"};
+    for (const std::string& argument : arguments)
+        argv.push_back(argument.c_str());
+    CLI::App app("fuzzed");
+    Run run;
+    for (const auto add : {addBenchCommand, addCompareCommand, addDevicesCommand, addProfileCommand,
+                           addRenderCommand, addStressCommand, addTruthCommand, addViewCommand})
+        add(app, run);
+    try {
+        app.parse(int(argv.size()), argv.data());
+    } catch (const CLI::Error&) { // --help is one
+    }
+    return 0;
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every fuzzer defines: one input, and valid inputs to start from. With libFuzzer (preset
+// fuzz) the first is called by its driver, else by mutations.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+// Returns 0. What it throws or a sanitizer finds is the finding.
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
+
+namespace candelabra::test
+{
+
+using Seeds = std::vector<std::string>;
+Seeds fuzzSeeds();
+
+// The file that loaders get, of this process alone.
+inline std::string fuzzFile(const uint8_t* data, size_t size, const std::string& extension)
+{
+    static const std::string folder = [] {
+        const auto path = std::filesystem::temp_directory_path() /
+                          ("candelabra_fuzz_" + std::to_string(getpid()));
+        std::filesystem::create_directories(path);
+        std::atexit([] {
+            std::filesystem::remove_all(std::filesystem::temp_directory_path() /
+                                        ("candelabra_fuzz_" + std::to_string(getpid())));
+        });
+        return path.string();
+    }();
+    const std::string path = folder + "/input" + extension;
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(data), std::streamsize(size));
+    return path;
+}
+
+inline std::string fileText(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void require(bool holds, const std::string& what)
+{
+    if (holds)
+        return;
+    std::cerr << "broken: " << what << "\n";
+    std::abort();
+}
+
+} // namespace candelabra::test

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF 2.0, text and binary.
+#include "fuzz/fuzz_target.h"
+#include "scene/load.h"
+#include "unit/broken_scene_cases.h"
+#include "unit/gltf_builder.h"
+#include "unit/scene_invariants.h"
+
+namespace candelabra::test
+{
+
+Seeds fuzzSeeds()
+{
+    Seeds out;
+    for (const GltfBuilder& builder : {triangleScene(), completeGltf()}) {
+        out.push_back(builder.text());
+        const Bytes glb = builder.glb();
+        out.emplace_back(glb.begin(), glb.end());
+    }
+    return out;
+}
+
+} // namespace candelabra::test
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
+{
+    using namespace candelabra;
+    const bool binary = size >= 4 && std::string(data, data + 4) == "glTF";
+    try {
+        const app::Scene scene =
+            app::loadGltf(test::fuzzFile(data, size, binary ? ".glb" : ".gltf"), {});
+        const std::string broken = test::brokenInvariant(scene);
+        test::require(broken.empty(), broken);
+    } catch (const app::SceneError&) {
+    }
+    return 0;
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scene descriptions (.json).
+#include "fuzz/fuzz_target.h"
+#include "scene/load.h"
+#include "unit/scene_invariants.h"
+
+namespace candelabra::test
+{
+
+Seeds fuzzSeeds()
+{
+    return {fileText(CANDELABRA_TEST_DATA "/every_light.json"),
+            R"({"camera": {"eye": [0, 1, 4], "target": [0, 0, 0], "fov": 45}, "objects": [],
+                "lights": []})"};
+}
+
+} // namespace candelabra::test
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
+{
+    using namespace candelabra;
+    try {
+        const app::Scene scene = app::loadSceneJson(test::fuzzFile(data, size, ".json"));
+        const std::string broken = test::brokenInvariant(scene);
+        test::require(broken.empty(), broken);
+    } catch (const app::SceneError&) {
+    }
+    return 0;
+}
