@@ -4,6 +4,7 @@
 every file starts with. Usage: test_structure.py REPOSITORY"""
 import pathlib
 import re
+import subprocess
 import sys
 
 root = pathlib.Path(sys.argv[1])
@@ -115,6 +116,12 @@ for path in SOURCES:
 sample = (root / "samples/embed_minimal/main.cpp").read_text().split("// [readme]\n")
 if len(sample) != 3 or f"```cpp\n{sample[1]}```" not in (root / "README.md").read_text():
     fail(root / "README.md", "does not hold the listing of samples/embed_minimal/main.cpp")
+
+# README's results are those measured.
+check = subprocess.run([sys.executable, root / "tools/update_readme", "--check"],
+                       capture_output=True, text=True)
+if check.returncode:
+    fail(root / "README.md", (check.stdout + check.stderr).strip())
 
 # The version that headers say is the one that packages carry.
 project = re.search(r"project\(candelabra VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text())[1]
