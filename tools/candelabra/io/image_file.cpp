@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/interrupts.h"
+
 namespace candelabra::app
 {
 
@@ -21,6 +23,7 @@ class TemporaryFile
 public:
     TemporaryFile(const std::string& path, mode_t mode)
         : path_(path),
+          removed_(path),
           fd_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, mode))
     {
         created_ = fd_ >= 0;
@@ -46,6 +49,7 @@ public:
 
 private:
     std::string path_;
+    RemovedOnSignal removed_;
     int fd_;
     bool created_ = false;
 };

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "io/interrupts.h"
+
 namespace candelabra::app
 {
 namespace
@@ -21,8 +23,10 @@ Progress::Progress(double steps, bool visible)
 
 Progress::~Progress()
 {
-    if (visible_)
-        std::fputs("\r\x1b[K", stderr); // leaves no trace
+    if (!visible_)
+        return;
+    setProgressShown(false);
+    std::fputs("\r\x1b[K", stderr); // leaves no trace
 }
 
 void Progress::doing(const std::string& what)
@@ -41,6 +45,7 @@ void Progress::draw()
 {
     if (!visible_)
         return;
+    setProgressShown(true);
     const int filled = static_cast<int>(barWidth * done_ / steps_);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

@@ -13,6 +13,7 @@
 
 #include "candelabra/candelabra.h"
 #include "candelabra_commit.h"
+#include "io/image_file.h"
 #include "render/error.h"
 
 namespace candelabra::app
@@ -52,17 +53,7 @@ void writeText(const std::string& path, const std::string& text)
             throw RunError(std::string("cannot write to standard output: ") + std::strerror(errno));
         return;
     }
-    const std::string temporary = fmt::format("{}.{}.tmp", path, getpid());
-    std::FILE* file = std::fopen(temporary.c_str(), "wb");
-    if (!file)
-        throw RunError("cannot write " + path + ": " + std::strerror(errno));
-    const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-    const bool closed = std::fclose(file) == 0;
-    if (!written || !closed || std::rename(temporary.c_str(), path.c_str())) {
-        const std::string reason = std::strerror(errno);
-        std::remove(temporary.c_str());
-        throw RunError("cannot write " + path + ": " + reason);
-    }
+    writeFileAtomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 void writeJson(const std::string& path, const Json& json)

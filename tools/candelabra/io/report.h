@@ -14,7 +14,8 @@ namespace candelabra::app
 
 using Json = nlohmann::ordered_json;
 
-// Writes to a temporary file beside `path`, then renames it; "-" is stdout. Throws RunError.
+// Writes to a temporary file beside `path`, then renames it; "-" is stdout. Throws RunError or
+// ImageError.
 void writeText(const std::string& path, const std::string& text);
 // The same, indented by two. Numbers that are not finite become null.
 void writeJson(const std::string& path, const Json& json);
