@@ -40,7 +40,8 @@ Targets createTargets(const gpu::Device& device, CndGBufferLayout layout, uint32
         t.specular = create("gbuffer specular", formats.specular, color, VK_IMAGE_ASPECT_COLOR_BIT);
     t.depth = create("gbuffer depth", formats.depth,
                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read, VK_IMAGE_ASPECT_DEPTH_BIT);
-    t.radiance = create("gbuffer radiance", formats.radiance, color | VK_IMAGE_USAGE_STORAGE_BIT,
+    t.radiance = create("gbuffer radiance", formats.radiance,
+                        color | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                         VK_IMAGE_ASPECT_COLOR_BIT);
     return t;
 }

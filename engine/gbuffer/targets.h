@@ -33,8 +33,8 @@ struct Targets {
     Attachments attachments() const;
 };
 
-// Images that can be attachments, be sampled, be copied from; radiance also a storage image. Throws
-// gpu::Failure.
+// Images that can be attachments, be sampled, be copied from; radiance also a storage image and
+// cleared. Throws gpu::Failure.
 Targets createTargets(const gpu::Device& device, CndGBufferLayout layout, uint32_t width,
                       uint32_t height);
 

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +15,7 @@
 
 #include "commands/options.h"
 #include "harness/gpu_fixture.h"
+#include "harness/json_schema.h"
 #include "harness/xml.h"
 #include "io/image.h"
 #include "io/table.h"
@@ -94,10 +97,11 @@ Png readPng(const std::string& path)
 TEST_F(ProgramTest, RenderWritesImagesAndFigures)
 {
     const Outcome outcome = run("render hall --lights 150 --size 96x54 --frames 3 --moving -q "
-                                "-o a.png -o a.exr -o a.pfm --json - --validate");
+                                "-o a.png -o a.exr -o a.pfm --pick 48,40 --json - --validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(test::JsonSchema("render.schema.json").fault(json), "");
     EXPECT_EQ(json["scene"]["lights"], 150);
     EXPECT_EQ(json["image"]["widthPixels"], 96);
     EXPECT_EQ(json["scene"]["lobes"], "conserving");
@@ -193,11 +197,12 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
 TEST_F(ProgramTest, ProfileTimesEveryPass)
 {
     const Outcome outcome = run("profile hall --lights 100 --size 64x36 --frames 8 --path turn "
-                                "--moving --csv f.csv --json p.json --validate");
+                                "--moving --light-costs 5 --csv f.csv --json p.json --validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("shade_tiles"), std::string::npos) << outcome.out;
     const auto json = nlohmann::json::parse(text("p.json"));
-    EXPECT_EQ(json["schema"], "candelabra profile 1");
+    EXPECT_EQ(test::JsonSchema("profile.schema.json").fault(json), "");
+    EXPECT_EQ(json["lightCosts"]["lights"].size(), 5u);
     ASSERT_EQ(json["variants"].size(), 1u);
     const auto& time = json["variants"][0]["time"];
     EXPECT_EQ(time["frames"], 8);
@@ -216,12 +221,70 @@ TEST_F(ProgramTest, ProfileTimesEveryPass)
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 8);
 }
 
+// Chrome's trace event format, as Perfetto reads it: slices of a track nest, and are in order.
+TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
+{
+    const Outcome outcome = run("profile hall --lights 100 --size 64x36 --frames 6 --moving -q "
+                                "--trace t.json --json p.json --validate");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto trace = nlohmann::json::parse(text("t.json"));
+    EXPECT_EQ(test::JsonSchema("trace.schema.json").fault(trace), "");
+    if (context().getCalibratedTimestamps())
+        EXPECT_EQ(trace["otherData"]["clocksAlignedBy"], context().calibratedTimestampsExtension());
+    std::map<int, std::string> tracks;
+    std::map<std::string, double> endOf; // by track, of the last slice that is not around others
+    std::map<int, std::map<std::string, double>> frames; // by frame: when what happened, us
+    std::set<std::string> passes;
+    for (const auto& event : trace["traceEvents"]) {
+        const std::string phase = event["ph"], name = event["name"];
+        ASSERT_TRUE(event["pid"].is_number_integer() && event["tid"].is_number_integer()) << event;
+        if (phase == "M") {
+            if (name == "thread_name")
+                tracks[event["tid"]] = event["args"]["name"];
+            continue;
+        }
+        const double ts = event["ts"];
+        if (phase == "X") {
+            const double duration = event["dur"];
+            const std::string track = tracks.at(event["tid"]);
+            EXPECT_GE(duration, 0) << event;
+            auto& frame = frames[event["args"]["frame"]];
+            if (track == "GPU passes")
+                passes.insert(name);
+            frame[track + " " + name] = ts;
+            frame[track + " " + name + " end"] = ts + duration;
+            if (name != "frame") {
+                EXPECT_GE(ts, endOf[track] - 1e-6) << event; // rounding of sums
+                endOf[track] = ts + duration;
+            }
+        } else {
+            EXPECT_TRUE(phase == "s" || phase == "f") << event;
+        }
+    }
+    EXPECT_TRUE(passes.count("shade_tiles") && passes.count("gbuffer_raster"));
+    ASSERT_EQ(frames.size(), 6u);
+    for (auto& [index, at] : frames) {
+        EXPECT_LE(at["CPU upload"], at["CPU record"]) << index;
+        EXPECT_LE(at["CPU record end"], at["CPU submit"] + 1e-6) << index;
+        EXPECT_LT(at["CPU submit"], at["GPU frames frame"]) << index;
+        EXPECT_LT(at["GPU frames frame end"], at["CPU wait end"]) << index;
+    }
+
+    const auto variant = nlohmann::json::parse(text("p.json"))["variants"][0];
+    EXPECT_GT(variant["time"]["upload"]["medianMs"], 0);
+    EXPECT_GT(variant["overhead"]["stampMs"], 0);
+    EXPECT_GE(variant["overhead"]["stamps"], passes.size());
+    // Passes leave out what lies between the modules and the stamps themselves.
+    EXPECT_LE(variant["time"]["gpu"]["medianMs"], variant["time"]["gpuSpan"]["medianMs"]);
+}
+
 TEST_F(ProgramTest, ProfileTellsADifferenceFromNone)
 {
     const Outcome outcome = run("profile hall --lights 300 --size 128x72 --frames 10 -q --json - "
                                 "--ab '' '--specular sampled --samples 256'");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(test::JsonSchema("profile.schema.json").fault(json), "");
     EXPECT_EQ(json["variants"][0]["settings"]["specular"], "conic");
     EXPECT_EQ(json["variants"][1]["settings"]["specular"], "sampled");
     bool found = false;
@@ -249,6 +312,50 @@ TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
     ASSERT_EQ(WEXITSTATUS(std::system(compare.c_str())), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("shade_tiles"), std::string::npos) << text("out.txt");
     EXPECT_NE(text("out.txt").find("Fewer than 4 runs"), std::string::npos) << text("out.txt");
+}
+
+TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
+{
+    const Outcome outcome = run("report --parts profile,stability --lights 60 --size 64x36 "
+                                "--frames 2 --out r -q --validate");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(test::xmlFault(path("r/index.html")), "");
+    const std::string page = text("r/index.html");
+    for (const char* wanted : {"prefers-color-scheme: dark", "candelabra profile hall --lights 60",
+                               "shade_tiles", "data:image/png;base64,", "candelabra bench stab"})
+        EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
+    EXPECT_EQ(page.find("://"), std::string::npos);
+    const auto json = nlohmann::json::parse(text("r/report.json"));
+    EXPECT_EQ(json["schema"], "candelabra report 1");
+    EXPECT_GT(json["profile"]["time"]["gpu"]["medianMs"], 0);
+    EXPECT_EQ(run("report --parts profile,colour --out r").exitCode, 2);
+}
+
+// Ended at any time, the program leaves whole files or none, and nothing temporary.
+TEST_F(ProgramTest, SignalsLeaveNoPartsOfFiles)
+{
+    int ended = 0;
+    for (int i = 0; i < 8; ++i) {
+        const std::string before =
+            "timeout -s " + std::string(i % 2 ? "INT " : "TERM ") + std::to_string(0.15 * (i + 1));
+        const Outcome outcome = run("render hall --lights 50 --size 512x512 --frames 4 -q -o s.exr "
+                                    "-o s.pfm --json s.json",
+                                    before);
+        ended += outcome.exitCode == 124;
+        for (const auto& file : std::filesystem::directory_iterator(dir_)) {
+            const std::string name = file.path().filename().string();
+            EXPECT_TRUE(name == "out.txt" || name == "err.txt" || name == "s.exr" ||
+                        name == "s.pfm" || name == "s.json")
+                << name;
+            if (name == "s.exr")
+                EXPECT_EQ(app::loadExr(path(name)).width, 512u);
+            if (name == "s.pfm")
+                EXPECT_EQ(app::loadPfm(path(name)).width, 512u);
+            if (name == "s.json")
+                EXPECT_TRUE(nlohmann::json::accept(text(name)));
+        }
+    }
+    EXPECT_GE(ended, 1);
 }
 
 TEST_F(ProgramTest, DevicesListsTheOneUnderTest)

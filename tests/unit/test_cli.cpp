@@ -36,6 +36,8 @@ TEST(Cli, ProfileRefusesWhatItCannotCompare)
     refused({"--ab", "", "--frob"}, "--ab \"--frob\"");
     refused({"--ab", ""}, "--ab");
     refused({"--json", "p", "--csv", "p"}, "--csv writes there");
+    refused({"--json", "p", "--trace", "p"}, "--trace writes there");
+    refused({"--frames", "20000", "--trace", "t"}, "--trace holds at most 10000");
     refused({"--append"}, "--append: needs --json");
     refused({"--append", "--json", "p", "--ab", "", ""}, "--append: --ab compares by itself");
 }
@@ -245,4 +247,29 @@ TEST(BruteCheck, RectanglesCoverTheImageOnceOrSampleIt)
                     expectSampleWithinBudget(count, covered.size(), lights);
             }
     EXPECT_TRUE(checkRects({64, 64}, 100, CheckExtent::None).empty());
+}
+
+TEST(Cli, ManualAndCompletionsKnowEveryOptionOfEveryCommand)
+{
+    const std::string manual = runWith({"manual"}).out, bash = runWith({"completions", "bash"}).out,
+                      fish = runWith({"completions", "fish"}).out;
+    EXPECT_EQ(manual.rfind(".TH CANDELABRA 1", 0), 0u) << manual.substr(0, 80);
+    for (const char* command : {"render", "profile", "compare", "report", "truth"}) {
+        const std::string help = runWith({command, "--help"}).out;
+        size_t found = 0;
+        for (size_t at = help.find("\n  -"); at != std::string::npos;
+             at = help.find("\n  -", at + 1)) {
+            const size_t start = help.find("--", at), end = help.find_first_of(" ,\n", start);
+            const std::string option = help.substr(start, end - start);
+            std::string escaped;
+            for (const char c : option)
+                escaped += c == '-' ? "\\-" : std::string(1, c);
+            EXPECT_NE(manual.find("\\fB" + escaped + "\\fR"), std::string::npos) << option;
+            EXPECT_NE(bash.find(" " + option + " "), std::string::npos) << option;
+            EXPECT_NE(fish.find(" -l " + option.substr(2) + " "), std::string::npos) << option;
+            ++found;
+        }
+        EXPECT_GE(found, 5u) << command;
+    }
+    EXPECT_EQ(runWith({"completions", "tcsh"}).exitCode, exitUsage);
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "harness/json_schema.h"
 #include "harness/run_program.h"
 #include "render/error.h"
 
@@ -77,7 +78,7 @@ TEST_F(CompareCommand, SaysWhatIsSlowerAndEndsWithThree)
     const ProgramOutcome outcome = compare({a, b, "--json", "-"});
     EXPECT_EQ(outcome.exitCode, exitSlower) << outcome.err;
     const json out = json::parse(outcome.out);
-    EXPECT_EQ(out["schema"], "candelabra compare 1");
+    EXPECT_EQ(candelabra::test::JsonSchema("compare.schema.json").fault(out), "");
     EXPECT_EQ(out["slower"], true);
     EXPECT_EQ(out["a"]["runs"], 5);
     ASSERT_EQ(out["rows"].size(), 5u);

@@ -108,10 +108,12 @@ int parseAndRun(int argc, const char* const* argv)
     addStressCommand(app, run);
     addProfileCommand(app, run);
     addCompareCommand(app, run);
+    addReportCommand(app, run);
     addViewCommand(app, run);
     addTruthCommand(app, run);
     addBenchCommand(app, run);
     addDevicesCommand(app, run);
+    addManualCommands(app, run);
     refuseAssignmentsOfNothing(argc, argv);
     try {
         app.parse(argc, argv);

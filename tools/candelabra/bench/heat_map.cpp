@@ -57,9 +57,11 @@ HeatMapPass::HeatMapPass(const gpu::Device& device, PixelSize size, uint32_t fra
       size_(size),
       kernel_(device, spirv::heat_map_comp),
       sets_(kernel_.createBindings(framesInFlight)),
-      pairs_(gpu::createImage(
-          device, "pairs", VK_FORMAT_R32G32B32A32_SFLOAT, size.width, size.height,
-          VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT))
+      pairs_(gpu::createImage(device, "pairs", VK_FORMAT_R32G32B32A32_SFLOAT, size.width,
+                              size.height,
+                              VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                              VK_IMAGE_ASPECT_COLOR_BIT))
 {
     const uint32_t scale = std::max(1u, size.height / 360);
     for (uint32_t i = 1; i < heatMapCount; ++i) {

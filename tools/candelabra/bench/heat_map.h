@@ -25,6 +25,7 @@ public:
     HeatMapPass(const gpu::Device& device, PixelSize size, uint32_t framesInFlight);
 
     VkImageView pairs() const { return pairs_.view.get(); }
+    const gpu::Image& pairImage() const { return pairs_; } // GENERAL; may be copied from
     // Empties the pair image for the frame that is recorded next.
     void recordClear(VkCommandBuffer cmd) const;
     // Paints over the display image, which is in GENERAL; begins with a barrier for what compute

@@ -15,19 +15,52 @@ namespace candelabra::app
 namespace
 {
 
-constexpr const char* head = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"/><title>Candelabra: error against time</title>
-<style>
-body { font: 15px/1.5 "DejaVu Sans", Helvetica, Arial, sans-serif; color: #202020; margin: 2em auto;
-       max-width: 1200px; padding: 0 1em; }
-pre { font: 12.5px/1.45 "DejaVu Sans Mono", Menlo, Consolas, monospace; background: #f6f6f4;
+// Plots are drawn dark on white: inverted, with their hues turned back, they suit a dark page.
+constexpr const char* style = R"(
+:root { color-scheme: light dark; --text: #202020; --back: #ffffff; --soft: #f4f4f1;
+        --line: #d0d0d0; --dim: #505050; --bar: #0072b2; }
+@media (prefers-color-scheme: dark) {
+  :root { --text: #e4e4e0; --back: #141414; --soft: #202124; --line: #44474d; --dim: #a8abb2;
+          --bar: #56b4e9; }
+  svg { filter: invert(0.92) hue-rotate(180deg); }
+}
+body { font: 15px/1.5 "DejaVu Sans", Helvetica, Arial, sans-serif; color: var(--text);
+       background: var(--back); margin: 2em auto; max-width: 1200px; padding: 0 1em; }
+pre { font: 12.5px/1.45 "DejaVu Sans Mono", Menlo, Consolas, monospace; background: var(--soft);
       padding: 1em; overflow-x: auto; }
 figure { display: inline-block; margin: 0 10px 14px 0; vertical-align: top; width: 264px; }
 figure img { width: 100%; image-rendering: pixelated; display: block; background: #000; }
-figcaption { font-size: 12.5px; color: #505050; }
+figcaption, .made { font-size: 12.5px; color: var(--dim); }
+code { font: 12.5px "DejaVu Sans Mono", Menlo, Consolas, monospace; }
 svg { max-width: 100%; height: auto; }
-h2 { margin-top: 2em; border-bottom: 1px solid #d0d0d0; }
-</style></head><body>
+h2 { margin-top: 2em; border-bottom: 1px solid var(--line); }
+table { border-collapse: collapse; }
+th, td { text-align: right; padding: 1px 12px 1px 0; }
+th:first-child, td:first-child, td.bars { text-align: left; }
+td.bars { width: 320px; }
+.bar { background: var(--bar); height: 11px; }
+.wipe { max-width: 960px; margin-bottom: 14px; }
+.wipe .pictures { position: relative; }
+.wipe img { width: 100%; display: block; image-rendering: pixelated; }
+.wipe img.over { position: absolute; left: 0; top: 0; }
+.wipe input { width: 100%; margin: 4px 0; }
+)";
+
+// Neither < nor ampersand: the page is XML as well.
+constexpr const char* script = R"(
+for (const w of document.querySelectorAll('.wipe')) {
+  const [left, right] = w.querySelectorAll('select');
+  const slider = w.querySelector('input');
+  const show = () => {
+    w.querySelector('.over').src = document.querySelector('#' + left.value + ' img').src;
+    w.querySelector('.under').src = document.querySelector('#' + right.value + ' img').src;
+    w.querySelector('.over').style.clipPath = 'inset(0 ' + (100 - slider.value) + '% 0 0)';
+  };
+  for (const input of [left, right, slider])
+    input.addEventListener('input', show);
+  w.hidden = false;
+  show();
+}
 )";
 
 // RFC 4648.
@@ -52,16 +85,6 @@ std::string base64(const std::vector<uint8_t>& bytes)
 uint8_t byteOf(float x)
 {
     return uint8_t(std::lround(std::clamp(x, 0.0f, 1.0f) * 255));
-}
-
-std::string figure(const DisplayImage& image, const std::string& caption)
-{
-    std::vector<uint8_t> rgb;
-    for (const glm::vec3& p : image.pixels)
-        rgb.insert(rgb.end(), {byteOf(p.x), byteOf(p.y), byteOf(p.z)});
-    return fmt::format("<figure><img alt=\"\" src=\"data:image/png;base64,{}\"/><figcaption>{}"
-                       "</figcaption></figure>\n",
-                       base64(encodePng("page", image.width, image.height, rgb)), escaped(caption));
 }
 
 // Black, purple, red, orange, pale yellow: steps of "magma" (van der Walt and Smith 2015).
@@ -98,22 +121,35 @@ std::string worstPixelTable(const ImageScene& scene)
     return table.text();
 }
 
-std::string sceneSection(const ImageScene& scene)
+std::string sceneSection(const ImageScene& scene, size_t index)
 {
-    std::string out = "<h2>" + escaped(scene.name) + "</h2>\n";
+    std::string figures;
+    std::vector<WipeChoice> choices;
     for (const ImagePoint& p : scene.points) {
         const Displayed displayed = displayBoth(scene.truth, p.radiance);
-        if (&p == &scene.points.front())
-            out += figure(displayed.truth, "truth: double-precision quadrature") + "<br/>\n";
-        const std::string figures = fmt::format(
-            "{}: {} ms, relMSE {:.1e}, lit mean {:.1e}, FLIP {:.4f}", methodName(p.method),
-            threeDigits(p.time.lightingMs), p.error.relMse, p.error.litMeanRel, p.error.flip);
-        out += figure(displayed.value, figures);
-        out += figure(heatMap(flipMap(displayed.truth, displayed.value), displayed.truth.width,
-                              displayed.truth.height),
-                      std::string(methodName(p.method)) + ": FLIP, 0 black to 0.5 yellow");
+        const std::string name = methodName(p.method);
+        const auto idOf = [&](const std::string& what) {
+            return fmt::format("scene{}-{}", index, what);
+        };
+        if (choices.empty()) {
+            choices.push_back({idOf("truth"), "truth"});
+            figures +=
+                figure(displayed.truth, "truth: double-precision quadrature", choices.back().id) +
+                "<br/>\n";
+        }
+        choices.push_back({idOf(name), name});
+        figures += figure(displayed.value,
+                          fmt::format("{}: {} ms, relMSE {:.1e}, lit mean {:.1e}, FLIP {:.4f}",
+                                      name, threeDigits(p.time.lightingMs), p.error.relMse,
+                                      p.error.litMeanRel, p.error.flip),
+                          choices.back().id);
+        choices.push_back({idOf(name + "-flip"), name + ": difference"});
+        figures += figure(heatMap(flipMap(displayed.truth, displayed.value), displayed.truth.width,
+                                  displayed.truth.height),
+                          name + ": FLIP, 0 black to 0.5 yellow", choices.back().id);
     }
-    return out + "<h3>Worst pixels</h3><pre>" + escaped(worstPixelTable(scene)) + "</pre>\n";
+    return "<h3>" + escaped(scene.name) + "</h3>\n" + wipe(choices) + figures +
+           "<h4>Worst pixels</h4>" + preformatted(worstPixelTable(scene));
 }
 
 std::string worstSamples(const KernelLevel& kernels)
@@ -127,20 +163,77 @@ std::string worstSamples(const KernelLevel& kernels)
 
 } // namespace
 
+std::string pageHead(const std::string& title)
+{
+    return fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
+                       "<meta name=\"viewport\" content=\"width=device-width\"/>"
+                       "<link rel=\"icon\" href=\"data:,\"/><title>{0}</title>"
+                       "<style>{1}</style></head><body>\n<h1>{0}</h1>\n",
+                       escaped(title), style);
+}
+
+std::string pageEnd()
+{
+    return fmt::format("<script>{}</script></body></html>\n", script);
+}
+
+std::string preformatted(const std::string& text)
+{
+    return "<pre>" + escaped(text) + "</pre>\n";
+}
+
+std::string madeBy(const std::string& command)
+{
+    return "<p class=\"made\">made by <code>" + escaped(command) + "</code></p>\n";
+}
+
+std::string figure(const DisplayImage& image, const std::string& caption, const std::string& id)
+{
+    std::vector<uint8_t> rgb;
+    for (const glm::vec3& p : image.pixels)
+        rgb.insert(rgb.end(), {byteOf(p.x), byteOf(p.y), byteOf(p.z)});
+    const std::string named = id.empty() ? "" : fmt::format(" id=\"{}\"", escaped(id));
+    return fmt::format("<figure{}><img alt=\"{}\" src=\"data:image/png;base64,{}\"/><figcaption>{}"
+                       "</figcaption></figure>\n",
+                       named, escaped(caption),
+                       base64(encodePng("page", image.width, image.height, rgb)), escaped(caption));
+}
+
+std::string wipe(const std::vector<WipeChoice>& choices)
+{
+    const auto list = [&](size_t chosen, const char* side) {
+        std::string out = fmt::format("<select aria-label=\"{}\">", side);
+        for (size_t i = 0; i < choices.size(); ++i)
+            out +=
+                fmt::format("<option value=\"{}\"{}>{}</option>", escaped(choices[i].id),
+                            i == chosen ? " selected=\"selected\"" : "", escaped(choices[i].name));
+        return out + "</select>";
+    };
+    // Hidden until the script has filled it in.
+    return "<div class=\"wipe\" hidden=\"hidden\"><div class=\"pictures\">"
+           "<img class=\"under\" alt=\"right\"/><img class=\"over\" alt=\"left\"/></div>"
+           "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"slider\"/>" +
+           list(0, "left") + " | " + list(choices.size() - 1, "right") + "</div>\n";
+}
+
+std::string accuracySections(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
+                             const BudgetSweep& budgets, const DeviceInfo& device)
+{
+    std::string out = "<h2>Accuracy: one light at one pixel</h2>\n" + kernelPlot(kernels, device) +
+                      preformatted(kernelTables(kernels)) + "<h3>Worst samples, F = 1</h3>" +
+                      preformatted(worstSamples(kernels)) + "<h2>Accuracy: whole frames</h2>\n" +
+                      imagePlot(scenes, device) + preformatted(imageTables(scenes, budgets));
+    for (size_t i = 0; i < scenes.size(); ++i)
+        out += sceneSection(scenes[i], i);
+    return out;
+}
+
 std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,
                          const std::vector<ImageScene>& scenes, const BudgetSweep& budgets,
                          const DeviceInfo& device)
 {
-    std::string out = head;
-    out += "<h1>Error against time</h1>\n<pre>" + escaped(provenance.dump(2)) + "</pre>\n";
-    out += "<h2>One light at one pixel</h2>\n" + kernelPlot(kernels, device) + "<pre>" +
-           escaped(kernelTables(kernels)) + "</pre>\n<h3>Worst samples, F = 1</h3><pre>" +
-           escaped(worstSamples(kernels)) + "</pre>\n";
-    out += "<h2>Whole frames</h2>\n" + imagePlot(scenes, device) + "<pre>" +
-           escaped(imageTables(scenes, budgets)) + "</pre>\n";
-    for (const ImageScene& scene : scenes)
-        out += sceneSection(scene);
-    return out + "</body></html>\n";
+    return pageHead("Candelabra: error against time") + preformatted(provenance.dump(2)) +
+           accuracySections(kernels, scenes, budgets, device) + pageEnd();
 }
 
 } // namespace candelabra::app

@@ -26,17 +26,6 @@ struct CullingArguments {
     std::string directory = "out", json;
 };
 
-std::vector<std::string> splitAtCommas(const std::string& text)
-{
-    std::vector<std::string> out;
-    for (size_t start = 0; start <= text.size();) {
-        const size_t end = std::min(text.find(',', start), text.size());
-        out.push_back(text.substr(start, end - start));
-        start = end + 1;
-    }
-    return out;
-}
-
 CullingSettings settingsOf(const CullingArguments& a)
 {
     CullingSettings s;

@@ -17,8 +17,10 @@ using Run = std::function<int(const ProgramContext&)>;
 void addBenchCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);
 void addDevicesCommand(CLI::App& app, Run& run);
+void addManualCommands(CLI::App& app, Run& run); // manual, completions
 void addProfileCommand(CLI::App& app, Run& run);
 void addRenderCommand(CLI::App& app, Run& run);
+void addReportCommand(CLI::App& app, Run& run);
 void addStressCommand(CLI::App& app, Run& run);
 void addTruthCommand(CLI::App& app, Run& run);
 void addViewCommand(CLI::App& app, Run& run);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra profile: where the time of a frame goes, and whether one way of drawing it is faster
 // than another.
+#include <map>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
+#include "commands/light_costs.h"
 #include "commands/measure.h"
 #include "commands/profile_frames.h"
 #include "commands/run_file.h"
@@ -25,7 +28,7 @@ struct ProfileArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string frames = "60", path = "still", json, csv;
+    std::string frames = "60", path = "still", json, csv, trace, lightCosts;
     std::vector<std::string> ab;
     bool append = false;
 };
@@ -84,11 +87,15 @@ struct ProfilePlan {
 
 ProfilePlan plan(const ProfileArguments& a)
 {
-    for (const auto& [option, file] : {std::pair{"--json", &a.json}, {"--csv", &a.csv}})
-        if (!file->empty())
-            requireWritable(option, *file);
-    if (!a.json.empty() && a.json == a.csv)
-        throw UsageError("--json " + a.json + ": --csv writes there");
+    std::map<std::string, const char*> writers;
+    for (const auto& [option, file] :
+         {std::pair{"--csv", &a.csv}, {"--trace", &a.trace}, {"--json", &a.json}}) {
+        if (file->empty())
+            continue;
+        requireWritable(option, *file);
+        if (const auto [other, added] = writers.emplace(*file, option); !added)
+            throw UsageError(fmt::format("{} {}: {} writes there", option, *file, other->second));
+    }
     if (a.append) {
         if (a.json.empty() || a.json == "-")
             throw UsageError("--append: needs --json with a file");
@@ -96,10 +103,19 @@ ProfilePlan plan(const ProfileArguments& a)
             throw UsageError("--append: --ab compares by itself, its results are not collected");
         withRun(a.json, {}); // refuses a file that cannot be continued
     }
+    const uint32_t rounds = unsignedOption("--frames", a.frames, 1, 1'000'000);
+    if (!a.trace.empty() && rounds > maxTracedFrames)
+        throw UsageError(
+            fmt::format("--frames {}: --trace holds at most {}", a.frames, maxTracedFrames));
+    if (!a.lightCosts.empty()) {
+        unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);
+        if (!a.ab.empty() || a.frame.cullingMode() != CND_CULLING_CLUSTERED)
+            throw UsageError("--light-costs: is about lists of one way to draw: not with --ab or "
+                             "--culling brute");
+    }
     ProfilePlan p{.scene = a.scene.options(a.scene.lightCount()),
                   .gbufferLayout = a.frame.gbufferLayout(),
-                  .settings = {.path = cameraPath(a.path),
-                               .rounds = unsignedOption("--frames", a.frames, 1, 1'000'000)}};
+                  .settings = {.path = cameraPath(a.path), .rounds = rounds}};
     if (a.ab.empty()) {
         p.names = {"frame"};
         p.settings.variants = {frameOptions(a.frame)};
@@ -126,6 +142,7 @@ Json describe(const ProgramContext& program, const ProfileArguments& a, const Pr
             one["options"] = a.ab[v];
         one["settings"] = toJson(p.settings.variants[v], p.gbufferLayout);
         one["time"] = toJson(profile.series[v]);
+        one["overhead"] = overheadJson(profile.series[v], profile.stampMs);
         one["lighting"] = toJson(profile.last[v].lighting);
         variants.push_back(one);
     }
@@ -145,7 +162,7 @@ Json describe(const ProgramContext& program, const ProfileArguments& a, const Pr
 std::string text(const ProfileArguments& a, const Profile& profile)
 {
     if (a.ab.empty())
-        return seriesTable(profile.series[0]);
+        return seriesTable(profile.series[0]) + overheadText(profile.series[0], profile.stampMs);
     const auto shown = [](const std::string& options) {
         return options.empty() ? std::string("as the command line says") : options;
     };
@@ -176,22 +193,43 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     spdlog::info("{}: {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
                  size.width, size.height, counted(p.settings.rounds, "frame"), context.info().name);
     Renderer renderer(context, scene,
-                      {.size = size, .gbufferLayout = p.gbufferLayout, .specularMethods = methods});
+                      {.size = size,
+                       .gbufferLayout = p.gbufferLayout,
+                       .specularMethods = methods,
+                       .stamps = true});
+    std::optional<ProfileTrace> trace;
+    if (!a.trace.empty())
+        trace.emplace(p.names);
     Profile result;
     {
         Progress progress(p.settings.rounds + maxWarmUp, !program.quiet);
         progress.doing("profiling");
-        result = profileFrames(context, renderer, p.settings, [&] { progress.advance(1); });
+        result = profileFrames(context, renderer, p.settings, trace ? &*trace : nullptr,
+                               [&] { progress.advance(1); });
     }
     if (!result.settled)
         spdlog::warn("warning: times had not settled after {} of warming up; the machine is busy",
                      counted(result.warmUpRounds, "frame"));
-    if (a.json != "-" && a.csv != "-")
+    const bool toTerminal = a.json != "-" && a.csv != "-" && a.trace != "-";
+    if (toTerminal)
         writeText("-", text(a, result));
+    Json costs;
+    if (!a.lightCosts.empty()) {
+        const size_t count = unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);
+        const double ms = result.series[0].shadingMs();
+        const LightCosts found = lightCosts(context, renderer, scene, p.settings.variants[0]);
+        if (toTerminal)
+            writeText("-", "\n" + lightCostTable(found, scene, count, ms));
+        costs = lightCostJson(found, scene, count, ms);
+    }
     if (!a.csv.empty())
         writeText(a.csv, toCsv(p.names, result.series));
+    if (trace)
+        writeText(a.trace, trace->text(provenance(context.info(), program.commandLine)));
     if (!a.json.empty()) {
-        const Json run = describe(program, a, p, context, scene, renderer, result);
+        Json run = describe(program, a, p, context, scene, renderer, result);
+        if (!costs.is_null())
+            run["lightCosts"] = costs;
         writeJson(a.json, a.append ? withRun(a.json, run) : run);
     }
     return printValidationMessages(context) ? exitFailed : exitOk;
@@ -226,6 +264,16 @@ void addProfileCommand(CLI::App& app, Run& run)
     command->add_option("--csv", a->csv, "all times, a line per frame; - is standard output")
         ->type_name("FILE");
     command
+        ->add_option("--light-costs", a->lightCosts,
+                     "the N lights that take most of the time of shading, and why: pixels they "
+                     "cover, pairs evaluated for them")
+        ->type_name("N");
+    command
+        ->add_option("--trace", a->trace,
+                     "every measured frame on CPU and GPU in one time, for ui.perfetto.dev or "
+                     "chrome://tracing; - is standard output")
+        ->type_name("FILE");
+    command
         ->add_option("--json", a->json,
                      "summary of all times and where they come from; - is standard output")
         ->type_name("FILE");
@@ -238,6 +286,8 @@ void addProfileCommand(CLI::App& app, Run& run)
                     "Examples:\n"
                     "  candelabra profile hall --lights 16000\n"
                     "  candelabra profile hall --path turn --frames 120 --csv frames.csv\n"
+                    "  candelabra profile hall --light-costs 20\n"
+                    "  candelabra profile hall --frames 20 --trace trace.json\n"
                     "  candelabra profile hall --ab '--specular karis' '--specular conic'");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return profile(program, *a); }; });

@@ -17,11 +17,9 @@ namespace candelabra::app
 namespace
 {
 
-using Clock = std::chrono::steady_clock;
-
-double msSince(Clock::time_point start)
+double msBetween(CpuClock::time_point from, CpuClock::time_point to)
 {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
 // Whether the last warmUpWindow values say the same as those before.
@@ -37,7 +35,7 @@ bool isStable(const std::vector<double>& ms)
 
 } // namespace
 
-void FrameSeries::add(const FrameStats& frame, double record, double whole)
+void FrameSeries::add(const FrameStats& frame, const CpuSpans& cpu, double stampMs)
 {
     for (Pass& pass : passes)
         pass.ms.push_back(0);
@@ -47,12 +45,37 @@ void FrameSeries::add(const FrameStats& frame, double record, double whole)
                                  [&](const Pass& p) { return p.name == time.name; });
         if (pass == passes.end())
             pass = passes.insert(pass, {time.name, std::vector<double>(gpuMs.size() + 1)});
-        pass->ms.back() += time.ms;
-        sum += time.ms;
+        const double ms = std::max(0.0, time.ms - time.runs * stampMs);
+        pass->ms.back() += ms;
+        sum += ms;
     }
     gpuMs.push_back(sum);
-    recordMs.push_back(record);
-    frameMs.push_back(whole);
+    spanMs.push_back(std::max(0.0, frame.gpuMs - frame.stamps * stampMs));
+    uploadMs.push_back(msBetween(cpu.start, cpu.uploaded));
+    recordMs.push_back(msBetween(cpu.uploaded, cpu.recorded));
+    frameMs.push_back(msBetween(cpu.start, cpu.done));
+    stamps.push_back(frame.stamps);
+}
+
+double FrameSeries::shadingMs() const
+{
+    double ms = 0;
+    for (const Pass& pass : passes)
+        if (pass.name == "shade_tiles" || pass.name == "shade_unlisted")
+            ms += medianOf(pass.ms);
+    return ms;
+}
+
+ProfilingOverhead overheadOf(const FrameSeries& series, double stampMs)
+{
+    ProfilingOverhead out{.stamps = medianOf(series.stamps)};
+    const double all = out.stamps * stampMs, span = medianOf(series.spanMs);
+    out.share = span > 0 ? all / span : 0;
+    std::vector<double> passes;
+    for (size_t i = 0; i < series.gpuMs.size(); ++i)
+        passes.push_back(series.spanMs[i] > 0 ? series.gpuMs[i] / series.spanMs[i] : 0);
+    out.passes = medianOf(passes);
+    return out;
 }
 
 Camera cameraAt(const Camera& camera, CameraPath path, uint32_t i, uint32_t rounds)
@@ -68,10 +91,14 @@ Camera cameraAt(const Camera& camera, CameraPath path, uint32_t i, uint32_t roun
 }
 
 Profile profileFrames(const VulkanContext& context, Renderer& renderer,
-                      const ProfileSettings& settings, const std::function<void()>& onRound)
+                      const ProfileSettings& settings, ProfileTrace* trace,
+                      const std::function<void()>& onRound)
 {
+    GpuClock clock(context);
     FrameRing ring(context, 1);
-    Profile out{.series = std::vector<FrameSeries>(settings.variants.size())};
+    Profile out{.series = std::vector<FrameSeries>(settings.variants.size()),
+                .stampMs = clock.stampMs()};
+    bool traced = false;
     out.last.resize(settings.variants.size());
     double time = settings.variants[0].time;
     const auto round = [&](uint32_t i, std::vector<FrameSeries>& into) {
@@ -82,14 +109,22 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
             options.camera = cameraAt(options.camera, settings.path, i, settings.rounds);
             options.time = time;
             const auto [cmd, slot, reused] = ring.begin();
-            const Clock::time_point start = Clock::now();
+            CpuSpans cpu{.start = CpuClock::now()};
+            if (settings.moving)
+                renderer.moveLights(time);
+            cpu.uploaded = settings.moving ? CpuClock::now() : cpu.start;
             renderer.record(cmd, slot, options);
-            const double record = msSince(start);
+            cpu.recorded = CpuClock::now();
             ring.submit();
+            cpu.submitted = CpuClock::now();
             ring.wait();
-            const double whole = msSince(start);
+            cpu.done = CpuClock::now();
             out.last[v] = renderer.stats(slot);
-            into[v].add(out.last[v], record, whole);
+            into[v].add(out.last[v], cpu, out.stampMs);
+            if (traced) {
+                clock.calibrate();
+                trace->add(v, cpu, out.last[v], clock);
+            }
         }
         if (settings.moving)
             time += frameTime;
@@ -102,6 +137,7 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
                                   [](const FrameSeries& s) { return isStable(s.frameMs); });
     }
     time = settings.variants[0].time;
+    traced = trace != nullptr;
     for (uint32_t i = 0; i < settings.rounds; ++i)
         round(i, out.series);
     return out;

@@ -13,6 +13,11 @@ namespace candelabra::app
 namespace
 {
 
+bool hasTime(const std::vector<double>& ms)
+{
+    return std::any_of(ms.begin(), ms.end(), [](double t) { return t > 0; });
+}
+
 std::string percent(double share)
 {
     return fmt::format("{:.1f}%", 100 * share);
@@ -48,7 +53,8 @@ void forBoth(const FrameSeries& a, const FrameSeries& b, Row&& row)
         if (!timesOf(a, pass.name))
             row(pass.name, none, pass.ms);
     for (const WholeTime& whole : wholeTimes)
-        row(whole.name, a.*whole.ms, b.*whole.ms);
+        if (hasTime(a.*whole.ms) || hasTime(b.*whole.ms))
+            row(whole.name, a.*whole.ms, b.*whole.ms);
 }
 
 const char* verdict(const PairedRatio& ratio)
@@ -72,8 +78,19 @@ std::string seriesTable(const FrameSeries& series)
         add(pass.name, pass.ms, true);
     table.rule();
     for (const WholeTime& whole : wholeTimes)
-        add(whole.name, series.*whole.ms, false);
+        if (hasTime(series.*whole.ms))
+            add(whole.name, series.*whole.ms, false);
     return table.text();
+}
+
+std::string overheadText(const FrameSeries& series, double stampMs)
+{
+    const ProfilingOverhead o = overheadOf(series, stampMs);
+    if (!(o.passes > 0))
+        return "The device has no timestamps.\n";
+    return fmt::format("Passes add up to {} of the time from the frame's first stamp to its last.\n"
+                       "Timing takes {} of it: {} stamps of {} ms a frame, left out above.\n",
+                       percent(o.passes), percent(o.share), o.stamps, threeDigits(stampMs));
 }
 
 std::string comparisonTable(const FrameSeries& a, const FrameSeries& b)
@@ -103,6 +120,16 @@ Json toJson(const FrameSeries& series)
     for (const WholeTime& whole : wholeTimes)
         out[whole.key] = spreadJson(spreadOf(series.*whole.ms));
     return out;
+}
+
+Json overheadJson(const FrameSeries& series, double stampMs)
+{
+    const ProfilingOverhead o = overheadOf(series, stampMs);
+    return {{"stampMs", stampMs},
+            {"stamps", o.stamps},
+            {"shareOfGpuSpan", o.share},
+            {"passesOverGpuSpan", o.passes},
+            {"subtracted", true}};
 }
 
 Json comparisonJson(const FrameSeries& a, const FrameSeries& b)

@@ -2,6 +2,7 @@
 // candelabra render: one image of one scene.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "commands/commands.h"
 #include "commands/measure.h"
+#include "commands/pick.h"
 #include "io/progress.h"
 #include "io/table.h"
 #include "render/camera.h"
@@ -24,7 +26,7 @@ struct RenderArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string frames = "1", time = "0", json;
+    std::string frames = "1", time = "0", json, pick;
     bool explain = false;
     std::vector<std::string> outputs;
 };
@@ -35,6 +37,7 @@ struct RenderPlan {
     FrameOptions frame;
     CndGBufferLayout gbufferLayout;
     FrameCounts counts;
+    std::optional<PixelPosition> pick;
 };
 
 // The same file however it is spelled.
@@ -61,11 +64,26 @@ void requireOutputs(const RenderArguments& a)
         throw UsageError("--json " + a.json + ": -o writes this file");
 }
 
+std::optional<PixelPosition> pickedPixel(const RenderArguments& a)
+{
+    if (a.pick.empty())
+        return std::nullopt;
+    const size_t comma = a.pick.find(',');
+    const auto x = parseUnsigned(a.pick.substr(0, comma));
+    const auto y =
+        comma == std::string::npos ? std::nullopt : parseUnsigned(a.pick.substr(comma + 1));
+    if (!x || !y || *x >= maxSide || *y >= maxSide)
+        throw UsageError("--pick \"" + a.pick + "\": expected X,Y in pixels such as 640,360");
+    if (a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
+        throw UsageError("--pick: --specular sampled draws other samples for a light alone");
+    return PixelPosition{uint32_t(*x), uint32_t(*y)};
+}
+
 RenderPlan plan(const RenderArguments& a)
 {
-    if (a.outputs.empty() && a.json.empty() && !a.explain)
+    if (a.outputs.empty() && a.json.empty() && a.pick.empty() && !a.explain)
         throw UsageError("render: nothing to write; give -o FILE (.png, .exr, .hdr, .pfm), "
-                         "--json FILE or --explain");
+                         "--json FILE, --pick X,Y or --explain");
     requireOutputs(a);
     return {.scene = a.scene.options(a.scene.lightCount()),
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
@@ -77,12 +95,13 @@ RenderPlan plan(const RenderArguments& a)
                       .heatMap = a.frame.heatMapMode(),
                       .exposure = a.frame.exposureSettings()},
             .gbufferLayout = a.frame.gbufferLayout(),
-            .counts = {.measured = unsignedOption("--frames", a.frames, 1, 1'000'000)}};
+            .counts = {.measured = unsignedOption("--frames", a.frames, 1, 1'000'000)},
+            .pick = pickedPixel(a)};
 }
 
 Json describe(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
               const VulkanContext& context, const Scene& scene, Renderer& renderer,
-              const MeasuredFrames& frames)
+              const MeasuredFrames& frames, const std::optional<Pick>& picked)
 {
     const PixelSize size = renderer.size();
     FrameOptions again = p.frame;
@@ -90,16 +109,20 @@ Json describe(const ProgramContext& program, const RenderArguments& a, const Ren
     const CndLightingStats lighting = p.frame.culling == CND_CULLING_CLUSTERED
                                           ? countPairs(context, renderer, again)
                                           : frames.last.lighting;
-    return {{"provenance", provenance(context.info(), program.commandLine)},
-            {"scene", sceneJson(scene, renderer)},
-            {"image", {{"widthPixels", size.width}, {"heightPixels", size.height}}},
-            {"settings", toJson(p.frame, p.gbufferLayout)},
-            {"warmUpFrames", p.counts.warmUp},
-            {"gpuTime", toJson(frames.times)},
-            {"plan", toJson(frames.last.plan)},
-            {"lighting", toJson(lighting)},
-            {"exposure", toJson(frames.last.exposure)},
-            {"outputs", a.outputs}};
+    Json out{{"schema", "candelabra render 1"},
+             {"provenance", provenance(context.info(), program.commandLine)},
+             {"scene", sceneJson(scene, renderer)},
+             {"image", {{"widthPixels", size.width}, {"heightPixels", size.height}}},
+             {"settings", toJson(p.frame, p.gbufferLayout)},
+             {"warmUpFrames", p.counts.warmUp},
+             {"gpuTime", toJson(frames.times)},
+             {"plan", toJson(frames.last.plan)},
+             {"lighting", toJson(lighting)},
+             {"exposure", toJson(frames.last.exposure)},
+             {"outputs", a.outputs}};
+    if (picked)
+        out["pick"] = toJson(*picked, scene);
+    return out;
 }
 
 int render(const ProgramContext& program, const RenderArguments& a)
@@ -113,6 +136,9 @@ int render(const ProgramContext& program, const RenderArguments& a)
     p.frame.lightsVisible = a.frame.lightsVisibleOverride().value_or(scene.lightsVisible);
     const PixelSize size = a.frame.pixelSize(scene, p.frame.camera);
     makeCamera(p.frame.camera, double(size.width) / size.height); // refuses before the GPU is asked
+    if (p.pick && (p.pick->x >= size.width || p.pick->y >= size.height))
+        throw UsageError(
+            fmt::format("--pick {}: the image has {}x{} pixels", a.pick, size.width, size.height));
 
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("{}: {}, {}, {}x{}, on {}", scene.name, counted(scene.lights.size(), "light"),
@@ -134,12 +160,18 @@ int render(const ProgramContext& program, const RenderArguments& a)
         saveFrame(context, renderer, output);
         spdlog::info("wrote {}", output);
     }
+    std::optional<Pick> picked;
+    if (p.pick) {
+        picked = pickPixel(context, renderer, scene, p.frame, *p.pick);
+        if (a.json != "-")
+            writeText("-", pickText(*picked, scene));
+    }
     if (a.explain && a.json != "-")
         writeText("-", planText(frames.last));
     if (a.json != "-" && !program.quiet)
         writeText("-", passTable(frames.times));
     if (!a.json.empty())
-        writeJson(a.json, describe(program, a, p, context, scene, renderer, frames));
+        writeJson(a.json, describe(program, a, p, context, scene, renderer, frames, picked));
     return printValidationMessages(context) ? exitFailed : exitOk;
 }
 
@@ -168,6 +200,11 @@ void addRenderCommand(CLI::App& app, Run& run)
         ->add_option("--json", a->json,
                      "timings, statistics and where they come from; - is standard output")
         ->type_name("FILE");
+    command
+        ->add_option("--pick", a->pick,
+                     "the lights of this pixel, counted from the left and the top: what each "
+                     "contributes, and its error against the truth in double precision")
+        ->type_name("X,Y");
     command->add_flag("--explain", a->explain,
                       "say which passes the last frame ran, and why it did without the others");
     a->frame.addTo(*command);
@@ -180,6 +217,7 @@ void addRenderCommand(CLI::App& app, Run& run)
                     "  candelabra render field --moving --frames 60 -o last.png --json times.json\n"
                     "  candelabra render model.glb --lights 500 --camera 0 -o m.png -o m.exr\n"
                     "  candelabra render hall --camera 0,2,10,0,1,0,60 --exposure 8 -o e.png\n"
+                    "  candelabra render hall --pick 640,360\n"
                     "  candelabra render hall --debug efficiency --explain -o heat.png");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return render(program, *a); }; });

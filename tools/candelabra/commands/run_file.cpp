@@ -38,7 +38,9 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
     for (size_t i = 0; i < passes.size(); ++i)
         out.medianMs.emplace_back(passes.item(i).member("name").string(), median(passes.item(i)));
     for (const WholeTime& whole : wholeTimes)
-        out.medianMs.emplace_back(whole.name, median(time.member(whole.key)));
+        if (const auto row = time.find(whole.key))
+            if (const double ms = median(*row); ms > 0)
+                out.medianMs.emplace_back(whole.name, ms);
     return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/parse.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -33,6 +34,17 @@ std::optional<double> parseNumber(std::string_view text)
         text.remove_prefix(1);
     const auto value = whole<double>(text);
     return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::vector<std::string> splitAtCommas(const std::string& text)
+{
+    std::vector<std::string> out;
+    for (size_t start = 0; start <= text.size();) {
+        const size_t end = std::min(text.find(',', start), text.size());
+        out.push_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    return out;
 }
 
 std::optional<std::vector<double>> parseNumbers(std::string_view text)

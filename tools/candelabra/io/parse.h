@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,8 @@ std::optional<uint32_t> parseUnsigned(std::string_view text);
 std::optional<double> parseNumber(std::string_view text);
 // Finite numbers separated by commas, at least one.
 std::optional<std::vector<double>> parseNumbers(std::string_view text);
+// "a,b" -> a, b; as many as there are commas, and one more.
+std::vector<std::string> splitAtCommas(const std::string& text);
 // "1280x720": both at least 1.
 struct PixelSize {
     uint32_t width = 0, height = 0;

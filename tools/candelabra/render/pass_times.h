@@ -15,6 +15,8 @@ namespace candelabra::app
 struct PassTime {
     std::string name; // the kernel's file name
     double ms = 0;
+    double startMs = 0; // since the frame's start, with RendererOptions::stamps
+    uint32_t runs = 1;  // that the time is the sum of, with a stamp each
 };
 
 struct PassSummary {

@@ -22,6 +22,19 @@ gpu::Buffer read(const VulkanContext& context, const gpu::Image& image, uint32_t
     return buffer;
 }
 
+void makeVisibleToHost(VkCommandBuffer cmd)
+{
+    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                   .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .memoryBarrierCount = 1,
+                                .pMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(cmd, &info);
+}
+
 // The first three of every four values.
 template <typename T>
 std::vector<T> dropAlpha(std::span<const T> rgba, size_t texels)
@@ -43,6 +56,46 @@ std::string extensionOf(const std::string& path)
 
 } // namespace
 
+std::vector<uint8_t> readTexels(const VulkanContext& context, const gpu::Image& image,
+                                VkImageAspectFlags aspect, VkImageLayout layout,
+                                const VkRect2D& rect, uint32_t texelBytes)
+{
+    const gpu::Buffer buffer =
+        createBuffer(context.device(), "readback",
+                     VkDeviceSize(rect.extent.width) * rect.extent.height * texelBytes,
+                     VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::Readback);
+    context.submitAndWait([&](VkCommandBuffer cmd) {
+        const auto move = [&](VkImageLayout from, VkImageLayout to) {
+            const VkImageMemoryBarrier2 barrier{
+                .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                .oldLayout = from,
+                .newLayout = to,
+                .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                .image = image.image.get(),
+                .subresourceRange = {aspect, 0, 1, 0, 1}};
+            const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                        .imageMemoryBarrierCount = 1,
+                                        .pImageMemoryBarriers = &barrier};
+            vkCmdPipelineBarrier2(cmd, &info);
+        };
+        move(layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        const VkBufferImageCopy region{.imageSubresource = {aspect, 0, 0, 1},
+                                       .imageOffset = {rect.offset.x, rect.offset.y, 0},
+                                       .imageExtent = {rect.extent.width, rect.extent.height, 1}};
+        vkCmdCopyImageToBuffer(cmd, image.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                               buffer.get(), 1, &region);
+        makeVisibleToHost(cmd);
+        move(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
+    });
+    const auto bytes = buffer.as<const uint8_t>();
+    return {bytes.begin(), bytes.end()};
+}
+
 gpu::Buffer recordReadback(const gpu::Device& device, VkCommandBuffer cmd, VkImage image,
                            PixelSize size, uint32_t texelBytes)
 {
@@ -53,15 +106,7 @@ gpu::Buffer recordReadback(const gpu::Device& device, VkCommandBuffer cmd, VkIma
                                    .imageExtent = {size.width, size.height, 1}};
     vkCmdCopyImageToBuffer(cmd, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.get(), 1,
                            &region);
-    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                   .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .memoryBarrierCount = 1,
-                                .pMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(cmd, &info);
+    makeVisibleToHost(cmd);
     return buffer;
 }
 

@@ -16,6 +16,11 @@ namespace candelabra::app
 gpu::Buffer recordReadback(const gpu::Device& device, VkCommandBuffer cmd, VkImage image,
                            PixelSize size, uint32_t texelBytes);
 
+// Texels of a rectangle of an image that is in `layout` and stays there, rows from the top.
+std::vector<uint8_t> readTexels(const VulkanContext& context, const gpu::Image& image,
+                                VkImageAspectFlags aspect, VkImageLayout layout,
+                                const VkRect2D& rect, uint32_t texelBytes);
+
 // The last frame of a renderer that the GPU is done with. Throws gpu::Failure.
 Image readRadiance(const VulkanContext& context, const Renderer& renderer); // 3 channels, cd/m^2
 std::vector<uint8_t> readDisplay(const VulkanContext& context, const Renderer& renderer); // RGB

@@ -8,6 +8,7 @@
 #include "gbuffer/gbuffer.h"
 #include "render/camera.h"
 #include "render/error.h"
+#include "render/frame_stamps.h"
 #include "render/image_barrier.h"
 #include "render/scene_environment.h"
 #include "render/scene_geometry.h"
@@ -37,6 +38,16 @@ void append(std::vector<PassTime>& out, const CndKernelTime* times, uint32_t cou
 {
     for (uint32_t i = 0; i < count; ++i)
         out.push_back({passName(times[i].name), times[i].ms});
+}
+
+// Rows behind one another from `start`, as they ran; of rows that sum several runs the first
+// counts.
+void place(std::span<PassTime> passes, double start)
+{
+    for (PassTime& pass : passes) {
+        pass.startMs = start;
+        start += pass.ms;
+    }
 }
 
 // All that shapes the lit image of one scene at one size.
@@ -75,6 +86,7 @@ struct Renderer::State {
     double lightTime = 0;
     std::optional<Lit> drawn;            // what the images hold
     std::optional<HeatMapPass> heatMaps; // once one is asked for
+    FrameStamps stamps; // behind surfaces with their environment, lighting, exposure
 
     State(const VulkanContext& c, const Scene& s, const RendererOptions& o)
         : context(c),
@@ -169,6 +181,9 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
         s.environment = uploadEnvironment(
             context, *scene.environment,
             {.gbufferLayout = options.gbufferLayout, .framesInFlight = options.framesInFlight});
+    if (options.stamps)
+        s.stamps =
+            FrameStamps(context.device(), context.timestampValidBits(), options.framesInFlight, 3);
     s.setLights(0);
     s.createSized();
 }
@@ -238,6 +253,11 @@ Lit Renderer::State::litBy(const FrameOptions& f) const
             f.sampleCount, f.sampleSeed, f.errorBudget,   f.culling};
 }
 
+void Renderer::moveLights(double time)
+{
+    state_->moveLights(time);
+}
+
 void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
 {
     State& s = *state_;
@@ -250,10 +270,13 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
     const bool sameSurfaces = frame.reuse != Reuse::None && s.drawn && s.drawn->sameSurfaces(lit);
     const VkImage radiance = s.targets.radiance.image.get(), display = s.display.image.get();
     s.litSlots[slot] = !kept;
+    s.stamps.begin(cmd, slot);
     if (kept) {
+        s.stamps.stamp(cmd, slot);
         transition(cmd, radiance, transferRead, computeRead);
     } else {
         s.recordGBuffer(cmd, slot, frame);
+        s.stamps.stamp(cmd, slot);
         CndLightingFrame lighting = s.lightingFrame(slot, frame);
         lighting.surfacesUnchanged = sameSurfaces;
         if (frame.heatMap != HeatMap::None) {
@@ -265,6 +288,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
         s.drawn = lit;
         transition(cmd, radiance, computeWrite, computeRead);
     }
+    s.stamps.stamp(cmd, slot);
     transition(cmd, display, discarded, computeWrite);
     take(s.exposure.record(cmd, {.frameSlot = slot,
                                  .width = s.options.size.width,
@@ -275,6 +299,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
                                  .reset = frame.resetExposure,
                                  .ditherSeed = frame.ditherSeed,
                                  .settings = frame.exposure}));
+    s.stamps.stamp(cmd, slot);
 
     if (frame.heatMap != HeatMap::None)
         s.heatMaps->record(cmd, slot, frame.heatMap, s.display.view.get());
@@ -300,6 +325,29 @@ void Renderer::recordBruteRect(VkCommandBuffer cmd, const FrameOptions& frame, c
 void Renderer::recordBruteEnd(VkCommandBuffer cmd)
 {
     transition(cmd, state_->targets.radiance.image.get(), computeWrite, transferRead);
+}
+
+void Renderer::recordBlack(VkCommandBuffer cmd)
+{
+    const VkImage image = state_->targets.radiance.image.get();
+    constexpr ImageAccess cleared{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                  VK_IMAGE_LAYOUT_GENERAL};
+    transition(cmd, image, computeWrite, cleared);
+    const VkClearColorValue zero{};
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(cmd, image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
+    transition(cmd, image, cleared,
+               {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                VK_IMAGE_LAYOUT_GENERAL});
+}
+
+void Renderer::setLights(const std::vector<CndLight>& lights)
+{
+    const glm::dvec3& at = state_->scene.lightOrigin;
+    const double origin[3] = {at.x, at.y, at.z};
+    state_->drawn.reset();
+    take(state_->lighting.setLights(lights, origin));
 }
 
 CndLightingFrame Renderer::lightingFrame(uint32_t slot, const FrameOptions& frame) const
@@ -335,21 +383,44 @@ std::vector<CndPassPlan> Renderer::State::plan(const FrameStats& stats) const
 FrameStats Renderer::stats(uint32_t slot) const
 {
     FrameStats out{.lit = state_->litSlots[slot]};
+    const FrameStamps::Times times = state_->stamps.read(slot);
+    const auto endOf = [&](size_t part) { return times.endsMs.empty() ? 0 : times.endsMs[part]; };
+    out.stamps = state_->stamps.count(slot);
+    const auto addModule = [&](const CndKernelTime* rows, uint32_t count) {
+        append(out.passes, rows, count);
+        out.stamps += count ? count + 1 : 0; // one at its beginning
+    };
     std::vector<CndKernelTime> raster(CND_MAX_KERNEL_TIMES);
     uint32_t count = 0;
     if (out.lit) {
         out.lighting = lightingStats(slot);
         if (state_->gbuffer.times(slot, raster.data(), count))
-            append(out.passes, raster.data(), count);
+            addModule(raster.data(), count);
         if (state_->environment.get()) {
             const CndEnvironmentStats environment = finished(state_->environment.stats(slot));
-            append(out.passes, environment.kernelTimes, environment.kernelTimeCount);
+            addModule(environment.kernelTimes, environment.kernelTimeCount);
         }
-        append(out.passes, out.lighting.kernelTimes, out.lighting.kernelTimeCount);
+        place(out.passes, 0);
+        const size_t first = out.passes.size();
+        addModule(out.lighting.kernelTimes, out.lighting.kernelTimeCount);
+        place(std::span(out.passes).subspan(first), endOf(0));
+        // Once for every type of light.
+        const uint32_t types = uint32_t(std::count_if(std::begin(out.lighting.lightTypeCounts),
+                                                      std::end(out.lighting.lightTypeCounts),
+                                                      [](uint32_t n) { return n; }));
+        for (PassTime& pass : std::span(out.passes).subspan(first))
+            if (pass.name.starts_with("shade_") && types) {
+                pass.runs = types;
+                out.stamps += types - 1;
+            }
     }
     out.exposure = finished(state_->exposure.stats(slot));
-    append(out.passes, out.exposure.kernelTimes, out.exposure.kernelTimeCount);
+    const size_t first = out.passes.size();
+    addModule(out.exposure.kernelTimes, out.exposure.kernelTimeCount);
+    place(std::span(out.passes).subspan(first), endOf(1));
     out.plan = state_->plan(out);
+    out.gpuStartMs = times.startMs;
+    out.gpuMs = endOf(2);
     return out;
 }
 
@@ -361,6 +432,16 @@ const gpu::Image& Renderer::radiance() const
 const gpu::Image& Renderer::display() const
 {
     return state_->display;
+}
+
+const gbuffer::Targets& Renderer::targets() const
+{
+    return state_->targets;
+}
+
+const gpu::Image& Renderer::pairs() const
+{
+    return state_->heatMaps->pairImage();
 }
 
 uint64_t Renderer::triangleCount() const

@@ -9,6 +9,7 @@
 
 #include "bench/heat_map.h"
 #include "candelabra/candelabra.h"
+#include "gbuffer/targets.h"
 #include "gpu/memory.h"
 #include "io/parse.h"
 #include "render/pass_times.h"
@@ -23,6 +24,7 @@ struct RendererOptions {
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     uint32_t framesInFlight = 2;
     uint32_t specularMethods = 0; // mask of 1 << CndSpecularMethod that frames may use; 0: all
+    bool stamps = false;          // FrameStats::gpuMs, and when passes began: four more timestamps
 };
 
 // What a frame takes over from the one before it where nothing has changed: the image is the same,
@@ -55,6 +57,9 @@ struct FrameOptions {
 struct FrameStats {
     std::vector<PassTime> passes;  // in order; empty without timestamps
     std::vector<CndPassPlan> plan; // of all modules, in order
+    double gpuStartMs = 0;         // with RendererOptions::stamps: on the device's clock
+    double gpuMs = 0;              // likewise: from the frame's first stamp to its last
+    uint32_t stamps = 0;           // timestamps taken, those of the modules included
     bool lit = true;               // false: Reuse kept the image, and `lighting` is empty
     CndLightingStats lighting{};
     CndExposureStats exposure{};
@@ -80,7 +85,8 @@ public:
     // The scene's lights are others than they were: frames recorded from now on have them. Throws
     // UsageError for lights that the module refuses.
     void lightsChanged();
-
+    // Lights of a moving scene go to where they are at `time` (s). record() does it too.
+    void moveLights(double time);
     // A whole frame; the GPU must be done with the slot's previous one. Leaves radiance and display
     // in TRANSFER_SRC_OPTIMAL, visible to transfers.
     void record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options);
@@ -90,6 +96,11 @@ public:
     void recordUnlit(VkCommandBuffer cmd, const FrameOptions& options);
     void recordBruteRect(VkCommandBuffer cmd, const FrameOptions& options, const VkRect2D& rect);
     void recordBruteEnd(VkCommandBuffer cmd);
+    // Between those: forgets what radiance holds.
+    void recordBlack(VkCommandBuffer cmd);
+    // Lights of the frames recorded from now on, instead of the scene's, which come back when they
+    // move. The GPU must be done with all frames.
+    void setLights(const std::vector<CndLight>& lights);
 
     // What the lighting module is told of such a frame; images change with resize().
     CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& options) const;
@@ -99,8 +110,10 @@ public:
     // Of the last lighting recorded in `slot`.
     CndLightingStats lightingStats(uint32_t slot) const;
 
-    const gpu::Image& radiance() const; // R32G32B32A32_SFLOAT, cd/m^2
-    const gpu::Image& display() const;  // R8G8B8A8_UNORM, sRGB-encoded
+    const gpu::Image& radiance() const;      // R32G32B32A32_SFLOAT, cd/m^2
+    const gpu::Image& display() const;       // R8G8B8A8_UNORM, sRGB-encoded
+    const gbuffer::Targets& targets() const; // SHADER_READ_ONLY_OPTIMAL but for radiance
+    const gpu::Image& pairs() const; // GENERAL, CndLightingFrame::pairImage of the last heat map
 
     uint64_t triangleCount() const; // of all instances
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/vulkan_context.h"
 
+#include <algorithm>
+#include <cstring>
 #include <vector>
 
 #define GLFW_INCLUDE_NONE
@@ -13,14 +15,20 @@ namespace candelabra::app
 namespace
 {
 
-uint32_t findQueueFamily(const VulkanInstance& instance, const DeviceInfo& device)
+std::vector<VkQueueFamilyProperties> queueFamilies(const DeviceInfo& device)
 {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
+    return families;
+}
+
+uint32_t findQueueFamily(const VulkanInstance& instance, const DeviceInfo& device)
+{
+    const std::vector<VkQueueFamilyProperties> families = queueFamilies(device);
     constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < families.size(); ++i) {
         if ((families[i].queueFlags & needed) != needed)
             continue;
         if (instance.presentation() == Presentation::Headless ||
@@ -34,6 +42,42 @@ uint32_t findQueueFamily(const VulkanInstance& instance, const DeviceInfo& devic
                           "display"));
 }
 
+// The same commands under two names; the first is not in headers of 1.3.239.
+struct CalibratedTimestamps {
+    const char *extension, *get, *domains;
+};
+constexpr CalibratedTimestamps calibratedTimestamps[] = {
+    {"VK_KHR_calibrated_timestamps", "vkGetCalibratedTimestampsKHR",
+     "vkGetPhysicalDeviceCalibrateableTimeDomainsKHR"},
+    {VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME, "vkGetCalibratedTimestampsEXT",
+     "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT"}};
+
+// Those of the device that know CLOCK_MONOTONIC; null: none.
+const CalibratedTimestamps* findCalibratedTimestamps(VkInstance instance, VkPhysicalDevice device)
+{
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+    for (const CalibratedTimestamps& c : calibratedTimestamps) {
+        if (std::none_of(extensions.begin(), extensions.end(), [&](const auto& e) {
+                return std::strcmp(e.extensionName, c.extension) == 0;
+            }))
+            continue;
+        const auto get = reinterpret_cast<PFN_vkGetPhysicalDeviceCalibrateableTimeDomainsEXT>(
+            vkGetInstanceProcAddr(instance, c.domains));
+        if (!get)
+            continue;
+        get(device, &count, nullptr);
+        std::vector<VkTimeDomainEXT> domains(count);
+        get(device, &count, domains.data());
+        if (std::count(domains.begin(), domains.end(), VK_TIME_DOMAIN_DEVICE_EXT) &&
+            std::count(domains.begin(), domains.end(), VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT))
+            return &c;
+    }
+    return nullptr;
+}
+
 } // namespace
 
 VulkanContext::VulkanContext(const ContextOptions& options)
@@ -41,6 +85,7 @@ VulkanContext::VulkanContext(const ContextOptions& options)
       info_(chooseDevice(instance_.devices(), options.device))
 {
     queueFamily_ = findQueueFamily(instance_, info_);
+    timestampValidBits_ = queueFamilies(info_)[queueFamily_].timestampValidBits;
     createDevice();
     vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
     desc_ = {.structSize = sizeof desc_,
@@ -104,6 +149,9 @@ void VulkanContext::createDevice()
     std::vector<const char*> extensions;
     if (instance_.presentation() == Presentation::Window)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    const CalibratedTimestamps* clocks = findCalibratedTimestamps(instance_.get(), info_.handle);
+    if (clocks)
+        extensions.push_back(clocks->extension);
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features,
                                   .queueCreateInfoCount = 1,
@@ -112,6 +160,11 @@ void VulkanContext::createDevice()
                                   .ppEnabledExtensionNames = extensions.data()};
     check(vkCreateDevice(info_.handle, &info, nullptr, &device_),
           "creating a device on " + info_.name);
+    if (clocks) {
+        calibratedTimestamps_ = clocks->extension;
+        getCalibratedTimestamps_ = reinterpret_cast<PFN_vkGetCalibratedTimestampsEXT>(
+            vkGetDeviceProcAddr(device_, clocks->get));
+    }
 }
 
 void VulkanContext::submitAndWait(const std::function<void(VkCommandBuffer)>& record) const

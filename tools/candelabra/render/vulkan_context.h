@@ -35,7 +35,15 @@ public:
     const gpu::Device& device() const { return *gpu_; }
     VkQueue queue() const { return queue_; } // graphics, compute, transfer (and presentation)
     uint32_t queueFamily() const { return queueFamily_; }
+    uint32_t timestampValidBits() const { return timestampValidBits_; } // of the queue
     bool samplerAnisotropy() const { return samplerAnisotropy_; }
+    // Asks the device's timestamps and CLOCK_MONOTONIC at once, and the extension it is of; null
+    // where the device cannot.
+    PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps() const
+    {
+        return getCalibratedTimestamps_;
+    }
+    const char* calibratedTimestampsExtension() const { return calibratedTimestamps_; }
 
     // Records with `record`, submits, and waits until the GPU has finished.
     void submitAndWait(const std::function<void(VkCommandBuffer)>& record) const;
@@ -51,8 +59,10 @@ private:
     DeviceInfo info_;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
-    uint32_t queueFamily_ = 0;
+    uint32_t queueFamily_ = 0, timestampValidBits_ = 0;
     bool samplerAnisotropy_ = false;
+    const char* calibratedTimestamps_ = nullptr;
+    PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps_ = nullptr;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     CndDeviceDesc desc_{};
     std::unique_ptr<gpu::Device> gpu_;

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// As much of JSON Schema (2020-12) as tools/candelabra/schemas uses; anything else there is a
+// fault.
+#pragma once
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace candelabra::test
+{
+
+class JsonSchema
+{
+public:
+    // `name`: of a file in tools/candelabra/schemas.
+    explicit JsonSchema(const std::string& name)
+        : root_(nlohmann::json::parse(
+              std::ifstream(CANDELABRA_TEST_DATA "/../../tools/candelabra/schemas/" + name)))
+    {
+    }
+    // What is wrong, with its place; empty: nothing.
+    std::string fault(const nlohmann::json& value) const { return check(value, root_, "value"); }
+
+private:
+    static bool is(const nlohmann::json& value, const std::string& type)
+    {
+        return type == "object"    ? value.is_object()
+               : type == "array"   ? value.is_array()
+               : type == "string"  ? value.is_string()
+               : type == "number"  ? value.is_number()
+               : type == "integer" ? value.is_number_integer()
+               : type == "boolean" ? value.is_boolean()
+                                   : type == "null" && value.is_null();
+    }
+    static bool isAny(const nlohmann::json& value, const nlohmann::json& types)
+    {
+        return types.is_string() ? is(value, types)
+                                 : std::any_of(types.begin(), types.end(),
+                                               [&](const auto& t) { return is(value, t); });
+    }
+
+    std::string check(const nlohmann::json& value, const nlohmann::json& schema,
+                      const std::string& at) const
+    {
+        for (const auto& [key, rule] : schema.items()) {
+            std::string fault;
+            if (key == "$ref")
+                fault = check(
+                    value,
+                    root_.at(nlohmann::json::json_pointer(rule.get<std::string>().substr(1))), at);
+            else if (key == "type" && !isAny(value, rule))
+                fault = at + ": is not " + rule.dump();
+            else if (key == "const" && value != rule)
+                fault = at + ": is not " + rule.dump();
+            else if (key == "enum" && std::find(rule.begin(), rule.end(), value) == rule.end())
+                fault = at + ": " + value.dump() + " is none of " + rule.dump();
+            else if (key == "minimum" && value.is_number() && value < rule)
+                fault = at + ": is below " + rule.dump();
+            else if ((key == "minItems" && value.size() < rule.get<size_t>()) ||
+                     (key == "maxItems" && value.size() > rule.get<size_t>()))
+                fault = at + ": has " + std::to_string(value.size()) + " items";
+            else if (key == "items" && value.is_array())
+                for (size_t i = 0; i < value.size() && fault.empty(); ++i)
+                    fault = check(value[i], rule, at + "[" + std::to_string(i) + "]");
+            else if (key == "required" && value.is_object()) {
+                for (const auto& name : rule)
+                    if (fault.empty() && !value.contains(name.get<std::string>()))
+                        fault = at + ": lacks " + name.dump();
+            } else if (key == "properties" && value.is_object())
+                fault = checkMembers(value, schema, at);
+            else if (!known(key))
+                fault = "the schema has " + key + ", which is not checked";
+            if (!fault.empty())
+                return fault;
+        }
+        return "";
+    }
+
+    std::string checkMembers(const nlohmann::json& value, const nlohmann::json& schema,
+                             const std::string& at) const
+    {
+        for (const auto& [name, member] : value.items()) {
+            const auto rule = schema["properties"].find(name);
+            if (rule != schema["properties"].end()) {
+                if (const std::string fault = check(member, *rule, at + "." + name); !fault.empty())
+                    return fault;
+            } else if (schema.contains("additionalProperties")) { // only ever false
+                return at + ": has \"" + name + "\", which is not in the schema";
+            }
+        }
+        return "";
+    }
+
+    static bool known(const std::string& key)
+    {
+        constexpr const char* keys[] = {"$schema",    "$defs",
+                                        "$ref",       "title",
+                                        "type",       "const",
+                                        "enum",       "minimum",
+                                        "items",      "required",
+                                        "minItems",   "maxItems",
+                                        "properties", "additionalProperties",
+                                        "description"};
+        return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
+    }
+
+    nlohmann::json root_;
+};
+
+} // namespace candelabra::test
