@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "candelabra/candelabra.hpp"
 #include "commands/light_costs.h"
 #include "commands/measure.h"
 #include "commands/pick.h"

@@ -181,6 +181,7 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
     for (const char* word : {"shade_tiles", "p95 ms", "lights per tile", "identical", "Try next"})
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     const auto json = nlohmann::json::parse(text("s.json"));
+    EXPECT_EQ(test::JsonSchema("stress.schema.json").fault(json), "");
     ASSERT_EQ(json["points"].size(), 2u);
     for (const auto& point : json["points"]) {
         EXPECT_LE(point["bruteForce"]["maxDifferenceOverMaxRadiance"], 1e-6);
@@ -347,12 +348,13 @@ TEST_F(ProgramTest, SignalsLeaveNoPartsOfFiles)
             EXPECT_TRUE(name == "out.txt" || name == "err.txt" || name == "s.exr" ||
                         name == "s.pfm" || name == "s.json")
                 << name;
-            if (name == "s.exr")
+            if (name == "s.exr") {
                 EXPECT_EQ(app::loadExr(path(name)).width, 512u);
-            if (name == "s.pfm")
+            } else if (name == "s.pfm") {
                 EXPECT_EQ(app::loadPfm(path(name)).width, 512u);
-            if (name == "s.json")
+            } else if (name == "s.json") {
                 EXPECT_TRUE(nlohmann::json::accept(text(name)));
+            }
         }
     }
     EXPECT_GE(ended, 1);

@@ -88,7 +88,8 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     writeText(kernelSvg, kernelPlot(level, context.info()));
     writeText(imageSvg, imagePlot(scenes, context.info()));
     writeText(html, accuracyPage(origin, level, scenes, budgets, context.info()));
-    writeJson(json, {{"provenance", origin},
+    writeJson(json, {{"schema", "candelabra bench accuracy 1"},
+                     {"provenance", origin},
                      {"kernels", kernelJson(kernels, level)},
                      {"images", imageJson(images, scenes, budgets)}});
     if (json != "-")

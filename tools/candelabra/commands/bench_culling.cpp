@@ -65,7 +65,8 @@ int culling(const ProgramContext& program, const CullingArguments& a)
     }
     for (const CullingPlot& plot : cullingPlots(points, context.info()))
         writeText((std::filesystem::path(a.directory) / (plot.name + ".svg")).string(), plot.svg);
-    Json document{{"provenance", provenance(context.info(), program.commandLine)}};
+    Json document{{"schema", "candelabra bench culling 1"},
+                  {"provenance", provenance(context.info(), program.commandLine)}};
     document.update(cullingJson(settings, points));
     writeJson(json, document);
     if (json != "-")

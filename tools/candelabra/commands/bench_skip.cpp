@@ -53,7 +53,8 @@ int skip(const ProgramContext& program, const SkipArguments& a)
         Progress progress(skipSteps(settings), !program.quiet);
         rows = measureSkips(context, settings, progress);
     }
-    Json document{{"provenance", provenance(context.info(), program.commandLine)}};
+    Json document{{"schema", "candelabra bench skip 1"},
+                  {"provenance", provenance(context.info(), program.commandLine)}};
     document.update(skipJson(settings, rows));
     writeJson(json, document);
     if (json != "-")

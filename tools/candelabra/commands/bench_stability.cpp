@@ -36,7 +36,8 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
         Progress progress(stabilitySteps(settings), !program.quiet);
         result = measureStability(context, settings, progress);
     }
-    Json document{{"provenance", provenance(context.info(), program.commandLine)}};
+    Json document{{"schema", "candelabra bench stability 1"},
+                  {"provenance", provenance(context.info(), program.commandLine)}};
     document.update(stabilityJson(settings, result));
     writeJson(json, document);
     if (json != "-")

@@ -126,7 +126,8 @@ int stress(const ProgramContext& program, const StressArguments& a)
     }
     const std::string svg = (std::filesystem::path(a.directory) / "stress.svg").string();
     writeText(svg, stressPlot(settings, context.info(), points));
-    Json document{{"provenance", provenance(context.info(), program.commandLine)}};
+    Json document{{"schema", "candelabra stress 1"},
+                  {"provenance", provenance(context.info(), program.commandLine)}};
     document.update(stressJson(settings, points));
     writeJson(json, document);
     if (json != "-")

@@ -23,11 +23,12 @@ constexpr uint32_t stampsInARow = 100;
 
 } // namespace
 
-GpuClock::GpuClock(const VulkanContext& context)
+GpuClock::GpuClock(const VulkanContext& context, bool byExtension)
     : context_(context),
       stamps_(context.device(), context.timestampValidBits(), 1, stampsInARow),
       wrapMs_(std::ldexp(double(context.device().limits.timestampPeriod) * 1e-6,
-                         int(context.timestampValidBits())))
+                         int(context.timestampValidBits()))),
+      byExtension_(byExtension && context.getCalibratedTimestamps())
 {
     constexpr int rounds = 9;
     std::vector<double> each;
@@ -60,16 +61,14 @@ const char* GpuClock::method() const
 
 void GpuClock::calibrate()
 {
-    byExtension_ = calibrateByExtension();
-    if (!byExtension_)
+    if (byExtension_)
+        calibrateByExtension();
+    else
         calibrateByStamp();
 }
 
-bool GpuClock::calibrateByExtension()
+void GpuClock::calibrateByExtension()
 {
-    const auto get = context_.getCalibratedTimestamps();
-    if (!get)
-        return false;
     // std::chrono::steady_clock is CLOCK_MONOTONIC.
     const VkCalibratedTimestampInfoEXT infos[2]{
         {.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT,
@@ -81,7 +80,9 @@ bool GpuClock::calibrateByExtension()
     uint64_t best = ~uint64_t(0);
     for (int i = 0; i < calibrations; ++i) {
         uint64_t times[2], deviation = 0;
-        check(get(context_.desc().device, 2, infos, times, &deviation), "asking for the time");
+        check(
+            context_.getCalibratedTimestamps()(context_.desc().device, 2, infos, times, &deviation),
+            "asking for the time");
         if (deviation >= best)
             continue;
         best = deviation;
@@ -89,7 +90,6 @@ bool GpuClock::calibrateByExtension()
         cpu_ = CpuClock::time_point(std::chrono::nanoseconds(times[1]));
         uncertaintyMs_ = double(deviation) * 1e-6;
     }
-    return true;
 }
 
 void GpuClock::calibrateByStamp()

@@ -17,7 +17,8 @@ class GpuClock
 {
 public:
     // `context` must outlive it. Measures the cost of a stamp, for which the GPU must be idle.
-    explicit GpuClock(const VulkanContext& context);
+    // `byExtension` false: calibrates as where the device has none.
+    explicit GpuClock(const VulkanContext& context, bool byExtension = true);
 
     // Asks both clocks at once, with VK_KHR_calibrated_timestamps or VK_EXT_calibrated_timestamps
     // where the device has it. Elsewhere a stamp is submitted and waited for, and taken to be in
@@ -33,7 +34,7 @@ public:
     double stampMs() const { return stampMs_; }
 
 private:
-    bool calibrateByExtension();
+    void calibrateByExtension();
     void calibrateByStamp();
     const VulkanContext& context_;
     FrameStamps stamps_;
@@ -41,7 +42,7 @@ private:
     double deviceMs_ = 0; // at calibration, and what the CPU's clock said then
     CpuClock::time_point cpu_;
     double uncertaintyMs_ = 0, stampMs_ = 0;
-    bool byExtension_ = false;
+    bool byExtension_;
 };
 
 } // namespace candelabra::app
