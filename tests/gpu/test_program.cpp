@@ -230,8 +230,9 @@ TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto trace = nlohmann::json::parse(text("t.json"));
     EXPECT_EQ(test::JsonSchema("trace.schema.json").fault(trace), "");
-    if (context().getCalibratedTimestamps())
+    if (context().getCalibratedTimestamps()) {
         EXPECT_EQ(trace["otherData"]["clocksAlignedBy"], context().calibratedTimestampsExtension());
+    }
     std::map<int, std::string> tracks;
     std::map<std::string, double> endOf; // by track, of the last slice that is not around others
     std::map<int, std::map<std::string, double>> frames; // by frame: when what happened, us
@@ -317,13 +318,13 @@ TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
 
 TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
 {
-    const Outcome outcome = run("report --parts profile,stability --lights 60 --size 64x36 "
+    const Outcome outcome = run("report --parts profile --lights 60 --size 64x36 "
                                 "--frames 2 --out r -q --validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(test::xmlFault(path("r/index.html")), "");
     const std::string page = text("r/index.html");
     for (const char* wanted : {"prefers-color-scheme: dark", "candelabra profile hall --lights 60",
-                               "shade_tiles", "data:image/png;base64,", "candelabra bench stab"})
+                               "shade_tiles", "data:image/png;base64,"})
         EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
     EXPECT_EQ(page.find("://"), std::string::npos);
     const auto json = nlohmann::json::parse(text("r/report.json"));

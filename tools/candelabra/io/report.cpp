@@ -53,7 +53,11 @@ void writeText(const std::string& path, const std::string& text)
             throw RunError(std::string("cannot write to standard output: ") + std::strerror(errno));
         return;
     }
-    writeFileAtomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+    try {
+        writeFileAtomically(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+    } catch (const ImageError& error) {
+        throw RunError(error.what());
+    }
 }
 
 void writeJson(const std::string& path, const Json& json)

@@ -14,8 +14,7 @@ namespace candelabra::app
 
 using Json = nlohmann::ordered_json;
 
-// Writes to a temporary file beside `path`, then renames it; "-" is stdout. Throws RunError or
-// ImageError.
+// Writes to a temporary file beside `path`, then renames it; "-" is stdout. Throws RunError.
 void writeText(const std::string& path, const std::string& text);
 // The same, indented by two. Numbers that are not finite become null.
 void writeJson(const std::string& path, const Json& json);
