@@ -276,8 +276,9 @@ TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
     EXPECT_GT(variant["time"]["upload"]["medianMs"], 0);
     EXPECT_GT(variant["overhead"]["stampMs"], 0);
     EXPECT_GE(variant["overhead"]["stamps"], passes.size());
-    // Passes leave out what lies between the modules and the stamps themselves.
-    EXPECT_LE(variant["time"]["gpu"]["medianMs"], variant["time"]["gpuSpan"]["medianMs"]);
+    // Between the modules hardly anything happens; a stamp's cost is an estimate.
+    EXPECT_GT(variant["overhead"]["passesOverGpuSpan"], 0.5);
+    EXPECT_LT(variant["overhead"]["passesOverGpuSpan"], 1.05);
 }
 
 TEST_F(ProgramTest, ProfileTellsADifferenceFromNone)

@@ -84,18 +84,7 @@ void HeatMapPass::recordClear(VkCommandBuffer cmd) const
 {
     constexpr ImageAccess anything{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_NONE,
                                    VK_IMAGE_LAYOUT_UNDEFINED};
-    constexpr ImageAccess cleared{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                  VK_IMAGE_LAYOUT_GENERAL};
-    constexpr ImageAccess counted{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                  VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                                      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                                  VK_IMAGE_LAYOUT_GENERAL};
-    const VkImage image = pairs_.image.get();
-    transition(cmd, image, anything, cleared);
-    const VkClearColorValue zero{};
-    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdClearColorImage(cmd, image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
-    transition(cmd, image, cleared, counted);
+    clearForCompute(cmd, pairs_.image.get(), anything);
 }
 
 void HeatMapPass::record(VkCommandBuffer cmd, uint32_t slot, HeatMap which, VkImageView display)

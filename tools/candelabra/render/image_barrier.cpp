@@ -24,4 +24,19 @@ void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, con
     vkCmdPipelineBarrier2(cmd, &info);
 }
 
+void clearForCompute(VkCommandBuffer cmd, VkImage image, const ImageAccess& from)
+{
+    constexpr ImageAccess cleared{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                  VK_IMAGE_LAYOUT_GENERAL};
+    constexpr ImageAccess used{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                               VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                                   VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                               VK_IMAGE_LAYOUT_GENERAL};
+    transition(cmd, image, from, cleared);
+    const VkClearColorValue zero{};
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(cmd, image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
+    transition(cmd, image, cleared, used);
+}
+
 } // namespace candelabra::app

@@ -30,4 +30,7 @@ inline constexpr ImageAccess discarded{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_
 
 void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, const ImageAccess& to);
 
+// All texels become 0, in GENERAL, for compute to read and write.
+void clearForCompute(VkCommandBuffer cmd, VkImage image, const ImageAccess& from);
+
 } // namespace candelabra::app

@@ -329,17 +329,7 @@ void Renderer::recordBruteEnd(VkCommandBuffer cmd)
 
 void Renderer::recordBlack(VkCommandBuffer cmd)
 {
-    const VkImage image = state_->targets.radiance.image.get();
-    constexpr ImageAccess cleared{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                  VK_IMAGE_LAYOUT_GENERAL};
-    transition(cmd, image, computeWrite, cleared);
-    const VkClearColorValue zero{};
-    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdClearColorImage(cmd, image, VK_IMAGE_LAYOUT_GENERAL, &zero, 1, &all);
-    transition(cmd, image, cleared,
-               {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                VK_IMAGE_LAYOUT_GENERAL});
+    clearForCompute(cmd, state_->targets.radiance.image.get(), computeWrite);
 }
 
 void Renderer::setLights(const std::vector<CndLight>& lights)
