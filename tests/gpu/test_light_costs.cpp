@@ -83,12 +83,11 @@ TEST_F(LightCostsTest, LightsOfAPixelAddUpToIt)
         const char* scene;
         std::optional<uint32_t> lights;
         CndGBufferLayout layout;
-        double error; // of every light that gives a hundredth of the pixel or more
     };
     // COMPACT stores the surface coarsely, and both ways start from that.
-    for (const Case& c : {Case{"hall", 200, CND_GBUFFER_FULL, 0.05},
-                          {"showcase", std::nullopt, CND_GBUFFER_FULL, 0.6},
-                          {"hall", 200, CND_GBUFFER_COMPACT, 0.05}}) {
+    for (const Case& c : {Case{"hall", 200, CND_GBUFFER_FULL},
+                          {"showcase", std::nullopt, CND_GBUFFER_FULL},
+                          {"hall", 200, CND_GBUFFER_COMPACT}}) {
         const Scene scene = loadScene(c.scene, {.lights = c.lights});
         Renderer renderer(context(), scene,
                           {.size = {128, 72},
@@ -105,12 +104,15 @@ TEST_F(LightCostsTest, LightsOfAPixelAddUpToIt)
                     << c.scene << " " << pixel.x << "," << pixel.y;
             lights += pick.lights.size();
             for (const PickedLight& light : pick.lights)
-                if (light.radiance.y > 0.01 * pick.radiance.y)
+                // Tubes, rectangles and discs have a fitted lobe, far off in places (README,
+                // limits).
+                if (light.radiance.y > 0.01 * pick.radiance.y &&
+                    scene.lights[light.light].type < CND_LIGHT_TUBE)
                     worst = std::max(worst, std::abs(light.radiance.y / light.truth.y - 1));
         }
         std::cout << c.scene << ": " << lights << " lights at four pixels, error to truth up to "
                   << 100 * worst << "%\n";
         EXPECT_GE(lights, 4u) << c.scene;
-        EXPECT_LT(worst, c.error) << c.scene;
+        EXPECT_LT(worst, 0.05) << c.scene; // of lights that give a hundredth or more
     }
 }
