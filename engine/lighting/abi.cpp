@@ -69,14 +69,36 @@ CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* e
     });
 }
 
-CndResult cndUpdateLights(CndLighting lighting, uint32_t first, uint32_t count,
+CndResult cndAddLights(CndLighting lighting, uint32_t count, const CndLight* lights,
+                       CndLightId* ids, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndAddLights", {lighting});
+        if (count)
+            gpu::requireNotNull("cndAddLights", {lights, ids});
+        lighting->impl.addLights({lights, count}, ids);
+    });
+}
+
+CndResult cndUpdateLights(CndLighting lighting, uint32_t count, const CndLightId* ids,
                           const CndLight* lights, CndError* error)
 {
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndUpdateLights", {lighting});
         if (count)
-            gpu::requireNotNull("cndUpdateLights", {lights});
-        lighting->impl.updateLights(first, {lights, count});
+            gpu::requireNotNull("cndUpdateLights", {ids, lights});
+        lighting->impl.updateLights({ids, count}, {lights, count});
+    });
+}
+
+CndResult cndRemoveLights(CndLighting lighting, uint32_t count, const CndLightId* ids,
+                          CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndRemoveLights", {lighting});
+        if (count)
+            gpu::requireNotNull("cndRemoveLights", {ids});
+        lighting->impl.removeLights({ids, count});
     });
 }
 

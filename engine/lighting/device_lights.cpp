@@ -88,15 +88,14 @@ std::shared_ptr<gpu::Bindings> DeviceLights::prepare(const CndDeviceLights& ligh
     return same ? nullptr : std::make_shared<gpu::Bindings>(kernel_.createBindings(1));
 }
 
-void DeviceLights::take(const CndDeviceLights& lights, uint32_t firstRecord,
-                        const gpu::Buffer& records, std::shared_ptr<gpu::Bindings> bindings)
+void DeviceLights::take(const CndDeviceLights& lights, const gpu::Buffer& records,
+                        std::shared_ptr<gpu::Bindings> bindings)
 {
     if (bindings) {
         bindings_ = std::move(bindings);
         write(lights, records);
     }
     lights_ = lights;
-    firstRecord_ = firstRecord;
     present_ = true;
 }
 
@@ -125,7 +124,6 @@ void DeviceLights::record(const gpu::Frame& frame) const noexcept
 {
     kernel_.dispatch(frame, bindings_->set(0),
                      {.type = lights_.type,
-                      .firstRecord = firstRecord_,
                       .maxCount = lights_.maxCount,
                       .hasCount = lights_.countBuffer != VK_NULL_HANDLE},
                      gpu::divideUp(lights_.maxCount, gpu::DEVICE_LIGHTS_GROUP));

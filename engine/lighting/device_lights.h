@@ -28,10 +28,14 @@ public:
     std::shared_ptr<gpu::Bindings> prepare(const CndDeviceLights& lights, bool newRecords) const;
     // Those of the last call, for the caller to keep while recordings use them.
     const std::shared_ptr<gpu::Bindings>& bindings() const { return bindings_; }
-    void take(const CndDeviceLights& lights, uint32_t firstRecord, const gpu::Buffer& records,
+    // Into the first records.
+    void take(const CndDeviceLights& lights, const gpu::Buffer& records,
               std::shared_ptr<gpu::Bindings> bindings);
     void takeNone() { present_ = false; }
+    // The records of the last call are replaced: its descriptors no longer hold.
+    void forgetBindings() { bindings_ = nullptr; }
     bool present() const { return present_; }
+    const CndDeviceLights& lights() const { return lights_; } // present()
 
     // Clears the counts; then, behind a barrier, fills the records of the device's lights.
     void recordReset(const gpu::Frame& frame) const noexcept;
@@ -45,7 +49,6 @@ private:
     gpu::Buffer counts_;
     std::shared_ptr<gpu::Bindings> bindings_;
     CndDeviceLights lights_{}; // of bindings_
-    uint32_t firstRecord_ = 0;
     bool present_ = false;
 };
 

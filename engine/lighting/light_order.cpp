@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lighting/light_order.h"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "candelabra_shaders.h"
-#include "lighting/shade_kernels.h"
 
 namespace candelabra::lighting
 {
@@ -28,39 +25,6 @@ uint32_t sumCount(uint32_t runs)
 }
 
 } // namespace
-
-LightExtent extentOf(std::span<const CndLight> lights)
-{
-    constexpr size_t samples = 1024;
-    constexpr double outer = 0.02; // of the lights, at either end
-    const size_t step = lights.size() / samples + 1;
-    LightExtent extent;
-    float longest = 0;
-    std::vector<float> along;
-    for (int axis = 0; axis < 3; ++axis) {
-        along.clear();
-        for (size_t i = 0; i < lights.size(); i += step)
-            if (!isDistant(lights[i].type))
-                along.push_back(lights[i].position[axis]);
-        if (along.empty())
-            return extent;
-        std::sort(along.begin(), along.end());
-        const size_t cut = size_t(outer * double(along.size()));
-        const float low = along[cut], high = along[along.size() - 1 - cut];
-        const float border = (high - low) / 8; // the sample's ends are not the set's
-        extent.low[axis] = low - border;
-        longest = std::max(longest, high - low + 2 * border);
-    }
-    along.clear();
-    for (size_t i = 0; i < lights.size(); i += step)
-        if (!isDistant(lights[i].type))
-            along.push_back(lights[i].influenceRadius);
-    std::nth_element(along.begin(), along.begin() + along.size() / 2, along.end());
-    extent.influenceRadius = along[along.size() / 2];
-    constexpr float shortest = 1e-15f; // as of lengths in CndLight
-    extent.size = std::max(longest, shortest);
-    return extent;
-}
 
 LightOrder::LightOrder(const gpu::Device& device)
     : device_(&device),

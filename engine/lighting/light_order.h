@@ -3,7 +3,6 @@
 #pragma once
 
 #include <limits>
-#include <span>
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
@@ -19,10 +18,6 @@ struct LightExtent {
     float influenceRadius =
         std::numeric_limits<float>::infinity(); // metres, median; may be infinite
 };
-
-// Estimated from at most 1024 lights; the outermost are left out, so that one far light does not
-// make the grid coarse.
-LightExtent extentOf(std::span<const CndLight> lights);
 
 class LightOrder
 {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "candelabra_shaders.h"
 #include "tables/ltc_table.h"
@@ -12,13 +11,6 @@ namespace candelabra::lighting
 {
 namespace
 {
-
-// Light buffers start with this capacity and grow by half, so that a growing scene reallocates
-// rarely; the smallest is 64 + 64 bytes per light.
-constexpr uint32_t minCapacity = 1024;
-
-constexpr VkBufferUsageFlags storageUse =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
 CndLightingDesc checked(CndLightingDesc desc)
 {
@@ -81,7 +73,7 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       ltc_(createLtcBuffer(device_)),
       deviceLights_(device_)
 {
-    grow(0, {});
+    grow(0, {}, false);
 }
 
 // Shading a list takes at most this many loop iterations per light: a test, a turn in each of four
@@ -107,23 +99,15 @@ void Lighting::setLights(const CndLightSet& set)
     if (device)
         checkDeviceLights(device_, *device);
     const uint64_t total = uint64_t(set.count) + (device ? device->maxCount : 0);
-    if (total > maxLights(device_.limits))
-        gpu::failUnsupported("CndLightSet: " + std::to_string(total) +
-                             " lights are more than the device can take, " +
-                             std::to_string(maxLights(device_.limits)));
+    requireRoom("CndLightSet", total);
     for (const double o : set.origin)
         if (!std::isfinite(o))
             gpu::failArgument("CndLightSet: origin must be finite");
     const std::span lights(set.lights, set.count);
     validateLights(lights);
     LightTypeCounts counts = countTypes(lights);
-    LightExtent extent = extentOf(lights);
     ReachBoxes reach = reachOf(lights);
-    uint32_t deviceRecord = 0; // behind the host's of that type
     if (device) {
-        const size_t distant = counts[CND_LIGHT_DIRECTIONAL] + counts[CND_LIGHT_DISTANT_SPHERE];
-        extent = extentWith(extent, lights.size() - distant, *device);
-        deviceRecord = std::accumulate(counts.begin(), counts.begin() + device->type + 1, 0u);
         counts[device->type] += device->maxCount;
         reach[device->type] = endlessReach(); // nobody here knows where they are
     }
@@ -131,30 +115,29 @@ void Lighting::setLights(const CndLightSet& set)
         if (counts[type])
             kernels_.shade.require(type);
     freeRetired();
-    std::vector<uint32_t> recordOf = recordsOf(lights, counts);
-    std::vector<VkBufferCopy> regions(set.count ? 1 : 0,
-                                      {.size = total * sizeof(gpu::LightRecord)});
+    lights_.reserveSet(set.count);
     std::shared_ptr<gpu::Bindings> bindings;
     if (device)
         bindings = deviceLights_.prepare(*device, total > lightCapacity_);
     if (bindings) // to be replaced
         retired_.push_back({deviceLights_.bindings(), recordings_});
-    grow(uint32_t(total), counts); // the last that can fail
-    Staging& staging = freeStaging();
+    grow(uint32_t(total), counts, false);
+    Staging& staging = freeStaging(); // the last that can fail
     if (device)
-        deviceLights_.take(*device, deviceRecord, records_, std::move(bindings));
+        deviceLights_.take(*device, store_.records, std::move(bindings));
     else
         deviceLights_.takeNone();
-    packLights(lights, recordOf, staging.buffer.as<gpu::LightRecord>());
-    recordOf_ = std::move(recordOf);
-    staging.regions = std::move(regions);
+    firstRecord_ = device ? device->maxCount : 0;
+    packLights(lights, hostRecords(staging));
+    lights_.set(lights);
     pending_ = &staging;
     typeCounts_ = counts;
     lightCount_ = uint32_t(total);
     deviceLightsPending_ = device;
     ++lightSet_;
     std::copy_n(set.origin, 3, origin_);
-    extent_ = extent;
+    extent_ = currentExtent();
+    editsSinceExtent_ = 0;
     reach_ = reach;
 }
 
@@ -165,89 +148,8 @@ LightTypeCounts Lighting::countsInView(const CndCamera& camera) const
         if (out[type] && !reachesView(reach_[type], origin_, camera))
             out[type] = 0;
     return out;
-}
-
-uint32_t Lighting::typeOfRecord(uint32_t record) const
-{
-    uint32_t type = 0;
-    for (uint32_t end = typeCounts_[0]; end <= record; end += typeCounts_[type])
-        ++type;
-    return type;
-}
-
-void Lighting::updateLights(uint32_t first, std::span<const CndLight> lights)
-{
-    if (first > recordOf_.size() || lights.size() > recordOf_.size() - first)
-        gpu::failArgument("cndUpdateLights: lights " + std::to_string(first) + " to " +
-                          std::to_string(uint64_t(first) + lights.size()) +
-                          " are not all of the set, which has " + std::to_string(recordOf_.size()));
-    validateLights(lights);
-    for (size_t i = 0; i < lights.size(); ++i)
-        if (const uint32_t type = typeOfRecord(recordOf_[first + i]); lights[i].type != type)
-            gpu::failArgument("lights[" + std::to_string(i) + "]: type is " +
-                              std::to_string(lights[i].type) + ", of the light it replaces " +
-                              std::to_string(type));
-    if (lights.empty())
-        return;
-    freeRetired();
-    Staging& staging = freeStaging();
-    std::vector<VkBufferCopy> regions;
-    if (pending_)
-        regions = staging.regions;
-    const VkDeviceSize all = lightCount_ * sizeof(gpu::LightRecord);
-    const bool whole = !regions.empty() && regions[0].size == all;
-    constexpr VkDeviceSize bytes = sizeof(gpu::LightRecord);
-    for (size_t i = 0; i < lights.size() && !whole; ++i) {
-        const VkDeviceSize at = recordOf_[first + i] * bytes;
-        if (!regions.empty() && regions.back().dstOffset + regions.back().size == at)
-            regions.back().size += bytes;
-        else
-            regions.push_back({at, at, bytes});
-    }
-    packLights(lights, std::span(recordOf_).subspan(first, lights.size()),
-               staging.buffer.as<gpu::LightRecord>());
-    widen(reach_, reachOf(lights)); // what was replaced stays in the boxes
-    staging.regions = std::move(regions);
-    pending_ = &staging;
-    ++lightSet_;
-}
-
-Lighting::Staging& Lighting::freeStaging()
-{
-    if (pending_) // never recorded: overwrite in place
-        return *pending_;
-    const uint64_t running = oldest(&View::oldestRunning);
-    for (Staging& staging : staging_)
-        if (staging.recording < running)
-            return staging;
-    return staging_.emplace_back(createStaging(lightCapacity_));
-}
-
-gpu::Buffer Lighting::createStaging(uint32_t capacity) const
-{
-    return gpu::createBuffer(device_, "light staging", capacity * sizeof(gpu::LightRecord),
-                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryUse::Upload);
-}
-
-void Lighting::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
-{
-    if (!pending_)
-        return;
-    pending_->recording = recording;
-    if (lightCount_) {
-        if (!pending_->regions.empty())
-            device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records_.get(),
-                                  uint32_t(pending_->regions.size()), pending_->regions.data());
-        if (deviceLightsPending_) {
-            deviceLights_.recordReset(frame);
-            frame.barrier();
-            deviceLights_.record(frame);
-        }
-        frame.barrier();
-        kernels_.order.record(frame, sort_, lightCount_, extent_);
-    }
-    pending_ = nullptr;
-    deviceLightsPending_ = false;
+    carriedFrom_ = VK_NULL_HANDLE;
+    onDevice_ = 0;
 }
 
 void Lighting::recordDeviceCounts(const gpu::Frame& frame,
@@ -272,39 +174,6 @@ void Lighting::recordTables(const gpu::Frame& frame, bool directionalAlbedo) noe
     ltcFilled_ = true;
     const std::span<const float> table = tables::ltcTable();
     device_.CmdUpdateBuffer(frame.cmd, ltc_.get(), 0, table.size_bytes(), table.data());
-}
-
-void Lighting::grow(uint32_t count, const LightTypeCounts& counts)
-{
-    if (lightCapacity_ && count <= lightCapacity_) {
-        for (View* view : views_)
-            view->makeRoom(counts);
-        return;
-    }
-    const uint32_t wanted = std::max({count, minCapacity, lightCapacity_ + lightCapacity_ / 2});
-    const uint32_t previous = lightCapacity_;
-    const uint32_t capacity = std::min(wanted, maxLights(device_.limits));
-    // Everything is allocated before anything is replaced: a failure leaves the old set in place.
-    gpu::Buffer records =
-        gpu::createBuffer(device_, "light records", capacity * sizeof(gpu::LightRecord), storageUse,
-                          gpu::MemoryUse::Device);
-    LightOrder::State sort = kernels_.order.createState(capacity, records);
-    std::deque<Staging> staging;
-    staging.emplace_back(createStaging(capacity)); // what fills the new records
-    try {
-        lightCapacity_ = capacity;
-        for (View* view : views_)
-            view->makeRoom(counts);
-    } catch (...) {
-        lightCapacity_ = previous;
-        throw;
-    }
-    replace(records_, std::move(records));
-    replace(sort_, std::move(sort));
-    for (Staging& old : staging_)
-        replace(old.buffer, gpu::Buffer());
-    staging_ = std::move(staging);
-    pending_ = nullptr;
 }
 
 uint64_t Lighting::oldest(uint64_t (View::*ofView)() const) const

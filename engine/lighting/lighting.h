@@ -14,6 +14,7 @@
 #include "lighting/host_gbuffer.h"
 #include "lighting/light_order.h"
 #include "lighting/pack_lights.h"
+#include "lighting/light_table.h"
 #include "lighting/reach.h"
 #include "lighting/shade_kernels.h"
 #include "shared/lighting.h"
@@ -45,10 +46,12 @@ public:
 
     // Validates, packs into the staging slot of the next recording, grows buffers when needed.
     void setLights(const CndLightSet& set);
-    // Replaces lights of the set, each by one of its type.
-    void updateLights(uint32_t first, std::span<const CndLight> lights);
-    // Copies a changed light set to the device and sorts it; barriers before and after are the
-    // caller's.
+    // Edits of the set (light_edits.cpp); `ids`: as many as lights.
+    void addLights(std::span<const CndLight> lights, CndLightId* ids);
+    void updateLights(std::span<const CndLightId> ids, std::span<const CndLight> lights);
+    void removeLights(std::span<const CndLightId> ids);
+    // Copies what changed of the light set to the device and sorts it; barriers before and after
+    // are the caller's.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
     // What was found of lights on the device, into LightingCounters.
     void recordDeviceCounts(const gpu::Frame& frame, const gpu::Buffer& counters) const noexcept;
@@ -64,7 +67,13 @@ public:
     template <typename T>
     void replace(T& old, T&& with)
     {
-        retired_.push_back({nullptr, recordings_}); // first: when it fails, `old` may be in use
+        replace(old, std::move(with), recordings_);
+    }
+    // `last`: number of the last recording that may use the old one.
+    template <typename T>
+    void replace(T& old, T&& with, uint64_t last)
+    {
+        retired_.push_back({nullptr, last}); // first: when it fails, `old` may be in use
         retired_.back().object = std::make_shared<T>(std::move(old));
         old = std::move(with);
     }
@@ -75,8 +84,8 @@ public:
     const CndLightingDesc& desc() const { return desc_; }
     const GBufferSource& gbuffer() const { return gbuffer_; }
     const Kernels& kernels() const { return kernels_; }
-    const gpu::Buffer& records() const { return records_; }
-    const gpu::Buffer& lightOrder() const { return sort_.keys[0]; }
+    const gpu::Buffer& records() const { return store_.records; }
+    const gpu::Buffer& lightOrder() const { return store_.sort.keys[0]; }
     const gpu::Buffer& directionalAlbedo() const { return dfg_.buffer(); }
     const gpu::Buffer& transformedCosines() const { return ltc_; }
     uint32_t lightCount() const { return lightCount_; }
@@ -102,10 +111,30 @@ private:
         std::shared_ptr<void> object;
         uint64_t recording; // number of the last recording that may use it
     };
-    void grow(uint32_t count, const LightTypeCounts& counts);
+    struct Staging {
+        gpu::Buffer buffer;
+        uint64_t recording = 0; // number of the recording that copies from it, 0: none yet
+    };
+    // What has a place for every light.
+    struct Store {
+        gpu::Buffer
+            records; // device copy of the packed lights: first the device's, then the host's
+        LightOrder::State sort;
+        std::deque<Staging> staging; // elements stay where they are when it grows
+    };
+    Store createStore(uint32_t capacity) const;
+    // `keepRecords`: they move into larger buffers with the next recording, else all come anew.
+    void grow(uint32_t count, const LightTypeCounts& counts, bool keepRecords);
     gpu::Buffer createStaging(uint32_t capacity) const;
     void freeRetired();
     // Over all views; recordings_ + 1 when there is none.
+    Staging& freeStaging();
+    void requireRoom(const char* what, uint64_t count) const;
+    LightTable::Records prepareEdit(const LightTypeCounts& counts, size_t edits, size_t added);
+    void finishEdit(const LightTypeCounts& counts, std::span<const CndLight> lights,
+                    size_t edits) noexcept;
+    LightTable::Records hostRecords(const Staging& staging) const;
+    LightExtent currentExtent() const noexcept;
     uint64_t oldest(uint64_t (View::*ofView)() const) const;
 
     gpu::Device device_;
@@ -117,23 +146,17 @@ private:
     bool ltcFilled_ = false;
     std::vector<View*> views_;
     std::vector<Retired> retired_;
-    gpu::Buffer records_; // device copy of the packed lights
-    LightOrder::State sort_;
     DeviceLights deviceLights_;
     LightExtent extent_;
     ReachBoxes reach_;
-    struct Staging {
-        gpu::Buffer buffer;
-        uint64_t recording = 0; // number of the recording that copies from it, 0: none yet
-        std::vector<VkBufferCopy> regions; // to the same place in the records
-    };
-    Staging& freeStaging();
-    uint32_t typeOfRecord(uint32_t record) const;
-
-    std::deque<Staging> staging_; // elements stay where they are when it grows
-    Staging* pending_ = nullptr;  // written and not yet recorded
+    Store store_;
+    LightTable lights_;                     // the host's
+    Staging* pending_ = nullptr;            // holds what no recording has uploaded yet
+    VkBuffer carriedFrom_ = VK_NULL_HANDLE; // smaller records that the next recording copies
+    uint32_t onDevice_ = 0;                 // records that recordings so far have filled
+    uint32_t firstRecord_ = 0;              // of the host's lights
     uint32_t lightCount_ = 0, lightCapacity_ = 0;
-    std::vector<uint32_t> recordOf_; // of each light of the host's set
+    uint32_t editsSinceExtent_ = 0;
     bool deviceLightsPending_ = false;
     uint64_t lightSet_ = 0;
     LightTypeCounts typeCounts_{};

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <string>
 
 #include "gpu/failure.h"
@@ -207,21 +206,10 @@ LightTypeCounts countTypes(std::span<const CndLight> lights)
     return counts;
 }
 
-std::vector<uint32_t> recordsOf(std::span<const CndLight> lights, const LightTypeCounts& counts)
-{
-    std::vector<uint32_t> out(lights.size());
-    LightTypeCounts next{};
-    std::exclusive_scan(counts.begin(), counts.end(), next.begin(), 0u);
-    for (size_t i = 0; i < lights.size(); ++i)
-        out[i] = next[lights[i].type]++;
-    return out;
-}
-
-void packLights(std::span<const CndLight> lights, std::span<const uint32_t> recordOf,
-                std::span<gpu::LightRecord> records) noexcept
+void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records) noexcept
 {
     for (size_t i = 0; i < lights.size(); ++i)
-        records[recordOf[i]] = pack(lights[i]);
+        records[i] = pack(lights[i]);
 }
 
 } // namespace candelabra::lighting

@@ -62,7 +62,7 @@ void main()
             atomicAdd(counts.rejected, 1u);
         }
     }
-    records[params.firstRecord + i] = record;
+    records[i] = record;
     if (i == 0u && written > params.maxCount)
         atomicAdd(counts.rejected, written - params.maxCount);
 }

@@ -25,19 +25,18 @@ struct DeviceLightCounts {
 };
 GPU_SIZE(DeviceLightCounts, 8)
 
-// --- device_lights: into the records of the light set, one lane per light
+// --- device_lights: into the first records of the light set, one lane per light
 const uint DEVICE_LIGHTS_GROUP = 64u;
 const uint DEVICE_LIGHTS_FROM = 0u;
 const uint DEVICE_LIGHTS_COUNT = 1u;
 const uint DEVICE_LIGHTS_RECORDS = 2u;
 const uint DEVICE_LIGHTS_COUNTS = 3u; // cleared before
 struct DeviceLightsParams {
-    uint type;        // LIGHT_*
-    uint firstRecord; // of maxCount
+    uint type; // LIGHT_*
     uint maxCount;
     uint hasCount; // 0: there are maxCount lights
 };
-GPU_SIZE(DeviceLightsParams, 16)
+GPU_SIZE(DeviceLightsParams, 12)
 
 GPU_END
 

@@ -12,8 +12,8 @@
 
 GPU_BEGIN
 
-// A light as the host sends it, relative to the light set's origin. Made by pack_lights.cpp; sorted
-// by type, since each type has its own shading pipeline.
+// A light as the host sends it, relative to the light set's origin. Made by pack_lights.cpp, in any
+// order: light_order.h sorts them by type, since each type has its own shading pipeline.
 struct LightRecord {
     vec3 position; // m; distant types: unit direction towards the light
     float reach;   // m, from the centre to the farthest point of the emitter; distant sphere:

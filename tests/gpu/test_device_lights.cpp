@@ -166,6 +166,44 @@ TEST_F(DeviceLightsTest, AreReadAgainWithEverySet)
     cndDestroyLighting(lighting);
 }
 
+TEST_F(DeviceLightsTest, StayWhenLightsAreAddedBesideThem)
+{
+    const std::vector<CndLight> spheres = randomSpheres(g_, 60, 13);
+    fill(spheres);
+    const CndDeviceLights device = desc(CND_LIGHT_SPHERE, 60, 60);
+    const auto [lighting, view] = createLighting(g_, 2);
+    const Images images = uploadImages(g_);
+    CndError error{};
+    std::vector<CndLight> all = spheres;
+    CndLightingFrame f = frameOf(g_, images, {});
+    const auto addAndCompare = [&](uint32_t count) { // of them: to larger buffers
+        const std::vector<CndLight> more = randomSpheres(g_, count, count);
+        std::vector<CndLightId> ids(count);
+        EXPECT_EQ(cndAddLights(lighting, count, more.data(), ids.data(), &error), CND_SUCCESS);
+        all.insert(all.end(), more.begin(), more.end());
+        f.frameSlot = 1 - f.frameSlot;
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            clearRadiance(cmd, images);
+            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
+        });
+        EXPECT_LE(maxRelativeDifference(readRadiance(images), run(g_, all).radiance), 1e-6);
+    };
+    const CndLightSet set{.structSize = sizeof set, .deviceLights = &device};
+    EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+    addAndCompare(1100); // before the device's were read
+    addAndCompare(30);
+    addAndCompare(1200);
+    const CndLightSet none{.structSize = sizeof none}; // the same buffers, other records
+    EXPECT_EQ(cndSetLights(lighting, &none, &error), CND_SUCCESS) << error.message;
+    all.clear();
+    addAndCompare(4000);
+    EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+    all = spheres;
+    addAndCompare(10);
+    cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+}
+
 TEST_F(DeviceLightsTest, ArgumentsOutOfRangeAreNamed)
 {
     fill(randomSpheres(g_, 10, 12));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <random>
 
 namespace candelabra::test
@@ -227,6 +228,7 @@ TEST_F(FramesInFlight, StormOfSizesAndLightsEqualsBrute)
         ASSERT_EQ(cndCreateLightingView(lighting, &view.desc, &view.brute, &error), CND_SUCCESS);
     };
     std::vector<CndLight> lights;
+    std::vector<CndLightId> ids;
     for (int i = 0; i < frames && !HasFatalFailure(); ++i) {
         const uint32_t index = uint32_t(i) % slotCount;
         Slot& slot = slots_[index];
@@ -235,13 +237,24 @@ TEST_F(FramesInFlight, StormOfSizesAndLightsEqualsBrute)
             lights = randomSpheres(views[pick(2)].g, pick(400), uint32_t(random()));
             const CndLightSet set{sizeof set, uint32_t(lights.size()), lights.data(), {}};
             ASSERT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+            ids.resize(lights.size());
+            std::iota(ids.begin(), ids.end(), CndLightId(0));
         } else if (!lights.empty()) {
             const uint32_t first = pick(uint32_t(lights.size()));
             const uint32_t count = 1 + pick(uint32_t(lights.size()) - first);
             for (uint32_t k = first; k < first + count; ++k)
                 lights[k].position[pick(3)] += 0.5f;
-            ASSERT_EQ(cndUpdateLights(lighting, first, count, &lights[first], &error), CND_SUCCESS)
-                << error.message;
+            if (pick(2)) {
+                ASSERT_EQ(cndUpdateLights(lighting, count, &ids[first], &lights[first], &error),
+                          CND_SUCCESS)
+                    << error.message;
+            } else { // the same by other lights
+                ASSERT_EQ(cndRemoveLights(lighting, count, &ids[first], &error), CND_SUCCESS)
+                    << error.message;
+                ASSERT_EQ(cndAddLights(lighting, count, &lights[first], &ids[first], &error),
+                          CND_SUCCESS)
+                    << error.message;
+            }
         }
         std::array<VkExtent2D, 2> sizes;
         for (uint32_t v = 0; v < 2; ++v) {

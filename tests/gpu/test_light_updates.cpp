@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replacing some lights of a set: the image is that of the set given anew, and only they are
-// uploaded.
+// Adding, replacing and removing some lights of a set: the image is that of the set given anew, and
+// only they are uploaded.
+#include <ctime>
+#include <iostream>
+#include <numeric>
 #include <random>
 
 #include "gpu/lighting_harness.h"
@@ -10,19 +13,19 @@ namespace candelabra::test
 namespace
 {
 
-// Bytes copied between buffers; Vulkan's function pointers carry no context.
+// Bytes copied between buffers, and within one; Vulkan's function pointers carry no context.
 struct Interposer {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
     PFN_vkCmdCopyBuffer copyBuffer = nullptr;
-    VkDeviceSize copied = 0;
+    VkDeviceSize copied = 0, moved = 0;
 } interposer;
 
 void VKAPI_CALL copyBuffer(VkCommandBuffer cmd, VkBuffer from, VkBuffer to, uint32_t count,
                            const VkBufferCopy* regions)
 {
     for (uint32_t i = 0; i < count; ++i)
-        interposer.copied += regions[i].size;
+        (from == to ? interposer.moved : interposer.copied) += regions[i].size;
     interposer.copyBuffer(cmd, from, to, count, regions);
 }
 
@@ -87,7 +90,7 @@ protected:
         CndError error{};
         CndLightingFrame f = frameOf(g_, images_, {});
         f.frameSlot = slot_ = 1 - slot_;
-        interposer.copied = 0;
+        interposer.copied = interposer.moved = 0;
         context().submitAndWait([&](VkCommandBuffer cmd) {
             clearRadiance(cmd, images_);
             EXPECT_EQ(cndRecordLighting(view_, cmd, &f, &error), CND_SUCCESS) << error.message;
@@ -100,14 +103,36 @@ protected:
         const CndLightSet s{sizeof s, uint32_t(lights.size()), lights.data(), {}, nullptr};
         EXPECT_EQ(cndSetLights(lighting_, &s, &error), CND_SUCCESS) << error.message;
     }
-    // Both in the set and in the module.
-    void update(std::vector<CndLight>& lights, uint32_t first, const std::vector<CndLight>& with)
+    std::vector<CndLightId> add(const std::vector<CndLight>& lights)
     {
         CndError error{};
-        std::copy(with.begin(), with.end(), lights.begin() + first);
-        EXPECT_EQ(cndUpdateLights(lighting_, first, uint32_t(with.size()), with.data(), &error),
+        std::vector<CndLightId> ids(lights.size());
+        EXPECT_EQ(
+            cndAddLights(lighting_, uint32_t(lights.size()), lights.data(), ids.data(), &error),
+            CND_SUCCESS)
+            << error.message;
+        return ids;
+    }
+    void update(const std::vector<CndLightId>& ids, const std::vector<CndLight>& with)
+    {
+        CndError error{};
+        EXPECT_EQ(cndUpdateLights(lighting_, uint32_t(ids.size()), ids.data(), with.data(), &error),
                   CND_SUCCESS)
             << error.message;
+    }
+    void remove(const std::vector<CndLightId>& ids)
+    {
+        CndError error{};
+        EXPECT_EQ(cndRemoveLights(lighting_, uint32_t(ids.size()), ids.data(), &error), CND_SUCCESS)
+            << error.message;
+    }
+    // Lights of a set from `first` on; both in the set and in the module.
+    void updateSet(std::vector<CndLight>& lights, uint32_t first, const std::vector<CndLight>& with)
+    {
+        std::copy(with.begin(), with.end(), lights.begin() + first);
+        std::vector<CndLightId> ids(with.size());
+        std::iota(ids.begin(), ids.end(), CndLightId(first));
+        update(ids, with);
     }
     std::vector<glm::vec4> expected(const std::vector<CndLight>& lights)
     {
@@ -121,6 +146,34 @@ protected:
     uint32_t slot_ = 0;
 };
 
+// Points, spheres and discs.
+std::vector<CndLight> someLights(const CpuGBuffer& g, uint32_t count, uint32_t seed)
+{
+    std::vector<CndLight> lights = randomSpheres(g, count, seed);
+    constexpr CndLightType types[] = {CND_LIGHT_SPHERE, CND_LIGHT_POINT, CND_LIGHT_DISC};
+    for (size_t i = 0; i < lights.size(); ++i) {
+        lights[i].type = types[(i + seed) % 3];
+        lights[i].direction[2] = 1;
+    }
+    return lights;
+}
+
+// Lights that come and go, ids beside them.
+struct Population {
+    std::vector<CndLight> lights;
+    std::vector<CndLightId> ids;
+    void add(const std::vector<CndLight>& more, const std::vector<CndLightId>& theirs)
+    {
+        lights.insert(lights.end(), more.begin(), more.end());
+        ids.insert(ids.end(), theirs.begin(), theirs.end());
+    }
+};
+
+double cpuSeconds()
+{
+    return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
 constexpr double tolerance = 1e-6; // the order of lights follows where the first set was
 
 TEST_F(LightUpdates, ShowTheSetGivenAnewAndUploadTheirOwnBytes)
@@ -130,7 +183,7 @@ TEST_F(LightUpdates, ShowTheSetGivenAnewAndUploadTheirOwnBytes)
     frame();
     EXPECT_GE(interposer.copied, 20000u * 64);
     const std::vector<CndLight> fresh = randomSpheres(g_, 1000, 5);
-    update(lights, 7000, fresh);
+    updateSet(lights, 7000, fresh);
     const std::vector<glm::vec4> image = frame();
     EXPECT_GE(interposer.copied, 1000u * 64);
     EXPECT_LE(interposer.copied, 1000u * 64 + 1024); // and statistics
@@ -142,51 +195,183 @@ TEST_F(LightUpdates, ShowTheSetGivenAnewAndUploadTheirOwnBytes)
 
 TEST_F(LightUpdates, OfMixedTypesAddUpUntilTheyAreRecorded)
 {
-    std::vector<CndLight> lights = randomSpheres(g_, 300, 6);
-    for (size_t i = 0; i < lights.size(); i += 3)
-        lights[i].type = CND_LIGHT_POINT;
-    const auto someOther = [&](uint32_t first, uint32_t count, uint32_t seed) {
-        std::vector<CndLight> with = randomSpheres(g_, count, seed);
-        for (uint32_t i = 0; i < count; ++i)
-            with[i].type = lights[first + i].type;
-        return with;
-    };
+    std::vector<CndLight> lights = someLights(g_, 300, 6);
     set(lights);
-    update(lights, 10, someOther(10, 40, 7)); // before the set was recorded
+    updateSet(lights, 10, someLights(g_, 40, 7)); // before the set was recorded; of other types
     EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), tolerance);
-    update(lights, 0, someOther(0, 100, 8));
-    update(lights, 50, someOther(50, 250, 9)); // over some of those before
-    update(lights, 299, someOther(299, 1, 10));
+    updateSet(lights, 0, someLights(g_, 100, 8));
+    updateSet(lights, 50, someLights(g_, 250, 9)); // over some of those before
+    updateSet(lights, 299, someLights(g_, 1, 10));
     EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), tolerance);
-    update(lights, 0, someOther(0, 300, 11)); // all
-    update(lights, 3, someOther(3, 5, 12));
+    updateSet(lights, 0, someLights(g_, 300, 11)); // all
+    updateSet(lights, 3, randomSpheres(g_, 5, 12));
     EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), tolerance);
 }
 
-TEST_F(LightUpdates, ThatAreWrongReplaceNothing)
+// Everything that may happen between two recordings, from no light to more than buffers hold.
+TEST_F(LightUpdates, OfAPopulationThatComesAndGoes)
+{
+    std::mt19937 random(20);
+    Population now;
+    const auto pickSome = [&](size_t most) {
+        std::vector<size_t> some;
+        for (size_t i = 0; i < now.ids.size() && some.size() < most; ++i)
+            if (random() % 3 == 0)
+                some.push_back(i);
+        return some;
+    };
+    for (uint32_t step = 0; step < 40; ++step) {
+        const std::vector<size_t> some = pickSome(random() % 200);
+        std::vector<CndLightId> ids;
+        for (const size_t i : some)
+            ids.push_back(now.ids[i]);
+        switch (random() % 3) {
+        case 0: {
+            const std::vector<CndLight> more = someLights(g_, uint32_t(random() % 150), step);
+            now.add(more, add(more));
+            break;
+        }
+        case 1: {
+            const std::vector<CndLight> with = someLights(g_, uint32_t(ids.size()), 100 + step);
+            update(ids, with);
+            for (size_t i = 0; i < some.size(); ++i)
+                now.lights[some[i]] = with[i];
+            break;
+        }
+        default:
+            std::shuffle(ids.begin(), ids.end(), random);
+            remove(ids);
+            for (size_t i = some.size(); i-- > 0;) {
+                now.lights.erase(now.lights.begin() + std::ptrdiff_t(some[i]));
+                now.ids.erase(now.ids.begin() + std::ptrdiff_t(some[i]));
+            }
+        }
+        if (step == 25) { // larger buffers, with edits that were never recorded
+            const std::vector<CndLight> more = someLights(g_, 1200, step);
+            now.add(more, add(more));
+        }
+        if (random() % 8 == 0 || step == 39) {
+            EXPECT_LE(maxRelativeDifference(frame(), expected(now.lights)), tolerance) << step;
+        }
+    }
+    EXPECT_GT(now.ids.size(), 100u);
+    remove(now.ids);
+    for (const glm::vec4& pixel : frame())
+        EXPECT_EQ(glm::vec3(pixel), glm::vec3(0));
+}
+
+TEST_F(LightUpdates, GiveTheSameBitsForTheSameCalls)
+{
+    const std::vector<CndLight> lights = someLights(g_, 500, 21);
+    add(lights); // to no set
+    const std::vector<glm::vec4> added = frame();
+    set(lights);
+    EXPECT_TRUE(sameBits(frame(), added));
+    std::vector<glm::vec4> images[2];
+    for (std::vector<glm::vec4>& image : images) {
+        set(lights);
+        const std::vector<CndLightId> ids = add(someLights(g_, 300, 22));
+        remove({3, ids[7], 499, 77, ids[299]});
+        frame();
+        update({ids[8], 5}, someLights(g_, 2, 23));
+        remove({ids[100], 0});
+        add(someLights(g_, 50, 24));
+        image = frame();
+    }
+    EXPECT_TRUE(sameBits(images[0], images[1]));
+}
+
+// Acceptance: 1,000 of a million lights.
+TEST_F(LightUpdates, OfAMillionCostTheirOwnBytes)
+{
+    constexpr uint32_t all = 1000000, some = 1000;
+    const auto small = [&](uint32_t count, uint32_t seed) {
+        std::vector<CndLight> out = randomSpheres(g_, count, seed);
+        for (CndLight& light : out) {
+            light.radius *= 0.01f;
+            light.influenceRadius = 0.05f;
+        }
+        return out;
+    };
+    std::vector<CndLight> lights = small(all, 25);
+    double start = cpuSeconds();
+    set(lights);
+    const double whole = cpuSeconds() - start;
+    frame();
+    EXPECT_GE(interposer.copied, VkDeviceSize(all) * 64);
+
+    std::vector<CndLightId> ids(some); // spread over the set
+    for (uint32_t i = 0; i < some; ++i)
+        ids[i] = i * (all / some);
+    const auto edit = [&](const char* name, auto&& call) {
+        start = cpuSeconds();
+        call();
+        const double seconds = cpuSeconds() - start;
+        std::cout << name << " 1,000 of 1,000,000: " << 1e3 * seconds << " ms of CPU time, the set "
+                  << 1e3 * whole << " ms\n";
+        const std::vector<glm::vec4> image = frame();
+        EXPECT_LE(interposer.copied, some * 64u + 1024); // and statistics
+        EXPECT_LE(interposer.moved, some * 64u);
+        return image;
+    };
+    const std::vector<CndLight> fresh = small(some, 26), more = small(some, 27);
+    edit("update", [&] { update(ids, fresh); });
+    edit("remove", [&] { remove(ids); });
+    EXPECT_GE(interposer.moved, (some - 1) * 64u); // the last of them may be the last of all
+    EXPECT_LE(interposer.copied, 1024u);
+    std::vector<CndLightId> added;
+    const std::vector<glm::vec4> image = edit("add", [&] { added = add(more); });
+    for (uint32_t i = 0; i < some; ++i)
+        lights[ids[i]] = more[i];
+    EXPECT_LE(maxRelativeDifference(image, expected(lights)), tolerance);
+}
+
+TEST_F(LightUpdates, ThatAreWrongChangeNothing)
 {
     std::vector<CndLight> lights = randomSpheres(g_, 50, 13);
     set(lights);
+    const std::vector<CndLightId> added = add(someLights(g_, 3, 15));
+    EXPECT_GE(added[0], CndLightId(1) << 32);
+    remove({added[1], 7});
     const std::vector<glm::vec4> before = frame();
-    const auto refused = [&](const char* named, uint32_t first, std::vector<CndLight> with) {
+    std::vector<CndLight> with = randomSpheres(g_, 10, 14);
+    const auto refused = [&](const char* named, std::vector<CndLightId> ids) {
         CndError error{};
-        EXPECT_EQ(cndUpdateLights(lighting_, first, uint32_t(with.size()), with.data(), &error),
+        EXPECT_EQ(cndUpdateLights(lighting_, uint32_t(ids.size()), ids.data(), with.data(), &error),
+                  CND_ERROR_INVALID_ARGUMENT);
+        EXPECT_NE(std::string(error.message).find(named), std::string::npos) << error.message;
+        error = {};
+        EXPECT_EQ(cndRemoveLights(lighting_, uint32_t(ids.size()), ids.data(), &error),
                   CND_ERROR_INVALID_ARGUMENT);
         EXPECT_NE(std::string(error.message).find(named), std::string::npos) << error.message;
     };
-    std::vector<CndLight> with = randomSpheres(g_, 10, 14);
-    refused("41 to 51", 41, with);
-    refused("4294967295", UINT32_MAX, with);
-    with[3].type = CND_LIGHT_POINT;
-    refused("lights[3]: type is 0, of the light it replaces 1", 0, with);
-    with[3].type = CND_LIGHT_SPHERE;
+    refused("no light of the set has the id 53 (generation 0)", {0, 53});
+    refused("no light of the set has the id 4294967295 (generation 4294967295)", {UINT64_MAX});
+    refused("no light of the set has the id 7 (generation 0)", {7});
+    refused("no light of the set has the id 51", {added[1]});
+    refused("no light of the set has the id 50 (generation 0)", {50}); // of an older set, perhaps
+    refused("the id 3 (generation 0) is given twice", {3, added[0], 3});
     with[9].radius = -1;
-    refused("lights[9]: radius", 0, with);
     CndError error{};
-    EXPECT_EQ(cndUpdateLights(lighting_, 0, 1, nullptr, &error), CND_ERROR_INVALID_ARGUMENT);
-    EXPECT_EQ(cndUpdateLights(lighting_, 50, 0, nullptr, &error), CND_SUCCESS);
+    std::vector<CndLightId> ids(10);
+    std::iota(ids.begin(), ids.end(), CndLightId(20));
+    EXPECT_EQ(cndUpdateLights(lighting_, 10, ids.data(), with.data(), &error),
+              CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(error.message).find("lights[9]: radius"), std::string::npos);
+    EXPECT_EQ(cndAddLights(lighting_, 10, with.data(), ids.data(), &error),
+              CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(ids[0], 20u); // not written
+    EXPECT_EQ(cndUpdateLights(lighting_, 1, ids.data(), nullptr, &error),
+              CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(cndAddLights(lighting_, 1, with.data(), nullptr, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(cndRemoveLights(lighting_, 1, nullptr, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(cndUpdateLights(lighting_, 0, nullptr, nullptr, &error), CND_SUCCESS);
+    EXPECT_EQ(cndRemoveLights(lighting_, 0, nullptr, &error), CND_SUCCESS);
+    EXPECT_EQ(cndAddLights(lighting_, 0, nullptr, nullptr, &error), CND_SUCCESS);
     EXPECT_EQ(maxRelativeDifference(frame(), before), 0);
     EXPECT_LE(interposer.copied, 1024u);
+    set(lights);
+    refused("no light of the set has the id 50", {added[0]}); // of the set before
 }
 
 } // namespace

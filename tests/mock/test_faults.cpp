@@ -25,6 +25,7 @@ struct Host {
     CndExposure exposure = nullptr;
     CndEnvironment environment = nullptr;
     uint32_t lightCount = 0; // of the set that succeeded last
+    CndLightId added[2] = {};
 
     ~Host() { destroy(); }
     void destroy()
@@ -163,10 +164,33 @@ const std::vector<Step>& steps()
                                   .radius = 0.2f,
                                   .influenceRadius = 6,
                                   .axisU = {0.5f, 0, 0}};
-             return cndUpdateLights(h.lighting, secondCount / 2, 1, &light, error);
+             const CndLightId id = secondCount / 2;
+             return cndUpdateLights(h.lighting, 1, &id, &light, error);
          }},
         {"record the updated lights", true, recordTubes},
         {"record exposure", true,
+        {"add lights of another type", false, // to full buffers
+         [](Host& h, CndError* error) {
+             const CndLight light{.type = CND_LIGHT_DISC,
+                                  .radius = 0.1f,
+                                  .direction = {0, 0, 1},
+                                  .influenceRadius = 5};
+             const CndLight lights[] = {light, light};
+             const CndResult result = cndAddLights(h.lighting, 2, lights, h.added, error);
+             if (result == CND_SUCCESS)
+                 h.lightCount += 2;
+             return result;
+         }},
+        {"record the added lights", true, recordTubes},
+        {"remove lights", false,
+         [](Host& h, CndError* error) {
+             const CndLightId ids[] = {0, h.added[0], secondCount / 2};
+             const CndResult result = cndRemoveLights(h.lighting, 3, ids, error);
+             if (result == CND_SUCCESS)
+                 h.lightCount -= 3;
+             return result;
+         }},
+        {"record what is left", true, recordTubes},
          [](Host& h, CndError* error) {
              CndExposureFrame frame{.structSize = sizeof frame,
                                     .width = 64,
@@ -304,8 +328,8 @@ TEST(Faults, EveryVulkanCallFailsInTurn)
         }
     for (const char* name :
          {"create lighting", "create view", "create exposure", "create environment", "set lights",
-          "set more lights of another type", "lighting statistics", "exposure statistics",
-          "environment statistics"})
+          "set more lights of another type", "add lights of another type", "lighting statistics",
+          "exposure statistics", "environment statistics"})
         EXPECT_GT(failures[name], 0) << name;
     for (const char* name :
          {"CreateBuffer", "AllocateMemory", "BindBufferMemory", "MapMemory", "CreateBufferView",

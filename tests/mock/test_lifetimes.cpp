@@ -3,6 +3,7 @@
 // driver, which knows what a submission uses until it is finished: nothing may be destroyed or
 // written before, and nothing may pile up.
 #include <algorithm>
+#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -47,6 +48,8 @@ public:
         }
         const auto set = lighting_.setLights(lights_, {0, 0, 0});
         ASSERT_TRUE(set) << set.error().message;
+        ids_.resize(count);
+        std::iota(ids_.begin(), ids_.end(), CndLightId(0));
     }
 
     void updateLights()
@@ -56,17 +59,39 @@ public:
         const std::span some = std::span(lights_).subspan(first, count);
         for (CndLight& light : some)
             light.emission[1] = float(pick(1000));
-        const auto updated = lighting_.updateLights(first, some);
+        const auto updated = lighting_.updateLights(std::span(ids_).subspan(first, count), some);
         ASSERT_TRUE(updated) << updated.error().message;
+    }
+
+    // Some lights of the middle go, copies of some come, more of them on average.
+    void exchangeLights()
+    {
+        const uint32_t size = uint32_t(lights_.size());
+        const uint32_t first = pick(size), count = pick(size - first);
+        const auto removed = lighting_.removeLights(std::span(ids_).subspan(first, count));
+        ASSERT_TRUE(removed) << removed.error().message;
+        lights_.erase(lights_.begin() + first, lights_.begin() + first + count);
+        ids_.erase(ids_.begin() + first, ids_.begin() + first + count);
+        if (lights_.empty())
+            return;
+        const uint32_t more = pick(largestCount / 4) + count / 2;
+        for (uint32_t i = 0; i < more; ++i)
+            lights_.push_back(lights_[i]);
+        ids_.resize(lights_.size());
+        const auto added =
+            lighting_.addLights(std::span(lights_).last(more), std::span(ids_).last(more));
+        ASSERT_TRUE(added) << added.error().message;
     }
 
     void randomFrame(FlightingView& v)
     {
-        const uint32_t what = pick(4); // while frames are in flight
+        const uint32_t what = pick(6); // while frames are in flight
         if (what == 0)
             setLights(pick(largestCount));
         else if (what == 1 && !lights_.empty())
             updateLights();
+        else if (what == 2 && !lights_.empty())
+            exchangeLights();
         frame(v, 1 + pick(largestSide), 1 + pick(largestSide));
     }
 
@@ -128,6 +153,7 @@ private:
     std::mt19937 random_{5};
     Lighting lighting_;
     std::vector<CndLight> lights_;
+    std::vector<CndLightId> ids_;
 };
 
 } // namespace

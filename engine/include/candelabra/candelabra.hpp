@@ -207,10 +207,29 @@ public:
         set.structSize = sizeof set;
         return detail::call(cndSetLights, handle_, &set);
     }
-    // From element `first` of the set, of the same types.
-    Result<void> updateLights(uint32_t first, std::span<const CndLight> lights) noexcept
+    // `ids` takes as many as there are lights.
+    Result<void> addLights(std::span<const CndLight> lights, std::span<CndLightId> ids) noexcept
     {
-        return detail::call(cndUpdateLights, handle_, first, uint32_t(lights.size()),
+        if (ids.size() != lights.size())
+            return CndError{CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS,
+                            "Lighting::addLights: ids must have as many elements as lights"};
+        return detail::call(cndAddLights, handle_, uint32_t(lights.size()), lights.data(),
+                            ids.data());
+    }
+    Result<CndLightId> addLight(const CndLight& light) noexcept
+    {
+        CndLightId id = 0;
+        if (const Result<void> added = addLights({&light, 1}, {&id, 1}); !added)
+            return added.error();
+        return id;
+    }
+    Result<void> updateLights(std::span<const CndLightId> ids,
+                              std::span<const CndLight> lights) noexcept
+    {
+        if (ids.size() != lights.size())
+            return CndError{CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS,
+                            "Lighting::updateLights: ids must have as many elements as lights"};
+        return detail::call(cndUpdateLights, handle_, uint32_t(ids.size()), ids.data(),
                             lights.data());
     }
     Result<LightingView> createView(const CndLightingViewDesc& desc) const noexcept

@@ -166,26 +166,37 @@ CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLighti
 // The GPU must have finished all work recorded with the object or its views; views go first.
 CND_API void cndDestroyLighting(CndLighting lighting);
 
-// Validates and packs the lights; takes effect at the next recording. On error the previous set
-// stays. May allocate when the count grows, and makes pipelines when a light type is new.
+// Validates and packs the lights; takes effect at the next recording. Their ids are their indices;
+// those of the set before are gone. On error the previous set stays. May allocate when the count
+// grows, and makes pipelines when a light type is new.
 CND_API CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error);
 
-// Replaces `count` lights of the set, from its element `first`, by lights of the same types, for
-// sets of which few lights change: only these are validated, packed and uploaded (64 bytes each).
-// Takes effect at the next recording. Where lights are is still what cndSetLights was told, so sets
-// that wander far are better given anew. Lights on the device are not read again. On error nothing
-// is replaced.
-CND_API CndResult cndUpdateLights(CndLighting lighting, uint32_t first, uint32_t count,
+// Edits of the set, for sets of which few lights change: only these are validated, packed and
+// uploaded, 64 bytes each. They take effect at the next recording, which sorts the set on the
+// device again. Lights on the device are not read again. On error nothing has changed. May allocate
+// when the set grows, and make pipelines when a light type is new. The same calls give the same
+// image, bit for bit, and it is that of the same lights given at once but for rounding: lights of
+// one place and size add up in an order that follows the edits.
+
+// Adds `count` lights, to none when no set was given, around the origin of the set, and writes
+// their ids.
+CND_API CndResult cndAddLights(CndLighting lighting, uint32_t count, const CndLight* lights,
+                               CndLightId* ids, CndError* error);
+// Replaces the lights with these ids, no id twice, each by any light.
+CND_API CndResult cndUpdateLights(CndLighting lighting, uint32_t count, const CndLightId* ids,
                                   const CndLight* lights, CndError* error);
 
 CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
                                         CndLightingView* view, CndError* error);
+// Removes the lights with these ids, no id twice.
+CND_API CndResult cndRemoveLights(CndLighting lighting, uint32_t count, const CndLightId* ids,
+                                  CndError* error);
 // The GPU must have finished all work recorded with the view.
 CND_API void cndDestroyLightingView(CndLightingView view);
 
 // Records culling and shading. Changes compute pipeline, compute descriptor set 0 and push
-// constants; must be outside a render pass. Lights travel in the first recording after
-// cndSetLights, so recordings of all views of one CndLighting are submitted once each, in their
+// constants; must be outside a render pass. Lights travel in the first recording after they
+// change, so recordings of all views of one CndLighting are submitted once each, in their
 // order, to one queue.
 CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
                                     const CndLightingFrame* frame, CndError* error);

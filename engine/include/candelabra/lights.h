@@ -51,6 +51,11 @@ typedef struct CndLight {
     VkBool32 twoSided; // rectangle, disc: emits from its back as well
 } CndLight;
 
+// Names a light for as long as it is in the set. Lights of cndSetLights have their index in it,
+// those of cndAddLights what that says: at least 2^32, and never the id of a light before. The id
+// of a light that is gone is refused.
+typedef uint64_t CndLightId;
+
 // A light in a buffer of the device, written by a particle simulation for instance. 32 bytes, two
 // vec4 in GLSL. Ranges are those of CndLight.
 typedef struct CndDeviceLight {

@@ -141,8 +141,7 @@ void Baselines::createLights(const Scene& scene)
                                  storageUse, MemoryUse::Upload);
     order_ = gpu::createBuffer(device, "baseline order", n * sizeof(gpu::LightKey), storageUse,
                                MemoryUse::Upload);
-    lighting::packLights(lights, lighting::recordsOf(lights, lighting::countTypes(lights)),
-                         records_.as<gpu::LightRecord>());
+    lighting::packLights(lights, records_.as<gpu::LightRecord>());
     for (uint32_t i = 0; i < lightCount_; ++i)
         order_.as<gpu::LightKey>()[i] = {.key = 0, .light = i};
     core_ = texels(device, "baseline core", std::max<VkDeviceSize>(n, gpu::FLOOR_LIGHTS) * 2,

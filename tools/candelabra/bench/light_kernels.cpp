@@ -86,8 +86,7 @@ DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> l
 {
     lighting::validateLights(lights);
     std::vector<gpu::LightRecord> records(lights.size());
-    lighting::packLights(lights, lighting::recordsOf(lights, lighting::countTypes(lights)),
-                         records);
+    lighting::packLights(lights, records);
     std::vector<glm::vec4> core, aux;
     for (const gpu::LightRecord& r : records) { // prepare_lights.comp with an identity view
         core.emplace_back(r.position, r.reach);
