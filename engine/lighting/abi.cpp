@@ -135,6 +135,24 @@ CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer cmd,
     });
 }
 
+CndResult cndGetForwardSetLayout(CndLighting lighting, VkDescriptorSetLayout* layout,
+                                 CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndGetForwardSetLayout", {lighting, layout});
+        *layout = lighting->impl.forwardLayout();
+    });
+}
+
+CndResult cndGetForwardSet(CndLightingView view, uint32_t frameSlot, VkDescriptorSet* set,
+                           CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndGetForwardSet", {view, set});
+        *set = view->impl.forwardSet(frameSlot);
+    });
+}
+
 CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot, CndLightingStats* stats)
 {
     return view && stats ? view->impl.stats(frameSlot, *stats) : CND_ERROR_INVALID_ARGUMENT;

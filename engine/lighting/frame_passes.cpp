@@ -41,7 +41,8 @@ FrameContent View::contentOf(const CndLightingFrame& frame, const LightTypeCount
                      .listsKept = listsKept,
                      .readsAlbedoTable = frame.lobes != CND_LOBES_SUM || frame.energyCompensation,
                      .albedoTableFilled = lighting_.albedoTableFilled(),
-                     .countPairs = frame.countPairs == VK_TRUE};
+                     .countPairs = frame.countPairs == VK_TRUE,
+                     .forward = forward_.wanted()};
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (inView[type])
             (isDistant(type) ? out.distantInView : out.placedInView) = true;
@@ -69,11 +70,13 @@ FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
         skip(Pass::DfgTable, "filled by an earlier frame");
     if (c.brute)
         for (const Pass pass :
-             {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters, Pass::LightTree,
-              Pass::ClusterLists, Pass::ShadeTiles, Pass::ShadeUnlisted, Pass::CountPairs})
+             {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters, Pass::ClusterLists,
+              Pass::ShadeTiles, Pass::ShadeUnlisted, Pass::CountPairs})
             skip(pass, "brute force");
     else
         skip(Pass::ShadeBrute, "lights are culled");
+    if (c.brute && !c.forward)
+        skip(Pass::LightTree, "brute force");
     if (c.listsKept)
         skip(Pass::PrepareLights, "surfaces and lights unchanged");
     if (!c.placedInView)

@@ -40,6 +40,7 @@ struct FrameContent {
     bool listsKept = false; // those of the frame before are this frame's
     bool readsAlbedoTable = false, albedoTableFilled = false;
     bool countPairs = false;
+    bool forward = false; // shaders of the host's walk the light tree
 };
 
 class FramePasses

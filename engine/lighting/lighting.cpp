@@ -71,6 +71,7 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       kernels_(device_, desc_, gbuffer_.code()),
       dfg_(device_),
       ltc_(createLtcBuffer(device_)),
+      forwardLayout_(createForwardLayout(device_, desc_.forwardStages)),
       deviceLights_(device_)
 {
     grow(0, {}, false);
@@ -86,6 +87,21 @@ uint32_t Lighting::lightsPerBatch(uint32_t loopIterations) const
     const uint64_t per32 = 32 * (5 + uint64_t(loopIterations)) + 8;
     const uint64_t lights = uint64_t(device_.maxLoopIterations - fixedIterations) * 32 / per32;
     return uint32_t(std::max<uint64_t>(lights, gpu::TREE_WIDTH));
+}
+
+VkDescriptorSetLayout Lighting::forwardLayout() const
+{
+    if (!forwardLayout_)
+        gpu::failArgument("cndGetForwardSetLayout: CndLightingDesc::forwardStages was 0");
+    return forwardLayout_.get();
+}
+
+void Lighting::requireRoom(const char* what, uint64_t count) const
+{
+    if (count > maxLights(device_.limits))
+        gpu::failUnsupported(std::string(what) + ": " + std::to_string(count) +
+                             " lights are more than the device can take, " +
+                             std::to_string(maxLights(device_.limits)));
 }
 
 void Lighting::setLights(const CndLightSet& set)
@@ -131,6 +147,8 @@ void Lighting::setLights(const CndLightSet& set)
     packLights(lights, hostRecords(staging));
     lights_.set(lights);
     pending_ = &staging;
+    carriedFrom_ = VK_NULL_HANDLE;
+    onDevice_ = 0;
     typeCounts_ = counts;
     lightCount_ = uint32_t(total);
     deviceLightsPending_ = device;
@@ -148,8 +166,6 @@ LightTypeCounts Lighting::countsInView(const CndCamera& camera) const
         if (out[type] && !reachesView(reach_[type], origin_, camera))
             out[type] = 0;
     return out;
-    carriedFrom_ = VK_NULL_HANDLE;
-    onDevice_ = 0;
 }
 
 void Lighting::recordDeviceCounts(const gpu::Frame& frame,

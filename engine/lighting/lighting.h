@@ -10,11 +10,12 @@
 #include "gpu/kernel.h"
 #include "lighting/clusters.h"
 #include "lighting/device_lights.h"
+#include "lighting/forward.h"
 #include "lighting/frame_passes.h"
 #include "lighting/host_gbuffer.h"
 #include "lighting/light_order.h"
-#include "lighting/pack_lights.h"
 #include "lighting/light_table.h"
+#include "lighting/pack_lights.h"
 #include "lighting/reach.h"
 #include "lighting/shade_kernels.h"
 #include "shared/lighting.h"
@@ -88,6 +89,7 @@ public:
     const gpu::Buffer& lightOrder() const { return store_.sort.keys[0]; }
     const gpu::Buffer& directionalAlbedo() const { return dfg_.buffer(); }
     const gpu::Buffer& transformedCosines() const { return ltc_; }
+    VkDescriptorSetLayout forwardLayout() const; // throws gpu::Failure when there is none
     uint32_t lightCount() const { return lightCount_; }
     // Number of the light set, from 1: another one has other lights.
     uint64_t lightSet() const { return lightSet_; }
@@ -126,8 +128,6 @@ private:
     // `keepRecords`: they move into larger buffers with the next recording, else all come anew.
     void grow(uint32_t count, const LightTypeCounts& counts, bool keepRecords);
     gpu::Buffer createStaging(uint32_t capacity) const;
-    void freeRetired();
-    // Over all views; recordings_ + 1 when there is none.
     Staging& freeStaging();
     void requireRoom(const char* what, uint64_t count) const;
     LightTable::Records prepareEdit(const LightTypeCounts& counts, size_t edits, size_t added);
@@ -135,6 +135,8 @@ private:
                     size_t edits) noexcept;
     LightTable::Records hostRecords(const Staging& staging) const;
     LightExtent currentExtent() const noexcept;
+    void freeRetired();
+    // Over all views; recordings_ + 1 when there is none.
     uint64_t oldest(uint64_t (View::*ofView)() const) const;
 
     gpu::Device device_;
@@ -144,6 +146,7 @@ private:
     tables::DfgTable dfg_;
     gpu::Buffer ltc_;
     bool ltcFilled_ = false;
+    gpu::Handle<VkDescriptorSetLayout> forwardLayout_;
     std::vector<View*> views_;
     std::vector<Retired> retired_;
     DeviceLights deviceLights_;
@@ -178,6 +181,7 @@ public:
     void recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
                        const CndSurfaceOverlay& overlay);
     CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
+    VkDescriptorSet forwardSet(uint32_t slot) const; // throws gpu::Failure when there is none
     // Called by Lighting before a set of lights: buffers grow, old ones are retired.
     void makeRoom(const LightTypeCounts& types);
     // Number of the oldest recording whose commands have not all run, 0 when all have: what they
@@ -203,6 +207,7 @@ private:
                      const Plan& plan) const noexcept;
     void recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& plan,
                          uint32_t type) const noexcept;
+    gpu::ForwardView forwardView(const CndLightingFrame& frame, const Plan& plan) const noexcept;
     gpu::ShadeParams shadeParams(const CndLightingFrame& frame, const Plan& plan,
                                  uint32_t type) const noexcept;
     template <typename Record>
@@ -241,6 +246,7 @@ private:
     Clusters clusters_;
     GBufferParams gbufferParams_;
     gpu::Buffer core_, aux_; // per light
+    ForwardLights forward_;
     gpu::Buffer counters_;
     std::vector<gpu::Buffer> readback_; // per slot
     std::vector<SlotState> slots_;

@@ -43,6 +43,11 @@ uint64_t join(glm::uvec2 lowHigh)
     return uint64_t(lowHigh.y) << 32 | lowHigh.x;
 }
 
+uint32_t lobesOf(const CndLightingFrame& frame)
+{
+    return uint32_t(frame.lobes) | (frame.energyCompensation ? gpu::COMPENSATE_ENERGY : 0);
+}
+
 // Of loops inside the evaluation of one light, at most: outlines of tubes have 16 edges and are
 // walked for the diffuse lobe and two specular ones, discs have a series of 9 terms.
 uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t sampleCount)
@@ -119,6 +124,8 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
         // Reused memory may hold the marker of an earlier view's recording.
         readback_.back().as<Readback>()[0].marker = 0;
     }
+    if (lighting.desc().forwardStages)
+        forward_ = ForwardLights(device, lighting.desc().forwardStages, slots);
     makeRoom(lighting.typeCounts());
     lighting.add(this);
 }
@@ -180,6 +187,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     f.device.beginLabel(cmd, "candelabra lighting");
     timer_.begin(cmd, slot);
 
+    forward_.recordBegin(f, forwardView(frame, plan));
     f.barrier(); // against the frame before, which uses the same buffers
     lighting_.recordUpload(f, slots_[slot].recording);
     // Those of lists stay with them.
@@ -207,6 +215,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
                     recordBrute(f, frame, plan, type);
             }
     }
+    forward_.recordEnd(f);
     f.barrier();
     recordReadback(f);
     f.device.endLabel(cmd);
@@ -257,6 +266,15 @@ void View::recordLists(const gpu::Frame& f, const CndLightingFrame& frame,
     f.barrier();
 }
 
+gpu::ForwardView View::forwardView(const CndLightingFrame& frame, const Plan& p) const noexcept
+{
+    gpu::ForwardView view{.projection = p.projection, .lobes = lobesOf(frame), .trees = {}};
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (p.lights[type])
+            view.trees[type] = p.trees[type];
+    return view;
+}
+
 gpu::ShadeParams View::shadeParams(const CndLightingFrame& frame, const Plan& p,
                                    uint32_t type) const noexcept
 {
@@ -271,8 +289,7 @@ gpu::ShadeParams View::shadeParams(const CndLightingFrame& frame, const Plan& p,
             .sampleCount = p.sampleCount,
             .sampleSeed = frame.sampleSeed,
             .errorBudget = frame.errorBudget,
-            .lobes =
-                uint32_t(frame.lobes) | (frame.energyCompensation ? gpu::COMPENSATE_ENERGY : 0),
+            .lobes = lobesOf(frame),
             .tree = p.trees[type]};
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each kernel of a frame reads and writes.
+#include <string>
+
 #include "lighting/lighting.h"
 
 namespace candelabra::lighting
@@ -21,6 +23,14 @@ void View::writeBindings(const CndLightingFrame& frame) const
                                      Binding::of(PREPARE_LIGHTS_CORE, core_),
                                      Binding::of(PREPARE_LIGHTS_AUX, aux_),
                                      Binding::of(PREPARE_LIGHTS_ORDER, lighting_.lightOrder())});
+    const LightTypeCounts& types = lighting_.typeCounts();
+    clusters_.writeBindings(slot, types, {.gbuffer = images, .core = core_, .counters = counters_});
+    if (forward_.wanted())
+        forward_.write(slot, {.core = core_,
+                              .aux = aux_,
+                              .nodes = clusters_.nodes(),
+                              .directionalAlbedo = lighting_.directionalAlbedo(),
+                              .transformedCosines = lighting_.transformedCosines()});
     if (frame.culling == CND_CULLING_BRUTE) {
         sets_.shadeBrute.write(
             slot, {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
@@ -30,8 +40,6 @@ void View::writeBindings(const CndLightingFrame& frame) const
                    Binding::ofTexels(SHADE_LTC, lighting_.transformedCosines())});
         return;
     }
-    const LightTypeCounts& types = lighting_.typeCounts();
-    clusters_.writeBindings(slot, types, {.gbuffer = images, .core = core_, .counters = counters_});
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
         if (!types[type])
             continue;
@@ -64,6 +72,16 @@ void View::writeBindings(const CndLightingFrame& frame) const
              // Without one it is not written.
              Binding::storage(SHADE_PAIRS, frame.pairImage ? frame.pairImage : frame.radiance)});
     }
+}
+
+VkDescriptorSet View::forwardSet(uint32_t slot) const
+{
+    if (!forward_.wanted())
+        gpu::failArgument("cndGetForwardSet: CndLightingDesc::forwardStages was 0");
+    if (slot >= slots_.size())
+        gpu::failArgument("cndGetForwardSet: frameSlot is " + std::to_string(slot) +
+                          ", framesInFlight is " + std::to_string(slots_.size()));
+    return forward_.set(slot);
 }
 
 } // namespace candelabra::lighting

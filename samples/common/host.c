@@ -69,6 +69,7 @@ void createHostDevice(Host* host, uint32_t instanceExtensionCount,
     VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                                           .pNext = &core12};
     cndRequireFeatures(&features.features, &core12, &core13);
+    core13.dynamicRendering = VK_TRUE; // for render passes of the samples' own
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                            .queueFamilyIndex = host->queueFamily,
@@ -173,8 +174,10 @@ Host createHost(uint32_t width, uint32_t height)
     host.normalRoughness = createImage(&host, VK_FORMAT_R32G32_UINT, sampled);
     host.albedo = createImage(&host, VK_FORMAT_R16G16B16A16_SFLOAT, sampled);
     host.specular = createImage(&host, VK_FORMAT_R16G16B16A16_SFLOAT, sampled);
-    host.depth = createImage(&host, VK_FORMAT_D32_SFLOAT, sampled);
-    host.radiance = createImage(&host, VK_FORMAT_R32G32B32A32_SFLOAT, sampled | storage);
+    host.depth = createImage(&host, VK_FORMAT_D32_SFLOAT,
+                             sampled | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    host.radiance = createImage(&host, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                sampled | storage | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     host.display = createImage(&host, VK_FORMAT_R8G8B8A8_UNORM, storage);
 
     const float cotangent = 2; // of half the vertical field of view: 53 degrees
@@ -273,7 +276,8 @@ void drawWall(Host* host)
     imageBarrier(host->cmd, &host->depth, cleared, sampledInCompute);
 }
 
-void readCentre(Host* host, const HostImage* image, VkImageLayout layout, void* pixel, size_t size)
+static void readRegion(Host* host, const HostImage* image, ImageUse written, VkOffset3D offset,
+                       VkExtent3D extent, void* pixels, size_t size)
 {
     const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                      .size = size,
@@ -286,14 +290,10 @@ void readCentre(Host* host, const HostImage* image, VkImageLayout layout, void* 
         host, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     VK(vkBindBufferMemory(host->device, buffer, memory, 0));
 
-    const ImageUse written = {layout, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                              VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
     const ImageUse copied = {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                              VK_ACCESS_2_TRANSFER_READ_BIT};
-    const VkBufferImageCopy centre = {
-        .imageSubresource = {image->aspect, 0, 0, 1},
-        .imageOffset = {(int32_t)host->width / 2, (int32_t)host->height / 2, 0},
-        .imageExtent = {1, 1, 1}};
+    const VkBufferImageCopy region = {
+        .imageSubresource = {image->aspect, 0, 0, 1}, .imageOffset = offset, .imageExtent = extent};
     const VkMemoryBarrier2 toHost = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                      .srcStageMask = copied.stage,
                                      .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -304,12 +304,28 @@ void readCentre(Host* host, const HostImage* image, VkImageLayout layout, void* 
                                          .pMemoryBarriers = &toHost};
     beginFrame(host);
     imageBarrier(host->cmd, image, written, copied);
-    vkCmdCopyImageToBuffer(host->cmd, image->image, copied.layout, buffer, 1, &centre);
+    vkCmdCopyImageToBuffer(host->cmd, image->image, copied.layout, buffer, 1, &region);
     vkCmdPipelineBarrier2(host->cmd, &dependency);
     endFrame(host);
     void* mapped;
     VK(vkMapMemory(host->device, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
-    memcpy(pixel, mapped, size);
+    memcpy(pixels, mapped, size);
     vkDestroyBuffer(host->device, buffer, NULL);
     vkFreeMemory(host->device, memory, NULL);
+}
+
+void readPixels(Host* host, const HostImage* image, ImageUse written, void* pixels, size_t size)
+{
+    const VkOffset3D first = {0, 0, 0};
+    const VkExtent3D all = {host->width, host->height, 1};
+    readRegion(host, image, written, first, all, pixels, size);
+}
+
+void readCentre(Host* host, const HostImage* image, VkImageLayout layout, void* pixel, size_t size)
+{
+    const ImageUse written = {layout, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                              VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+    const VkOffset3D centre = {(int32_t)host->width / 2, (int32_t)host->height / 2, 0};
+    const VkExtent3D one = {1, 1, 1};
+    readRegion(host, image, written, centre, one, pixel, size);
 }

@@ -71,7 +71,9 @@ typedef struct ImageUse {
 } ImageUse;
 void imageBarrier(VkCommandBuffer cmd, const HostImage* image, ImageUse from, ImageUse to);
 
-// Copies the pixel in the middle, of `size` bytes, after the frame.
+// Copies all pixels, `size` bytes together, rows from the top, after the frame.
+void readPixels(Host* host, const HostImage* image, ImageUse written, void* pixels, size_t size);
+// The pixel in the middle, of `size` bytes.
 void readCentre(Host* host, const HostImage* image, VkImageLayout layout, void* pixel, size_t size);
 
 #ifdef __cplusplus

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looks up the specular lobe's directional albedo. The includer defines DFG_BINDING, where the table
-// is bound as a texel buffer.
+// is bound as a texel buffer, and DFG_SET when that is not set 0.
 #ifndef CND_LIB_DFG
 #define CND_LIB_DFG
 
 #extension GL_EXT_samplerless_texture_functions : require
 #include "lib/dfg_axes.glsl"
 
-layout(binding = DFG_BINDING) uniform textureBuffer dfgTexels;
+#ifndef DFG_SET
+#define DFG_SET 0
+#endif
+layout(set = DFG_SET, binding = DFG_BINDING) uniform textureBuffer dfgTexels;
 
 // Share of a white surrounding's light that the lobe reflects with F = 1 (x) and F = (1 - VoH)^5
 // (y), within DFG_ERROR.

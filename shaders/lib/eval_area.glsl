@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Responses to tubes, rectangles and discs of unit luminance. Part of lib/light_eval.glsl.
 
-#if LIGHT_FAMILY == FAMILY_TUBE || LIGHT_FAMILY == FAMILY_RECTANGLE || LIGHT_FAMILY == FAMILY_DISC
+#if HAS_TUBES || HAS_RECTANGLES || HAS_DISCS
 // Responses do not depend on the scale, and at a distance of about 1 no product of lengths overflows.
 Light atUnitDistance(Light light, out float scale)
 {
@@ -12,8 +12,8 @@ Light atUnitDistance(Light light, out float scale)
 }
 #endif
 
-#if LIGHT_FAMILY == FAMILY_TUBE
-vec3 evaluateTube(Receiver r, Light given)
+#if HAS_TUBES
+vec3 tubeResponse(Receiver r, Light given)
 {
     float scale;
     const Light light = atUnitDistance(given, scale);
@@ -22,11 +22,11 @@ vec3 evaluateTube(Receiver r, Light given)
     const float radius = axisRadius.w;
     const TubeOutline outline = makeTubeOutline(light.toLight, axis, radius);
     vec3 response = r.p.albedo * tubeFormFactor(r.p.n, outline);
-    if (specularMethod == SPECULAR_KARIS)
+    if (areaMethod == SPECULAR_KARIS)
         response += schlick(r.p, representativeTube(r.p, light.toLight, axis, radius));
-    else if (specularMethod == SPECULAR_LTC)
+    else if (areaMethod == SPECULAR_LTC)
         response += schlick(r.p, ltcTube(r.ltc, outline));
-    else if (specularMethod == SPECULAR_SAMPLED)
+    else if (areaMethod == SPECULAR_SAMPLED)
         response += schlick(r.p, sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
                                              lightSeed(r, light.index)));
     return response;
@@ -34,8 +34,8 @@ vec3 evaluateTube(Receiver r, Light given)
 
 #endif
 
-#if LIGHT_FAMILY == FAMILY_RECTANGLE
-vec3 evaluateRectangle(Receiver r, Light given)
+#if HAS_RECTANGLES
+vec3 rectangleResponse(Receiver r, Light given)
 {
     float scale;
     const Light light = atUnitDistance(given, scale);
@@ -44,11 +44,11 @@ vec3 evaluateRectangle(Receiver r, Light given)
     const vec3 v = scale * second.xyz;
     const bool twoSided = second.w != 0.0;
     vec3 response = r.p.albedo * rectangleFormFactor(r.p.n, light.toLight, u, v, twoSided);
-    if (specularMethod == SPECULAR_KARIS)
+    if (areaMethod == SPECULAR_KARIS)
         response += schlick(r.p, representativeRectangle(r.p, light.toLight, u, v, twoSided));
-    else if (specularMethod == SPECULAR_LTC)
+    else if (areaMethod == SPECULAR_LTC)
         response += schlick(r.p, ltcRectangle(r.ltc, light.toLight, u, v, twoSided));
-    else if (specularMethod == SPECULAR_SAMPLED)
+    else if (areaMethod == SPECULAR_SAMPLED)
         response += schlick(r.p, sampledRectangle(r.p, light.toLight, u, v, twoSided, r.sampleCount,
                                                   lightSeed(r, light.index)));
     return response;
@@ -56,19 +56,19 @@ vec3 evaluateRectangle(Receiver r, Light given)
 
 #endif
 
-#if LIGHT_FAMILY == FAMILY_DISC
-vec3 evaluateDisc(Receiver r, Light given)
+#if HAS_DISCS
+vec3 discResponse(Receiver r, Light given)
 {
     float scale;
     const Light light = atUnitDistance(given, scale);
     const vec3 normal = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
     const bool twoSided = lightAux[light.index * LIGHT_AUX_STRIDE + 1u].w != 0.0;
     vec3 response = r.p.albedo * discFormFactor(r.p.n, light.toLight, normal, light.reach, twoSided);
-    if (specularMethod == SPECULAR_KARIS)
+    if (areaMethod == SPECULAR_KARIS)
         response += schlick(r.p, representativeDisc(r.p, light.toLight, normal, light.reach, twoSided));
-    else if (specularMethod == SPECULAR_LTC)
+    else if (areaMethod == SPECULAR_LTC)
         response += schlick(r.p, ltcDisc(r.ltc, light.toLight, normal, light.reach, twoSided));
-    else if (specularMethod == SPECULAR_SAMPLED)
+    else if (areaMethod == SPECULAR_SAMPLED)
         response += schlick(r.p, sampledDisc(r.p, light.toLight, normal, light.reach, twoSided,
                                              r.sampleCount, lightSeed(r, light.index)));
     return response;

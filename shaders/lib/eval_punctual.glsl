@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Responses to lights without size. Part of lib/light_eval.glsl.
 
-#if LIGHT_FAMILY == FAMILY_PUNCTUAL
+#if HAS_PUNCTUAL
 // Response to unit illuminance on a surface that faces the light, from the unit direction l.
-vec3 evaluatePunctual(ShadingPoint p, vec3 l)
+vec3 responseFrom(ShadingPoint p, vec3 l)
 {
     vec3 response = p.albedo * (INV_PI * max(dot(p.n, l), 0.0));
     if (specularMethod != SPECULAR_NONE)
@@ -12,7 +12,7 @@ vec3 evaluatePunctual(ShadingPoint p, vec3 l)
 }
 
 // Response to unit intensity (point: the same everywhere; spot: on its axis).
-vec3 evaluateIntensity(ShadingPoint p, Light light)
+vec3 intensityResponse(ShadingPoint p, Light light)
 {
     const float d2 = max(length2(light.toLight), MIN_LENGTH2);
     const vec3 l = light.toLight * inversesqrt(d2);
@@ -24,6 +24,12 @@ vec3 evaluateIntensity(ShadingPoint p, Light light)
         const float t = saturate(dot(-l, axis) * cone.x + cone.y);
         illuminance *= t * t;
     }
-    return illuminance * evaluatePunctual(p, l);
+    return illuminance * responseFrom(p, l);
+}
+
+vec3 punctualResponse(Receiver r, Light light)
+{
+    return lightType == LIGHT_DIRECTIONAL ? responseFrom(r.p, light.toLight)
+                                          : intensityResponse(r.p, light);
 }
 #endif

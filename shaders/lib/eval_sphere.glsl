@@ -28,7 +28,7 @@ vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 vec3 sphereAbove(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
-#if LIGHT_FAMILY == FAMILY_CONIC
+#if HAS_CONIC
     const vec2 specular = specularMethod == SPECULAR_CONIC ? conicAbove(r.conic, cap)
                                                            : conicFullUnclipped(r.conic, cap);
 #else
@@ -40,7 +40,7 @@ vec3 sphereAbove(Receiver r, Light light)
 vec3 sphereAcross(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
-#if LIGHT_FAMILY == FAMILY_CONIC
+#if HAS_CONIC
     const vec2 response = conicClipped(r.conic, cap);
 #else
     const vec2 response = cheapSphereSpecular(r, light, cap);
@@ -51,7 +51,7 @@ vec3 sphereAcross(Receiver r, Light light)
 }
 #endif
 
-#if LIGHT_FAMILY == FAMILY_CONIC
+#if HAS_CONIC
 vec3 sphereNear(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);

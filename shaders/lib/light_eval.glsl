@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outgoing luminance of one shaded point under one light. All lights of a dispatch are of one type,
-// a specialisation constant. The includer provides lightCentre(), lightEmission(), lightAux[] and
-// ltcTexel().
+// Outgoing luminance of one shaded point under one light. The includer provides lightCentre(),
+// lightEmission(), lightAux[] and ltcTexel().
 #ifndef CND_LIB_LIGHT_EVAL
 #define CND_LIB_LIGHT_EVAL
 
 #include "lib/light_families.glsl"
 #include "lib/light_reach.glsl"
 #include "lib/lights/sphere.glsl"
-#if LIGHT_FAMILY == FAMILY_CONIC
+#if HAS_CONIC
 #include "lib/specular/conic.glsl"
 #endif
 #include "lib/specular/karis.glsl"
@@ -22,11 +21,18 @@
 #include "lib/specular/representative.glsl"
 #endif
 
+// areaMethod: of tubes, rectangles and discs.
+#if LIGHT_FAMILY == FAMILY_ALL
+const uint specularMethod = SPECULAR_CONIC;
+const uint areaMethod = SPECULAR_LTC;
+const bool HAS_BUDGET = false;
+#else
 layout(constant_id = SPEC_SPECULAR_METHOD) const uint specularMethod = SPECULAR_CONIC;
 layout(constant_id = SPEC_ERROR_BUDGET) const uint errorBudget = 0u;
-
+const uint areaMethod = specularMethod;
 const bool HAS_BUDGET = errorBudget != 0u;
-const bool IS_LTC = specularMethod == SPECULAR_LTC;
+#endif
+const bool IS_LTC = areaMethod == SPECULAR_LTC;
 
 // The bound of the error of a point is not proven for errors of the specular lobe beyond this.
 const float MAX_POINT_ERROR = 0.3;
@@ -44,7 +50,7 @@ struct Receiver {
     uint sampleCount; // SPECULAR_SAMPLED
     uint sampleSeed;
     float aboveFrom; // spheres: n . toLight / R from which one is evaluated as above the horizon
-#if LIGHT_FAMILY == FAMILY_CONIC
+#if HAS_CONIC
     ConicPoint conic;
     float smallCap;   // (R / d)^2 up to which a sphere across the horizon is not clipped
     float pointLimit; // (R / d)^2 up to which one above the horizon is evaluated as a point
@@ -89,7 +95,7 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
     if (IS_LTC)
         r.ltc = makeLtcPoint(p);
 #endif
-#if LIGHT_FAMILY == FAMILY_CONIC
+#if HAS_CONIC
     r.conic = makeConicPoint(p);
     const float share = HAS_BUDGET ? specularShare(p, budget) : 0.0;
     const float oneNodeError = mix(ONE_NODE_ERROR.x, ONE_NODE_ERROR.y, lowestF0(p));
@@ -143,50 +149,38 @@ uint lightSeed(Receiver r, uint light)
 #include "lib/eval_area.glsl"
 #include "lib/eval_punctual.glsl"
 
-vec3 generalResponse(Receiver r, Light light)
-{
-#if HAS_SPHERES
-    return sphereAcross(r, light);
-#elif LIGHT_FAMILY == FAMILY_TUBE
-    return evaluateTube(r, light);
-#elif LIGHT_FAMILY == FAMILY_RECTANGLE
-    return evaluateRectangle(r, light);
-#elif LIGHT_FAMILY == FAMILY_DISC
-    return evaluateDisc(r, light);
-#else
-    return lightType == LIGHT_DIRECTIONAL ? evaluatePunctual(r.p, light.toLight)
-                                          : evaluateIntensity(r.p, light);
-#endif
-}
-
 // Outgoing luminance by evaluation. A function each: drivers inline all of it at every call before
 // they drop what specialisation rules out, and one function for all took minutes to compile.
-#if LIGHT_FAMILY == FAMILY_CONIC
-vec3 evaluateAsPoint(Receiver r, uint index)
-{
-    const Light light = readLight(r, index);
-    return light.emission * sphereAsPoint(r, light);
-}
+#define EVALUATION(name, response)                                                                 \
+    vec3 name(Receiver r, uint index)                                                              \
+    {                                                                                              \
+        const Light light = readLight(r, index);                                                   \
+        return light.emission * response(r, light);                                                \
+    }
 
-vec3 evaluateNear(Receiver r, uint index)
-{
-    const Light light = readLight(r, index);
-    return light.emission * sphereNear(r, light);
-}
+#if HAS_CONIC
+EVALUATION(evaluateAsPoint, sphereAsPoint)
+EVALUATION(evaluateNear, sphereNear)
 #endif
-
 #if HAS_SPHERES
-vec3 evaluateAbove(Receiver r, uint index)
-{
-    const Light light = readLight(r, index);
-    return light.emission * sphereAbove(r, light);
-}
+EVALUATION(evaluateAbove, sphereAbove)
 #endif
-
-vec3 evaluateGeneral(Receiver r, uint index)
-{
-    const Light light = readLight(r, index);
-    return light.emission * generalResponse(r, light);
-}
+#if LIGHT_FAMILY == FAMILY_ALL
+EVALUATION(evaluateAcross, sphereAcross)
+EVALUATION(evaluateTube, tubeResponse)
+EVALUATION(evaluateRectangle, rectangleResponse)
+EVALUATION(evaluateDisc, discResponse)
+EVALUATION(evaluatePunctual, punctualResponse)
+#elif HAS_SPHERES
+EVALUATION(evaluateGeneral, sphereAcross)
+#elif HAS_TUBES
+EVALUATION(evaluateGeneral, tubeResponse)
+#elif HAS_RECTANGLES
+EVALUATION(evaluateGeneral, rectangleResponse)
+#elif HAS_DISCS
+EVALUATION(evaluateGeneral, discResponse)
+#else
+EVALUATION(evaluateGeneral, punctualResponse)
+#endif
 
 #endif

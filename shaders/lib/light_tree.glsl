@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks the light tree without a stack: the node after a subtree follows from the number of the node.
-// Read like lights (light_stream.glsl, to be included before); the includer defines TREE_NODES and
-// TREE_NODE_WORDS, the binding ids.
+// Reads the light tree like lights (light_stream.glsl, to be included before); the includer defines
+// TREE_NODES and TREE_NODE_WORDS, the binding ids.
 #ifndef CND_LIB_LIGHT_TREE
 #define CND_LIB_LIGHT_TREE
 
-#include "shared/clusters.h"
+#include "lib/light_tree_walk.glsl"
 #include "lib/bounds.glsl"
 
 layout(binding = TREE_NODES) uniform textureBuffer treeTexels;
@@ -14,58 +13,12 @@ layout(scalar, binding = TREE_NODE_WORDS) readonly buffer TreeWords
     vec4 treeWords[];
 };
 
-struct TreeWalk {
-    uint level; // of the node at hand; 1: leaves
-    uint index; // within its level
-    bool done;
-};
-
-// First node of each level (index 0 is not used), and the number of levels.
-uint treeLevelFirst[TREE_LEVELS + 1u];
-uint treeTop;
-
-uint treeLevelSize(TreeShape tree, uint level)
-{
-    const uint bits = level * TREE_WIDTH_BITS;
-    return (tree.lightCount + (1u << bits) - 1u) >> bits;
-}
-
-// At the first node of the highest level.
-TreeWalk beginTreeWalk(TreeShape tree)
-{
-    uint first = tree.firstNode;
-    treeTop = 0u;
-    for (uint level = 1u; level <= TREE_LEVELS; ++level) {
-        const uint size = treeLevelSize(tree, level);
-        treeLevelFirst[level] = first;
-        first += size;
-        treeTop = treeTop == 0u && size <= TREE_WIDTH ? level : treeTop;
-    }
-    return TreeWalk(treeTop, 0u, tree.lightCount == 0u);
-}
-
 Box treeNode(TreeWalk walk)
 {
-    const uint at = (treeLevelFirst[walk.level] + walk.index) * TREE_NODE_STRIDE;
+    const uint at = treeNodeIndex(walk) * TREE_NODE_STRIDE;
     if (lightsAsTexels != 0u)
         return Box(texelFetch(treeTexels, int(at)).xyz, texelFetch(treeTexels, int(at + 1u)).xyz);
     return Box(treeWords[at].xyz, treeWords[at + 1u].xyz);
-}
-
-void descend(inout TreeWalk walk)
-{
-    --walk.level;
-    walk.index <<= TREE_WIDTH_BITS;
-}
-
-// To the node behind the subtree at hand.
-void skipSubtree(TreeShape tree, inout TreeWalk walk)
-{
-    ++walk.index;
-    walk.done = walk.index >= treeLevelSize(tree, walk.level);
-    const uint up = min(uint(findLSB(walk.index)) / TREE_WIDTH_BITS, treeTop - walk.level);
-    walk.level += up;
-    walk.index >>= up * TREE_WIDTH_BITS;
 }
 
 #endif

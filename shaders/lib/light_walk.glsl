@@ -43,7 +43,7 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 #if HAS_SPHERES
         found.above |= height >= r.aboveFrom * radius ? bit : 0u;
 #endif
-#if LIGHT_FAMILY == FAMILY_CONIC
+#if HAS_CONIC
         // Inside a sphere its cap is that of makeSphereCap; in its very centre all of this is 0.
         const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
         const bool whole = height * abs(height) > radius2;
@@ -68,6 +68,14 @@ Found findLights(Receiver r, uint first, uint count, bool testInfluence)
     Found found;
     found.asPoint = uvec2(low.asPoint, high.asPoint) & reaching;
     found.above = uvec2(low.above, high.above) & reaching & ~found.asPoint;
+#if LIGHT_FAMILY == FAMILY_ALL
+    if (!IS_SPHERE) {
+        found.above = uvec2(0u);
+        found.near = uvec2(0u);
+        found.general = reaching;
+        return found;
+    }
+#endif
     const uvec2 closer = reaching & ~(found.asPoint | found.above);
     found.near = uvec2(low.near, high.near) & closer;
     found.general = closer & ~found.near;
@@ -102,6 +110,8 @@ bool none(uvec2 bits)
         } while (!none(left));                                                                     \
     }
 
+#define IF(condition, bits) ((condition) ? (bits) : uvec2(0u))
+
 // What lights add, by evaluation.
 struct Sums {
     vec3 asPoint, above, near, general;
@@ -121,7 +131,7 @@ vec3 total(Sums sums)
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
     const Found found = findLights(r, first, count, testInfluence);
-#if LIGHT_FAMILY == FAMILY_CONIC
+#if HAS_CONIC
     if (HAS_BUDGET) {
         SHADE_FOUND(sums.asPoint, r, first, found.asPoint, evaluateAsPoint)
     }
@@ -130,7 +140,20 @@ void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testIn
 #if HAS_SPHERES
     SHADE_FOUND(sums.above, r, first, found.above, evaluateAbove)
 #endif
+#if LIGHT_FAMILY == FAMILY_ALL
+    // The block is of one type. A loop each: what a device pays for branches that it does not take, it
+    // pays once for a block.
+    const bool isPunctual =
+        lightType == LIGHT_POINT || lightType == LIGHT_SPOT || lightType == LIGHT_DIRECTIONAL;
+    SHADE_FOUND(sums.general, r, first, IF(IS_SPHERE, found.general), evaluateAcross)
+    SHADE_FOUND(sums.general, r, first, IF(lightType == LIGHT_TUBE, found.general), evaluateTube)
+    SHADE_FOUND(sums.general, r, first, IF(lightType == LIGHT_RECTANGLE, found.general),
+                evaluateRectangle)
+    SHADE_FOUND(sums.general, r, first, IF(lightType == LIGHT_DISC, found.general), evaluateDisc)
+    SHADE_FOUND(sums.general, r, first, IF(isPunctual, found.general), evaluatePunctual)
+#else
     SHADE_FOUND(sums.general, r, first, found.general, evaluateGeneral)
+#endif
 }
 
 #endif

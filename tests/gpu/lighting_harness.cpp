@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/gtc/packing.hpp>
 
@@ -170,6 +171,34 @@ std::vector<CndLight> randomSpheres(const CpuGBuffer& g, uint32_t count, uint32_
             e = float(1000 * uniform(random));
         light.influenceRadius = light.radius * 1.5f + float(3 * uniform(random));
         lights.push_back(light);
+    }
+    return lights;
+}
+
+std::vector<CndLight> lightsOf(CndLightType type, const CpuGBuffer& g, uint32_t count,
+                               uint32_t seed)
+{
+    std::vector<CndLight> lights = randomSpheres(g, count, seed);
+    for (uint32_t i = 0; i < count; ++i) {
+        CndLight& light = lights[i];
+        light.type = type;
+        const double angle = 2.4 * (i + seed); // the golden angle, about
+        const glm::dvec3 d(0.8 * std::cos(angle), 0.8 * std::sin(angle), -0.6);
+        const glm::dvec3 u = glm::normalize(glm::cross(d, glm::dvec3(0.3, 1, 0.2)));
+        const glm::dvec3 v = glm::cross(d, u);
+        for (int k = 0; k < 3; ++k) {
+            light.direction[k] = float(d[k]);
+            light.axisU[k] = float(u[k] * 2.5 * light.radius);
+            light.axisV[k] = float(v[k] * light.radius);
+        }
+        light.innerConeAngle = 0.2f;
+        light.outerConeAngle = 0.9f;
+        light.twoSided = i % 3 == 0;
+        light.influenceRadius += 3 * light.radius;
+        if (i % 5 == 0)
+            light.influenceRadius = std::numeric_limits<float>::infinity();
+        if (type == CND_LIGHT_DISTANT_SPHERE)
+            light.radius = i % 2 ? 0.00465f : 0.3f;
     }
     return lights;
 }

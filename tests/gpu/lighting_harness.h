@@ -57,6 +57,10 @@ CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camer
 // Lights near the surfaces of `g` (world = view when viewFromWorld is the identity).
 std::vector<CndLight> randomSpheres(const CpuGBuffer& g, uint32_t count, uint32_t seed);
 
+// Random spheres turned into another type, some uncut, some two-sided.
+std::vector<CndLight> lightsOf(CndLightType type, const CpuGBuffer& g, uint32_t count,
+                               uint32_t seed);
+
 struct LightingResult {
     std::vector<glm::vec4> radiance;
     CndLightingStats stats{};

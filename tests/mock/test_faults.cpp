@@ -110,7 +110,8 @@ const std::vector<Step>& steps()
                                         .framesInFlight = 2,
                                         .gbufferLayout = CND_GBUFFER_HOST,
                                         .timestamps = true,
-                                        .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A}};
+                                        .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A},
+                                        .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT};
              return cndCreateLighting(&device, &desc, &h.lighting, error);
          }},
         {"create view", false,
@@ -168,7 +169,6 @@ const std::vector<Step>& steps()
              return cndUpdateLights(h.lighting, 1, &id, &light, error);
          }},
         {"record the updated lights", true, recordTubes},
-        {"record exposure", true,
         {"add lights of another type", false, // to full buffers
          [](Host& h, CndError* error) {
              const CndLight light{.type = CND_LIGHT_DISC,
@@ -191,6 +191,7 @@ const std::vector<Step>& steps()
              return result;
          }},
         {"record what is left", true, recordTubes},
+        {"record exposure", true,
          [](Host& h, CndError* error) {
              CndExposureFrame frame{.structSize = sizeof frame,
                                     .width = 64,

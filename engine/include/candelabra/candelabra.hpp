@@ -175,6 +175,15 @@ public:
         overlay.structSize = sizeof overlay;
         return detail::call(cndRecordSurfaceOverlay, handle_, cmd, &frame, &overlay);
     }
+    // An error without CndLightingDesc::forwardStages.
+    Result<VkDescriptorSet> forwardSet(uint32_t frameSlot) const noexcept
+    {
+        VkDescriptorSet set{};
+        CndError error{};
+        if (cndGetForwardSet(handle_, frameSlot, &set, &error) != CND_SUCCESS)
+            return error;
+        return set;
+    }
     // Empty until the GPU has finished the slot's frame; an error before there was one.
     Result<std::optional<CndLightingStats>> stats(uint32_t frameSlot) const noexcept
     {
@@ -231,6 +240,18 @@ public:
                             "Lighting::updateLights: ids must have as many elements as lights"};
         return detail::call(cndUpdateLights, handle_, uint32_t(ids.size()), ids.data(),
                             lights.data());
+    }
+    Result<void> removeLights(std::span<const CndLightId> ids) noexcept
+    {
+        return detail::call(cndRemoveLights, handle_, uint32_t(ids.size()), ids.data());
+    }
+    Result<VkDescriptorSetLayout> forwardSetLayout() const noexcept
+    {
+        VkDescriptorSetLayout layout{};
+        CndError error{};
+        if (cndGetForwardSetLayout(handle_, &layout, &error) != CND_SUCCESS)
+            return error;
+        return layout;
     }
     Result<LightingView> createView(const CndLightingViewDesc& desc) const noexcept
     {

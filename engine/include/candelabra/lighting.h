@@ -58,6 +58,9 @@ typedef struct CndLightingDesc {
     // (spheres: at creation).
     uint32_t specularMethods;
     CndGBufferDesc gbuffer; // of CND_GBUFFER_HOST
+    // VK_SHADER_STAGE_VERTEX_BIT, _FRAGMENT_BIT and _COMPUTE_BIT: shaders of the host's that light
+    // things by themselves (cndGetForwardSet); 0: none.
+    VkShaderStageFlags forwardStages;
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -185,12 +188,12 @@ CND_API CndResult cndAddLights(CndLighting lighting, uint32_t count, const CndLi
 // Replaces the lights with these ids, no id twice, each by any light.
 CND_API CndResult cndUpdateLights(CndLighting lighting, uint32_t count, const CndLightId* ids,
                                   const CndLight* lights, CndError* error);
-
-CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
-                                        CndLightingView* view, CndError* error);
 // Removes the lights with these ids, no id twice.
 CND_API CndResult cndRemoveLights(CndLighting lighting, uint32_t count, const CndLightId* ids,
                                   CndError* error);
+
+CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc* desc,
+                                        CndLightingView* view, CndError* error);
 // The GPU must have finished all work recorded with the view.
 CND_API void cndDestroyLightingView(CndLightingView view);
 
@@ -208,6 +211,23 @@ CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
 CND_API CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer cmd,
                                           const CndLightingFrame* frame,
                                           const CndSurfaceOverlay* overlay, CndError* error);
+
+// --- Lights in shaders of the host's: transparent surfaces, particles, volumes. Not without
+// CndLightingDesc::forwardStages. The shaders include lib/forward.glsl of the installed shaders,
+// which shades with CND_SPECULAR_CONIC and the lobes of the frame, at any position that the frame's
+// camera shows.
+
+// The layout of the set, for pipeline layouts: storage buffers and uniform texel buffers at
+// bindings of its own. Lives as long as the module.
+CND_API CndResult cndGetForwardSetLayout(CndLighting lighting, VkDescriptorSetLayout* layout,
+                                         CndError* error);
+// The set that holds the lights of the last frame recorded in frameSlot, to be bound behind that
+// recording, in the same queue, until the slot or any other frame of the view is recorded: there is
+// one copy of the lights. The same handle each time, and as long as the view. cndRecordLighting
+// waits for shaders of forwardStages before it writes, and makes what it wrote visible to them: the
+// host adds no barrier.
+CND_API CndResult cndGetForwardSet(CndLightingView view, uint32_t frameSlot, VkDescriptorSet* set,
+                                   CndError* error);
 
 // Statistics of the last frame recorded in frameSlot; CND_NOT_READY until the GPU has finished it,
 // which a lost device never does (CND_ERROR_DEVICE where timestamps tell).

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+// Transparent objects lit through Candelabra's GLSL: three balls before a wall that the module
+// lights itself, by the same lights. Writes embed_forward.ppm (or the file that is named), compares
+// wall and middle ball with the closed form, pixel by pixel, and ends with 1 when they are wrong.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <candelabra/candelabra.hpp>
+
+#include "ball.h"
+#include "host.h"
+
+template <typename T>
+T orExit(candelabra::Result<T> result)
+{
+    if (!result) {
+        std::fprintf(stderr, "%s\n", result.error().message);
+        std::exit(2);
+    }
+    if constexpr (!std::is_void_v<T>)
+        return std::move(result.value());
+}
+
+// The camera is at the origin and looks down -z, so view space is the lights' space.
+constexpr CndLight lamp(float x, float y, float z, float red, float green, float blue)
+{
+    return {.type = CND_LIGHT_SPHERE,
+            .position = {x, y, z},
+            .radius = 0.05f,
+            .emission = {red, green, blue},
+            .influenceRadius = 4};
+}
+constexpr CndLight lamps[] = {
+    lamp(-0.7f, 0.6f, -1.0f, 9000, 3000, 2000), lamp(0.1f, 0.7f, -0.8f, 5000, 5000, 5000),
+    lamp(0.8f, 0.4f, -1.1f, 1500, 3000, 9000), lamp(0.0f, -0.6f, -1.6f, 1000, 5000, 1000)};
+
+// Left and right: a coat that shines; middle: a matt one, for which there is a closed form.
+constexpr Ball balls[] = {
+    {{-0.55f, -0.05f, -1.5f}, 0.25f, {0.6f, 0.1f, 0.05f}, 0.7f, 0.04f, 1, 0.25f},
+    {{0.0f, 0.0f, -1.3f}, 0.25f, {0.7f, 0.7f, 0.6f}, 0.6f, 0, 0, 1},
+    {{0.55f, -0.05f, -1.5f}, 0.25f, {0.05f, 0.05f, 0.1f}, 0.5f, 0.6f, 1, 0.4f}};
+constexpr const Ball& mattBall = balls[1];
+
+constexpr ImageUse lit{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+constexpr ImageUse blended{
+    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+
+// Behind the lighting of the opaque surfaces, in the order from far to near.
+void drawBalls(Host& host, const BallPass& pass, VkDescriptorSet lights)
+{
+    const VkCommandBuffer cmd = host.cmd;
+    imageBarrier(cmd, &host.radiance, lit, blended);
+    imageBarrier(
+        cmd, &host.depth,
+        {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0},
+        {VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+         VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT});
+    const VkRenderingAttachmentInfo colour{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                           .imageView = host.radiance.view,
+                                           .imageLayout = blended.layout,
+                                           .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
+                                           .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    const VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                          .imageView = host.depth.view,
+                                          .imageLayout = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+                                          .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
+                                          .storeOp = VK_ATTACHMENT_STORE_OP_NONE};
+    const VkRect2D all{{0, 0}, {host.width, host.height}};
+    const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                    .renderArea = all,
+                                    .layerCount = 1,
+                                    .colorAttachmentCount = 1,
+                                    .pColorAttachments = &colour,
+                                    .pDepthAttachment = &depth};
+    const VkViewport viewport{0, 0, float(host.width), float(host.height), 0, 1};
+    const float invImageSize[] = {1 / float(host.width), 1 / float(host.height)};
+    vkCmdBeginRendering(cmd, &rendering);
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.layout, 0, 1, &lights, 0,
+                            nullptr);
+    vkCmdSetViewport(cmd, 0, 1, &viewport);
+    vkCmdSetScissor(cmd, 0, 1, &all);
+    vkCmdPushConstants(cmd, pass.layout, VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(Ball),
+                       sizeof invImageSize, invImageSize);
+    for (const Ball& ball : balls) {
+        vkCmdPushConstants(cmd, pass.layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof ball, &ball);
+        vkCmdDraw(cmd, 3, 1, 0, 0);
+    }
+    vkCmdEndRendering(cmd);
+}
+
+void drawFrame(Host& host)
+{
+    const CndDeviceDesc device{.instance = host.instance,
+                               .physicalDevice = host.physicalDevice,
+                               .device = host.device,
+                               .getInstanceProcAddr = vkGetInstanceProcAddr};
+    auto lighting = orExit(candelabra::Lighting::create(
+        device, {.framesInFlight = 1, .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT}));
+    auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
+    for (const CndLight& light : lamps)
+        orExit(lighting.addLight(light)); // ids, to change or remove them later
+    const BallPass pass = createBallPass(host.device, orExit(lighting.forwardSetLayout()));
+
+    const VkCommandBuffer cmd = beginFrame(&host);
+    drawWall(&host);
+    orExit(view.record(cmd, {.width = host.width,
+                             .height = host.height,
+                             .camera = host.camera,
+                             .clearDepth = 0,
+                             .normalRoughness = host.normalRoughness.view,
+                             .albedo = host.albedo.view,
+                             .specular = host.specular.view,
+                             .depth = host.depth.view,
+                             .radiance = host.radiance.view,
+                             .specularMethod = CND_SPECULAR_CONIC}));
+    drawBalls(host, pass, orExit(view.forwardSet(0)));
+    endFrame(&host);
+    destroyBallPass(host.device, pass);
+}
+
+struct Vec {
+    double x, y, z;
+};
+static Vec operator-(Vec a, Vec b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static double dot(Vec a, Vec b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+// Luminance of a Lambertian surface, one channel: albedo times luminance times (radius / d)^2 times
+// cosine times window. False where a lamp crosses the horizon, which takes more than that.
+static bool lambert(Vec position, Vec normal, double albedo, int channel, double& luminance)
+{
+    luminance = 0;
+    for (const CndLight& light : lamps) {
+        const Vec to = Vec{light.position[0], light.position[1], light.position[2]} - position;
+        const double d = std::sqrt(dot(to, to)), height = dot(to, normal);
+        if (std::abs(height) < light.radius)
+            return false;
+        const double s = light.radius / d, window = 1 - std::pow(d / light.influenceRadius, 4);
+        luminance += height > 0
+                         ? albedo * light.emission[channel] * s * s * height / d * window * window
+                         : 0;
+    }
+    return true;
+}
+
+// Through the centre of a pixel, z = -1.
+static Vec pixelRay(const Host& host, uint32_t x, uint32_t y)
+{
+    return {((2 * x + 1.0) / host.width - 1) / host.camera.clipFromView[0],
+            ((2 * y + 1.0) / host.height - 1) / host.camera.clipFromView[5], -1};
+}
+
+// Distance along a ray of length 1 to a ball, or 0.
+static double hit(const Ball& ball, Vec unit)
+{
+    const Vec centre{ball.centre[0], ball.centre[1], ball.centre[2]};
+    const double along = dot(unit, centre);
+    const double inside = double(ball.radius) * ball.radius - dot(centre, centre) + along * along;
+    return inside > 0 ? along - std::sqrt(inside) : 0;
+}
+
+// The matt ball over the wall, and the wall between the balls; counts what it compares.
+static bool isRight(const Host& host, const std::vector<float>& radiance)
+{
+    int compared[2] = {0, 0};
+    double largest = 0;
+    for (uint32_t y = 0; y < host.height; ++y)
+        for (uint32_t x = 0; x < host.width; ++x) {
+            const Vec ray = pixelRay(host, x, y);
+            const double length = std::sqrt(dot(ray, ray));
+            const Vec unit{ray.x / length, ray.y / length, ray.z / length};
+            if (hit(balls[0], unit) != 0 || hit(balls[2], unit) != 0)
+                continue;
+            const Vec wall{WALL_DISTANCE * ray.x, WALL_DISTANCE * ray.y, -WALL_DISTANCE};
+            const double t = hit(mattBall, unit);
+            const Vec front{t * unit.x, t * unit.y, t * unit.z};
+            const Vec out = front - Vec{mattBall.centre[0], mattBall.centre[1], mattBall.centre[2]};
+            const double r = mattBall.radius;
+            for (int c = 0; c < 3; ++c) {
+                double expected = 0, coat = 0;
+                if (!lambert(wall, {0, 0, 1}, WALL_ALBEDO, c, expected))
+                    continue;
+                if (t != 0) {
+                    // Near its outline a ray's rounding moves the point it hits.
+                    if (out.z < 0.2 * r || !lambert(front, {out.x / r, out.y / r, out.z / r},
+                                                    mattBall.albedo[c], c, coat))
+                        continue;
+                    expected = (1 - mattBall.opacity) * expected + mattBall.opacity * coat;
+                }
+                const double found = radiance[4 * (size_t(y) * host.width + x) + size_t(c)];
+                largest = std::max(largest, std::abs(found - expected) / expected);
+                ++compared[t != 0];
+            }
+        }
+    std::printf("%d values of the wall and %d of the ball differ by up to %.1e of them\n",
+                compared[0], compared[1], largest);
+    return compared[0] > 10000 && compared[1] > 3000 && largest < 5e-5;
+}
+
+static void writePpm(const char* path, const Host& host, const std::vector<float>& radiance)
+{
+    std::FILE* file = std::fopen(path, "wb");
+    if (!file) {
+        std::fprintf(stderr, "cannot write %s\n", path);
+        std::exit(2);
+    }
+    std::fprintf(file, "P6 %u %u 255\n", host.width, host.height);
+    for (size_t i = 0; i < radiance.size(); ++i)
+        if (i % 4 != 3) { // 25 cd/m^2 is white
+            const float encoded = std::pow(std::clamp(radiance[i] / 25, 0.0f, 1.0f), 1 / 2.2f);
+            std::fputc(int(std::lround(255 * encoded)), file);
+        }
+    if (std::fclose(file) != 0) {
+        std::fprintf(stderr, "cannot write %s\n", path);
+        std::exit(2);
+    }
+}
+
+int main(int argc, char** argv)
+{
+    Host host = createHost(320, 200);
+    drawFrame(host);
+    std::vector<float> radiance(size_t(host.width) * host.height * 4);
+    readPixels(&host, &host.radiance, blended, radiance.data(), radiance.size() * sizeof(float));
+    writePpm(argc > 1 ? argv[1] : "embed_forward.ppm", host, radiance);
+    const bool right = isRight(host, radiance);
+    destroyHost(&host);
+    std::puts(right ? "right" : "WRONG");
+    return right ? 0 : 1;
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The descriptor set through which shaders of the host's find the lights of a view
+// (lib/forward.glsl).
+#ifndef CND_SHARED_FORWARD_H
+#define CND_SHARED_FORWARD_H
+
+#include "shared/clusters.h"
+
+GPU_BEGIN
+
+const uint FORWARD_VIEW = 0u;
+const uint FORWARD_CORE = 1u; // lights, shared/lighting.h
+const uint FORWARD_AUX = 2u;
+const uint FORWARD_NODES = 3u; // of the light trees, shared/clusters.h
+const uint FORWARD_DFG = 4u;   // texel buffers: shared/dfg.h
+const uint FORWARD_LTC = 5u;   // shared/ltc.h
+
+const uint LIGHT_TYPE_COUNT = 8u;
+
+struct ForwardView {
+    Projection projection;
+    uint lobes;                        // as ShadeParams::lobes
+    TreeShape trees[LIGHT_TYPE_COUNT]; // by light type; distant types have lights, but no tree
+};
+GPU_SIZE(ForwardView, 156)
+
+GPU_END
+
+#endif

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces lit through the GLSL of hosts (lib/forward.glsl) have the luminance that the module's
+// own pass gives them, on the opaque surfaces of the view and anywhere before, behind and beside
+// them.
+#include <cmath>
+#include <iostream>
+
+#include "candelabra_probes.h"
+#include "gpu/kernel.h"
+#include "gpu/lighting_harness.h"
+#include "shared/forward_probe.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+constexpr double tolerance = 1e-5; // issue 5, acceptance line 7
+
+// Largest difference of a pixel, of its brightest channel or a hundred thousandth of the image's.
+double maxPixelDifference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
+{
+    const auto brightest = [](const glm::vec4& v) { return double(std::max({v.x, v.y, v.z})); };
+    double peak = 0, largest = 0;
+    for (const glm::vec4& pixel : b)
+        peak = std::max(peak, brightest(pixel));
+    for (size_t i = 0; i < a.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double difference =
+                std::abs(double(a[i][c]) - b[i][c]) / std::max(brightest(b[i]), 1e-5 * peak);
+            largest = !(difference <= largest) ? difference : largest; // NaN is the largest
+        }
+    return a.size() == b.size() && peak > 0 ? largest : INFINITY;
+}
+
+// A host with a pipeline of its own beside the module.
+class ForwardTest : public LightingTest
+{
+protected:
+    void create(const CpuGBuffer& g, const std::vector<CndLight>& lights)
+    {
+        CndError error{};
+        const CndLightingDesc desc{.structSize = sizeof desc,
+                                   .framesInFlight = 2,
+                                   .specularMethods = 1u << CND_SPECULAR_CONIC,
+                                   .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT};
+        ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting_, &error), CND_SUCCESS)
+            << error.message;
+        const CndLightingViewDesc viewDesc{sizeof viewDesc, g.width, g.height, 0};
+        ASSERT_EQ(cndCreateLightingView(lighting_, &viewDesc, &view_, &error), CND_SUCCESS)
+            << error.message;
+        const CndLightSet set{
+            .structSize = sizeof set, .count = uint32_t(lights.size()), .lights = lights.data()};
+        ASSERT_EQ(cndSetLights(lighting_, &set, &error), CND_SUCCESS) << error.message;
+        createPipeline();
+    }
+    void TearDown() override
+    {
+        pipeline_ = {};
+        layout_ = {};
+        bindings_ = {};
+        cndDestroyLightingView(view_);
+        cndDestroyLighting(lighting_);
+        LightingTest::TearDown();
+    }
+    void createPipeline()
+    {
+        CndError error{};
+        VkDescriptorSetLayout forward{};
+        ASSERT_EQ(cndGetForwardSetLayout(lighting_, &forward, &error), CND_SUCCESS)
+            << error.message;
+        constexpr VkDescriptorType image = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+        bindings_ =
+            gpu::Bindings(device(), "forward probe",
+                          {{gpu::FORWARD_PROBE_NORMAL_ROUGHNESS, image, 1},
+                           {gpu::FORWARD_PROBE_ALBEDO, image, 1},
+                           {gpu::FORWARD_PROBE_SPECULAR, image, 1},
+                           {gpu::FORWARD_PROBE_DEPTH, image, 1},
+                           {gpu::FORWARD_PROBE_OUTPUT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}},
+                          VK_SHADER_STAGE_COMPUTE_BIT, 1);
+        const VkDescriptorSetLayout sets[] = {bindings_.layout(), forward};
+        layout_ =
+            gpu::createPipelineLayout(device(), "forward probe", sets, VK_SHADER_STAGE_COMPUTE_BIT,
+                                      sizeof(gpu::ForwardProbeParams));
+        const auto shader = gpu::createShaderModule(device(), spirv::forward_comp);
+        const VkComputePipelineCreateInfo info{
+            .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+            .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                      .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                      .module = shader.get(),
+                      .pName = "main"},
+            .layout = layout_.get()};
+        VkPipeline pipeline{};
+        ASSERT_EQ(device().CreateComputePipelines(device().handle, VK_NULL_HANDLE, 1, &info,
+                                                  nullptr, &pipeline),
+                  VK_SUCCESS);
+        pipeline_ = gpu::Handle(device(), pipeline);
+    }
+
+    struct Lit {
+        std::vector<glm::vec4> deferred;              // of the view
+        std::vector<gpu::ForwardProbeOutput> forward; // of the surfaces of `at`
+        std::vector<glm::vec4> lit() const
+        {
+            std::vector<glm::vec4> out;
+            for (const gpu::ForwardProbeOutput& f : forward)
+                out.push_back(f.lit);
+            return out;
+        }
+        std::vector<glm::vec4> stepped() const
+        {
+            std::vector<glm::vec4> out;
+            for (const gpu::ForwardProbeOutput& f : forward)
+                out.push_back(f.stepped);
+            return out;
+        }
+    };
+    // Records the view with the surfaces of `seen`; then lights those of `at`, of the same camera.
+    Lit frame(const CpuGBuffer& seen, const CpuGBuffer& at, const RunOptions& options)
+    {
+        CndError error{};
+        const Images images = uploadImages(seen), others = uploadImages(at);
+        CndLightingFrame f = frameOf(seen, images, options);
+        f.frameSlot = slot_ = 1 - slot_;
+        VkDescriptorSet forward{};
+        EXPECT_EQ(cndGetForwardSet(view_, slot_, &forward, &error), CND_SUCCESS) << error.message;
+        const uint32_t count = at.width * at.height;
+        const gpu::Buffer out =
+            readback("forward outputs", count * sizeof(gpu::ForwardProbeOutput));
+        using gpu::Binding;
+        bindings_.write(0,
+                        {Binding::sampled(gpu::FORWARD_PROBE_NORMAL_ROUGHNESS,
+                                          others.normalRoughness.view.get()),
+                         Binding::sampled(gpu::FORWARD_PROBE_ALBEDO, others.albedo.view.get()),
+                         Binding::sampled(gpu::FORWARD_PROBE_SPECULAR, others.specular.view.get()),
+                         Binding::sampled(gpu::FORWARD_PROBE_DEPTH, others.depth.view.get()),
+                         Binding::of(gpu::FORWARD_PROBE_OUTPUT, out)});
+        const gpu::ForwardProbeParams params{.size = {at.width, at.height},
+                                             .invImageSize = 1.0f / glm::vec2(at.width, at.height),
+                                             .clearDepth = at.clearDepth};
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            clearRadiance(cmd, images);
+            EXPECT_EQ(cndRecordLighting(view_, cmd, &f, &error), CND_SUCCESS) << error.message;
+            const gpu::Device& d = device();
+            const VkDescriptorSet sets[] = {bindings_.set(0), forward};
+            d.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+            d.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 2, sets,
+                                    0, nullptr);
+            d.CmdPushConstants(cmd, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof params,
+                               &params);
+            d.CmdDispatch(cmd, gpu::divideUp(count, gpu::FORWARD_PROBE_GROUP), 1, 1);
+            // The next frame may be recorded at once: the module waits for the shader above.
+            f.frameSlot = slot_ = 1 - slot_;
+            EXPECT_EQ(cndRecordLighting(view_, cmd, &f, &error), CND_SUCCESS) << error.message;
+            fullBarrier(cmd);
+        });
+        const auto values = out.as<gpu::ForwardProbeOutput>();
+        return {readRadiance(images), {values.begin(), values.begin() + long(count)}};
+    }
+
+    CndLighting lighting_{};
+    CndLightingView view_{};
+    uint32_t slot_ = 0;
+    gpu::Bindings bindings_;
+    gpu::Handle<VkPipelineLayout> layout_;
+    gpu::Handle<VkPipeline> pipeline_;
+};
+
+std::vector<CndLight> everyType(const CpuGBuffer& g, uint32_t perType)
+{
+    std::vector<CndLight> all;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        const bool distant = type == CND_LIGHT_DIRECTIONAL || type == CND_LIGHT_DISTANT_SPHERE;
+        const std::vector<CndLight> some =
+            lightsOf(CndLightType(type), g, distant ? 3 : perType, 40 + type);
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+}
+
+CpuGBuffer gbuffer(uint32_t seed, bool perspective = true)
+{
+    CndCamera camera;
+    if (perspective)
+        setPerspective(camera, 1.0, 4.0 / 3, 0.1);
+    else
+        setOrthographic(camera, 20, 4.0 / 3, 0.1, 50);
+    return randomGBuffer(64, 48, camera, 0, seed);
+}
+
+// Also without any opaque surface, and when the module itself culls nothing.
+TEST_F(ForwardTest, EqualsTheDeferredResultForTheSameSurface)
+{
+    const CpuGBuffer seen = gbuffer(3), elsewhere = gbuffer(4);
+    CpuGBuffer nothing = seen;
+    std::fill(nothing.depth.begin(), nothing.depth.end(), nothing.clearDepth);
+    const std::vector<CndLight> lights = everyType(seen, 25);
+    create(seen, lights);
+    RunOptions options{
+        .specular = CND_SPECULAR_CONIC, .lobes = CND_LOBES_CONSERVING, .energyCompensation = true};
+    const Lit same = frame(seen, seen, options);
+    std::vector<glm::vec4> twice = same.lit(); // the view was recorded twice
+    for (glm::vec4& pixel : twice)
+        pixel *= 2;
+    const double onSurface = maxPixelDifference(twice, same.deferred);
+    EXPECT_LE(onSurface, tolerance);
+    EXPECT_LE(maxPixelDifference(same.stepped(), same.lit()), tolerance);
+    const std::vector<glm::vec4> expected = run(elsewhere, lights, options).radiance;
+    for (const CpuGBuffer& opaque : {seen, nothing}) {
+        const double off = maxPixelDifference(frame(opaque, elsewhere, options).lit(), expected);
+        EXPECT_LE(off, tolerance);
+        std::cout << "largest difference on the surfaces of the view " << onSurface
+                  << ", elsewhere " << off << "\n";
+    }
+    options.culling = CND_CULLING_BRUTE;
+    EXPECT_LE(maxPixelDifference(frame(seen, elsewhere, options).lit(), expected), tolerance);
+}
+
+TEST_F(ForwardTest, OfEachTypeAloneEqualsTheDeferredResult)
+{
+    const CpuGBuffer seen = gbuffer(5), elsewhere = gbuffer(6);
+    create(seen, {});
+    const RunOptions options{.specular = CND_SPECULAR_CONIC};
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        const std::vector<CndLight> lights = lightsOf(CndLightType(type), seen, 40, 50 + type);
+        CndError error{};
+        const CndLightSet set{.structSize = sizeof set, .count = 40, .lights = lights.data()};
+        ASSERT_EQ(cndSetLights(lighting_, &set, &error), CND_SUCCESS) << error.message;
+        EXPECT_LE(maxPixelDifference(frame(seen, elsewhere, options).lit(),
+                                     run(elsewhere, lights, options).radiance),
+                  tolerance)
+            << type;
+    }
+}
+
+TEST_F(ForwardTest, UnderAnOrthographicCameraAndManyLights)
+{
+    const CpuGBuffer seen = gbuffer(7, false), elsewhere = gbuffer(8, false);
+    std::vector<CndLight> lights = randomSpheres(elsewhere, 3000, 60);
+    for (CndLight& light : lights) // so that no loop of llvmpipe ends early
+        light.influenceRadius = 0.3f + 1.01f * light.radius;
+    create(seen, lights);
+    const RunOptions options{.specular = CND_SPECULAR_CONIC};
+    EXPECT_LE(maxPixelDifference(frame(seen, elsewhere, options).lit(),
+                                 run(elsewhere, lights, options).radiance),
+              tolerance);
+}
+
+// Of points and spheres, whose illuminance has a closed form.
+TEST_F(ForwardTest, IlluminanceForVolumes)
+{
+    const CpuGBuffer g = gbuffer(9);
+    std::vector<CndLight> lights = randomSpheres(g, 60, 61);
+    for (size_t i = 0; i < lights.size(); i += 2)
+        lights[i].type = CND_LIGHT_POINT;
+    create(g, lights);
+    const Lit result = frame(g, g, {.specular = CND_SPECULAR_CONIC});
+    double largest = 0, peak = 0;
+    for (uint32_t i = 0; i < g.width * g.height; ++i) {
+        if (g.depth[i] == g.clearDepth)
+            continue;
+        glm::dvec3 expected(0), by(0);
+        for (const CndLight& light : lights) {
+            const glm::dvec3 to =
+                glm::dvec3(light.position[0], light.position[1], light.position[2]) -
+                viewPosition(g, i % g.width, i / g.width);
+            const double d = glm::length(to), x = d / light.influenceRadius;
+            if (x >= 1)
+                continue;
+            const double s = std::min(light.radius / d, 1.0);
+            const double perEmission =
+                light.type == CND_LIGHT_POINT ? 1 / (d * d) : std::acos(-1.0) * s * s;
+            const double window = (1 - x * x * x * x) * (1 - x * x * x * x);
+            const glm::dvec3 e =
+                perEmission * window *
+                glm::dvec3(light.emission[0], light.emission[1], light.emission[2]);
+            expected += e;
+            by += e.x * to / d;
+        }
+        const gpu::ForwardProbeOutput& f = result.forward[i];
+        for (int c = 0; c < 3; ++c)
+            largest = std::max(largest, std::abs(expected[c] - f.illuminance[c]) /
+                                            std::max(expected[c], 1.0));
+        EXPECT_NEAR(f.illuminanceBy.x, by.x, 2e-4 * expected.x + 1e-6);
+        peak = std::max(peak, expected.x);
+    }
+    EXPECT_GT(peak, 0);
+    EXPECT_LE(largest,
+              2e-4); // of a point a few centimetres away, whose position is single precision
+}
+
+TEST_F(ForwardTest, SetsThatAreNotThereAreNamed)
+{
+    const CpuGBuffer g = gbuffer(10);
+    const auto [lighting, view] = createLighting(g, 1);
+    CndError error{};
+    VkDescriptorSetLayout layout{};
+    VkDescriptorSet set{};
+    const auto refused = [&](CndResult result) {
+        EXPECT_EQ(result, CND_ERROR_INVALID_ARGUMENT);
+        EXPECT_NE(std::string(error.message).find("forwardStages"), std::string::npos)
+            << error.message;
+    };
+    refused(cndGetForwardSetLayout(lighting, &layout, &error));
+    refused(cndGetForwardSet(view, 0, &set, &error));
+    cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+    const CndLightingDesc desc{.structSize = sizeof desc,
+                               .framesInFlight = 1,
+                               .forwardStages = VK_SHADER_STAGE_GEOMETRY_BIT};
+    CndLighting none{};
+    refused(cndCreateLighting(&deviceDesc(), &desc, &none, &error));
+    create(g, {});
+    EXPECT_EQ(cndGetForwardSet(view_, 2, &set, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(error.message).find("frameSlot is 2"), std::string::npos);
+}
+
+} // namespace
+} // namespace candelabra::test
