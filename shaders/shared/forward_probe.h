@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses between tests/gpu/test_forward.cpp and probes/forward.comp. Set 0 is the probe's, set 1
-// that of lib/forward.glsl.
+// What crosses between tests/gpu/test_forward.cpp and probes/forward.comp. Set 0 is the probe's,
+// set 1 that of lib/forward.glsl.
 #ifndef CND_SHARED_FORWARD_PROBE_H
 #define CND_SHARED_FORWARD_PROBE_H
 
