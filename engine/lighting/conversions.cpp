@@ -185,6 +185,7 @@ CndResult cndSphereFromPoint(const CndLight* point, float radius, const float at
                               "light, which is " +
                               std::to_string(distance) + " m");
         CndLight out{};
+        out.layers = point->layers;
         out.type = CND_LIGHT_SPHERE;
         setVector(out.position, vec(point->position));
         out.influenceRadius = point->influenceRadius;
@@ -207,6 +208,7 @@ CndResult cndPointFromSphere(const CndLight* sphere, CndLight* point, CndError* 
         requireType(*sphere, CND_LIGHT_SPHERE, "cndPointFromSphere");
         requirePositive(sphere->radius, "radius");
         CndLight out{};
+        out.layers = sphere->layers;
         out.type = CND_LIGHT_POINT;
         setVector(out.position, vec(sphere->position));
         out.influenceRadius = sphere->influenceRadius;
@@ -222,6 +224,7 @@ CndResult cndDistantSphereFromDirectional(const CndLight* directional, float sin
         gpu::requireNotNull("cndDistantSphereFromDirectional", {directional, distantSphere});
         requireType(*directional, CND_LIGHT_DIRECTIONAL, "cndDistantSphereFromDirectional");
         CndLight out{};
+        out.layers = directional->layers;
         out.type = CND_LIGHT_DISTANT_SPHERE;
         setVector(out.direction, requireDirection(*directional));
         const double s = requireSine(sine);
@@ -239,6 +242,7 @@ CndResult cndDirectionalFromDistantSphere(const CndLight* distantSphere, CndLigh
         requireType(*distantSphere, CND_LIGHT_DISTANT_SPHERE, "cndDirectionalFromDistantSphere");
         requirePositive(distantSphere->radius, "radius");
         CndLight out{};
+        out.layers = distantSphere->layers;
         out.type = CND_LIGHT_DIRECTIONAL;
         setVector(out.direction, requireDirection(*distantSphere));
         setEmission(out, *distantSphere,
@@ -260,6 +264,7 @@ CndResult cndSphereFromDirectional(const CndLight* directional, const float at[3
         const double away = distance > 0 ? double(distance) : std::max(1e6, glm::length(receiver));
         const double s = requireSine(sine);
         CndLight out{};
+        out.layers = directional->layers;
         out.type = CND_LIGHT_SPHERE;
         out.influenceRadius = std::numeric_limits<float>::infinity();
         setVector(out.position, receiver - away * direction);
@@ -288,6 +293,7 @@ CndResult cndDirectionalFromSphere(const CndLight* sphere, const float at[3], Cn
         if (!(double(sphere->radius) < distance))
             gpu::failArgument("at must be outside the sphere light");
         CndLight out{};
+        out.layers = sphere->layers;
         out.type = CND_LIGHT_DIRECTIONAL;
         setVector(out.direction, toReceiver / distance);
         const double s = double(sphere->radius) / distance;

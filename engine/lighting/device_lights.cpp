@@ -7,6 +7,7 @@
 #include <string>
 
 #include "candelabra_shaders.h"
+#include "lighting/reach.h"
 
 namespace candelabra::lighting
 {
@@ -51,6 +52,8 @@ void checkDeviceLights(const gpu::Device& device, const CndDeviceLights& lights)
                               "boundsMin not above boundsMax");
     if (!(lights.influenceRadius > 0))
         gpu::failArgument("CndDeviceLights: influenceRadius must be > 0");
+    if (!areLayers(lights.layers))
+        gpu::failArgument("CndDeviceLights: layers has bits beyond CND_LAYER_COUNT");
 }
 
 LightExtent extentWith(const LightExtent& host, size_t placed, const CndDeviceLights& device)
@@ -125,7 +128,8 @@ void DeviceLights::record(const gpu::Frame& frame) const noexcept
     kernel_.dispatch(frame, bindings_->set(0),
                      {.type = lights_.type,
                       .maxCount = lights_.maxCount,
-                      .hasCount = lights_.countBuffer != VK_NULL_HANDLE},
+                      .hasCount = lights_.countBuffer != VK_NULL_HANDLE,
+                      .layers = layersOf(lights_.layers)},
                      gpu::divideUp(lights_.maxCount, gpu::DEVICE_LIGHTS_GROUP));
 }
 

@@ -24,7 +24,7 @@ bool View::keepsLists(const CndLightingFrame& frame, uint32_t sampleCount)
 {
     ListsKey key;
     if (frame.culling == CND_CULLING_CLUSTERED && lighting_.lightCount())
-        key = {lighting_.lightSet(), frame.specularMethod, sampleCount};
+        key = {lighting_.lightSet(), frame.specularMethod, sampleCount, layersOf(frame.layers)};
     const bool same = frame.surfacesUnchanged && key.lightSet && key == lists_;
     lists_ = key;
     return same;

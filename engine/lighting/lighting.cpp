@@ -125,7 +125,8 @@ void Lighting::setLights(const CndLightSet& set)
     ReachBoxes reach = reachOf(lights);
     if (device) {
         counts[device->type] += device->maxCount;
-        reach[device->type] = endlessReach(); // nobody here knows where they are
+        ReachBox& box = reach[device->type]; // nobody here knows where they are
+        box = endlessReach(box.layers | layersOf(device->layers));
     }
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (counts[type])
@@ -159,11 +160,12 @@ void Lighting::setLights(const CndLightSet& set)
     reach_ = reach;
 }
 
-LightTypeCounts Lighting::countsInView(const CndCamera& camera) const
+LightTypeCounts Lighting::countsInView(const CndCamera& camera, uint32_t layers) const
 {
     LightTypeCounts out = typeCounts_;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (out[type] && !reachesView(reach_[type], origin_, camera))
+        if (out[type] &&
+            !(reach_[type].layers & layers && reachesView(reach_[type], origin_, camera)))
             out[type] = 0;
     return out;
 }

@@ -96,7 +96,7 @@ public:
     uint32_t lightCapacity() const { return lightCapacity_; }
     const LightExtent& extent() const { return extent_; }
     // Lights by type, 0 for types none of which reaches the view.
-    LightTypeCounts countsInView(const CndCamera& camera) const;
+    LightTypeCounts countsInView(const CndCamera& camera, uint32_t layers) const;
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
     // There is a light set that no recording has uploaded yet.
     bool lightsChanged() const { return pending_; }
@@ -231,6 +231,7 @@ private:
         uint64_t lightSet = 0; // 0: there are none
         CndSpecularMethod method = CND_SPECULAR_NONE;
         uint32_t sampleCount = 0;
+        uint32_t layers = 0;
         bool operator==(const ListsKey&) const = default;
     };
     struct SlotState {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "gpu/failure.h"
+#include "lighting/reach.h"
 #include "lighting/shade_kernels.h"
 #include "shared/device_lights.h"
 
@@ -139,6 +140,8 @@ const char* whyInvalid(const CndLight& light)
         if (!(std::abs(length - 1) <= 1e-3f))
             return "direction must be a unit vector";
     }
+    if (!areLayers(light.layers))
+        return "layers has bits beyond CND_LAYER_COUNT";
     if (const char* why = whyRadiusInvalid(light))
         return why;
     if (const char* why = whyAxesInvalid(light))
@@ -186,6 +189,7 @@ gpu::LightRecord pack(const CndLight& light)
     }
     if (light.twoSided && isOneOf(light.type, {CND_LIGHT_RECTANGLE, CND_LIGHT_DISC}))
         r.type |= gpu::LIGHT_TWO_SIDED;
+    r.type |= layersOf(light.layers) << gpu::LIGHT_LAYERS_SHIFT;
     return r;
 }
 

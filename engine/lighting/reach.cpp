@@ -23,22 +23,25 @@ constexpr double margin = 1e-4;
 
 } // namespace
 
-ReachBox endlessReach()
+static_assert(gpu::ALL_LAYERS == (1u << CND_LAYER_COUNT) - 1);
+
+ReachBox endlessReach(uint32_t layers)
 {
-    return {glm::dvec3(-infinity), glm::dvec3(infinity)};
+    return {glm::dvec3(-infinity), glm::dvec3(infinity), layers};
 }
 
 ReachBoxes reachOf(std::span<const CndLight> lights)
 {
     ReachBoxes out;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        out[type] = isDistant(type) ? endlessReach()
+        out[type] = isDistant(type) ? endlessReach(0)
                                     : ReachBox{glm::dvec3(infinity), glm::dvec3(-infinity)};
     for (const CndLight& light : lights) {
+        ReachBox& box = out[light.type];
+        box.layers |= layersOf(light.layers);
         if (isDistant(light.type))
             continue;
         const glm::dvec3 centre(light.position[0], light.position[1], light.position[2]);
-        ReachBox& box = out[light.type];
         box.low = glm::min(box.low, centre - double(light.influenceRadius));
         box.high = glm::max(box.high, centre + double(light.influenceRadius));
     }
@@ -50,6 +53,7 @@ void widen(ReachBoxes& boxes, const ReachBoxes& more)
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
         boxes[type].low = glm::min(boxes[type].low, more[type].low);
         boxes[type].high = glm::max(boxes[type].high, more[type].high);
+        boxes[type].layers |= more[type].layers;
     }
 }
 

@@ -157,8 +157,9 @@ View::Plan View::plan(const CndLightingFrame& frame) const
            .clearDepth = frame.clearDepth,
            .lightCount = lighting_.lightCount(),
            // Brute force is the check: it knows no bound.
-           .lights = frame.culling == CND_CULLING_BRUTE ? lighting_.typeCounts()
-                                                        : lighting_.countsInView(frame.camera),
+           .lights = frame.culling == CND_CULLING_BRUTE
+                         ? lighting_.typeCounts()
+                         : lighting_.countsInView(frame.camera, layersOf(frame.layers)),
            .trees = treeShapes(lighting_.typeCounts()),
            .tileCountX = tiles(frame.width),
            .tileCountY = tiles(frame.height),
@@ -169,7 +170,8 @@ View::Plan View::plan(const CndLightingFrame& frame) const
     const double* o = lighting_.origin();
     p.prepare = {.viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
                  .originView = glm::vec3(viewFromWorld * glm::dvec4(o[0], o[1], o[2], 1)),
-                 .lightCount = p.lightCount};
+                 .lightCount = p.lightCount,
+                 .layers = layersOf(frame.layers)};
     return p;
 }
 

@@ -37,9 +37,12 @@ void main()
     const uint type = light.type & (LIGHT_TWO_SIDED - 1u);
     const bool distant = type == LIGHT_DIRECTIONAL || type == LIGHT_DISTANT_SPHERE;
     const vec3 origin = distant ? vec3(0.0) : params.originView;
-    core[i * LIGHT_CORE_STRIDE] = vec4(params.viewFromWorld * light.position + origin, light.reach);
+    const bool inFrame = (light.type >> LIGHT_LAYERS_SHIFT & params.layers) != 0u;
+    core[i * LIGHT_CORE_STRIDE] = vec4(params.viewFromWorld * light.position + origin,
+                                       inFrame ? light.reach : REACH_OF_NONE);
+    const float influence2 = light.influenceRadius * light.influenceRadius;
     core[i * LIGHT_CORE_STRIDE + 1u] =
-        vec4(light.emission, light.influenceRadius * light.influenceRadius);
+        vec4(light.emission, inFrame ? influence2 : INFLUENCE2_OF_NONE);
     const vec3 axisV = type == LIGHT_SPOT ? light.axisV : params.viewFromWorld * light.axisV;
     aux[i * LIGHT_AUX_STRIDE] = vec4(params.viewFromWorld * light.axisU, light.radius);
     aux[i * LIGHT_AUX_STRIDE + 1u] =

@@ -35,8 +35,9 @@ struct DeviceLightsParams {
     uint type; // LIGHT_*
     uint maxCount;
     uint hasCount; // 0: there are maxCount lights
+    uint layers;   // of all of them
 };
-GPU_SIZE(DeviceLightsParams, 12)
+GPU_SIZE(DeviceLightsParams, 16)
 
 GPU_END
 

@@ -23,10 +23,12 @@ struct LightRecord {
     vec3 axisU;            // m; spot: unit, the way the light travels; disc: unit normal
     float radius;          // m; tube
     vec3 axisV; // m; spot: (scale, offset), attenuation = sat(cos(angle) scale + offset)^2
-    uint type;  // LIGHT_*, plus LIGHT_TWO_SIDED
+    uint type;  // LIGHT_*, plus LIGHT_TWO_SIDED, plus layers << LIGHT_LAYERS_SHIFT
 };
 GPU_SIZE(LightRecord, 64)
 const uint LIGHT_TWO_SIDED = 256u;
+const uint LIGHT_LAYERS_SHIFT = 16u;
+const uint ALL_LAYERS = 0xFFFFu;
 
 // After prepare_lights, two vec4 per light, hot in every loop:
 //   core[2 i]     = position in view space, reach
@@ -34,6 +36,10 @@ const uint LIGHT_TWO_SIDED = 256u;
 // and, read only by the types that need them:
 //   aux[2 i]      = axisU in view space, radius
 //   aux[2 i + 1]  = axisV in view space (spot: as it is), 1 if two-sided else 0
+// Lights of other layers than the frame's reach nothing: reach and squared influence radius are
+// these, so that no box of the tree and no list holds them, and none is above a horizon.
+const float REACH_OF_NONE = -1e30f;
+const float INFLUENCE2_OF_NONE = -1.0f;
 const uint LIGHT_CORE_STRIDE = 2u;
 const uint LIGHT_AUX_STRIDE = 2u;
 
@@ -80,8 +86,9 @@ struct PrepareLightsParams {
     mat3 viewFromWorld; // rotation
     vec3 originView;    // the light set's origin in view space, subtracted in double
     uint lightCount;
+    uint layers; // of the frame
 };
-GPU_SIZE(PrepareLightsParams, 52)
+GPU_SIZE(PrepareLightsParams, 56)
 
 // --- shade_tiles, shade_unlisted, shade_brute, count_pairs: 8x8 pixels per group, one lane per
 // pixel

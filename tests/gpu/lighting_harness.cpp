@@ -262,6 +262,7 @@ CndLightingFrame LightingTest::frameOf(const CpuGBuffer& g, const Images& images
     frame.energyCompensation = options.energyCompensation;
     frame.culling = options.culling;
     frame.countPairs = options.countPairs;
+    frame.layers = options.layers;
     return frame;
 }
 

@@ -78,7 +78,8 @@ struct RunOptions {
     float errorBudget = 0;
     CndLobeJoining lobes = CND_LOBES_SUM;
     bool energyCompensation = false;
-    int frames = 1;         // record this many times; the last one is read back
+    int frames = 1; // record this many times; the last one is read back
+    uint32_t layers = 0;
     bool unchanged = false; // frames after the first promise unchanged surfaces
 };
 

@@ -225,6 +225,7 @@ TEST_F(DeviceLightsTest, ArgumentsOutOfRangeAreNamed)
     expect("boundsMin", argument, [](CndDeviceLights& d) { d.boundsMin[1] = 11; });
     expect("boundsMin", argument, [](CndDeviceLights& d) { d.boundsMax[0] = infinity; });
     expect("influenceRadius", argument, [](CndDeviceLights& d) { d.influenceRadius = notANumber; });
+    expect("layers", argument, [](CndDeviceLights& d) { d.layers = 1u << CND_LAYER_COUNT; });
     expect("4000000000", CND_ERROR_UNSUPPORTED,
            [](CndDeviceLights& d) { d.maxCount = 4000000000u; });
     cndDestroyLightingView(view);

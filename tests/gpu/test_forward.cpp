@@ -188,16 +188,21 @@ CpuGBuffer gbuffer(uint32_t seed, bool perspective = true)
     return randomGBuffer(64, 48, camera, 0, seed);
 }
 
-// Also without any opaque surface, and when the module itself culls nothing.
+// Also without any opaque surface, and when the module itself culls nothing. Lights of other layers
+// are left out.
 TEST_F(ForwardTest, EqualsTheDeferredResultForTheSameSurface)
 {
     const CpuGBuffer seen = gbuffer(3), elsewhere = gbuffer(4);
     CpuGBuffer nothing = seen;
     std::fill(nothing.depth.begin(), nothing.depth.end(), nothing.clearDepth);
-    const std::vector<CndLight> lights = everyType(seen, 25);
+    std::vector<CndLight> lights = everyType(seen, 25);
+    for (size_t i = 0; i < lights.size(); ++i)
+        lights[i].layers = i % 5 ? 1 : 2;
     create(seen, lights);
-    RunOptions options{
-        .specular = CND_SPECULAR_CONIC, .lobes = CND_LOBES_CONSERVING, .energyCompensation = true};
+    RunOptions options{.specular = CND_SPECULAR_CONIC,
+                       .lobes = CND_LOBES_CONSERVING,
+                       .energyCompensation = true,
+                       .layers = 1};
     const Lit same = frame(seen, seen, options);
     std::vector<glm::vec4> twice = same.lit(); // the view was recorded twice
     for (glm::vec4& pixel : twice)
@@ -205,6 +210,7 @@ TEST_F(ForwardTest, EqualsTheDeferredResultForTheSameSurface)
     const double onSurface = maxPixelDifference(twice, same.deferred);
     EXPECT_LE(onSurface, tolerance);
     EXPECT_LE(maxPixelDifference(same.stepped(), same.lit()), tolerance);
+    std::erase_if(lights, [](const CndLight& light) { return light.layers == 2; });
     const std::vector<glm::vec4> expected = run(elsewhere, lights, options).radiance;
     for (const CpuGBuffer& opaque : {seen, nothing}) {
         const double off = maxPixelDifference(frame(opaque, elsewhere, options).lit(), expected);

@@ -226,6 +226,24 @@ TEST(Conversions, IrradianceIsMatched)
     }
 }
 
+TEST(Conversions, LayersAreKept)
+{
+    const float at[3] = {1, 2, 3};
+    const auto with = [](CndLightType type) {
+        CndLight l = light(type);
+        l.layers = 5;
+        return l;
+    };
+    const CndLight point = with(CND_LIGHT_POINT), sphere = with(CND_LIGHT_SPHERE),
+                   sun = with(CND_LIGHT_DISTANT_SPHERE), directional = with(CND_LIGHT_DIRECTIONAL);
+    EXPECT_EQ(sphereFromPoint(point, at).value().layers, 5u);
+    EXPECT_EQ(pointFromSphere(sphere).value().layers, 5u);
+    EXPECT_EQ(distantSphereFromDirectional(directional).value().layers, 5u);
+    EXPECT_EQ(directionalFromDistantSphere(sun).value().layers, 5u);
+    EXPECT_EQ(sphereFromDirectional(directional, at).value().layers, 5u);
+    EXPECT_EQ(directionalFromSphere(sphere, at).value().layers, 5u);
+}
+
 TEST(Conversions, ChosenSizesFitSinglePrecision)
 {
     for (const double distance : {1e-6, 1.0, 1e4, 1e12}) {

@@ -104,6 +104,19 @@ TEST(Reach, ReplacedLightsWidenTheBox)
     EXPECT_EQ(both.high, glm::dvec3(2, 4, 11));
 }
 
+TEST(Reach, LayersAreThoseOfAnyLight)
+{
+    CndLight lights[] = {{.type = CND_LIGHT_POINT, .influenceRadius = 1, .layers = 1},
+                         {.type = CND_LIGHT_POINT, .influenceRadius = 1, .layers = 4},
+                         {.type = CND_LIGHT_DIRECTIONAL}};
+    ReachBoxes boxes = reachOf({lights, 1});
+    EXPECT_EQ(boxes[CND_LIGHT_POINT].layers, 1u);
+    EXPECT_EQ(boxes[CND_LIGHT_DIRECTIONAL].layers, 0u);
+    widen(boxes, reachOf(lights));
+    EXPECT_EQ(boxes[CND_LIGHT_POINT].layers, 5u);
+    EXPECT_EQ(boxes[CND_LIGHT_DIRECTIONAL].layers, (1u << CND_LAYER_COUNT) - 1);
+}
+
 TEST(Reach, DistantAndEndlessLightsReachEverything)
 {
     std::mt19937 random(2);

@@ -89,6 +89,9 @@ TEST_F(SceneJsonLights, EveryTypeArrivesAsWritten)
     expectNear(vec(l[0].emission), {400, 300, 200});
     EXPECT_NEAR(power(l[1], 0), 500, 1e-4);
     EXPECT_EQ(l[1].influenceRadius, 8);
+    EXPECT_EQ(l[1].layers, 0x8004u);
+    EXPECT_EQ(l[2].layers, 0u);
+    EXPECT_EQ(scene.cameras[0].layers, 0x8001u);
     for (int c = 0; c < 3; ++c) // I = pi R^2 L
         EXPECT_NEAR(double(l[2].emission[c]) * pi * 0.01, 30 + 10 * c, 1e-4);
 
@@ -166,6 +169,8 @@ TEST_F(SceneJsonLights, EveryBadValueNamesItsKey)
         for (const auto& [key, value] : light.items()) {
             for (const char* bad : {"null", "{}", "[]", "\"x\"", "-1", "[1, 2]", "1e300",
                                     "[1e300, 0, 0]", "[0, 0, \"1\"]"}) {
+                if (key == "layers" && std::string(bad) == "[1, 2]")
+                    continue; // is good
                 Json broken = light;
                 broken[key] = Json::parse(bad);
                 const std::string message = error(broken);
@@ -174,7 +179,7 @@ TEST_F(SceneJsonLights, EveryBadValueNamesItsKey)
             }
             Json without = light;
             without.erase(key);
-            if (key == "type" || key == "influence_radius" || key == "two_sided")
+            if (key == "type" || key == "influence_radius" || key == "two_sided" || key == "layers")
                 continue;
             EXPECT_NE(error(without).find("is missing"), std::string::npos) << key;
             Json more = light;
@@ -232,6 +237,10 @@ TEST_F(SceneJsonLights, ErrorsSayWhy)
     expect(R"({"type": "directional", "direction": [0, -1, 0], "position": [0, 0, 0],
                "illuminance": [1, 1, 1]})",
            ": unknown key \"position\"");
+    expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "layers": []})",
+           ".layers: must not be empty (all layers: leave it out)");
+    expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "layers": [0, 16]})",
+           ".layers[1]: must be an integer between 0 and 15, is 16");
     // The widest spot there is.
     expect(R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
                "inner_cone_degrees": 0, "outer_cone_degrees": 90, "intensity": [1, 1, 1]})",

@@ -111,6 +111,10 @@ typedef struct CndLightingFrame {
     // in which it waits for its neighbours included), b lights that contribute. a becomes a
     // CndPixelClass, 0 stays without a surface.
     VkImageView pairImage;
+    // Mask of 1 << layer, below CND_LAYER_COUNT; 0: all. Lights that have none of them light
+    // nothing in this frame, nor in shaders of cndGetForwardSet: no list holds them, brute force
+    // skips them.
+    uint32_t layers;
 } CndLightingFrame;
 
 // What cndRecordSurfaceOverlay shows, black where there is no surface.
@@ -141,7 +145,7 @@ typedef struct CndSurfaceOverlay {
 
 typedef struct CndLightingStats {
     uint32_t structSize;
-    uint32_t lightCount;     // of the set, CndDeviceLights::maxCount included
+    uint32_t lightCount;     // of the set, of all layers, CndDeviceLights::maxCount included
     uint32_t deviceLights;   // taken from CndDeviceLights
     uint32_t rejectedLights; // in CndDeviceLights, but outside the range of a field, or too many
     // By type, CndDeviceLights::maxCount included; types without lights have no passes.
@@ -154,7 +158,9 @@ typedef struct CndLightingStats {
     // over light types: lit by walking the light tree per pixel.
     uint32_t unlistedClusters;
     // (pixel, light) pairs of clusters that have lists, with countPairs, else 0:
-    uint64_t listedPairs;       // entries walked, summed over the surface pixels
+    // Entries walked, summed over the surface pixels; distant lights of other layers are walked,
+    // and counted here alone.
+    uint64_t listedPairs;
     uint64_t evaluatedPairs;    // lanes that evaluate a light, those that wait for others included
     uint64_t insidePairs;       // listed and distance < influence radius
     uint64_t contributingPairs; // of those, emitter not wholly below the horizon

@@ -22,6 +22,10 @@ typedef enum CndLightType {
     CND_LIGHT_TYPE_MAX_ENUM = 0x7FFFFFFF
 } CndLightType;
 
+// Layers of lights and views: bits of a mask. 0 stands for all of them, so that a struct of zeros
+// is in every layer; what is in none has no use: remove the light.
+#define CND_LAYER_COUNT 16
+
 // One light. Fields that a type does not use are ignored.
 // Window: a light is multiplied by (1 - (d/r)^4)^2 for d < r and is absent for d >= r, with d the
 // distance to its centre and r = influenceRadius (Lagarde and de Rousiers 2014, eq. 26, squared
@@ -49,6 +53,9 @@ typedef struct CndLight {
     float axisU[3];
     float axisV[3];
     VkBool32 twoSided; // rectangle, disc: emits from its back as well
+    // Mask of 1 << layer, below CND_LAYER_COUNT; 0: all. A light is there for the frames that have
+    // a layer in common with it (CndLightingFrame::layers).
+    uint32_t layers;
 } CndLight;
 
 // Names a light for as long as it is in the set. Lights of cndSetLights have their index in it,
@@ -81,6 +88,7 @@ typedef struct CndDeviceLights {
     // Where most of them are and how far most of them reach, metres: for speed alone.
     float boundsMin[3], boundsMax[3];
     float influenceRadius;
+    uint32_t layers; // of all of them, as CndLight::layers
 } CndDeviceLights;
 
 // A set of lights around an origin. The engine subtracts the camera from the origin in double, so
@@ -136,8 +144,8 @@ CND_API CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousP
 
 // One kind of light as another with the same irradiance at a receiver, however it is turned while
 // the whole emitter is above its horizon. `at` is the receiver's position, relative to the origin
-// of the light set like CndLight::position. Computed in double; influenceRadius is kept. On error
-// nothing is written.
+// of the light set like CndLight::position. Computed in double; influenceRadius and layers are
+// kept. On error nothing is written.
 
 // The Sun's sine of the angular radius, 695,700 km / 149.6e6 km (IAU 2015 B3, 2012 B2).
 #define CND_SUN_SINE 0.00465f

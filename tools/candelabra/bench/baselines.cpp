@@ -329,7 +329,8 @@ void Baselines::recordLights(const gpu::Frame& f) const
     const gpu::PrepareLightsParams params{
         .viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
         .originView = glm::vec3(viewFromWorld * glm::dvec4(lightOrigin_, 1)),
-        .lightCount = lightCount_};
+        .lightCount = lightCount_,
+        .layers = gpu::ALL_LAYERS};
     kernels_.prepare.dispatch(f, sets_.prepare.set(0), params,
                               divideUp(lightCount_, gpu::PREPARE_LIGHTS_GROUP));
     f.barrier();

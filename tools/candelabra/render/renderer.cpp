@@ -244,6 +244,7 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
     out.errorBudget = frame.errorBudget;
     out.culling = frame.culling;
     out.countPairs = frame.countPairs;
+    out.layers = frame.camera.layers;
     return out;
 }
 

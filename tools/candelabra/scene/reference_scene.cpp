@@ -68,7 +68,14 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
                                .normal = object.normal,
                                .radius = object.radius,
                                .material = object.material});
-    out.lights = scene.lights;
+    for (const CndLight& light : scene.lights)
+        if (!light.layers || !camera.layers || light.layers & camera.layers)
+            out.lights.push_back(light);
+        else if (lightsVisible)
+            throw SceneError(scene.name +
+                             ": has lights of other layers than the camera's, and only "
+                             "lights that are not seen have a truth without their "
+                             "light");
     out.lightOrigin = scene.lightOrigin;
     out.background = scene.background;
     out.lightsVisible = lightsVisible;

@@ -94,6 +94,7 @@ struct Camera {
     std::optional<double> aspect;  // width / height; empty: that of the image
     double nearPlane = 0.05;       // metres
     double farPlane = 0;           // metres; 0: infinite (perspective only)
+    uint32_t layers = 0;           // as CndLightingFrame::layers
 
     bool operator==(const Camera&) const = default;
 };

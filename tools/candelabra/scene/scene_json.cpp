@@ -35,7 +35,7 @@ glm::dvec3 direction(const JsonValue& value)
 
 Camera readCamera(const JsonValue& json)
 {
-    json.refuseOtherKeys({"position", "look_at", "up", "vertical_fov_degrees", "aspect"});
+    json.refuseOtherKeys({"position", "look_at", "up", "vertical_fov_degrees", "aspect", "layers"});
     Camera camera;
     camera.name = "scene camera";
     camera.position = json.member("position").vector3(coordinate);
@@ -52,6 +52,8 @@ Camera readCamera(const JsonValue& json)
     camera.verticalFov = degrees * 3.14159265358979323846 / 180;
     if (const auto aspect = json.find("aspect"))
         camera.aspect = aspect->number({1e-3, 1e3});
+    if (const auto layers = json.find("layers"))
+        camera.layers = readLayers(*layers);
     // The reference cameras see everything in front of them; nearer than this nothing is resolved.
     camera.nearPlane = 1e-3;
     return camera;

@@ -77,7 +77,7 @@ const LightKind& kindOf(const JsonValue& json)
 
 void refuseOtherKeys(const JsonValue& json, const LightKind& kind)
 {
-    std::vector<std::string> known{"type"};
+    std::vector<std::string> known{"type", "layers"};
     for (const auto* keys : {&kind.placement, &kind.optional, &kind.emission})
         known.insert(known.end(), keys->begin(), keys->end());
     json.refuseOtherKeys(known);
@@ -243,12 +243,25 @@ CndLight readLight(const JsonValue& json, glm::dvec3& position)
         readCone(json, light);
     if (const auto twoSided = json.find("two_sided"))
         light.twoSided = twoSided->boolean() ? VK_TRUE : VK_FALSE;
+    if (const auto layers = json.find("layers"))
+        light.layers = readLayers(*layers);
     readInfluence(json, light);
     readEmission(json, kind, light);
     return light;
 }
 
 } // namespace
+
+uint32_t readLayers(const JsonValue& json)
+{
+    json.requireArray();
+    if (json.size() == 0)
+        json.fail("must not be empty (all layers: leave it out)");
+    uint32_t layers = 0;
+    for (size_t i = 0; i < json.size(); ++i)
+        layers |= 1u << json.item(i).integer(0, CND_LAYER_COUNT - 1);
+    return layers;
+}
 
 void readSceneLights(const JsonValue& list, Scene& scene)
 {

@@ -19,6 +19,7 @@
 // radiance may be called luminance: cd/m^2. luminous_power: lm. intensity: cd; a sphere's in the
 // far field, a spot's on its axis. illuminance: lx, on a surface that faces the light. axis_u and
 // axis_v go from the centre to the middle of an edge and of the next; the front is axis_u x axis_v.
+// "layers" of any light: its layers by number, [0, 3] for instance (default: all).
 #pragma once
 
 #include "scene/json_value.h"
@@ -26,6 +27,9 @@
 
 namespace candelabra::app
 {
+
+// [0, 3] as CndLight::layers. Throws SceneError.
+uint32_t readLayers(const JsonValue& json);
 
 // Appends the lights of the array `list` and places them (light_placement.h). Throws SceneError.
 void readSceneLights(const JsonValue& list, Scene& scene);

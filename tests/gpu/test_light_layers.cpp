@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights of other layers than the frame's: the image is that of a set without them, and so are the
+// statistics of the lists.
+#include <cstring>
+#include <string>
+
+#include "gpu/lighting_harness.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+class LightLayers : public LightingTest
+{
+protected:
+    void SetUp() override
+    {
+        LightingTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        CndCamera camera;
+        setPerspective(camera, 1.0, 4.0 / 3, 0.1);
+        g_ = randomGBuffer(64, 48, camera, 0, 3);
+    }
+    // Of every type, in layers 0 and 2.
+    std::vector<CndLight> shown() const
+    {
+        std::vector<CndLight> all;
+        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+            for (CndLight& light : lightsOf(CndLightType(type), g_, 50, 40 + type)) {
+                light.layers = type % 2 ? 1 : 5;
+                all.push_back(light);
+            }
+        return all;
+    }
+    // Each followed by one of layer 1 in the same place: the sorted order of the others stays.
+    static std::vector<CndLight> withHidden(const std::vector<CndLight>& lights)
+    {
+        std::vector<CndLight> all;
+        for (const CndLight& light : lights) {
+            all.insert(all.end(), 2, light);
+            all.back().emission[1] += 100;
+            all.back().layers = 2;
+        }
+        return all;
+    }
+
+    CpuGBuffer g_;
+};
+
+// Lists, no room for lists, and every light at every pixel.
+TEST_F(LightLayers, LeaveTheSameBitsAsASetWithoutTheOthers)
+{
+    CndError error{};
+    const CndLightingDesc desc{.structSize = sizeof desc, .framesInFlight = 1};
+    CndLighting lighting{};
+    ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS);
+    CndLightingView views[2]{}; // the second has no room
+    for (int i = 0; i < 2; ++i) {
+        const CndLightingViewDesc viewDesc{sizeof viewDesc, g_.width, g_.height, i ? 4096u : 0};
+        ASSERT_EQ(cndCreateLightingView(lighting, &viewDesc, &views[i], &error), CND_SUCCESS);
+    }
+    const Images images = uploadImages(g_);
+    const auto set = [&](const std::vector<CndLight>& lights) {
+        const CndLightSet s{sizeof s, uint32_t(lights.size()), lights.data(), {}, nullptr};
+        EXPECT_EQ(cndSetLights(lighting, &s, &error), CND_SUCCESS) << error.message;
+    };
+    const auto frame = [&](CndLightingView view, CndCulling culling, uint32_t layers) {
+        const CndLightingFrame f = frameOf(g_, images,
+                                           {.specular = CND_SPECULAR_CONIC,
+                                            .culling = culling,
+                                            .countPairs = true,
+                                            .layers = layers});
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            clearRadiance(cmd, images);
+            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
+        });
+        LightingResult result{.radiance = readRadiance(images)};
+        result.stats.structSize = sizeof result.stats;
+        EXPECT_EQ(cndGetLightingStats(view, 0, &result.stats), CND_SUCCESS);
+        return result;
+    };
+    const std::vector<CndLight> lights = shown(), all = withHidden(lights);
+    set(lights);
+    const LightingResult expected = frame(views[0], CND_CULLING_CLUSTERED, 0);
+    set(all);
+    const LightingResult clustered = frame(views[0], CND_CULLING_CLUSTERED, 5);
+    EXPECT_TRUE(sameBits(clustered, expected));
+    EXPECT_EQ(clustered.stats.lightCount, all.size());
+    EXPECT_EQ(clustered.stats.listEntries, expected.stats.listEntries);
+    EXPECT_EQ(clustered.stats.maxListLength, expected.stats.maxListLength);
+    EXPECT_EQ(clustered.stats.insidePairs, expected.stats.insidePairs);
+    EXPECT_EQ(clustered.stats.contributingPairs, expected.stats.contributingPairs);
+    EXPECT_GT(clustered.stats.contributingPairs, 0u);
+    const LightingResult unlisted = frame(views[1], CND_CULLING_CLUSTERED, 5);
+    EXPECT_GT(unlisted.stats.unlistedClusters, 0u);
+    EXPECT_TRUE(sameBits(unlisted, expected));
+    EXPECT_TRUE(sameBits(frame(views[0], CND_CULLING_BRUTE, 5), expected));
+    EXPECT_FALSE(sameBits(frame(views[0], CND_CULLING_CLUSTERED, 0), expected)); // all layers
+    for (CndLightingView view : views)
+        cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+}
+
+TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
+{
+    std::vector<CndLight> lights = randomSpheres(g_, 100, 5);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        lights[i].type = i % 2 ? CND_LIGHT_SPHERE : CND_LIGHT_POINT;
+        lights[i].layers = 1;
+    }
+    std::vector<CndLight> all = withHidden(lights);
+    const auto [lighting, view] = createLighting(g_, 1);
+    const Images images = uploadImages(g_);
+    CndError error{};
+    const CndLightSet set{sizeof set, uint32_t(all.size()), all.data(), {}, nullptr};
+    ASSERT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+    const auto frame = [&](uint32_t layers) {
+        CndLightingFrame f = frameOf(g_, images, {.layers = layers});
+        f.surfacesUnchanged = VK_TRUE; // lists are kept while layers stay
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            clearRadiance(cmd, images);
+            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
+        });
+        return readRadiance(images);
+    };
+    std::vector<CndLight> others;
+    for (size_t i = 1; i < all.size(); i += 2)
+        others.push_back(all[i]);
+    const std::vector<glm::vec4> first = run(g_, lights).radiance;
+    EXPECT_TRUE(sameBits(frame(1), first));
+    EXPECT_TRUE(sameBits(frame(1), first));
+    EXPECT_TRUE(sameBits(frame(2), run(g_, others).radiance));
+    EXPECT_TRUE(sameBits(frame(1), first));
+    // No type has a light in this layer: nothing runs.
+    EXPECT_TRUE(sameBits(frame(8), std::vector<glm::vec4>(first.size(), glm::vec4(0))));
+    CndLightingStats stats{.structSize = sizeof stats};
+    ASSERT_EQ(cndGetLightingStats(view, 0, &stats), CND_SUCCESS);
+    for (uint32_t i = 0; i < stats.passCount; ++i)
+        if (std::string(stats.passes[i].name) == "shade_tiles") {
+            EXPECT_STREQ(stats.passes[i].skipped, "no light reaches the view");
+        }
+    // Layers of lights change places.
+    for (size_t i = 0; i < all.size(); ++i) {
+        all[i].layers = 3 & ~all[i].layers;
+        const CndLightId id = i;
+        ASSERT_EQ(cndUpdateLights(lighting, 1, &id, &all[i], &error), CND_SUCCESS) << error.message;
+    }
+    EXPECT_TRUE(sameBits(frame(2), first));
+    cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+}
+
+TEST_F(LightLayers, OfLightsOnTheDevice)
+{
+    const std::vector<CndLight> lights = randomSpheres(g_, 60, 9);
+    const gpu::Buffer buffer =
+        gpu::createBuffer(device(), "particles", lights.size() * sizeof(CndDeviceLight),
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Upload);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        CndDeviceLight& out = buffer.as<CndDeviceLight>()[i];
+        out = {.radius = lights[i].radius, .influenceRadius = lights[i].influenceRadius};
+        std::memcpy(out.position, lights[i].position, sizeof out.position);
+        std::memcpy(out.emission, lights[i].emission, sizeof out.emission);
+    }
+    CndDeviceLights device{.type = CND_LIGHT_SPHERE,
+                           .maxCount = uint32_t(lights.size()),
+                           .buffer = buffer.get(),
+                           .boundsMin = {-10, -10, -20},
+                           .boundsMax = {10, 10, 0},
+                           .influenceRadius = 2};
+    const LightingResult expected = run(g_, {}, {.deviceLights = &device});
+    device.layers = 2;
+    const std::vector<glm::vec4> black(expected.radiance.size(), glm::vec4(0));
+    for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
+        const auto in = [&](uint32_t layers) {
+            return run(g_, {}, {.culling = culling, .deviceLights = &device, .layers = layers});
+        };
+        EXPECT_TRUE(sameBits(in(3), expected));
+        const LightingResult none = in(5);
+        EXPECT_TRUE(sameBits(none.radiance, black));
+        EXPECT_EQ(none.stats.deviceLights, lights.size());
+    }
+}
+
+TEST_F(LightLayers, BeyondTheLastAreNamed)
+{
+    const auto [lighting, view] = createLighting(g_, 1);
+    const Images images = uploadImages(g_);
+    CndError error{};
+    CndLight light = randomSpheres(g_, 1, 1)[0];
+    light.layers = 1u << CND_LAYER_COUNT;
+    const CndLightSet set{sizeof set, 1, &light, {}, nullptr};
+    EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(error.message, "lights[0]: layers has bits beyond CND_LAYER_COUNT");
+    const CndLightingFrame frame = frameOf(g_, images, {.layers = 1u << CND_LAYER_COUNT});
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_ERROR_INVALID_ARGUMENT);
+    });
+    EXPECT_STREQ(error.message, "CndLightingFrame: layers has bits beyond CND_LAYER_COUNT");
+    cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+}
+
+} // namespace
+} // namespace candelabra::test
