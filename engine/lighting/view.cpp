@@ -8,6 +8,7 @@
 
 #include "lighting/camera.h"
 #include "lighting/lighting.h"
+#include "lighting/view_plan.h"
 
 namespace candelabra::lighting
 {
@@ -33,27 +34,9 @@ struct Readback {
     uint32_t marker; // low half of the recording's number, written last
 };
 
-uint32_t tiles(uint32_t pixels)
-{
-    return divideUp(pixels, gpu::TILE_SIZE);
-}
-
 uint64_t join(glm::uvec2 lowHigh)
 {
     return uint64_t(lowHigh.y) << 32 | lowHigh.x;
-}
-
-uint32_t lobesOf(const CndLightingFrame& frame)
-{
-    return uint32_t(frame.lobes) | (frame.energyCompensation ? gpu::COMPENSATE_ENERGY : 0);
-}
-
-// Of loops inside the evaluation of one light, at most: outlines of tubes have 16 edges and are
-// walked for the diffuse lobe and two specular ones, discs have a series of 9 terms.
-uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t sampleCount)
-{
-    const uint32_t shape = lightType == CND_LIGHT_TUBE ? 64 : isSphere(lightType) ? 0 : 24;
-    return shape + (method == CND_SPECULAR_SAMPLED ? sampleCount : 0);
 }
 
 CndLightingViewDesc checked(const gpu::Device& device, CndLightingViewDesc desc)
@@ -77,21 +60,6 @@ CndLightingViewDesc checked(const gpu::Device& device, CndLightingViewDesc desc)
 }
 
 } // namespace
-
-// Everything a frame's dispatches are sized with.
-struct View::Plan {
-    gpu::Projection projection;
-    glm::uvec2 size;
-    glm::vec2 invImageSize; // one value for all kernels: GPU divisions may differ in the last bit
-    float clearDepth;
-    uint32_t lightCount;
-    LightTypeCounts lights; // by type, 0 for types none of which reaches the view
-    TreeShapes trees;
-    uint32_t tileCountX, tileCountY;
-    uint32_t sampleCount;
-    float splitLength; // gpu::TileClustersParams
-    gpu::PrepareLightsParams prepare;
-};
 
 View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     : lighting_(lighting),
@@ -275,115 +243,6 @@ gpu::ForwardView View::forwardView(const CndLightingFrame& frame, const Plan& p)
         if (p.lights[type])
             view.trees[type] = p.trees[type];
     return view;
-}
-
-gpu::ShadeParams View::shadeParams(const CndLightingFrame& frame, const Plan& p,
-                                   uint32_t type) const noexcept
-{
-    return {.projection = p.projection,
-            .size = p.size,
-            .origin = {0, 0},
-            .firstLight = p.trees[type].firstLight,
-            .lightCount = p.trees[type].lightCount,
-            .tileCountX = p.tileCountX,
-            .clearDepth = p.clearDepth,
-            .invImageSize = p.invImageSize,
-            .sampleCount = p.sampleCount,
-            .sampleSeed = frame.sampleSeed,
-            .errorBudget = frame.errorBudget,
-            .lobes = lobesOf(frame),
-            .tree = p.trees[type]};
-}
-
-// Calls `record` for consecutive lights of a type, at most `largest` at once.
-template <typename Record>
-void View::inBatches(gpu::ShadeParams params, uint32_t largest, Record&& record) const noexcept
-{
-    const uint32_t end = params.firstLight + params.lightCount;
-    for (; params.firstLight < end; params.firstLight += params.lightCount) {
-        params.lightCount = std::min(largest, end - params.firstLight);
-        record(params);
-    }
-}
-
-void View::recordBrute(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
-                       uint32_t type) const noexcept
-{
-    const ShadeKernels::Variant& kernels =
-        lighting_.kernels().shade.variant(type, frame.specularMethod, frame.errorBudget > 0);
-    inBatches(shadeParams(frame, p, type), lightsPerBatch(frame, p, type),
-              [&](gpu::ShadeParams params) {
-                  const VkRect2D& r = frame.bruteRect;
-                  if (r.extent.width && r.extent.height) {
-                      params.origin = {r.offset.x, r.offset.y};
-                      params.size = params.origin + glm::uvec2(r.extent.width, r.extent.height);
-                  }
-                  const glm::uvec2 pixels = params.size - params.origin;
-                  kernels.brute.dispatch(f, sets_.shadeBrute.set(f.slot), params, tiles(pixels.x),
-                                         tiles(pixels.y));
-                  f.barrier();
-              });
-}
-
-uint32_t View::lightsPerBatch(const CndLightingFrame& frame, const Plan& p,
-                              uint32_t type) const noexcept
-{
-    return lighting_.lightsPerBatch(loopIterations(type, frame.specularMethod, p.sampleCount));
-}
-
-void View::recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
-                           uint32_t type) const noexcept
-{
-    const ShadeKernels::Variant& kernels =
-        lighting_.kernels().shade.variant(type, frame.specularMethod, frame.errorBudget > 0);
-    const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
-    const gpu::ShadeParams params = shadeParams(frame, p, type);
-    const uint32_t perBatch = lightsPerBatch(frame, p, type);
-    const auto shade = [&](const gpu::ShadeParams& batch) {
-        kernels.tiles.dispatchIndirect(f, sets_.shadeTiles.set(set), batch,
-                                       clusters_.tilesToShade(type));
-        f.barrier();
-    };
-    if (isDistant(type)) { // they reach everything: no lists
-        inBatches(params, perBatch, shade);
-    } else {
-        shade(params);
-        recordUnlisted(f, kernels, params, set, type, perBatch);
-    }
-    if (frame.countPairs) {
-        gpu::ShadeParams counted = params;
-        counted.batchLevel = frame.pairImage ? 1 : 0;
-        kernels.countPairs.dispatchIndirect(f, sets_.countPairs.set(set), counted,
-                                            clusters_.surfaces());
-        f.barrier();
-    }
-}
-
-// Clusters whose list found no page; then, where the device limits loops, those of too many lights,
-// by parts of the light tree.
-void View::recordUnlisted(const gpu::Frame& f, const ShadeKernels::Variant& kernels,
-                          gpu::ShadeParams params, uint32_t set, uint32_t type,
-                          uint32_t perBatch) const noexcept
-{
-    gpu::Timer untimed; // the parts are one row
-    const gpu::Frame u{f.device, f.cmd, untimed, f.slot};
-    const auto record = [&](const gpu::ShadeParams& part) {
-        kernels.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
-                                          clusters_.lists(type).unlisted);
-        u.barrier();
-    };
-    record(params);
-    if (lighting_.device().maxLoopIterations != UINT32_MAX) {
-        // A row of eight pixels may hold four clusters that take turns at walking the tree;
-        // besides, finding a light takes about as many iterations as evaluating it.
-        const uint32_t largest = std::max(perBatch / (2 * gpu::SLICES), gpu::TREE_WIDTH);
-        uint32_t size = gpu::TREE_WIDTH;
-        for (params.batchLevel = 1; params.batchLevel < 3 && size * gpu::TREE_WIDTH <= largest;
-             ++params.batchLevel)
-            size *= gpu::TREE_WIDTH;
-        inBatches(params, largest / size * size, record);
-    }
-    f.timer.stamp(f.cmd, kernels.unlisted.name());
 }
 
 void View::recordReadback(const gpu::Frame& f) const noexcept
