@@ -10,6 +10,7 @@
 
 #include "candelabra_probes.h"
 #include "gpu/probe.h"
+#include "harness/full_tests.h"
 #include "reference/truth.h"
 #include "shared/area_probe.h"
 #include "shared/light_types.h"
@@ -177,11 +178,6 @@ protected:
 
     std::mt19937 random_{2016};
 };
-
-bool fullTests()
-{
-    return std::getenv("CANDELABRA_FULL_TESTS") != nullptr;
-}
 
 } // namespace
 

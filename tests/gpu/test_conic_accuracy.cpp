@@ -9,6 +9,7 @@
 
 #include "candelabra_probes.h"
 #include "gpu/probe.h"
+#include "harness/full_tests.h"
 #include "reference/truth.h"
 
 namespace candelabra::test
@@ -105,7 +106,7 @@ class ConicAccuracy : public ProbeTest
 
 TEST_F(ConicAccuracy, AgainstQuadrature)
 {
-    const int groups = std::getenv("CANDELABRA_FULL_TESTS") ? 1500 : 300;
+    const int groups = fullTests() ? 1500 : 300;
     std::vector<Record> records = drawRecords(groups);
     std::vector<gpu::ConicProbeInput> inputs;
     std::vector<double> peak(size_t(groups), 0), dielectricPeak(size_t(groups), 0);

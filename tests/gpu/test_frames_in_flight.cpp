@@ -2,9 +2,9 @@
 // Frames that really overlap: three slots, two views on one light set, sets that grow and shrink
 // while earlier frames are still on the GPU. Every image must be that of a fresh, lone frame.
 #include "gpu/lighting_harness.h"
+#include "harness/full_tests.h"
 
 #include <array>
-#include <cstdlib>
 #include <map>
 #include <numeric>
 #include <random>
@@ -166,8 +166,7 @@ TEST_F(FramesInFlight, ViewsAndGrowingSetsStayRight)
 // freed meanwhile is counted on the mock driver: tests/mock/test_lifetimes.cpp.)
 TEST_F(FramesInFlight, StormOfSizesAndLightsEqualsBrute)
 {
-    const char* full = std::getenv("CANDELABRA_FULL_TESTS");
-    const int frames = full && *full == '1' ? 500 : 60;
+    const int frames = fullTests() ? 500 : 60;
     constexpr uint32_t maxWidth = 150, maxHeight = 110;
     constexpr VkDeviceSize imageBytes = maxWidth * maxHeight * sizeof(glm::vec4);
     std::mt19937 random(3);

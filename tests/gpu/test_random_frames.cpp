@@ -2,9 +2,9 @@
 // Random frames: any camera, size, depth convention and lights, clustered against brute force. Ten
 // by default, 1,000 with tools/test --full.
 #include "gpu/lighting_harness.h"
+#include "harness/full_tests.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -63,8 +63,7 @@ private:
 
 TEST_F(LightingTest, RandomFramesEqualBrute)
 {
-    const char* full = std::getenv("CANDELABRA_FULL_TESTS");
-    const uint32_t frames = full && std::string(full) == "1" ? 1000 : 10;
+    const uint32_t frames = fullTests() ? 1000 : 10;
     uint32_t lit = 0;
     for (uint32_t seed = 0; seed < frames; ++seed) {
         RandomFrame frame(seed);

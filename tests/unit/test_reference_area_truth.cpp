@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/full_tests.h"
 #include "reference/emitter_domain.h"
 #include "reference/truth.h"
 #include "test_reference_support.h"
@@ -71,7 +72,7 @@ double specular(const CndLight& light, double alpha = 0.25)
 
 TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
 {
-    const int count = std::getenv("CANDELABRA_FULL_TESTS") ? 3000 : 60;
+    const int count = fullTests() ? 3000 : 60;
     const auto unitVector = [](std::mt19937_64& random) {
         std::uniform_real_distribution<double> unit(0, 1);
         const double z = 2 * unit(random) - 1, phi = 2 * pi * unit(random);

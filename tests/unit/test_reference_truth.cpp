@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/full_tests.h"
 #include "reference/brdf.h"
 #include "reference/direction_domain.h"
 #include "reference/light.h"
@@ -29,11 +30,6 @@ namespace
 {
 
 constexpr double pi = std::numbers::pi;
-
-bool fullTests()
-{
-    return std::getenv("CANDELABRA_FULL_TESTS") != nullptr;
-}
 
 struct CapCase {
     SurfacePoint surface;
