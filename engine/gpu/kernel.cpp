@@ -219,12 +219,13 @@ void KernelBase::dispatchRaw(const Frame& frame, VkDescriptorSet set, const void
 }
 
 void KernelBase::dispatchIndirectRaw(const Frame& frame, VkDescriptorSet set, const void* params,
-                                     uint32_t size, VkBuffer arguments) const noexcept
+                                     uint32_t size, VkBuffer arguments,
+                                     VkDeviceSize at) const noexcept
 {
     const Device& d = frame.device;
     d.beginLabel(frame.cmd, name_);
     bind(frame, set, params, size);
-    d.CmdDispatchIndirect(frame.cmd, arguments, 0);
+    d.CmdDispatchIndirect(frame.cmd, arguments, at);
     d.endLabel(frame.cmd);
     frame.timer.stamp(frame.cmd, name_);
 }

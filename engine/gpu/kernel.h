@@ -94,7 +94,7 @@ protected:
     void dispatchRaw(const Frame& frame, VkDescriptorSet set, const void* params, uint32_t size,
                      uint32_t x, uint32_t y, uint32_t z) const noexcept;
     void dispatchIndirectRaw(const Frame& frame, VkDescriptorSet set, const void* params,
-                             uint32_t size, VkBuffer arguments) const noexcept;
+                             uint32_t size, VkBuffer arguments, VkDeviceSize at) const noexcept;
 
 private:
     void bind(const Frame& frame, VkDescriptorSet set, const void* params,
@@ -125,11 +125,11 @@ public:
     {
         dispatchRaw(frame, set, &params, sizeof params, x, y, z);
     }
-    // Group counts from the start of `arguments` (VkDispatchIndirectCommand).
+    // Group counts (VkDispatchIndirectCommand) from byte `at` of `arguments`.
     void dispatchIndirect(const Frame& frame, VkDescriptorSet set, const Params& params,
-                          const Buffer& arguments) const noexcept
+                          const Buffer& arguments, VkDeviceSize at = 0) const noexcept
     {
-        dispatchIndirectRaw(frame, set, &params, sizeof params, arguments.get());
+        dispatchIndirectRaw(frame, set, &params, sizeof params, arguments.get(), at);
     }
 };
 

@@ -42,17 +42,18 @@ uint32_t area(glm::uvec2 size)
     return size.x * size.y;
 }
 
-VkDeviceSize workBytes(uint32_t items)
+VkDeviceSize workBytes(uint32_t lists, uint32_t items)
 {
-    return sizeof(gpu::WorkList) + VkDeviceSize(items) * sizeof(uint32_t);
+    return lists * sizeof(gpu::WorkList) + VkDeviceSize(items) * sizeof(uint32_t);
 }
 
 } // namespace
 
-ClusterKernels::ClusterKernels(const gpu::Device& device, uint32_t gbuffer)
+ClusterKernels::ClusterKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t tileClasses)
     : lightTree(device, spirv::light_tree_comp,
                 {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
-      tileClusters(device, spirv::tile_clusters_comp, {{gpu::SPEC_GBUFFER, gbuffer}}),
+      tileClusters(device, spirv::tile_clusters_comp,
+                   {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_TILE_CLASSES, tileClasses}}),
       splitTiles(device, spirv::split_tiles_comp, {{gpu::SPEC_GBUFFER, gbuffer}}),
       blockClusters(device, spirv::block_clusters_comp),
       clusterLists(device, spirv::cluster_lists_comp,
@@ -73,7 +74,10 @@ TreeShapes treeShapes(const LightTypeCounts& counts)
 }
 
 Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBudget)
-    : lighting_(lighting), maxTiles_(maxTiles), splitCapacity_(area(maxTiles))
+    : lighting_(lighting),
+      maxTiles_(maxTiles),
+      tileClasses_(lighting.desc().materialClasses ? gpu::TILE_CLASSES : 1),
+      splitCapacity_(area(maxTiles))
 {
     const gpu::Device& device = lighting.device();
     uint32_t records = 0, blockCount = 0;
@@ -105,10 +109,9 @@ Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBud
     };
     tiles_ = make("tiles", VkDeviceSize(records) * sizeof(gpu::TileClusters), storageUse);
     clusters_ = make("clusters", VkDeviceSize(clusterCount_) * sizeof(gpu::Cluster), storageUse);
-    surfaces_ = make("surface tiles", workBytes(area(maxTiles)),
-                     workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    splits_ =
-        make("split tiles", workBytes(splitCapacity_), workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    surfaces_ = make("surface tiles", tileWorkBytes(), workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    splits_ = make("split tiles", workBytes(1, splitCapacity_),
+                   workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     entries_ = make("list entries", std::max(listBudget, 2 * pageBytes), storageUse);
 }
 
@@ -127,16 +130,22 @@ std::array<Clusters::Level, 1 + gpu::BLOCK_LEVELS> Clusters::levels(glm::uvec2 t
     return out;
 }
 
+// All tiles may be of one class, whichever it is.
+VkDeviceSize Clusters::tileWorkBytes() const
+{
+    return workBytes(gpu::TILE_CLASSES, tileClasses_ * area(maxTiles_));
+}
+
 Clusters::Lists Clusters::createLists() const
 {
     const gpu::Device& device = lighting_.device();
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
         return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Device);
     };
-    const VkDeviceSize tileWork = workBytes(area(maxTiles_));
     return {.heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
-            .lit = make("lit tiles", tileWork, workUse),
-            .unlisted = make("unlisted tiles", tileWork, workUse)};
+            .lit = make("lit tiles", tileWorkBytes(), workUse),
+            .unlisted =
+                make("unlisted tiles", workBytes(gpu::TILE_CLASSES, area(maxTiles_)), workUse)};
 }
 
 void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
@@ -171,7 +180,9 @@ void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const 
                            Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
                            Binding::of(TILE_CLUSTERS_TILES, tiles_),
                            Binding::of(TILE_CLUSTERS_SURFACES, surfaces_),
-                           Binding::of(TILE_CLUSTERS_SPLITS, splits_)});
+                           Binding::of(TILE_CLUSTERS_SPLITS, splits_),
+                           Binding::sampled(TILE_CLUSTERS_ALBEDO, in.gbuffer.albedo),
+                           Binding::sampled(TILE_CLUSTERS_SPECULAR, in.gbuffer.specular)});
     splitSets_.write(slot, {depth, normals, hostNormals, gbufferView,
                             Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
                             Binding::of(TILE_CLUSTERS_TILES, tiles_),
@@ -202,16 +213,19 @@ const gpu::Buffer& Clusters::tilesToShade(uint32_t type) const
 
 void Clusters::recordReset(const gpu::Frame& f, const LightTypeCounts& types) const noexcept
 {
-    const auto reset = [&](const gpu::Buffer& work, uint32_t row) {
-        const gpu::WorkList none{.groupsX = row, .groupsZ = 1};
-        f.device.CmdUpdateBuffer(f.cmd, work.get(), 0, sizeof none, &none);
+    const gpu::WorkList noSplits{.groupsX = gpu::SPLIT_ROW, .groupsZ = 1};
+    f.device.CmdUpdateBuffer(f.cmd, splits_.get(), 0, sizeof noSplits, &noSplits);
+    const auto reset = [&](const gpu::Buffer& work) {
+        gpu::WorkList none[gpu::TILE_CLASSES];
+        for (uint32_t i = 0; i < gpu::TILE_CLASSES; ++i)
+            none[i] = {.groupsX = gpu::TILE_ROW, .groupsZ = 1, .first = i * area(maxTiles_)};
+        f.device.CmdUpdateBuffer(f.cmd, work.get(), 0, sizeof none, none);
     };
-    reset(surfaces_, gpu::TILE_ROW);
-    reset(splits_, gpu::SPLIT_ROW);
+    reset(surfaces_);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (types[type]) {
-            reset(lists_[type].lit, gpu::TILE_ROW);
-            reset(lists_[type].unlisted, gpu::TILE_ROW);
+            reset(lists_[type].lit);
+            reset(lists_[type].unlisted);
         }
 }
 

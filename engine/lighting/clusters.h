@@ -17,13 +17,27 @@ namespace candelabra::lighting
 class Lighting;
 
 struct ClusterKernels {
-    // `gbuffer`: value of SPEC_GBUFFER.
-    ClusterKernels(const gpu::Device& device, uint32_t gbuffer);
+    // `gbuffer`: value of SPEC_GBUFFER; `tileClasses`: of SPEC_TILE_CLASSES.
+    ClusterKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t tileClasses);
     gpu::Kernel<gpu::LightTreeParams> lightTree;
     gpu::Kernel<gpu::TileClustersParams> tileClusters, splitTiles;
     gpu::Kernel<gpu::BlockClustersParams> blockClusters;
     gpu::Kernel<gpu::ClusterListsParams> clusterLists;
 };
+
+// Of one of the WorkLists of a buffer, by class.
+constexpr VkDeviceSize workListAt(uint32_t list)
+{
+    return list * sizeof(gpu::WorkList);
+}
+// Over all classes.
+inline uint32_t surfaceTileCount(const gpu::LightingCounters& counters)
+{
+    uint32_t count = 0;
+    for (const uint32_t ofClass : counters.surfaceTiles)
+        count += ofClass;
+    return count;
+}
 
 using TreeShapes = std::array<gpu::TreeShape, CND_LIGHT_TYPE_COUNT>;
 // Trees of lights that are sorted by type.
@@ -58,10 +72,10 @@ public:
     // Of a light type.
     struct Lists {
         gpu::Buffer heads;         // per cluster
-        gpu::Buffer lit, unlisted; // WorkLists of tiles
+        gpu::Buffer lit, unlisted; // WorkLists of tiles, by class
     };
     const Lists& lists(uint32_t type) const { return lists_[type]; }
-    // WorkList of the tiles that shade_tiles takes: all with a surface where there are no lists.
+    // WorkLists of the tiles that shade_tiles takes: all with a surface where there are no lists.
     const gpu::Buffer& tilesToShade(uint32_t type) const;
     const gpu::Buffer& tiles() const { return tiles_; }
     const gpu::Buffer& clusters() const { return clusters_; }
@@ -70,7 +84,7 @@ public:
     const gpu::Buffer& splits() const { return splits_; }
     // Of the tiles that asked for it.
     uint32_t splitTileCount(uint32_t asked) const { return std::min(asked, splitCapacity_); }
-    const gpu::Buffer& surfaces() const { return surfaces_; } // WorkList of tiles
+    const gpu::Buffer& surfaces() const { return surfaces_; } // WorkLists of tiles, by class
 
 private:
     // Where the records of a level lie: tiles, then blocks of rising size.
@@ -81,10 +95,12 @@ private:
     };
     std::array<Level, 1 + gpu::BLOCK_LEVELS> levels(glm::uvec2 tileCount) const;
     uint32_t firstSplit() const { return maxTiles_.x * maxTiles_.y; }
+    VkDeviceSize tileWorkBytes() const;
     Lists createLists() const;
 
     Lighting& lighting_;
     glm::uvec2 maxTiles_;
+    uint32_t tileClasses_; // of which work lists have room
     uint32_t splitCapacity_, clusterCount_;
     gpu::Bindings treeSets_, tileSets_, splitSets_, blockSets_; // per slot
     gpu::Bindings listSets_;                                    // per slot and type

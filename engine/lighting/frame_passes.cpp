@@ -101,7 +101,7 @@ void FramePasses::addFindings(const gpu::LightingCounters& counters)
 {
     if (!runs(Pass::ShadeTiles)) // brute force, or nothing at all
         return;
-    if (!counters.surfaceTiles)
+    if (!surfaceTileCount(counters))
         for (const Pass pass : {Pass::SplitTiles, Pass::ShadeTiles, Pass::CountPairs})
             skip(pass, "no surface");
     if (listsAlone_ && !counters.listEntries)

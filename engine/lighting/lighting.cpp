@@ -23,6 +23,8 @@ CndLightingDesc checked(CndLightingDesc desc)
     if (desc.specularMethods >> CND_SPECULAR_METHOD_COUNT)
         gpu::failArgument("CndLightingDesc: specularMethods has bits beyond the last "
                           "CndSpecularMethod");
+    if (desc.materialClasses & ~uint32_t(CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY))
+        gpu::failArgument("CndLightingDesc: materialClasses has bits beyond CndMaterialClass");
     if (!desc.specularMethods)
         desc.specularMethods = 1u << CND_SPECULAR_CONIC;
     return desc;
@@ -58,8 +60,8 @@ uint32_t maxLights(const VkPhysicalDeviceLimits& limits)
 Kernels::Kernels(const gpu::Device& device, const CndLightingDesc& desc, uint32_t gbuffer)
     : prepareLights(device, spirv::prepare_lights_comp),
       order(device),
-      clusters(device, gbuffer),
-      shade(device, gbuffer, desc.specularMethods),
+      clusters(device, gbuffer, tileClassesOf(desc)),
+      shade(device, gbuffer, desc.specularMethods, tileClassesOf(desc)),
       surfaceOverlay(device, spirv::surface_overlay_comp, {{gpu::SPEC_GBUFFER, gbuffer}})
 {
 }

@@ -38,8 +38,16 @@ CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method)
     }
 }
 
-ShadeKernels::ShadeKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t methods)
-    : device_(&device), gbuffer_(gbuffer), methods_(methods)
+uint32_t tileClassesOf(const CndLightingDesc& desc)
+{
+    static_assert(CND_MATERIAL_DIFFUSE_ONLY << 1 == 1u << gpu::CLASS_DIFFUSE &&
+                  CND_MATERIAL_SPECULAR_ONLY << 1 == 1u << gpu::CLASS_SPECULAR);
+    return 1u << gpu::CLASS_ANY | desc.materialClasses << 1;
+}
+
+ShadeKernels::ShadeKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t methods,
+                           uint32_t tileClasses)
+    : device_(&device), gbuffer_(gbuffer), methods_(methods), tileClasses_(tileClasses)
 {
     require(CND_LIGHT_SPHERE);
 }
@@ -105,22 +113,38 @@ Family familyOf(uint32_t lightType, CndSpecularMethod method)
 
 } // namespace
 
-ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, uint32_t method,
+ShadeKernels::Kernel ShadeKernels::makeKernel(const gpu::Spirv& spirv, uint32_t lightType,
+                                              CndSpecularMethod method, bool withBudget,
+                                              uint32_t tileClass) const
+{
+    return Kernel(*device_, spirv,
+                  {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
+                   {gpu::SPEC_SPECULAR_METHOD, uint32_t(method)},
+                   {gpu::SPEC_LIGHT_TYPE, lightType},
+                   {gpu::SPEC_GBUFFER, gbuffer_},
+                   {gpu::SPEC_ERROR_BUDGET, withBudget},
+                   {gpu::SPEC_TILE_CLASS, tileClass}});
+}
+
+ShadeKernels::Tiles ShadeKernels::makeTiles(uint32_t lightType, CndSpecularMethod method,
+                                            bool withBudget, uint32_t tileClass) const
+{
+    const Family family = familyOf(lightType, method);
+    return {.shade = makeKernel(*family.tiles, lightType, method, withBudget, tileClass),
+            .countPairs = makeKernel(*family.countPairs, lightType, method, withBudget, tileClass)};
+}
+
+ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, CndSpecularMethod method,
                                                 bool withBudget) const
 {
-    const auto kernel = [&](const gpu::Spirv& spirv) {
-        return Kernel(*device_, spirv,
-                      {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
-                       {gpu::SPEC_SPECULAR_METHOD, method},
-                       {gpu::SPEC_LIGHT_TYPE, lightType},
-                       {gpu::SPEC_GBUFFER, gbuffer_},
-                       {gpu::SPEC_ERROR_BUDGET, withBudget}});
-    };
-    const Family family = familyOf(lightType, CndSpecularMethod(method));
-    return {.tiles = kernel(*family.tiles),
-            .unlisted = kernel(*family.unlisted),
-            .brute = kernel(*family.brute),
-            .countPairs = kernel(*family.countPairs)};
+    const Family family = familyOf(lightType, method);
+    Variant out{.any = makeTiles(lightType, method, withBudget, gpu::CLASS_ANY),
+                .unlisted =
+                    makeKernel(*family.unlisted, lightType, method, withBudget, gpu::CLASS_ANY),
+                .brute = makeKernel(*family.brute, lightType, method, withBudget, gpu::CLASS_ANY)};
+    if (tellsApart(gpu::CLASS_SPECULAR))
+        out.specular = makeTiles(lightType, method, withBudget, gpu::CLASS_SPECULAR);
+    return out;
 }
 
 ShadeKernels::OfType ShadeKernels::make(uint32_t lightType) const
@@ -130,13 +154,16 @@ ShadeKernels::OfType ShadeKernels::make(uint32_t lightType) const
         if (allows(CndSpecularMethod(method)))
             methods |= 1u << canonicalMethod(lightType, CndSpecularMethod(method));
     OfType out;
-    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method) {
-        if (!(methods >> method & 1))
+    for (uint32_t i = 0; i < CND_SPECULAR_METHOD_COUNT; ++i) {
+        if (!(methods >> i & 1))
             continue;
+        const CndSpecularMethod method = CndSpecularMethod(i);
         out.variants[method][0] = makeVariant(lightType, method, false);
-        if (takesBudget(lightType, CndSpecularMethod(method)))
+        if (takesBudget(lightType, method))
             out.variants[method][1] = makeVariant(lightType, method, true);
     }
+    if (tellsApart(gpu::CLASS_DIFFUSE))
+        out.diffuse = makeTiles(lightType, CND_SPECULAR_NONE, false, gpu::CLASS_DIFFUSE);
     out.made = true;
     return out;
 }
@@ -146,6 +173,15 @@ const ShadeKernels::Variant& ShadeKernels::variant(uint32_t type, CndSpecularMet
 {
     const CndSpecularMethod m = canonicalMethod(type, method);
     return types_[type].variants[m][withBudget && takesBudget(type, m)];
+}
+
+const ShadeKernels::Tiles& ShadeKernels::tiles(uint32_t type, CndSpecularMethod method,
+                                               bool withBudget, uint32_t tileClass) const
+{
+    if (tileClass == gpu::CLASS_DIFFUSE)
+        return types_[type].diffuse;
+    const Variant& v = variant(type, method, withBudget);
+    return tileClass == gpu::CLASS_SPECULAR ? v.specular : v.any;
 }
 
 const ShadeKernels::Variant& ShadeKernels::anyVariant() const

@@ -22,6 +22,9 @@ bool isSphere(uint32_t lightType);
 // Whether an error budget changes the evaluation: the closed form of spheres has cheaper bounds.
 bool takesBudget(uint32_t lightType, CndSpecularMethod method);
 
+// Mask of 1 << CLASS_*: the classes of tiles that are told apart, CLASS_ANY among them.
+uint32_t tileClassesOf(const CndLightingDesc& desc);
+
 // Kernels that know light types and specular methods, one pipeline for each pair that lights and
 // frames may ask for: what is absent costs nothing.
 class ShadeKernels
@@ -29,16 +32,26 @@ class ShadeKernels
 public:
     using Kernel = gpu::Kernel<gpu::ShadeParams>;
     // `methods`: mask of 1 << CndSpecularMethod.
-    // `gbuffer`: value of SPEC_GBUFFER.
-    ShadeKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t methods);
+    // `gbuffer`: value of SPEC_GBUFFER. `tileClasses`: as of tileClassesOf.
+    ShadeKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t methods,
+                 uint32_t tileClasses);
     // Makes the pipelines of a light type unless they exist.
     void require(uint32_t lightType);
 
     bool allows(CndSpecularMethod method) const { return methods_ >> method & 1; }
+    // Of the tiles of one class.
+    struct Tiles {
+        Kernel shade, countPairs;
+    };
     struct Variant {
-        Kernel tiles, unlisted, brute, countPairs;
+        Tiles any, specular; // CLASS_ANY, CLASS_SPECULAR
+        Kernel unlisted, brute;
     };
     const Variant& variant(uint32_t type, CndSpecularMethod method, bool withBudget) const;
+    bool tellsApart(uint32_t tileClass) const { return tileClasses_ >> tileClass & 1; }
+    // For a class that is told apart.
+    const Tiles& tiles(uint32_t type, CndSpecularMethod method, bool withBudget,
+                       uint32_t tileClass) const;
     // One of them: binding layouts are the same for all.
     const Variant& anyVariant() const;
 
@@ -46,13 +59,18 @@ private:
     struct OfType {
         bool made = false;
         Variant variants[CND_SPECULAR_METHOD_COUNT][2]; // [1]: with an error budget
+        Tiles diffuse;                                  // CLASS_DIFFUSE: one for all methods
     };
     OfType make(uint32_t lightType) const;
-    Variant makeVariant(uint32_t lightType, uint32_t method, bool withBudget) const;
+    Variant makeVariant(uint32_t lightType, CndSpecularMethod method, bool withBudget) const;
+    Tiles makeTiles(uint32_t lightType, CndSpecularMethod method, bool withBudget,
+                    uint32_t tileClass) const;
+    Kernel makeKernel(const gpu::Spirv& spirv, uint32_t lightType, CndSpecularMethod method,
+                      bool withBudget, uint32_t tileClass) const;
 
     const gpu::Device* device_;
     uint32_t gbuffer_;
-    uint32_t methods_;
+    uint32_t methods_, tileClasses_;
     OfType types_[CND_LIGHT_TYPE_COUNT];
 };
 

@@ -76,10 +76,10 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     const Kernels& k = lighting.kernels();
     const ShadeKernels::Variant& shade = k.shade.anyVariant();
     sets_ = {.prepareLights = k.prepareLights.createBindings(slots),
-             .shadeTiles = shade.tiles.createBindings(perType),
+             .shadeTiles = shade.any.shade.createBindings(perType),
              .shadeUnlisted = shade.unlisted.createBindings(perType),
              .shadeBrute = shade.brute.createBindings(slots),
-             .countPairs = shade.countPairs.createBindings(perType),
+             .countPairs = shade.any.countPairs.createBindings(perType),
              .surfaceOverlay = k.surfaceOverlay.createBindings(slots)};
     counters_ = gpu::createBuffer(device, "lighting counters", sizeof(gpu::LightingCounters),
                                   storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
@@ -211,14 +211,16 @@ void View::recordClusters(const gpu::Frame& f, const Plan& p,
                                   .invImageSize = p.invImageSize,
                                   .splitLength = p.splitLength},
                                  passes.runs(Pass::BlockClusters));
-        const auto count = [&](const gpu::Buffer& work, VkDeviceSize counter) {
-            const VkBufferCopy copy{.srcOffset = offsetof(gpu::WorkList, count),
+        const auto count = [&](const gpu::Buffer& work, uint32_t list, VkDeviceSize counter) {
+            const VkBufferCopy copy{.srcOffset = workListAt(list) + offsetof(gpu::WorkList, count),
                                     .dstOffset = counter,
                                     .size = sizeof(uint32_t)};
             f.device.CmdCopyBuffer(f.cmd, work.get(), counters_.get(), 1, &copy);
         };
-        count(clusters_.surfaces(), offsetof(gpu::LightingCounters, surfaceTiles));
-        count(clusters_.splits(), offsetof(gpu::LightingCounters, splitTiles));
+        for (uint32_t tileClass = 0; tileClass < gpu::TILE_CLASSES; ++tileClass)
+            count(clusters_.surfaces(), tileClass,
+                  offsetof(gpu::LightingCounters, surfaceTiles) + tileClass * sizeof(uint32_t));
+        count(clusters_.splits(), 0, offsetof(gpu::LightingCounters, splitTiles));
     }
     if (passes.runs(Pass::LightTree))
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
@@ -291,7 +293,9 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
         out.lightCount += out.lightTypeCounts[type] = slots_[slot].lights[type];
     out.deviceLights = c.deviceLights;
     out.rejectedLights = c.rejectedLights;
-    out.tileCount = c.surfaceTiles;
+    out.tileCount = surfaceTileCount(c);
+    out.diffuseTileCount = c.surfaceTiles[gpu::CLASS_DIFFUSE];
+    out.specularTileCount = c.surfaceTiles[gpu::CLASS_SPECULAR];
     out.splitTileCount = clusters_.splitTileCount(c.splitTiles);
     out.listEntries = c.listEntries;
     out.maxListLength = c.maxListLength;

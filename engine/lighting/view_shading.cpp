@@ -76,28 +76,38 @@ uint32_t View::lightsPerBatch(const CndLightingFrame& frame, const Plan& p,
 void View::recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
                            uint32_t type) const noexcept
 {
-    const ShadeKernels::Variant& kernels =
-        lighting_.kernels().shade.variant(type, frame.specularMethod, frame.errorBudget > 0);
+    const ShadeKernels& kernels = lighting_.kernels().shade;
+    const bool withBudget = frame.errorBudget > 0;
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
     const gpu::ShadeParams params = shadeParams(frame, p, type);
     const uint32_t perBatch = lightsPerBatch(frame, p, type);
-    const auto shade = [&](const gpu::ShadeParams& batch) {
-        kernels.tiles.dispatchIndirect(f, sets_.shadeTiles.set(set), batch,
-                                       clusters_.tilesToShade(type));
+    const auto byClass = [&](auto&& record) {
+        for (uint32_t tileClass = 0; tileClass < gpu::TILE_CLASSES; ++tileClass)
+            if (kernels.tellsApart(tileClass))
+                record(kernels.tiles(type, frame.specularMethod, withBudget, tileClass),
+                       workListAt(tileClass));
         f.barrier();
+    };
+    const auto shade = [&](const gpu::ShadeParams& batch) {
+        byClass([&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
+            tiles.shade.dispatchIndirect(f, sets_.shadeTiles.set(set), batch,
+                                         clusters_.tilesToShade(type), workList);
+        });
     };
     if (isDistant(type)) { // they reach everything: no lists
         inBatches(params, perBatch, shade);
     } else {
         shade(params);
-        recordUnlisted(f, kernels, params, set, type, perBatch);
+        recordUnlisted(f, kernels.variant(type, frame.specularMethod, withBudget), params, set,
+                       type, perBatch);
     }
     if (frame.countPairs) {
         gpu::ShadeParams counted = params;
         counted.batchLevel = frame.pairImage ? 1 : 0;
-        kernels.countPairs.dispatchIndirect(f, sets_.countPairs.set(set), counted,
-                                            clusters_.surfaces());
-        f.barrier();
+        byClass([&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
+            tiles.countPairs.dispatchIndirect(f, sets_.countPairs.set(set), counted,
+                                              clusters_.surfaces(), workList);
+        });
     }
 }
 

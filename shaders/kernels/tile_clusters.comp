@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clusters of surface samples: one per 8x8 pixel tile, or one per slice of its depth where the tile is
-// deep (split_tiles makes those). Tiles without a surface are in no list and cost nothing later.
+// deep (split_tiles makes those). Tiles without a surface are in no list and cost nothing later; the
+// others are on the work list of their class.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define GBUFFER_ALBEDO TILE_CLUSTERS_ALBEDO
+#define GBUFFER_SPECULAR TILE_CLUSTERS_SPECULAR
 #include "lib/cluster_bounds.glsl"
+#include "lib/tile_class.glsl"
 
 layout(local_size_x = TILE_CLUSTERS_GROUP) in;
 layout(scalar, binding = TILE_CLUSTERS_TILES) writeonly buffer Tiles
@@ -12,7 +16,7 @@ layout(scalar, binding = TILE_CLUSTERS_TILES) writeonly buffer Tiles
 };
 layout(scalar, binding = TILE_CLUSTERS_SURFACES) buffer Surfaces
 {
-    WorkList surfaces;
+    WorkList surfaces[TILE_CLASSES];
     uint surfaceTiles[];
 };
 layout(scalar, binding = TILE_CLUSTERS_SPLITS) buffer Splits
@@ -50,10 +54,11 @@ void main()
         tiles[tile] = TileClusters(0u, 1u, 0u, UNSPLIT, 0u);
         return;
     }
-    const uint surface = atomicAdd(surfaces.count, 1u);
+    const uint tileClass = classOfSurfaces(first, end);
+    const uint surface = atomicAdd(surfaces[tileClass].count, 1u);
     if (surface % TILE_ROW == 0u)
-        atomicAdd(surfaces.groupsY, 1u);
-    surfaceTiles[surface] = tile;
+        atomicAdd(surfaces[tileClass].groupsY, 1u);
+    surfaceTiles[surfaces[tileClass].first + surface] = tile;
 
     const bool deep = distance(cluster.min, cluster.max) > params.splitLength &&
                       highest - lowest >= SLICES;
@@ -65,9 +70,11 @@ void main()
         splitTiles[split] = tile;
         const uint shift = uint(findMSB(highest - lowest) + 1 - int(SLICE_BITS));
         tiles[tile] =
-            TileClusters(params.firstSplit + split * SLICES, lowest, highest, shift, 0u);
+            TileClusters(params.firstSplit + split * SLICES, lowest, highest, shift,
+                         tileClass << CLASS_BITS);
     } else {
-        tiles[tile] = TileClusters(tile, lowest, highest, UNSPLIT, 0u);
+        tiles[tile] =
+            TileClusters(tile, lowest, highest, UNSPLIT, tileClass << CLASS_BITS);
         clusters[tile] = withMargins(cluster);
     }
 }

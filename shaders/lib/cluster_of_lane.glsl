@@ -6,12 +6,12 @@
 
 layout(scalar, binding = CLUSTER_LISTS_LIT) buffer Lit
 {
-    WorkList lit;
+    WorkList lit[TILE_CLASSES];
     uint litTiles[];
 };
 layout(scalar, binding = CLUSTER_LISTS_UNLISTED) buffer Unlisted
 {
-    WorkList unlisted;
+    WorkList unlisted[TILE_CLASSES];
     uint unlistedTiles[];
 };
 
@@ -42,7 +42,7 @@ bool takeCluster(out uint at)
     const uint bit = 1u << ((firstBit) + params.lightType);                                        \
     if ((atomicOr(tiles[tile].onLists, bit) & bit) == 0u) {                                        \
         const uint place = atomicAdd(work.count, 1u);                                              \
-        workTiles[place] = tile;                                                                   \
+        workTiles[work.first + place] = tile;                                                      \
         if (place % TILE_ROW == 0u)                                                                \
             atomicAdd(work.groupsY, 1u);                                                           \
     }
@@ -50,14 +50,15 @@ bool takeCluster(out uint at)
 // For shade_tiles.
 void appendLit(uint tile)
 {
-    APPEND_TILE(lit, litTiles, tile, LIT_BITS)
+    const uint tileClass = tiles[tile].onLists >> CLASS_BITS;
+    APPEND_TILE(lit[tileClass], litTiles, tile, LIT_BITS)
 }
 
-// For shade_unlisted.
+// For shade_unlisted, which takes tiles of all classes.
 void appendUnlisted(uint tile)
 {
     atomicAdd(counters.unlistedClusters, 1u);
-    APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS)
+    APPEND_TILE(unlisted[CLASS_ANY], unlistedTiles, tile, UNLISTED_BITS)
 }
 
 #endif

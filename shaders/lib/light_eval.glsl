@@ -7,6 +7,7 @@
 #include "lib/light_families.glsl"
 #include "lib/light_reach.glsl"
 #include "lib/lights/sphere.glsl"
+#include "lib/lobes_of_class.glsl"
 #if HAS_CONIC
 #include "lib/specular/conic.glsl"
 #endif
@@ -143,6 +144,12 @@ Light readLight(Receiver r, uint index)
 uint lightSeed(Receiver r, uint light)
 {
     return pcgHash(r.sampleSeed ^ pcgHash(light));
+}
+
+// The diffuse lobe's response to light that gives a white surface so much.
+vec3 diffuse(ShadingPoint p, float formFactor)
+{
+    return HAS_DIFFUSE ? p.albedo * formFactor : vec3(0.0);
 }
 
 #include "lib/eval_sphere.glsl"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tile that a workgroup shades, one of a WorkList, and the lists of its pixels.
+// The tile that a workgroup shades, one of the WorkList of its class, and the lists of its pixels.
 #ifndef CND_LIB_TILE_OF_GROUP
 #define CND_LIB_TILE_OF_GROUP
 
 #include "shared/clusters.h"
+#include "lib/lobes_of_class.glsl"
 #include "lib/pixel_of_lane.glsl"
 #include "lib/projection.glsl"
 
@@ -17,7 +18,7 @@ layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
 };
 layout(scalar, binding = SHADE_WORK) readonly buffer Work
 {
-    WorkList work;
+    WorkList works[TILE_CLASSES];
     uint workTiles[];
 };
 
@@ -29,6 +30,7 @@ uint clusterOf(uint tile, float depth)
 // False behind the last tile and outside the image.
 bool takeTile(out uint tile, out uvec2 pixel)
 {
+    const WorkList work = works[tileClass];
     const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     tile = 0u;
     pixel = uvec2(0u);
@@ -37,7 +39,7 @@ bool takeTile(out uint tile, out uvec2 pixel)
     // Every second tile, then the others: some devices deal out groups in equal shares from the front,
     // and tiles that take longer come last.
     const uint firsts = (work.count + 1u) / 2u;
-    tile = workTiles[at < firsts ? 2u * at : 2u * (at - firsts) + 1u];
+    tile = workTiles[work.first + (at < firsts ? 2u * at : 2u * (at - firsts) + 1u)];
     pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
             pixelOfLane();
     return all(lessThan(pixel, params.size));

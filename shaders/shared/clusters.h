@@ -60,11 +60,12 @@ struct TileClusters {
     uint first;
     uint lowest, highest; // depth bits; lowest > highest: no sample
     uint shift;
-    uint onLists; // bit per light type, from each of these on
+    uint onLists; // bit per light type, from each of these on; CLASS_*, from CLASS_BITS on
 };
 GPU_SIZE(TileClusters, 20)
 const uint UNLISTED_BITS = 0u; // the tiles of shade_unlisted
 const uint LIT_BITS = 16u;     // the tiles of shade_tiles: some cluster has lights
+const uint CLASS_BITS = 24u;
 const uint UNSPLIT = 31u;      // shift of a tile with one cluster
 
 // A list of lights: pages of the entry buffer. A page begins with a header, the number of its
@@ -77,14 +78,15 @@ const uint LIST_EMPTY = 0u;
 const uint LIST_UNLISTED = 0xFFFFFFFFu; // over the budget: walk the tree
 const uint LIST_LONG = 0xFFFFFFFEu;     // longer than a loop may be: walk all lights in batches
 
-// Arguments of an indirect dispatch, then the indices of what it is for. Groups come in rows, since
-// devices limit the groups of one dimension; rows are short where groups are few, since some
-// devices deal out groups in equal shares, the idle ones of the last row included.
+// Arguments of an indirect dispatch, and what it is for: `count` of the indices behind the list, or
+// lists, of a buffer, from `first` on. Groups come in rows, since devices limit the groups of one
+// dimension; rows are short where groups are few, since some devices deal out groups in equal
+// shares, the idle ones of the last row included.
 struct WorkList {
     uint groupsX, groupsY, groupsZ; // groups of a row, rows begun, 1
-    uint count;
+    uint count, first;
 };
-GPU_SIZE(WorkList, 16)
+GPU_SIZE(WorkList, 20)
 const uint TILE_ROW = 256u; // one group per tile
 const uint SPLIT_ROW = 8u;  // SPLIT_TILES_GROUP / SLICES tiles per group
 
@@ -95,10 +97,12 @@ const uint TILE_CLUSTERS_DEPTH = 0u;
 const uint TILE_CLUSTERS_NORMALS = 1u;
 const uint TILE_CLUSTERS_CLUSTERS = 2u;
 const uint TILE_CLUSTERS_TILES = 3u;
-const uint TILE_CLUSTERS_SURFACES = 4u;     // WorkList of tiles with a surface
+const uint TILE_CLUSTERS_SURFACES = 4u;     // WorkLists, by class, of tiles with a surface
 const uint TILE_CLUSTERS_SPLITS = 5u;       // WorkList of tiles to be split
 const uint TILE_CLUSTERS_HOST_NORMALS = 6u; // lib/read_gbuffer.glsl
 const uint TILE_CLUSTERS_GBUFFER_VIEW = 7u; // GBufferViewParams
+const uint TILE_CLUSTERS_ALBEDO = 8u;       // tile_clusters alone
+const uint TILE_CLUSTERS_SPECULAR = 9u;     // tile_clusters alone
 struct TileClustersParams {
     Projection projection;
     uvec2 size; // pixels
@@ -137,9 +141,9 @@ const uint CLUSTER_LISTS_TILES = 5u;
 const uint CLUSTER_LISTS_SPLITS = 6u;
 const uint CLUSTER_LISTS_LISTS = 7u;
 const uint CLUSTER_LISTS_ENTRIES = 8u;
-const uint CLUSTER_LISTS_UNLISTED = 9u; // WorkList of tiles with unlisted clusters
+const uint CLUSTER_LISTS_UNLISTED = 9u; // WorkLists, the first: tiles with unlisted clusters
 const uint CLUSTER_LISTS_COUNTERS = 10u;
-const uint CLUSTER_LISTS_LIT = 11u; // WorkList of tiles with lists that hold lights
+const uint CLUSTER_LISTS_LIT = 11u; // WorkLists, by class, of tiles with lists that hold lights
 // Which clusters:
 const uint LISTS_OF_BLOCKS = 0u; // firstCluster, clusterCount
 const uint LISTS_OF_TILES = 1u;  // that are not split; block by block, so that lanes share parents

@@ -60,6 +60,13 @@ struct TreeShape {
 };
 GPU_SIZE(TreeShape, 12)
 
+// Classes of tiles by what all their surfaces lack; each has a work list and kernels of its own.
+// Those that a module was not asked for have no tiles.
+const uint CLASS_ANY = 0u;
+const uint CLASS_DIFFUSE = 1u;  // no specular lobe
+const uint CLASS_SPECULAR = 2u; // no diffuse lobe
+const uint TILE_CLASSES = 3u;
+
 // Counters of one frame, cleared before and read back after.
 struct LightingCounters {
     uint pageCursor; // pages of lists in use; page 0 is none
@@ -67,14 +74,14 @@ struct LightingCounters {
     uint maxListLength;
     uint unlistedClusters;
     uint splitTiles;
-    uint surfaceTiles;
+    uint surfaceTiles[TILE_CLASSES];
     uint deviceLights, rejectedLights; // shared/device_lights.h
     uvec2 listedPairs;                 // 64 bit: low, high
     uvec2 evaluatedPairs;
     uvec2 insidePairs;
     uvec2 contributingPairs;
 };
-GPU_SIZE(LightingCounters, 64)
+GPU_SIZE(LightingCounters, 72)
 
 // --- prepare_lights: world -> view, one lane per light
 const uint PREPARE_LIGHTS_GROUP = 64u;
@@ -107,7 +114,7 @@ const uint SHADE_LTC = 9u; // all that shade: transformed cosines (shared/ltc.h)
 const uint SHADE_TILES = 10u;
 const uint SHADE_LISTS = 11u;
 const uint SHADE_ENTRIES = 12u;
-const uint SHADE_WORK = 13u;     // WorkList of the tiles to shade
+const uint SHADE_WORK = 13u;     // WorkLists, by class, of the tiles to shade
 const uint SHADE_COUNTERS = 14u; // count_pairs
 const uint SHADE_CLUSTERS = 15u; // shade_unlisted
 const uint SHADE_NODES = 16u;    // shade_unlisted
@@ -145,6 +152,8 @@ const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
 const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
 const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer.h)
 const uint SPEC_ERROR_BUDGET = 4u;     // 1: ShadeParams::errorBudget may be > 0
+const uint SPEC_TILE_CLASS = 5u;       // CLASS_* of the tiles: their work list, and what they lack
+const uint SPEC_TILE_CLASSES = 6u;     // tile_clusters: mask of 1 << CLASS_* to be told apart
 
 // Specular is evaluated at alpha >= this: below it float32 NoH loses the peak (measured: relative
 // error of D up to 7e-5 at 0.002, growing as 1/alpha^2).

@@ -45,6 +45,13 @@ typedef enum CndPixelClass {
     CND_PIXEL_CLASS_MAX_ENUM = 0x7FFFFFFF
 } CndPixelClass;
 
+// Materials without one of the two lobes (CndLightingDesc::materialClasses).
+typedef enum CndMaterialClass {
+    CND_MATERIAL_DIFFUSE_ONLY = 1,  // F0 and F90 are 0
+    CND_MATERIAL_SPECULAR_ONLY = 2, // the diffuse albedo is 0: metals
+    CND_MATERIAL_CLASS_MAX_ENUM = 0x7FFFFFFF
+} CndMaterialClass;
+
 typedef struct CndLightingDesc {
     uint32_t structSize;
     uint32_t framesInFlight; // 1..8: frames the host may have recorded or submitted and not yet
@@ -61,6 +68,10 @@ typedef struct CndLightingDesc {
     // VK_SHADER_STAGE_VERTEX_BIT, _FRAGMENT_BIT and _COMPUTE_BIT: shaders of the host's that light
     // things by themselves (cndGetForwardSet); 0: none.
     VkShaderStageFlags forwardStages;
+    // Mask of CndMaterialClass, 0: none. 8x8 pixel tiles that hold such surfaces alone are shaded
+    // by pipelines that leave the missing lobe out: the same image but for rounding. For scenes
+    // that have such materials: elsewhere every tile is looked at in vain.
+    uint32_t materialClasses;
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -152,8 +163,9 @@ typedef struct CndLightingStats {
     uint32_t lightTypeCounts[CND_LIGHT_TYPE_COUNT];
     uint32_t tileCount;      // 8x8 pixel tiles that hold a surface; 0 without lights in view
     uint32_t splitTileCount; // of these, deep ones whose slices of depth have a list each
-    uint32_t listEntries;    // lights of all lists
-    uint32_t maxListLength;  // of one cluster and light type
+    uint32_t diffuseTileCount, specularTileCount; // of CndLightingDesc::materialClasses
+    uint32_t listEntries;                         // lights of all lists
+    uint32_t maxListLength;                       // of one cluster and light type
     // Clusters over the list budget, or of more lights than a loop of the device may take, summed
     // over light types: lit by walking the light tree per pixel.
     uint32_t unlistedClusters;

@@ -191,6 +191,20 @@ Skip manualExposure(SkipStage& stage)
             automatic};
 }
 
+// In vain: the scene as it is, whose surfaces have both lobes.
+Skip withoutLobe(SkipStage& lacking, SkipStage& stage, CndMaterialClass materials, const char* name)
+{
+    const LightingWay apart{.materialClasses = uint32_t(materials)};
+    const Drawing alike = lacking.lighting(lacking.lights());
+    return {{.name = name,
+             .against = "both lobes evaluated",
+             .passes = "lighting",
+             .bound = BruteCheck::bound},
+            {lacking.lighting(lacking.lights(), apart), alike},
+            alike,
+            Pair{stage.lighting(stage.lights(), apart), stage.lighting(stage.lights())}};
+}
+
 Skip noEnvironment(SkipStage& without, SkipStage& black)
 {
     const auto lighting = [](const std::string& pass) {
@@ -252,6 +266,20 @@ SkipRow measure(Skip skip, uint32_t rounds, const std::function<void()>& onRound
     return row;
 }
 
+// All surfaces of metal, or all without a specular lobe.
+Scene withMaterials(Scene scene, bool metal)
+{
+    for (Material& m : scene.materials) {
+        m.metalness = metal;
+        m.metallicRoughnessTexture = {};
+        if (!metal) {
+            m.dielectricF0 = {};
+            m.specularWeight = 0;
+        }
+    }
+    return scene;
+}
+
 Scene withBlackEnvironment(Scene scene)
 {
     SceneEnvironment environment;
@@ -271,10 +299,10 @@ double SkipRow::ratio() const
     return other > 0 ? with.total().medianMs / other : 0;
 }
 
-// Rows, one of them with two pairs; and that of points.
+// Rows, three of them with two pairs; and that of points.
 double skipSteps(const SkipSettings& s)
 {
-    return 9.0 * s.rounds + s.pointRounds;
+    return 13.0 * s.rounds + s.pointRounds;
 }
 
 std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettings& settings,
@@ -298,6 +326,13 @@ std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettin
     {
         SkipStage other(context, scene, settings.size);
         add(unchangedFrame(stage, other), settings.rounds);
+    }
+    for (const bool metal : {false, true}) {
+        const Scene changed = withMaterials(scene, metal);
+        SkipStage lacking(context, changed, settings.size);
+        add(metal ? withoutLobe(lacking, stage, CND_MATERIAL_SPECULAR_ONLY, "metals alone")
+                  : withoutLobe(lacking, stage, CND_MATERIAL_DIFFUSE_ONLY, "no specular materials"),
+            settings.rounds);
     }
     SkipStage shaded(context, black, settings.size);
     add(noEnvironment(stage, shaded), settings.rounds);

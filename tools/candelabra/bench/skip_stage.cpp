@@ -25,8 +25,9 @@ Drawing SkipStage::lighting(const Lights& lights, const LightingWay& way)
         bool drawn = false;
     };
     const auto own = std::make_shared<Own>();
-    own->lighting =
-        take(Lighting::create(context_.desc(), {.framesInFlight = 1, .timestamps = VK_TRUE}));
+    own->lighting = take(Lighting::create(
+        context_.desc(),
+        {.framesInFlight = 1, .timestamps = VK_TRUE, .materialClasses = way.materialClasses}));
     const auto [width, height] = renderer_.size();
     own->view = take(own->lighting.createView({.maxWidth = width, .maxHeight = height}));
     const glm::dvec3& o = scene_.lightOrigin;

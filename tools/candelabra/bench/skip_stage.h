@@ -23,6 +23,7 @@ struct LightingWay {
     std::function<void(FrameOptions&)> edit = [](FrameOptions&) {};
     bool surfacesUnchanged = false; // promised from the second frame on
     std::vector<CndLight> before{}; // a set that it has had first
+    uint32_t materialClasses = 0;   // CndLightingDesc
 };
 
 class SkipStage

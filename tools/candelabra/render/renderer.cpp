@@ -171,10 +171,12 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
     State& s = *state_;
     constexpr uint32_t allMethods = (1u << CND_SPECULAR_METHOD_COUNT) - 1;
     const uint32_t methods = options.specularMethods ? options.specularMethods : allMethods;
-    s.lighting = take(Lighting::create(context.desc(), {.framesInFlight = options.framesInFlight,
-                                                        .gbufferLayout = options.gbufferLayout,
-                                                        .timestamps = VK_TRUE,
-                                                        .specularMethods = methods}));
+    s.lighting =
+        take(Lighting::create(context.desc(), {.framesInFlight = options.framesInFlight,
+                                               .gbufferLayout = options.gbufferLayout,
+                                               .timestamps = VK_TRUE,
+                                               .specularMethods = methods,
+                                               .materialClasses = materialClasses(scene)}));
     s.exposure = take(Exposure::create(
         context.desc(), {.framesInFlight = options.framesInFlight, .timestamps = VK_TRUE}));
     if (scene.environment)

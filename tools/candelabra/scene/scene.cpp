@@ -31,6 +31,19 @@ Bounds transformBounds(const Bounds& bounds, const glm::dmat4& worldFromObject)
     return {middle - reach, middle + reach};
 }
 
+uint32_t materialClasses(const Scene& scene)
+{
+    uint32_t out = 0;
+    for (const Material& m : scene.materials) {
+        // Textures only lower metalness and the base colour; they may leave them as they are.
+        if (m.metalness == 1 || m.diffuseWeight == 0 || m.baseColor == glm::vec3(0))
+            out |= CND_MATERIAL_SPECULAR_ONLY;
+        if (m.specularWeight == 0 && m.dielectricF0 == glm::vec3(0) && m.metalness == 0)
+            out |= CND_MATERIAL_DIFFUSE_ONLY;
+    }
+    return out;
+}
+
 Bounds sceneBounds(const Scene& scene)
 {
     std::vector<Bounds> meshBoxes;

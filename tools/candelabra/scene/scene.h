@@ -141,6 +141,9 @@ struct Bounds {
 };
 Bounds sceneBounds(const Scene& scene);
 
+// Mask of CndMaterialClass: lobes that some surface may be without.
+uint32_t materialClasses(const Scene& scene);
+
 // Positions of the moving lights at `time` seconds; lights without motion keep theirs.
 void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out);
 

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the surfaces at hand may have: the class of their tile is a specialisation constant.
+#ifndef CND_LIB_LOBES_OF_CLASS
+#define CND_LIB_LOBES_OF_CLASS
+
+#include "shared/lighting.h"
+#include "lib/light_families.glsl"
+
+#if LIGHT_FAMILY == FAMILY_ALL
+const uint tileClass = CLASS_ANY;
+#else
+layout(constant_id = SPEC_TILE_CLASS) const uint tileClass = CLASS_ANY;
+#endif
+// CLASS_DIFFUSE is shaded by SPECULAR_NONE.
+const bool HAS_DIFFUSE = tileClass != CLASS_SPECULAR;
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The class of a tile: which lobe none of its surfaces has. The includer provides params and
+// depthAt(), and reads the whole G-buffer.
+#ifndef CND_LIB_TILE_CLASS
+#define CND_LIB_TILE_CLASS
+
+#include "shared/lighting.h"
+
+layout(constant_id = SPEC_TILE_CLASSES) const uint tileClasses = 0u;
+const bool FINDS_DIFFUSE = (tileClasses >> CLASS_DIFFUSE & 1u) != 0u;
+const bool FINDS_SPECULAR = (tileClasses >> CLASS_SPECULAR & 1u) != 0u;
+
+// NaN is not 0: such a surface has the lobe.
+bool isBlack(vec3 colour)
+{
+    return colour.x == 0.0 && colour.y == 0.0 && colour.z == 0.0;
+}
+
+// Of pixels first .. end - 1. Ends with the first surface that has what the others lack: where no
+// class applies, that is one.
+uint classOfSurfaces(uvec2 first, uvec2 end)
+{
+    bool diffuse = FINDS_DIFFUSE, specular = FINDS_SPECULAR;
+    for (uint y = first.y; y < end.y && (diffuse || specular); ++y)
+        for (uint x = first.x; x < end.x && (diffuse || specular); ++x) {
+            if (depthAt(uvec2(x, y)) == params.clearDepth)
+                continue;
+            const Surface s = readSurface(ivec2(x, y));
+            diffuse = diffuse && isBlack(s.F0) && s.specularWeight == 0.0;
+            specular = specular && isBlack(s.albedo);
+        }
+    return diffuse ? CLASS_DIFFUSE : specular ? CLASS_SPECULAR : CLASS_ANY;
+}
+
+#endif
