@@ -300,12 +300,15 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     const CndLightingDesc desc{.structSize = sizeof desc,
                                .framesInFlight = 2,
                                .timestamps = true,
-                               .specularMethods = 1u << options.specular};
-    CndLighting lighting{};
-    EXPECT_EQ(
-        cndCreateLighting(options.host ? options.host : &deviceDesc(), &desc, &lighting, &error),
-        CND_SUCCESS)
-        << error.message;
+                               .specularMethods = 1u << options.specular,
+                               .materialClasses = options.materialClasses};
+    CndLighting lighting = options.lighting;
+    if (!lighting) {
+        EXPECT_EQ(cndCreateLighting(options.host ? options.host : &deviceDesc(), &desc, &lighting,
+                                    &error),
+                  CND_SUCCESS)
+            << error.message;
+    }
     const CndLightingViewDesc viewDesc{.structSize = sizeof viewDesc,
                                        .maxWidth = g.width,
                                        .maxHeight = g.height,
@@ -333,7 +336,8 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     EXPECT_EQ(cndGetLightingStats(view, frame.frameSlot, &result.stats), CND_SUCCESS);
     result.radiance = readRadiance(images);
     cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
+    if (!options.lighting)
+        cndDestroyLighting(lighting);
     return result;
 }
 

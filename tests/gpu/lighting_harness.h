@@ -72,6 +72,7 @@ struct RunOptions {
     VkDeviceSize listBudget = 0;
     bool countPairs = false;
     const CndDeviceDesc* host = nullptr; // instead of the fixture's, for interposed functions
+    CndLighting lighting = nullptr; // of two frames in flight, instead of one for this run alone
     double lightOrigin[3] = {0, 0, 0};
     const CndDeviceLights* deviceLights = nullptr;
     uint32_t sampleCount = 0;
@@ -81,6 +82,7 @@ struct RunOptions {
     int frames = 1; // record this many times; the last one is read back
     uint32_t layers = 0;
     bool unchanged = false; // frames after the first promise unchanged surfaces
+    uint32_t materialClasses = 0;
 };
 
 class LightingTest : public GpuTest

@@ -65,12 +65,20 @@ TEST_F(LightingTest, RandomFramesEqualBrute)
 {
     const uint32_t frames = fullTests() ? 1000 : 10;
     uint32_t lit = 0;
+    CndError error{};
+    const CndLightingDesc desc{.structSize = sizeof desc,
+                               .framesInFlight = 2,
+                               .specularMethods = 1u << RunOptions{}.specular};
+    CndLighting lighting{};
+    ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
+        << error.message;
     for (uint32_t seed = 0; seed < frames; ++seed) {
         RandomFrame frame(seed);
         const CpuGBuffer g = frame.gbuffer();
         const auto lights = frame.lights(g);
-        const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
-        const LightingResult clustered = run(g, lights);
+        const LightingResult brute =
+            run(g, lights, {.culling = CND_CULLING_BRUTE, .lighting = lighting});
+        const LightingResult clustered = run(g, lights, {.lighting = lighting});
         EXPECT_LE(maxRelativeDifference(clustered.radiance, brute.radiance), 1e-6)
             << "seed " << seed << ", " << g.width << "x" << g.height << ", " << lights.size()
             << " lights";
@@ -80,6 +88,7 @@ TEST_F(LightingTest, RandomFramesEqualBrute)
                 break;
             }
     }
+    cndDestroyLighting(lighting);
     EXPECT_GE(lit, frames / 2); // most frames have something to compare
 }
 
