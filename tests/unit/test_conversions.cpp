@@ -3,14 +3,13 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
-#include <limits>
-#include <numbers>
 #include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "candelabra/candelabra.hpp"
+#include "constants.h"
 #include "reference/sphere_light.h"
 #include "reference/truth.h"
 
@@ -19,9 +18,6 @@ namespace candelabra::test
 
 namespace
 {
-
-constexpr double pi = std::numbers::pi;
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 glm::dvec3 vec(const float (&v)[3])
 {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "constants.h"
 #include "exposure/exposure.h"
 
 namespace candelabra::test
@@ -15,7 +16,6 @@ namespace candelabra::test
 namespace
 {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 CndExposureSettings defaults()

@@ -2,6 +2,7 @@
 // KHR_lights_punctual and KHR_lights_area: units, directions, radii, influence.
 #include <cmath>
 
+#include "constants.h"
 #include "unit/gltf_fixture.h"
 
 namespace candelabra::test
@@ -11,8 +12,6 @@ namespace
 {
 
 using namespace candelabra::app;
-
-constexpr double pi = 3.14159265358979323846;
 
 class GltfLights : public GltfTest
 {

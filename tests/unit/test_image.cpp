@@ -11,6 +11,7 @@
 #include <stb/stb_image.h>
 #include <sys/resource.h>
 
+#include "constants.h"
 #include "io/image.h"
 #include "unit/gltf_builder.h"
 
@@ -22,7 +23,6 @@ namespace
 
 using namespace candelabra::app;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 // Every value differs; magnitudes from 2^-20 to 2^20.

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "constants.h"
 #include "reference/albedo.h"
 #include "reference/brdf.h"
 #include "test_reference_support.h"
@@ -19,8 +20,6 @@ using namespace candelabra::reference;
 
 namespace
 {
-
-constexpr double pi = std::numbers::pi;
 
 // Midpoint rule over light directions in polar coordinates around the mirror direction, where the
 // lobe is; shares nothing with the quadrature over microfacet normals.

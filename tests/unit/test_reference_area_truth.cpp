@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <numbers>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "constants.h"
 #include "harness/full_tests.h"
 #include "reference/emitter_domain.h"
 #include "reference/truth.h"
@@ -24,7 +24,6 @@ using namespace candelabra::reference;
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
 const SurfacePoint upward{{0, 0, 0}, {0, 0, 1}, {0.6, 0, 0.8}};
 
 void set(float (&out)[3], const glm::dvec3& value)

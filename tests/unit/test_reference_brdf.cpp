@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "constants.h"
 #include "reference/brdf.h"
 #include "test_reference_support.h"
 
@@ -16,7 +16,6 @@ using namespace candelabra::reference;
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
 constexpr double alphas[] = {0.002, 0.01, 0.05, 0.2, 0.5, 1.0};
 
 } // namespace

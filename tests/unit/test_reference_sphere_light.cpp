@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "constants.h"
 #include "reference/brdf.h"
 #include "reference/light.h"
 #include "reference/sphere_light.h"
@@ -18,8 +18,6 @@ using namespace candelabra::reference;
 
 namespace
 {
-
-constexpr double pi = std::numbers::pi;
 
 // F by integration over the cap: polar angle outside, azimuth inside, split where the horizon first
 // cuts a ring.

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "constants.h"
 #include "harness/full_tests.h"
 #include "reference/brdf.h"
 #include "reference/direction_domain.h"
@@ -28,8 +28,6 @@ using namespace candelabra::reference;
 
 namespace
 {
-
-constexpr double pi = std::numbers::pi;
 
 struct CapCase {
     SurfacePoint surface;

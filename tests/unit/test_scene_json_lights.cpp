@@ -3,10 +3,10 @@
 // public interface; errors are one sentence that names the key.
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "constants.h"
 #include "scene/load.h"
 #include "unit/gltf_builder.h"
 #include "unit/scene_invariants.h"
@@ -19,7 +19,6 @@ namespace
 
 using namespace candelabra::app;
 
-constexpr double pi = std::numbers::pi;
 const std::string everyLight = std::string(CANDELABRA_TEST_DATA) + "/every_light.json";
 
 glm::vec3 vec(const float (&v)[3])

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "constants.h"
 #include "scene/load.h"
 #include "scene/mesh_builder.h"
 #include "scene/random.h"
@@ -17,7 +18,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double pi = glm::pi<double>();
+using test::pi;
 
 // By the divergence theorem; positive when a closed mesh is wound counter-clockwise from outside.
 double volume(const Mesh& mesh)
