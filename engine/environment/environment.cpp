@@ -124,7 +124,9 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
       mip_(device_, spirv::environment_mip_comp),
       prefilter_(device_, spirv::environment_prefilter_comp),
       irradianceKernel_(device_, spirv::environment_irradiance_comp),
-      shade_(device_, spirv::shade_environment_comp, {{gpu::SPEC_GBUFFER, gbuffer_.code()}}),
+      hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
+      shade_(device_, hostKernels_.of(spirv::shade_environment_comp),
+             {{gpu::SPEC_GBUFFER, gbuffer_.code()}}, hostKernels_.setLayout()),
       sampler_(createSampler(device_)),
       recorded_(desc_.framesInFlight)
 {
@@ -271,6 +273,7 @@ void Environment::validate(const CndEnvironmentFrame& frame) const
         gpu::failArgument("CndEnvironmentFrame: lobes is not a CndLobeJoining");
     if (!isRotation(rotationOf(frame.worldFromEnvironment)))
         gpu::failArgument("CndEnvironmentFrame: worldFromEnvironment must be a rotation");
+    hostKernels_.requireSet("CndEnvironmentFrame", frame.hostSet);
     lighting::checkCamera(frame.camera);
 }
 
@@ -305,7 +308,7 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
     flags |= frame.lobes == CND_LOBES_SUM ? ENVIRONMENT_SUM : 0;
     flags |= frame.energyCompensation ? ENVIRONMENT_COMPENSATE : 0;
 
-    const Frame f{device_, cmd, timer_, frame.frameSlot};
+    const Frame f{device_, cmd, timer_, frame.frameSlot, frame.hostSet};
     device_.beginLabel(cmd, "candelabra environment");
     timer_.begin(cmd, f.slot);
     shade_.dispatch(f, sets_.shade.set(f.slot),

@@ -6,6 +6,7 @@
 
 #include "gpu/kernel.h"
 #include "lighting/host_gbuffer.h"
+#include "lighting/host_kernels.h"
 #include "shared/environment.h"
 #include "tables/dfg_table.h"
 
@@ -45,6 +46,7 @@ private:
     gpu::Kernel<gpu::EnvironmentMipParams> mip_;
     gpu::Kernel<gpu::EnvironmentPrefilterParams> prefilter_;
     gpu::Kernel<gpu::EnvironmentIrradianceParams> irradianceKernel_;
+    lighting::HostKernels hostKernels_;
     gpu::Kernel<gpu::ShadeEnvironmentParams> shade_;
     Sets sets_;
     gpu::CubeImage source_;      // the environment, all mips

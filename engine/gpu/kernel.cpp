@@ -163,7 +163,8 @@ void Bindings::write(uint32_t index, std::initializer_list<Binding> given) const
 }
 
 KernelBase::KernelBase(const Device& device, const Spirv& spirv, uint32_t paramsSize,
-                       std::initializer_list<SpecConstant> constants)
+                       std::initializer_list<SpecConstant> constants,
+                       VkDescriptorSetLayout hostLayout)
     : device_(&device), name_(spirv.name), reflection_(reflect(spirv))
 {
     if (reflection_.pushConstantSize != paramsSize)
@@ -172,8 +173,12 @@ KernelBase::KernelBase(const Device& device, const Spirv& spirv, uint32_t params
                         std::to_string(reflection_.pushConstantSize) + " in SPIR-V");
     constexpr VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
     setLayout_ = createSetLayout(device, name_, reflection_.bindings, stage);
-    const VkDescriptorSetLayout set = setLayout_.get();
-    layout_ = createPipelineLayout(device, name_, {&set, 1}, stage, paramsSize);
+    if (reflection_.usesHostSet && !hostLayout)
+        failArgument(std::string("kernel ") + name_ +
+                     " uses descriptor set 1, and CndHostKernels::setLayout is null");
+    const VkDescriptorSetLayout sets[] = {setLayout_.get(), hostLayout};
+    layout_ = createPipelineLayout(device, name_, {sets, reflection_.usesHostSet ? 2u : 1u}, stage,
+                                   paramsSize);
 
     std::vector<VkSpecializationMapEntry> entries;
     std::vector<uint32_t> values;
@@ -235,8 +240,9 @@ void KernelBase::bind(const Frame& frame, VkDescriptorSet set, const void* param
 {
     const Device& d = frame.device;
     d.CmdBindPipeline(frame.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    d.CmdBindDescriptorSets(frame.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &set, 0,
-                            nullptr);
+    const VkDescriptorSet sets[] = {set, frame.hostSet};
+    d.CmdBindDescriptorSets(frame.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0,
+                            reflection_.usesHostSet ? 2 : 1, sets, 0, nullptr);
     d.CmdPushConstants(frame.cmd, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, size, params);
 }
 

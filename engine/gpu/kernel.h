@@ -19,7 +19,8 @@ struct Frame {
     const Device& device;
     VkCommandBuffer cmd;
     Timer& timer;
-    uint32_t slot; // frame in flight
+    uint32_t slot;                            // frame in flight
+    VkDescriptorSet hostSet = VK_NULL_HANDLE; // set 1 of kernels that use it
 
     // Makes shader and transfer writes so far visible to later shader work and transfers.
     void barrier() const noexcept;
@@ -85,7 +86,7 @@ class KernelBase
 public:
     KernelBase() = default;
     KernelBase(const Device& device, const Spirv& spirv, uint32_t paramsSize,
-               std::initializer_list<SpecConstant> constants);
+               std::initializer_list<SpecConstant> constants, VkDescriptorSetLayout hostLayout);
     const char* name() const { return name_; }
     // One set per frame slot, for one user (view) of the kernel.
     Bindings createBindings(uint32_t setCount) const;
@@ -114,9 +115,11 @@ class Kernel : public KernelBase
 {
 public:
     Kernel() = default;
+    // `hostLayout`: of set 1, for kernels that use it.
     Kernel(const Device& device, const Spirv& spirv,
-           std::initializer_list<SpecConstant> constants = {})
-        : KernelBase(device, spirv, sizeof(Params), constants)
+           std::initializer_list<SpecConstant> constants = {},
+           VkDescriptorSetLayout hostLayout = VK_NULL_HANDLE)
+        : KernelBase(device, spirv, sizeof(Params), constants, hostLayout)
     {
     }
     // Group counts; a zero count records nothing but the timer row.

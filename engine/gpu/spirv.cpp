@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "gpu/failure.h"
@@ -25,6 +26,7 @@ enum : uint32_t {
     OpTypeStruct = 30,
     OpTypePointer = 32,
     OpConstant = 43,
+    OpFunctionEnd = 56,
     OpVariable = 59,
     OpDecorate = 71,
     OpMemberDecorate = 72,
@@ -51,11 +53,20 @@ public:
     explicit Module(const Spirv& spirv) : words_(spirv.words)
     {
         constexpr size_t headerWords = 5;
-        for (size_t i = headerWords; i < words_.size();) {
+        constexpr uint32_t magic = 0x07230203;
+        bool whole = words_.size() >= headerWords && words_[0] == magic;
+        uint32_t last = 0;
+        for (size_t i = headerWords; whole && i < words_.size();) {
             const uint32_t* at = &words_[i];
-            read(at[0] & 0xFFFFu, at);
-            i += at[0] >> 16;
+            const size_t length = at[0] >> 16;
+            whole = length > 0 && length <= words_.size() - i;
+            last = at[0] & 0xFFFFu;
+            if (whole)
+                read(last, at);
+            i += length;
         }
+        if (!whole || last != OpFunctionEnd) // the end of every shader
+            failArgument(std::string(spirv.name) + " is not SPIR-V, or not all of it");
     }
 
     Reflection reflection(const char* name) const
@@ -63,14 +74,19 @@ public:
         Reflection result;
         for (const uint32_t* variable : variables_) {
             const uint32_t storage = variable[3];
+            const auto found = decorations_.find(variable[2]);
+            const bool isBound = found != decorations_.end() && found->second.binding != ~0u;
+            if (isBound && found->second.set > 1)
+                failUnsupported(std::string("shader ") + name + " uses a descriptor set above 1");
+            if (isBound && found->second.set == 1) {
+                result.usesHostSet = true;
+                continue;
+            }
             const uint32_t* type = definition(definition(variable[1])[3]);
             if (storage == StoragePushConstant)
                 result.pushConstantSize = structSize(type[1]);
-            const auto found = decorations_.find(variable[2]);
-            if (found == decorations_.end() || found->second.binding == ~0u)
+            if (!isBound)
                 continue;
-            if (found->second.set != 0)
-                failUnsupported(std::string("shader ") + name + " uses a descriptor set above 0");
             uint32_t count = 1;
             if ((type[0] & 0xFFFFu) == OpTypeArray) {
                 count = definition(type[3])[3];
@@ -177,7 +193,11 @@ private:
 
 Reflection reflect(const Spirv& spirv)
 {
-    return Module(spirv).reflection(spirv.name);
+    try {
+        return Module(spirv).reflection(spirv.name);
+    } catch (const std::out_of_range&) {
+        failArgument(std::string(spirv.name) + " is SPIR-V that uses what it does not define");
+    }
 }
 
 } // namespace candelabra::gpu

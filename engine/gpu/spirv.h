@@ -20,14 +20,18 @@ struct ReflectedBinding {
     uint32_t binding;
     VkDescriptorType type;
     uint32_t count; // array size
+    bool operator==(const ReflectedBinding&) const = default;
 };
 
 struct Reflection {
     std::vector<ReflectedBinding> bindings; // descriptor set 0, by binding number
     uint32_t pushConstantSize = 0;          // bytes, 0 without push constants
+    bool usesHostSet = false;               // descriptor set 1, of whatever bindings
+    bool operator==(const Reflection&) const = default;
 };
 
-// Reads bindings and the push constant block. Throws Failure on a module that uses another set.
+// Reads bindings and the push constant block. Throws Failure on a module that uses a set above 1,
+// or is none.
 Reflection reflect(const Spirv& spirv);
 
 } // namespace candelabra::gpu

@@ -49,12 +49,15 @@ VkDeviceSize workBytes(uint32_t lists, uint32_t items)
 
 } // namespace
 
-ClusterKernels::ClusterKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t tileClasses)
+ClusterKernels::ClusterKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
+                               uint32_t tileClasses)
     : lightTree(device, spirv::light_tree_comp,
                 {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
-      tileClusters(device, spirv::tile_clusters_comp,
-                   {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_TILE_CLASSES, tileClasses}}),
-      splitTiles(device, spirv::split_tiles_comp, {{gpu::SPEC_GBUFFER, gbuffer}}),
+      tileClusters(device, host.of(spirv::tile_clusters_comp),
+                   {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_TILE_CLASSES, tileClasses}},
+                   host.setLayout()),
+      splitTiles(device, host.of(spirv::split_tiles_comp), {{gpu::SPEC_GBUFFER, gbuffer}},
+                 host.setLayout()),
       blockClusters(device, spirv::block_clusters_comp),
       clusterLists(device, spirv::cluster_lists_comp,
                    {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}})

@@ -8,6 +8,7 @@
 
 #include "gpu/kernel.h"
 #include "lighting/host_gbuffer.h"
+#include "lighting/host_kernels.h"
 #include "lighting/pack_lights.h"
 #include "shared/clusters.h"
 
@@ -18,7 +19,8 @@ class Lighting;
 
 struct ClusterKernels {
     // `gbuffer`: value of SPEC_GBUFFER; `tileClasses`: of SPEC_TILE_CLASSES.
-    ClusterKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t tileClasses);
+    ClusterKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
+                   uint32_t tileClasses);
     gpu::Kernel<gpu::LightTreeParams> lightTree;
     gpu::Kernel<gpu::TileClustersParams> tileClusters, splitTiles;
     gpu::Kernel<gpu::BlockClustersParams> blockClusters;

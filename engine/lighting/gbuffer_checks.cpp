@@ -162,7 +162,7 @@ void checkEnumerators(const CndGBufferDesc& d)
 
 void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& d)
 {
-    if (uint32_t(layout) > CND_GBUFFER_HOST)
+    if (uint32_t(layout) > CND_GBUFFER_CUSTOM)
         gpu::failArgument("gbufferLayout is not a CndGBufferLayout");
     if (layout != CND_GBUFFER_HOST) {
         if (d.roughness != CND_CHANNEL_NONE)

@@ -14,6 +14,7 @@ namespace
 static_assert(gpu::GBUFFER_LAYOUT_FULL == CND_GBUFFER_FULL);
 static_assert(gpu::GBUFFER_LAYOUT_COMPACT == CND_GBUFFER_COMPACT);
 static_assert(gpu::GBUFFER_LAYOUT_HOST == CND_GBUFFER_HOST);
+static_assert(gpu::GBUFFER_LAYOUT_CUSTOM == CND_GBUFFER_CUSTOM);
 static_assert(gpu::GBUFFER_NORMAL_UNORM == CND_NORMAL_UNORM);
 static_assert(gpu::GBUFFER_NORMAL_SNORM == CND_NORMAL_SNORM);
 static_assert(gpu::GBUFFER_NORMAL_OCTAHEDRAL_UNORM == CND_NORMAL_OCTAHEDRAL_UNORM);
@@ -50,14 +51,14 @@ GBufferSource::GBufferSource(const gpu::Device& device, CndGBufferLayout layout,
     code_ = codeOf(layout, desc);
     dielectricF0_ = desc.dielectricF0 > 0 ? desc.dielectricF0 : gpu::DIELECTRIC_F0;
     readsSpecular_ = readsSpecular(layout, desc);
-    if (isHosts())
+    if (!isPacked())
         standIn_ = gpu::createImage(device, "no packed normals", VK_FORMAT_R32_UINT, 1, 1,
                                     VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
 }
 
 void GBufferSource::record(const gpu::Frame& frame) noexcept
 {
-    if (standInReady_ || !isHosts())
+    if (standInReady_ || isPacked())
         return;
     standInReady_ = true;
     const VkImageMemoryBarrier2 barrier{

@@ -45,7 +45,8 @@ public:
     template <typename Frame>
     bool hasImages(const Frame& f) const
     {
-        return f.normalRoughness && f.albedo && f.depth && (f.specular || !readsSpecular_);
+        return f.depth &&
+               (isCustom() || (f.normalRoughness && f.albedo && (f.specular || !readsSpecular_)));
     }
     template <typename Frame>
     GBufferViews views(const Frame& f, const GBufferParams& params) const;
@@ -54,12 +55,15 @@ public:
     void record(const gpu::Frame& frame) noexcept;
 
 private:
-    bool isHosts() const { return (code_ & gpu::GBUFFER_LAYOUT_MASK) == gpu::GBUFFER_LAYOUT_HOST; }
+    uint32_t layout() const { return code_ & gpu::GBUFFER_LAYOUT_MASK; }
+    bool isHosts() const { return layout() == gpu::GBUFFER_LAYOUT_HOST; }
+    bool isCustom() const { return layout() == gpu::GBUFFER_LAYOUT_CUSTOM; }
+    bool isPacked() const { return !isHosts() && !isCustom(); }
 
     uint32_t code_;
     float dielectricF0_;
     bool readsSpecular_;
-    gpu::Image standIn_; // with a layout of the host's
+    gpu::Image standIn_; // with a layout of the host's, or none
     bool standInReady_ = false;
 };
 
@@ -82,10 +86,11 @@ private:
 template <typename Frame>
 GBufferViews GBufferSource::views(const Frame& f, const GBufferParams& params) const
 {
-    return {.packedNormal = isHosts() ? standIn_.view.get() : f.normalRoughness,
-            .hostNormal = isHosts() ? f.normalRoughness : f.albedo,
-            .albedo = f.albedo,
-            .specular = f.specular ? f.specular : f.albedo,
+    const VkImageView albedo = isCustom() ? f.depth : f.albedo; // any that is read as floats
+    return {.packedNormal = isPacked() ? f.normalRoughness : standIn_.view.get(),
+            .hostNormal = isHosts() ? f.normalRoughness : albedo,
+            .albedo = albedo,
+            .specular = f.specular && !isCustom() ? f.specular : albedo,
             .depth = f.depth,
             .paramsBuffer = params.buffer(),
             .paramsOffset = GBufferParams::offset(f.frameSlot)};

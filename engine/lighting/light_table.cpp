@@ -135,7 +135,7 @@ CndLightId LightTable::add(const CndLight& light, Records staging) noexcept
     generations_[slot] = generation_;
     lights_.push_back(entry(light, slot));
     touch(record, staged);
-    packLights({&light, 1}, staging.subspan(record));
+    packLights({&light, 1}, staging.subspan(record), slot);
     return CndLightId(generation_) << 32 | slot;
 }
 
@@ -146,7 +146,7 @@ void LightTable::update(CndLightId id, const CndLight& light, Records staging) n
     const uint32_t source = lights_[record].source;
     lights_[record] = entry(light, slotOf(id));
     lights_[record].source = source;
-    packLights({&light, 1}, staging.subspan(record));
+    packLights({&light, 1}, staging.subspan(record), slotOf(id));
 }
 
 void LightTable::remove(CndLightId id, Records staging) noexcept

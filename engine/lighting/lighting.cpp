@@ -57,12 +57,14 @@ uint32_t maxLights(const VkPhysicalDeviceLimits& limits)
     return uint32_t(std::min({countable, stored, dispatched}));
 }
 
-Kernels::Kernels(const gpu::Device& device, const CndLightingDesc& desc, uint32_t gbuffer)
-    : prepareLights(device, spirv::prepare_lights_comp),
+Kernels::Kernels(const gpu::Device& device, const HostKernels& host, const CndLightingDesc& desc,
+                 uint32_t gbuffer, bool withIds)
+    : prepareLights(device, spirv::prepare_lights_comp, {{gpu::PREPARE_LIGHTS_WITH_IDS, withIds}}),
       order(device),
-      clusters(device, gbuffer, tileClassesOf(desc)),
-      shade(device, gbuffer, desc.specularMethods, tileClassesOf(desc)),
-      surfaceOverlay(device, spirv::surface_overlay_comp, {{gpu::SPEC_GBUFFER, gbuffer}})
+      clusters(device, host, gbuffer, tileClassesOf(desc)),
+      shade(device, host, gbuffer, desc.specularMethods, tileClassesOf(desc)),
+      surfaceOverlay(device, host.of(spirv::surface_overlay_comp), {{gpu::SPEC_GBUFFER, gbuffer}},
+                     host.setLayout())
 {
 }
 
@@ -70,7 +72,8 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
     : device_(device),
       desc_(checked(desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
-      kernels_(device_, desc_, gbuffer_.code()),
+      hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
+      kernels_(device_, hostKernels_, desc_, gbuffer_.code(), readsIds()),
       dfg_(device_),
       ltc_(createLtcBuffer(device_)),
       forwardLayout_(createForwardLayout(device_, desc_.forwardStages)),

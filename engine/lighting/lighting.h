@@ -13,6 +13,7 @@
 #include "lighting/forward.h"
 #include "lighting/frame_passes.h"
 #include "lighting/host_gbuffer.h"
+#include "lighting/host_kernels.h"
 #include "lighting/light_order.h"
 #include "lighting/light_table.h"
 #include "lighting/pack_lights.h"
@@ -31,8 +32,9 @@ class View;
 uint32_t maxLights(const VkPhysicalDeviceLimits& limits);
 
 struct Kernels {
-    // `gbuffer`: value of SPEC_GBUFFER.
-    Kernels(const gpu::Device& device, const CndLightingDesc& desc, uint32_t gbuffer);
+    // `gbuffer`: value of SPEC_GBUFFER. `host` must outlive it.
+    Kernels(const gpu::Device& device, const HostKernels& host, const CndLightingDesc& desc,
+            uint32_t gbuffer, bool withIds);
     gpu::Kernel<gpu::PrepareLightsParams> prepareLights;
     LightOrder order;
     ClusterKernels clusters;
@@ -84,6 +86,9 @@ public:
     const gpu::Device& device() const { return device_; }
     const CndLightingDesc& desc() const { return desc_; }
     const GBufferSource& gbuffer() const { return gbuffer_; }
+    const HostKernels& hostKernels() const { return hostKernels_; }
+    // Shaders may ask which light a light is.
+    bool readsIds() const { return desc_.forwardStages || !hostKernels_.empty(); }
     const Kernels& kernels() const { return kernels_; }
     const gpu::Buffer& records() const { return store_.records; }
     const gpu::Buffer& lightOrder() const { return store_.sort.keys[0]; }
@@ -142,6 +147,7 @@ private:
     gpu::Device device_;
     CndLightingDesc desc_;
     GBufferSource gbuffer_;
+    HostKernels hostKernels_;
     Kernels kernels_;
     tables::DfgTable dfg_;
     gpu::Buffer ltc_;
@@ -246,7 +252,7 @@ private:
     Sets sets_;
     Clusters clusters_;
     GBufferParams gbufferParams_;
-    gpu::Buffer core_, aux_; // per light
+    gpu::Buffer core_, aux_, ids_; // per light; ids, when nobody reads them, of one
     ForwardLights forward_;
     gpu::Buffer counters_;
     std::vector<gpu::Buffer> readback_; // per slot

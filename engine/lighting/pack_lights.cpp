@@ -175,7 +175,7 @@ gpu::LightRecord pack(const CndLight& light)
     }
     case CND_LIGHT_TUBE:
         r.axisU = vec(light.axisU);
-        r.radius = light.radius;
+        r.axisV.x = light.radius;
         break;
     case CND_LIGHT_RECTANGLE:
         r.axisU = vec(light.axisU);
@@ -210,10 +210,13 @@ LightTypeCounts countTypes(std::span<const CndLight> lights)
     return counts;
 }
 
-void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records) noexcept
+void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records,
+                uint32_t firstId) noexcept
 {
-    for (size_t i = 0; i < lights.size(); ++i)
+    for (size_t i = 0; i < lights.size(); ++i) {
         records[i] = pack(lights[i]);
+        records[i].id = firstId + uint32_t(i);
+    }
 }
 
 } // namespace candelabra::lighting

@@ -20,6 +20,7 @@ void validateLights(std::span<const CndLight> lights);
 LightTypeCounts countTypes(std::span<const CndLight> lights);
 
 // Valid lights into records, one each.
-void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records) noexcept;
+void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records,
+                uint32_t firstId = 0) noexcept;
 
 } // namespace candelabra::lighting

@@ -45,9 +45,13 @@ uint32_t tileClassesOf(const CndLightingDesc& desc)
     return 1u << gpu::CLASS_ANY | desc.materialClasses << 1;
 }
 
-ShadeKernels::ShadeKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t methods,
-                           uint32_t tileClasses)
-    : device_(&device), gbuffer_(gbuffer), methods_(methods), tileClasses_(tileClasses)
+ShadeKernels::ShadeKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
+                           uint32_t methods, uint32_t tileClasses)
+    : device_(&device),
+      host_(&host),
+      gbuffer_(gbuffer),
+      methods_(methods),
+      tileClasses_(tileClasses)
 {
     require(CND_LIGHT_SPHERE);
 }
@@ -117,13 +121,14 @@ ShadeKernels::Kernel ShadeKernels::makeKernel(const gpu::Spirv& spirv, uint32_t 
                                               CndSpecularMethod method, bool withBudget,
                                               uint32_t tileClass) const
 {
-    return Kernel(*device_, spirv,
+    return Kernel(*device_, host_->of(spirv),
                   {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
                    {gpu::SPEC_SPECULAR_METHOD, uint32_t(method)},
                    {gpu::SPEC_LIGHT_TYPE, lightType},
                    {gpu::SPEC_GBUFFER, gbuffer_},
                    {gpu::SPEC_ERROR_BUDGET, withBudget},
-                   {gpu::SPEC_TILE_CLASS, tileClass}});
+                   {gpu::SPEC_TILE_CLASS, tileClass}},
+                  host_->setLayout());
 }
 
 ShadeKernels::Tiles ShadeKernels::makeTiles(uint32_t lightType, CndSpecularMethod method,

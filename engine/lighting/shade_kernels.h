@@ -4,6 +4,7 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
+#include "lighting/host_kernels.h"
 #include "shared/lighting.h"
 
 namespace candelabra::lighting
@@ -32,9 +33,9 @@ class ShadeKernels
 public:
     using Kernel = gpu::Kernel<gpu::ShadeParams>;
     // `methods`: mask of 1 << CndSpecularMethod.
-    // `gbuffer`: value of SPEC_GBUFFER. `tileClasses`: as of tileClassesOf.
-    ShadeKernels(const gpu::Device& device, uint32_t gbuffer, uint32_t methods,
-                 uint32_t tileClasses);
+    // `gbuffer`: value of SPEC_GBUFFER. `tileClasses`: as of tileClassesOf. `host` must outlive it.
+    ShadeKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
+                 uint32_t methods, uint32_t tileClasses);
     // Makes the pipelines of a light type unless they exist.
     void require(uint32_t lightType);
 
@@ -69,6 +70,7 @@ private:
                       bool withBudget, uint32_t tileClass) const;
 
     const gpu::Device* device_;
+    const HostKernels* host_;
     uint32_t gbuffer_;
     uint32_t methods_, tileClasses_;
     OfType types_[CND_LIGHT_TYPE_COUNT];

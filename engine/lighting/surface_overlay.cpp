@@ -54,7 +54,7 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
         eyeInPeriod[i] = float(std::fmod(eye[i], double(SURFACE_PERIOD)));
 
     Timer untimed; // times are of cndRecordLighting
-    const Frame f{lighting_.device(), cmd, untimed, frame.frameSlot};
+    const Frame f{lighting_.device(), cmd, untimed, frame.frameSlot, frame.hostSet};
     f.device.beginLabel(cmd, "candelabra surface overlay");
     lighting_.recordGBuffer(f);
     lighting_.kernels().surfaceOverlay.dispatch(

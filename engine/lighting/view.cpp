@@ -98,25 +98,6 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     lighting.add(this);
 }
 
-void View::makeRoom(const LightTypeCounts& types)
-{
-    const gpu::Device& device = lighting_.device();
-    const VkDeviceSize lights = lighting_.lightCapacity();
-    clusters_.grow(uint32_t(lights), types);
-    const VkDeviceSize coreBytes = lights * gpu::LIGHT_CORE_STRIDE * sizeof(glm::vec4);
-    const VkDeviceSize auxBytes = lights * gpu::LIGHT_AUX_STRIDE * sizeof(glm::vec4);
-    if (coreBytes <= core_.size && auxBytes <= aux_.size)
-        return;
-    gpu::Buffer core = gpu::createBuffer(device, "light core", coreBytes,
-                                         storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                                         gpu::MemoryUse::Device);
-    gpu::createTexelView(device, core);
-    gpu::Buffer aux =
-        gpu::createBuffer(device, "light aux", auxBytes, storageUse, gpu::MemoryUse::Device);
-    lighting_.replace(core_, std::move(core));
-    lighting_.replace(aux_, std::move(aux));
-}
-
 View::Plan View::plan(const CndLightingFrame& frame) const
 {
     Plan p{.projection = projectionOf(frame.camera.clipFromView, frame.clearDepth),
@@ -153,7 +134,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     const bool keep = keepsLists(frame, plan.sampleCount);
     const FramePasses passes(contentOf(frame, plan.lights, keep));
     slots_[slot] = {lighting_.nextRecording(), lighting_.typeCounts(), passes};
-    const gpu::Frame f{lighting_.device(), cmd, timer_, slot};
+    const gpu::Frame f{lighting_.device(), cmd, timer_, slot, frame.hostSet};
     f.device.beginLabel(cmd, "candelabra lighting");
     timer_.begin(cmd, slot);
 

@@ -32,6 +32,7 @@ void View::validateSurfaces(const CndLightingFrame& frame) const
         gpu::failArgument("CndLightingFrame: clearDepth must be 0 or 1");
     if (!lighting_.gbuffer().hasImages(frame))
         gpu::failArgument("CndLightingFrame: a G-buffer view is null");
+    lighting_.hostKernels().requireSet("CndLightingFrame", frame.hostSet);
     checkCamera(frame.camera);
 }
 

@@ -118,7 +118,7 @@ void View::recordUnlisted(const gpu::Frame& f, const ShadeKernels::Variant& kern
                           uint32_t perBatch) const noexcept
 {
     gpu::Timer untimed; // the parts are one row
-    const gpu::Frame u{f.device, f.cmd, untimed, f.slot};
+    const gpu::Frame u{f.device, f.cmd, untimed, f.slot, f.hostSet};
     const auto record = [&](const gpu::ShadeParams& part) {
         kernels.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
                                           clusters_.lists(type).unlisted);

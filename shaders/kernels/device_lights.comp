@@ -47,8 +47,9 @@ void main()
         return;
     const uint written = params.hasCount != 0u ? count : params.maxCount;
     // Far away, so that no distance to it is 0.
-    LightRecord record = LightRecord(vec3(MAX_LIGHT_COORDINATE), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0,
-                                     vec3(0.0), params.type | params.layers << LIGHT_LAYERS_SHIFT);
+    LightRecord record = LightRecord(vec3(MAX_LIGHT_COORDINATE), 0.0, vec3(0.0), 0.0, vec3(0.0),
+                                     LIGHT_OF_DEVICE | i, vec3(0.0),
+                                     params.type | params.layers << LIGHT_LAYERS_SHIFT);
     if (i < written) {
         const DeviceLight light = from[i];
         const float reach = params.type == LIGHT_POINT ? 0.0 : light.radius;

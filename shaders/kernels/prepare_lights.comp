@@ -27,6 +27,11 @@ layout(scalar, binding = PREPARE_LIGHTS_ORDER) readonly buffer Order
 {
     LightKey order[];
 };
+layout(scalar, binding = PREPARE_LIGHTS_IDS) writeonly buffer Ids
+{
+    uint ids[];
+};
+layout(constant_id = PREPARE_LIGHTS_WITH_IDS) const uint withIds = 0u;
 
 void main()
 {
@@ -44,7 +49,9 @@ void main()
     core[i * LIGHT_CORE_STRIDE + 1u] =
         vec4(light.emission, inFrame ? influence2 : INFLUENCE2_OF_NONE);
     const vec3 axisV = type == LIGHT_SPOT ? light.axisV : params.viewFromWorld * light.axisV;
-    aux[i * LIGHT_AUX_STRIDE] = vec4(params.viewFromWorld * light.axisU, light.radius);
+    aux[i * LIGHT_AUX_STRIDE] = vec4(params.viewFromWorld * light.axisU, light.axisV.x);
     aux[i * LIGHT_AUX_STRIDE + 1u] =
         vec4(axisV, (light.type & LIGHT_TWO_SIDED) != 0u ? 1.0 : 0.0);
+    if (withIds != 0u)
+        ids[i] = light.id;
 }

@@ -7,7 +7,9 @@
 // The includer defines FORWARD_SET, the number of the descriptor set (cndGetForwardSet). One line
 // does it:
 //   vec3 luminance = litSurface(surface, position); // Surface: lib/gbuffer.glsl
-// Light by light, with a shadow term of one's own for instance:
+// With CANDELABRA_VISIBILITY defined before the include, the includer also defines the shadow term of
+// lib/shadow_query.glsl behind it.
+// Light by light, with more than that for instance (lightIds[cursor.light]: which light it is):
 //   const Receiver receiver = forwardReceiver(surface, position);
 //   for (uint type = 0u; type < LIGHT_TYPE_COUNT; ++type) {
 //       LightCursor cursor = lightsAt(type, position);
@@ -46,6 +48,10 @@ layout(scalar, set = FORWARD_SET, binding = FORWARD_AUX) readonly buffer Forward
 layout(scalar, set = FORWARD_SET, binding = FORWARD_NODES) readonly buffer ForwardNodes
 {
     vec4 treeNodes[];
+};
+layout(scalar, set = FORWARD_SET, binding = FORWARD_IDS) readonly buffer ForwardIds
+{
+    uint lightIds[]; // by number: low half of the CndLightId, or LIGHT_OF_DEVICE and an index
 };
 layout(set = FORWARD_SET, binding = FORWARD_LTC) uniform textureBuffer ltcTexels;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Outgoing luminance of one shaded point under one light. The includer provides lightCentre(),
-// lightEmission(), lightAux[] and ltcTexel().
+// lightEmission(), lightAux[] and ltcTexel(); with CANDELABRA_VISIBILITY lightIds[], and the host the
+// shadow term.
 #ifndef CND_LIB_LIGHT_EVAL
 #define CND_LIB_LIGHT_EVAL
 
@@ -8,6 +9,9 @@
 #include "lib/light_reach.glsl"
 #include "lib/lights/sphere.glsl"
 #include "lib/lobes_of_class.glsl"
+#ifdef CANDELABRA_VISIBILITY
+#include "lib/shadow_query.glsl"
+#endif
 #if HAS_CONIC
 #include "lib/specular/conic.glsl"
 #endif
@@ -137,6 +141,10 @@ Light readLight(Receiver r, uint index)
     light.emission = emissionInfluence.xyz;
     if (!IS_DISTANT)
         light.emission *= influenceWindow(length2(light.toLight), emissionInfluence.w);
+#ifdef CANDELABRA_VISIBILITY
+    light.emission *= candelabraVisibility(
+        ShadowQuery(lightIds[index], lightType, r.p.position, r.p.n, light.toLight));
+#endif
     return light;
 }
 

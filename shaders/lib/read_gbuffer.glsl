@@ -2,7 +2,8 @@
 // Reads a G-buffer of any layout. The layout is a specialisation constant, so that what it does not
 // need is compiled away. The includer defines the numbers of the bindings: GBUFFER_CODE (of the
 // constant), GBUFFER_PACKED (normals of our layouts), GBUFFER_NORMAL (of the host's), GBUFFER_VIEW
-// and, unless it reads normals only, GBUFFER_ALBEDO and GBUFFER_SPECULAR.
+// and, unless it reads normals only, GBUFFER_ALBEDO and GBUFFER_SPECULAR; with CANDELABRA_READ_SURFACE,
+// the host defines candelabraReadSurface(), for the custom layout.
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/host_gbuffer.h"
 #include "lib/gbuffer.glsl"
@@ -34,6 +35,13 @@ vec3 storedNormal(vec4 texel)
     return normalEncoding == GBUFFER_NORMAL_UNORM ? 2.0 * texel.xyz - 1.0 : texel.xyz;
 }
 
+vec3 unitNormal(vec3 n)
+{
+    const float length2 = dot(n, n);
+    // False for NaN; the ends keep the square root away from denormals and infinity.
+    return length2 > 1e-12 && length2 < 1e12 ? normalize(n) : vec3(0.0, 0.0, 1.0);
+}
+
 // Unit, view space. Precise: every kernel gets the same bits.
 vec3 hostNormal(vec4 texel)
 {
@@ -43,13 +51,28 @@ vec3 hostNormal(vec4 texel)
         precise vec3 turned = m[0] * n.x + m[1] * n.y + m[2] * n.z;
         n = turned;
     }
-    const float length2 = dot(n, n);
-    // False for NaN; the ends keep the square root away from denormals and infinity.
-    return length2 > 1e-12 && length2 < 1e12 ? normalize(n) : vec3(0.0, 0.0, 1.0);
+    return unitNormal(n);
 }
+
+#ifdef CANDELABRA_READ_SURFACE
+Surface candelabraReadSurface(ivec2 pixel);
+
+Surface customSurface(ivec2 pixel)
+{
+    Surface s = candelabraReadSurface(pixel);
+    precise const vec3 n = s.normal;
+    s.normal = unitNormal(n);
+    s.perceptualRoughness = clamp(s.perceptualRoughness, 0.0, 1.0);
+    return s;
+}
+#endif
 
 vec3 readNormal(ivec2 pixel)
 {
+#ifdef CANDELABRA_READ_SURFACE
+    if (gbufferLayout == GBUFFER_LAYOUT_CUSTOM)
+        return customSurface(pixel).normal;
+#endif
     if (gbufferLayout == GBUFFER_LAYOUT_HOST)
         return hostNormal(texelFetch(normalImage, pixel, 0));
     return unpackNormal(gbufferLayout, texelFetch(packedNormalImage, pixel, 0).xy);
@@ -106,6 +129,10 @@ Surface hostSurface(HostTexels t)
 
 Surface readSurface(ivec2 pixel)
 {
+#ifdef CANDELABRA_READ_SURFACE
+    if (gbufferLayout == GBUFFER_LAYOUT_CUSTOM)
+        return customSurface(pixel);
+#endif
     if (gbufferLayout == GBUFFER_LAYOUT_HOST)
         return hostSurface(readHostTexels(pixel));
     const uvec2 packedNormal = texelFetch(packedNormalImage, pixel, 0).xy;

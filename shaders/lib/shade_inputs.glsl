@@ -22,4 +22,8 @@ layout(scalar, binding = SHADE_AUX) readonly buffer Aux
 {
     vec4 lightAux[];
 };
+layout(scalar, binding = SHADE_LIGHT_IDS) readonly buffer LightIds
+{
+    uint lightIds[];
+};
 layout(binding = SHADE_DEPTH) uniform texture2D depthImage;

@@ -5,6 +5,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/forward_probe.h"
 #define FORWARD_SET FORWARD_PROBE_SET
+#define CANDELABRA_VISIBILITY
 #include "lib/forward.glsl"
 
 layout(local_size_x = FORWARD_PROBE_GROUP) in;
@@ -12,6 +13,11 @@ layout(push_constant, scalar) uniform Push
 {
     ForwardProbeParams params;
 };
+float candelabraVisibility(ShadowQuery query)
+{
+    return (query.light & params.shadowed) != 0u ? 0.5 : 1.0;
+}
+
 layout(binding = FORWARD_PROBE_NORMAL_ROUGHNESS) uniform utexture2D normalRoughnessImage;
 layout(binding = FORWARD_PROBE_ALBEDO) uniform texture2D albedoImage;
 layout(binding = FORWARD_PROBE_SPECULAR) uniform texture2D specularImage;

@@ -14,6 +14,7 @@ const uint FORWARD_AUX = 2u;
 const uint FORWARD_NODES = 3u; // of the light trees, shared/clusters.h
 const uint FORWARD_DFG = 4u;   // texel buffers: shared/dfg.h
 const uint FORWARD_LTC = 5u;   // shared/ltc.h
+const uint FORWARD_IDS = 6u;   // of lights
 
 const uint LIGHT_TYPE_COUNT = 8u;
 

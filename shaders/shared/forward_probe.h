@@ -28,8 +28,9 @@ struct ForwardProbeParams {
     uvec2 size;        // pixels
     vec2 invImageSize; // bit for bit that of the module
     float clearDepth;
+    uint shadowed; // mask: of lights whose id has one of its bits a half is seen
 };
-GPU_SIZE(ForwardProbeParams, 20)
+GPU_SIZE(ForwardProbeParams, 24)
 
 GPU_END
 

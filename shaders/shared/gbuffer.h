@@ -20,6 +20,7 @@ GPU_BEGIN
 const uint GBUFFER_LAYOUT_FULL = 0u;
 const uint GBUFFER_LAYOUT_COMPACT = 1u;
 const uint GBUFFER_LAYOUT_HOST = 2u;
+const uint GBUFFER_LAYOUT_CUSTOM = 3u;
 
 // Octahedral coordinates are signed: k / (2^(bits-1) - 1). The most negative code is not a
 // direction.

@@ -21,20 +21,22 @@ struct LightRecord {
     vec3 emission; // as CndLight
     float influenceRadius; // m, may be infinite
     vec3 axisU;            // m; spot: unit, the way the light travels; disc: unit normal
-    float radius;          // m; tube
-    vec3 axisV; // m; spot: (scale, offset), attenuation = sat(cos(angle) scale + offset)^2
+    uint id;               // low half of the CndLightId, or LIGHT_OF_DEVICE and an index
+    vec3 axisV; // m; spot: (scale, offset), attenuation = sat(cos(angle) scale + offset)^2; tube:
+                //   its radius, m
     uint type;  // LIGHT_*, plus LIGHT_TWO_SIDED, plus layers << LIGHT_LAYERS_SHIFT
 };
 GPU_SIZE(LightRecord, 64)
 const uint LIGHT_TWO_SIDED = 256u;
 const uint LIGHT_LAYERS_SHIFT = 16u;
+const uint LIGHT_OF_DEVICE = 0x80000000u;
 const uint ALL_LAYERS = 0xFFFFu;
 
 // After prepare_lights, two vec4 per light, hot in every loop:
 //   core[2 i]     = position in view space, reach
 //   core[2 i + 1] = emission, squared influence radius
 // and, read only by the types that need them:
-//   aux[2 i]      = axisU in view space, radius
+//   aux[2 i]      = axisU in view space, radius (tube)
 //   aux[2 i + 1]  = axisV in view space (spot: as it is), 1 if two-sided else 0
 // Lights of other layers than the frame's reach nothing: reach and squared influence radius are
 // these, so that no box of the tree and no list holds them, and none is above a horizon.
@@ -89,6 +91,9 @@ const uint PREPARE_LIGHTS_RECORDS = 0u;
 const uint PREPARE_LIGHTS_CORE = 1u;
 const uint PREPARE_LIGHTS_AUX = 2u;
 const uint PREPARE_LIGHTS_ORDER = 3u; // shared/light_order.h
+const uint PREPARE_LIGHTS_IDS = 4u;   // LightRecord::id, in that order
+// Specialisation constant: 1: write ids; 0: nobody reads them.
+const uint PREPARE_LIGHTS_WITH_IDS = 0u;
 struct PrepareLightsParams {
     mat3 viewFromWorld; // rotation
     vec3 originView;    // the light set's origin in view space, subtracted in double
@@ -122,6 +127,7 @@ const uint SHADE_NODE_WORDS = 17u;
 const uint SHADE_PAIRS = 18u;        // count_pairs: CndLightingFrame::pairImage
 const uint SHADE_HOST_NORMAL = 19u;  // all that shade (lib/read_gbuffer.glsl)
 const uint SHADE_GBUFFER_VIEW = 20u; // all that shade: GBufferViewParams
+const uint SHADE_LIGHT_IDS = 21u;    // all that shade: read for the host's shadow term alone
 const uint PIXEL_OF_TILE = 1u;       // CndPixelClass
 const uint PIXEL_OF_SLICE = 2u;
 const uint PIXEL_UNLISTED = 3u;

@@ -30,7 +30,7 @@ void EnvironmentTest::TearDown()
 }
 
 void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize,
-                               const CndGBufferDesc* gbuffer)
+                               const CndGBufferDesc* gbuffer, const CndHostKernels* custom)
 {
     cndDestroyEnvironment(environment_);
     environment_ = nullptr;
@@ -43,6 +43,10 @@ void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize
     if (gbuffer) {
         desc.gbufferLayout = CND_GBUFFER_HOST;
         desc.gbuffer = *gbuffer;
+    }
+    if (custom) {
+        desc.gbufferLayout = CND_GBUFFER_CUSTOM;
+        desc.hostKernels = *custom;
     }
     ASSERT_EQ(cndCreateEnvironment(&deviceDesc(), &desc, &environment_, &error), CND_SUCCESS)
         << error.message;

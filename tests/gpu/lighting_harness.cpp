@@ -263,6 +263,7 @@ CndLightingFrame LightingTest::frameOf(const CpuGBuffer& g, const Images& images
     frame.culling = options.culling;
     frame.countPairs = options.countPairs;
     frame.layers = options.layers;
+    frame.hostSet = options.hostSet;
     return frame;
 }
 
@@ -299,9 +300,11 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     CndError error{};
     const CndLightingDesc desc{.structSize = sizeof desc,
                                .framesInFlight = 2,
+                               .gbufferLayout = options.layout,
                                .timestamps = true,
                                .specularMethods = 1u << options.specular,
-                               .materialClasses = options.materialClasses};
+                               .materialClasses = options.materialClasses,
+                               .hostKernels = options.hostKernels};
     CndLighting lighting = options.lighting;
     if (!lighting) {
         EXPECT_EQ(cndCreateLighting(options.host ? options.host : &deviceDesc(), &desc, &lighting,

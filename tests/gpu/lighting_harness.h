@@ -81,6 +81,9 @@ struct RunOptions {
     bool energyCompensation = false;
     int frames = 1; // record this many times; the last one is read back
     uint32_t layers = 0;
+    CndGBufferLayout layout = CND_GBUFFER_FULL;
+    CndHostKernels hostKernels{};
+    VkDescriptorSet hostSet = VK_NULL_HANDLE;
     bool unchanged = false; // frames after the first promise unchanged surfaces
     uint32_t materialClasses = 0;
 };

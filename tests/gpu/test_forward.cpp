@@ -116,7 +116,8 @@ protected:
         }
     };
     // Records the view with the surfaces of `seen`; then lights those of `at`, of the same camera.
-    Lit frame(const CpuGBuffer& seen, const CpuGBuffer& at, const RunOptions& options)
+    Lit frame(const CpuGBuffer& seen, const CpuGBuffer& at, const RunOptions& options,
+              uint32_t shadowed = 0)
     {
         CndError error{};
         const Images images = uploadImages(seen), others = uploadImages(at);
@@ -137,7 +138,8 @@ protected:
                          Binding::of(gpu::FORWARD_PROBE_OUTPUT, out)});
         const gpu::ForwardProbeParams params{.size = {at.width, at.height},
                                              .invImageSize = 1.0f / glm::vec2(at.width, at.height),
-                                             .clearDepth = at.clearDepth};
+                                             .clearDepth = at.clearDepth,
+                                             .shadowed = shadowed};
         context().submitAndWait([&](VkCommandBuffer cmd) {
             clearRadiance(cmd, images);
             EXPECT_EQ(cndRecordLighting(view_, cmd, &f, &error), CND_SUCCESS) << error.message;
@@ -189,7 +191,7 @@ CpuGBuffer gbuffer(uint32_t seed, bool perspective = true)
 }
 
 // Also without any opaque surface, and when the module itself culls nothing. Lights of other layers
-// are left out.
+// are left out; a shadow term scales lights by their ids.
 TEST_F(ForwardTest, EqualsTheDeferredResultForTheSameSurface)
 {
     const CpuGBuffer seen = gbuffer(3), elsewhere = gbuffer(4);
@@ -210,16 +212,23 @@ TEST_F(ForwardTest, EqualsTheDeferredResultForTheSameSurface)
     const double onSurface = maxPixelDifference(twice, same.deferred);
     EXPECT_LE(onSurface, tolerance);
     EXPECT_LE(maxPixelDifference(same.stepped(), same.lit()), tolerance);
+    constexpr uint32_t shadowed = 9; // bits of ids
+    for (size_t id = 0; id < lights.size(); ++id)
+        for (float& e : lights[id].emission)
+            e *= id & shadowed ? 0.5f : 1.0f;
     std::erase_if(lights, [](const CndLight& light) { return light.layers == 2; });
     const std::vector<glm::vec4> expected = run(elsewhere, lights, options).radiance;
     for (const CpuGBuffer& opaque : {seen, nothing}) {
-        const double off = maxPixelDifference(frame(opaque, elsewhere, options).lit(), expected);
+        const double off =
+            maxPixelDifference(frame(opaque, elsewhere, options, shadowed).lit(), expected);
         EXPECT_LE(off, tolerance);
         std::cout << "largest difference on the surfaces of the view " << onSurface
                   << ", elsewhere " << off << "\n";
     }
     options.culling = CND_CULLING_BRUTE;
-    EXPECT_LE(maxPixelDifference(frame(seen, elsewhere, options).lit(), expected), tolerance);
+    const Lit brute = frame(seen, elsewhere, options, shadowed);
+    EXPECT_LE(maxPixelDifference(brute.lit(), expected), tolerance);
+    EXPECT_LE(maxPixelDifference(brute.stepped(), expected), tolerance);
 }
 
 TEST_F(ForwardTest, OfEachTypeAloneEqualsTheDeferredResult)

@@ -132,7 +132,7 @@ TEST(HostGBuffer, LayoutAndDescriptionBelongTogether)
 {
     EXPECT_EQ(sentence(common(), CND_GBUFFER_FULL),
               "CndGBufferDesc: it is filled in, but gbufferLayout is not CND_GBUFFER_HOST");
-    EXPECT_EQ(sentence({}, CndGBufferLayout(3)), "gbufferLayout is not a CndGBufferLayout");
+    EXPECT_EQ(sentence({}, CndGBufferLayout(4)), "gbufferLayout is not a CndGBufferLayout");
 }
 
 TEST(HostGBuffer, FramesNeedTheImagesThatAreRead)

@@ -64,13 +64,17 @@ def install():
     run("cmake", "--install", build, "--prefix", work / "first")
     (work / "first").rename(prefix)  # whoever remembers the first place is found out
 
-    symbols = {line.split()[-1] for line in
-               run("nm", "-D", "--defined-only", libdir() / "libcandelabra.so").splitlines()}
-    headers = "".join(h.read_text() for h in (prefix / "include").rglob("*.h"))
-    declared = set(re.findall(r"CND_API[^;(]*?\b(cnd\w+)\(", headers))
-    require(symbols == declared, f"exported and declared differ in {symbols ^ declared}")
-    major_minor = re.search(r"SONAME.*\[(.*)\]", run("readelf", "-d", libdir() / "libcandelabra.so"))
-    require(re.fullmatch(r"libcandelabra\.so\.\d+\.\d+", major_minor[1]), f"SONAME {major_minor[1]}")
+    compiler = [h for h in (prefix / "include").rglob("*.h") if h.stem == "compiler"]
+    others = [h for h in (prefix / "include").rglob("*.h") if h.stem != "compiler"]
+    for name, headers in {"libcandelabra": others, "libcandelabra_compiler": compiler}.items():
+        library = libdir() / f"{name}.so"
+        symbols = {line.split()[-1] for line in run("nm", "-D", "--defined-only", library).splitlines()}
+        declared = set(re.findall(r"CND_API[^;(]*?\b(cnd\w+)\(",
+                                  "".join(h.read_text() for h in headers)))
+        require(symbols == declared, f"{name}: exported and declared differ in {symbols ^ declared}")
+        major_minor = re.search(r"SONAME.*\[(.*)\]", run("readelf", "-d", library))
+        require(re.fullmatch(rf"{name}\.so\.\d+\.\d+", major_minor[1]), f"SONAME {major_minor[1]}")
+        require("glslang" not in run("readelf", "-d", library), f"{name} needs a glslang of the system")
 
     texts = [p for p in prefix.rglob("*")
              if p.suffix in (".h", ".hpp", ".glsl", ".cmake", ".pc") and p.is_file()]
@@ -116,6 +120,7 @@ def consume(folder, *options):
 
 def found():
     consume(work / "found", f"-DCMAKE_PREFIX_PATH={prefix}")
+    run(work / "found/with_compiler")
 
 
 def fetched():

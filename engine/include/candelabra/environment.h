@@ -19,8 +19,9 @@ typedef struct CndEnvironmentDesc {
     // Texels of a cube face's side, a power of two 64..2048, 0 = default (256): what mirrors and
     // the background show. 256 * cubeSize^2 bytes (256: 17 MB).
     uint32_t cubeSize;
-    VkBool32 timestamps;    // time every kernel
-    CndGBufferDesc gbuffer; // of CND_GBUFFER_HOST
+    VkBool32 timestamps;        // time every kernel
+    CndGBufferDesc gbuffer;     // of CND_GBUFFER_HOST
+    CndHostKernels hostKernels; // as of CndLightingDesc
 } CndEnvironmentDesc;
 
 // An equirectangular image: up (+y) at the top row, -z in the middle, +x to the right of it;
@@ -56,6 +57,7 @@ typedef struct CndEnvironmentFrame {
     // Light that bounces between microfacets is given back (Turquin 2019): without, a white metal
     // loses up to 69% of it.
     VkBool32 energyCompensation;
+    VkDescriptorSet hostSet; // as of CndLightingFrame
 } CndEnvironmentFrame;
 
 typedef struct CndEnvironmentStats {

@@ -72,6 +72,7 @@ typedef struct CndLightingDesc {
     // by pipelines that leave the missing lobe out: the same image but for rounding. For scenes
     // that have such materials: elsewhere every tile is looked at in vain.
     uint32_t materialClasses;
+    CndHostKernels hostKernels; // must hold all that light types, methods and layout need
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -126,6 +127,9 @@ typedef struct CndLightingFrame {
     // nothing in this frame, nor in shaders of cndGetForwardSet: no list holds them, brute force
     // skips them.
     uint32_t layers;
+    // Of CndLightingDesc::hostKernels, if these have a set layout: bound as descriptor set 1. The
+    // host makes what it reads visible to COMPUTE_SHADER.
+    VkDescriptorSet hostSet;
 } CndLightingFrame;
 
 // What cndRecordSurfaceOverlay shows, black where there is no surface.
@@ -215,7 +219,7 @@ CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingV
 // The GPU must have finished all work recorded with the view.
 CND_API void cndDestroyLightingView(CndLightingView view);
 
-// Records culling and shading. Changes compute pipeline, compute descriptor set 0 and push
+// Records culling and shading. Changes compute pipeline, compute descriptor sets 0 and 1 and push
 // constants; must be outside a render pass. Lights travel in the first recording after they
 // change, so recordings of all views of one CndLighting are submitted once each, in their
 // order, to one queue.

@@ -28,6 +28,9 @@ typedef enum CndGBufferLayout {
     CND_GBUFFER_COMPACT = 1,
     // The host's own, as CndGBufferDesc says.
     CND_GBUFFER_HOST = 2,
+    // Whatever a function of the host's reads (candelabra/compiler.h: CND_HOST_READ_SURFACE_BIT).
+    // Of a frame's images depth alone is used, the others may be null.
+    CND_GBUFFER_CUSTOM = 3,
     CND_GBUFFER_LAYOUT_MAX_ENUM = 0x7FFFFFFF
 } CndGBufferLayout;
 
@@ -100,6 +103,25 @@ typedef struct CndGBufferDesc {
     // D24 or D32, with stencil or without, or R32_SFLOAT as a colour.
     VkFormat normalRoughnessFormat, albedoFormat, specularFormat, depthFormat;
 } CndGBufferDesc;
+
+// A kernel that has functions of the host's in it, as SPIR-V. Made by cndCompileKernels
+// (candelabra/compiler.h) of the same version, at run time or long before.
+typedef struct CndKernelCode {
+    const char* name; // of the kernel it replaces, "shade_tiles:CONIC" for instance
+    const uint32_t* words;
+    uint32_t wordCount;
+} CndKernelCode;
+
+// Kernels in place of the module's own. Each must have the bindings and parameters of the one it
+// replaces, which is checked; what else it does is the host's matter. Those of another module are
+// left alone.
+typedef struct CndHostKernels {
+    uint32_t count;               // 0: none
+    const CndKernelCode* kernels; // read before the call returns
+    // Of descriptor set 1 in them, with the compute stage; must outlive the module. VK_NULL_HANDLE:
+    // they have no bindings of their own.
+    VkDescriptorSetLayout setLayout;
+} CndHostKernels;
 
 // How the diffuse and the specular lobe of a surface share the light.
 typedef enum CndLobeJoining {

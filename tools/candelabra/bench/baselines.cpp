@@ -198,7 +198,8 @@ void Baselines::writeBindings()
     using namespace gpu;
     sets_.prepare.write(
         0, {Binding::of(PREPARE_LIGHTS_RECORDS, records_), Binding::of(PREPARE_LIGHTS_CORE, core_),
-            Binding::of(PREPARE_LIGHTS_AUX, aux_), Binding::of(PREPARE_LIGHTS_ORDER, order_)});
+            Binding::of(PREPARE_LIGHTS_AUX, aux_), Binding::of(PREPARE_LIGHTS_ORDER, order_),
+            Binding::of(PREPARE_LIGHTS_IDS, order_)}); // not written
     sets_.spheres.write(0, {Binding::of(BASELINE_SPHERES_CORE, core_),
                             Binding::of(BASELINE_SPHERES_OUTPUT, spheres_)});
     sets_.tiles.write(0, {Binding::sampled(BASELINE_TILES_DEPTH, frame_.depth),
@@ -219,6 +220,7 @@ void Baselines::writeBindings()
     const Binding core = Binding::ofTexels(SHADE_CORE, core_);
     const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
     const Binding aux = Binding::of(SHADE_AUX, aux_);
+    const Binding ids = Binding::of(SHADE_LIGHT_IDS, order_); // not read
     const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame_.normalRoughness);
     // Of hosts' own layouts: bound, not read.
     const Binding hostNormals = Binding::sampled(SHADE_HOST_NORMAL, frame_.albedo);
@@ -234,14 +236,15 @@ void Baselines::writeBindings()
         const Binding heads = Binding::of(BASELINE_HEADS, lists_[i].heads);
         const Binding entries = Binding::of(BASELINE_ENTRIES, lists_[i].entries);
         const Binding grid = Binding::of(BASELINE_GRID, lists_[i].grid);
-        sets_.shade[i].write(0, {core, coreWords, aux, normals, hostNormals, gbufferView, albedo,
-                                 specular, depth, radiance, dfg, ltc, heads, entries, grid});
-        sets_.pairs[i].write(0, {core, coreWords, aux, normals, hostNormals, gbufferView, albedo,
-                                 specular, depth, dfg, ltc, heads, entries, grid,
+        sets_.shade[i].write(0,
+                             {core, coreWords, aux, ids, normals, hostNormals, gbufferView, albedo,
+                              specular, depth, radiance, dfg, ltc, heads, entries, grid});
+        sets_.pairs[i].write(0, {core, coreWords, aux, ids, normals, hostNormals, gbufferView,
+                                 albedo, specular, depth, dfg, ltc, heads, entries, grid,
                                  Binding::of(BASELINE_COUNTERS, lists_[i].counters), found});
     }
-    sets_.floor.write(0, {core, coreWords, aux, normals, hostNormals, gbufferView, albedo, specular,
-                          depth, radiance, dfg, ltc, found});
+    sets_.floor.write(0, {core, coreWords, aux, ids, normals, hostNormals, gbufferView, albedo,
+                          specular, depth, radiance, dfg, ltc, found});
 }
 
 void Baselines::submit(const std::function<void(const gpu::Frame&)>& record)

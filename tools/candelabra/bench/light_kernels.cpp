@@ -91,7 +91,7 @@ DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> l
     for (const gpu::LightRecord& r : records) { // prepare_lights.comp with an identity view
         core.emplace_back(r.position, r.reach);
         core.emplace_back(r.emission, r.influenceRadius * r.influenceRadius);
-        aux.emplace_back(r.axisU, r.radius);
+        aux.emplace_back(r.axisU, r.axisV.x);
         aux.emplace_back(r.axisV, r.type & gpu::LIGHT_TWO_SIDED ? 1.0f : 0.0f);
     }
     DeviceLights out{.core = upload(device, "bench lights", std::span<const glm::vec4>(core)),

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "candelabra/compiler.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+
+#include "compiler/shader_sources.h"
+#include "gpu/failure.h"
+
+struct CndCompiledKernels_T {
+    struct Kernel {
+        std::string name;
+        std::vector<uint32_t> words;
+    };
+    std::vector<Kernel> kernels;
+    std::vector<CndKernelCode> codes; // of kernels
+};
+
+namespace candelabra::compiler
+{
+namespace
+{
+
+using Compiled = CndCompiledKernels_T;
+
+// glslang counts who uses it.
+struct Process {
+    Process() { glslang::InitializeProcess(); }
+    ~Process() { glslang::FinalizeProcess(); }
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+};
+
+const ShaderSource* find(std::string_view name)
+{
+    const auto sources = shaderSources();
+    const auto found = std::ranges::find(sources, name, &ShaderSource::name);
+    return found == sources.end() ? nullptr : &*found;
+}
+
+class Includer final : public glslang::TShader::Includer
+{
+public:
+    IncludeResult* includeLocal(const char* name, const char*, size_t) override
+    {
+        const ShaderSource* source = find(name);
+        return source ? new IncludeResult(name, source->text.data(), source->text.size(), nullptr)
+                      : nullptr;
+    }
+    void releaseInclude(IncludeResult* result) override { delete result; }
+};
+
+// A kernel, and for which family of lib/light_families.glsl, if it has any.
+struct Job {
+    std::string kernel, family;
+    std::string name() const { return family.empty() ? kernel : kernel + ":" + family; }
+};
+
+// Families that lights of these types have with these methods.
+std::vector<std::string> familiesOf(uint32_t types, uint32_t methods)
+{
+    const auto has = [&](auto... type) { return (types & (... | (1u << type))) != 0; };
+    constexpr uint32_t conic = 1u << CND_SPECULAR_CONIC | 1u << CND_SPECULAR_CONIC_FULL;
+    std::vector<std::string> out;
+    if (has(CND_LIGHT_POINT, CND_LIGHT_SPOT, CND_LIGHT_DIRECTIONAL))
+        out.push_back("PUNCTUAL");
+    // Every lighting can do spheres.
+    if (methods & conic)
+        out.push_back("CONIC");
+    if (methods & ~conic)
+        out.push_back("SPHERE");
+    if (has(CND_LIGHT_TUBE))
+        out.push_back("TUBE");
+    if (has(CND_LIGHT_RECTANGLE))
+        out.push_back("RECTANGLE");
+    if (has(CND_LIGHT_DISC))
+        out.push_back("DISC");
+    return out;
+}
+
+std::vector<Job> jobsOf(const CndCompileDesc& desc)
+{
+    const uint32_t types = desc.lightTypes ? desc.lightTypes : ~0u;
+    const uint32_t methods = desc.specularMethods ? desc.specularMethods : 1u << CND_SPECULAR_CONIC;
+    const bool reads = desc.functions & CND_HOST_READ_SURFACE_BIT;
+    std::vector<Job> jobs;
+    for (const std::string& family : familiesOf(types, methods)) {
+        for (const char* kernel : {"shade_tiles", "shade_unlisted", "shade_brute"})
+            jobs.push_back({kernel, family});
+        if (reads)
+            jobs.push_back({"count_pairs", family});
+    }
+    if (reads)
+        for (const char* kernel :
+             {"tile_clusters", "split_tiles", "surface_overlay", "shade_environment"})
+            jobs.push_back({kernel, ""});
+    return jobs;
+}
+
+// What the compiler said, as the end of one sentence.
+[[noreturn]] void fail(const Job& job, const CndCompileDesc& desc, const std::string& log)
+{
+    constexpr std::string_view error = "ERROR: ";
+    const std::string kernel = " (in " + job.name() + ")";
+    if (log.find("No function definition (body) found") != std::string::npos)
+        for (const char* function : {"candelabraVisibility", "candelabraReadSurface"})
+            if (log.find(function) != std::string::npos)
+                gpu::failArgument(std::string("cndCompileKernels: ") +
+                                  (desc.sourceName ? desc.sourceName : "source") +
+                                  " does not define " + function +
+                                  " with the parameters of CndHostFunctionBits");
+    const size_t at = log.find(error);
+    const size_t from = at == std::string::npos ? 0 : at + error.size();
+    std::string line = log.substr(from, log.find('\n', from) - from);
+    line.erase(line.find_last_not_of(" \r") + 1);
+    gpu::failArgument("cndCompileKernels: " + line + kernel);
+}
+
+std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
+{
+    std::string preamble = "#extension GL_GOOGLE_include_directive : require\n";
+    if (!job.family.empty())
+        preamble += "#define LIGHT_FAMILY FAMILY_" + job.family + "\n";
+    if (desc.functions & CND_HOST_VISIBILITY_BIT && !job.family.empty())
+        preamble += "#define CANDELABRA_VISIBILITY\n";
+    if (desc.functions & CND_HOST_READ_SURFACE_BIT)
+        preamble += "#define CANDELABRA_READ_SURFACE\n";
+
+    const std::string kernelName = "kernels/" + job.kernel + ".comp";
+    const ShaderSource& kernel = *find(kernelName);
+    const std::string_view source = desc.source;
+    // For kernels that evaluate no lights: the source is the same for all.
+    const std::string_view query =
+        desc.functions & CND_HOST_VISIBILITY_BIT ? "\n#include \"lib/shadow_query.glsl\"\n" : "\n";
+    const char* const texts[] = {kernel.text.data(), query.data(), source.data()};
+    const int lengths[] = {int(kernel.text.size()), int(query.size()), int(source.size())};
+    const char* const names[] = {kernelName.c_str(), kernelName.c_str(),
+                                 desc.sourceName ? desc.sourceName : "source"};
+
+    glslang::TShader shader(EShLangCompute);
+    shader.setStringsWithLengthsAndNames(texts, lengths, names, 3);
+    shader.setPreamble(preamble.c_str());
+    shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
+    constexpr auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
+    Includer includer;
+    if (!shader.parse(GetDefaultResources(), 460, false, messages, includer))
+        fail(job, desc, shader.getInfoLog());
+    glslang::TProgram program;
+    program.addShader(&shader);
+    if (!program.link(messages))
+        fail(job, desc, program.getInfoLog());
+    std::vector<uint32_t> words;
+    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words);
+    return words;
+}
+
+void check(const CndCompileDesc& desc)
+{
+    if (desc.structSize != sizeof desc)
+        gpu::failArgument("CndCompileDesc: structSize is " + std::to_string(desc.structSize) +
+                          ", this library expects " + std::to_string(sizeof desc));
+    if (!desc.functions ||
+        desc.functions & ~uint32_t(CND_HOST_VISIBILITY_BIT | CND_HOST_READ_SURFACE_BIT))
+        gpu::failArgument("CndCompileDesc: functions must be a mask of CndHostFunctionBits");
+    if (!desc.source)
+        gpu::failArgument("CndCompileDesc: source is null");
+    if (desc.lightTypes >> CND_LIGHT_TYPE_COUNT)
+        gpu::failArgument("CndCompileDesc: lightTypes has bits beyond the last CndLightType");
+    if (desc.specularMethods >> CND_SPECULAR_METHOD_COUNT)
+        gpu::failArgument("CndCompileDesc: specularMethods has bits beyond the last "
+                          "CndSpecularMethod");
+}
+
+} // namespace
+} // namespace candelabra::compiler
+
+using namespace candelabra;
+
+CndResult cndCompileKernels(const CndCompileDesc* desc, CndCompiledKernels* kernels,
+                            CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndCompileKernels", {desc, kernels});
+        compiler::check(*desc);
+        const compiler::Process process;
+        auto out = std::make_unique<CndCompiledKernels_T>();
+        for (const compiler::Job& job : compiler::jobsOf(*desc))
+            out->kernels.push_back({job.name(), compiler::compile(job, *desc)});
+        for (const auto& kernel : out->kernels)
+            out->codes.push_back(
+                {kernel.name.c_str(), kernel.words.data(), uint32_t(kernel.words.size())});
+        *kernels = out.release();
+    });
+}
+
+const CndKernelCode* cndGetKernelCode(CndCompiledKernels kernels, uint32_t* count)
+{
+    *count = kernels ? uint32_t(kernels->codes.size()) : 0;
+    return kernels ? kernels->codes.data() : nullptr;
+}
+
+void cndDestroyCompiledKernels(CndCompiledKernels kernels)
+{
+    delete kernels;
+}

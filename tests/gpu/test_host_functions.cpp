@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functions of a host in the kernels (candelabra/compiler.h): its shadow term multiplies each light
+// by its id, and a G-buffer that it reads itself is lit like the same surfaces in a layout of ours.
+#include <cstdlib>
+#include <string>
+
+#include "candelabra/compiler.hpp"
+#include "gpu/environment_harness.h"
+#include "gpu/kernel.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+// What a light is, and how much of it is seen.
+struct Shadow {
+    glm::vec3 centre; // distant lights: unit, towards it
+    float visible;
+    uint32_t type;
+};
+
+// A shadow term that also checks what it is asked: of a light that is not the one it should be, too
+// much is seen.
+constexpr const char* shadowSource = R"(
+struct Shadow { vec3 centre; float visible; uint type; };
+layout(scalar, set = 1, binding = 0) readonly buffer Shadows { Shadow shadows[]; };
+float candelabraVisibility(ShadowQuery q)
+{
+    const Shadow s = shadows[q.light & ~LIGHT_OF_DEVICE];
+    const bool distant = s.type == LIGHT_DIRECTIONAL || s.type == LIGHT_DISTANT_SPHERE;
+    const vec3 centre = distant ? q.toLight : q.position + q.toLight;
+    const bool right = q.type == s.type && distance(centre, s.centre) < 1e-3 &&
+                       abs(length(q.normal) - 1.0) < 1e-3;
+    return right ? s.visible : 7.0;
+}
+)";
+
+constexpr const char* surfaceSource = R"(
+layout(set = 1, binding = 0) uniform utexture2D hostNormals;
+layout(set = 1, binding = 1) uniform texture2D hostAlbedo;
+layout(set = 1, binding = 2) uniform texture2D hostSpecular;
+Surface candelabraReadSurface(ivec2 pixel)
+{
+    return unpackGBufferFull(texelFetch(hostNormals, pixel, 0).xy, texelFetch(hostAlbedo, pixel, 0),
+                             texelFetch(hostSpecular, pixel, 0));
+}
+)";
+
+CompiledKernels compiled(CndCompileDesc desc)
+{
+    auto kernels = CompiledKernels::create(desc);
+    EXPECT_TRUE(kernels) << kernels.error().message;
+    return kernels ? std::move(kernels.value()) : CompiledKernels();
+}
+
+class HostFunctions : public EnvironmentTest
+{
+protected:
+    void SetUp() override
+    {
+        EnvironmentTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        CndCamera camera;
+        setPerspective(camera, 1.0, 4.0 / 3, 0.1);
+        g_ = randomGBuffer(64, 48, camera, 0, 3);
+        shadowSet_ = gpu::Bindings(device(), "shadows", {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}},
+                                   VK_SHADER_STAGE_COMPUTE_BIT, 1);
+        shadows_ = gpu::createBuffer(device(), "shadows", 1000 * sizeof(Shadow),
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Upload);
+        shadowSet_.write(0, {gpu::Binding::of(0, shadows_)});
+    }
+    void TearDown() override
+    {
+        shadowSet_ = {};
+        shadows_ = {};
+        images_ = {};
+        EnvironmentTest::TearDown();
+    }
+    // Of the light with this id; returns the light as it shows then.
+    CndLight shadowed(CndLightId id, CndLight light)
+    {
+        constexpr float parts[] = {0, 0.25f, 0.5f, 1}; // that multiply without rounding
+        const float visible = parts[(id * 7 + light.type) % 4];
+        const bool distant =
+            light.type == CND_LIGHT_DIRECTIONAL || light.type == CND_LIGHT_DISTANT_SPHERE;
+        const float* p = distant ? light.direction : light.position;
+        shadows_.as<Shadow>()[uint32_t(id)] = {
+            (distant ? -1.0f : 1.0f) * glm::vec3(p[0], p[1], p[2]), visible, light.type};
+        for (float& e : light.emission)
+            e *= visible;
+        return light;
+    }
+    RunOptions withShadows(const CompiledKernels& kernels, RunOptions options = {}) const
+    {
+        options.hostKernels = kernels.hostKernels(shadowSet_.layout());
+        options.hostSet = shadowSet_.set(0);
+        return options;
+    }
+
+    // To be destroyed by the caller.
+    std::pair<CndLighting, CndLightingView> create(const RunOptions& options, VkDeviceSize budget)
+    {
+        CndError error{};
+        const CndLightingDesc desc{.structSize = sizeof desc,
+                                   .framesInFlight = 1,
+                                   .gbufferLayout = options.layout,
+                                   .specularMethods = 1u << options.specular,
+                                   .hostKernels = options.hostKernels};
+        CndLighting lighting{};
+        EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
+            << error.message;
+        images_ = uploadImages(g_);
+        return {lighting, createView(lighting, budget)};
+    }
+    CndLightingView createView(CndLighting lighting, VkDeviceSize budget)
+    {
+        CndError error{};
+        const CndLightingViewDesc desc{sizeof desc, g_.width, g_.height, budget};
+        CndLightingView view{};
+        EXPECT_EQ(cndCreateLightingView(lighting, &desc, &view, &error), CND_SUCCESS)
+            << error.message;
+        return view;
+    }
+    static void destroy(CndLighting lighting, CndLightingView view)
+    {
+        cndDestroyLightingView(view);
+        cndDestroyLighting(lighting);
+    }
+    static void set(CndLighting lighting, const std::vector<CndLight>& lights)
+    {
+        CndError error{};
+        const CndLightSet s{sizeof s, uint32_t(lights.size()), lights.data(), {}, nullptr};
+        EXPECT_EQ(cndSetLights(lighting, &s, &error), CND_SUCCESS) << error.message;
+    }
+    std::vector<glm::vec4> frame(CndLightingView view, const RunOptions& options)
+    {
+        CndError error{};
+        const CndLightingFrame f = frameOf(g_, images_, options);
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            clearRadiance(cmd, images_);
+            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
+        });
+        return readRadiance(images_);
+    }
+
+    // What is read, as a picture.
+    std::vector<std::byte> overlay(CndLightingView view, const RunOptions& options)
+    {
+        const gpu::Image picture =
+            gpu::createImage(device(), "overlay", VK_FORMAT_R8G8B8A8_UNORM, g_.width, g_.height,
+                             VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                             VK_IMAGE_ASPECT_COLOR_BIT);
+        const CndLightingFrame f = frameOf(g_, images_, options);
+        const CndSurfaceOverlay all{sizeof all, CND_SURFACE_ALL, picture.view.get()};
+        CndError error{};
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            transition(cmd, picture.image.get(), VK_IMAGE_ASPECT_COLOR_BIT,
+                       VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+            EXPECT_EQ(cndRecordSurfaceOverlay(view, cmd, &f, &all, &error), CND_SUCCESS)
+                << error.message;
+        });
+        return readImage(picture, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL, 4);
+    }
+
+    CpuGBuffer g_;
+    Images images_;
+    gpu::Bindings shadowSet_;
+    gpu::Buffer shadows_;
+};
+
+// Lists, no room for lists, and every light at every pixel.
+TEST_F(HostFunctions, AShadowTermScalesEachLightById)
+{
+    const CompiledKernels kernels =
+        compiled({.functions = CND_HOST_VISIBILITY_BIT, .source = shadowSource});
+    const RunOptions options = withShadows(kernels, {.specular = CND_SPECULAR_CONIC});
+    const auto [lighting, view] = create(options, 0);
+    const CndLightingView narrow = createView(lighting, 4096);
+    std::vector<CndLight> lights, scaled;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        for (const CndLight& light : lightsOf(CndLightType(type), g_, 20, 40 + type)) {
+            scaled.push_back(shadowed(lights.size(), light));
+            lights.push_back(light);
+        }
+    set(lighting, lights);
+    const std::vector<glm::vec4> image = frame(view, options);
+    EXPECT_TRUE(sameBits(frame(narrow, options), image));
+    CndLightingStats stats{.structSize = sizeof stats};
+    EXPECT_EQ(cndGetLightingStats(narrow, 0, &stats), CND_SUCCESS);
+    EXPECT_GT(stats.unlistedClusters, 0u);
+    RunOptions brute = options;
+    brute.culling = CND_CULLING_BRUTE;
+    EXPECT_TRUE(sameBits(frame(view, brute), image));
+    for (size_t id = 0; id < lights.size(); ++id)
+        shadows_.as<Shadow>()[id].visible = 1;
+    EXPECT_FALSE(sameBits(frame(view, options), image));
+    set(lighting, scaled);
+    EXPECT_TRUE(sameBits(frame(view, options), image));
+    cndDestroyLightingView(narrow);
+    destroy(lighting, view);
+}
+
+// Of lights that come and go, and of those on the device: beside kernels without a shadow term, and
+// lights that are scaled.
+TEST_F(HostFunctions, IdsStayThroughEdits)
+{
+    const CompiledKernels kernels = compiled({.functions = CND_HOST_VISIBILITY_BIT,
+                                              .source = shadowSource,
+                                              .lightTypes = 1u << CND_LIGHT_POINT,
+                                              .specularMethods = 1u << RunOptions{}.specular});
+    const RunOptions options = withShadows(kernels);
+    const auto [lighting, view] = create(options, 0);
+    const auto [plain, plainView] = create({}, 0);
+    std::vector<CndLight> lights = randomSpheres(g_, 120, 9);
+    for (size_t i = 0; i < lights.size(); i += 2)
+        lights[i].type = CND_LIGHT_POINT;
+    std::vector<CndLightId> ids(lights.size());
+    CndError error{};
+    const auto add = [&, plain = plain, lighting = lighting](size_t first, size_t count) {
+        EXPECT_EQ(cndAddLights(lighting, uint32_t(count), &lights[first], &ids[first], &error),
+                  CND_SUCCESS);
+        std::vector<CndLight> scaled;
+        for (size_t i = first; i < first + count; ++i)
+            scaled.push_back(shadowed(ids[i], lights[i]));
+        std::vector<CndLightId> same(count);
+        EXPECT_EQ(cndAddLights(plain, uint32_t(count), scaled.data(), same.data(), &error),
+                  CND_SUCCESS);
+        EXPECT_TRUE(std::equal(same.begin(), same.end(), ids.begin() + long(first)));
+    };
+    add(0, 60);
+    const std::vector<glm::vec4> before = frame(plainView, {});
+    EXPECT_TRUE(sameBits(frame(view, options), before));
+    for (const CndLighting each : {lighting, plain})
+        EXPECT_EQ(cndRemoveLights(each, 20, &ids[5], &error), CND_SUCCESS) << error.message;
+    add(60, 30);                        // some in the places of those
+    std::swap(lights[40], lights[100]); // another light by the same id
+    const CndLight scaled = shadowed(ids[40], lights[40]);
+    EXPECT_EQ(cndUpdateLights(lighting, 1, &ids[40], &lights[40], &error), CND_SUCCESS);
+    EXPECT_EQ(cndUpdateLights(plain, 1, &ids[40], &scaled, &error), CND_SUCCESS);
+    const std::vector<glm::vec4> edited = frame(plainView, {});
+    EXPECT_TRUE(sameBits(frame(view, options), edited));
+    EXPECT_FALSE(sameBits(edited, before));
+
+    const std::vector<CndLight> onDevice = randomSpheres(g_, 3, 10);
+    const gpu::Buffer buffer =
+        gpu::createBuffer(device(), "particles", onDevice.size() * sizeof(CndDeviceLight),
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Upload);
+    std::vector<CndLight> seen;
+    for (size_t i = 0; i < onDevice.size(); ++i) {
+        const CndLight& l = onDevice[i];
+        buffer.as<CndDeviceLight>()[i] = {{l.position[0], l.position[1], l.position[2]},
+                                          l.radius,
+                                          {l.emission[0], l.emission[1], l.emission[2]},
+                                          l.influenceRadius};
+        seen.push_back(shadowed(i, l));
+    }
+    const CndDeviceLights device{.type = CND_LIGHT_SPHERE,
+                                 .maxCount = uint32_t(onDevice.size()),
+                                 .buffer = buffer.get(),
+                                 .boundsMin = {-10, -10, -20},
+                                 .boundsMax = {10, 10, 0},
+                                 .influenceRadius = 2};
+    const CndLightSet particles{.structSize = sizeof particles, .deviceLights = &device};
+    EXPECT_EQ(cndSetLights(lighting, &particles, &error), CND_SUCCESS) << error.message;
+    set(plain, seen);
+    const std::vector<glm::vec4> fromDevice = frame(view, options);
+    EXPECT_LE(maxRelativeDifference(fromDevice, frame(plainView, {})), 1e-6);
+    destroy(lighting, view);
+    destroy(plain, plainView);
+}
+
+TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
+{
+    const CompiledKernels kernels = compiled({.functions = CND_HOST_READ_SURFACE_BIT,
+                                              .source = surfaceSource,
+                                              .lightTypes = 1u << CND_LIGHT_SPHERE,
+                                              .specularMethods = 1u << RunOptions{}.specular});
+    images_ = uploadImages(g_);
+    constexpr VkDescriptorType image = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    const Images read = uploadImages(g_);
+    gpu::Bindings host(device(), "host G-buffer", {{0, image, 1}, {1, image, 1}, {2, image, 1}},
+                       VK_SHADER_STAGE_COMPUTE_BIT, 1);
+    host.write(0, {gpu::Binding::sampled(0, read.normalRoughness.view.get()),
+                   gpu::Binding::sampled(1, read.albedo.view.get()),
+                   gpu::Binding::sampled(2, read.specular.view.get())});
+    RunOptions options{.layout = CND_GBUFFER_CUSTOM,
+                       .hostKernels = kernels.hostKernels(host.layout()),
+                       .hostSet = host.set(0)};
+    const std::vector<CndLight> lights = randomSpheres(g_, 200, 9);
+    const auto [lighting, view] = create(options, 0);
+    const auto [plain, plainView] = create({}, 0);
+    set(lighting, lights);
+    set(plain, lights);
+    const std::vector<glm::vec4> expected = frame(plainView, {.countPairs = true});
+    const std::vector<std::byte> ours = overlay(plainView, {});
+    images_.normalRoughness.view = {}; // only depth is looked at
+    images_.albedo.view = {};
+    images_.specular.view = {};
+    options.countPairs = true;
+    const std::vector<glm::vec4> clustered = frame(view, options);
+    CndLightingStats stats[2]{{.structSize = sizeof stats[0]}, {.structSize = sizeof stats[0]}};
+    EXPECT_EQ(cndGetLightingStats(view, 0, &stats[0]), CND_SUCCESS);
+    EXPECT_EQ(cndGetLightingStats(plainView, 0, &stats[1]), CND_SUCCESS);
+    // Normals are made unit once more, so a light at the horizon may count here and not there.
+    EXPECT_LE(maxRelativeDifference(clustered, expected), 1e-4);
+    EXPECT_NEAR(double(stats[0].contributingPairs), double(stats[1].contributingPairs), 5);
+    EXPECT_GT(stats[0].contributingPairs, 100u);
+    options.culling = CND_CULLING_BRUTE;
+    EXPECT_TRUE(sameBits(frame(view, options), clustered));
+    const std::vector<std::byte> theirs = overlay(view, options);
+    int largest = 0;
+    for (size_t i = 0; i < ours.size(); ++i)
+        largest = std::max(largest, std::abs(int(ours[i]) - int(theirs[i])));
+    EXPECT_LE(largest, 1);
+    EXPECT_EQ(theirs.size(), ours.size());
+    destroy(lighting, view);
+    destroy(plain, plainView);
+
+    const EnvironmentImage sky = imageOf([](const glm::dvec3& d) { return 2 + d.y; }, 64);
+    setImage(sky, 64);
+    const std::vector<glm::vec4> underSky = shade(g_);
+    setImage(sky, 64, nullptr, &options.hostKernels);
+    CndEnvironmentFrame environment = environmentFrame(g_, images_, {});
+    CndError error{};
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        clearRadiance(cmd, images_);
+        EXPECT_EQ(cndRecordEnvironment(environment_, cmd, &environment, &error),
+                  CND_ERROR_INVALID_ARGUMENT);
+        EXPECT_STREQ(error.message, "CndEnvironmentFrame: hostSet is null, but "
+                                    "CndHostKernels::setLayout is not");
+        environment.hostSet = options.hostSet;
+        EXPECT_EQ(cndRecordEnvironment(environment_, cmd, &environment, &error), CND_SUCCESS)
+            << error.message;
+    });
+    EXPECT_LE(maxRelativeDifference(readRadiance(images_), underSky), 1e-4);
+}
+
+TEST_F(HostFunctions, WhatIsMissingOrForeignIsNamed)
+{
+    const CompiledKernels kernels = compiled({.functions = CND_HOST_VISIBILITY_BIT,
+                                              .source = shadowSource,
+                                              .lightTypes = 1u << CND_LIGHT_SPHERE,
+                                              .specularMethods = 1u << RunOptions{}.specular});
+    const RunOptions options = withShadows(kernels);
+    const auto refused = [&](const char* named, const CndHostKernels& host,
+                             CndGBufferLayout layout = CND_GBUFFER_FULL) {
+        const CndLightingDesc desc{.structSize = sizeof desc,
+                                   .framesInFlight = 1,
+                                   .gbufferLayout = layout,
+                                   .specularMethods = 1u << RunOptions{}.specular,
+                                   .hostKernels = host};
+        CndLighting lighting{};
+        CndError error{};
+        EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error),
+                  CND_ERROR_INVALID_ARGUMENT);
+        EXPECT_NE(std::string(error.message).find(named), std::string::npos) << error.message;
+    };
+    const CndKernelCode tiles = options.hostKernels.kernels[0];
+    refused("kernels is null", {1, nullptr, VK_NULL_HANDLE});
+    refused("setLayout is null", kernels.hostKernels());
+    refused("tile_clusters is missing", options.hostKernels, CND_GBUFFER_CUSTOM);
+    CndKernelCode code = tiles;
+    const auto alone = [&] { return CndHostKernels{1, &code, shadowSet_.layout()}; };
+    refused("shade_unlisted:SPHERE is missing", alone());
+    code.name = "shade_moon";
+    refused("there is no kernel shade_moon", alone());
+    code.name = "shade_unlisted:SPHERE";
+    refused("other bindings", alone());
+    code = tiles;
+    code.wordCount -= 1;
+    refused("is not SPIR-V", alone());
+    code.wordCount = 3;
+    refused("is not SPIR-V", alone());
+
+    const auto [lighting, view] = create(options, 0);
+    CndError error{};
+    CndLightId id{};
+    const CndLight tube = lightsOf(CND_LIGHT_TUBE, g_, 1, 1)[0];
+    EXPECT_EQ(cndAddLights(lighting, 1, &tube, &id, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(error.message).find("shade_tiles:TUBE is missing"), std::string::npos)
+        << error.message;
+    const CndLightingFrame frame = frameOf(g_, images_, {});
+    context().submitAndWait([&, view = view](VkCommandBuffer cmd) {
+        EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_ERROR_INVALID_ARGUMENT);
+    });
+    EXPECT_NE(std::string(error.message).find("hostSet is null"), std::string::npos);
+    destroy(lighting, view);
+}
+
+} // namespace
+} // namespace candelabra::test

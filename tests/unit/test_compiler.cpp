@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLSL of hosts in the kernels: which kernels it is compiled into, and what is said of its faults.
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "candelabra/compiler.hpp"
+
+namespace candelabra::test
+{
+namespace
+{
+
+constexpr const char* shadow = "float candelabraVisibility(ShadowQuery q)\n"
+                               "{\n"
+                               "    return q.light == 3u ? 0.5 : 1.0;\n"
+                               "}\n";
+
+std::string compileError(CndCompileDesc desc)
+{
+    const auto compiled = CompiledKernels::create(desc);
+    return compiled ? "no error" : compiled.error().message;
+}
+
+std::set<std::string> kernelsOf(CndCompileDesc desc)
+{
+    auto compiled = CompiledKernels::create(desc);
+    std::set<std::string> names;
+    if (!compiled) {
+        ADD_FAILURE() << compiled.error().message;
+        return names;
+    }
+    const CndHostKernels kernels = compiled.value().hostKernels();
+    for (uint32_t i = 0; i < kernels.count; ++i)
+        names.insert(kernels.kernels[i].name);
+    EXPECT_EQ(names.size(), kernels.count);
+    return names;
+}
+
+TEST(Compiler, MakesTheKernelsThatTheFunctionsBelongIn)
+{
+    const std::set<std::string> points = {"shade_tiles:PUNCTUAL", "shade_unlisted:PUNCTUAL",
+                                          "shade_brute:PUNCTUAL", "shade_tiles:CONIC",
+                                          "shade_unlisted:CONIC", "shade_brute:CONIC"};
+    EXPECT_EQ(kernelsOf({.functions = CND_HOST_VISIBILITY_BIT,
+                         .source = shadow,
+                         .lightTypes = 1u << CND_LIGHT_POINT}),
+              points);
+    const std::string both = std::string(shadow) + "Surface candelabraReadSurface(ivec2 pixel)\n"
+                                                   "{\n"
+                                                   "    Surface s;\n"
+                                                   "    s.normal = vec3(0.0, 0.0, 1.0);\n"
+                                                   "    s.albedo = s.F0 = vec3(0.5);\n"
+                                                   "    s.specularWeight = 1.0;\n"
+                                                   "    s.perceptualRoughness = 0.5;\n"
+                                                   "    return s;\n"
+                                                   "}\n";
+    EXPECT_EQ(kernelsOf({.functions = CND_HOST_VISIBILITY_BIT | CND_HOST_READ_SURFACE_BIT,
+                         .source = both.c_str(),
+                         .lightTypes = 1u << CND_LIGHT_DISTANT_SPHERE,
+                         .specularMethods = 1u << CND_SPECULAR_KARIS}),
+              (std::set<std::string>{"shade_tiles:SPHERE", "shade_unlisted:SPHERE",
+                                     "shade_brute:SPHERE", "count_pairs:SPHERE", "tile_clusters",
+                                     "split_tiles", "surface_overlay", "shade_environment"}));
+}
+
+TEST(Compiler, ErrorsNameTheLineOfTheSource)
+{
+    EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT,
+                            .source = "float candelabraVisibility(ShadowQuery q)\n"
+                                      "{\n"
+                                      "    return moon(q.light);\n"
+                                      "}\n",
+                            .sourceName = "shadow.glsl"}),
+              "cndCompileKernels: shadow.glsl:3: 'moon' : no matching overloaded function found "
+              "(in shade_tiles:PUNCTUAL)");
+    EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT, .source = ""}),
+              "cndCompileKernels: source does not define candelabraVisibility with the parameters "
+              "of CndHostFunctionBits");
+    // Not what it was said to define: no ShadowQuery is declared.
+    EXPECT_NE(
+        compileError(
+            {.functions = CND_HOST_READ_SURFACE_BIT, .source = shadow, .sourceName = "shadow.glsl"})
+            .find("shadow.glsl:1: "),
+        std::string::npos);
+    EXPECT_NE(
+        compileError({.functions = CND_HOST_VISIBILITY_BIT, .source = "#include \"moon.glsl\"\n"})
+            .find("source:1: '#include' : "),
+        std::string::npos);
+}
+
+TEST(Compiler, RefusesWhatIsOutOfRange)
+{
+    EXPECT_EQ(compileError({.source = shadow}),
+              "CndCompileDesc: functions must be a mask of CndHostFunctionBits");
+    EXPECT_EQ(compileError({.functions = 4, .source = shadow}),
+              "CndCompileDesc: functions must be a mask of CndHostFunctionBits");
+    EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT}),
+              "CndCompileDesc: source is null");
+    EXPECT_EQ(
+        compileError({.functions = CND_HOST_VISIBILITY_BIT, .source = shadow, .lightTypes = 256}),
+        "CndCompileDesc: lightTypes has bits beyond the last CndLightType");
+    EXPECT_EQ(compileError(
+                  {.functions = CND_HOST_VISIBILITY_BIT, .source = shadow, .specularMethods = 256}),
+              "CndCompileDesc: specularMethods has bits beyond the last CndSpecularMethod");
+    CndCompileDesc desc{.structSize = 1, .functions = CND_HOST_VISIBILITY_BIT, .source = shadow};
+    CndCompiledKernels kernels{};
+    CndError error{};
+    EXPECT_EQ(cndCompileKernels(&desc, &kernels, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(error.message).find("structSize is 1"), std::string::npos);
+    EXPECT_EQ(cndCompileKernels(nullptr, &kernels, &error), CND_ERROR_INVALID_ARGUMENT);
+    uint32_t count = 1;
+    EXPECT_EQ(cndGetKernelCode(nullptr, &count), nullptr);
+    EXPECT_EQ(count, 0u);
+    cndDestroyCompiledKernels(nullptr);
+}
+
+} // namespace
+} // namespace candelabra::test
