@@ -142,20 +142,50 @@ def pkg_config():
     require((pathlib.Path(shaders) / "lib/gbuffer.glsl").exists(), f"no shaders in {shaders}")
 
 
+def program():
+    """The component of the program alone: it runs, and what belongs to it is read by its readers."""
+    folder = clean(work / "program")
+    run("cmake", "--install", build, "--component", "program", "--prefix", folder)
+    files = {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()}
+    completions = "share/bash-completion/completions/candelabra"
+    wanted = {"bin/candelabra", "share/man/man1/candelabra.1", completions,
+              "share/fish/vendor_completions.d/candelabra.fish"}
+    wanted |= {f"share/candelabra/schemas/{p.name}"
+               for p in (source / "tools/candelabra/schemas").iterdir()}
+    require(files == wanted, f"installed and wanted differ in {files ^ wanted}")
+    require(re.match(r"candelabra \d+\.\d+\.\d+\n", run(folder / "bin/candelabra", "--version")),
+            "--version")
+    libraries = run("readelf", "-d", folder / "bin/candelabra")
+    require("libcandelabra" not in libraries and not re.search("R(UN)?PATH", libraries), libraries)
+    require((folder / "share/man/man1/candelabra.1").read_text().startswith(".TH CANDELABRA 1"),
+            "the manual page has no title")
+    script = ("source $0; COMP_WORDS=(candelabra render --spec); COMP_CWORD=2; _candelabra; "
+              "echo ${COMPREPLY[@]}")
+    offered = run("bash", "-c", script, folder / completions)
+    require(offered == "--specular\n", f"completed --spec to {offered}")
+
+
 def debian():
     folder = clean(work / "debian")
     run("cpack", "--config", build / "CPackConfig.cmake", "-B", folder)
-    package, = folder.glob("*.deb")
-    listing = run("dpkg-deb", "--contents", package)
-    for path in (r"lib/(.*/)?libcandelabra\.so\.\d+\.\d+\.\d+", "include/candelabra/candelabra.h"):
-        require(re.search(f"/usr/{path}\n", listing), f"no {path} in\n{listing}")
-    fields = run("dpkg-deb", "--field", package)
-    require(re.search("^Depends:.*libstdc", fields, re.MULTILINE), fields)
-    print(fields)
+    wanted = {"libcandelabra-dev": (r"lib/(.*/)?libcandelabra\.so\.\d+\.\d+\.\d+",
+                                    "include/candelabra/candelabra.h"),
+              "candelabra": ("bin/candelabra", r"share/man/man1/candelabra\.1")}
+    packages = {run("dpkg-deb", "--field", p, "Package").strip(): p for p in folder.glob("*.deb")}
+    require(packages.keys() == wanted.keys(), f"made {packages}")
+    for name, package in packages.items():
+        listing = run("dpkg-deb", "--contents", package)
+        for path in wanted[name]:
+            require(re.search(f"/usr/{path}\n", listing), f"no {path} in\n{listing}")
+        for path in (p for other in wanted if other != name for p in wanted[other]):
+            require(not re.search(f"/usr/{path}\n", listing), f"{path} in\n{listing}")
+        fields = run("dpkg-deb", "--field", package)
+        require(re.search("^Depends:.*libstdc", fields, re.MULTILINE), fields)
+        print(fields)
 
 
 if step.startswith("sample:"):
     sample(step.removeprefix("sample:"))
 else:
     {"install": install, "found": found, "fetched": fetched, "pkg_config": pkg_config,
-     "debian": debian}[step]()
+     "program": program, "debian": debian}[step]()
