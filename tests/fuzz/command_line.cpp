@@ -19,6 +19,8 @@ Seeds fuzzSeeds()
             "bench\naccuracy\n--groups\n20\n--seed\n4",
             "bench\nskip\n--rounds\n3",
             "devices\n--json",
+            "report\n--parts\nprofile,skip\n--out\nr",
+            "completions\nbash",
             "render\n--help"};
 }
 
@@ -34,11 +36,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     std::vector<const char*> argv{"candelabra"};
     for (const std::string& argument : arguments)
         argv.push_back(argument.c_str());
-    CLI::App app("fuzzed");
-    Run run;
-    for (const auto add : {addBenchCommand, addCompareCommand, addDevicesCommand, addProfileCommand,
-                           addRenderCommand, addStressCommand, addTruthCommand, addViewCommand})
-        add(app, run);
+    static Run run;
+    static CLI::App app("fuzzed"); // made once: making it takes longer than parsing
+    if (app.get_subcommands({}).empty())
+        for (const auto add : {addBenchCommand, addCompareCommand, addDevicesCommand,
+                               addManualCommands, addProfileCommand, addRenderCommand,
+                               addReportCommand, addStressCommand, addTruthCommand, addViewCommand})
+            add(app, run);
     try {
         app.parse(int(argv.size()), argv.data());
     } catch (const CLI::Error&) { // --help is one

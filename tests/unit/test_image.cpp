@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Image files: what is written comes back, nothing half-written stays, errors are one sentence.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <csignal>
@@ -292,6 +293,26 @@ TEST(ImageFiles, AFullDiskLeavesTheOldFile)
     for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
         files += entry.is_regular_file();
     EXPECT_EQ(files, 1u); // nothing temporary is left
+}
+
+// Found by libFuzzer: tinyexr allocates whatever the corners of the data window say.
+TEST(ImageFiles, ExrsOfAbsurdSizesAreRefused)
+{
+    const TemporaryFolder folder;
+    saveExr(folder.path("image.exr"), testImage(8, 8, 3));
+    Bytes bytes = readBytes(folder.path("image.exr"));
+    const std::string name = "dataWindow";
+    const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+    ASSERT_NE(at, bytes.end());
+    const auto corner = at + 11 + 6 + 4; // behind name, type "box2i" and size: x, y, x, y
+    for (const int32_t y : {std::numeric_limits<int32_t>::min(), -20'000, 8}) {
+        for (int i = 0; i < 4; ++i)
+            corner[4 + i] = static_cast<uint8_t>(static_cast<uint32_t>(y) >> (8 * i));
+        const std::string path = folder.write("absurd.exr", bytes);
+        EXPECT_NE(errorOf([&] { loadExr(path); }).find("its data window has 8 x "),
+                  std::string::npos)
+            << y << ": " << errorOf([&] { loadExr(path); });
+    }
 }
 
 TEST(ImageFiles, BrokenFilesAreRefused)

@@ -48,6 +48,17 @@ struct ChannelOrder {
 constexpr ChannelOrder greyOrder{1, {'Y'}, {0}};
 constexpr ChannelOrder rgbOrder{3, {'B', 'G', 'R'}, {2, 1, 0}};
 
+// Before tinyexr allocates what a broken file asks for; in 64 bits, corners may be any 32.
+void requireSize(const std::string& path, const EXRBox2i& window)
+{
+    const int64_t width = int64_t{window.max_x} - window.min_x + 1;
+    const int64_t height = int64_t{window.max_y} - window.min_y + 1;
+    if (width < 1 || width > maxImageSize || height < 1 || height > maxImageSize)
+        failRead(path, "its data window has " + std::to_string(width) + " x " +
+                           std::to_string(height) + " pixels; 1 to " +
+                           std::to_string(maxImageSize) + " a side can be read");
+}
+
 std::vector<float> plane(const Image& image, int offset)
 {
     std::vector<float> out(size_t{image.width} * image.height);
@@ -107,6 +118,7 @@ Image loadExr(const std::string& path)
     if (ParseEXRHeaderFromMemory(&header.value, &version, bytes.data(), bytes.size(), &message) !=
         TINYEXR_SUCCESS)
         failRead(path, takeMessage(message));
+    requireSize(path, header.value.data_window);
     int red = -1, green = -1, blue = -1;
     for (int c = 0; c < header.value.num_channels; ++c) {
         header.value.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT; // halves are widened

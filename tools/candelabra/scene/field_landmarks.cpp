@@ -13,7 +13,6 @@ namespace
 
 constexpr double pi = glm::pi<double>();
 constexpr double riverWidth = riverSouth - riverNorth;
-constexpr double riverMiddle = 0.5 * (riverSouth + riverNorth);
 
 void addDeck(Kit& kit, double x)
 {
