@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -56,22 +57,38 @@ void describe(CLI::App& app, ProgramContext& context)
         "  candelabra render --help                 options of one command");
 }
 
+// The sentence for a command, or a part of one, that there is not; empty: there is.
+std::string unknownCommand(const CLI::App& root, int argc, const char* const* argv)
+{
+    const CLI::App* app = &root;
+    for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+        const auto all = app->get_subcommands([](const CLI::App*) { return true; });
+        if (all.empty())
+            return "";
+        std::string names;
+        const CLI::App* chosen = nullptr;
+        for (size_t k = 0; k < all.size(); ++k) {
+            names += (!k ? "" : k + 1 < all.size() ? ", " : " and ") + all[k]->get_name();
+            if (all[k]->get_name() == argv[i])
+                chosen = all[k];
+        }
+        if (!chosen)
+            return fmt::format("\"{}\" is no command{}; there are {}", argv[i],
+                               app == &root ? "" : " of " + app->get_name(), names);
+        app = chosen;
+    }
+    return "";
+}
+
 // The sentence for a command line that does not parse.
 std::string parseSentence(const CLI::App& app, int argc, const char* const* argv,
                           const CLI::ParseError& error)
 {
+    if (const std::string unknown = unknownCommand(app, argc, argv); !unknown.empty())
+        return unknown;
     const std::string first = argc > 1 ? argv[1] : "-";
-    const auto commands =
-        app.get_subcommands([&](const CLI::App* c) { return c->get_name() == first; });
-    if (first[0] != '-' && commands.empty()) {
-        std::string names;
-        const auto all = app.get_subcommands([](const CLI::App*) { return true; });
-        for (size_t i = 0; i < all.size(); ++i)
-            names += (!i ? "" : i + 1 < all.size() ? ", " : " and ") + all[i]->get_name();
-        return fmt::format("\"{}\" is no command; there are {}", first, names);
-    }
-    const std::string command = commands.empty() ? "" : first + " ";
-    return fmt::format("{} (see: candelabra {}--help)", error.what(), command);
+    return fmt::format("{} (see: candelabra {}--help)", error.what(),
+                       first[0] == '-' ? "" : first + " ");
 }
 
 // "--camera= -o x.png" would take "-o" for the camera, and an empty text means "not given" to some
@@ -118,7 +135,10 @@ int parseAndRun(int argc, const char* const* argv)
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) { // --help, --version
-        return app.exit(help);
+        std::ostringstream text;
+        app.exit(help, text);
+        writeText("-", text.str());
+        return exitOk;
     } catch (const CLI::ParseError& error) {
         return complain(exitUsage, parseSentence(app, argc, argv, error));
     }

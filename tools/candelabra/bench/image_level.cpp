@@ -166,11 +166,15 @@ std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageL
     return out;
 }
 
+Scene budgetScene(const ImageLevelSettings& s)
+{
+    return loadScene(s.budgetScene, {.lights = s.budgetLights});
+}
+
 BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSettings& s,
-                           Progress& progress)
+                           const Scene& scene, Progress& progress)
 {
     progress.doing("error budgets: " + s.budgetScene);
-    const Scene scene = loadScene(s.budgetScene, {.lights = s.budgetLights});
     Renderer renderer(context, scene,
                       {.size = s.budgetSize,
                        .specularMethods = 1u << CND_SPECULAR_KARIS | 1u << CND_SPECULAR_CONIC});

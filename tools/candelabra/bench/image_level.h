@@ -73,8 +73,10 @@ std::vector<Scene> benchScenes();
 double imageLevelSteps(const ImageLevelSettings& settings);
 std::vector<ImageScene> measureImages(const VulkanContext& context,
                                       const ImageLevelSettings& settings, Progress& progress);
+// The scene of the error-budget sweep, made. Throws SceneError, so before the long part.
+Scene budgetScene(const ImageLevelSettings& settings);
 BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSettings& settings,
-                           Progress& progress);
+                           const Scene& scene, Progress& progress);
 
 std::string imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets);
 Json imageJson(const ImageLevelSettings& settings, const std::vector<ImageScene>& scenes,

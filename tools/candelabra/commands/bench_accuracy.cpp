@@ -69,6 +69,7 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     const std::string lowRoughnessPng =
         benchOutput(a.directory, "--out", "", "bench_low_roughness.png");
 
+    const Scene scene = budgetScene(images); // before the long part: it may be no file
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("accuracy on {}", context.info().name);
     KernelLevel level;
@@ -79,7 +80,7 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
         level = measureKernelLevel(context, kernels, kernelProgress);
         Progress imageProgress(imageLevelSteps(images), !program.quiet);
         scenes = measureImages(context, images, imageProgress);
-        budgets = measureBudgets(context, images, imageProgress);
+        budgets = measureBudgets(context, images, scene, imageProgress);
     }
     const Json origin = provenance(context.info(), program.commandLine);
     const auto lowRoughness = measureLowRoughness(context, 256);

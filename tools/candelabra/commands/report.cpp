@@ -136,7 +136,7 @@ ReportPart accuracyPart(const VulkanContext& context, bool quiet)
     const KernelLevel level = measureKernelLevel(context, kernels, kernelProgress);
     Progress imageProgress(imageLevelSteps(images), !quiet);
     const std::vector<ImageScene> scenes = measureImages(context, images, imageProgress);
-    const BudgetSweep budgets = measureBudgets(context, images, imageProgress);
+    const BudgetSweep budgets = measureBudgets(context, images, budgetScene(images), imageProgress);
     return {.html = accuracySections(level, scenes, budgets, context.info()) +
                     madeBy("candelabra bench accuracy --groups 60 --rounds 5 --size 144x108 "
                            "--frames 3 --lights 1000 --budget-size 320x180"),

@@ -66,6 +66,11 @@ void failRead(const std::string& path, const std::string& reason)
     throw ImageError("cannot read " + path + ": " + reason);
 }
 
+std::string temporaryName(const std::string& path)
+{
+    return path + ".part-" + std::to_string(getpid());
+}
+
 void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes)
 {
     struct stat info = {};
@@ -74,7 +79,7 @@ void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes
         failWrite(path, "is a directory");
     if (exists && !S_ISREG(info.st_mode)) // renaming would replace a device by a file
         failWrite(path, "is not a regular file");
-    const std::string temporary = path + ".part-" + std::to_string(getpid());
+    const std::string temporary = temporaryName(path);
     TemporaryFile file(temporary, exists ? info.st_mode & 0777 : 0666);
     if (file.fd() < 0)
         failWrite(path, std::strerror(errno));

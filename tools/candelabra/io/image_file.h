@@ -16,6 +16,8 @@ namespace candelabra::app
 [[noreturn]] void failWrite(const std::string& path, const std::string& reason);
 [[noreturn]] void failRead(const std::string& path, const std::string& reason);
 
+// What `path` is called until it is whole.
+std::string temporaryName(const std::string& path);
 // Creates or replaces `path` with these bytes, all or nothing.
 void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes);
 

@@ -33,6 +33,8 @@ void cleanUpAndEnd(int signal)
 
 void cleanUpOnSignals()
 {
+    // A limit on the size of files fails the write, which has its own sentence.
+    std::signal(SIGXFSZ, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction old = {};
         if (sigaction(signal, nullptr, &old) || old.sa_handler != SIG_DFL)

@@ -8,7 +8,8 @@
 namespace candelabra::app
 {
 
-// For the whole process, once. Signals that are ignored stay so (nohup).
+// For the whole process, once. Signals that are ignored stay so (nohup). SIGXFSZ becomes ignored:
+// files that may not grow are errors like full disks.
 void cleanUpOnSignals();
 
 // While one lives, signals remove the file of its name. One at a time; others do nothing.

@@ -77,6 +77,11 @@ void requireWritable(const std::string& option, const std::string& path)
     const std::string directory = directoryOf(path);
     if (!std::filesystem::is_directory(directory, error))
         throw UsageError(fmt::format("{} {}: there is no directory {}", option, path, directory));
+    // With what temporaryName adds to it.
+    const size_t length = temporaryName(std::filesystem::path(path).filename().string()).size();
+    if (const long most = pathconf(directory.c_str(), _PC_NAME_MAX);
+        most > 0 && length > size_t(most))
+        throw UsageError(fmt::format("{} {}: the name is too long", option, path));
     if (access(directory.c_str(), W_OK))
         throw UsageError(fmt::format("{} {}: cannot write into {}: {}", option, path, directory,
                                      std::strerror(errno)));

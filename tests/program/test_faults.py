@@ -1,0 +1,467 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What goes wrong around the program, as a table of cases: malformed values of every option of every
+command, files that cannot be read or written, full disks, signals at random times. Each has to end with
+its exit code and one sentence on stderr, and leaves no part of a file and nothing temporary.
+
+Usage: test_faults.py PROGRAM DATA [GROUP...]; the groups are options, files, disk and signals. Without
+CANDELABRA_FULL_TESTS=1 only what takes no GPU is run of the last two, and few signals."""
+import contextlib
+import json
+import os
+import pathlib
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+program, data = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+groups = sys.argv[3:] or ["options", "files", "disk", "signals"]
+full = os.environ.get("CANDELABRA_FULL_TESTS") == "1"
+device = os.environ.get("CANDELABRA_TEST_DEVICE")
+USAGE, FAILED = 2, 1
+failures, count = [], 0
+shaders = tempfile.TemporaryDirectory(prefix="candelabra_faults_")  # pipelines, for all runs
+
+
+def environment(**more):
+    kept = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    return kept | {"XDG_CACHE_HOME": "cache", "MESA_SHADER_CACHE_DIR": shaders.name} | more
+
+
+def start(arguments, folder, **options):
+    if device and arguments and arguments[0] not in (
+            "compare", "truth", "devices", "manual", "completions") and "--device" not in arguments:
+        arguments = [*arguments, "--device", device]
+    options = {"stdout": subprocess.PIPE, "env": environment()} | options
+    return subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL,
+                            stderr=subprocess.PIPE, text=True, errors="replace", **options)
+
+
+def fault(what, why):
+    failures.append(f"{what}: {why}")
+
+
+def left(folder):
+    """Every file below, and what is in it."""
+    return {str(p.relative_to(folder)): p.read_bytes() for p in pathlib.Path(folder).rglob("*")
+            if p.is_file() and not p.is_symlink()}
+
+
+def refused(arguments, code, named, folder, timeout=120, may_change=(), **options):
+    """Ends with `code` and one sentence that has `named` in it; the files in `folder` stay as they are."""
+    global count
+    count += 1
+    what = " ".join(arguments)
+    before = left(folder)
+    process = start(arguments, folder, **options)
+    try:
+        out, err = process.communicate(timeout=timeout)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        return fault(what, f"still runs after {timeout} s")
+    if process.returncode != code:
+        fault(what, f"ended with {process.returncode} and not {code}: {err.strip()}")
+    elif not re.fullmatch(r"candelabra: [^\n]+\n", err):
+        fault(what, f"said this and not one sentence: {err!r}")
+    elif named not in err:
+        fault(what, f"does not name {named!r}: {err.strip()}")
+    if out and options.get("stdout", subprocess.PIPE) == subprocess.PIPE and code == USAGE:
+        fault(what, f"printed {out[:80]!r}")
+    after = left(folder)
+    changed = {n for n in before.keys() | after.keys() if before.get(n) != after.get(n)}
+    wrong = {n for n in changed if not any(re.fullmatch(p, n) for p in may_change)}
+    if wrong:
+        fault(what, f"left or changed {sorted(wrong)}")
+
+
+# ---- options ----------------------------------------------------------------------------------
+
+SIZES = ["wide", "0x8", "8x", "8x8x8", "16385x1", "-8x8", "1e3x8"]
+COUNTS = ["many", "-1", "1.5", "0x10", "99999999999", " 5", "5 "]
+NUMBERS = ["x", "nan", "inf", "1e999", "1,5"]
+NAMES = ["nonsense", "CONIC2"]
+PLACES = ["no/such/folder/x.json", ".", "/dev/null"]
+
+# What every command's option of this name refuses. A value that is refused only once the scene or the
+# device is known is as good: nothing was drawn by then.
+BAD = {
+    "--lights": COUNTS, "--seed": COUNTS, "--samples": [*COUNTS, "0", "4097"],
+    "--frames": [*COUNTS, "0"], "--overlaps": [*NUMBERS, "0", "-1"],
+    "--size": SIZES, "--camera": ["nowhere", "99", "1,2", "0,0,0,0,0,0", "0,0,0,0,0,-1,200", "0,0,0,0,nan,1"],
+    "--lights-visible": NAMES, "--exposure": ["bright", "41", "nan"], "--compensation": [*NUMBERS, "21"],
+    "--metering": NAMES, "--tonemap": NAMES, "--specular": NAMES, "--gbuffer": NAMES,
+    "--culling": NAMES, "--reuse": NAMES, "--debug": NAMES, "--lobes": NAMES,
+    "--error-budget": [*NUMBERS, "-0.1", "1.1"], "--time": NUMBERS,
+    "--punctual-radius": [*NUMBERS, "0"], "--sun-radius": [*NUMBERS, "0", "2"],
+    "--environment": ["no_such.hdr", "sky.png", "folder.hdr", "empty.exr", "noise.pfm"],
+    "--environment-rotation": [*NUMBERS, "361"], "--environment-scale": [*NUMBERS, "-1"],
+    "--device": ["99", "no such device"], "--json": PLACES, "--csv": PLACES, "--trace": PLACES,
+    "--html": PLACES, "--out": ["file.txt", "/dev/null/x", "file.txt/x"],
+    "--pick": ["4", "8,0", "0,8", "a,b", "-1,0", "1,2,3"],
+    "--output": ["x.bmp", "x", "no/such/x.png", "/dev/full", "folder.png"],
+    "--path": NAMES, "--check": NAMES, "--light-costs": COUNTS, "--rounds": [*COUNTS, "0"],
+    "--point-rounds": COUNTS, "--brute-limit": [*NUMBERS, "-1"], "--groups": [*COUNTS, "0"],
+    "--budget-size": SIZES, "--configs": [*NUMBERS, "-1", "0.5"], "--quadrature": [*NUMBERS, "-1"],
+    "--sweeps": [*COUNTS], "--parts": ["everything", "profile,,skip", ","],
+    "--scenes": ["village", "hall,village", ","], "--tolerance": [*NUMBERS, "-1"],
+    "--threads": [*COUNTS, "0"], "--shard": ["3/2", "0/2", "2", "1/0", "a/b", "1/2/3"],
+    "--screenshot": ["x.jpg", "no/such/x.png"],
+    "--merge": ["no_such.truth", "empty.truth", "noise.truth", "folder.truth"],
+    "--scene": ["village", "no_such.glb", "empty.json", "folder.json"],
+    "--a": ["no_such.json", "empty.json", "noise.json"], "--b": ["no_such.json"],
+}
+# Exceptions; None: only with other options, and under "combinations" below.
+BAD_OF = {
+    ("compare", "--json"): ["no/such/folder/x.json", "."], ("devices", "--json"): ["=maybe"],
+    ("truth", "--output"): ["x.png", "x", "no/such/x.exr", "folder.exr"],
+    ("truth", "--cache"): None, ("profile", "--ab"): None, ("truth", "--merge"): None,
+    ("view", "--frames"): COUNTS, ("bench skip", "--scene"): ["village", "a.glb"],
+    ("bench accuracy", "--scene"): ["no_such.glb"], ("compare", "--a"): None, ("compare", "--b"): None,
+    ("bench culling", "--lights"): [*COUNTS, "0", "1,,2"], ("bench culling", "--size"): [*SIZES, "8x8,"],
+    ("bench culling", "--overlaps"): COUNTS, ("stress", "--lights"): [*COUNTS, "0", "5,5", "5,,6"],
+}
+# What stands before the option under test; `{}` of it is left out there when it is given twice.
+BASE = {
+    "render": ["render", "hall", "--lights=5", "--size=8x8", "--output=x.png"],
+    "stress": ["stress", "--lights=5", "--size=8x8", "--out=o", "-q"],
+    "profile": ["profile", "hall", "--lights=5", "--size=8x8", "--frames=6"],
+    "compare": ["compare", "run.json", "run.json"],
+    "report": ["report", "--parts=profile", "--lights=5", "--size=8x8", "--out=o"],
+    "view": ["view", "--scene=hall", "--lights=5", "--size=64x64", "--frames=1"],
+    "truth": ["truth", "scene.json", "--size=4x4", "--no-cache", "--output=x.exr"],
+    "bench accuracy": ["bench", "accuracy", "--groups=10", "--size=8x8", "--out=o", "-q"],
+    "bench culling": ["bench", "culling", "--scenes=hall", "--lights=5", "--size=8x8", "--out=o"],
+    "bench skip": ["bench", "skip", "--lights=5", "--size=8x8", "--out=o"],
+    "bench stability": ["bench", "stability", "--configs=1000", "--out=o"],
+    "devices": ["devices"], "manual": ["manual"], "completions": ["completions", "bash"],
+}
+# Command lines in which single options are right.
+COMBINATIONS = [
+    ([], "subcommand"), (["paint"], "paint"), (["bench"], "subcommand"), (["bench", "speed"], "speed"), (["bench", "skip", "hall"], "hall"),
+    (["render"], "scene"), (["render", "hall"], "nothing to write"), (["render", "village", "-o", "x.png"], "village"),
+    (["render", "hall", "more", "-o", "x.png"], "more"), (["completions"], "shell"), (["completions", "csh"], "csh"),
+    (["render", "hall", "-o", "x.png", "-o", "./x.png"], "twice"), (["render", "hall", "-o"], "-o"),
+    (["render", "hall", "-o", "x.png", "--json", "./x.png"], "--json"), (["render", "hall", "--lights"], "--lights"),
+    (["render", "hall", "-o", "x.png", "--camera="], "--camera="), (["render", "hall", "-o", "x.png", "--lights", ""], "--lights"),
+    (["render", "hall", "--pick", "1,1", "--specular", "sampled"], "--pick"), (["render", "hall", "-o", "x.png", "--frob"], "--frob"),
+    (["render", "hall", "-o", "x.png", "--seed", "1", "--seed", "2"], "--seed"),
+    (["render", "hall", "-o", "x.png", "--debug", "class", "--culling", "brute"], "--debug"),
+    (["view", "hall", "--screenshot", "x.png"], "--frames"), (["view", "hall"], "display"),
+    (["profile", "hall", "--ab", ""], "--ab"), (["profile", "hall", "--ab", "--specular foo", ""], "--specular"),
+    (["profile", "hall", "--ab", "", "--size 8x8"], "--ab"), (["profile", "hall", "--ab", "", "", "--frames", "5"], "--ab"),
+    (["profile", "hall", "--append"], "--append"), (["profile", "hall", "--json", "p", "--csv", "p"], "--csv"),
+    (["profile", "hall", "--json", "p", "--trace", "p"], "--trace"), (["profile", "hall", "--trace", "t", "--frames", "20000"], "--trace"),
+    (["profile", "hall", "--json", "noise.json", "--append"], "noise.json"),
+    (["truth"], "-o"), (["truth", "-o", "x.exr"], "SCENE"), (["truth", "scene.json", "--cache", "a", "--no-cache", "-o", "x.exr"], "--no-cache"),
+    (["truth", "scene.json", "--merge", "a", "-o", "x.exr"], "--merge"), (["truth", "--merge", "no_such.truth", "-o", "x.exr"], "no_such.truth"),
+    (["truth", "--merge", "noise.truth", "-o", "x.exr"], "noise.truth"), (["truth", "--merge", "empty.truth", "-o", "x.exr"], "empty.truth"),
+    (["truth", "hall", "-o", "x.exr"], "hall"), (["truth", "scene.json", "-o", "scene.json"], "scene.json"),
+    (["compare"], "A"), (["compare", "run.json"], "B"),
+    (["compare", "--a", "run.json"], "B"), (["compare", "--a", "no_such.json", "--b", "run.json"], "no_such.json"),
+    (["compare", "run.json", "noise.json"], "noise.json"), (["compare", "run.json", "other.json"], "other.json"),
+]
+
+
+def furnish(folder):
+    """Files to trip over."""
+    (folder / "file.txt").write_text("here\n")
+    for extension in ("json", "hdr", "exr", "png", "glb", "gltf", "truth"):
+        (folder / f"folder.{extension}").mkdir()
+    for extension in ("json", "exr", "hdr", "pfm", "glb", "gltf", "truth"):
+        (folder / f"empty.{extension}").write_bytes(b"")
+        (folder / f"noise.{extension}").write_bytes(random.Random(extension).randbytes(999))
+    (folder / "sky.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    shutil.copy(data / "every_light.json", folder / "scene.json")
+    passes = [{"name": "shade_tiles", "medianMs": 12.5}]
+    figures = {"passes": passes} | {n: {"medianMs": 5} for n in ("gpu", "record", "frame", "setLights")}
+    run = {"schema": "candelabra profile 1", "provenance": {"device": "d", "driver": "e", "commit": "c"},
+           "scene": {"name": "hall"}, "image": {"widthPixels": 64}, "path": "still",
+           "variants": [{"settings": {"specular": "conic"}, "time": figures}]}
+    (folder / "run.json").write_text(json.dumps(run))
+    (folder / "other.json").write_text(json.dumps(run | {"schema": "candelabra profile 999"}))
+
+
+def options_of_commands():
+    """"render" -> ["--seed", ...]: long names, and whether they take values, of the program's own lists."""
+    bash = subprocess.run([program, "completions", "bash"], capture_output=True, text=True, check=True).stdout
+    fish = subprocess.run([program, "completions", "fish"], capture_output=True, text=True, check=True).stdout
+    values = set(re.findall(r" -l ([\w-]+) -r", fish))
+    return {command: [(o, o[2:] in values) for o in words.split() if o.startswith("--") and o != "--help"]
+            for command, words in re.findall(r'^    " ([\w ]+)"\) words="(.*)" ;;$', bash, re.MULTILINE)
+            if command != "bench"}
+
+
+@contextlib.contextmanager
+def display():
+    """For `view`, which looks for a display before it reads the scene."""
+    read, write = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-nolisten", "tcp"], pass_fds=[write],
+                              stderr=subprocess.DEVNULL)
+    os.close(write)
+    try:
+        yield ":" + os.read(read, 16).decode().strip()
+    finally:
+        os.close(read)
+        server.terminate()
+        server.wait()
+
+
+def test_options(folder):
+    furnish(folder)
+    for arguments, named in COMBINATIONS:
+        refused(arguments, USAGE, named, folder)
+    with display() as name:
+        for command, options in options_of_commands().items():
+            for option, takes_value in options:
+                flag = BAD_OF.get((command, option), BAD.get(option)) if takes_value else ["=maybe"]
+                if (command, option) in BAD_OF and BAD_OF[command, option] is None:
+                    continue
+                if not flag:
+                    fault(f"{command} {option}", "is not in the table of this test")
+                    continue
+                base = [a for a in BASE[command] if not a.startswith(option + "=")]
+                values = flag if full else flag[:1]
+                for value in values:
+                    given = [option + value] if value.startswith("=") else [option, value]
+                    environ = environment(DISPLAY=name) if command == "view" else environment()
+                    shown = "-o" if option == "--output" else option
+                    # Of a file or a place the sentence says its name.
+                    named = value if option in ("--environment", "--scene") else shown
+                    named = "size" if option == "--size" and value == "16385x1" else named
+                    refused([*base, *given], USAGE, named, folder, env=environ, may_change=[r"o/.*"])
+
+
+# ---- files ------------------------------------------------------------------------------------
+
+def test_files(folder):
+    furnish(folder)
+    os.mkfifo(folder / "pipe.json")
+    os.mkfifo(folder / "pipe.glb")
+    os.mkfifo(folder / "pipe.hdr")
+    os.mkfifo(folder / "pipe.truth")
+    (folder / "loop.json").symlink_to("loop.json")
+    (folder / "nowhere.png").symlink_to("no/such/x.png")
+    for name in ("no_such.json", "no_such.glb", "folder.json", "folder.glb", "empty.json", "empty.glb",
+                 "empty.gltf", "noise.json", "noise.glb", "noise.gltf", "pipe.json", "pipe.glb", "loop.json",
+                 "file.txt", "/dev/null", "no_such"):
+        refused(["render", name, "-o", "x.png"], USAGE, name, folder, timeout=20)
+    for name in ("pipe.hdr", "noise.hdr", "noise.exr", "empty.hdr", "empty.pfm", "folder.exr"):
+        refused(["render", "hall", "--lights", "2", "--environment", name, "-o", "x.png"], USAGE, name,
+                folder, timeout=20)
+    for name in ("pipe.truth", "folder.truth", "noise.truth"):
+        refused(["truth", "--merge", name, "-o", "x.exr"], USAGE, name, folder, timeout=20)
+    for name in ("pipe.json", "folder.json", "empty.json", "noise.json", "loop.json", "/dev/null"):
+        refused(["compare", "run.json", name], USAGE, name, folder, timeout=20)
+    long = "x" * 300
+    for arguments, named in ((["render", "hall", "-o", long + ".png"], "too long"),
+                             (["render", "hall", "-o", "pipe.hdr"], "pipe.hdr"),
+                             (["truth", "scene.json", "-o", "folder.exr"], "folder.exr"),
+                             (["profile", "hall", "--json", long], "too long"),
+                             (["stress", "--out", "file.txt"], "file.txt"),
+                             (["bench", "skip", "--out", "file.txt/below"], "file.txt/below"),
+                             (["report", "--out", "pipe.json"], "pipe.json")):
+        refused(arguments, USAGE, named, folder, timeout=20)
+    unwritable(folder)
+
+
+def unwritable(folder):
+    """Folders that nothing may be written into; root, who may write anywhere, becomes nobody."""
+    closed = folder / "closed"
+    closed.mkdir()
+    closed.chmod(0o555)
+    (folder / "secret.json").write_text("{}")
+    (folder / "secret.json").chmod(0o000)
+    options = {}
+    if os.getuid() == 0:
+        options["user"] = 65534
+        folder.chmod(0o755)
+        reachable = subprocess.run([program, "--version"], user=65534, capture_output=True, check=False)
+        if reachable.returncode:
+            sys.exit("test_faults.py: nobody may not run the program here; run this without root")
+    for arguments in (["render", "hall", "-o", "closed/x.png"], ["render", "hall", "-q", "--json", "closed/x.json"],
+                      ["profile", "hall", "--csv", "closed/x.csv"], ["profile", "hall", "--trace", "closed/t"],
+                      ["truth", "scene.json", "-o", "closed/x.exr"], ["stress", "--out", "closed/o"],
+                      ["bench", "skip", "--out", "closed"], ["report", "--out", "closed/r"],
+                      ["compare", "run.json", "run.json", "--json", "closed/x.json"]):
+        refused(arguments, USAGE, "closed", folder, timeout=20, **options)
+    refused(["compare", "secret.json", "run.json"], USAGE, "secret.json", folder, timeout=20, **options)
+    refused(["render", "secret.json", "--explain"], USAGE, "secret.json", folder, timeout=20, **options)
+
+
+# ---- full disks -------------------------------------------------------------------------------
+
+# Commands, what they are named after in the sentence, and whether they take a device.
+WRITERS = [
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "-o", "{}/x.exr"], "x.exr", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "-o", "{}/x.pfm"], "x.pfm", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "-o", "{}/x.hdr"], "x.hdr", False),
+    (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "--shard", "1/1", "-o", "{}/x.truth"], "x.truth", False),
+    (["compare", "run.json", "run.json", "--json", "{}/x.json"], "x.json", False),
+] + [(["render", "hall", "--lights", "5", "--size", "96x96", "-q", "-o", "{}/x." + e], "x." + e, True)
+     for e in ("png", "exr", "pfm", "hdr")] + [
+    (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--json", "{}/x.json"], "x.json", True),
+    (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--debug", "class", "-o", "{}/x.png"], "x.png", True),
+    (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "4", "-q", "--json", "{}/x.json"], "x.json", True),
+    (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "4", "-q", "--csv", "{}/x.csv"], "x.csv", True),
+    (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "4", "-q", "--trace", "{}/x.json"], "x.json", True),
+    (["stress", "--lights", "5", "--size", "64x64", "--frames", "1", "-q", "--out", "{}"], "stress", True),
+    (["bench", "skip", "--lights", "5", "--size", "16x16", "--rounds", "1", "--point-rounds", "1", "-q", "--out", "{}"], "bench_skip.json", True),
+    (["bench", "stability", "--configs", "1000", "--quadrature", "10", "--sweeps", "1", "-q", "--out", "{}"], "bench_stability.json", True),
+    (["bench", "culling", "--scenes", "hall", "--lights", "20", "--overlaps", "8", "--size", "32x32", "--rounds", "1", "-q", "--out", "{}"], "bench_culling", True),
+    (["report", "--parts", "profile", "--lights", "5", "--size", "32x32", "--frames", "2", "-q", "--out", "{}"], "index.html", True),
+    (["view", "hall", "--lights", "5", "--size", "64x64", "--frames", "2", "-q", "--screenshot", "{}/x.png"], "x.png", True),
+]
+PRINTERS = [(["manual"], False), (["completions", "bash"], False), (["--help"], False), (["render", "--help"], False),
+            (["--version"], False), (["compare", "run.json", "run.json"], False),
+            (["compare", "run.json", "run.json", "--json", "-"], False), (["devices"], True), (["devices", "--json"], True),
+            (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--json", "-"], True),
+            (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--pick", "4,4"], True),
+            (["profile", "hall", "--lights", "5", "--size", "8x8", "--frames", "2", "-q", "--json", "-"], True)]
+
+
+@contextlib.contextmanager
+def full_disk(folder):
+    """A file system of one page, full; None where mounting is not allowed."""
+    disk = folder / "disk"
+    disk.mkdir()
+    mounted = not subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4096", "tmpfs", disk], capture_output=True,
+                                 check=False).returncode
+    try:
+        if mounted:
+            (disk / "ballast").write_bytes(b"x" * 4096)
+        yield disk if mounted else None
+    finally:
+        if mounted:
+            subprocess.run(["umount", disk], check=True)
+
+
+def limit_files():
+    resource.setrlimit(resource.RLIMIT_FSIZE, (128, 128))
+
+
+def test_disk(folder):
+    furnish(folder)
+    wanted = [w for w in WRITERS if full or not w[2]]
+    with full_disk(folder) as disk, display() as name:
+        if not disk:
+            print("no file system may be mounted here: limits of file sizes stand in for full disks")
+        for number, (command, named, _) in enumerate(wanted):
+            options = {"env": environment(DISPLAY=name)}
+            if disk:
+                refused([a.format("disk") for a in command], FAILED, named, folder, **options)
+            if disk and number % 4: # both ways of every kind
+                continue
+            shutil.rmtree(folder / "limited", ignore_errors=True)
+            (folder / "limited").mkdir()
+            if named.startswith("x."):
+                (folder / "limited" / named).write_bytes(b"what was there")
+            refused([a.format("limited") for a in command], FAILED, named, folder, preexec_fn=limit_files, **options)
+    for command, takes_device in PRINTERS:
+        if full or not takes_device:
+            with open("/dev/full", "w", encoding="utf-8") as out:
+                refused(command, FAILED, "standard output", folder, stdout=out)
+
+
+# ---- signals ----------------------------------------------------------------------------------
+
+# Commands whose files do not change from run to run, or that can be told whole by their end.
+LONG = [
+    (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "--cache", "kept", "-q", "-o", "x.exr"], False),
+    (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "--no-cache", "-q", "--shard", "1/2", "-o", "x.truth"], False),
+    (["render", "hall", "--lights", "50", "--size", "256x256", "--frames", "4", "-q", "-o", "x.png", "-o", "x.exr",
+      "-o", "x.pfm", "-o", "x.hdr", "--json", "x.json"], True),
+    (["stress", "--lights", "20,40", "--size", "64x36", "--frames", "2", "-q", "--out", "o"], True),
+    (["profile", "hall", "--lights", "50", "--size", "64x36", "--frames", "20", "-q", "--json", "x.json", "--csv", "x.csv",
+      "--trace", "t.json"], True),
+    (["bench", "skip", "--lights", "50", "--size", "64x36", "--rounds", "1", "--point-rounds", "1", "-q", "--out", "o"], True),
+    (["report", "--parts", "profile", "--lights", "60", "--size", "64x36", "--frames", "2", "-q", "--out", "o"], True),
+]
+ENDS = {".svg": b"</svg>", ".html": b"</html>", ".csv": b""}
+
+
+def whole(name, content, reference):
+    suffix = pathlib.Path(name).suffix
+    if suffix == ".json":
+        try:
+            return isinstance(json.loads(content), (dict, list))
+        except ValueError:
+            return False
+    if suffix in ENDS:
+        lines = reference[name].count(b"\n")
+        return content.endswith(ENDS[suffix] + b"\n") and (suffix != ".csv" or content.count(b"\n") == lines)
+    return content == reference[name]
+
+
+def interrupted(command, duration, which, delay, reference):
+    """One run, ended by `which` after `delay` s; whether it was ended and had not finished before."""
+    global count
+    count += 1
+    what = f"{' '.join(command)}: {which.name} after {delay:.3f} s of {duration:.2f}"
+    with tempfile.TemporaryDirectory(prefix="candelabra_faults_") as name:
+        folder = pathlib.Path(name)
+        furnish(folder)
+        before = left(folder)
+        process = start(command, folder)
+        time.sleep(delay)
+        process.send_signal(which)
+        try:
+            _, err = process.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.communicate()
+            fault(what, "runs on")
+            return False
+        if process.returncode not in (0, -which):
+            fault(what, f"ended with {process.returncode}: {err}")
+        if err:
+            fault(what, f"said {err!r}")
+        for path, content in left(folder).items():
+            if path not in before and (path not in reference or not whole(path, content, reference)):
+                fault(what, f"left {path}, which is no whole file of a finished run")
+        return process.returncode != 0
+
+
+def test_signals(folder):
+    chance = random.Random(20)
+    ended = tried = 0
+    for command, takes_device in LONG:
+        if takes_device and not full:
+            continue
+        shutil.rmtree(folder)
+        folder.mkdir()
+        furnish(folder)
+        before = left(folder)
+        began = time.monotonic()
+        process = start(command, folder)
+        _, err = process.communicate(timeout=300)
+        duration = time.monotonic() - began
+        if process.returncode:
+            fault(" ".join(command), f"ended with {process.returncode}: {err}")
+            continue
+        reference = {n: c for n, c in left(folder).items() if n not in before}
+        for i in range(10 if full else 4):
+            which = (signal.SIGINT, signal.SIGTERM)[i % 2]
+            tried += 1
+            ended += interrupted(command, duration, which, chance.uniform(0, duration), reference)
+    print(f"{ended} of {tried} runs were ended by their signal, the others had finished")
+    if ended * 2 < tried:
+        fault("signals", f"only {ended} of {tried} came in time: nothing was tested")
+
+
+for group in groups:
+    begun, already = time.monotonic(), count
+    with tempfile.TemporaryDirectory(prefix="candelabra_faults_") as place:
+        {"options": test_options, "files": test_files, "disk": test_disk,
+         "signals": test_signals}[group](pathlib.Path(place))
+    print(f"{group}: {count - already} cases, {time.monotonic() - begun:.1f} s", flush=True)
+for line in failures:
+    print("FAILED", line)
+if failures:
+    sys.exit(f"{len(failures)} of {count} cases failed")
