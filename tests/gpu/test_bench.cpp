@@ -7,6 +7,7 @@
 #include "bench/low_roughness.h"
 #include "bench/stability.h"
 #include "harness/gpu_fixture.h"
+#include "harness/json_schema.h"
 #include "io/image.h"
 #include "scene/random.h"
 
@@ -53,7 +54,10 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
     }
     EXPECT_LT(pointOf(level, CND_SPECULAR_LTC).error.mirror.all.mean,
               pointOf(level, CND_SPECULAR_KARIS).error.mirror.all.mean);
-    EXPECT_EQ(Json::parse(kernelJson(settings, level).dump())["points"].size(), 3u);
+    const auto json = nlohmann::json::parse(kernelJson(settings, level).dump());
+    EXPECT_EQ(json["points"].size(), 3u);
+    EXPECT_EQ(test::JsonSchema("bench_accuracy.schema.json").faultOfPart(json, "#/$defs/kernels"),
+              "");
     EXPECT_NE(kernelTables(level).find("rectangle ltc"), std::string::npos);
 }
 
@@ -98,6 +102,10 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
     Progress progress(1, false);
     const std::vector<ImageScene> scenes = measureImages(context(), settings, progress);
     ASSERT_EQ(scenes.size(), benchScenes().size());
+    const auto json = nlohmann::json::parse(imageJson(settings, scenes, {})["scenes"].dump());
+    EXPECT_EQ(test::JsonSchema("bench_accuracy.schema.json")
+                  .faultOfPart(json, "#/$defs/images/properties/scenes"),
+              "");
     for (const ImageScene& scene : scenes) {
         ASSERT_EQ(scene.points.size(), 2u);
         const ImageDifference &karis = scene.points[0].error, &conic = scene.points[1].error;

@@ -3,6 +3,7 @@
 // comparing their times would mean nothing.
 #include "bench/culling.h"
 #include "harness/gpu_fixture.h"
+#include "harness/json_schema.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -45,7 +46,11 @@ TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
         EXPECT_GT(p.of(floorName).totalMs(), 0) << p.scene;
     }
     EXPECT_EQ(cullingFailures(points).size(), 0u);
-    EXPECT_EQ(Json::parse(cullingJson(settings, points).dump())["points"].size(), 3u);
+    const auto json = nlohmann::json::parse(cullingJson(settings, points).dump());
+    EXPECT_EQ(json["points"].size(), 3u);
+    EXPECT_EQ(test::JsonSchema("bench_culling.schema.json")
+                  .faultOfPart(json["points"], "#/properties/points"),
+              "");
     EXPECT_EQ(cullingPlots(points, context().info()).size(), 3u);
     EXPECT_NE(cullingTables(points).find("200x120"), std::string::npos);
 }
@@ -63,7 +68,11 @@ TEST_F(BenchCulling, BruteForceOverTheLimitIsListedWithItsEstimate)
     ASSERT_EQ(points.size(), 1u); // so many overlaps cannot be
     EXPECT_GT(points[0].of(bruteName).skippedMs.value_or(0), 0);
     EXPECT_NE(cullingTables(points).find("skipped"), std::string::npos);
-    const Json brute = cullingJson(settings, points)["points"][0]["contenders"][3];
+    const auto json = nlohmann::json::parse(cullingJson(settings, points).dump());
+    EXPECT_EQ(test::JsonSchema("bench_culling.schema.json")
+                  .faultOfPart(json["points"], "#/properties/points"),
+              "");
+    const auto brute = json["points"][0]["contenders"][3];
     EXPECT_EQ(brute["skipped"], true);
     EXPECT_GT(brute["estimatedMs"].get<double>(), 0);
 }

@@ -2,6 +2,7 @@
 // Every skip leaves the image as it is, in small frames of the benchmark.
 #include "bench/skip.h"
 #include "harness/gpu_fixture.h"
+#include "harness/json_schema.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -28,7 +29,11 @@ TEST_F(BenchSkip, ImagesAreThoseOfFramesThatSkipNothing)
     }
     EXPECT_EQ(rows[0].with.total().medianMs, 0); // no lights
     EXPECT_TRUE(skipFailures(rows).empty());
-    EXPECT_EQ(Json::parse(skipJson(settings, rows).dump())["skips"].size(), rows.size());
+    const auto json = nlohmann::json::parse(skipJson(settings, rows).dump());
+    EXPECT_EQ(json["skips"].size(), rows.size());
+    EXPECT_EQ(
+        test::JsonSchema("bench_skip.schema.json").faultOfPart(json["skips"], "#/properties/skips"),
+        "");
     EXPECT_NE(skipTable(rows).find("manual exposure"), std::string::npos);
 
     std::vector<SkipRow> wrong = rows;

@@ -329,7 +329,7 @@ TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
         EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
     EXPECT_EQ(page.find("://"), std::string::npos);
     const auto json = nlohmann::json::parse(text("r/report.json"));
-    EXPECT_EQ(json["schema"], "candelabra report 1");
+    EXPECT_EQ(test::JsonSchema("report.schema.json").fault(json), "");
     EXPECT_GT(json["profile"]["time"]["gpu"]["medianMs"], 0);
     EXPECT_EQ(run("report --parts profile,colour --out r").exitCode, 2);
 }
@@ -366,8 +366,10 @@ TEST_F(ProgramTest, DevicesListsTheOneUnderTest)
 {
     const Outcome outcome = run("devices --json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(test::JsonSchema("devices.schema.json").fault(json), "");
     bool found = false;
-    for (const auto& device : nlohmann::json::parse(outcome.out))
+    for (const auto& device : json["devices"])
         found |= device["name"] == context().info().name && device["missing"] == "";
     EXPECT_TRUE(found) << outcome.out;
 }

@@ -23,6 +23,13 @@ public:
     }
     // What is wrong, with its place; empty: nothing.
     std::string fault(const nlohmann::json& value) const { return check(value, root_, "value"); }
+    // The same of a part: "#/properties/points".
+    std::string faultOfPart(const nlohmann::json& value, const std::string& place) const
+    {
+        return checkReference(value, place, "value");
+    }
+    // What "schema" has to be.
+    std::string name() const { return root_.at("properties").at("schema").at("const"); }
 
 private:
     static bool is(const nlohmann::json& value, const std::string& type)
@@ -48,9 +55,7 @@ private:
         for (const auto& [key, rule] : schema.items()) {
             std::string fault;
             if (key == "$ref")
-                fault = check(
-                    value,
-                    root_.at(nlohmann::json::json_pointer(rule.get<std::string>().substr(1))), at);
+                fault = checkReference(value, rule, at);
             else if (key == "type" && !isAny(value, rule))
                 fault = at + ": is not " + rule.dump();
             else if (key == "const" && value != rule)
@@ -77,6 +82,18 @@ private:
                 return fault;
         }
         return "";
+    }
+
+    // "#/place" in this file or "file#/place" in another.
+    std::string checkReference(const nlohmann::json& value, const std::string& reference,
+                               const std::string& at) const
+    {
+        const size_t hash = reference.find('#');
+        if (hash > 0)
+            return JsonSchema(reference.substr(0, hash))
+                .checkReference(value, reference.substr(hash), at);
+        const nlohmann::json::json_pointer place(reference.substr(1));
+        return check(value, root_.at(place), at);
     }
 
     std::string checkMembers(const nlohmann::json& value, const nlohmann::json& schema,

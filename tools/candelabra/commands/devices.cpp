@@ -30,10 +30,10 @@ int listDevices(bool json)
     const VulkanInstance instance(Validation::Off, Presentation::Headless);
     const std::vector<DeviceInfo> devices = instance.devices();
     if (json) {
-        Json out = Json::array();
+        Json list = Json::array();
         for (const DeviceInfo& device : devices)
-            out.push_back(deviceJson(device));
-        writeJson("-", out);
+            list.push_back(deviceJson(device));
+        writeJson("-", {{"schema", "candelabra devices 1"}, {"devices", list}});
         return exitOk;
     }
     if (devices.empty())

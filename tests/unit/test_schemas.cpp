@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The committed results of the benchmarks are what the schemas say (the commands are run at small
+// sizes in tests/gpu), and what they forbid is found.
+#include <gtest/gtest.h>
+
+#include "harness/json_schema.h"
+
+namespace candelabra::test
+{
+
+namespace
+{
+
+nlohmann::json committedResults(const std::string& name)
+{
+    return nlohmann::json::parse(std::ifstream(CANDELABRA_TEST_DATA "/../../tools/bench/results/" +
+                                               name + "llvmpipe-mesa-22.3.6.json"));
+}
+
+} // namespace
+
+TEST(Schemas, CommittedResultsAreValid)
+{
+    const struct {
+        const char *schema, *results;
+    } cases[] = {{"stress", ""},
+                 {"bench_accuracy", "accuracy-"},
+                 {"bench_culling", "culling-"},
+                 {"bench_skip", "skip-"},
+                 {"bench_stability", "stability-"}};
+    for (const auto& [name, file] : cases) {
+        const JsonSchema schema(std::string(name) + ".schema.json");
+        nlohmann::json json = committedResults(file);
+        json["schema"] = schema.name(); // runs older than the schemas do not name theirs
+        EXPECT_EQ(schema.fault(json), "") << name;
+        json.erase("provenance");
+        EXPECT_NE(schema.fault(json), "") << name;
+    }
+}
+
+TEST(Schemas, ReportsHoldTheFiguresOfTheirCommands)
+{
+    const JsonSchema schema("report.schema.json");
+    nlohmann::json report{{"schema", schema.name()},
+                          {"provenance", committedResults("skip-")["provenance"]}};
+    for (const char* part : {"accuracy", "culling", "skip", "stability"}) {
+        report[part] = committedResults(std::string(part) + "-");
+        report[part].erase("provenance");
+        report[part].erase("schema");
+    }
+    EXPECT_EQ(schema.fault(report), "");
+    report["culling"]["points"][0]["tiles"] = -1;
+    EXPECT_NE(schema.fault(report).find("tiles"), std::string::npos) << schema.fault(report);
+}
+
+} // namespace candelabra::test
