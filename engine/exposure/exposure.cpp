@@ -71,7 +71,7 @@ Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
                                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                        VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     data_ = gpu::createBuffer(device_, "luminance histogram", sizeof(gpu::HistogramData), use,
-                              gpu::MemoryUse::Device);
+                              gpu::MemoryUse::Scratch);
     state_ = gpu::createBuffer(device_, "exposure state", sizeof(gpu::ExposureState), use,
                                gpu::MemoryUse::Device);
     mask_ = gpu::createBuffer(device_, "metering mask", maskBytes,

@@ -45,11 +45,17 @@ Device::Device(const CndDeviceDesc& desc)
       physicalDevice(desc.physicalDevice),
       handle(desc.device),
       pipelineCache(desc.pipelineCache),
-      allocationCallbacks(desc.allocationCallbacks)
+      allocationCallbacks(desc.allocationCallbacks),
+      allocator(desc.allocator)
 {
+    if (desc.structSize != sizeof desc)
+        failArgument("CndDeviceDesc: structSize is " + std::to_string(desc.structSize) +
+                     ", this library expects " + std::to_string(sizeof desc));
     if (!desc.instance || !desc.physicalDevice || !desc.device || !desc.getInstanceProcAddr)
         failArgument("CndDeviceDesc: instance, physicalDevice, device and getInstanceProcAddr must "
                      "not be null");
+    if (!allocator.allocate != !allocator.free)
+        failArgument("CndDeviceDesc: allocator has only one of allocate and free");
 #define X(f)                                                                                       \
     f = reinterpret_cast<PFN_vk##f>(desc.getInstanceProcAddr(instance, "vk" #f));                  \
     if (!f)                                                                                        \

@@ -30,6 +30,7 @@ public:
     VkDevice handle;
     VkPipelineCache pipelineCache;
     const VkAllocationCallbacks* allocationCallbacks;
+    CndAllocator allocator; // allocate is null: memory is ours
     VkPhysicalDeviceLimits limits{};
     // Loop iterations that one shader invocation may do, all its loops together. llvmpipe ends
     // loops silently after 65535 (LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm); no limit

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handle: move-only owner of one Vulkan object. The only place vkDestroy* is called.
+// Handle: move-only owner of one Vulkan object. The only place vkDestroy* is called (memory:
+// gpu/memory.h).
 #pragma once
 
 #include <utility>
@@ -18,7 +19,6 @@ CND_RELEASE(VkBuffer, DestroyBuffer)
 CND_RELEASE(VkBufferView, DestroyBufferView)
 CND_RELEASE(VkDescriptorPool, DestroyDescriptorPool)
 CND_RELEASE(VkDescriptorSetLayout, DestroyDescriptorSetLayout)
-CND_RELEASE(VkDeviceMemory, FreeMemory)
 CND_RELEASE(VkImage, DestroyImage)
 CND_RELEASE(VkImageView, DestroyImageView)
 CND_RELEASE(VkPipeline, DestroyPipeline)

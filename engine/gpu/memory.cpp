@@ -18,6 +18,8 @@ MemoryFlags flagsOf(MemoryUse use)
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     switch (use) {
     case MemoryUse::Device:
+    case MemoryUse::Scratch:
+    case MemoryUse::Image:
         return {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
     case MemoryUse::Upload:
         return {host, 0};
@@ -27,24 +29,87 @@ MemoryFlags flagsOf(MemoryUse use)
     return {};
 }
 
-Handle<VkDeviceMemory> allocate(const Device& device, const VkMemoryRequirements& needs,
-                                MemoryUse use, const std::string& name)
+CndMemoryRequest requestOf(const VkMemoryRequirements& needs, MemoryUse use,
+                           const std::string& name)
 {
     const MemoryFlags flags = flagsOf(use);
+    return {.requirements = needs,
+            .required = flags.required,
+            .preferred = flags.preferred,
+            .kind = CndMemoryKind(use),
+            .name = name.c_str()};
+}
+
+std::string bytesFor(const CndMemoryRequest& request)
+{
+    return std::to_string(request.requirements.size) + " bytes for " + request.name;
+}
+
+bool isMapped(const CndMemoryRequest& request)
+{
+    return request.required & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
+}
+
+// What is wrong with what the host's allocator gave; null: nothing.
+const char* faultOf(const CndMemoryRequest& request, const CndMemory& given)
+{
+    if (!given.memory)
+        return "no memory";
+    if (request.requirements.alignment && given.offset % request.requirements.alignment)
+        return "an offset that is no multiple of the alignment";
+    if (isMapped(request) && !given.mapped)
+        return "memory that is not mapped";
+    return nullptr;
+}
+
+CndMemory fromHost(const CndAllocator& host, const CndMemoryRequest& request)
+{
+    CndMemory out{};
+    const VkResult result = host.allocate(host.user, &request, &out);
+    if (result != VK_SUCCESS)
+        throw Failure{result < 0 ? resultOf(result) : CND_ERROR_OUT_OF_MEMORY, result,
+                      "CndAllocator: allocate failed for " + bytesFor(request) + " (VkResult " +
+                          std::to_string(int(result)) + ")"};
+    if (const char* fault = faultOf(request, out)) {
+        host.free(host.user, out.allocation);
+        failArgument(std::string("CndAllocator: allocate gave ") + fault + " for " + request.name);
+    }
+    return out;
+}
+
+void release(const Device& device, const CndMemory& memory)
+{
+    if (device.allocator.free)
+        device.allocator.free(device.allocator.user, memory.allocation);
+    else
+        device.FreeMemory(device.handle, memory.memory, device.allocationCallbacks);
+}
+
+CndMemory fromDevice(const Device& device, const CndMemoryRequest& request)
+{
+    const VkMemoryRequirements& needs = request.requirements;
     const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                                     .allocationSize = needs.size,
                                     .memoryTypeIndex = device.memoryType(
-                                        needs.memoryTypeBits, flags.required, flags.preferred)};
-    VkDeviceMemory memory{};
-    check(device.AllocateMemory(device.handle, &info, device.allocationCallbacks, &memory),
-          "allocating " + std::to_string(needs.size) + " bytes for " + name);
-    Handle<VkDeviceMemory> owner(device, memory);
-    device.name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name + " memory");
-    return owner;
+                                        needs.memoryTypeBits, request.required, request.preferred)};
+    CndMemory out{};
+    check(device.AllocateMemory(device.handle, &info, device.allocationCallbacks, &out.memory),
+          "allocating " + bytesFor(request));
+    try {
+        device.name(VK_OBJECT_TYPE_DEVICE_MEMORY, out.memory,
+                    std::string(request.name) + " memory");
+        if (isMapped(request))
+            check(device.MapMemory(device.handle, out.memory, 0, VK_WHOLE_SIZE, 0, &out.mapped),
+                  std::string("mapping ") + request.name);
+    } catch (...) {
+        release(device, out);
+        throw;
+    }
+    return out;
 }
 
 void bindImage(const Device& device, const std::string& name, const VkImageCreateInfo& info,
-               Handle<VkImage>& image, Handle<VkDeviceMemory>& memory)
+               Handle<VkImage>& image, Memory& memory)
 {
     VkImage created{};
     check(device.CreateImage(device.handle, &info, device.allocationCallbacks, &created),
@@ -52,8 +117,10 @@ void bindImage(const Device& device, const std::string& name, const VkImageCreat
     image = Handle(device, created);
     VkMemoryRequirements needs{};
     device.GetImageMemoryRequirements(device.handle, created, &needs);
-    memory = allocate(device, needs, MemoryUse::Device, name);
-    check(device.BindImageMemory(device.handle, created, memory.get(), 0),
+    CndMemoryRequest request = requestOf(needs, MemoryUse::Image, name);
+    request.image = created;
+    memory = Memory(device, request);
+    check(device.BindImageMemory(device.handle, created, memory.get(), memory.offset()),
           "binding memory of image " + name);
     device.name(VK_OBJECT_TYPE_IMAGE, created, name);
 }
@@ -77,6 +144,19 @@ Handle<VkImageView> createView(const Device& device, const std::string& name, Vk
 
 } // namespace
 
+Memory::Memory(const Device& device, const CndMemoryRequest& request)
+    : device_(&device),
+      at_(device.allocator.allocate ? fromHost(device.allocator, request)
+                                    : fromDevice(device, request))
+{
+}
+
+Memory::~Memory()
+{
+    if (at_.memory)
+        release(*device_, at_);
+}
+
 Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize size,
                     VkBufferUsageFlags usage, MemoryUse use)
 {
@@ -90,16 +170,14 @@ Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize 
     result.buffer = Handle(device, buffer);
     VkMemoryRequirements needs{};
     device.GetBufferMemoryRequirements(device.handle, buffer, &needs);
-    result.memory = allocate(device, needs, use, name);
-    check(device.BindBufferMemory(device.handle, buffer, result.memory.get(), 0),
-          "binding memory of buffer " + name);
+    CndMemoryRequest request = requestOf(needs, use, name);
+    request.buffer = buffer;
+    result.memory = Memory(device, request);
+    result.mapped = isMapped(request) ? result.memory.mapped() : nullptr;
+    check(
+        device.BindBufferMemory(device.handle, buffer, result.memory.get(), result.memory.offset()),
+        "binding memory of buffer " + name);
     device.name(VK_OBJECT_TYPE_BUFFER, buffer, name);
-    if (use != MemoryUse::Device) {
-        void* data = nullptr;
-        check(device.MapMemory(device.handle, result.memory.get(), 0, VK_WHOLE_SIZE, 0, &data),
-              "mapping buffer " + name);
-        result.mapped = static_cast<std::byte*>(data);
-    }
     return result;
 }
 

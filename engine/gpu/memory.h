@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buffer and Image: rule-of-zero bundles of handles, each with its own allocation.
+// Buffer and Image: rule-of-zero bundles of handles, each with its own memory, from the device or
+// from the host's allocator.
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu/handle.h"
@@ -13,18 +15,47 @@ namespace candelabra::gpu
 {
 
 enum class MemoryUse {
-    Device,   // GPU only
-    Upload,   // host writes once in order, GPU reads; mapped and coherent
-    Readback, // GPU writes, host reads; mapped, coherent, cached where possible
+    Device = CND_MEMORY_BUFFER,     // GPU only
+    Scratch = CND_MEMORY_SCRATCH,   // GPU only; no recording needs what an earlier one left
+    Upload = CND_MEMORY_UPLOAD,     // host writes once in order, GPU reads; mapped and coherent
+    Readback = CND_MEMORY_READBACK, // GPU writes, host reads; mapped, coherent, perhaps cached
+    Image = CND_MEMORY_IMAGE,       // GPU only
+};
+
+// Owner of the memory of one object.
+class Memory
+{
+public:
+    Memory() = default;
+    // Throws Failure.
+    Memory(const Device& device, const CndMemoryRequest& request);
+    Memory(Memory&& other) noexcept
+        : device_(other.device_), at_(std::exchange(other.at_, CndMemory{}))
+    {
+    }
+    Memory& operator=(Memory&& other) noexcept
+    {
+        std::swap(device_, other.device_);
+        std::swap(at_, other.at_);
+        return *this;
+    }
+    ~Memory();
+    VkDeviceMemory get() const { return at_.memory; }
+    VkDeviceSize offset() const { return at_.offset; }
+    std::byte* mapped() const { return static_cast<std::byte*>(at_.mapped); }
+
+private:
+    const Device* device_ = nullptr;
+    CndMemory at_{};
 };
 
 struct Buffer {
     // Members are destroyed in reverse order: the memory goes last.
-    Handle<VkDeviceMemory> memory;
+    Memory memory;
     Handle<VkBuffer> buffer;
     Handle<VkBufferView> texels; // optional R32G32B32A32_SFLOAT view
     VkDeviceSize size = 0;
-    std::byte* mapped = nullptr; // null for MemoryUse::Device
+    std::byte* mapped = nullptr; // null for what is of the GPU only
 
     VkBuffer get() const { return buffer.get(); }
     template <typename T>
@@ -42,7 +73,7 @@ Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize 
 void createTexelView(const Device& device, Buffer& buffer);
 
 struct Image {
-    Handle<VkDeviceMemory> memory;
+    Memory memory;
     Handle<VkImage> image;
     Handle<VkImageView> view;
     VkFormat format = VK_FORMAT_UNDEFINED;
@@ -57,7 +88,7 @@ Image createImage(const Device& device, const std::string& name, VkFormat format
 
 // R32G32B32A32_SFLOAT cube for sampling and for writing in compute.
 struct CubeImage {
-    Handle<VkDeviceMemory> memory;
+    Memory memory;
     Handle<VkImage> image;
     Handle<VkImageView> view;              // a cube, all mips
     std::vector<Handle<VkImageView>> mips; // each an array of six layers, for storage

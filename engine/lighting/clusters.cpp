@@ -108,7 +108,7 @@ Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBud
     blockSets_ = k.blockClusters.createBindings(slots);
     listSets_ = k.clusterLists.createBindings(slots * CND_LIGHT_TYPE_COUNT);
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
-        return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Device);
+        return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Scratch);
     };
     tiles_ = make("tiles", VkDeviceSize(records) * sizeof(gpu::TileClusters), storageUse);
     clusters_ = make("clusters", VkDeviceSize(clusterCount_) * sizeof(gpu::Cluster), storageUse);
@@ -143,7 +143,7 @@ Clusters::Lists Clusters::createLists() const
 {
     const gpu::Device& device = lighting_.device();
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
-        return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Device);
+        return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Scratch);
     };
     return {.heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
             .lit = make("lit tiles", tileWorkBytes(), workUse),
@@ -160,7 +160,7 @@ void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
     if (bytes > nodes_.size) {
         gpu::Buffer grown = gpu::createBuffer(device, "light tree", bytes,
                                               storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                                              gpu::MemoryUse::Device);
+                                              gpu::MemoryUse::Scratch);
         gpu::createTexelView(device, grown);
         lighting_.replace(nodes_, std::move(grown));
     }

@@ -59,7 +59,7 @@ ForwardLights::ForwardLights(const gpu::Device& device, VkShaderStageFlags stage
     : stages_(stages),
       view_(gpu::createBuffer(device, name, sizeof(gpu::ForwardView),
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                              gpu::MemoryUse::Device)),
+                              gpu::MemoryUse::Scratch)),
       sets_(device, name, bindings(), stages, slots)
 {
 }

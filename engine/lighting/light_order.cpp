@@ -38,15 +38,17 @@ LightOrder::LightOrder(const gpu::Device& device)
 
 LightOrder::State LightOrder::createState(uint32_t capacity, const gpu::Buffer& records) const
 {
-    const auto make = [&](const char* name, VkDeviceSize bytes) {
-        return gpu::createBuffer(*device_, name, bytes, storageUse, gpu::MemoryUse::Device);
+    const auto make = [&](const char* name, VkDeviceSize bytes, gpu::MemoryUse use) {
+        return gpu::createBuffer(*device_, name, bytes, storageUse, use);
     };
+    using enum gpu::MemoryUse;
     const uint32_t runs = divideUp(capacity, gpu::SORT_RUN);
     State s;
-    for (gpu::Buffer& keys : s.keys)
-        keys = make("light keys", capacity * sizeof(gpu::LightKey));
-    s.counts = make("sort counts", VkDeviceSize(gpu::SORT_DIGITS) * runs * sizeof(uint32_t));
-    s.sums = make("sort sums", sumCount(runs) * sizeof(uint32_t));
+    s.keys[0] = make("light keys", capacity * sizeof(gpu::LightKey), Device);
+    s.keys[1] = make("other light keys", capacity * sizeof(gpu::LightKey), Scratch);
+    s.counts =
+        make("sort counts", VkDeviceSize(gpu::SORT_DIGITS) * runs * sizeof(uint32_t), Scratch);
+    s.sums = make("sort sums", sumCount(runs) * sizeof(uint32_t), Scratch);
     s.makeKeys = lightKeys_.createBindings(2);
     s.count = count_.createBindings(2);
     s.scatter = scatter_.createBindings(2);

@@ -84,7 +84,7 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     counters_ = gpu::createBuffer(device, "lighting counters", sizeof(gpu::LightingCounters),
                                   storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                  gpu::MemoryUse::Device);
+                                  gpu::MemoryUse::Scratch);
     for (uint32_t i = 0; i < slots; ++i) {
         readback_.push_back(gpu::createBuffer(device, "lighting statistics", sizeof(Readback),
                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,

@@ -20,10 +20,10 @@ void View::makeRoom(const LightTypeCounts& types)
         return;
     gpu::Buffer core = gpu::createBuffer(device, "light core", coreBytes,
                                          storage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                                         gpu::MemoryUse::Device);
+                                         gpu::MemoryUse::Scratch);
     gpu::createTexelView(device, core);
     gpu::Buffer aux =
-        gpu::createBuffer(device, "light aux", auxBytes, storage, gpu::MemoryUse::Device);
+        gpu::createBuffer(device, "light aux", auxBytes, storage, gpu::MemoryUse::Scratch);
     gpu::Buffer ids =
         gpu::createBuffer(device, "light ids", idBytes, storage, gpu::MemoryUse::Device);
     lighting_.replace(ids_, std::move(ids));

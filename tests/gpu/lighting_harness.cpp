@@ -331,6 +331,7 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     for (int i = 0; i < options.frames; ++i) {
         frame.frameSlot = uint32_t(i) % desc.framesInFlight;
         frame.surfacesUnchanged = options.unchanged && i > 0;
+        options.beforeFrame();
         context().submitAndWait([&](VkCommandBuffer cmd) {
             clearRadiance(cmd, images);
             EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_SUCCESS) << error.message;

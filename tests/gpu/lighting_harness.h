@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -86,6 +87,7 @@ struct RunOptions {
     VkDescriptorSet hostSet = VK_NULL_HANDLE;
     bool unchanged = false; // frames after the first promise unchanged surfaces
     uint32_t materialClasses = 0;
+    std::function<void()> beforeFrame = [] {};
 };
 
 class LightingTest : public GpuTest

@@ -156,7 +156,9 @@ std::byte* bytesOf(VkBuffer buffer)
     if (known == mock->buffers.end())
         return nullptr;
     const auto memory = mock->memories.find(known->second.memory);
-    return memory == mock->memories.end() ? nullptr : memory->second.bytes.get();
+    if (memory == mock->memories.end() || !memory->second.bytes)
+        return nullptr;
+    return memory->second.bytes.get() + known->second.offset;
 }
 
 void use(VkBuffer buffer)
@@ -245,12 +247,16 @@ struct Override {
         return VK_SUCCESS;
     }
     static VkResult VKAPI_CALL BindBufferMemory(VkDevice, VkBuffer buffer, VkDeviceMemory memory,
-                                                VkDeviceSize)
+                                                VkDeviceSize offset)
     {
         const Call c("BindBufferMemory", true);
         if (c.fails())
             return mock->error;
-        mock->buffers[buffer].memory = memory;
+        MockVulkan::Buffer& b = mock->buffers[buffer];
+        b.memory = memory;
+        b.offset = offset;
+        if (offset + b.size > mock->memories[memory].size)
+            misuse("a buffer beyond the end of its memory");
         return VK_SUCCESS;
     }
     static VkResult VKAPI_CALL BindImageMemory(VkDevice, VkImage, VkDeviceMemory, VkDeviceSize)

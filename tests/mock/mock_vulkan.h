@@ -62,6 +62,7 @@ public:
     struct Buffer {
         VkDeviceSize size = 0;
         VkDeviceMemory memory = VK_NULL_HANDLE;
+        VkDeviceSize offset = 0; // in it
     };
     std::map<VkBuffer, Buffer> buffers;
 

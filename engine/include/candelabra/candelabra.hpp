@@ -115,6 +115,13 @@ Result<Object> create(Function function, From from, Desc desc) noexcept
     return Object(handle);
 }
 
+template <typename Object, typename Function, typename Desc>
+Result<Object> createOn(CndDeviceDesc device, Function function, const Desc& desc) noexcept
+{
+    device.structSize = sizeof device;
+    return create<Object>(function, &device, desc);
+}
+
 // Calls an ABI function that fills in the statistics of a frame slot.
 template <typename Stats, typename Function, typename H>
 Result<std::optional<Stats>> stats(Function function, H handle, uint32_t frameSlot) noexcept
@@ -200,7 +207,7 @@ public:
     static Result<Lighting> create(const CndDeviceDesc& device,
                                    const CndLightingDesc& desc) noexcept
     {
-        return detail::create<Lighting>(cndCreateLighting, &device, desc);
+        return detail::createOn<Lighting>(device, cndCreateLighting, desc);
     }
     // `origin`: what the lights' positions are relative to, world space.
     Result<void> setLights(std::span<const CndLight> lights, const double (&origin)[3]) noexcept
@@ -268,7 +275,7 @@ public:
     static Result<Environment> create(const CndDeviceDesc& device,
                                       const CndEnvironmentDesc& desc) noexcept
     {
-        return detail::create<Environment>(cndCreateEnvironment, &device, desc);
+        return detail::createOn<Environment>(device, cndCreateEnvironment, desc);
     }
     Result<void> recordMap(VkCommandBuffer cmd, CndEnvironmentMap map) const noexcept
     {
@@ -295,7 +302,7 @@ public:
     static Result<Exposure> create(const CndDeviceDesc& device,
                                    const CndExposureDesc& desc) noexcept
     {
-        return detail::create<Exposure>(cndCreateExposure, &device, desc);
+        return detail::createOn<Exposure>(device, cndCreateExposure, desc);
     }
     Result<void> setMask(std::span<const uint8_t> weights, uint32_t width, uint32_t height) noexcept
     {

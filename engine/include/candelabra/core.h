@@ -43,6 +43,51 @@ typedef struct CndError {
 // Version of the library that was linked, as CND_MAKE_VERSION.
 CND_API uint32_t cndGetVersion(void);
 
+// What memory is for.
+typedef enum CndMemoryKind {
+    CND_MEMORY_BUFFER = 0, // buffers of the GPU alone
+    // The same, but no recording reads what an earlier one left there, except for what the host
+    // asks to be kept: by CndLightingFrame::surfacesUnchanged, and a forward set until it was used.
+    // May lie over other memory of the host's that is not in use meanwhile; the host then orders
+    // both uses (stages COMPUTE_SHADER, DRAW_INDIRECT and ALL_TRANSFER, all their accesses).
+    CND_MEMORY_SCRATCH = 1,
+    CND_MEMORY_UPLOAD = 2,   // buffers that the host writes, in order, and the GPU reads
+    CND_MEMORY_READBACK = 3, // buffers that the GPU writes and the host reads: statistics
+    CND_MEMORY_IMAGE = 4,    // images of optimal tiling, of the GPU alone
+    CND_MEMORY_KIND_COUNT = 5,
+    CND_MEMORY_KIND_MAX_ENUM = 0x7FFFFFFF
+} CndMemoryKind;
+
+// Memory for one object, which exists; the module binds it.
+typedef struct CndMemoryRequest {
+    VkMemoryRequirements requirements;
+    VkMemoryPropertyFlags required;  // the memory type has all of these
+    VkMemoryPropertyFlags preferred; // and these too where there is such a type
+    CndMemoryKind kind;
+    VkBuffer buffer;  // for a dedicated allocation; VK_NULL_HANDLE for an image
+    VkImage image;    // the same; VK_NULL_HANDLE for a buffer
+    const char* name; // of the object; only until the call returns
+} CndMemoryRequest;
+
+// Where the object goes.
+typedef struct CndMemory {
+    VkDeviceMemory memory;
+    VkDeviceSize offset; // bytes, a multiple of requirements.alignment
+    void* mapped;        // at offset; not NULL where `required` has HOST_VISIBLE
+    void* allocation;    // the host's own: what `free` is given
+} CndMemory;
+
+// All device memory comes from the host, and goes back to it. Neither function may throw. They are
+// called in cndCreate..., in calls that set or edit lights, and in cndDestroy..., by the thread
+// that makes the call; never while recording.
+typedef struct CndAllocator {
+    // VK_SUCCESS and `memory` filled in, or an error, which the call that needed it then reports.
+    VkResult (*allocate)(void* user, const CndMemoryRequest* request, CndMemory* memory);
+    // The GPU has finished with it and the object is gone.
+    void (*free)(void* user, void* allocation);
+    void* user;
+} CndAllocator;
+
 // Borrowed handles; they must outlive every object created from them.
 typedef struct CndDeviceDesc {
     uint32_t structSize;
@@ -53,7 +98,8 @@ typedef struct CndDeviceDesc {
     VkPipelineCache pipelineCache;                    // may be VK_NULL_HANDLE
     const VkAllocationCallbacks* allocationCallbacks; // may be NULL
     VkBool32
-        debugUtilsEnabled; // VK_EXT_debug_utils is enabled on the instance: name and label objects
+        debugUtilsEnabled;  // VK_EXT_debug_utils is enabled on the instance: name and label objects
+    CndAllocator allocator; // copied; all zero: the modules call vkAllocateMemory for every object
 } CndDeviceDesc;
 
 // Writes into `missing` (comma separated, zero terminated, truncated at missingSize) what the

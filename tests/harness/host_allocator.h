@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// A host's allocator (CndAllocator): places everything in large blocks, one behind the other, in
+// memory that holds garbage. It sees the device through the host's functions alone.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "candelabra/candelabra.h"
+
+namespace candelabra::test
+{
+
+class HostAllocator
+{
+public:
+    HostAllocator(const CndDeviceDesc& host, VkDeviceSize blockBytes)
+        : host_(host), blockBytes_(blockBytes)
+    {
+        instanceFunction<PFN_vkGetPhysicalDeviceMemoryProperties>(
+            "vkGetPhysicalDeviceMemoryProperties")(host.physicalDevice, &types_);
+    }
+    // Nothing may be in use.
+    ~HostAllocator()
+    {
+        const auto free = deviceFunction<PFN_vkFreeMemory>("vkFreeMemory");
+        for (const auto& [where, blocks] : blocks_)
+            for (const Block& block : blocks)
+                free(host_.device, block.memory, host_.allocationCallbacks);
+    }
+    HostAllocator(const HostAllocator&) = delete;
+    HostAllocator& operator=(const HostAllocator&) = delete;
+
+    // The host's device, with this allocator.
+    CndDeviceDesc desc()
+    {
+        CndDeviceDesc out = host_;
+        out.allocator = {
+            .allocate =
+                [](void* user, const CndMemoryRequest* request, CndMemory* memory) {
+                    return static_cast<HostAllocator*>(user)->allocate(*request, *memory);
+                },
+            .free =
+                [](void* user, void* allocation) {
+                    static_cast<HostAllocator*>(user)->free(reinterpret_cast<uint64_t>(allocation));
+                },
+            .user = this};
+        return out;
+    }
+
+    struct Placed {
+        std::string name;
+        CndMemoryKind kind;
+        VkMemoryRequirements requirements;
+        CndMemory at;
+    };
+    std::map<uint64_t, Placed> live; // by number
+    uint64_t allocations = 0;        // calls
+    uint64_t unknownFrees = 0;
+    // What a request gets instead of memory, unless it is VK_SUCCESS.
+    std::function<VkResult(const CndMemoryRequest&)> refuse = [](const auto&) {
+        return VK_SUCCESS;
+    };
+    // Changes what is given.
+    std::function<void(CndMemory&)> spoil = [](CndMemory&) {};
+
+    // Fills what lives of a kind, where the CPU can.
+    void fill(CndMemoryKind kind, int byte)
+    {
+        for (const auto& [number, placed] : live)
+            if (placed.kind == kind && placed.at.mapped)
+                std::memset(placed.at.mapped, byte, size_t(placed.requirements.size));
+    }
+
+private:
+    struct Block {
+        VkDeviceMemory memory;
+        VkDeviceSize size, used;
+        std::byte* mapped; // null: the CPU cannot
+    };
+
+    template <typename F>
+    F instanceFunction(const char* name) const
+    {
+        return reinterpret_cast<F>(host_.getInstanceProcAddr(host_.instance, name));
+    }
+    template <typename F>
+    F deviceFunction(const char* name) const
+    {
+        return reinterpret_cast<F>(
+            instanceFunction<PFN_vkGetDeviceProcAddr>("vkGetDeviceProcAddr")(host_.device, name));
+    }
+
+    // One that the CPU sees where there is one; UINT32_MAX: none fits.
+    uint32_t memoryType(const CndMemoryRequest& request) const
+    {
+        constexpr VkMemoryPropertyFlags visible =
+            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+        for (const VkMemoryPropertyFlags wanted : {request.required | visible, request.required})
+            for (uint32_t i = 0; i < types_.memoryTypeCount; ++i)
+                if ((request.requirements.memoryTypeBits >> i & 1) &&
+                    (types_.memoryTypes[i].propertyFlags & wanted) == wanted)
+                    return i;
+        return UINT32_MAX;
+    }
+
+    VkResult newBlock(uint32_t type, VkDeviceSize size, Block& block)
+    {
+        const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                        .allocationSize = std::max(size, blockBytes_),
+                                        .memoryTypeIndex = type};
+        block = {.size = info.allocationSize};
+        const VkResult result = deviceFunction<PFN_vkAllocateMemory>("vkAllocateMemory")(
+            host_.device, &info, host_.allocationCallbacks, &block.memory);
+        if (result != VK_SUCCESS ||
+            !(types_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT))
+            return result;
+        void* mapped = nullptr;
+        const VkResult mapping = deviceFunction<PFN_vkMapMemory>("vkMapMemory")(
+            host_.device, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped);
+        block.mapped = static_cast<std::byte*>(mapped);
+        return mapping;
+    }
+
+    VkResult allocate(const CndMemoryRequest& request, CndMemory& out)
+    {
+        ++allocations;
+        if (const VkResult result = refuse(request); result != VK_SUCCESS)
+            return result;
+        const uint32_t type = memoryType(request);
+        if (type == UINT32_MAX)
+            return VK_ERROR_FEATURE_NOT_PRESENT;
+        const VkMemoryRequirements& needs = request.requirements;
+        const auto start = [&](const Block& b) {
+            return (b.used + needs.alignment - 1) / needs.alignment * needs.alignment;
+        };
+        std::vector<Block>& blocks = blocks_[{type, request.image != VK_NULL_HANDLE}];
+        if (blocks.empty() || start(blocks.back()) + needs.size > blocks.back().size) {
+            Block block{};
+            if (const VkResult result = newBlock(type, needs.size, block); result != VK_SUCCESS)
+                return result;
+            blocks.push_back(block);
+        }
+        Block& block = blocks.back();
+        const VkDeviceSize offset = start(block);
+        block.used = offset + needs.size;
+        out = {.memory = block.memory,
+               .offset = offset,
+               .mapped = block.mapped ? block.mapped + offset : nullptr,
+               .allocation = reinterpret_cast<void*>(allocations)}; // NOLINT
+        if (out.mapped)
+            std::memset(out.mapped, 0xCD, size_t(needs.size));
+        live[allocations] = {request.name, request.kind, needs, out};
+        spoil(out);
+        return VK_SUCCESS;
+    }
+
+    void free(uint64_t number) { unknownFrees += !live.erase(number); }
+
+    CndDeviceDesc host_;
+    VkDeviceSize blockBytes_;
+    VkPhysicalDeviceMemoryProperties types_{};
+    std::map<std::pair<uint32_t, bool>, std::vector<Block>> blocks_; // by type; images apart
+};
+
+} // namespace candelabra::test

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mock/host_steps.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+namespace candelabra::test
+{
+namespace
+{
+
+constexpr uint32_t firstCount = 3, secondCount = 3000; // the second set needs larger buffers
+
+CndResult setLights(Host& h, CndLightType type, uint32_t count, CndError* error)
+{
+    CndLight light{.type = uint32_t(type), .radius = 0.1f, .influenceRadius = 5};
+    light.axisU[0] = 0.5f;
+    std::vector<CndLight> lights;
+    {
+        const HostAllocations::Pause host;
+        lights.assign(count, light);
+    }
+    const CndLightSet set{.structSize = sizeof set, .count = count, .lights = lights.data()};
+    const CndResult result = cndSetLights(h.lighting, &set, error);
+    if (result == CND_SUCCESS)
+        h.lightCount = count;
+    const HostAllocations::Pause host;
+    lights = {};
+    return result;
+}
+
+CndCamera camera()
+{
+    CndCamera c{};
+    for (int i = 0; i < 4; ++i)
+        c.viewFromWorld[5 * i] = 1;
+    c.clipFromView[0] = 1;
+    c.clipFromView[5] = -1;
+    c.clipFromView[11] = -1;
+    c.clipFromView[14] = 0.1f;
+    return c;
+}
+
+template <typename Frame>
+Frame surfaces()
+{
+    const VkImageView any = MockVulkan::imageView();
+    return {.structSize = sizeof(Frame),
+            .width = 64,
+            .height = 48,
+            .camera = camera(),
+            .normalRoughness = any,
+            .albedo = any,
+            .specular = any,
+            .depth = any,
+            .radiance = any};
+}
+
+CndResult recordTubes(Host& h, CndError* error)
+{
+    CndLightingFrame frame = surfaces<CndLightingFrame>();
+    frame.frameSlot = 1;
+    frame.specularMethod = CND_SPECULAR_CONIC;
+    return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
+}
+
+bool reportsSentence(const std::string& step)
+{
+    return step.find("statistics") == std::string::npos;
+}
+
+} // namespace
+
+void Host::destroy()
+{
+    cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+    cndDestroyExposure(exposure);
+    cndDestroyEnvironment(environment);
+    view = nullptr;
+    lighting = nullptr;
+    exposure = nullptr;
+    environment = nullptr;
+}
+
+const std::vector<Step>& steps()
+{
+    static const std::vector<Step> all = {
+        {"create lighting", false,
+         [](Host& h, CndError* error) {
+             const CndLightingDesc desc{.structSize = sizeof desc,
+                                        .framesInFlight = 2,
+                                        .gbufferLayout = CND_GBUFFER_HOST,
+                                        .timestamps = true,
+                                        .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A},
+                                        .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT};
+             return cndCreateLighting(&h.device, &desc, &h.lighting, error);
+         }},
+        {"create view", false,
+         [](Host& h, CndError* error) {
+             const CndLightingViewDesc desc{
+                 .structSize = sizeof desc, .maxWidth = 64, .maxHeight = 48};
+             return cndCreateLightingView(h.lighting, &desc, &h.view, error);
+         }},
+        {"create exposure", false,
+         [](Host& h, CndError* error) {
+             const CndExposureDesc desc{
+                 .structSize = sizeof desc, .framesInFlight = 2, .timestamps = true};
+             return cndCreateExposure(&h.device, &desc, &h.exposure, error);
+         }},
+        {"create environment", false,
+         [](Host& h, CndError* error) {
+             const CndEnvironmentDesc desc{.structSize = sizeof desc,
+                                           .framesInFlight = 2,
+                                           .gbufferLayout = CND_GBUFFER_HOST,
+                                           .timestamps = true,
+                                           .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A}};
+             return cndCreateEnvironment(&h.device, &desc, &h.environment, error);
+         }},
+        {"set lights", false,
+         [](Host& h, CndError* error) {
+             return setLights(h, CND_LIGHT_SPHERE, firstCount, error);
+         }},
+        {"record", true,
+         [](Host& h, CndError* error) {
+             CndLightingFrame frame = surfaces<CndLightingFrame>();
+             frame.specularMethod = CND_SPECULAR_CONIC;
+             frame.countPairs = VK_TRUE;
+             return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
+         }},
+        {"record overlay", true,
+         [](Host& h, CndError* error) {
+             const CndLightingFrame frame = surfaces<CndLightingFrame>();
+             const CndSurfaceOverlay overlay{.structSize = sizeof overlay,
+                                             .image = MockVulkan::imageView()};
+             return cndRecordSurfaceOverlay(h.view, MockVulkan::commandBuffer(), &frame, &overlay,
+                                            error);
+         }},
+        {"set more lights of another type", false,
+         [](Host& h, CndError* error) { return setLights(h, CND_LIGHT_TUBE, secondCount, error); }},
+        {"record the other lights", true, recordTubes},
+        {"update lights", false,
+         [](Host& h, CndError* error) {
+             const CndLight light{.type = CND_LIGHT_TUBE,
+                                  .radius = 0.2f,
+                                  .influenceRadius = 6,
+                                  .axisU = {0.5f, 0, 0}};
+             const CndLightId id = secondCount / 2;
+             return cndUpdateLights(h.lighting, 1, &id, &light, error);
+         }},
+        {"record the updated lights", true, recordTubes},
+        {"add lights of another type", false, // to full buffers
+         [](Host& h, CndError* error) {
+             const CndLight light{.type = CND_LIGHT_DISC,
+                                  .radius = 0.1f,
+                                  .direction = {0, 0, 1},
+                                  .influenceRadius = 5};
+             const CndLight lights[] = {light, light};
+             const CndResult result = cndAddLights(h.lighting, 2, lights, h.added, error);
+             if (result == CND_SUCCESS)
+                 h.lightCount += 2;
+             return result;
+         }},
+        {"record the added lights", true, recordTubes},
+        {"remove lights", false,
+         [](Host& h, CndError* error) {
+             const CndLightId ids[] = {0, h.added[0], secondCount / 2};
+             const CndResult result = cndRemoveLights(h.lighting, 3, ids, error);
+             if (result == CND_SUCCESS)
+                 h.lightCount -= 3;
+             return result;
+         }},
+        {"record what is left", true, recordTubes},
+        {"record exposure", true,
+         [](Host& h, CndError* error) {
+             CndExposureFrame frame{.structSize = sizeof frame,
+                                    .width = 64,
+                                    .height = 48,
+                                    .radiance = MockVulkan::imageView(),
+                                    .display = MockVulkan::imageView()};
+             cndDefaultExposureSettings(&frame.settings);
+             return cndRecordExposure(h.exposure, MockVulkan::commandBuffer(), &frame, error);
+         }},
+        {"record environment map", true,
+         [](Host& h, CndError* error) {
+             const CndEnvironmentMap map{.structSize = sizeof map,
+                                         .width = 32,
+                                         .height = 16,
+                                         .equirectangular = MockVulkan::imageView()};
+             return cndRecordEnvironmentMap(h.environment, MockVulkan::commandBuffer(), &map,
+                                            error);
+         }},
+        {"record environment", true,
+         [](Host& h, CndError* error) {
+             CndEnvironmentFrame frame = surfaces<CndEnvironmentFrame>();
+             for (int i = 0; i < 3; ++i)
+                 frame.worldFromEnvironment[4 * i] = 1;
+             frame.scale = 1;
+             return cndRecordEnvironment(h.environment, MockVulkan::commandBuffer(), &frame, error);
+         }},
+        {"lighting statistics", false,
+         [](Host& h, CndError*) {
+             CndLightingStats stats{.structSize = sizeof stats};
+             return cndGetLightingStats(h.view, 1, &stats);
+         }},
+        {"exposure statistics", false,
+         [](Host& h, CndError*) {
+             CndExposureStats stats{.structSize = sizeof stats};
+             return cndGetExposureStats(h.exposure, 0, &stats);
+         }},
+        {"environment statistics", false,
+         [](Host& h, CndError*) {
+             CndEnvironmentStats stats{.structSize = sizeof stats};
+             return cndGetEnvironmentStats(h.environment, 0, &stats);
+         }},
+    };
+    return all;
+}
+
+// A step, and on a device that is infinitely fast what it recorded.
+CndResult runStep(const Step& step, Host& h, CndError* error)
+{
+    const CndResult result = step.run(h, error);
+    const HostAllocations::Pause host;
+    if (step.records && result == CND_SUCCESS)
+        h.vulkan.finish(h.vulkan.submit());
+    return result;
+}
+
+CndResult recordAgain(Host& h, CndError* error)
+{
+    const auto record = std::find_if(steps().begin(), steps().end(), [](const Step& step) {
+        return std::strcmp(step.name, "record") == 0;
+    });
+    return runStep(*record, h, error);
+}
+
+std::string runSteps(Host& h, CndResult expected, VkResult expectedVulkan)
+{
+    std::string failedStep;
+    for (const Step& step : steps()) {
+        CndError error{};
+        const uint32_t lightsBefore = h.lightCount;
+        CndResult result = runStep(step, h, &error);
+        if (h.vulkan.failed.empty() || !failedStep.empty()) {
+            EXPECT_EQ(result, CND_SUCCESS) << step.name << ": " << error.message;
+            continue;
+        }
+        failedStep = step.name;
+        EXPECT_EQ(result, expected) << step.name << ", " << h.vulkan.failed;
+        if (reportsSentence(step.name)) {
+            EXPECT_EQ(error.vkResult, expectedVulkan) << step.name << ", " << h.vulkan.failed;
+            EXPECT_GT(std::strlen(error.message), 10u) << step.name << ", " << h.vulkan.failed;
+        }
+        // The set of lights before it still stands, and can be recorded.
+        if (h.view && lightsBefore) {
+            EXPECT_EQ(recordAgain(h, &error), CND_SUCCESS) << error.message;
+            CndLightingStats stats{.structSize = sizeof stats};
+            EXPECT_EQ(cndGetLightingStats(h.view, 0, &stats), CND_SUCCESS);
+            EXPECT_EQ(stats.lightCount, h.lightCount);
+        }
+        result = runStep(step, h, &error);
+        EXPECT_EQ(result, CND_SUCCESS) << "again: " << step.name << ": " << error.message;
+    }
+    return failedStep;
+}
+
+void expectClean(Host& h, const std::string& where)
+{
+    h.destroy();
+    for (const auto& [handle, kind] : h.vulkan.alive)
+        ADD_FAILURE() << kind << " " << handle << " leaked, " << where;
+    for (const std::string& what : h.vulkan.misuse)
+        ADD_FAILURE() << what << ", " << where;
+}
+
+} // namespace candelabra::test
