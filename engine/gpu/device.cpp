@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/device.h"
 
+#include <cstdarg>
+#include <cstdio>
+
 namespace candelabra::gpu
 {
 namespace
@@ -46,7 +49,9 @@ Device::Device(const CndDeviceDesc& desc)
       handle(desc.device),
       pipelineCache(desc.pipelineCache),
       allocationCallbacks(desc.allocationCallbacks),
-      allocator(desc.allocator)
+      allocator(desc.allocator),
+      message(desc.message),
+      messageUser(desc.messageUser)
 {
     if (desc.structSize != sizeof desc)
         failArgument("CndDeviceDesc: structSize is " + std::to_string(desc.structSize) +
@@ -72,6 +77,9 @@ Device::Device(const CndDeviceDesc& desc)
 #define X(f) f = reinterpret_cast<PFN_vk##f>(desc.getInstanceProcAddr(instance, "vk" #f));
         CND_DEBUG_FUNCTIONS(X)
 #undef X
+        if (!SetDebugUtilsObjectNameEXT)
+            say(CND_MESSAGE_WARNING, "CndDeviceDesc: debugUtilsEnabled is set, but there is no "
+                                     "vkSetDebugUtilsObjectNameEXT: objects have no names");
     }
     VkPhysicalDeviceDriverProperties driver{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
@@ -94,6 +102,18 @@ void Device::name(VkObjectType type, uint64_t object, const std::string& text) c
                                              .objectHandle = object,
                                              .pObjectName = text.c_str()};
     SetDebugUtilsObjectNameEXT(handle, &info);
+}
+
+void Device::say(CndMessageSeverity severity, const char* format, ...) const noexcept
+{
+    if (!message)
+        return;
+    char sentence[512];
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    message(messageUser, severity, sentence);
 }
 
 void Device::beginLabel(VkCommandBuffer cmd, const char* text) const

@@ -30,7 +30,9 @@ public:
     VkDevice handle;
     VkPipelineCache pipelineCache;
     const VkAllocationCallbacks* allocationCallbacks;
-    CndAllocator allocator; // allocate is null: memory is ours
+    CndAllocator allocator;     // allocate is null: memory is ours
+    CndMessageCallback message; // may be null
+    void* messageUser;
     VkPhysicalDeviceLimits limits{};
     // Loop iterations that one shader invocation may do, all its loops together. llvmpipe ends
     // loops silently after 65535 (LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm); no limit
@@ -45,6 +47,9 @@ public:
     {
         name(type, reinterpret_cast<uint64_t>(object), text);
     }
+    // A sentence for the host's log, as of printf.
+    [[gnu::format(printf, 3, 4)]] void say(CndMessageSeverity severity, const char* format,
+                                           ...) const noexcept;
     void beginLabel(VkCommandBuffer cmd, const char* text) const;
     void endLabel(VkCommandBuffer cmd) const;
 

@@ -30,8 +30,15 @@ uint64_t validBits(const Device& device)
 Timer::Timer(const Device& device, const char* name, uint32_t slots, bool enabled)
     : device_(&device), slots_(slots)
 {
-    if (!enabled || !device.limits.timestampComputeAndGraphics)
+    if (!enabled)
         return;
+    if (!device.limits.timestampComputeAndGraphics) {
+        device.say(CND_MESSAGE_WARNING,
+                   "%s: timestamps were asked for, but not all queues of the device have them: "
+                   "there will be no kernel times",
+                   name);
+        return;
+    }
     tickMask_ = validBits(device);
     const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,

@@ -99,6 +99,11 @@ Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBud
     // keep one cluster: as right, only less tight, and which they are depends on the schedule.
     splitCapacity_ =
         uint32_t(std::min<VkDeviceSize>(splitCapacity_, (largest - fixed) / gpu::SLICES));
+    if (splitCapacity_ < area(maxTiles))
+        device.say(CND_MESSAGE_INFO,
+                   "cndCreateLightingView: maxStorageBufferRange has room for slices of depth in "
+                   "%u of %u tiles: deep tiles beyond that have longer lists",
+                   splitCapacity_, area(maxTiles));
     clusterCount_ = uint32_t(fixed) + splitCapacity_ * gpu::SLICES;
     const uint32_t slots = lighting.desc().framesInFlight;
     const ClusterKernels& k = lighting.kernels().clusters;

@@ -13,7 +13,7 @@ namespace
 
 // Light buffers start with this capacity and grow by half, so that a growing scene reallocates
 // rarely; the smallest is 64 + 64 bytes per light.
-constexpr uint32_t minCapacity = 1024;
+constexpr uint32_t defaultCapacity = 1024;
 
 // Where lights are is looked up again after as many edits as this share of them: that costs as much
 // as sorting 1024 numbers four times.
@@ -70,13 +70,21 @@ void Lighting::removeLights(std::span<const CndLightId> ids)
     finishEdit(counts, {}, ids.size());
 }
 
+void Lighting::requirePipelines(const LightTypeCounts& counts)
+{
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (counts[type] && kernels_.shade.require(type))
+            device_.say(CND_MESSAGE_INFO,
+                        "lights of CndLightType %u are new: their pipelines were made now, while "
+                        "the lights were set; CndLightingDesc::lightTypes makes them at creation",
+                        type);
+}
+
 // All of an edit that can fail. `counts`: of the set with it.
 LightTable::Records Lighting::prepareEdit(const LightTypeCounts& counts, size_t edits, size_t added)
 {
     const uint32_t count = lightCount_ + uint32_t(added);
-    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (counts[type])
-            kernels_.shade.require(type);
+    requirePipelines(counts);
     freeRetired();
     lights_.reserveEdits(edits, added);
     std::shared_ptr<gpu::Bindings> bindings;
@@ -131,7 +139,12 @@ Lighting::Staging& Lighting::freeStaging()
     for (Staging& staging : store_.staging)
         if (staging.recording < running)
             return staging;
-    return store_.staging.emplace_back(createStaging(lightCapacity_));
+    store_.staging.emplace_back(createStaging(lightCapacity_));
+    device_.say(CND_MESSAGE_INFO,
+                "lights have %zu staging buffers of %llu bytes now, because frames in flight "
+                "still read the others",
+                store_.staging.size(), (unsigned long long)store_.staging.back().buffer.size);
+    return store_.staging.back();
 }
 
 gpu::Buffer Lighting::createStaging(uint32_t capacity) const
@@ -160,7 +173,8 @@ void Lighting::grow(uint32_t count, const LightTypeCounts& counts, bool keepReco
             view->makeRoom(counts);
         return;
     }
-    const uint32_t wanted = std::max({count, minCapacity, lightCapacity_ + lightCapacity_ / 2});
+    const uint32_t least = desc_.lightCapacity ? desc_.lightCapacity : defaultCapacity;
+    const uint32_t wanted = std::max({count, least, lightCapacity_ + lightCapacity_ / 2});
     const uint32_t previous = lightCapacity_;
     const uint32_t capacity = std::min(wanted, maxLights(device_.limits));
     // Everything is allocated before anything is replaced: a failure leaves the old set in place.
@@ -187,6 +201,11 @@ void Lighting::grow(uint32_t count, const LightTypeCounts& counts, bool keepReco
     if (!keepRecords)
         carriedFrom_ = VK_NULL_HANDLE;
     pending_ = keepStaging ? &staging : nullptr;
+    if (previous)
+        device_.say(CND_MESSAGE_INFO,
+                    "buffers of lights grew from room for %u to room for %u lights; "
+                    "CndLightingDesc::lightCapacity makes room at creation",
+                    previous, capacity);
 }
 
 void Lighting::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept

@@ -27,6 +27,8 @@ CndLightingDesc checked(CndLightingDesc desc)
         gpu::failArgument("CndLightingDesc: materialClasses has bits beyond CndMaterialClass");
     if (!desc.specularMethods)
         desc.specularMethods = 1u << CND_SPECULAR_CONIC;
+    if (desc.lightTypes >> CND_LIGHT_TYPE_COUNT)
+        gpu::failArgument("CndLightingDesc: lightTypes has bits beyond the last CndLightType");
     return desc;
 }
 
@@ -79,7 +81,28 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       forwardLayout_(createForwardLayout(device_, desc_.forwardStages)),
       deviceLights_(device_)
 {
+    requireRoom("CndLightingDesc: lightCapacity", desc_.lightCapacity);
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (withReserved({})[type])
+            kernels_.shade.require(type);
     grow(0, {}, false);
+    if (const uint32_t batch = lightsPerBatch(0); batch != UINT32_MAX)
+        device_.say(CND_MESSAGE_INFO,
+                    "cndCreateLighting: the device ends loops after %u iterations: lists of more "
+                    "than %u lights are shaded in parts, slower",
+                    device_.maxLoopIterations, batch);
+    if (!lightsAsTexels(device_))
+        device_.say(CND_MESSAGE_INFO,
+                    "cndCreateLighting: maxTexelBufferElements is %u: lights are read from storage "
+                    "buffers, which may be slower",
+                    device_.limits.maxTexelBufferElements);
+}
+
+LightTypeCounts Lighting::withReserved(LightTypeCounts types) const noexcept
+{
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        types[type] += desc_.lightTypes >> type & 1;
+    return types;
 }
 
 // Shading a list takes at most this many loop iterations per light: a test, a turn in each of four
@@ -133,9 +156,7 @@ void Lighting::setLights(const CndLightSet& set)
         ReachBox& box = reach[device->type]; // nobody here knows where they are
         box = endlessReach(box.layers | layersOf(device->layers));
     }
-    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (counts[type])
-            kernels_.shade.require(type);
+    requirePipelines(counts);
     freeRetired();
     lights_.reserveSet(set.count);
     std::shared_ptr<gpu::Bindings> bindings;

@@ -109,6 +109,8 @@ public:
     bool deviceLightsChanged() const { return deviceLightsPending_; }
     bool albedoTableFilled() const { return dfg_.filled(); }
     const double* origin() const { return origin_; }
+    // The types of a set and those that creation made ready.
+    LightTypeCounts withReserved(LightTypeCounts types) const noexcept;
     // Lights that one walk may take, at most: all, unless the device limits loops.
     // `loopIterations`: that evaluating one light takes.
     uint32_t lightsPerBatch(uint32_t loopIterations) const;
@@ -135,6 +137,7 @@ private:
     gpu::Buffer createStaging(uint32_t capacity) const;
     Staging& freeStaging();
     void requireRoom(const char* what, uint64_t count) const;
+    void requirePipelines(const LightTypeCounts& counts);
     LightTable::Records prepareEdit(const LightTypeCounts& counts, size_t edits, size_t added);
     void finishEdit(const LightTypeCounts& counts, std::span<const CndLight> lights,
                     size_t edits) noexcept;
@@ -187,6 +190,8 @@ public:
     void recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
                        const CndSurfaceOverlay& overlay);
     CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
+    // Tells the host of statistics that it should do something about, once.
+    void tell(const CndLightingStats& stats) const noexcept;
     VkDescriptorSet forwardSet(uint32_t slot) const; // throws gpu::Failure when there is none
     // Called by Lighting before a set of lights: buffers grow, old ones are retired.
     void makeRoom(const LightTypeCounts& types);
@@ -258,6 +263,8 @@ private:
     std::vector<gpu::Buffer> readback_; // per slot
     std::vector<SlotState> slots_;
     ListsKey lists_; // of the frame recorded last
+    mutable bool toldUnlisted_ = false;
+    mutable uint64_t toldRejected_ = 0; // light set
 };
 
 } // namespace candelabra::lighting

@@ -56,10 +56,12 @@ ShadeKernels::ShadeKernels(const gpu::Device& device, const HostKernels& host, u
     require(CND_LIGHT_SPHERE);
 }
 
-void ShadeKernels::require(uint32_t lightType)
+bool ShadeKernels::require(uint32_t lightType)
 {
-    if (!types_[lightType].made)
-        types_[lightType] = make(lightType);
+    if (types_[lightType].made)
+        return false;
+    types_[lightType] = make(lightType);
+    return true;
 }
 
 bool isDistant(uint32_t lightType)

@@ -36,8 +36,8 @@ public:
     // `gbuffer`: value of SPEC_GBUFFER. `tileClasses`: as of tileClassesOf. `host` must outlive it.
     ShadeKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
                  uint32_t methods, uint32_t tileClasses);
-    // Makes the pipelines of a light type unless they exist.
-    void require(uint32_t lightType);
+    // Makes the pipelines of a light type unless they exist; whether it did.
+    bool require(uint32_t lightType);
 
     bool allows(CndSpecularMethod method) const { return methods_ >> method & 1; }
     // Of the tiles of one class.

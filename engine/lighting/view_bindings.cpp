@@ -12,7 +12,7 @@ void View::makeRoom(const LightTypeCounts& types)
     constexpr VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     const gpu::Device& device = lighting_.device();
     const VkDeviceSize lights = lighting_.lightCapacity();
-    clusters_.grow(uint32_t(lights), types);
+    clusters_.grow(uint32_t(lights), lighting_.withReserved(types));
     const VkDeviceSize coreBytes = lights * gpu::LIGHT_CORE_STRIDE * sizeof(glm::vec4);
     const VkDeviceSize auxBytes = lights * gpu::LIGHT_AUX_STRIDE * sizeof(glm::vec4);
     const VkDeviceSize idBytes = (lighting_.readsIds() ? lights : 1) * sizeof(uint32_t);

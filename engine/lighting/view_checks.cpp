@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame may ask for.
+// What a frame may ask for; what the host should know of those before.
 #include <string>
 
 #include "lighting/camera.h"
@@ -68,6 +68,26 @@ void View::validate(const CndLightingFrame& frame) const
     if (!isInside(r.offset.x, r.extent.width, frame.width) ||
         !isInside(r.offset.y, r.extent.height, frame.height))
         gpu::failArgument("CndLightingFrame: bruteRect is not inside the frame");
+}
+
+void View::tell(const CndLightingStats& stats) const noexcept
+{
+    const gpu::Device& device = lighting_.device();
+    if (stats.unlistedClusters && !toldUnlisted_) {
+        toldUnlisted_ = true;
+        device.say(CND_MESSAGE_WARNING,
+                   "cndGetLightingStats: %u clusters have no list, because "
+                   "CndLightingViewDesc::listBudget, %llu bytes, was used up or the list too long "
+                   "for the device: they are shaded by walking the light tree, slower",
+                   stats.unlistedClusters, (unsigned long long)desc_.listBudget);
+    }
+    if (stats.rejectedLights && toldRejected_ != lighting_.lightSet()) {
+        toldRejected_ = lighting_.lightSet();
+        device.say(CND_MESSAGE_WARNING,
+                   "cndGetLightingStats: %u lights of CndDeviceLights give no light, because a "
+                   "field is outside its range or they are more than maxCount",
+                   stats.rejectedLights);
+    }
 }
 
 } // namespace candelabra::lighting

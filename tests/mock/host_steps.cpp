@@ -101,7 +101,7 @@ const std::vector<Step>& steps()
         {"create view", false,
          [](Host& h, CndError* error) {
              const CndLightingViewDesc desc{
-                 .structSize = sizeof desc, .maxWidth = 64, .maxHeight = 48};
+                 .structSize = sizeof desc, .maxWidth = 64, .maxHeight = 48, .listBudget = 1 << 16};
              return cndCreateLightingView(h.lighting, &desc, &h.view, error);
          }},
         {"create exposure", false,

@@ -332,12 +332,10 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice, const char* wanted)
 
 void VKAPI_CALL properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out)
 {
-    VkPhysicalDeviceLimits& limits = out->properties.limits;
-    limits.maxStorageBufferRange = 1u << 27;
-    limits.maxTexelBufferElements = 1u << 27;
-    limits.maxComputeWorkGroupCount[0] = 65535;
-    limits.timestampComputeAndGraphics = VK_TRUE;
-    limits.timestampPeriod = 1;
+    out->properties.limits = mock->limits;
+    for (auto* s = static_cast<VkBaseOutStructure*>(out->pNext); s; s = s->pNext)
+        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES)
+            reinterpret_cast<VkPhysicalDeviceDriverProperties*>(s)->driverID = mock->driver;
 }
 
 void VKAPI_CALL memoryProperties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* out)
@@ -385,6 +383,11 @@ PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance, const char* wanted
 } // namespace
 
 MockVulkan::MockVulkan()
+    : limits{.maxTexelBufferElements = 1u << 27,
+             .maxStorageBufferRange = 1u << 27,
+             .maxComputeWorkGroupCount = {65535},
+             .timestampComputeAndGraphics = VK_TRUE,
+             .timestampPeriod = 1}
 {
     mock = this;
 }

@@ -41,6 +41,8 @@ public:
     std::string failed;
     // A device function by this name is not there.
     std::string absent;
+    VkPhysicalDeviceLimits limits; // ample
+    VkDriverId driver = VkDriverId(0);
 
     // What was recorded since the last submission, which is then in flight until it finishes.
     // Fills happen when it finishes; what else is recorded never does.

@@ -88,6 +88,18 @@ typedef struct CndAllocator {
     void* user;
 } CndAllocator;
 
+typedef enum CndMessageSeverity {
+    CND_MESSAGE_INFO = 0,    // what a call did besides: memory that grew, pipelines that were made
+    CND_MESSAGE_WARNING = 1, // works, but slower or less than was asked for
+    CND_MESSAGE_SEVERITY_MAX_ENUM = 0x7FFFFFFF
+} CndMessageSeverity;
+
+// What is no error and worth a line in the host's log: one sentence, only until the callback
+// returns. Called in cndCreate..., in calls that set or edit lights and in cndGet...Stats, by the
+// thread that makes the call; never while recording, and not every frame. May not throw, nor call
+// the object that it is about. Errors are results and no messages.
+typedef void (*CndMessageCallback)(void* user, CndMessageSeverity severity, const char* sentence);
+
 // Borrowed handles; they must outlive every object created from them.
 typedef struct CndDeviceDesc {
     uint32_t structSize;
@@ -100,6 +112,8 @@ typedef struct CndDeviceDesc {
     VkBool32
         debugUtilsEnabled;  // VK_EXT_debug_utils is enabled on the instance: name and label objects
     CndAllocator allocator; // copied; all zero: the modules call vkAllocateMemory for every object
+    CndMessageCallback message; // may be NULL
+    void* messageUser;          // given to it
 } CndDeviceDesc;
 
 // Writes into `missing` (comma separated, zero terminated, truncated at missingSize) what the

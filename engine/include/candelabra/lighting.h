@@ -73,6 +73,10 @@ typedef struct CndLightingDesc {
     // that have such materials: elsewhere every tile is looked at in vain.
     uint32_t materialClasses;
     CndHostKernels hostKernels; // must hold all that light types, methods and layout need
+    // What creation makes ready. Sets within both need no more memory (but for staging buffers, see
+    // cndSetLights) and no more pipelines.
+    uint32_t lightCapacity; // lights; 0: 1024. Larger sets make it grow, by half at least
+    uint32_t lightTypes;    // mask of 1 << CndLightType; 0: pipelines for spheres only
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -192,8 +196,10 @@ CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLighti
 CND_API void cndDestroyLighting(CndLighting lighting);
 
 // Validates and packs the lights; takes effect at the next recording. Their ids are their indices;
-// those of the set before are gone. On error the previous set stays. May allocate when the count
-// grows, and makes pipelines when a light type is new.
+// those of the set before are gone. On error the previous set stays. Allocates when there are more
+// lights than room was made for, and makes pipelines and lists when a light type is new. Lights go
+// to the device from a staging buffer of 64 bytes per light of the capacity, with one more for
+// each frame in flight that still reads another.
 CND_API CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error);
 
 // Edits of the set, for sets of which few lights change: only these are validated, packed and
