@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C ABI of the environment module.
 #include "environment/environment.h"
+#include "gpu/planning.h"
 
 using namespace candelabra;
 
@@ -14,6 +15,25 @@ CndResult cndCreateEnvironment(const CndDeviceDesc* device, const CndEnvironment
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndCreateEnvironment", {device, desc, environment});
         *environment = new CndEnvironment_T{.impl = environment::Environment(*device, *desc)};
+    });
+}
+
+CndResult cndPlanEnvironment(const CndDeviceDesc* device, const CndEnvironmentDesc* desc,
+                             CndMemoryUsage* usage, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndPlanEnvironment", {device, desc, usage});
+        const gpu::Planning planning(*device);
+        environment::Environment(planning.desc(), *desc).device().readUsage(*usage);
+    });
+}
+
+CndResult cndGetEnvironmentMemory(CndEnvironment environment, CndMemoryUsage* usage,
+                                  CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndGetEnvironmentMemory", {environment, usage});
+        environment->impl.device().readUsage(*usage);
     });
 }
 

@@ -24,6 +24,7 @@ public:
     void recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map);
     void record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame);
     CndResult stats(uint32_t slot, CndEnvironmentStats& stats) const noexcept;
+    const gpu::Device& device() const { return device_; }
 
 private:
     void validate(const CndEnvironmentFrame& frame) const;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "exposure/exposure.h"
+#include "gpu/planning.h"
 
 using namespace candelabra;
 
@@ -16,6 +17,24 @@ CndResult cndCreateExposure(const CndDeviceDesc* device, const CndExposureDesc* 
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndCreateExposure", {device, desc, exposure});
         *exposure = new CndExposure_T{.impl = exposure::Exposure(*device, *desc)};
+    });
+}
+
+CndResult cndPlanExposure(const CndDeviceDesc* device, const CndExposureDesc* desc,
+                          CndMemoryUsage* usage, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndPlanExposure", {device, desc, usage});
+        const gpu::Planning planning(*device);
+        exposure::Exposure(planning.desc(), *desc).device().readUsage(*usage);
+    });
+}
+
+CndResult cndGetExposureMemory(CndExposure exposure, CndMemoryUsage* usage, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndGetExposureMemory", {exposure, usage});
+        exposure->impl.device().readUsage(*usage);
     });
 }
 

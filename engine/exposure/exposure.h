@@ -28,6 +28,7 @@ public:
     // Throws gpu::Failure on arguments out of range; once recording starts nothing can fail.
     void record(VkCommandBuffer cmd, const CndExposureFrame& frame);
     CndResult stats(uint32_t slot, CndExposureStats& stats) const noexcept;
+    const gpu::Device& device() const { return device_; }
 
 private:
     void validate(const CndExposureFrame& frame) const;

@@ -104,6 +104,15 @@ void Device::name(VkObjectType type, uint64_t object, const std::string& text) c
     SetDebugUtilsObjectNameEXT(handle, &info);
 }
 
+void Device::readUsage(CndMemoryUsage& out) const
+{
+    if (out.structSize != sizeof out)
+        failArgument("CndMemoryUsage: structSize is " + std::to_string(out.structSize) +
+                     ", this library expects " + std::to_string(sizeof out));
+    out = usage;
+    out.structSize = sizeof out;
+}
+
 void Device::say(CndMessageSeverity severity, const char* format, ...) const noexcept
 {
     if (!message)

@@ -39,6 +39,11 @@ public:
     // elsewhere.
     uint32_t maxLoopIterations = UINT32_MAX;
     VkPhysicalDeviceMemoryProperties memory{};
+    // Of all objects that live on this device: they keep it (gpu/memory.h).
+    mutable CndMemoryUsage usage{};
+
+    // Throws Failure when `out` is another version's.
+    void readUsage(CndMemoryUsage& out) const;
 
     // Debug-utils name; nothing when the extension is off.
     void name(VkObjectType type, uint64_t object, const std::string& text) const;

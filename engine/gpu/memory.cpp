@@ -146,15 +146,28 @@ Handle<VkImageView> createView(const Device& device, const std::string& name, Vk
 
 Memory::Memory(const Device& device, const CndMemoryRequest& request)
     : device_(&device),
+      kind_(request.kind),
+      size_(request.requirements.size),
       at_(device.allocator.allocate ? fromHost(device.allocator, request)
                                     : fromDevice(device, request))
 {
+    CndMemoryUsage& usage = device.usage;
+    VkDeviceSize& alignment = usage.alignment[kind_];
+    uint32_t& types = usage.memoryTypeBits[kind_];
+    const VkMemoryRequirements& needs = request.requirements;
+    types = alignment ? types & needs.memoryTypeBits : needs.memoryTypeBits;
+    alignment = std::max(alignment, needs.alignment);
+    ++usage.allocations[kind_];
+    usage.bytes[kind_] += size_;
 }
 
 Memory::~Memory()
 {
-    if (at_.memory)
-        release(*device_, at_);
+    if (!at_.memory)
+        return;
+    --device_->usage.allocations[kind_];
+    device_->usage.bytes[kind_] -= size_;
+    release(*device_, at_);
 }
 
 Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize size,

@@ -29,13 +29,12 @@ public:
     Memory() = default;
     // Throws Failure.
     Memory(const Device& device, const CndMemoryRequest& request);
-    Memory(Memory&& other) noexcept
-        : device_(other.device_), at_(std::exchange(other.at_, CndMemory{}))
-    {
-    }
+    Memory(Memory&& other) noexcept { *this = std::move(other); }
     Memory& operator=(Memory&& other) noexcept
     {
         std::swap(device_, other.device_);
+        std::swap(kind_, other.kind_);
+        std::swap(size_, other.size_);
         std::swap(at_, other.at_);
         return *this;
     }
@@ -46,6 +45,8 @@ public:
 
 private:
     const Device* device_ = nullptr;
+    CndMemoryKind kind_ = CND_MEMORY_BUFFER;
+    VkDeviceSize size_ = 0;
     CndMemory at_{};
 };
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C ABI of the lighting module and the device contract.
 #include <cstdio>
+#include <deque>
+#include <span>
 #include <string>
 
+#include "gpu/planning.h"
 #include "lighting/lighting.h"
 
 using namespace candelabra;
@@ -53,6 +56,31 @@ CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLightingDesc* 
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndCreateLighting", {device, desc, lighting});
         *lighting = new CndLighting_T{.impl = lighting::Lighting(*device, *desc)};
+    });
+}
+
+CndResult cndPlanLighting(const CndDeviceDesc* device, const CndLightingDesc* desc,
+                          uint32_t viewCount, const CndLightingViewDesc* views,
+                          CndMemoryUsage* usage, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndPlanLighting", {device, desc, usage});
+        if (viewCount)
+            gpu::requireNotNull("cndPlanLighting", {views});
+        const gpu::Planning planning(*device);
+        lighting::Lighting lighting(planning.desc(), *desc);
+        std::deque<lighting::View> made; // which stay where they are
+        for (const CndLightingViewDesc& view : std::span(views, viewCount))
+            made.emplace_back(lighting, view);
+        lighting.device().readUsage(*usage);
+    });
+}
+
+CndResult cndGetLightingMemory(CndLighting lighting, CndMemoryUsage* usage, CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndGetLightingMemory", {lighting, usage});
+        lighting->impl.device().readUsage(*usage);
     });
 }
 
@@ -155,5 +183,10 @@ CndResult cndGetForwardSet(CndLightingView view, uint32_t frameSlot, VkDescripto
 
 CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot, CndLightingStats* stats)
 {
-    return view && stats ? view->impl.stats(frameSlot, *stats) : CND_ERROR_INVALID_ARGUMENT;
+    if (!view || !stats)
+        return CND_ERROR_INVALID_ARGUMENT;
+    const CndResult result = view->impl.stats(frameSlot, *stats);
+    if (result == CND_SUCCESS)
+        view->impl.tell(*stats);
+    return result;
 }

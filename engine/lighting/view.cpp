@@ -288,7 +288,6 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     FramePasses passes = slots_[slot].passes;
     passes.addFindings(c);
     passes.write(out.passes, out.passCount);
-    tell(out);
     return timer_.read(slot, out.kernelTimes, out.kernelTimeCount);
 }
 

@@ -19,11 +19,22 @@ namespace candelabra::test
 class HostAllocator
 {
 public:
-    HostAllocator(const CndDeviceDesc& host, VkDeviceSize blockBytes)
-        : host_(host), blockBytes_(blockBytes)
+    // Blocks of at least so many bytes, as many as it takes.
+    HostAllocator(const CndDeviceDesc& host, VkDeviceSize blockBytes) : host_(host)
     {
+        std::fill_n(blockBytes_, CND_MEMORY_KIND_COUNT, blockBytes);
         instanceFunction<PFN_vkGetPhysicalDeviceMemoryProperties>(
             "vkGetPhysicalDeviceMemoryProperties")(host.physicalDevice, &types_);
+    }
+    // One block of each kind, as large as planned and no larger.
+    HostAllocator(const CndDeviceDesc& host, const CndMemoryUsage& planned) : HostAllocator(host, 0)
+    {
+        for (int kind = 0; kind < CND_MEMORY_KIND_COUNT; ++kind) {
+            blockBytes_[kind] =
+                planned.bytes[kind] + planned.allocations[kind] * planned.alignment[kind];
+            typeBits_[kind] = planned.memoryTypeBits[kind];
+        }
+        planned_ = true;
     }
     // Nothing may be in use.
     ~HostAllocator()
@@ -103,7 +114,7 @@ private:
             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
         for (const VkMemoryPropertyFlags wanted : {request.required | visible, request.required})
             for (uint32_t i = 0; i < types_.memoryTypeCount; ++i)
-                if ((request.requirements.memoryTypeBits >> i & 1) &&
+                if ((request.requirements.memoryTypeBits & typeBits_[request.kind]) >> i & 1 &&
                     (types_.memoryTypes[i].propertyFlags & wanted) == wanted)
                     return i;
         return UINT32_MAX;
@@ -112,7 +123,7 @@ private:
     VkResult newBlock(uint32_t type, VkDeviceSize size, Block& block)
     {
         const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                        .allocationSize = std::max(size, blockBytes_),
+                                        .allocationSize = size,
                                         .memoryTypeIndex = type};
         block = {.size = info.allocationSize};
         const VkResult result = deviceFunction<PFN_vkAllocateMemory>("vkAllocateMemory")(
@@ -139,10 +150,14 @@ private:
         const auto start = [&](const Block& b) {
             return (b.used + needs.alignment - 1) / needs.alignment * needs.alignment;
         };
-        std::vector<Block>& blocks = blocks_[{type, request.image != VK_NULL_HANDLE}];
+        std::vector<Block>& blocks = blocks_[{type, request.kind}];
         if (blocks.empty() || start(blocks.back()) + needs.size > blocks.back().size) {
             Block block{};
-            if (const VkResult result = newBlock(type, needs.size, block); result != VK_SUCCESS)
+            const VkDeviceSize bytes = blockBytes_[request.kind];
+            if (planned_ && (!blocks.empty() || needs.size > bytes))
+                return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+            if (const VkResult result = newBlock(type, std::max(needs.size, bytes), block);
+                result != VK_SUCCESS)
                 return result;
             blocks.push_back(block);
         }
@@ -163,9 +178,11 @@ private:
     void free(uint64_t number) { unknownFrees += !live.erase(number); }
 
     CndDeviceDesc host_;
-    VkDeviceSize blockBytes_;
+    VkDeviceSize blockBytes_[CND_MEMORY_KIND_COUNT] = {};
+    uint32_t typeBits_[CND_MEMORY_KIND_COUNT] = {~0u, ~0u, ~0u, ~0u, ~0u};
+    bool planned_ = false;
     VkPhysicalDeviceMemoryProperties types_{};
-    std::map<std::pair<uint32_t, bool>, std::vector<Block>> blocks_; // by type; images apart
+    std::map<std::pair<uint32_t, CndMemoryKind>, std::vector<Block>> blocks_; // by type and kind
 };
 
 } // namespace candelabra::test

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gpu/functions.h"
+#include "mock/mock_physical_device.h"
 
 namespace candelabra::test
 {
@@ -296,6 +297,19 @@ struct Override {
         const Call c("GetImageMemoryRequirements");
         *needs = {1024, 16, 1};
     }
+    static void VKAPI_CALL GetDeviceBufferMemoryRequirements(
+        VkDevice, const VkDeviceBufferMemoryRequirements* query, VkMemoryRequirements2* needs)
+    {
+        const Call c("GetDeviceBufferMemoryRequirements");
+        needs->memoryRequirements = {query->pCreateInfo->size, 16, 1};
+    }
+    static void VKAPI_CALL GetDeviceImageMemoryRequirements(VkDevice,
+                                                            const VkDeviceImageMemoryRequirements*,
+                                                            VkMemoryRequirements2* needs)
+    {
+        const Call c("GetDeviceImageMemoryRequirements");
+        needs->memoryRequirements = {1024, 16, 1};
+    }
 };
 
 PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice, const char* wanted)
@@ -321,6 +335,8 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice, const char* wanted)
     X(GetQueryPoolResults)
     X(GetBufferMemoryRequirements)
     X(GetImageMemoryRequirements)
+    X(GetDeviceBufferMemoryRequirements)
+    X(GetDeviceImageMemoryRequirements)
 #undef X
 #define X(f)                                                                                       \
     if (name == #f)                                                                                \
@@ -330,54 +346,13 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice, const char* wanted)
     return nullptr;
 }
 
-void VKAPI_CALL properties(VkPhysicalDevice, VkPhysicalDeviceProperties2* out)
-{
-    out->properties.limits = mock->limits;
-    for (auto* s = static_cast<VkBaseOutStructure*>(out->pNext); s; s = s->pNext)
-        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES)
-            reinterpret_cast<VkPhysicalDeviceDriverProperties*>(s)->driverID = mock->driver;
-}
-
-void VKAPI_CALL memoryProperties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* out)
-{
-    *out = {
-        .memoryTypeCount = 1,
-        .memoryTypes = {{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                             VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                         0}},
-        .memoryHeapCount = 1};
-}
-
-void VKAPI_CALL queueFamilies(VkPhysicalDevice, uint32_t* count, VkQueueFamilyProperties* out)
-{
-    *count = 1;
-    if (out)
-        *out = {.queueFlags = VK_QUEUE_COMPUTE_BIT, .queueCount = 1, .timestampValidBits = 64};
-}
-
-void VKAPI_CALL formatProperties(VkPhysicalDevice, VkFormat, VkFormatProperties2* out)
-{
-    constexpr VkFormatFeatureFlags all = 0x7FFFFFFF;
-    out->formatProperties = {all, all, all};
-}
-
 PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance, const char* wanted)
 {
     const HostAllocations::Pause pause;
     const std::string name(wanted + std::strlen("vk"));
-    const std::pair<const char*, PFN_vkVoidFunction> functions[] = {
-        {"GetPhysicalDeviceProperties2", reinterpret_cast<PFN_vkVoidFunction>(properties)},
-        {"GetPhysicalDeviceMemoryProperties",
-         reinterpret_cast<PFN_vkVoidFunction>(memoryProperties)},
-        {"GetPhysicalDeviceQueueFamilyProperties",
-         reinterpret_cast<PFN_vkVoidFunction>(queueFamilies)},
-        {"GetPhysicalDeviceFormatProperties2",
-         reinterpret_cast<PFN_vkVoidFunction>(formatProperties)},
-        {"GetDeviceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr)}};
-    for (const auto& [known, function] : functions)
-        if (name == known)
-            return function;
-    return nullptr;
+    if (name == "GetDeviceProcAddr")
+        return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
+    return physicalDeviceFunction(name);
 }
 
 } // namespace
@@ -395,6 +370,11 @@ MockVulkan::MockVulkan()
 MockVulkan::~MockVulkan()
 {
     mock = nullptr;
+}
+
+const MockVulkan& MockVulkan::current()
+{
+    return *mock;
 }
 
 uint64_t MockVulkan::submit()

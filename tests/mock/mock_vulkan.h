@@ -27,6 +27,7 @@ public:
     MockVulkan(const MockVulkan&) = delete;
     MockVulkan& operator=(const MockVulkan&) = delete;
 
+    static const MockVulkan& current();
     // With allocation callbacks, which every call must be given back.
     CndDeviceDesc desc() const;
     static VkCommandBuffer commandBuffer();

@@ -122,6 +122,26 @@ Result<Object> createOn(CndDeviceDesc device, Function function, const Desc& des
     return create<Object>(function, &device, desc);
 }
 
+// Calls an ABI function that fills in the memory of what comes before it.
+template <typename Function, typename... Arguments>
+Result<CndMemoryUsage> usage(Function function, Arguments... arguments) noexcept
+{
+    CndMemoryUsage out{};
+    out.structSize = sizeof out;
+    if (const Result<void> done = call(function, arguments..., &out); !done)
+        return done.error();
+    return out;
+}
+
+template <typename Function, typename Desc, typename... Arguments>
+Result<CndMemoryUsage> plan(CndDeviceDesc device, Function function, Desc desc,
+                            Arguments... arguments) noexcept
+{
+    device.structSize = sizeof device;
+    desc.structSize = sizeof desc;
+    return usage(function, &device, &desc, arguments...);
+}
+
 // Calls an ABI function that fills in the statistics of a frame slot.
 template <typename Stats, typename Function, typename H>
 Result<std::optional<Stats>> stats(Function function, H handle, uint32_t frameSlot) noexcept
@@ -209,6 +229,20 @@ public:
     {
         return detail::createOn<Lighting>(device, cndCreateLighting, desc);
     }
+    // What creation and these views will take; nothing is made.
+    template <size_t n>
+    static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
+                                       std::array<CndLightingViewDesc, n> views) noexcept
+    {
+        for (CndLightingViewDesc& view : views)
+            view.structSize = sizeof view;
+        return detail::plan(device, cndPlanLighting, desc, uint32_t(n), views.data());
+    }
+    // What it and its views hold now.
+    Result<CndMemoryUsage> memory() const noexcept
+    {
+        return detail::usage(cndGetLightingMemory, handle_);
+    }
     // `origin`: what the lights' positions are relative to, world space.
     Result<void> setLights(std::span<const CndLight> lights, const double (&origin)[3]) noexcept
     {
@@ -277,6 +311,15 @@ public:
     {
         return detail::createOn<Environment>(device, cndCreateEnvironment, desc);
     }
+    static Result<CndMemoryUsage> plan(const CndDeviceDesc& device,
+                                       const CndEnvironmentDesc& desc) noexcept
+    {
+        return detail::plan(device, cndPlanEnvironment, desc);
+    }
+    Result<CndMemoryUsage> memory() const noexcept
+    {
+        return detail::usage(cndGetEnvironmentMemory, handle_);
+    }
     Result<void> recordMap(VkCommandBuffer cmd, CndEnvironmentMap map) const noexcept
     {
         map.structSize = sizeof map;
@@ -303,6 +346,15 @@ public:
                                    const CndExposureDesc& desc) noexcept
     {
         return detail::createOn<Exposure>(device, cndCreateExposure, desc);
+    }
+    static Result<CndMemoryUsage> plan(const CndDeviceDesc& device,
+                                       const CndExposureDesc& desc) noexcept
+    {
+        return detail::plan(device, cndPlanExposure, desc);
+    }
+    Result<CndMemoryUsage> memory() const noexcept
+    {
+        return detail::usage(cndGetExposureMemory, handle_);
     }
     Result<void> setMask(std::span<const uint8_t> weights, uint32_t width, uint32_t height) noexcept
     {

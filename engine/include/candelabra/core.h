@@ -88,6 +88,17 @@ typedef struct CndAllocator {
     void* user;
 } CndAllocator;
 
+// Memory by CndMemoryKind; scratch memory is transient, all other persists. One block of
+// bytes + allocations * alignment, of a type in memoryTypeBits, holds all of a kind, each behind
+// the one before it at the next multiple of its alignment.
+typedef struct CndMemoryUsage {
+    uint32_t structSize;
+    uint32_t allocations[CND_MEMORY_KIND_COUNT];
+    VkDeviceSize bytes[CND_MEMORY_KIND_COUNT];      // sum of VkMemoryRequirements::size
+    VkDeviceSize alignment[CND_MEMORY_KIND_COUNT];  // the largest there was; 0: none
+    uint32_t memoryTypeBits[CND_MEMORY_KIND_COUNT]; // types that take every one there was
+} CndMemoryUsage;
+
 typedef enum CndMessageSeverity {
     CND_MESSAGE_INFO = 0,    // what a call did besides: memory that grew, pipelines that were made
     CND_MESSAGE_WARNING = 1, // works, but slower or less than was asked for

@@ -68,9 +68,15 @@ typedef struct CndEnvironmentStats {
     CndKernelTime mapKernelTimes[CND_MAX_KERNEL_TIMES];
 } CndEnvironmentStats;
 
+// What creation will take: exactly that, with nothing allocated. Fails like it.
+CND_API CndResult cndPlanEnvironment(const CndDeviceDesc* device, const CndEnvironmentDesc* desc,
+                                     CndMemoryUsage* usage, CndError* error);
 CND_API CndResult cndCreateEnvironment(const CndDeviceDesc* device, const CndEnvironmentDesc* desc,
                                        CndEnvironment* environment, CndError* error);
 CND_API void cndDestroyEnvironment(CndEnvironment environment);
+// What it holds, from creation on.
+CND_API CndResult cndGetEnvironmentMemory(CndEnvironment environment, CndMemoryUsage* usage,
+                                          CndError* error);
 // Records what shading needs of an image: cube, prefiltered cube, irradiance (and, the first time,
 // the table of the specular lobe's albedo). The GPU must have finished all that was recorded with
 // the object before. Submitted before the frames that use it, to the same queue. Changes compute

@@ -100,9 +100,15 @@ typedef struct CndExposureStats {
     CndPassPlan passes[CND_MAX_PASSES];
 } CndExposureStats;
 
+// What creation will take: exactly that, with nothing allocated. Fails like it.
+CND_API CndResult cndPlanExposure(const CndDeviceDesc* device, const CndExposureDesc* desc,
+                                  CndMemoryUsage* usage, CndError* error);
 CND_API CndResult cndCreateExposure(const CndDeviceDesc* device, const CndExposureDesc* desc,
                                     CndExposure* exposure, CndError* error);
 CND_API void cndDestroyExposure(CndExposure exposure);
+// What it holds, from creation on.
+CND_API CndResult cndGetExposureMemory(CndExposure exposure, CndMemoryUsage* usage,
+                                       CndError* error);
 // Metering mask: width x height weights 0..15, row by row from the top, at most 64 x 64,
 // stretched over the frame: pixel (x, y) of w x h takes row y * height / h, column x * width / w.
 // The GPU must not be using the object.

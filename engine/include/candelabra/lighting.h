@@ -190,10 +190,19 @@ typedef struct CndLightingStats {
     CndPassPlan passes[CND_MAX_PASSES];
 } CndLightingStats;
 
+// What creating a module, and `viewCount` views of it, will take, before any of it exists: exactly
+// that, with nothing allocated. Light sets within lightCapacity and lightTypes take no more but for
+// staging buffers. Fails like creation.
+CND_API CndResult cndPlanLighting(const CndDeviceDesc* device, const CndLightingDesc* desc,
+                                  uint32_t viewCount, const CndLightingViewDesc* views,
+                                  CndMemoryUsage* usage, CndError* error);
 CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLightingDesc* desc,
                                     CndLighting* lighting, CndError* error);
 // The GPU must have finished all work recorded with the object or its views; views go first.
 CND_API void cndDestroyLighting(CndLighting lighting);
+// What the module and its views hold now, with what waits for frames in flight to be finished.
+CND_API CndResult cndGetLightingMemory(CndLighting lighting, CndMemoryUsage* usage,
+                                       CndError* error);
 
 // Validates and packs the lights; takes effect at the next recording. Their ids are their indices;
 // those of the set before are gone. On error the previous set stays. Allocates when there are more

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/planning.h"
+
+#include <cstdlib>
+#include <cstring>
+
+#include "gpu/failure.h"
+#include "gpu/functions.h"
+
+namespace candelabra::gpu
+{
+namespace
+{
+
+// Vulkan's functions carry no context.
+struct Context {
+    Planning* planning = nullptr;
+    PFN_vkGetDeviceBufferMemoryRequirements getBufferNeeds = nullptr;
+    PFN_vkGetDeviceImageMemoryRequirements getImageNeeds = nullptr;
+    VkMemoryRequirements needs{}; // of the buffer or image made last, which are asked for at once
+    uint64_t handles = 0;         // given out
+};
+thread_local Context context;
+
+template <typename H>
+H newHandle()
+{
+    return reinterpret_cast<H>(++context.handles); // NOLINT
+}
+
+void describe(const VkBufferCreateInfo* info, VkDevice device)
+{
+    const VkDeviceBufferMemoryRequirements query{
+        .sType = VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS, .pCreateInfo = info};
+    VkMemoryRequirements2 needs{.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
+    context.getBufferNeeds(device, &query, &needs);
+    context.needs = needs.memoryRequirements;
+}
+
+void describe(const VkImageCreateInfo* info, VkDevice device)
+{
+    const VkDeviceImageMemoryRequirements query{
+        .sType = VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS, .pCreateInfo = info};
+    VkMemoryRequirements2 needs{.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
+    context.getImageNeeds(device, &query, &needs);
+    context.needs = needs.memoryRequirements;
+}
+
+void describe(const void*, VkDevice) {}
+
+// A function by its shape: succeeds, and writes handles where it would make objects.
+template <typename F>
+struct Nothing;
+
+template <typename R, typename... A>
+struct Nothing<R(VKAPI_PTR*)(A...)> {
+    static R VKAPI_CALL call(A...) { return R(); }
+};
+
+template <typename Info, typename H>
+struct Nothing<VkResult(VKAPI_PTR*)(VkDevice, const Info*, const VkAllocationCallbacks*, H*)> {
+    static VkResult VKAPI_CALL call(VkDevice device, const Info* info, const VkAllocationCallbacks*,
+                                    H* out)
+    {
+        describe(info, device);
+        *out = newHandle<H>();
+        return VK_SUCCESS;
+    }
+};
+
+template <typename Info>
+struct Nothing<VkResult(VKAPI_PTR*)(VkDevice, VkPipelineCache, uint32_t, const Info*,
+                                    const VkAllocationCallbacks*, VkPipeline*)> {
+    static VkResult VKAPI_CALL call(VkDevice, VkPipelineCache, uint32_t count, const Info*,
+                                    const VkAllocationCallbacks*, VkPipeline* out)
+    {
+        for (uint32_t i = 0; i < count; ++i)
+            out[i] = newHandle<VkPipeline>();
+        return VK_SUCCESS;
+    }
+};
+
+template <>
+struct Nothing<PFN_vkAllocateDescriptorSets> {
+    static VkResult VKAPI_CALL call(VkDevice, const VkDescriptorSetAllocateInfo* info,
+                                    VkDescriptorSet* out)
+    {
+        for (uint32_t i = 0; i < info->descriptorSetCount; ++i)
+            out[i] = newHandle<VkDescriptorSet>();
+        return VK_SUCCESS;
+    }
+};
+
+// Buffers and images alike.
+template <typename H>
+struct Nothing<void(VKAPI_PTR*)(VkDevice, H, VkMemoryRequirements*)> {
+    static void VKAPI_CALL call(VkDevice, H, VkMemoryRequirements* out) { *out = context.needs; }
+};
+
+} // namespace
+
+Planning::Planning(const CndDeviceDesc& device)
+    : getInstanceProcAddr_(device.getInstanceProcAddr), desc_(device)
+{
+    if (!device.instance || !device.device || !device.getInstanceProcAddr)
+        return; // what is made from it says so
+    getDeviceProcAddr_ = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+        getInstanceProcAddr_(device.instance, "vkGetDeviceProcAddr"));
+    if (!getDeviceProcAddr_)
+        failUnsupported("the host's vkGetInstanceProcAddr has no vkGetDeviceProcAddr");
+    Context c{.planning = this};
+    c.getBufferNeeds = reinterpret_cast<PFN_vkGetDeviceBufferMemoryRequirements>(
+        getDeviceProcAddr_(device.device, "vkGetDeviceBufferMemoryRequirements"));
+    c.getImageNeeds = reinterpret_cast<PFN_vkGetDeviceImageMemoryRequirements>(
+        getDeviceProcAddr_(device.device, "vkGetDeviceImageMemoryRequirements"));
+    if (!c.getBufferNeeds || !c.getImageNeeds)
+        failUnsupported("the device has no vkGetDeviceBufferMemoryRequirements or no "
+                        "vkGetDeviceImageMemoryRequirements (Vulkan 1.3 is needed)");
+    context = c;
+    desc_.getInstanceProcAddr = instanceFunction;
+    desc_.debugUtilsEnabled = VK_FALSE;
+    desc_.allocator = {.allocate = allocate,
+                       .free = [](void*, void* allocation) { std::free(allocation); }};
+    desc_.message = nullptr; // of creation, which comes yet
+}
+
+Planning::~Planning()
+{
+    context = {};
+}
+
+PFN_vkVoidFunction Planning::instanceFunction(VkInstance instance, const char* name)
+{
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
+        return reinterpret_cast<PFN_vkVoidFunction>(deviceFunction);
+    return context.planning->getInstanceProcAddr_(instance, name);
+}
+
+PFN_vkVoidFunction Planning::deviceFunction(VkDevice device, const char* name)
+{
+    if (!context.planning->getDeviceProcAddr_(device, name))
+        return nullptr; // nor will creation find it
+#define X(f)                                                                                       \
+    if (std::strcmp(name, "vk" #f) == 0)                                                           \
+        return reinterpret_cast<PFN_vkVoidFunction>(PFN_vk##f(Nothing<PFN_vk##f>::call));
+    CND_DEVICE_FUNCTIONS(X)
+#undef X
+    return nullptr;
+}
+
+VkResult Planning::allocate(void*, const CndMemoryRequest* request, CndMemory* memory)
+{
+    void* bytes = nullptr; // where it is mapped: creation writes a little of it
+    if (request->required & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) {
+        bytes = std::malloc(size_t(request->requirements.size));
+        if (!bytes)
+            return VK_ERROR_OUT_OF_HOST_MEMORY;
+    }
+    *memory = {.memory = newHandle<VkDeviceMemory>(), .mapped = bytes, .allocation = bytes};
+    return VK_SUCCESS;
+}
+
+} // namespace candelabra::gpu
