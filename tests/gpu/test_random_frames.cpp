@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random frames: any camera, size, depth convention and lights, clustered against brute force. Ten
+// Random frames: any camera, size, depth convention and lights, clustered against brute force. Sixty
 // by default, 1,000 with tools/test --full.
 #include "gpu/lighting_harness.h"
 #include "harness/full_tests.h"
@@ -63,7 +63,7 @@ private:
 
 TEST_F(LightingTest, RandomFramesEqualBrute)
 {
-    const uint32_t frames = fullTests() ? 1000 : 10;
+    const uint32_t frames = fullTests() ? 1000 : 60;
     uint32_t lit = 0;
     CndError error{};
     const CndLightingDesc desc{.structSize = sizeof desc,
