@@ -23,7 +23,7 @@ namespace
 #define CND_REQUIRED_LIMITS(X)                                                                     \
     X(maxComputeWorkGroupInvocations, 256) /* exposure: a lane per histogram bin */                \
     X(maxComputeWorkGroupSize[0], 256)                                                             \
-    X(maxPerStageDescriptorStorageBuffers, 9) /* cluster_lists */
+    X(maxPerStageDescriptorStorageBuffers, maxStorageBuffers)
 
 struct FormatNeed {
     VkFormat format;

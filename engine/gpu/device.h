@@ -12,6 +12,9 @@
 namespace candelabra::gpu
 {
 
+// Storage buffers of a kernel, at most: cluster_lists. The descriptor set of a host comes on top.
+constexpr uint32_t maxStorageBuffers = 10;
+
 class Device
 {
 public:

@@ -171,6 +171,13 @@ KernelBase::KernelBase(const Device& device, const Spirv& spirv, uint32_t params
         failUnsupported(std::string("internal: parameters of ") + name_ + " are " +
                         std::to_string(paramsSize) + " bytes in C++ and " +
                         std::to_string(reflection_.pushConstantSize) + " in SPIR-V");
+    const auto storageBuffers = std::count_if(
+        reflection_.bindings.begin(), reflection_.bindings.end(),
+        [](const ReflectedBinding& b) { return b.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER; });
+    if (storageBuffers > ptrdiff_t(maxStorageBuffers))
+        failUnsupported(
+            std::string("internal: ") + name_ + " has " + std::to_string(storageBuffers) +
+            " storage buffers, devices are asked for " + std::to_string(maxStorageBuffers));
     constexpr VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
     setLayout_ = createSetLayout(device, name_, reflection_.bindings, stage);
     if (reflection_.usesHostSet && !hostLayout)

@@ -18,6 +18,10 @@ constexpr VkBufferUsageFlags workUse =
     storageUse | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 constexpr VkDeviceSize pageBytes = gpu::PAGE_WORDS * sizeof(uint32_t);
 
+// The bits of gpu::TileClusters::onLists do not overlap.
+static_assert(gpu::UNLISTED_BITS + CND_LIGHT_TYPE_COUNT <= gpu::LIT_BITS &&
+              gpu::LIT_BITS + CND_LIGHT_TYPE_COUNT <= gpu::CLASS_BITS);
+
 constexpr uint32_t maxRow = 65535; // groups that every device takes in one dimension
 
 // With more lights, blocks walk the tree themselves: blocks of blocks hold so many that their lists
@@ -152,8 +156,7 @@ Clusters::Lists Clusters::createLists() const
     };
     return {.heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
             .lit = make("lit tiles", tileWorkBytes(), workUse),
-            .unlisted =
-                make("unlisted tiles", workBytes(gpu::TILE_CLASSES, area(maxTiles_)), workUse)};
+            .unlisted = make("unlisted tiles", tileWorkBytes(), workUse)};
 }
 
 void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)

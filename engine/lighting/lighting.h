@@ -225,9 +225,8 @@ private:
     void inBatches(gpu::ShadeParams params, uint32_t largest, Record&& record) const noexcept;
     uint32_t lightsPerBatch(const CndLightingFrame& frame, const Plan& plan,
                             uint32_t type) const noexcept;
-    void recordUnlisted(const gpu::Frame& f, const ShadeKernels::Variant& kernels,
-                        gpu::ShadeParams params, uint32_t set, uint32_t type,
-                        uint32_t perBatch) const noexcept;
+    void recordUnlisted(const gpu::Frame& f, const CndLightingFrame& frame, gpu::ShadeParams params,
+                        uint32_t type, uint32_t perBatch) const noexcept;
     void recordBrute(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& plan,
                      uint32_t type) const noexcept;
     void recordReadback(const gpu::Frame& f) const noexcept;

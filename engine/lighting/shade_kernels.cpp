@@ -42,7 +42,14 @@ uint32_t tileClassesOf(const CndLightingDesc& desc)
 {
     static_assert(CND_MATERIAL_DIFFUSE_ONLY << 1 == 1u << gpu::CLASS_DIFFUSE &&
                   CND_MATERIAL_SPECULAR_ONLY << 1 == 1u << gpu::CLASS_SPECULAR);
-    return 1u << gpu::CLASS_ANY | desc.materialClasses << 1;
+    const bool weighsSpecular = desc.gbufferLayout == CND_GBUFFER_FULL ||
+                                desc.gbufferLayout == CND_GBUFFER_CUSTOM ||
+                                (desc.gbufferLayout == CND_GBUFFER_HOST &&
+                                 desc.gbuffer.reflectance == CND_REFLECTANCE_SPECULAR &&
+                                 desc.gbuffer.f90 != CND_CHANNEL_NONE);
+    const uint32_t stored =
+        desc.materialClasses & ~uint32_t(weighsSpecular ? 0 : CND_MATERIAL_DIFFUSE_ONLY);
+    return 1u << gpu::CLASS_ANY | stored << 1;
 }
 
 ShadeKernels::ShadeKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
@@ -138,6 +145,7 @@ ShadeKernels::Tiles ShadeKernels::makeTiles(uint32_t lightType, CndSpecularMetho
 {
     const Family family = familyOf(lightType, method);
     return {.shade = makeKernel(*family.tiles, lightType, method, withBudget, tileClass),
+            .unlisted = makeKernel(*family.unlisted, lightType, method, withBudget, tileClass),
             .countPairs = makeKernel(*family.countPairs, lightType, method, withBudget, tileClass)};
 }
 
@@ -146,8 +154,6 @@ ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, CndSpecularM
 {
     const Family family = familyOf(lightType, method);
     Variant out{.any = makeTiles(lightType, method, withBudget, gpu::CLASS_ANY),
-                .unlisted =
-                    makeKernel(*family.unlisted, lightType, method, withBudget, gpu::CLASS_ANY),
                 .brute = makeKernel(*family.brute, lightType, method, withBudget, gpu::CLASS_ANY)};
     if (tellsApart(gpu::CLASS_SPECULAR))
         out.specular = makeTiles(lightType, method, withBudget, gpu::CLASS_SPECULAR);

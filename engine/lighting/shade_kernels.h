@@ -23,7 +23,8 @@ bool isSphere(uint32_t lightType);
 // Whether an error budget changes the evaluation: the closed form of spheres has cheaper bounds.
 bool takesBudget(uint32_t lightType, CndSpecularMethod method);
 
-// Mask of 1 << CLASS_*: the classes of tiles that are told apart, CLASS_ANY among them.
+// Mask of 1 << CLASS_*: the classes of tiles that are told apart, CLASS_ANY among them. Only those
+// that the layout of the G-buffer can store.
 uint32_t tileClassesOf(const CndLightingDesc& desc);
 
 // Kernels that know light types and specular methods, one pipeline for each pair that lights and
@@ -42,11 +43,11 @@ public:
     bool allows(CndSpecularMethod method) const { return methods_ >> method & 1; }
     // Of the tiles of one class.
     struct Tiles {
-        Kernel shade, countPairs;
+        Kernel shade, unlisted, countPairs;
     };
     struct Variant {
         Tiles any, specular; // CLASS_ANY, CLASS_SPECULAR
-        Kernel unlisted, brute;
+        Kernel brute;
     };
     const Variant& variant(uint32_t type, CndSpecularMethod method, bool withBudget) const;
     bool tellsApart(uint32_t tileClass) const { return tileClasses_ >> tileClass & 1; }

@@ -77,7 +77,7 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     const ShadeKernels::Variant& shade = k.shade.anyVariant();
     sets_ = {.prepareLights = k.prepareLights.createBindings(slots),
              .shadeTiles = shade.any.shade.createBindings(perType),
-             .shadeUnlisted = shade.unlisted.createBindings(perType),
+             .shadeUnlisted = shade.any.unlisted.createBindings(perType),
              .shadeBrute = shade.brute.createBindings(slots),
              .countPairs = shade.any.countPairs.createBindings(perType),
              .surfaceOverlay = k.surfaceOverlay.createBindings(slots)};

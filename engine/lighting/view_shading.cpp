@@ -17,6 +17,18 @@ uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t s
     return shape + (method == CND_SPECULAR_SAMPLED ? sampleCount : 0);
 }
 
+// Calls `record` with the kernels and the work list of each class of tiles: no two have a tile in
+// common.
+template <typename Record>
+void byClass(const ShadeKernels& kernels, const CndLightingFrame& frame, uint32_t type,
+             Record&& record) noexcept
+{
+    for (uint32_t tileClass = 0; tileClass < gpu::TILE_CLASSES; ++tileClass)
+        if (kernels.tellsApart(tileClass))
+            record(kernels.tiles(type, frame.specularMethod, frame.errorBudget > 0, tileClass),
+                   workListAt(tileClass));
+}
+
 } // namespace
 
 gpu::ShadeParams View::shadeParams(const CndLightingFrame& frame, const Plan& p,
@@ -77,51 +89,47 @@ void View::recordClustered(const gpu::Frame& f, const CndLightingFrame& frame, c
                            uint32_t type) const noexcept
 {
     const ShadeKernels& kernels = lighting_.kernels().shade;
-    const bool withBudget = frame.errorBudget > 0;
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
     const gpu::ShadeParams params = shadeParams(frame, p, type);
     const uint32_t perBatch = lightsPerBatch(frame, p, type);
-    const auto byClass = [&](auto&& record) {
-        for (uint32_t tileClass = 0; tileClass < gpu::TILE_CLASSES; ++tileClass)
-            if (kernels.tellsApart(tileClass))
-                record(kernels.tiles(type, frame.specularMethod, withBudget, tileClass),
-                       workListAt(tileClass));
-        f.barrier();
-    };
     const auto shade = [&](const gpu::ShadeParams& batch) {
-        byClass([&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
+        byClass(kernels, frame, type, [&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
             tiles.shade.dispatchIndirect(f, sets_.shadeTiles.set(set), batch,
                                          clusters_.tilesToShade(type), workList);
         });
+        f.barrier();
     };
     if (isDistant(type)) { // they reach everything: no lists
         inBatches(params, perBatch, shade);
     } else {
         shade(params);
-        recordUnlisted(f, kernels.variant(type, frame.specularMethod, withBudget), params, set,
-                       type, perBatch);
+        recordUnlisted(f, frame, params, type, perBatch);
     }
     if (frame.countPairs) {
         gpu::ShadeParams counted = params;
         counted.batchLevel = frame.pairImage ? 1 : 0;
-        byClass([&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
+        byClass(kernels, frame, type, [&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
             tiles.countPairs.dispatchIndirect(f, sets_.countPairs.set(set), counted,
                                               clusters_.surfaces(), workList);
         });
+        f.barrier();
     }
 }
 
 // Clusters whose list found no page; then, where the device limits loops, those of too many lights,
 // by parts of the light tree.
-void View::recordUnlisted(const gpu::Frame& f, const ShadeKernels::Variant& kernels,
-                          gpu::ShadeParams params, uint32_t set, uint32_t type,
-                          uint32_t perBatch) const noexcept
+void View::recordUnlisted(const gpu::Frame& f, const CndLightingFrame& frame,
+                          gpu::ShadeParams params, uint32_t type, uint32_t perBatch) const noexcept
 {
+    const ShadeKernels& kernels = lighting_.kernels().shade;
+    const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
     gpu::Timer untimed; // the parts are one row
     const gpu::Frame u{f.device, f.cmd, untimed, f.slot, f.hostSet};
     const auto record = [&](const gpu::ShadeParams& part) {
-        kernels.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
-                                          clusters_.lists(type).unlisted);
+        byClass(kernels, frame, type, [&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
+            tiles.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
+                                            clusters_.lists(type).unlisted, workList);
+        });
         u.barrier();
     };
     record(params);
@@ -135,7 +143,7 @@ void View::recordUnlisted(const gpu::Frame& f, const ShadeKernels::Variant& kern
             size *= gpu::TREE_WIDTH;
         inBatches(params, largest / size * size, record);
     }
-    f.timer.stamp(f.cmd, kernels.unlisted.name());
+    f.timer.stamp(f.cmd, lighting_.kernels().shade.anyVariant().any.unlisted.name());
 }
 
 } // namespace candelabra::lighting

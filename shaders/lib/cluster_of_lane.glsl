@@ -38,27 +38,28 @@ bool takeCluster(out uint at)
 }
 
 // A tile is on a work list once per light type, by whichever lane comes first.
-#define APPEND_TILE(work, workTiles, tile, firstBit)                                               \
+#define APPEND_TILE(works, workTiles, tile, firstBit)                                              \
     const uint bit = 1u << ((firstBit) + params.lightType);                                        \
-    if ((atomicOr(tiles[tile].onLists, bit) & bit) == 0u) {                                        \
-        const uint place = atomicAdd(work.count, 1u);                                              \
-        workTiles[work.first + place] = tile;                                                      \
+    const uint before = atomicOr(tiles[tile].onLists, bit);                                        \
+    const uint tileClass = before >> CLASS_BITS;                                                   \
+    if ((before & bit) == 0u) {                                                                    \
+        const uint place = atomicAdd(works[tileClass].count, 1u);                                  \
+        workTiles[works[tileClass].first + place] = tile;                                          \
         if (place % TILE_ROW == 0u)                                                                \
-            atomicAdd(work.groupsY, 1u);                                                           \
+            atomicAdd(works[tileClass].groupsY, 1u);                                               \
     }
 
 // For shade_tiles.
 void appendLit(uint tile)
 {
-    const uint tileClass = tiles[tile].onLists >> CLASS_BITS;
-    APPEND_TILE(lit[tileClass], litTiles, tile, LIT_BITS)
+    APPEND_TILE(lit, litTiles, tile, LIT_BITS)
 }
 
-// For shade_unlisted, which takes tiles of all classes.
+// For shade_unlisted.
 void appendUnlisted(uint tile)
 {
     atomicAdd(counters.unlistedClusters, 1u);
-    APPEND_TILE(unlisted[CLASS_ANY], unlistedTiles, tile, UNLISTED_BITS)
+    APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS)
 }
 
 #endif

@@ -21,7 +21,7 @@ vec3 tubeResponse(Receiver r, Light given)
     const vec3 axis = axisRadius.xyz;
     const float radius = axisRadius.w;
     const TubeOutline outline = makeTubeOutline(light.toLight, axis, radius);
-    vec3 response = diffuse(r.p, tubeFormFactor(r.p.n, outline));
+    vec3 response = diffuseResponse(r.p, tubeFormFactor(r.p.n, outline));
     if (areaMethod == SPECULAR_KARIS)
         response += schlick(r.p, representativeTube(r.p, light.toLight, axis, radius));
     else if (areaMethod == SPECULAR_LTC)
@@ -43,7 +43,7 @@ vec3 rectangleResponse(Receiver r, Light given)
     const vec4 second = lightAux[light.index * LIGHT_AUX_STRIDE + 1u];
     const vec3 v = scale * second.xyz;
     const bool twoSided = second.w != 0.0;
-    vec3 response = diffuse(r.p, rectangleFormFactor(r.p.n, light.toLight, u, v, twoSided));
+    vec3 response = diffuseResponse(r.p, rectangleFormFactor(r.p.n, light.toLight, u, v, twoSided));
     if (areaMethod == SPECULAR_KARIS)
         response += schlick(r.p, representativeRectangle(r.p, light.toLight, u, v, twoSided));
     else if (areaMethod == SPECULAR_LTC)
@@ -63,7 +63,7 @@ vec3 discResponse(Receiver r, Light given)
     const Light light = atUnitDistance(given, scale);
     const vec3 normal = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
     const bool twoSided = lightAux[light.index * LIGHT_AUX_STRIDE + 1u].w != 0.0;
-    vec3 response = diffuse(r.p, discFormFactor(r.p.n, light.toLight, normal, light.reach, twoSided));
+    vec3 response = diffuseResponse(r.p, discFormFactor(r.p.n, light.toLight, normal, light.reach, twoSided));
     if (areaMethod == SPECULAR_KARIS)
         response += schlick(r.p, representativeDisc(r.p, light.toLight, normal, light.reach, twoSided));
     else if (areaMethod == SPECULAR_LTC)

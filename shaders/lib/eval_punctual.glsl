@@ -5,7 +5,7 @@
 // Response to unit illuminance on a surface that faces the light, from the unit direction l.
 vec3 responseFrom(ShadingPoint p, vec3 l)
 {
-    vec3 response = diffuse(p, INV_PI * max(dot(p.n, l), 0.0));
+    vec3 response = diffuseResponse(p, INV_PI * max(dot(p.n, l), 0.0));
     if (specularMethod != SPECULAR_NONE)
         response += schlick(p, specularResponse(p, l));
     return response;

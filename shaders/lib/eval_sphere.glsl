@@ -34,7 +34,7 @@ vec3 sphereAbove(Receiver r, Light light)
 #else
     const vec2 specular = cheapSphereSpecular(r, light, cap);
 #endif
-    return diffuse(r.p, cap.NoC * cap.s2) + schlick(r.p, specular);
+    return diffuseResponse(r.p, cap.NoC * cap.s2) + schlick(r.p, specular);
 }
 
 vec3 sphereAcross(Receiver r, Light light)
@@ -47,7 +47,7 @@ vec3 sphereAcross(Receiver r, Light light)
 #endif
     // The cap may be below the horizon: rounding, and a receiver inside the sphere.
     const vec2 specular = cap.NoC > -cap.s ? response : vec2(0.0);
-    return diffuse(r.p, sphereFormFactor(cap.NoC, cap.s2)) + schlick(r.p, specular);
+    return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) + schlick(r.p, specular);
 }
 #endif
 
@@ -56,13 +56,13 @@ vec3 sphereNear(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
     const bool mixed = specularMethod == SPECULAR_CONIC;
-    return diffuse(r.p, sphereFormFactor(cap.NoC, cap.s2)) +
+    return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) +
            schlick(r.p, conicUnclipped(r.conic, cap, mixed));
 }
 
 vec3 sphereAsPoint(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
-    return diffuse(r.p, cap.NoC * cap.s2) + schlick(r.p, pointResponse(r.p, cap));
+    return diffuseResponse(r.p, cap.NoC * cap.s2) + schlick(r.p, pointResponse(r.p, cap));
 }
 #endif

@@ -155,7 +155,7 @@ uint lightSeed(Receiver r, uint light)
 }
 
 // The diffuse lobe's response to light that gives a white surface so much.
-vec3 diffuse(ShadingPoint p, float formFactor)
+vec3 diffuseResponse(ShadingPoint p, float formFactor)
 {
     return HAS_DIFFUSE ? p.albedo * formFactor : vec3(0.0);
 }

@@ -16,8 +16,7 @@ bool isBlack(vec3 colour)
     return colour.x == 0.0 && colour.y == 0.0 && colour.z == 0.0;
 }
 
-// Of pixels first .. end - 1. Ends with the first surface that has what the others lack: where no
-// class applies, that is one.
+// Of pixels first .. end - 1. Ends as soon as no class is possible.
 uint classOfSurfaces(uvec2 first, uvec2 end)
 {
     bool diffuse = FINDS_DIFFUSE, specular = FINDS_SPECULAR;

@@ -141,7 +141,7 @@ const uint CLUSTER_LISTS_TILES = 5u;
 const uint CLUSTER_LISTS_SPLITS = 6u;
 const uint CLUSTER_LISTS_LISTS = 7u;
 const uint CLUSTER_LISTS_ENTRIES = 8u;
-const uint CLUSTER_LISTS_UNLISTED = 9u; // WorkLists, the first: tiles with unlisted clusters
+const uint CLUSTER_LISTS_UNLISTED = 9u; // WorkLists, by class, of tiles with unlisted clusters
 const uint CLUSTER_LISTS_COUNTERS = 10u;
 const uint CLUSTER_LISTS_LIT = 11u; // WorkLists, by class, of tiles with lists that hold lights
 // Which clusters:

@@ -70,7 +70,9 @@ typedef struct CndLightingDesc {
     VkShaderStageFlags forwardStages;
     // Mask of CndMaterialClass, 0: none. 8x8 pixel tiles that hold such surfaces alone are shaded
     // by pipelines that leave the missing lobe out: the same image but for rounding. For scenes
-    // that have such materials: elsewhere every tile is looked at in vain.
+    // that have such materials: elsewhere every tile is looked at in vain, and each class has
+    // pipelines of its own for every light type. Layouts that cannot store an F90 of 0 have no
+    // diffuse class. With hostKernels the diffuse class needs those of CND_SPECULAR_NONE as well.
     uint32_t materialClasses;
     CndHostKernels hostKernels; // must hold all that light types, methods and layout need
     // What creation makes ready. Sets within both need no more memory (but for staging buffers, see
@@ -117,8 +119,8 @@ typedef struct CndLightingFrame {
     VkBool32 energyCompensation;
     CndCulling culling;
     // The host promises: size, camera, clearDepth, depth and normals are those of the frame
-    // recorded with this view before. With the same lights too, its clusters and lists are used
-    // again.
+    // recorded with this view before, and so are albedo and specular with materialClasses. With the
+    // same lights too, its clusters and lists are used again.
     VkBool32 surfacesUnchanged;
     VkRect2D bruteRect;  // CND_CULLING_BRUTE: pixels to shade; zero extent: all
     VkBool32 countPairs; // also count (pixel, light) pairs: one more kernel; clustered only

@@ -34,7 +34,15 @@ Bounds transformBounds(const Bounds& bounds, const glm::dmat4& worldFromObject)
 uint32_t materialClasses(const Scene& scene)
 {
     uint32_t out = 0;
-    for (const Material& m : scene.materials) {
+    std::vector<bool> used(scene.materials.size());
+    for (const Instance& instance : scene.instances)
+        used[instance.material] = true;
+    for (const AnalyticObject& object : scene.objects)
+        used[object.material] = true;
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        if (!used[i])
+            continue;
         // Textures only lower metalness and the base colour; they may leave them as they are.
         if (m.metalness == 1 || m.diffuseWeight == 0 || m.baseColor == glm::vec3(0))
             out |= CND_MATERIAL_SPECULAR_ONLY;
