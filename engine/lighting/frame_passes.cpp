@@ -10,9 +10,9 @@ namespace
 
 // By Pass: names of kernels.
 constexpr std::array<const char*, passCount> names = {
-    "device_lights",  "light_order",    "dfg_table",  "prepare_lights", "tile_clusters",
-    "split_tiles",    "block_clusters", "light_tree", "cluster_lists",  "shade_tiles",
-    "shade_unlisted", "shade_brute",    "count_pairs"};
+    "device_lights", "light_order",   "dfg_table",      "prepare_lights", "measure_influence",
+    "cut_lights",    "tile_clusters", "split_tiles",    "block_clusters", "light_tree",
+    "cluster_lists", "shade_tiles",   "shade_unlisted", "shade_brute",    "count_pairs"};
 
 constexpr Pass clustering[] = {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters,
                                Pass::LightTree, Pass::ClusterLists};
@@ -24,7 +24,13 @@ bool View::keepsLists(const CndLightingFrame& frame, uint32_t sampleCount)
 {
     ListsKey key;
     if (frame.culling == CND_CULLING_CLUSTERED && lighting_.lightCount())
-        key = {lighting_.lightSet(), frame.specularMethod, sampleCount, layersOf(frame.layers)};
+        key = {lighting_.lightSet(), frame.specularMethod, sampleCount, layersOf(frame.layers),
+               influenceOf(frame)};
+    if (key.rule == CND_INFLUENCE_BY_ERROR) {
+        key.maxError = frame.influence.maxError;
+        key.exposure = frame.influence.exposure;
+        key.toneMap = frame.influence.toneMap;
+    }
     const bool same = frame.surfacesUnchanged && key.lightSet && key == lists_;
     lists_ = key;
     return same;
@@ -41,6 +47,7 @@ FrameContent View::contentOf(const CndLightingFrame& frame, const LightTypeCount
                      .listsKept = listsKept,
                      .readsAlbedoTable = frame.lobes != CND_LOBES_SUM || frame.energyCompensation,
                      .albedoTableFilled = lighting_.albedoTableFilled(),
+                     .cutByError = influenceOf(frame) == CND_INFLUENCE_BY_ERROR,
                      .countPairs = frame.countPairs == VK_TRUE,
                      .forward = forward_.wanted()};
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
@@ -77,11 +84,16 @@ FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
         skip(Pass::ShadeBrute, "lights are culled");
     if (c.brute && !c.forward)
         skip(Pass::LightTree, "brute force");
+    if (!c.cutByError)
+        for (const Pass pass : {Pass::MeasureInfluence, Pass::CutLights})
+            skip(pass, "not asked for");
     if (c.listsKept)
-        skip(Pass::PrepareLights, "surfaces and lights unchanged");
+        for (const Pass pass : {Pass::PrepareLights, Pass::MeasureInfluence, Pass::CutLights})
+            skip(pass, "surfaces and lights unchanged");
     if (!c.placedInView)
-        for (const Pass pass : {Pass::SplitTiles, Pass::BlockClusters, Pass::LightTree,
-                                Pass::ClusterLists, Pass::ShadeUnlisted})
+        for (const Pass pass :
+             {Pass::MeasureInfluence, Pass::CutLights, Pass::SplitTiles, Pass::BlockClusters,
+              Pass::LightTree, Pass::ClusterLists, Pass::ShadeUnlisted})
             skip(pass, "distant lights only");
     if (c.listsKept)
         for (const Pass pass : clustering)

@@ -15,6 +15,8 @@ enum class Pass : uint8_t {
     LightOrder,
     DfgTable,
     PrepareLights,
+    MeasureInfluence,
+    CutLights,
     TileClusters,
     SplitTiles,
     BlockClusters,
@@ -39,6 +41,7 @@ struct FrameContent {
     bool brute = false;
     bool listsKept = false; // those of the frame before are this frame's
     bool readsAlbedoTable = false, albedoTableFilled = false;
+    bool cutByError = false; // CND_INFLUENCE_BY_ERROR, and it can be measured
     bool countPairs = false;
     bool forward = false; // shaders of the host's walk the light tree
 };

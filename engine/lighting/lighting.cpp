@@ -23,6 +23,8 @@ CndLightingDesc checked(CndLightingDesc desc)
     if (desc.specularMethods >> CND_SPECULAR_METHOD_COUNT)
         gpu::failArgument("CndLightingDesc: specularMethods has bits beyond the last "
                           "CndSpecularMethod");
+    if (desc.influenceByError && desc.hostKernels.count)
+        gpu::failArgument("CndLightingDesc: influenceByError cannot measure with hostKernels");
     if (desc.materialClasses & ~uint32_t(CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY))
         gpu::failArgument("CndLightingDesc: materialClasses has bits beyond CndMaterialClass");
     if (!desc.specularMethods)
@@ -64,7 +66,9 @@ Kernels::Kernels(const gpu::Device& device, const HostKernels& host, const CndLi
     : prepareLights(device, spirv::prepare_lights_comp, {{gpu::PREPARE_LIGHTS_WITH_IDS, withIds}}),
       order(device),
       clusters(device, host, gbuffer, tileClassesOf(desc)),
-      shade(device, host, gbuffer, desc.specularMethods, tileClassesOf(desc)),
+      shade(device, host, gbuffer, desc.specularMethods, tileClassesOf(desc),
+            desc.influenceByError),
+      influence(desc.influenceByError ? InfluenceKernels(device) : InfluenceKernels()),
       surfaceOverlay(device, host.of(spirv::surface_overlay_comp), {{gpu::SPEC_GBUFFER, gbuffer}},
                      host.setLayout())
 {

@@ -14,6 +14,7 @@
 #include "lighting/frame_passes.h"
 #include "lighting/host_gbuffer.h"
 #include "lighting/host_kernels.h"
+#include "lighting/influence.h"
 #include "lighting/light_order.h"
 #include "lighting/light_table.h"
 #include "lighting/pack_lights.h"
@@ -39,6 +40,7 @@ struct Kernels {
     LightOrder order;
     ClusterKernels clusters;
     ShadeKernels shade;
+    InfluenceKernels influence; // CndLightingDesc::influenceByError
     gpu::Kernel<gpu::SurfaceOverlayParams> surfaceOverlay;
 };
 
@@ -212,6 +214,8 @@ private:
                            bool listsKept) const;
     void writeBindings(const CndLightingFrame& frame) const;
     void recordPrepare(const gpu::Frame& f, const Plan& plan) const noexcept;
+    void recordInfluence(const gpu::Frame& f, const CndLightingFrame& frame,
+                         const Plan& plan) noexcept;
     void recordClusters(const gpu::Frame& f, const Plan& plan,
                         const FramePasses& passes) const noexcept;
     void recordLists(const gpu::Frame& f, const CndLightingFrame& frame,
@@ -221,8 +225,16 @@ private:
     gpu::ForwardView forwardView(const CndLightingFrame& frame, const Plan& plan) const noexcept;
     gpu::ShadeParams shadeParams(const CndLightingFrame& frame, const Plan& plan,
                                  uint32_t type) const noexcept;
+    // Calls `record` for consecutive lights of a type, at most `largest` at once.
     template <typename Record>
-    void inBatches(gpu::ShadeParams params, uint32_t largest, Record&& record) const noexcept;
+    void inBatches(gpu::ShadeParams params, uint32_t largest, Record&& record) const noexcept
+    {
+        const uint32_t end = params.firstLight + params.lightCount;
+        for (; params.firstLight < end; params.firstLight += params.lightCount) {
+            params.lightCount = std::min(largest, end - params.firstLight);
+            record(params);
+        }
+    }
     uint32_t lightsPerBatch(const CndLightingFrame& frame, const Plan& plan,
                             uint32_t type) const noexcept;
     void recordUnlisted(const gpu::Frame& f, const CndLightingFrame& frame, gpu::ShadeParams params,
@@ -242,6 +254,9 @@ private:
         CndSpecularMethod method = CND_SPECULAR_NONE;
         uint32_t sampleCount = 0;
         uint32_t layers = 0;
+        CndInfluenceRule rule = CND_INFLUENCE_GIVEN;
+        float maxError = 0, exposure = 0; // BY_ERROR
+        CndToneMap toneMap = CND_TONEMAP_NONE;
         bool operator==(const ListsKey&) const = default;
     };
     struct SlotState {
@@ -258,6 +273,7 @@ private:
     GBufferParams gbufferParams_;
     gpu::Buffer core_, aux_, ids_; // per light; ids, when nobody reads them, of one
     ForwardLights forward_;
+    Influence influence_; // CndLightingDesc::influenceByError
     gpu::Buffer counters_;
     std::vector<gpu::Buffer> readback_; // per slot
     std::vector<SlotState> slots_;

@@ -53,12 +53,13 @@ uint32_t tileClassesOf(const CndLightingDesc& desc)
 }
 
 ShadeKernels::ShadeKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
-                           uint32_t methods, uint32_t tileClasses)
+                           uint32_t methods, uint32_t tileClasses, bool measures)
     : device_(&device),
       host_(&host),
       gbuffer_(gbuffer),
       methods_(methods),
-      tileClasses_(tileClasses)
+      tileClasses_(tileClasses),
+      measures_(measures)
 {
     require(CND_LIGHT_SPHERE);
 }
@@ -95,6 +96,7 @@ struct Family {
     const gpu::Spirv* unlisted;
     const gpu::Spirv* brute;
     const gpu::Spirv* countPairs;
+    const gpu::Spirv* measure;
 };
 
 // shaders/lib/light_families.glsl.
@@ -104,23 +106,25 @@ Family familyOf(uint32_t lightType, CndSpecularMethod method)
     switch (lightType) {
     case CND_LIGHT_TUBE:
         return {&shade_tiles_comp_tube, &shade_unlisted_comp_tube, &shade_brute_comp_tube,
-                &count_pairs_comp_tube};
+                &count_pairs_comp_tube, &measure_influence_comp_tube};
     case CND_LIGHT_RECTANGLE:
         return {&shade_tiles_comp_rectangle, &shade_unlisted_comp_rectangle,
-                &shade_brute_comp_rectangle, &count_pairs_comp_rectangle};
+                &shade_brute_comp_rectangle, &count_pairs_comp_rectangle,
+                &measure_influence_comp_rectangle};
     case CND_LIGHT_DISC:
         return {&shade_tiles_comp_disc, &shade_unlisted_comp_disc, &shade_brute_comp_disc,
-                &count_pairs_comp_disc};
+                &count_pairs_comp_disc, &measure_influence_comp_disc};
     case CND_LIGHT_SPHERE:
     case CND_LIGHT_DISTANT_SPHERE:
         if (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL)
             return {&shade_tiles_comp_conic, &shade_unlisted_comp_conic, &shade_brute_comp_conic,
-                    &count_pairs_comp_conic};
+                    &count_pairs_comp_conic, &measure_influence_comp_conic};
         return {&shade_tiles_comp_sphere, &shade_unlisted_comp_sphere, &shade_brute_comp_sphere,
-                &count_pairs_comp_sphere};
+                &count_pairs_comp_sphere, &measure_influence_comp_sphere};
     default:
         return {&shade_tiles_comp_punctual, &shade_unlisted_comp_punctual,
-                &shade_brute_comp_punctual, &count_pairs_comp_punctual};
+                &shade_brute_comp_punctual, &count_pairs_comp_punctual,
+                &measure_influence_comp_punctual};
     }
 }
 
@@ -157,6 +161,8 @@ ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, CndSpecularM
                 .brute = makeKernel(*family.brute, lightType, method, withBudget, gpu::CLASS_ANY)};
     if (tellsApart(gpu::CLASS_SPECULAR))
         out.specular = makeTiles(lightType, method, withBudget, gpu::CLASS_SPECULAR);
+    if (measures_ && !withBudget)
+        out.measure = makeKernel(*family.measure, lightType, method, withBudget, gpu::CLASS_ANY);
     return out;
 }
 

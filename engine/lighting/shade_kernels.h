@@ -35,8 +35,9 @@ public:
     using Kernel = gpu::Kernel<gpu::ShadeParams>;
     // `methods`: mask of 1 << CndSpecularMethod.
     // `gbuffer`: value of SPEC_GBUFFER. `tileClasses`: as of tileClassesOf. `host` must outlive it.
+    // `measures`: CndLightingDesc::influenceByError.
     ShadeKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
-                 uint32_t methods, uint32_t tileClasses);
+                 uint32_t methods, uint32_t tileClasses, bool measures);
     // Makes the pipelines of a light type unless they exist; whether it did.
     bool require(uint32_t lightType);
 
@@ -48,6 +49,7 @@ public:
     struct Variant {
         Tiles any, specular; // CLASS_ANY, CLASS_SPECULAR
         Kernel brute;
+        Kernel measure; // where it is asked for, without a budget
     };
     const Variant& variant(uint32_t type, CndSpecularMethod method, bool withBudget) const;
     bool tellsApart(uint32_t tileClass) const { return tileClasses_ >> tileClass & 1; }
@@ -74,6 +76,7 @@ private:
     const HostKernels* host_;
     uint32_t gbuffer_;
     uint32_t methods_, tileClasses_;
+    bool measures_;
     OfType types_[CND_LIGHT_TYPE_COUNT];
 };
 

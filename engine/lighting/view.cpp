@@ -94,19 +94,23 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     }
     if (lighting.desc().forwardStages)
         forward_ = ForwardLights(device, lighting.desc().forwardStages, slots);
+    if (lighting.desc().influenceByError)
+        influence_ = Influence(lighting, {desc_.maxWidth, desc_.maxHeight});
     makeRoom(lighting.typeCounts());
     lighting.add(this);
 }
 
 View::Plan View::plan(const CndLightingFrame& frame) const
 {
+    const CndInfluenceRule influence = influenceOf(frame);
     Plan p{.projection = projectionOf(frame.camera.clipFromView, frame.clearDepth),
            .size = {frame.width, frame.height},
            .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
            .clearDepth = frame.clearDepth,
            .lightCount = lighting_.lightCount(),
            // Brute force is the check: it knows no bound.
-           .lights = frame.culling == CND_CULLING_BRUTE
+           // Lights whose radii are not those that are given may reach it from anywhere.
+           .lights = frame.culling == CND_CULLING_BRUTE || influence != CND_INFLUENCE_GIVEN
                          ? lighting_.typeCounts()
                          : lighting_.countsInView(frame.camera, layersOf(frame.layers)),
            .trees = treeShapes(lighting_.typeCounts()),
@@ -120,7 +124,8 @@ View::Plan View::plan(const CndLightingFrame& frame) const
     p.prepare = {.viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
                  .originView = glm::vec3(viewFromWorld * glm::dvec4(o[0], o[1], o[2], 1)),
                  .lightCount = p.lightCount,
-                 .layers = layersOf(frame.layers)};
+                 .layers = layersOf(frame.layers),
+                 .uncut = influence != CND_INFLUENCE_GIVEN};
     return p;
 }
 
@@ -155,6 +160,8 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
         if (passes.runs(Pass::TileClusters))
             clusters_.recordReset(f, lighting_.typeCounts());
         f.barrier();
+        if (passes.runs(Pass::MeasureInfluence))
+            recordInfluence(f, frame, plan);
         recordClusters(f, plan, passes);
         if (passes.runs(Pass::ClusterLists))
             recordLists(f, frame, plan);
@@ -281,6 +288,7 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.listEntries = c.listEntries;
     out.maxListLength = c.maxListLength;
     out.unlistedClusters = c.unlistedClusters;
+    out.cutBelow = c.cutBelow;
     out.listedPairs = join(c.listedPairs);
     out.evaluatedPairs = join(c.evaluatedPairs);
     out.insidePairs = join(c.insidePairs);

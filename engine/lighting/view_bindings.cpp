@@ -57,6 +57,14 @@ void View::writeBindings(const CndLightingFrame& frame) const
                               .ids = ids_,
                               .directionalAlbedo = lighting_.directionalAlbedo(),
                               .transformedCosines = lighting_.transformedCosines()});
+    if (lighting_.desc().influenceByError)
+        influence_.writeBindings(slot, lighting_,
+                                 {.gbuffer = images,
+                                  .radiance = frame.radiance,
+                                  .core = core_,
+                                  .aux = aux_,
+                                  .ids = ids_,
+                                  .counters = counters_});
     const Binding ids = Binding::of(SHADE_LIGHT_IDS, ids_);
     if (frame.culling == CND_CULLING_BRUTE) {
         sets_.shadeBrute.write(

@@ -59,6 +59,7 @@ void View::validate(const CndLightingFrame& frame) const
         gpu::failArgument("CndLightingFrame: culling is not a CndCulling");
     if (!areLayers(frame.layers))
         gpu::failArgument("CndLightingFrame: layers has bits beyond CND_LAYER_COUNT");
+    checkInfluence(frame.influence, lighting_.desc().influenceByError);
     const auto isInside = [](int32_t offset, uint32_t extent, uint32_t size) {
         return offset >= 0 && uint32_t(offset) <= size && extent <= size - uint32_t(offset);
     };

@@ -49,17 +49,6 @@ gpu::ShadeParams View::shadeParams(const CndLightingFrame& frame, const Plan& p,
             .tree = p.trees[type]};
 }
 
-// Calls `record` for consecutive lights of a type, at most `largest` at once.
-template <typename Record>
-void View::inBatches(gpu::ShadeParams params, uint32_t largest, Record&& record) const noexcept
-{
-    const uint32_t end = params.firstLight + params.lightCount;
-    for (; params.firstLight < end; params.firstLight += params.lightCount) {
-        params.lightCount = std::min(largest, end - params.firstLight);
-        record(params);
-    }
-}
-
 void View::recordBrute(const gpu::Frame& f, const CndLightingFrame& frame, const Plan& p,
                        uint32_t type) const noexcept
 {

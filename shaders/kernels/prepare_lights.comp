@@ -45,7 +45,10 @@ void main()
     const bool inFrame = (light.type >> LIGHT_LAYERS_SHIFT & params.layers) != 0u;
     core[i * LIGHT_CORE_STRIDE] = vec4(params.viewFromWorld * light.position + origin,
                                        inFrame ? light.reach : REACH_OF_NONE);
-    const float influence2 = light.influenceRadius * light.influenceRadius;
+    // A radius of 0 says that there is no light (device_lights).
+    const bool endless = params.uncut != 0u && light.influenceRadius > 0.0;
+    const float influence2 = endless ? uintBitsToFloat(0x7F800000u) // infinite
+                                     : light.influenceRadius * light.influenceRadius;
     core[i * LIGHT_CORE_STRIDE + 1u] =
         vec4(light.emission, inFrame ? influence2 : INFLUENCE2_OF_NONE);
     const vec3 axisV = type == LIGHT_SPOT ? light.axisV : params.viewFromWorld * light.axisV;

@@ -63,7 +63,8 @@ vec3 discResponse(Receiver r, Light given)
     const Light light = atUnitDistance(given, scale);
     const vec3 normal = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
     const bool twoSided = lightAux[light.index * LIGHT_AUX_STRIDE + 1u].w != 0.0;
-    vec3 response = diffuseResponse(r.p, discFormFactor(r.p.n, light.toLight, normal, light.reach, twoSided));
+    const float formFactor = discFormFactor(r.p.n, light.toLight, normal, light.reach, twoSided);
+    vec3 response = diffuseResponse(r.p, formFactor);
     if (areaMethod == SPECULAR_KARIS)
         response += schlick(r.p, representativeDisc(r.p, light.toLight, normal, light.reach, twoSided));
     else if (areaMethod == SPECULAR_LTC)

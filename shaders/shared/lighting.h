@@ -78,12 +78,13 @@ struct LightingCounters {
     uint splitTiles;
     uint surfaceTiles[TILE_CLASSES];
     uint deviceLights, rejectedLights; // shared/device_lights.h
+    float cutBelow;                    // lx (shared/influence.h); 0: nothing is
     uvec2 listedPairs;                 // 64 bit: low, high
     uvec2 evaluatedPairs;
     uvec2 insidePairs;
     uvec2 contributingPairs;
 };
-GPU_SIZE(LightingCounters, 72)
+GPU_SIZE(LightingCounters, 76)
 
 // --- prepare_lights: world -> view, one lane per light
 const uint PREPARE_LIGHTS_GROUP = 64u;
@@ -99,8 +100,9 @@ struct PrepareLightsParams {
     vec3 originView;    // the light set's origin in view space, subtracted in double
     uint lightCount;
     uint layers; // of the frame
+    uint uncut;  // 1: lights reach everything, whatever their records say
 };
-GPU_SIZE(PrepareLightsParams, 56)
+GPU_SIZE(PrepareLightsParams, 60)
 
 // --- shade_tiles, shade_unlisted, shade_brute, count_pairs: 8x8 pixels per group, one lane per
 // pixel

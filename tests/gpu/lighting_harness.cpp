@@ -261,6 +261,7 @@ CndLightingFrame LightingTest::frameOf(const CpuGBuffer& g, const Images& images
     frame.lobes = options.lobes;
     frame.energyCompensation = options.energyCompensation;
     frame.culling = options.culling;
+    frame.influence = options.influence;
     frame.countPairs = options.countPairs;
     frame.layers = options.layers;
     frame.hostSet = options.hostSet;
@@ -304,7 +305,9 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
                                .timestamps = true,
                                .specularMethods = 1u << options.specular,
                                .materialClasses = options.materialClasses,
-                               .hostKernels = options.hostKernels};
+                               .hostKernels = options.hostKernels,
+                               .influenceByError =
+                                   options.influence.rule == CND_INFLUENCE_BY_ERROR};
     CndLighting lighting = options.lighting;
     if (!lighting) {
         EXPECT_EQ(cndCreateLighting(options.host ? options.host : &deviceDesc(), &desc, &lighting,

@@ -80,6 +80,7 @@ struct RunOptions {
     float errorBudget = 0;
     CndLobeJoining lobes = CND_LOBES_SUM;
     bool energyCompensation = false;
+    CndInfluence influence{};
     int frames = 1; // record this many times; the last one is read back
     uint32_t layers = 0;
     CndGBufferLayout layout = CND_GBUFFER_FULL;

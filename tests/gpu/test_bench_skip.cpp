@@ -21,7 +21,7 @@ TEST_F(BenchSkip, ImagesAreThoseOfFramesThatSkipNothing)
     const SkipSettings settings{.size = {200, 120}, .lights = 300, .rounds = 2, .pointRounds = 1};
     Progress progress(1, false);
     const std::vector<SkipRow> rows = measureSkips(context(), settings, progress);
-    ASSERT_EQ(rows.size(), 11u);
+    ASSERT_EQ(rows.size(), 12u);
     for (const SkipRow& row : rows) {
         EXPECT_LE(row.difference, row.bound) << row.name;
         EXPECT_EQ(row.with.frames(), row.without.frames()) << row.name;

@@ -97,6 +97,23 @@ TEST_F(DeviceLightsTest, GiveTheSameImageAsFromTheHost)
     }
 }
 
+TEST_F(DeviceLightsTest, AreCutByAnErrorLikeThoseOfTheHost)
+{
+    std::vector<CndLight> spheres = randomSpheres(g_, 150, 17);
+    for (size_t i = 10; i < spheres.size(); ++i)
+        spheres[i].radius = 0.01f; // dim
+    fill(spheres);
+    const CndDeviceLights device = desc(CND_LIGHT_SPHERE, 150, 150);
+    const CndInfluence influence{
+        .rule = CND_INFLUENCE_BY_ERROR, .maxError = 0.1f, .exposure = 0.003f};
+    const LightingResult fromHost = run(g_, spheres, {.influence = influence});
+    const LightingResult fromDevice =
+        run(g_, {}, {.deviceLights = &device, .influence = influence});
+    EXPECT_GT(fromHost.stats.cutBelow, 0);
+    EXPECT_EQ(fromDevice.stats.cutBelow, fromHost.stats.cutBelow);
+    EXPECT_LE(maxRelativeDifference(fromDevice.radiance, fromHost.radiance), 1e-6);
+}
+
 TEST_F(DeviceLightsTest, WhatIsNoLightShowsNothingAndIsCounted)
 {
     const std::vector<CndLight> good = randomSpheres(g_, 60, 9);

@@ -37,13 +37,14 @@ double maxPixelDifference(const std::vector<glm::vec4>& a, const std::vector<glm
 class ForwardTest : public LightingTest
 {
 protected:
-    void create(const CpuGBuffer& g, const std::vector<CndLight>& lights)
+    void create(const CpuGBuffer& g, const std::vector<CndLight>& lights, bool byError = false)
     {
         CndError error{};
         const CndLightingDesc desc{.structSize = sizeof desc,
                                    .framesInFlight = 2,
                                    .specularMethods = 1u << CND_SPECULAR_CONIC,
-                                   .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT};
+                                   .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT,
+                                   .influenceByError = byError};
         ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting_, &error), CND_SUCCESS)
             << error.message;
         const CndLightingViewDesc viewDesc{sizeof viewDesc, g.width, g.height, 0};
@@ -246,6 +247,32 @@ TEST_F(ForwardTest, OfEachTypeAloneEqualsTheDeferredResult)
                   tolerance)
             << type;
     }
+}
+
+// Lights that the display decides about are cut for both alike.
+TEST_F(ForwardTest, UnderLightsThatAreCutByAnError)
+{
+    const CpuGBuffer seen = gbuffer(12);
+    std::vector<CndLight> lights = randomSpheres(seen, 100, 62);
+    for (size_t i = 10; i < lights.size(); ++i)
+        lights[i].radius = 0.01f; // dim
+    create(seen, lights, true);
+    const RunOptions options{
+        .specular = CND_SPECULAR_CONIC,
+        .influence = {.rule = CND_INFLUENCE_BY_ERROR, .maxError = 0.1f, .exposure = 0.003f}};
+    const Lit cut = frame(seen, seen, options);
+    CndLightingStats stats{.structSize = sizeof stats};
+    ASSERT_EQ(cndGetLightingStats(view_, slot_, &stats), CND_SUCCESS);
+    EXPECT_GT(stats.cutBelow, 0);
+    std::vector<glm::vec4> twice = cut.lit();
+    for (glm::vec4& pixel : twice)
+        pixel *= 2;
+    EXPECT_LE(maxPixelDifference(twice, cut.deferred), tolerance);
+    EXPECT_GT(maxPixelDifference(cut.lit(), run(seen, lights,
+                                                {.specular = CND_SPECULAR_CONIC,
+                                                 .influence = {.rule = CND_INFLUENCE_UNCUT}})
+                                                .radiance),
+              tolerance);
 }
 
 TEST_F(ForwardTest, UnderAnOrthographicCameraAndManyLights)

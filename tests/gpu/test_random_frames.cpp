@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random frames: any camera, size, depth convention and lights, clustered against brute force. Sixty
-// by default, 1,000 with tools/test --full.
+// Random frames: any camera, size, depth convention and lights, clustered against brute force.
+// Sixty by default, 1,000 with tools/test --full.
 #include "gpu/lighting_harness.h"
 #include "harness/full_tests.h"
 

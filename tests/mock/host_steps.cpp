@@ -95,7 +95,8 @@ const std::vector<Step>& steps()
                                         .gbufferLayout = CND_GBUFFER_HOST,
                                         .timestamps = true,
                                         .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A},
-                                        .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT};
+                                        .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT,
+                                        .influenceByError = VK_TRUE};
              return cndCreateLighting(&h.device, &desc, &h.lighting, error);
          }},
         {"create view", false,
@@ -128,6 +129,7 @@ const std::vector<Step>& steps()
              CndLightingFrame frame = surfaces<CndLightingFrame>();
              frame.specularMethod = CND_SPECULAR_CONIC;
              frame.countPairs = VK_TRUE;
+             frame.influence = {.rule = CND_INFLUENCE_BY_ERROR, .maxError = 0.1f, .exposure = 1};
              return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
          }},
         {"record overlay", true,

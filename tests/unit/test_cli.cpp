@@ -187,6 +187,32 @@ TEST(Options, IdleOnesAreNamed)
     EXPECT_EQ(named(warnings("a.json", 5)), "--punctual-radius --sun-radius ");
 }
 
+TEST(Options, InfluenceErrorsAreSharesOfTheDisplay)
+{
+    FrameArguments arguments;
+    EXPECT_EQ(arguments.influenceRule().rule, CND_INFLUENCE_GIVEN);
+    arguments.influence = "uncut";
+    EXPECT_EQ(arguments.influenceRule().rule, CND_INFLUENCE_UNCUT);
+    arguments.influence = "given";
+    for (const auto& [text, error] :
+         {std::pair{"0.5/255", 0.5f / 255}, {"1", 1.0f}, {"2e-3", 2e-3f}}) {
+        arguments.influenceError = text;
+        EXPECT_EQ(arguments.influenceRule().rule, CND_INFLUENCE_BY_ERROR) << text;
+        EXPECT_FLOAT_EQ(arguments.influenceRule().maxError, error) << text;
+    }
+    for (const char* text : {"0", "-1", "1.01", "2/1", "1/0", "0/0", "/255", "1/", "1/2/3", "x",
+                             "nan", "inf", "1e-60", "0.5/-255"}) {
+        arguments.influenceError = text;
+        EXPECT_THROW(arguments.influenceRule(), UsageError) << text;
+    }
+    arguments.influenceError = "0.5/255";
+    arguments.culling = "brute";
+    EXPECT_THROW(arguments.influenceRule(), UsageError);
+    arguments.culling = "clustered";
+    arguments.influence = "uncut";
+    EXPECT_THROW(arguments.influenceRule(), UsageError);
+}
+
 TEST(Options, ImageSizeComesFromTheOptionTheSceneOrTheCamera)
 {
     FrameArguments arguments;

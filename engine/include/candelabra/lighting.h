@@ -4,6 +4,7 @@
 #define CANDELABRA_LIGHTING_H
 
 #include "candelabra/core.h"
+#include "candelabra/exposure.h"
 #include "candelabra/lights.h"
 #include "candelabra/surfaces.h"
 
@@ -35,6 +36,37 @@ typedef enum CndCulling {
     CND_CULLING_BRUTE = 1, // every light at every pixel, no list, no bound; the check and baseline
     CND_CULLING_MAX_ENUM = 0x7FFFFFFF
 } CndCulling;
+
+// How far lights reach that have a place. Distant lights reach everything.
+typedef enum CndInfluenceRule {
+    // CndLight::influenceRadius, with a window that takes the light smoothly to 0 there:
+    // (1 - (d / r)^4)^2.
+    CND_INFLUENCE_GIVEN = 0,
+    CND_INFLUENCE_UNCUT = 1, // everywhere, as light does; influenceRadius is not read
+    // As far as the display can tell, by CndInfluence::maxError; influenceRadius is not read. A
+    // light of peak intensity I (cd) gets the radius sqrt(I / E) and the window of GIVEN, E one
+    // illuminance for all lights, chosen on the device with every frame. The error of a pixel
+    // counts all that cuts and windows of all lights together take from it. The first frame, and
+    // the first with another maxError, measures every pixel (a million of larger images) and takes
+    // as long as brute force; the others measure up to 4096, each time others: one of each 8x8 (of
+    // larger squares where the image is larger). E falls at once where they ask for it; it rises,
+    // by half an octave per frame, to what 64 frames have allowed. What comes into view may so err
+    // by more in a few pixels until its turn comes. CND_CULLING_BRUTE, the check, cuts nothing.
+    CND_INFLUENCE_BY_ERROR = 2,
+    CND_INFLUENCE_RULE_MAX_ENUM = 0x7FFFFFFF
+} CndInfluenceRule;
+
+typedef struct CndInfluence {
+    CndInfluenceRule rule;
+    // The rest is read by CND_INFLUENCE_BY_ERROR.
+    // Largest change of an sRGB-encoded channel of 0..1 that lights may miss on the display:
+    // 0 < maxError <= 1; 0.5 / 255 cannot change an 8-bit level by more than one.
+    float maxError;
+    // CndExposureStats::exposure of an earlier frame, >= 0; 0: none is known yet, the frame is
+    // UNCUT.
+    float exposure;
+    CndToneMap toneMap; // as in CndExposureSettings
+} CndInfluence;
 
 // How a pixel finds its lights (CndLightingFrame::pairImage). Of several light types the highest.
 typedef enum CndPixelClass {
@@ -79,6 +111,9 @@ typedef struct CndLightingDesc {
     // cndSetLights) and no more pipelines.
     uint32_t lightCapacity; // lights; 0: 1024. Larger sets make it grow, by half at least
     uint32_t lightTypes;    // mask of 1 << CndLightType; 0: pipelines for spheres only
+    // Frames may ask for CND_INFLUENCE_BY_ERROR: makes the pipelines that measure it, and views
+    // take up to 3.3 MB more. Not with hostKernels, whose functions those do not have.
+    VkBool32 influenceByError;
 } CndLightingDesc;
 
 typedef struct CndLightingViewDesc {
@@ -118,9 +153,11 @@ typedef struct CndLightingFrame {
     // light at any roughness.
     VkBool32 energyCompensation;
     CndCulling culling;
+    // With BY_ERROR radiance holds, on entry, all light of the image that is not of these lights.
+    CndInfluence influence;
     // The host promises: size, camera, clearDepth, depth and normals are those of the frame
     // recorded with this view before, and so are albedo and specular with materialClasses. With the
-    // same lights too, its clusters and lists are used again.
+    // same lights and influence too, its clusters and lists are used again.
     VkBool32 surfacesUnchanged;
     VkRect2D bruteRect;  // CND_CULLING_BRUTE: pixels to shade; zero extent: all
     VkBool32 countPairs; // also count (pixel, light) pairs: one more kernel; clustered only
@@ -179,6 +216,8 @@ typedef struct CndLightingStats {
     // Clusters over the list budget, or of more lights than a loop of the device may take, summed
     // over light types: lit by walking the light tree per pixel.
     uint32_t unlistedClusters;
+    // CND_INFLUENCE_BY_ERROR: the illuminance (lx) that lights are cut at; 0: none is.
+    float cutBelow;
     // (pixel, light) pairs of clusters that have lists, with countPairs, else 0:
     // Entries walked, summed over the surface pixels; distant lights of other layers are walked,
     // and counted here alone.

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "bench/skip_stage.h"
 #include "commands/brute_check.h"
+#include "reference/tone_map.h"
 #include "render/error.h"
 #include "scene/load.h"
 
@@ -225,6 +227,52 @@ std::vector<float> imageOf(const Drawing& drawing)
     return drawing.image();
 }
 
+constexpr double middleGrey = 0.18;
+
+double meanOf(const std::vector<float>& image)
+{
+    return std::accumulate(image.begin(), image.end(), 0.0) / double(image.size());
+}
+
+// Radiance as a display shows it, 0..1, without a tone curve.
+Drawing shown(Drawing drawing, float exposure)
+{
+    drawing.image = [image = drawing.image, exposure] {
+        std::vector<float> out = image();
+        for (float& x : out)
+            x = float(reference::srgbEncode(std::min(double(x * exposure), 1.0)));
+        out.push_back(1); // of which differences are shares
+        return out;
+    };
+    return drawing;
+}
+
+// Few lights, or all of them everywhere would take long: one in ten as it is, the others so dim
+// that no display shows them. What looking for them costs shows where all are as they are.
+Skip dimLights(SkipStage& stage)
+{
+    constexpr float starlight = 1e-6f, error = 0.5f / 255;
+    Lights few = stage.lights();
+    few.resize(std::min(few.size(), std::max<size_t>(few.size() / 16, 40)));
+    Lights dim = few;
+    for (size_t i = 0; i < dim.size(); ++i)
+        for (float& e : dim[i].emission)
+            e *= i % 10 ? starlight : 1;
+    const CndInfluence uncut{.rule = CND_INFLUENCE_UNCUT};
+    const Drawing everywhere = stage.lighting(dim, {.influence = uncut});
+    const double mean = meanOf(imageOf(everywhere));
+    const CndInfluence byError{
+        .rule = CND_INFLUENCE_BY_ERROR, .maxError = error, .exposure = float(middleGrey / mean)};
+    return {{.name = "lights too dim to see",
+             .against = "all of them, everywhere",
+             .passes = "lighting",
+             .bound = double(error)},
+            {shown(stage.lighting(dim, {.influence = byError}), byError.exposure), everywhere},
+            shown(everywhere, byError.exposure),
+            Pair{stage.lighting(few, {.influence = byError}),
+                 stage.lighting(few, {.influence = uncut})}};
+}
+
 double largestDifference(const std::vector<float>& image, const std::vector<float>& reference)
 {
     float largest = 0, difference = 0;
@@ -299,10 +347,10 @@ double SkipRow::ratio() const
     return other > 0 ? with.total().medianMs / other : 0;
 }
 
-// Rows, three of them with two pairs; and that of points.
+// Rows, four of them with two pairs; and that of points.
 double skipSteps(const SkipSettings& s)
 {
-    return 13.0 * s.rounds + s.pointRounds;
+    return 15.0 * s.rounds + s.pointRounds;
 }
 
 std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettings& settings,
@@ -323,6 +371,7 @@ std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettin
     for (Skip (*make)(SkipStage&) : ofStage)
         add(make(stage), settings.rounds);
     add(otherTypesNeverMet(stage), settings.pointRounds);
+    add(dimLights(stage), settings.rounds);
     {
         SkipStage other(context, scene, settings.size);
         add(unchangedFrame(stage, other), settings.rounds);

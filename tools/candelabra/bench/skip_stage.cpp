@@ -26,8 +26,10 @@ Drawing SkipStage::lighting(const Lights& lights, const LightingWay& way)
     };
     const auto own = std::make_shared<Own>();
     own->lighting = take(Lighting::create(
-        context_.desc(),
-        {.framesInFlight = 1, .timestamps = VK_TRUE, .materialClasses = way.materialClasses}));
+        context_.desc(), {.framesInFlight = 1,
+                          .timestamps = VK_TRUE,
+                          .materialClasses = way.materialClasses,
+                          .influenceByError = way.influence.rule == CND_INFLUENCE_BY_ERROR}));
     const auto [width, height] = renderer_.size();
     own->view = take(own->lighting.createView({.maxWidth = width, .maxHeight = height}));
     const glm::dvec3& o = scene_.lightOrigin;
@@ -35,8 +37,10 @@ Drawing SkipStage::lighting(const Lights& lights, const LightingWay& way)
         take(own->lighting.setLights(*set, {o.x, o.y, o.z}));
     FrameOptions options = options_;
     way.edit(options);
-    const auto draw = [this, own, options, promise = way.surfacesUnchanged] {
+    const auto draw = [this, own, options, influence = way.influence,
+                       promise = way.surfacesUnchanged] {
         CndLightingFrame frame = renderer_.lightingFrame(0, options);
+        frame.influence = influence;
         frame.surfacesUnchanged = promise && std::exchange(own->drawn, true);
         context_.submitAndWait([&](VkCommandBuffer cmd) {
             renderer_.recordUnlit(cmd, options);

@@ -24,6 +24,7 @@ struct LightingWay {
     bool surfacesUnchanged = false; // promised from the second frame on
     std::vector<CndLight> before{}; // a set that it has had first
     uint32_t materialClasses = 0;   // CndLightingDesc
+    CndInfluence influence{};
 };
 
 class SkipStage

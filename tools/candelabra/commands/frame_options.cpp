@@ -19,6 +19,8 @@ constexpr Choice<CndSpecularMethod> specularChoices[] = {
 };
 constexpr Choice<CndCulling> cullingChoices[] = {{"clustered", CND_CULLING_CLUSTERED},
                                                  {"brute", CND_CULLING_BRUTE}};
+constexpr Choice<CndInfluenceRule> influenceChoices[] = {{"given", CND_INFLUENCE_GIVEN},
+                                                         {"uncut", CND_INFLUENCE_UNCUT}};
 constexpr Choice<Reuse> reuseChoices[] = {
     {"none", Reuse::None}, {"lists", Reuse::Lists}, {"lighting", Reuse::Lighting}};
 constexpr Choice<HeatMap> heatMapChoices[] = {{"none", HeatMap::None},
@@ -46,6 +48,10 @@ const char* specularName(CndSpecularMethod method)
 const char* cullingName(CndCulling culling)
 {
     return nameOf(culling, cullingChoices);
+}
+const char* influenceName(CndInfluenceRule rule)
+{
+    return rule == CND_INFLUENCE_BY_ERROR ? "error" : nameOf(rule, influenceChoices);
 }
 const char* reuseName(Reuse reuse)
 {
@@ -126,6 +132,18 @@ void FrameArguments::addDebugTo(CLI::App& command)
               "instead of the display image, what the lights cost each pixel, with a legend");
 }
 
+void FrameArguments::addInfluenceTo(CLI::App& command)
+{
+    addChoice(command, "--influence", influence, influenceChoices,
+              "how far lights reach: as the scene says, or everywhere");
+    command
+        .add_option("--influence-error", influenceError,
+                    "lights reach as far as the display can tell: all that is cut changes no "
+                    "channel by more than this share of its range, under the exposure of the "
+                    "frame before")
+        ->type_name("E, such as 0.5/255 or 0.002");
+}
+
 PixelSize FrameArguments::pixelSize(const Scene& scene, const Camera& chosen) const
 {
     PixelSize out{1280, 720};
@@ -170,6 +188,26 @@ float FrameArguments::budget() const
 CndCulling FrameArguments::cullingMode() const
 {
     return choose("--culling", culling, cullingChoices);
+}
+
+CndInfluence FrameArguments::influenceRule() const
+{
+    const CndInfluenceRule rule = choose("--influence", influence, influenceChoices);
+    if (influenceError.empty())
+        return {.rule = rule};
+    const size_t slash = influenceError.find('/');
+    const auto above = parseNumber(influenceError.substr(0, slash));
+    const auto below = slash == std::string::npos ? std::optional(1.0)
+                                                  : parseNumber(influenceError.substr(slash + 1));
+    const double error = above && below ? *above / *below : 0;
+    if (!(error > 0 && error <= 1) || !(float(error) > 0))
+        throw UsageError("--influence-error \"" + influenceError +
+                         "\": must be above 0 and at most 1, such as 0.5/255 or 0.002");
+    if (rule != CND_INFLUENCE_GIVEN)
+        throw UsageError("--influence-error: --influence says how far lights reach");
+    if (cullingMode() == CND_CULLING_BRUTE)
+        throw UsageError("--influence-error: --culling brute cuts no light");
+    return {.rule = CND_INFLUENCE_BY_ERROR, .maxError = float(error)};
 }
 
 Reuse FrameArguments::reuseMode() const

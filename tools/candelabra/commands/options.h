@@ -68,6 +68,7 @@ struct FrameArguments {
     std::string size, camera;
     std::string gbuffer = "full", specular, culling = "clustered";
     std::string sampleCount = "64", errorBudget = "0";
+    std::string influence = "given", influenceError;
     std::string lightsVisible, reuse, heatMap = "none";
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
 
@@ -77,6 +78,7 @@ struct FrameArguments {
     void addCullingTo(CLI::App& command);
     void addReuseTo(CLI::App& command, Reuse fallback);
     void addDebugTo(CLI::App& command);
+    void addInfluenceTo(CLI::App& command);
 
     // All throw UsageError for what they cannot read.
     PixelSize pixelSize(const Scene& scene, const Camera& camera) const;
@@ -85,6 +87,7 @@ struct FrameArguments {
     uint32_t samples() const; // per light, of the specular method "sampled"
     float budget() const;     // CndLightingFrame::errorBudget
     CndCulling cullingMode() const;
+    CndInfluence influenceRule() const; // without the exposure, which the renderer knows
     Reuse reuseMode() const;
     HeatMap heatMapMode() const; // with clustered culling only
     std::optional<bool> lightsVisibleOverride() const;
@@ -94,6 +97,7 @@ struct FrameArguments {
 // Names on the command line, as they appear in results.
 const char* specularName(CndSpecularMethod method);
 const char* cullingName(CndCulling culling);
+const char* influenceName(CndInfluenceRule rule);
 const char* reuseName(Reuse reuse);
 const char* heatMapName(HeatMap heatMap);
 const char* toneMapName(CndToneMap toneMap);

@@ -48,6 +48,7 @@ FrameOptions frameOptions(const FrameArguments& frame)
             .sampleCount = frame.samples(),
             .errorBudget = frame.budget(),
             .culling = frame.cullingMode(),
+            .influence = frame.influenceRule(),
             .exposure = frame.exposureSettings()};
 }
 
@@ -58,6 +59,7 @@ FrameOptions variant(const FrameArguments& base, const std::string& text)
     CLI::App app;
     frame.addTo(app);
     frame.addCullingTo(app);
+    frame.addInfluenceTo(app);
     frame.specular = base.specular;
     const auto refuse = [&](const char* why) {
         throw UsageError(fmt::format("--ab \"{}\": {}", text, why));
@@ -182,10 +184,12 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     const PixelSize size = a.frame.pixelSize(scene, camera);
     makeCamera(camera, double(size.width) / size.height); // refuses before the GPU is asked
     uint32_t methods = 0;
+    bool byError = false;
     for (FrameOptions& options : p.settings.variants) {
         options.camera = camera;
         options.lightsVisible = a.frame.lightsVisibleOverride().value_or(scene.lightsVisible);
         methods |= 1u << options.specular;
+        byError |= options.influence.rule == CND_INFLUENCE_BY_ERROR;
     }
     p.settings.moving = !scene.lightMotions.empty();
 
@@ -196,6 +200,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
                       {.size = size,
                        .gbufferLayout = p.gbufferLayout,
                        .specularMethods = methods,
+                       .influenceByError = byError,
                        .stamps = true});
     std::optional<ProfileTrace> trace;
     if (!a.trace.empty())
@@ -281,6 +286,7 @@ void addProfileCommand(CLI::App& app, Run& run)
                       "add to the runs that the file of --json holds, for candelabra compare");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
+    a->frame.addInfluenceTo(*command);
     a->device.addTo(*command);
     command->footer("One frame at a time is drawn, waited for and timed by the GPU's clock.\n\n"
                     "Examples:\n"

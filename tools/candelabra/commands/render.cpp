@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
+#include "commands/influence_check.h"
 #include "commands/measure.h"
 #include "commands/pick.h"
 #include "io/progress.h"
@@ -85,27 +86,39 @@ RenderPlan plan(const RenderArguments& a)
         throw UsageError("render: nothing to write; give -o FILE (.png, .exr, .hdr, .pfm), "
                          "--json FILE, --pick X,Y or --explain");
     requireOutputs(a);
+    const CndInfluence influence = a.frame.influenceRule();
+    const bool byError = influence.rule == CND_INFLUENCE_BY_ERROR;
+    if (byError && a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
+        throw UsageError("--influence-error: --specular sampled is noise, which hides what is cut");
+    if (byError && !a.pick.empty())
+        throw UsageError("--pick: shows lights with the radii that they are given: not with "
+                         "--influence-error");
     return {.scene = a.scene.options(a.scene.lightCount()),
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
                       .specular = a.frame.specularMethod(),
                       .sampleCount = a.frame.samples(),
                       .errorBudget = a.frame.budget(),
                       .culling = a.frame.cullingMode(),
+                      .influence = influence,
                       .reuse = a.frame.reuseMode(),
                       .heatMap = a.frame.heatMapMode(),
                       .exposure = a.frame.exposureSettings()},
             .gbufferLayout = a.frame.gbufferLayout(),
-            .counts = {.measured = unsignedOption("--frames", a.frames, 1, 1'000'000)},
+            // Both slots have an exposure then, and the frame behind has been cut before.
+            .counts = {.warmUp = byError ? 3u : 1u,
+                       .measured = unsignedOption("--frames", a.frames, 1, 1'000'000)},
             .pick = pickedPixel(a)};
 }
 
 Json describe(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
               const VulkanContext& context, const Scene& scene, Renderer& renderer,
-              const MeasuredFrames& frames, const std::optional<Pick>& picked)
+              const MeasuredFrames& frames, const std::optional<Pick>& picked,
+              const std::optional<InfluenceCheck>& cut)
 {
     const PixelSize size = renderer.size();
     FrameOptions again = p.frame;
     again.exposure.manual = VK_TRUE; // the count must not disturb adaptation
+    again.exposure.manualEv100 = frames.last.exposure.adaptedEv100;
     const CndLightingStats lighting = p.frame.culling == CND_CULLING_CLUSTERED
                                           ? countPairs(context, renderer, again)
                                           : frames.last.lighting;
@@ -122,6 +135,8 @@ Json describe(const ProgramContext& program, const RenderArguments& a, const Ren
              {"outputs", a.outputs}};
     if (picked)
         out["pick"] = toJson(*picked, scene);
+    if (cut)
+        out["influence"] = toJson(*cut);
     return out;
 }
 
@@ -147,7 +162,8 @@ int render(const ProgramContext& program, const RenderArguments& a)
     Renderer renderer(context, scene,
                       {.size = size,
                        .gbufferLayout = p.gbufferLayout,
-                       .specularMethods = 1u << p.frame.specular});
+                       .specularMethods = 1u << p.frame.specular,
+                       .influenceByError = p.frame.influence.rule == CND_INFLUENCE_BY_ERROR});
     const bool moving = !scene.lightMotions.empty();
     MeasuredFrames frames;
     {
@@ -166,12 +182,20 @@ int render(const ProgramContext& program, const RenderArguments& a)
         if (a.json != "-")
             writeText("-", pickText(*picked, scene));
     }
+    std::optional<InfluenceCheck> cut;
+    if (p.frame.influence.rule == CND_INFLUENCE_BY_ERROR) {
+        FrameOptions shown = p.frame; // the last frame, behind which time has moved on
+        shown.time += moving ? frameTime * (p.counts.measured - 1) : 0;
+        cut = checkInfluence(context, renderer, shown, frames.last, scene.lights.size());
+        if (a.json != "-")
+            writeText("-", influenceText(*cut));
+    }
     if (a.explain && a.json != "-")
         writeText("-", planText(frames.last));
     if (a.json != "-" && !program.quiet)
         writeText("-", passTable(frames.times));
     if (!a.json.empty())
-        writeJson(a.json, describe(program, a, p, context, scene, renderer, frames, picked));
+        writeJson(a.json, describe(program, a, p, context, scene, renderer, frames, picked, cut));
     return printValidationMessages(context) ? exitFailed : exitOk;
 }
 
@@ -209,6 +233,7 @@ void addRenderCommand(CLI::App& app, Run& run)
                       "say which passes the last frame ran, and why it did without the others");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
+    a->frame.addInfluenceTo(*command);
     a->frame.addDebugTo(*command);
     a->frame.addReuseTo(*command, Reuse::None);
     a->device.addTo(*command);
@@ -218,6 +243,7 @@ void addRenderCommand(CLI::App& app, Run& run)
                     "  candelabra render model.glb --lights 500 --camera 0 -o m.png -o m.exr\n"
                     "  candelabra render hall --camera 0,2,10,0,1,0,60 --exposure 8 -o e.png\n"
                     "  candelabra render hall --pick 640,360\n"
+                    "  candelabra render hall --size 320x180 --influence-error 0.5/255 -o cut.png\n"
                     "  candelabra render hall --debug efficiency --explain -o heat.png");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return render(program, *a); }; });

@@ -36,6 +36,7 @@ ViewerOptions optionsOf(const ViewArguments& a)
                                 .sampleCount = a.frame.samples(),
                                 .errorBudget = a.frame.budget(),
                                 .culling = a.frame.cullingMode(),
+                                .influence = a.frame.influenceRule(),
                                 .reuse = a.frame.reuseMode(),
                                 .heatMap = a.frame.heatMapMode(),
                                 .exposure = a.frame.exposureSettings()},
@@ -86,6 +87,7 @@ void addViewCommand(CLI::App& app, Run& run)
     command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
+    a->frame.addInfluenceTo(*command);
     a->frame.addDebugTo(*command);
     a->frame.addReuseTo(*command, Reuse::Lighting);
     a->device.addTo(*command);

@@ -10,6 +10,7 @@
 #include "render/error.h"
 #include "render/frame_stamps.h"
 #include "render/image_barrier.h"
+#include "render/lit.h"
 #include "render/scene_environment.h"
 #include "render/scene_geometry.h"
 
@@ -50,30 +51,13 @@ void place(std::span<PassTime> passes, double start)
     }
 }
 
-// All that shapes the lit image of one scene at one size.
-struct Lit {
-    Camera camera;
-    double lightTime;
-    bool lightsVisible;
-    CndSpecularMethod specular;
-    uint32_t sampleCount, sampleSeed;
-    float errorBudget;
-    CndCulling culling;
-
-    bool operator==(const Lit&) const = default;
-    bool sameSurfaces(const Lit& other) const
-    {
-        return camera == other.camera && lightsVisible == other.lightsVisible;
-    }
-};
-
 } // namespace
 
 struct Renderer::State {
     const VulkanContext& context;
     const Scene& scene;
     RendererOptions options;
-    std::vector<bool> litSlots; // by slot: its frame was lit, not kept
+    std::vector<bool> litSlots, exposedSlots; // its frame was lit, not kept; it has had one
     gbuffer::Geometry geometry;
     gbuffer::GBuffer gbuffer;
     gbuffer::Targets targets;
@@ -93,6 +77,7 @@ struct Renderer::State {
           scene(s),
           options(o),
           litSlots(o.framesInFlight),
+          exposedSlots(o.framesInFlight),
           geometry(uploadGeometry(c, s)),
           gbuffer(
               c.device(),
@@ -103,7 +88,8 @@ struct Renderer::State {
     void setLights(double time);
     void moveLights(double time);
     void createSized();
-    Lit litBy(const FrameOptions& frame) const;
+    Lit litBy(uint32_t slot, const FrameOptions& frame) const;
+    CndInfluence influenceOf(uint32_t slot, const FrameOptions& frame) const;
     std::vector<CndPassPlan> plan(const FrameStats& stats) const;
     void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
     void recordEnvironment(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame) const;
@@ -176,7 +162,8 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
                                                .gbufferLayout = options.gbufferLayout,
                                                .timestamps = VK_TRUE,
                                                .specularMethods = methods,
-                                               .materialClasses = materialClasses(scene)}));
+                                               .materialClasses = materialClasses(scene),
+                                               .influenceByError = options.influenceByError}));
     s.exposure = take(Exposure::create(
         context.desc(), {.framesInFlight = options.framesInFlight, .timestamps = VK_TRUE}));
     if (scene.environment)
@@ -245,15 +232,33 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
     out.sampleSeed = frame.sampleSeed;
     out.errorBudget = frame.errorBudget;
     out.culling = frame.culling;
+    out.influence = influenceOf(slot, frame);
     out.countPairs = frame.countPairs;
     out.layers = frame.camera.layers;
     return out;
 }
 
-Lit Renderer::State::litBy(const FrameOptions& f) const
+// The slot's frame before is done: its exposure needs no waiting, and is the same in every run.
+CndInfluence Renderer::State::influenceOf(uint32_t slot, const FrameOptions& frame) const
 {
-    return {f.camera,      lightTime,    f.lightsVisible, f.specular,
-            f.sampleCount, f.sampleSeed, f.errorBudget,   f.culling};
+    CndInfluence out = frame.influence;
+    if (out.rule != CND_INFLUENCE_BY_ERROR)
+        return out;
+    const CndExposureSettings& e = frame.exposure;
+    out.toneMap = e.toneMap;
+    if (e.manual)
+        out.exposure = cndExposureFromEv100(e.manualEv100 - e.compensation);
+    else if (exposedSlots[slot])
+        out.exposure = finished(exposure.stats(slot)).exposure;
+    return out;
+}
+
+Lit Renderer::State::litBy(uint32_t slot, const FrameOptions& f) const
+{
+    const CndInfluence influence = influenceOf(slot, f);
+    return {f.camera,       lightTime,          f.lightsVisible,    f.specular,
+            f.sampleCount,  f.sampleSeed,       f.errorBudget,      f.culling,
+            influence.rule, influence.maxError, influence.exposure, influence.toneMap};
 }
 
 void Renderer::moveLights(double time)
@@ -265,7 +270,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
 {
     State& s = *state_;
     s.moveLights(frame.time);
-    const Lit lit = s.litBy(frame);
+    const Lit lit = s.litBy(slot, frame);
     const bool counts = frame.countPairs || frame.heatMap != HeatMap::None;
     const bool kept = frame.reuse == Reuse::Lighting && !counts && s.drawn == lit;
     if (frame.heatMap != HeatMap::None && !s.heatMaps)
@@ -303,7 +308,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
                                  .ditherSeed = frame.ditherSeed,
                                  .settings = frame.exposure}));
     s.stamps.stamp(cmd, slot);
-
+    s.exposedSlots[slot] = true;
     if (frame.heatMap != HeatMap::None)
         s.heatMaps->record(cmd, slot, frame.heatMap, s.display.view.get());
     transition(cmd, radiance, computeRead, transferRead);

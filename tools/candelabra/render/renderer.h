@@ -23,8 +23,9 @@ struct RendererOptions {
     PixelSize size{1280, 720};
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     uint32_t framesInFlight = 2;
-    uint32_t specularMethods = 0; // mask of 1 << CndSpecularMethod that frames may use; 0: all
-    bool stamps = false;          // FrameStats::gpuMs, and when passes began: four more timestamps
+    uint32_t specularMethods = 0;  // mask of 1 << CndSpecularMethod that frames may use; 0: all
+    bool influenceByError = false; // FrameOptions::influence may be BY_ERROR
+    bool stamps = false;           // FrameStats::gpuMs, and when passes began: four more timestamps
 };
 
 // What a frame takes over from the one before it where nothing has changed: the image is the same,
@@ -48,6 +49,9 @@ struct FrameOptions {
     uint32_t sampleSeed = 0;
     float errorBudget = 0; // as CndLightingFrame::errorBudget
     CndCulling culling = CND_CULLING_CLUSTERED;
+    // Exposure and tone map are filled in: those of the slot's frame before, which is when lights
+    // are first cut, or of manual exposure.
+    CndInfluence influence{};
     Reuse reuse = Reuse::None;
     HeatMap heatMap = HeatMap::None; // on the display image; clustered culling only
     CndExposureSettings exposure{};

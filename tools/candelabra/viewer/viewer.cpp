@@ -58,6 +58,14 @@ void blitColumns(VkCommandBuffer cmd, const Renderer& renderer, VkImage to, int3
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
 }
 
+RendererOptions rendererOptions(const ViewerOptions& options, PixelSize size, uint32_t slots)
+{
+    return {.size = size,
+            .gbufferLayout = options.gbufferLayout,
+            .framesInFlight = slots,
+            .influenceByError = options.frame.influence.rule == CND_INFLUENCE_BY_ERROR};
+}
+
 } // namespace
 
 Viewer::Viewer(const ViewerOptions& options, const ContextOptions& contextOptions,
@@ -66,8 +74,8 @@ Viewer::Viewer(const ViewerOptions& options, const ContextOptions& contextOption
       window_(system, "candelabra", options.size),
       context_(contextOptions),
       scene_(std::move(scene)),
-      renderer_(std::make_unique<Renderer>(
-          context_, scene_, RendererOptions{options.size, options.gbufferLayout, slotCount})),
+      renderer_(std::make_unique<Renderer>(context_, scene_,
+                                           rendererOptions(options, options.size, slotCount))),
       swapchain_(context_, window_, slotCount),
       overlay_(context_, window_, swapchain_),
       ring_(context_, slotCount),
@@ -119,8 +127,8 @@ void Viewer::makeRenderer()
     ring_.wait();
     renderer_.reset();
     other_.reset();
-    renderer_ = std::make_unique<Renderer>(
-        context_, scene_, RendererOptions{swapchain_.size(), options_.gbufferLayout, slotCount});
+    renderer_ = std::make_unique<Renderer>(context_, scene_,
+                                           rendererOptions(options_, swapchain_.size(), slotCount));
     figures_.passes.clear();
     recorded_ = {};
     resetExposure_ = true;
@@ -171,8 +179,7 @@ void Viewer::fitWipe()
     }
     if (panel_.wipe.on && !other_)
         other_ = std::make_unique<Renderer>(
-            context_, scene_,
-            RendererOptions{renderer_->size(), options_.gbufferLayout, slotCount});
+            context_, scene_, rendererOptions(options_, renderer_->size(), slotCount));
 }
 
 // Makes window images and renderer as large as the window is.

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lighting/influence.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "candelabra_shaders.h"
+#include "lighting/view_plan.h"
+#include "shared/exposure.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+static_assert(gpu::TONEMAP_REINHARD == CND_TONEMAP_REINHARD);
+static_assert(gpu::TONEMAP_ACES == CND_TONEMAP_ACES);
+static_assert(gpu::TONEMAP_PBR_NEUTRAL == CND_TONEMAP_PBR_NEUTRAL);
+static_assert(gpu::TONEMAP_AGX == CND_TONEMAP_AGX);
+
+// The display error that samples may have is this share of what all pixels may have: those between
+// them have more (DECISIONS 30).
+constexpr float sampleShare = 0.5f;
+
+// Another one for every history of the process; memory that is new hardly holds it.
+uint32_t nextOwner() noexcept
+{
+    static std::atomic<uint32_t> next{0x1F10E4CEu};
+    return next++;
+}
+
+glm::uvec2 squares(glm::uvec2 size, uint32_t spacing)
+{
+    return {gpu::divideUp(size.x, spacing), gpu::divideUp(size.y, spacing)};
+}
+
+uint32_t area(glm::uvec2 size)
+{
+    return size.x * size.y;
+}
+
+uint32_t spacingOf(glm::uvec2 size)
+{
+    uint32_t spacing = gpu::INFLUENCE_MIN_SPACING;
+    while (area(squares(size, spacing)) > gpu::INFLUENCE_MAX_SAMPLES)
+        spacing *= 2;
+    return spacing;
+}
+
+} // namespace
+
+CndInfluenceRule influenceOf(const CndLightingFrame& frame)
+{
+    const CndInfluence& i = frame.influence;
+    const bool measured = frame.culling != CND_CULLING_BRUTE && i.exposure > 0;
+    return i.rule == CND_INFLUENCE_BY_ERROR && !measured ? CND_INFLUENCE_UNCUT : i.rule;
+}
+
+void checkInfluence(const CndInfluence& i, bool byError)
+{
+    if (uint32_t(i.rule) > CND_INFLUENCE_BY_ERROR)
+        gpu::failArgument("CndLightingFrame: influence.rule is not a CndInfluenceRule");
+    if (i.rule != CND_INFLUENCE_BY_ERROR)
+        return;
+    if (!byError)
+        gpu::failArgument("CndLightingFrame: influence.rule BY_ERROR needs "
+                          "CndLightingDesc::influenceByError");
+    if (!(i.maxError > 0 && i.maxError <= 1))
+        gpu::failArgument("CndLightingFrame: influence.maxError must be above 0 and at most 1");
+    if (!(i.exposure >= 0 && std::isfinite(i.exposure)))
+        gpu::failArgument("CndLightingFrame: influence.exposure must be finite and >= 0");
+    if (uint32_t(i.toneMap) >= CND_TONEMAP_COUNT)
+        gpu::failArgument("CndLightingFrame: influence.toneMap is not a CndToneMap");
+}
+
+InfluenceKernels::InfluenceKernels(const gpu::Device& device)
+    : choose(device, spirv::choose_influence_comp), cutLights(device, spirv::cut_lights_comp)
+{
+}
+
+Influence::Influence(const Lighting& lighting, glm::uvec2 maxSize)
+{
+    const gpu::Device& device = lighting.device();
+    const uint32_t slots = lighting.desc().framesInFlight;
+    const uint32_t samples =
+        std::min(area(squares(maxSize, gpu::INFLUENCE_MIN_SPACING)), gpu::INFLUENCE_MAX_SAMPLES);
+    constexpr VkBufferUsageFlags use =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    data_ = gpu::createBuffer(device, "influence", sizeof(gpu::InfluenceData), use,
+                              gpu::MemoryUse::Device);
+    sums_ = gpu::createBuffer(device, "influence sums",
+                              VkDeviceSize(samples) * gpu::INFLUENCE_SLOTS * sizeof(glm::vec3), use,
+                              gpu::MemoryUse::Device);
+    const Kernels& k = lighting.kernels();
+    measure_ = k.shade.anyVariant().measure.createBindings(slots);
+    choose_ = k.influence.choose.createBindings(slots);
+    cut_ = k.influence.cutLights.createBindings(slots);
+}
+
+void Influence::writeBindings(uint32_t slot, const Lighting& lighting, const Inputs& in) const
+{
+    using namespace gpu;
+    const GBufferViews& g = in.gbuffer;
+    measure_.write(
+        slot,
+        {Binding::ofTexels(SHADE_CORE, in.core), Binding::of(SHADE_CORE_WORDS, in.core),
+         Binding::of(SHADE_AUX, in.aux), Binding::of(SHADE_LIGHT_IDS, in.ids),
+         Binding::sampled(SHADE_NORMAL_ROUGHNESS, g.packedNormal),
+         Binding::sampled(SHADE_HOST_NORMAL, g.hostNormal),
+         Binding::sampled(SHADE_ALBEDO, g.albedo), Binding::sampled(SHADE_SPECULAR, g.specular),
+         Binding::sampled(SHADE_DEPTH, g.depth), g.params(SHADE_GBUFFER_VIEW),
+         Binding::ofTexels(SHADE_DFG, lighting.directionalAlbedo()),
+         Binding::ofTexels(SHADE_LTC, lighting.transformedCosines()),
+         Binding::of(MEASURE_INFLUENCE_DATA, data_), Binding::of(MEASURE_INFLUENCE_SUMS, sums_)});
+    choose_.write(slot, {Binding::of(CHOOSE_INFLUENCE_DATA, data_),
+                         Binding::of(CHOOSE_INFLUENCE_SUMS, sums_),
+                         Binding::sampled(CHOOSE_INFLUENCE_DEPTH, g.depth),
+                         Binding::storage(CHOOSE_INFLUENCE_RADIANCE, in.radiance)});
+    cut_.write(slot, {Binding::of(CUT_LIGHTS_DATA, data_), Binding::of(CUT_LIGHTS_CORE, in.core),
+                      Binding::of(CUT_LIGHTS_AUX, in.aux),
+                      Binding::of(CUT_LIGHTS_COUNTERS, in.counters)});
+}
+
+uint32_t Influence::recordBegin(const gpu::Frame& f, const CndLightingFrame& frame) noexcept
+{
+    const glm::uvec2 size{frame.width, frame.height};
+    const bool begins = maxError_ != frame.influence.maxError;
+    if (begins)
+        frame_.owner = nextOwner();
+    maxError_ = frame.influence.maxError;
+    frame_.size = size;
+    frame_.spacing = spacingOf(size);
+    frame_.samples = squares(size, frame_.spacing);
+    frame_.previous = 1 - frame_.previous;
+    frame_.toneMap = uint32_t(frame.influence.toneMap);
+    frame_.clearDepth = frame.clearDepth;
+    frame_.exposure = frame.influence.exposure;
+    frame_.maxError = sampleShare * maxError_;
+    struct {
+        gpu::InfluenceFrame frame;
+        uint32_t allowed;
+    } const terms{frame_, gpu::INFLUENCE_BINS - 1};
+    static_assert(sizeof terms == offsetof(gpu::InfluenceData, states));
+    f.device.CmdUpdateBuffer(f.cmd, data_.get(), 0, sizeof terms, &terms);
+    f.barrier();
+    return begins ? std::min(frame_.spacing * frame_.spacing, gpu::INFLUENCE_MAX_ROUNDS) : 1;
+}
+
+void Influence::recordRound(const gpu::Frame& f) const noexcept
+{
+    f.device.CmdFillBuffer(f.cmd, sums_.get(), 0, VK_WHOLE_SIZE, 0);
+    f.barrier();
+}
+
+void Influence::recordMeasure(const gpu::Frame& f, const gpu::Kernel<gpu::ShadeParams>& kernel,
+                              const gpu::ShadeParams& params) const noexcept
+{
+    kernel.dispatch(f, measure_.set(f.slot), params,
+                    gpu::divideUp(area(frame_.samples), gpu::MEASURE_INFLUENCE_GROUP));
+    f.barrier();
+}
+
+void Influence::recordChoice(const gpu::Frame& f, const InfluenceKernels& kernels,
+                             uint32_t round) const noexcept
+{
+    const uint32_t samples = area(frame_.samples);
+    kernels.choose.dispatch(f, choose_.set(f.slot), {samples, round},
+                            gpu::divideUp(samples, gpu::CHOOSE_INFLUENCE_GROUP));
+    f.barrier();
+}
+
+void Influence::recordCut(const gpu::Frame& f, const InfluenceKernels& kernels,
+                          const TreeShapes& lights) const noexcept
+{
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (lights[type].lightCount && !isDistant(type))
+            kernels.cutLights.dispatch(
+                f, cut_.set(f.slot), {lights[type].firstLight, lights[type].lightCount, type},
+                gpu::divideUp(lights[type].lightCount, gpu::CUT_LIGHTS_GROUP));
+    f.barrier();
+}
+
+void View::recordInfluence(const gpu::Frame& f, const CndLightingFrame& frame,
+                           const Plan& p) noexcept
+{
+    const Kernels& k = lighting_.kernels();
+    gpu::Timer untimed; // all rounds are one row
+    const gpu::Frame u{f.device, f.cmd, untimed, f.slot};
+    const char* measured = nullptr;
+    const uint32_t rounds = influence_.recordBegin(u, frame);
+    for (uint32_t round = 0; round < rounds; ++round) {
+        influence_.recordRound(u);
+        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+            if (!p.lights[type])
+                continue;
+            // In full, whatever the frame's error budget: it has no variant of its own.
+            const auto& kernel = k.shade.variant(type, frame.specularMethod, false).measure;
+            measured = kernel.name();
+            gpu::ShadeParams params = shadeParams(frame, p, type);
+            params.batchLevel = round;
+            inBatches(params, lightsPerBatch(frame, p, type), [&](const gpu::ShadeParams& batch) {
+                influence_.recordMeasure(u, kernel, batch);
+            });
+        }
+        influence_.recordChoice(u, k.influence, round);
+    }
+    f.timer.stamp(f.cmd, measured);
+    influence_.recordCut(f, k.influence, p.trees);
+}
+
+} // namespace candelabra::lighting

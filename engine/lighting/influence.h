@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Radii of influence from an error (CND_INFLUENCE_BY_ERROR): what a view keeps for it, and the
+// passes between prepare_lights and everything that reads how far lights reach
+// (shared/influence.h).
+#pragma once
+
+#include "candelabra/candelabra.h"
+#include "gpu/kernel.h"
+#include "lighting/clusters.h"
+#include "lighting/host_gbuffer.h"
+#include "shared/influence.h"
+#include "shared/lighting.h"
+
+namespace candelabra::lighting
+{
+
+class Lighting;
+
+// The rule that a frame follows: brute force and frames without an exposure cut nothing.
+CndInfluenceRule influenceOf(const CndLightingFrame& frame);
+// Throws gpu::Failure. `byError`: CndLightingDesc::influenceByError.
+void checkInfluence(const CndInfluence& influence, bool byError);
+
+// Besides those that measure: shading has one for every light type and method.
+struct InfluenceKernels {
+    InfluenceKernels() = default;
+    explicit InfluenceKernels(const gpu::Device& device);
+    gpu::Kernel<gpu::ChooseInfluenceParams> choose;
+    gpu::Kernel<gpu::CutLightsParams> cutLights;
+};
+
+class Influence
+{
+public:
+    Influence() = default;
+    // `maxSize` of frames, pixels.
+    Influence(const Lighting& lighting, glm::uvec2 maxSize);
+
+    struct Inputs {
+        const GBufferViews& gbuffer;
+        VkImageView radiance;
+        const gpu::Buffer &core, &aux, &ids, &counters;
+    };
+    void writeBindings(uint32_t slot, const Lighting& lighting, const Inputs& inputs) const;
+
+    // In this order, each with a barrier behind it; those between first and last once per round,
+    // the second as often as lights need it. The number of rounds:
+    uint32_t recordBegin(const gpu::Frame& f, const CndLightingFrame& frame) noexcept;
+    void recordRound(const gpu::Frame& f) const noexcept;
+    // `params` as of shade_brute, with the round.
+    void recordMeasure(const gpu::Frame& f, const gpu::Kernel<gpu::ShadeParams>& kernel,
+                       const gpu::ShadeParams& params) const noexcept;
+    void recordChoice(const gpu::Frame& f, const InfluenceKernels& kernels,
+                      uint32_t round) const noexcept;
+    void recordCut(const gpu::Frame& f, const InfluenceKernels& kernels,
+                   const TreeShapes& lights) const noexcept;
+
+private:
+    gpu::InfluenceFrame frame_{}; // recorded last
+    float maxError_ = 0;          // of the history
+    gpu::Buffer data_, sums_;
+    gpu::Bindings measure_, choose_, cut_; // per slot
+};
+
+} // namespace candelabra::lighting

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The highest cut at which no sample's display changes by more than the error. The window takes from
+// lights that are not cut, too: (1 - 2^-k)^2 of a light k half octaves above the cut is left.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "lib/influence.glsl"
+#include "lib/tone_map.glsl"
+
+layout(local_size_x = CHOOSE_INFLUENCE_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    ChooseInfluenceParams params;
+};
+layout(scalar, binding = CHOOSE_INFLUENCE_DATA) buffer Data
+{
+    InfluenceData data;
+};
+layout(scalar, binding = CHOOSE_INFLUENCE_SUMS) readonly buffer Sums
+{
+    vec3 sums[];
+};
+layout(binding = CHOOSE_INFLUENCE_DEPTH) uniform texture2D depthImage;
+layout(binding = CHOOSE_INFLUENCE_RADIANCE, rgba32f) uniform readonly image2D radianceImage;
+
+vec3 shown(vec3 luminance)
+{
+    return encodeSrgb(toneMap(data.frame.toneMap, expose(luminance, data.frame.exposure)));
+}
+
+void main()
+{
+    const uint sampleIndex = gl_GlobalInvocationID.x;
+    if (sampleIndex >= params.samples)
+        return;
+    const uint turn = influenceFrame(data.frame, data.states[data.frame.previous]) + params.round;
+    const uvec2 pixel = influencePixel(data.frame, sampleIndex, turn);
+    if (any(greaterThanEqual(pixel, data.frame.size)))
+        return;
+    if (texelFetch(depthImage, ivec2(pixel), 0).x == data.frame.clearDepth)
+        return;
+    const uint firstSlot = sampleIndex * INFLUENCE_SLOTS;
+    vec3 placed = vec3(0.0);
+    for (uint bin = 0u; bin < INFLUENCE_BINS; ++bin)
+        placed += sums[firstSlot + bin];
+    const vec3 all = imageLoad(radianceImage, ivec2(pixel)).rgb +
+                     sums[firstSlot + INFLUENCE_DISTANT] + placed;
+    const vec3 uncut = shown(all);
+    // Of the bins from the cut up, the sums over k of 2^-k and of 4^-k times theirs.
+    vec3 halved = vec3(0.0), quartered = vec3(0.0);
+    vec3 below = placed; // the cut
+    uint allowed = INFLUENCE_BINS - 1u;
+    for (uint cut = INFLUENCE_BINS - 1u; cut > 0u; --cut) {
+        const vec3 bin = sums[firstSlot + cut];
+        halved = bin + 0.5 * halved;
+        quartered = bin + 0.25 * quartered;
+        below = max(below - bin, 0.0);
+        const vec3 removed = below + 2.0 * halved - quartered;
+        const vec3 change = abs(uncut - shown(max(all - removed, 0.0)));
+        if (max(change.x, max(change.y, change.z)) > data.frame.maxError)
+            allowed = cut - 1u;
+    }
+    atomicMin(data.allowed, allowed);
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Radii of influence for the illuminance that the frame is cut at. Every lane takes the step of the
+// history by itself.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/influence.glsl"
+#include "shared/lighting.h"
+
+layout(local_size_x = CUT_LIGHTS_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    CutLightsParams params;
+};
+layout(scalar, binding = CUT_LIGHTS_DATA) buffer Data
+{
+    InfluenceData data;
+};
+layout(scalar, binding = CUT_LIGHTS_CORE) buffer Core
+{
+    vec4 core[];
+};
+layout(scalar, binding = CUT_LIGHTS_AUX) readonly buffer Aux
+{
+    vec4 aux[];
+};
+layout(scalar, binding = CUT_LIGHTS_COUNTERS) writeonly buffer Counters
+{
+    LightingCounters counters;
+};
+
+// Squared radius of lights that nothing sees: 0 would say that there is none, and 0 / 0 is no number.
+const float NOWHERE = 1e-30;
+
+// Cuts fall at once to what the frame's samples allow; they rise a step per frame to what the samples
+// of a whole period have allowed.
+InfluenceState stepFrom(InfluenceState before)
+{
+    const uint allowed = data.allowed;
+    InfluenceState now;
+    now.owner = data.frame.owner;
+    now.frame = influenceFrame(data.frame, before);
+    if (now.frame == 0u) {
+        now.cut = allowed;
+        now.target = allowed;
+        now.lowest = allowed;
+        return now;
+    }
+    const bool periodBegins = now.frame % INFLUENCE_PERIOD == 0u;
+    now.target = min(periodBegins ? before.lowest : before.target, allowed);
+    now.lowest = periodBegins ? allowed : min(before.lowest, allowed);
+    now.cut = min(before.cut + 1u, now.target);
+    return now;
+}
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= params.lightCount)
+        return;
+    const InfluenceState state = stepFrom(data.states[data.frame.previous]);
+    const float lux =
+        state.cut != 0u ? influenceThreshold(state.cut) / data.frame.exposure : 0.0;
+    if (i == 0u) {
+        data.states[1u - data.frame.previous] = state;
+        counters.cutBelow = lux;
+    }
+    const uint light = params.firstLight + i;
+    const uint at = light * LIGHT_CORE_STRIDE + 1u;
+    const vec4 emission = core[at];
+    if (emission.w <= 0.0) // no light (device_lights), or none of the frame
+        return;
+    const float intensity =
+        peakIntensity(params.type, emission.xyz, core[at - 1u].w, aux[light * LIGHT_AUX_STRIDE],
+                      aux[light * LIGHT_AUX_STRIDE + 1u]);
+    core[at].w = state.cut != 0u ? max(intensity / lux, NOWHERE)
+                                   : uintBitsToFloat(0x7F800000u); // infinite
+}

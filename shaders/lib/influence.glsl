@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Radii of influence from an error: where it is measured, and by what lights are told apart.
+#ifndef CND_LIB_INFLUENCE
+#define CND_LIB_INFLUENCE
+
+#include "shared/influence.h"
+#include "shared/light_types.h"
+#include "lib/math.glsl"
+
+uint evenBits(uint x)
+{
+    x &= 0x55555555u;
+    x = (x | x >> 1u) & 0x33333333u;
+    x = (x | x >> 2u) & 0x0F0F0F0Fu;
+    x = (x | x >> 4u) & 0x00FF00FFu;
+    return (x | x >> 8u) & 0xFFFFu;
+}
+
+// The pixel of a square whose turn it is; may be outside the image. Each has one of spacing^2 turns,
+// and 4^k of them visit as many different parts. Squares begin with different pixels.
+uvec2 influencePixel(InfluenceFrame f, uint sampleIndex, uint turn)
+{
+    const uvec2 square = uvec2(sampleIndex % f.samples.x, sampleIndex / f.samples.x);
+    const uint bits = 2u * uint(findLSB(f.spacing));
+    const uint part = bitfieldReverse(turn) >> (32u - bits);
+    uint start = square.x * 0x9E3779B9u ^ square.y * 0x85EBCA6Bu;
+    start ^= start >> 15u;
+    start = start * 0x2C1B3C6Du >> 8u;
+    const uint at = part ^ (start & ((1u << bits) - 1u));
+    return square * f.spacing + uvec2(evenBits(at), evenBits(at >> 1u));
+}
+
+// The frame of the history that is at hand.
+uint influenceFrame(InfluenceFrame f, InfluenceState previous)
+{
+    return previous.owner == f.owner ? previous.frame + 1u : 0u;
+}
+
+// Largest intensity of a light that has a place, cd, of its strongest channel: emission as of CndLight,
+// `reach` of the emitter, both vectors of `aux`.
+float peakIntensity(uint type, vec3 emission, float reach, vec4 aux0, vec4 aux1)
+{
+    const float e = max(emission.x, max(emission.y, emission.z));
+    const float disc = PI * reach * reach;
+    switch (type) {
+    case LIGHT_POINT:
+    case LIGHT_SPOT:
+        return e;
+    case LIGHT_TUBE:
+        return e * aux0.w * (4.0 * length(aux0.xyz) + PI * aux0.w);
+    case LIGHT_RECTANGLE:
+        return e * 4.0 * length(aux0.xyz) * length(aux1.xyz);
+    default: // spheres, discs
+        return e * disc;
+    }
+}
+
+// The bin of a light whose exposed illuminance this is.
+uint influenceBin(float exposedIlluminance)
+{
+    const float bin = 2.0 * (log2(max(exposedIlluminance, 1e-30)) - INFLUENCE_LOWEST);
+    return uint(clamp(bin, 0.0, float(INFLUENCE_BINS - 1u)));
+}
+
+// Exposed illuminance that cut b > 0 cuts at.
+float influenceThreshold(uint cut)
+{
+    return exp2(0.5 * float(cut) + INFLUENCE_LOWEST);
+}
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Radii of influence from an error (CND_INFLUENCE_BY_ERROR): what crosses between the lighting
+// module and the kernels that measure the error and choose the radii.
+#ifndef CND_SHARED_INFLUENCE_H
+#define CND_SHARED_INFLUENCE_H
+
+#include "shared/prelude.h"
+
+GPU_BEGIN
+
+// One illuminance is cut at for all lights of a frame: a light of peak intensity I reaches as far
+// as I / d^2 is above it. Candidates are half octaves of exposed illuminance (illuminance times
+// exposure): bin b begins at 2^(b / 2 + INFLUENCE_LOWEST). Cut b leaves out bins 0 .. b - 1; cut 0
+// leaves out nothing.
+const uint INFLUENCE_BINS = 64u;
+const float INFLUENCE_LOWEST = -32.0f;
+// What a sample keeps: the luminance of the lights of each bin, that of distant lights, and of
+// none.
+const uint INFLUENCE_DISTANT = 64u;
+const uint INFLUENCE_NONE = 65u;
+const uint INFLUENCE_SLOTS = 66u;
+
+// Pixels that are measured lie in squares of `spacing` pixels, one each, another one every frame.
+// Squares grow with the image, so that there are no more than this.
+const uint INFLUENCE_MAX_SAMPLES = 4096u;
+const uint INFLUENCE_MIN_SPACING = 8u;
+// Frames after which cuts may rise: all pixels of the smallest squares have been measured.
+const uint INFLUENCE_PERIOD = 64u;
+// A history begins with the pixels of so many frames at once, at most.
+const uint INFLUENCE_MAX_ROUNDS = 256u;
+
+struct InfluenceFrame {
+    uvec2 size;    // pixels
+    uvec2 samples; // squares
+    uint spacing;  // a power of two
+    uint owner;    // number of the history; states of another one are none
+    uint previous; // index of the state of the frame before; this frame's is the other
+    uint toneMap;  // TONEMAP_*
+    float clearDepth;
+    float exposure; // > 0
+    float maxError; // of the display, 0..1
+};
+GPU_SIZE(InfluenceFrame, 44)
+
+struct InfluenceState {
+    uint owner;
+    uint frame;  // of the history
+    uint cut;    // of the frame
+    uint target; // towards which cuts rise
+    uint lowest; // allowed by the frames of this period
+};
+GPU_SIZE(InfluenceState, 20)
+
+struct InfluenceData {
+    InfluenceFrame frame; // written with every frame
+    uint allowed;         // likewise: INFLUENCE_BINS - 1; becomes the lowest over all samples
+    InfluenceState states[2];
+};
+GPU_SIZE(InfluenceData, 88)
+
+// --- measure_influence: one lane per sample; lights of one type. ShadeParams and bindings as of
+// shade_brute, which it otherwise is, but for SHADE_RADIANCE; batchLevel: the round.
+const uint MEASURE_INFLUENCE_GROUP = 64u;
+const uint MEASURE_INFLUENCE_DATA = 40u;
+const uint MEASURE_INFLUENCE_SUMS = 41u; // vec3, INFLUENCE_SLOTS per sample
+
+// --- choose_influence: one lane per sample
+const uint CHOOSE_INFLUENCE_GROUP = 64u;
+const uint CHOOSE_INFLUENCE_DATA = 0u;
+const uint CHOOSE_INFLUENCE_SUMS = 1u;
+const uint CHOOSE_INFLUENCE_DEPTH = 2u;
+const uint CHOOSE_INFLUENCE_RADIANCE = 3u;
+struct ChooseInfluenceParams {
+    uint samples;
+    uint round; // of the frame, from 0
+};
+GPU_SIZE(ChooseInfluenceParams, 8)
+
+// --- cut_lights: one lane per light of one type
+const uint CUT_LIGHTS_GROUP = 64u;
+const uint CUT_LIGHTS_DATA = 0u;
+const uint CUT_LIGHTS_CORE = 1u;
+const uint CUT_LIGHTS_AUX = 2u;
+const uint CUT_LIGHTS_COUNTERS = 3u;
+struct CutLightsParams {
+    uint firstLight, lightCount;
+    uint type; // LIGHT_*
+};
+GPU_SIZE(CutLightsParams, 12)
+
+GPU_END
+
+#endif
