@@ -7,15 +7,15 @@ fail() {
     exit 99
 }
 shot=0
-save() {
+save() { # [key extension]
     shot=$((shot + 1))
-    xdotool key p
+    xdotool key ${1:-p}
     for i in $(seq 600); do
-        [ -f "$(printf 'candelabra-%03d.png' $shot)" ] && return
-        kill -0 $viewer 2>/dev/null || fail "the viewer ended before image $shot"
+        [ -f "$(printf "candelabra-%03d.${2:-png}" $shot)" ] && return
+        kill -0 $viewer 2>/dev/null || fail "the viewer ended before file $shot"
         sleep 0.1
     done
-    fail "image $shot never came"
+    fail "file $shot never came"
 }
 "$PROGRAM" view hall --lights 40 --size 320x200 --exposure 4 --validate --no-overlay \
     ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} &
@@ -44,5 +44,11 @@ for i in $(seq 20); do
 done
 xdotool windowsize --sync $window 260 180
 save # 8
-xdotool key F1 F2 b Escape
+xdotool key F1 F2 b mousemove --window $window 130 150
+save # 9: without the panel, which takes the mouse where it is
+xdotool key k
+save F5 json # 10: the pixel's lights, then the scene
+xdotool key F1
+save # 11: the pixel and the metering in the panel
+xdotool key Escape
 wait $viewer

@@ -10,6 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "scene/load.h"
+
 namespace
 {
 
@@ -74,6 +76,23 @@ TEST(Viewer, IsDrivenByKeysAndMouse)
     EXPECT_NEAR(shots[6].mean(), shots[5].mean(), 0.5); // brute force is what clusters show
     EXPECT_EQ(shots[8].width, 260);
     EXPECT_EQ(shots[8].height, 180);
+
+    // Picked: a surface, and the sum of its lights is the pixel.
+    const size_t at = err.find("pixel 130,150 at (");
+    ASSERT_NE(at, std::string::npos) << err;
+    const size_t differs = err.find("the sum differs by ", at);
+    ASSERT_NE(differs, std::string::npos) << err;
+    const std::string pixel = err.substr(err.find("the pixel: ", at) + 11);
+    EXPECT_LE(std::stod(err.substr(differs + 19)), 1e-5 * std::stod(pixel)) << err;
+
+    // Saved: the hall under its lights as they are now, which loads and draws.
+    using namespace candelabra;
+    const std::string saved = (dir / "candelabra-010.json").string();
+    const app::Scene scene = app::loadScene(saved, {}),
+                     hall = app::loadScene("hall", {.lights = 80});
+    EXPECT_EQ(scene.lights.size(), hall.lights.size());
+    EXPECT_EQ(scene.instances.size(), hall.instances.size());
+    EXPECT_NE(scene.cameras[0].position, hall.cameras[0].position);
     if (!HasFailure())
         std::filesystem::remove_all(dir);
 }

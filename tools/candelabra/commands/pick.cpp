@@ -24,11 +24,6 @@ namespace
 constexpr double pickTolerance = 1e-6;                         // of a light's truth
 constexpr glm::dvec3 luminanceWeights(0.2126, 0.7152, 0.0722); // Rec.709
 
-double luminanceOf(const glm::dvec3& radiance)
-{
-    return glm::dot(radiance, luminanceWeights);
-}
-
 glm::dvec3 readPixel(const VulkanContext& context, const Renderer& renderer, VkImageLayout layout,
                      PixelPosition pixel)
 {
@@ -63,6 +58,11 @@ glm::dvec3 truthOf(const SeenSurface& seen, const CndLight& light, const Scene& 
 }
 
 } // namespace
+
+double luminanceOf(const glm::dvec3& radiance)
+{
+    return glm::dot(radiance, luminanceWeights);
+}
 
 glm::dvec3 Pick::sum() const
 {

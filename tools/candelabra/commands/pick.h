@@ -37,6 +37,9 @@ struct Pick {
     glm::dvec3 sum() const;
 };
 
+// cd/m^2 of linear Rec.709.
+double luminanceOf(const glm::dvec3& radiance);
+
 // Draws a frame like `frame`, then the pixel under each of its lights alone. Ends with the lights
 // of the scene.
 Pick pickPixel(const VulkanContext& context, Renderer& renderer, const Scene& scene,

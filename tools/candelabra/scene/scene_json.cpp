@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The small scene description that reference images are published with: one camera, exact planes
 // and balls, lights (scene_json_lights.h). Angles in degrees, lengths in any unit, radiance taken
-// as is.
+// as is. Instead of objects "source" may name another scene, of which all but lights and camera is
+// taken: {"scene": "hall", or the path of a .gltf or .glb file from where the description is,
+// "seed": 1, "material": {"perceptual_roughness": 0.4, "metalness": 0}, for all its materials}.
 #include <cmath>
 #include <filesystem>
 
 #include "scene/json_value.h"
 #include "scene/load.h"
+#include "scene/save.h"
 #include "scene/scene_file.h"
 #include "scene/scene_json_lights.h"
 
@@ -161,6 +164,37 @@ void readObjects(const JsonValue& root, Scene& scene)
         add(list->item(i));
 }
 
+// The scene that "source" names, without its lights and cameras.
+Scene readSource(const JsonValue& json, const std::string& path)
+{
+    json.refuseOtherKeys({"scene", "seed", "material"});
+    const JsonValue name = json.member("scene");
+    SceneOptions options{.lights = 0};
+    if (const auto seed = json.find("seed"))
+        options.seed = uint32_t(seed->integer(0, UINT32_MAX));
+    std::string scene = name.string();
+    if (scene.ends_with(".gltf") || scene.ends_with(".glb")) {
+        options.lights.reset(); // of a file the option adds lights
+        scene = (std::filesystem::path(path).parent_path() / scene).string();
+    } else if (!isGenerated(scene) && scene != "showcase") {
+        name.fail("must be hall, field, fence, showcase, or a .gltf or .glb file, is \"" +
+                  printable(scene, 60) + "\"");
+    }
+    Scene out = loadScene(scene, options);
+    if (const auto material = json.find("material")) {
+        material->refuseOtherKeys({"perceptual_roughness", "metalness"});
+        const auto share = [&](const char* key) {
+            return float(material->member(key).number(unitInterval));
+        };
+        overrideMaterials(out, {true, share("perceptual_roughness"), share("metalness")});
+    }
+    out.lights.clear();
+    out.lightMotions.clear();
+    out.lightOrigin = glm::dvec3(0);
+    out.cameras.clear();
+    return out;
+}
+
 glm::uvec2 readResolution(const JsonValue& json)
 {
     json.requireArray();
@@ -178,17 +212,26 @@ Scene loadSceneJson(const std::string& path)
     const nlohmann::json document = parseSceneJson(
         path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     const JsonValue root(path, document);
-    root.refuseOtherKeys({"camera", "object", "objects", "material", "lights", "resolution",
-                          "background", "lights_visible_to_camera", "lights_occlude",
+    root.refuseOtherKeys({"camera", "object", "objects", "material", "source", "lights",
+                          "resolution", "background", "lights_visible_to_camera", "lights_occlude",
                           // informative:
                           "name", "about", "channels", "references", "rendered_terms"});
     Scene scene;
-    scene.lobes = CND_LOBES_SUM; // what the format means: two-lobe materials of path tracers
+    const auto source = root.find("source");
+    if (source) {
+        for (const char* key : {"object", "objects", "material"})
+            if (root.find(key))
+                source->fail(std::string("cannot stand beside \"") + key + "\"");
+        scene = readSource(*source, path);
+    } else {
+        scene.lobes = CND_LOBES_SUM; // what the format means: two-lobe materials of path tracers
+    }
     const auto name = root.find("name");
     scene.name = name && name->json().is_string() ? name->string()
                                                   : std::filesystem::path(path).stem().string();
     scene.cameras.push_back(readCamera(root.member("camera")));
-    readObjects(root, scene);
+    if (!source)
+        readObjects(root, scene);
     readSceneLights(root.member("lights"), scene);
     if (const auto resolution = root.find("resolution"))
         scene.resolution = readResolution(*resolution);

@@ -9,6 +9,7 @@
 
 #include "commands/options.h"
 #include "io/table.h"
+#include "reference/exposure.h"
 #include "viewer/keys.h"
 
 namespace candelabra::app
@@ -203,6 +204,69 @@ void drawHistogram(const CndExposureStats& stats)
                 double(stats.adaptedEv100));
 }
 
+// What every place of the picture counts for, the brighter the more: the mask of centre-weighted
+// metering, in the picture's shape.
+void drawMetering(const PixelSize& picture)
+{
+    constexpr uint32_t columns = 48;
+    const float width = ImGui::GetContentRegionAvail().x;
+    const float height = width * float(picture.height) / float(picture.width);
+    const uint32_t rows = std::clamp(uint32_t(columns * height / width), 1u, 4 * columns);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float across = width / columns, down = height / float(rows);
+    for (uint32_t y = 0; y < rows; ++y)
+        for (uint32_t x = 0; x < columns; ++x) {
+            const uint32_t weight = reference::centreWeight(x, y, columns, rows); // 1..15
+            const ImU32 grey = weight * 17;
+            const ImVec2 at{corner.x + float(x) * across, corner.y + float(y) * down};
+            ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + across, at.y + down},
+                                                      IM_COL32(grey, grey, grey, 255));
+        }
+    ImGui::Dummy({width, height});
+    ImGui::TextUnformatted("metering: weight 15 (white) to 1");
+}
+
+void drawPick(PanelState& state, const Pick& pick, const Scene& scene)
+{
+    ImGui::Text("pixel %u,%u", pick.pixel.x, pick.pixel.y);
+    if (!pick.surface) {
+        ImGui::TextUnformatted("shows no surface");
+        return;
+    }
+    const double all = luminanceOf(pick.radiance);
+    ImGui::TextWrapped("at (%.2f, %.2f, %.2f) m, %s cd/m^2, %s", pick.position.x, pick.position.y,
+                       pick.position.z, threeDigits(all).c_str(),
+                       counted(pick.lights.size(), "light").c_str());
+    constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const float height = line * float(std::min<size_t>(pick.lights.size() + 2, 12));
+    if (!ImGui::BeginTable("picked", 4, flags, {0, height}))
+        return;
+    for (const char* title : {"light", "cd/m^2", "share", "error"})
+        ImGui::TableSetupColumn(title);
+    ImGui::TableHeadersRow();
+    for (const PickedLight& light : pick.lights) {
+        if (light.light >= scene.lights.size()) // removed meanwhile
+            continue;
+        const double y = luminanceOf(light.radiance), truth = luminanceOf(light.truth);
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        const std::string name = std::to_string(light.light) + " " +
+                                 lightTypeName(CndLightType(scene.lights[light.light].type));
+        if (ImGui::Selectable(name.c_str(), state.editor.selected == light.light,
+                              ImGuiSelectableFlags_SpanAllColumns))
+            state.editor.selected = light.light;
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(threeDigits(y).c_str());
+        ImGui::TableNextColumn();
+        ImGui::Text("%.1f%%", all > 0 ? 100 * y / all : 0);
+        ImGui::TableNextColumn();
+        if (truth > 0)
+            ImGui::Text("%+.3f%%", 100 * (y - truth) / truth);
+    }
+    ImGui::EndTable();
+}
+
 void drawExposure(PanelState& state, const PanelFigures& figures)
 {
     CndExposureSettings& e = state.frame.exposure;
@@ -218,6 +282,8 @@ void drawExposure(PanelState& state, const PanelFigures& figures)
         bool centre = e.metering == CND_METERING_CENTRE_WEIGHTED;
         if (ImGui::Checkbox("centre-weighted", &centre))
             e.metering = centre ? CND_METERING_CENTRE_WEIGHTED : CND_METERING_AVERAGE;
+        if (centre && figures.size.width && figures.size.height)
+            drawMetering(figures.size);
         ImGui::SliderFloat("low share", &e.lowPercentile, 0, 0.45f, "%.2f");
         ImGui::SliderFloat("high share", &e.highPercentile, 0.55f, 1, "%.2f");
         ImGui::SliderFloat("speed to bright", &e.speedUp, 0.1f, 20, "%.1f 1/s");
@@ -256,6 +322,8 @@ void drawPanel(PanelState& state, const PanelFigures& figures, Scene& scene)
                                                         ? ImGuiTreeNodeFlags_DefaultOpen
                                                         : ImGuiTreeNodeFlags_None))
             drawLightEditor(scene, state.editor);
+        if (figures.picked && ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen))
+            drawPick(state, *figures.picked, scene);
         if (ImGui::CollapsingHeader("A/B"))
             drawWipe(state);
         if (ImGui::CollapsingHeader("Materials"))

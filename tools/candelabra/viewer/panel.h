@@ -3,22 +3,16 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 
+#include "commands/pick.h"
 #include "render/renderer.h"
+#include "scene/save.h"
 #include "viewer/light_editor.h"
 
 namespace candelabra::app
 {
-
-// One roughness and metalness for everything, to see lights and nothing else.
-struct MaterialOverride {
-    bool on = false;
-    float perceptualRoughness = 0.4f;
-    float metalness = 0;
-
-    bool operator==(const MaterialOverride&) const = default;
-};
 
 // The other way of shading beside which the chosen one is seen, left of the wipe.
 struct Wipe {
@@ -45,7 +39,8 @@ struct PanelState {
 // What there is to see.
 struct PanelFigures {
     std::string scene, device;
-    std::string note; // what became of the last request, one sentence
+    std::string note;           // what became of the last request, one sentence
+    std::optional<Pick> picked; // the pixel asked for last
     uint32_t lights = 0;
     bool moving = false;
     double wallMs = 0; // between frames

@@ -119,6 +119,7 @@ void Viewer::takeScene()
     panel_.frame.lightsVisible = options_.lightsVisible.value_or(scene_.lightsVisible);
     panel_.wantedLights = uint32_t(scene_.lights.size());
     panel_.editor = {};
+    figures_.picked.reset();
     panel_.materialsChosen = panel_.materials.on;
 }
 
@@ -149,12 +150,7 @@ void Viewer::rebuild(uint32_t wanted)
 void Viewer::applyMaterials()
 {
     scene_.materials = materials_;
-    if (panel_.materials.on)
-        for (Material& material : scene_.materials) {
-            material.perceptualRoughness = panel_.materials.perceptualRoughness;
-            material.metalness = panel_.materials.metalness;
-            material.metallicRoughnessTexture = {};
-        }
+    overrideMaterials(scene_, panel_.materials);
     panel_.materialsChosen = false;
     makeRenderer();
 }
@@ -223,12 +219,30 @@ Swapchain::Target Viewer::acquire(uint32_t slot)
     return checked(swapchain_.acquire(slot));
 }
 
+// Right of it stands the other way of shading.
+int32_t Viewer::wipeColumn() const
+{
+    const int32_t width = int32_t(swapchain_.size().width);
+    return other_ ? int32_t(std::lround(panel_.wipe.at * float(width))) : width;
+}
+
+FrameOptions Viewer::optionsAt(int32_t x) const
+{
+    FrameOptions out = panel_.frame;
+    if (x < wipeColumn())
+        return out;
+    out.specular = panel_.wipe.specular;
+    out.culling = panel_.wipe.culling;
+    out.errorBudget = panel_.wipe.errorBudget;
+    out.heatMap = HeatMap::None;
+    return out;
+}
+
 void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
 {
     // Chained to the wait for the image (FrameRing::submit).
     transition(cmd, target.image, discarded, transferWrite);
-    const int32_t width = int32_t(swapchain_.size().width);
-    const int32_t split = other_ ? int32_t(std::lround(panel_.wipe.at * float(width))) : width;
+    const int32_t width = int32_t(swapchain_.size().width), split = wipeColumn();
     blitColumns(cmd, *renderer_, target.image, 0, split);
     if (other_)
         blitColumns(cmd, *other_, target.image, split, width);
@@ -272,14 +286,8 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     overlay_.begin();
     drawPanel(panel_, figures_, scene_);
     renderer_->record(frame.cmd, frame.slot, options);
-    if (other_) {
-        FrameOptions beside = options;
-        beside.specular = panel_.wipe.specular;
-        beside.culling = panel_.wipe.culling;
-        beside.errorBudget = panel_.wipe.errorBudget;
-        beside.heatMap = HeatMap::None;
-        other_->record(frame.cmd, frame.slot, beside);
-    }
+    if (other_)
+        other_->record(frame.cmd, frame.slot, optionsAt(wipeColumn()));
     recorded_[frame.slot] = true;
     recordWindow(frame.cmd, target);
     gpu::Buffer pixels;
@@ -292,8 +300,18 @@ void Viewer::drawFrame(double seconds, bool screenshot)
         ring_.wait();
         saveScreenshot(pixels);
     }
+    doRequests();
+}
+
+// What keys asked for that takes longer than a frame.
+void Viewer::doRequests()
+{
     if (const char* extension = std::exchange(saveAs_, nullptr))
         saveImage(extension);
+    if (std::exchange(saveScene_, false))
+        saveScene();
+    if (const auto pixel = std::exchange(pick_, std::nullopt))
+        pick(*pixel);
 }
 
 void Viewer::run()

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,7 +53,12 @@ private:
     bool onLightKey(int key);
     void toggleOrbit();
     void onDrop(const std::string& path);
+    std::string freeName(const char* extension);
+    void save(const char* extension, const std::function<void(const std::string&)>& write);
     void saveImage(const char* extension);
+    void saveScene();
+    std::optional<PixelPosition> pixelUnderMouse() const;
+    void pick(PixelPosition pixel);
 
     // Takes another scene, or the same with other options. Keeps the one there is where that fails.
     bool open(const std::string& scene, const SceneOptions& options);
@@ -65,7 +71,11 @@ private:
     void fitToWindow();
     void collectStats(const FrameRing::Frame& frame);
     Swapchain::Target acquire(uint32_t slot);
+    // Of what is seen left of column `x`, or right of it.
+    FrameOptions optionsAt(int32_t x) const;
+    int32_t wipeColumn() const;
     void drawFrame(double seconds, bool screenshot);
+    void doRequests();
     void recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target);
     gpu::Buffer recordScreenshot(VkCommandBuffer cmd, VkImage image) const;
     void saveScreenshot(const gpu::Buffer& pixels) const;
@@ -93,8 +103,10 @@ private:
     double lastX_ = 0, lastY_ = 0;
     bool looking_ = false;
     std::string dropped_; // waits for the frame to end
-    uint32_t savedImages_ = 0;
-    const char* saveAs_ = nullptr; // extension of the image to be saved after this frame
+    uint32_t savedFiles_ = 0;
+    const char* saveAs_ = nullptr;      // extension of the image to be saved after this frame
+    bool saveScene_ = false;            // after this frame, too
+    std::optional<PixelPosition> pick_; // likewise
 };
 
 } // namespace candelabra::app

@@ -10,9 +10,12 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/options.h"
+#include "commands/pick.h"
+#include "io/report.h"
 #include "io/table.h"
 #include "render/camera.h"
 #include "render/readback.h"
+#include "scene/save.h"
 #include "viewer/viewer.h"
 
 namespace candelabra::app
@@ -72,6 +75,12 @@ void Viewer::onKey(int key)
         break;
     case GLFW_KEY_B:
         panel_.wipe.on = !panel_.wipe.on;
+        break;
+    case GLFW_KEY_K:
+        pick_ = pixelUnderMouse();
+        break;
+    case GLFW_KEY_F5:
+        saveScene_ = true;
         break;
     case GLFW_KEY_P:
         saveAs_ = ".png";
@@ -177,21 +186,71 @@ void Viewer::onDrop(const std::string& path)
 }
 
 // A name that nothing has yet, where the program was started.
-void Viewer::saveImage(const char* extension)
+std::string Viewer::freeName(const char* extension)
 {
     std::string path;
     do
-        path = fmt::format("candelabra-{:03}{}", ++savedImages_, extension);
+        path = fmt::format("candelabra-{:03}{}", ++savedFiles_, extension);
     while (std::filesystem::exists(path));
+    return path;
+}
+
+// `write` may throw what has a sentence.
+void Viewer::save(const char* extension, const std::function<void(const std::string&)>& write)
+{
+    const std::string path = freeName(extension);
     ring_.wait();
     try {
-        saveFrame(context_, *renderer_, path);
+        write(path);
         figures_.note = "wrote " + path;
         spdlog::info("{}", figures_.note);
-    } catch (const ImageError& error) {
+    } catch (const std::runtime_error& error) {
         figures_.note = error.what();
         spdlog::error("candelabra: {}", error.what());
     }
+}
+
+void Viewer::saveImage(const char* extension)
+{
+    save(extension, [this](const std::string& path) { saveFrame(context_, *renderer_, path); });
+}
+
+void Viewer::saveScene()
+{
+    save(".json", [this](const std::string& path) {
+        writeText(path, sceneDescription(scene_, {options_.scene, options_.sceneOptions.seed},
+                                         panel_.materials, camera_.camera(), time_));
+    });
+}
+
+std::optional<PixelPosition> Viewer::pixelUnderMouse() const
+{
+    double x = 0, y = 0;
+    int width = 0, height = 0;
+    glfwGetCursorPos(window_.get(), &x, &y);
+    glfwGetWindowSize(window_.get(), &width, &height);
+    const PixelSize size = renderer_->size(); // of pixels, which may be smaller than the window's
+    if (overlay_.takesMouse() || x < 0 || y < 0 || x >= width || y >= height)
+        return std::nullopt;
+    return PixelPosition{uint32_t(x * size.width / width), uint32_t(y * size.height / height)};
+}
+
+void Viewer::pick(PixelPosition pixel)
+{
+    const PixelSize size = renderer_->size();
+    FrameOptions frame = optionsAt(int32_t(pixel.x));
+    if (frame.specular == CND_SPECULAR_SAMPLED) {
+        figures_.note = "the sampled method draws other samples for a light alone: no pixel picked";
+        return;
+    }
+    if (pixel.x >= size.width || pixel.y >= size.height) // the window became smaller
+        return;
+    frame.deltaTime = 0; // exposure stays as it is
+    ring_.wait();
+    figures_.picked = pickPixel(context_, *renderer_, scene_, frame, pixel);
+    renderer_->lightsChanged(); // it has drawn one at a time
+    recorded_ = {};
+    spdlog::info("{}", pickText(*figures_.picked, scene_));
 }
 
 void Viewer::moveCamera(double seconds)

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes that are saved and loaded again are the same.
+#include <gtest/gtest.h>
+
+#include "scene/load.h"
+#include "scene/save.h"
+#include "unit/gltf_builder.h"
+#include "unit/scene_invariants.h"
+
+namespace candelabra::test
+{
+
+namespace
+{
+
+using namespace candelabra::app;
+
+class Save : public testing::Test
+{
+protected:
+    Scene again(const Scene& scene, const SceneSource& source,
+                const MaterialOverride& materials = {}, double time = 0)
+    {
+        const std::string text = sceneDescription(scene, source, materials, scene.cameras[0], time);
+        Scene out = loadScene(folder_.write("saved.json", text), {});
+        EXPECT_EQ(brokenInvariant(out), "");
+        return out;
+    }
+    std::string refusal(const std::string& json)
+    {
+        try {
+            loadScene(folder_.write("scene.json", json), {});
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "none";
+    }
+
+    TemporaryFolder folder_;
+};
+
+// Directions are made unit again, angles go through degrees: what single precision may round.
+void expectSameVector(const float (&a)[3], const float (&b)[3], const std::string& what)
+{
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(a[i], b[i], 2e-7f * std::max(1.0f, std::abs(a[i]))) << what;
+}
+
+glm::dvec3 worldPositionOf(const Scene& scene, const CndLight& light)
+{
+    return scene.lightOrigin + glm::dvec3(light.position[0], light.position[1], light.position[2]);
+}
+
+void expectSameLights(const Scene& a, const Scene& b)
+{
+    ASSERT_EQ(a.lights.size(), b.lights.size());
+    for (size_t i = 0; i < a.lights.size(); ++i) {
+        const CndLight &x = a.lights[i], &y = b.lights[i];
+        const std::string what = "light " + std::to_string(i);
+        ASSERT_EQ(x.type, y.type) << what;
+        EXPECT_EQ(x.layers, y.layers) << what;
+        expectSameVector(x.emission, y.emission, what);
+        if (x.type != CND_LIGHT_DIRECTIONAL && x.type != CND_LIGHT_DISTANT_SPHERE) {
+            const glm::dvec3 at = worldPositionOf(a, x), gap = at - worldPositionOf(b, y);
+            EXPECT_LT(glm::length(gap), 1e-6 * std::max(1.0, glm::length(at))) << what;
+            EXPECT_EQ(x.influenceRadius, y.influenceRadius) << what;
+        }
+        if (x.type == CND_LIGHT_RECTANGLE || x.type == CND_LIGHT_TUBE)
+            expectSameVector(x.axisU, y.axisU, what);
+        if (x.type == CND_LIGHT_RECTANGLE)
+            expectSameVector(x.axisV, y.axisV, what);
+        if (x.type == CND_LIGHT_RECTANGLE || x.type == CND_LIGHT_DISC) {
+            EXPECT_EQ(x.twoSided, y.twoSided) << what;
+        }
+        if (x.type == CND_LIGHT_SPOT) {
+            EXPECT_FLOAT_EQ(x.innerConeAngle, y.innerConeAngle) << what;
+            EXPECT_FLOAT_EQ(x.outerConeAngle, y.outerConeAngle) << what;
+        }
+        if (x.type == CND_LIGHT_SPOT || x.type == CND_LIGHT_DISC ||
+            x.type == CND_LIGHT_DIRECTIONAL || x.type == CND_LIGHT_DISTANT_SPHERE)
+            expectSameVector(x.direction, y.direction, what);
+        if (x.type == CND_LIGHT_SPHERE || x.type == CND_LIGHT_TUBE || x.type == CND_LIGHT_DISC ||
+            x.type == CND_LIGHT_DISTANT_SPHERE) {
+            EXPECT_EQ(x.radius, y.radius) << what;
+        }
+    }
+}
+
+void expectSameCamera(const Camera& a, const Camera& b)
+{
+    EXPECT_LT(glm::length(a.position - b.position), 1e-9);
+    EXPECT_LT(glm::length(a.forward - b.forward), 1e-9);
+    EXPECT_LT(glm::length(a.up - b.up), 1e-9);
+    EXPECT_NEAR(a.verticalFov, b.verticalFov, 1e-12);
+    EXPECT_EQ(a.aspect, b.aspect);
+    EXPECT_EQ(a.layers, b.layers);
+}
+
+} // namespace
+
+TEST_F(Save, PlanesAndBallsUnderEveryLight)
+{
+    const Scene scene = loadSceneJson(CANDELABRA_TEST_DATA "/every_light.json");
+    const Scene saved = again(scene, {"every_light.json"});
+    expectSameLights(scene, saved);
+    expectSameCamera(scene.cameras[0], saved.cameras[0]);
+    ASSERT_EQ(saved.analyticObjects.size(), scene.analyticObjects.size());
+    for (size_t i = 0; i < scene.analyticObjects.size(); ++i) {
+        const AnalyticObject &a = scene.analyticObjects[i], &b = saved.analyticObjects[i];
+        EXPECT_EQ(a.type, b.type);
+        EXPECT_EQ(a.point, b.point);
+        EXPECT_EQ(a.radius, b.radius);
+        const Material &m = scene.materials[a.material], &n = saved.materials[b.material];
+        EXPECT_EQ(m.baseColor, n.baseColor);
+        EXPECT_EQ(m.dielectricF0, n.dielectricF0);
+        EXPECT_EQ(m.perceptualRoughness, n.perceptualRoughness);
+        EXPECT_EQ(m.diffuseWeight, n.diffuseWeight);
+        EXPECT_EQ(m.specularWeight, n.specularWeight);
+    }
+    EXPECT_EQ(scene.resolution, saved.resolution);
+    EXPECT_EQ(scene.background, saved.background);
+    EXPECT_EQ(scene.lightsVisible, saved.lightsVisible);
+}
+
+TEST_F(Save, ShowcaseIsWrittenOut)
+{
+    Scene scene = loadScene("showcase", {});
+    scene.lights[1].layers = 0b101;
+    scene.cameras[0].layers = 0b100;
+    expectSameCamera(scene.cameras[0], again(scene, {"showcase"}).cameras[0]);
+    expectSameLights(scene, again(scene, {"showcase"}));
+    overrideMaterials(scene, {true, 0.3f, 1});
+    const Scene metal = again(scene, {"showcase"}, {true, 0.3f, 1});
+    ASSERT_EQ(metal.analyticObjects.size(), scene.analyticObjects.size());
+    for (size_t i = 0; i < scene.analyticObjects.size(); ++i) {
+        const Material& m = metal.materials[metal.analyticObjects[i].material];
+        EXPECT_EQ(m.baseColor, glm::vec3(0));
+        EXPECT_EQ(m.dielectricF0, scene.materials[scene.analyticObjects[i].material].baseColor);
+        EXPECT_EQ(m.perceptualRoughness, 0.3f);
+    }
+}
+
+// Surfaces come from the source, with its seed; lights are those of the description.
+TEST_F(Save, ScenesOfMeshesReferToTheirSource)
+{
+    for (const char* name : {"hall", "field", "fence"}) {
+        Scene scene = loadScene(name, {.lights = 30, .seed = 7});
+        scene.lights.erase(scene.lights.begin() + 3);
+        scene.lights[5].radius *= 2;
+        scene.lights[5].influenceRadius *= 2;
+        const Scene saved = again(scene, {name, 7}, {true, 0.2f, 0.5f});
+        expectSameLights(scene, saved);
+        expectSameCamera(scene.cameras[0], saved.cameras[0]);
+        ASSERT_EQ(saved.instances.size(), scene.instances.size()) << name;
+        for (size_t i = 0; i < scene.instances.size(); ++i)
+            EXPECT_EQ(saved.instances[i].worldFromObject, scene.instances[i].worldFromObject);
+        ASSERT_EQ(saved.meshes.size(), scene.meshes.size()) << name;
+        for (size_t i = 0; i < scene.meshes.size(); ++i)
+            EXPECT_EQ(saved.meshes[i].vertices.size(), scene.meshes[i].vertices.size()) << name;
+        for (const Material& m : saved.materials) {
+            EXPECT_EQ(m.perceptualRoughness, 0.2f);
+            EXPECT_EQ(m.metalness, 0.5f);
+        }
+        EXPECT_EQ(saved.lobes, scene.lobes);
+    }
+}
+
+TEST_F(Save, GltfFilesAreReferredTo)
+{
+    const std::string file = folder_.write("triangle.gltf", triangleScene().text());
+    Scene scene = loadScene(file, {.lights = 4});
+    const Scene saved = again(scene, {file});
+    expectSameLights(scene, saved);
+    EXPECT_EQ(saved.instances.size(), scene.instances.size());
+    // Beside the description, too.
+    const std::string beside = R"({"source": {"scene": "triangle.gltf"}, "lights": [],
+        "camera": {"position": [0, 0, 3], "look_at": [0, 0, 0], "up": [0, 1, 0],
+                   "vertical_fov_degrees": 40}})";
+    EXPECT_EQ(refusal(beside), "none");
+}
+
+TEST_F(Save, MovingLightsStandWhereTheyAre)
+{
+    const Scene scene = loadScene("hall", {.lights = 5, .moving = true});
+    const Scene saved = again(scene, {"hall"}, {}, 2.5);
+    std::vector<CndLight> lights;
+    lightsAtTime(scene, 2.5, lights);
+    ASSERT_EQ(saved.lights.size(), lights.size());
+    for (size_t i = 0; i < lights.size(); ++i)
+        EXPECT_LT(glm::length(worldPositionOf(saved, saved.lights[i]) -
+                              worldPositionOf(scene, lights[i])),
+                  1e-5);
+    EXPECT_TRUE(saved.lightMotions.empty());
+}
+
+TEST_F(Save, WhatTheFormatCannotSayIsRefused)
+{
+    Scene scene = loadScene("showcase", {});
+    Camera camera = scene.cameras[0];
+    camera.orthographic = true;
+    EXPECT_THROW(sceneDescription(scene, {"showcase"}, {}, camera, 0), SceneError);
+    scene.materials[0].perceptualRoughness = 0;
+    EXPECT_THROW(sceneDescription(scene, {"showcase"}, {}, scene.cameras[0], 0), SceneError);
+
+    const std::string rest = R"(, "lights": [], "camera": {"position": [0, 0, 3],
+        "look_at": [0, 0, 0], "up": [0, 1, 0], "vertical_fov_degrees": 40}})";
+    const struct {
+        std::string source, named;
+    } cases[] = {
+        {R"({"source": {"scene": "scene.json"})", "source.scene"},
+        {R"({"source": {"scene": "village"})", "village"},
+        {R"({"source": {"scene": "no_such.glb"})", "no_such.glb"},
+        {R"({"source": {"scene": "hall", "lights": 5})", "lights"},
+        {R"({"source": {"scene": "hall", "seed": -1})", "source.seed"},
+        {R"({"source": {"scene": "hall", "material": {"metalness": 2}})", "perceptual_roughness"},
+        {R"({"source": {"scene": "hall"}, "objects": [])", "objects"}};
+    for (const auto& [source, named] : cases)
+        EXPECT_NE(refusal(source + rest).find(named), std::string::npos)
+            << source << ": " << refusal(source + rest);
+}
+
+} // namespace candelabra::test
