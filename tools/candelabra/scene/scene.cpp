@@ -37,7 +37,7 @@ uint32_t materialClasses(const Scene& scene)
     std::vector<bool> used(scene.materials.size());
     for (const Instance& instance : scene.instances)
         used[instance.material] = true;
-    for (const AnalyticObject& object : scene.objects)
+    for (const AnalyticObject& object : scene.analyticObjects)
         used[object.material] = true;
     for (size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
