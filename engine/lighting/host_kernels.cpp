@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
+#include <utility>
 
 #include "candelabra_shaders.h"
 #include "gpu/failure.h"
@@ -16,29 +17,28 @@ namespace
 struct Named {
     const char* name;
     const gpu::Spirv* spirv;
+    bool evaluates = false; // lights: with a shadow term of the host's
 };
 
-#define FAMILIES(kernel)                                                                           \
-    {#kernel ":PUNCTUAL", &spirv::kernel##_comp_punctual},                                         \
-        {#kernel ":CONIC", &spirv::kernel##_comp_conic},                                           \
-        {#kernel ":SPHERE", &spirv::kernel##_comp_sphere},                                         \
-        {#kernel ":TUBE", &spirv::kernel##_comp_tube},                                             \
-        {#kernel ":RECTANGLE", &spirv::kernel##_comp_rectangle},                                   \
+#define FAMILIES(kernel, evaluates)                                                                \
+    {#kernel ":PUNCTUAL", &spirv::kernel##_comp_punctual, evaluates},                              \
+        {#kernel ":CONIC", &spirv::kernel##_comp_conic, evaluates},                                \
+        {#kernel ":SPHERE", &spirv::kernel##_comp_sphere, evaluates},                              \
+        {#kernel ":TUBE", &spirv::kernel##_comp_tube, evaluates},                                  \
+        {#kernel ":RECTANGLE", &spirv::kernel##_comp_rectangle, evaluates},                        \
     {                                                                                              \
-#kernel ":DISC", &spirv::kernel##_comp_disc                                                \
+#kernel ":DISC", &spirv::kernel##_comp_disc, evaluates                                     \
     }
-// All that may be replaced, in either module: those that read surfaces, and first those of them
-// that evaluate lights.
-const Named builtIn[] = {FAMILIES(shade_tiles),
-                         FAMILIES(shade_unlisted),
-                         FAMILIES(shade_brute),
-                         FAMILIES(count_pairs),
+// All that may be replaced, in either module: those that read surfaces.
+const Named builtIn[] = {FAMILIES(shade_tiles, true),
+                         FAMILIES(shade_unlisted, true),
+                         FAMILIES(shade_brute, true),
+                         FAMILIES(count_pairs, false),
                          {"tile_clusters", &spirv::tile_clusters_comp},
                          {"split_tiles", &spirv::split_tiles_comp},
                          {"surface_overlay", &spirv::surface_overlay_comp},
                          {"shade_environment", &spirv::shade_environment_comp}};
 #undef FAMILIES
-constexpr size_t evaluating = 18;
 
 [[noreturn]] void fail(const std::string& sentence)
 {
@@ -67,24 +67,25 @@ HostKernels::HostKernels(const CndHostKernels& given, CndGBufferLayout layout)
         const gpu::Spirv& replaced = find(code);
         std::vector<uint32_t> words(code.words, code.words + code.wordCount);
         gpu::Reflection reflection = gpu::reflect({code.name, words});
-        reflection.usesHostSet = false;
+        const bool usesSet = std::exchange(reflection.usesHostSet, false);
         if (reflection != gpu::reflect(replaced))
             fail(std::string("kernel ") + code.name +
                  " has other bindings or parameters than this version's: compile it anew");
         // Moving a vector leaves its elements where they are.
         const gpu::Spirv spirv{replaced.name, words};
-        kernels_.push_back({&replaced, std::move(words), spirv});
+        kernels_.push_back({&replaced, std::move(words), spirv, usesSet});
     }
 }
 
 const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
 {
     const auto host = std::ranges::find(kernels_, &original, &Code::builtIn);
-    if (host != kernels_.end())
+    if (host != kernels_.end()) {
+        needsSet_ = needsSet_ || (host->usesSet && setLayout_); // without: refused as a pipeline
         return host->spirv;
+    }
     const auto* const known = std::ranges::find(builtIn, &original, &Named::spirv);
-    const bool evaluates = known - builtIn < std::ptrdiff_t(evaluating);
-    if (known != std::end(builtIn) && (readSurfaces_ || (!kernels_.empty() && evaluates)))
+    if (known != std::end(builtIn) && (readSurfaces_ || (!kernels_.empty() && known->evaluates)))
         fail(std::string("kernel ") + known->name +
              " is missing: name its light type and method in CndCompileDesc" +
              (readSurfaces_ ? ", and CND_HOST_READ_SURFACE_BIT" : ""));
@@ -93,9 +94,9 @@ const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
 
 void HostKernels::requireSet(const char* frame, VkDescriptorSet set) const
 {
-    if (setLayout_ && !kernels_.empty() && !set)
+    if (needsSet_ && !set)
         gpu::failArgument(std::string(frame) +
-                          ": hostSet is null, but CndHostKernels::setLayout is not");
+                          ": hostSet is null, but kernels of CndHostKernels use descriptor set 1");
 }
 
 } // namespace candelabra::lighting

@@ -23,7 +23,8 @@ public:
     // was not given.
     const gpu::Spirv& of(const gpu::Spirv& builtIn) const;
     VkDescriptorSetLayout setLayout() const { return setLayout_; }
-    // Throws gpu::Failure when the set of a frame is missing. `frame`: its type, for the message.
+    // Throws gpu::Failure when a kernel that was taken reads the set of a frame, and it is missing.
+    // `frame`: its type, for the message.
     void requireSet(const char* frame, VkDescriptorSet set) const;
 
 private:
@@ -31,11 +32,13 @@ private:
         const gpu::Spirv* builtIn;
         std::vector<uint32_t> words;
         gpu::Spirv spirv;
+        bool usesSet;
     };
 
     std::vector<Code> kernels_;
     VkDescriptorSetLayout setLayout_;
-    bool readSurfaces_; // every kernel that reads the G-buffer is the host's
+    mutable bool needsSet_ = false; // a kernel that of() gave away uses the set
+    bool readSurfaces_;             // every kernel that reads the G-buffer is the host's
 };
 
 } // namespace candelabra::lighting

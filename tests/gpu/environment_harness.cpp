@@ -30,7 +30,8 @@ void EnvironmentTest::TearDown()
 }
 
 void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize,
-                               const CndGBufferDesc* gbuffer, const CndHostKernels* custom)
+                               const CndGBufferDesc* gbuffer, const CndHostKernels* custom,
+                               CndGBufferLayout customLayout)
 {
     cndDestroyEnvironment(environment_);
     environment_ = nullptr;
@@ -45,7 +46,7 @@ void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize
         desc.gbuffer = *gbuffer;
     }
     if (custom) {
-        desc.gbufferLayout = CND_GBUFFER_CUSTOM;
+        desc.gbufferLayout = customLayout;
         desc.hostKernels = *custom;
     }
     ASSERT_EQ(cndCreateEnvironment(&deviceDesc(), &desc, &environment_, &error), CND_SUCCESS)

@@ -37,9 +37,10 @@ class EnvironmentTest : public LightingTest
 protected:
     void TearDown() override;
     // Keeps the device's cube of `image` until the next call. `gbuffer`: surfaces will be of
-    // CND_GBUFFER_HOST; `custom`: of CND_GBUFFER_CUSTOM; else FULL.
+    // CND_GBUFFER_HOST; `custom`: of `customLayout`; else FULL.
     void setImage(const EnvironmentImage& image, uint32_t cubeSize = 0,
-                  const CndGBufferDesc* gbuffer = nullptr, const CndHostKernels* custom = nullptr);
+                  const CndGBufferDesc* gbuffer = nullptr, const CndHostKernels* custom = nullptr,
+                  CndGBufferLayout customLayout = CND_GBUFFER_CUSTOM);
     std::vector<glm::vec4> shade(const CpuGBuffer& g, const EnvironmentOptions& options = {});
     CndEnvironmentFrame environmentFrame(const CpuGBuffer& g, const Images& images,
                                          const EnvironmentOptions& options) const;

@@ -328,13 +328,35 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
         clearRadiance(cmd, images_);
         EXPECT_EQ(cndRecordEnvironment(environment_, cmd, &environment, &error),
                   CND_ERROR_INVALID_ARGUMENT);
-        EXPECT_STREQ(error.message, "CndEnvironmentFrame: hostSet is null, but "
-                                    "CndHostKernels::setLayout is not");
+        EXPECT_STREQ(error.message, "CndEnvironmentFrame: hostSet is null, but kernels of "
+                                    "CndHostKernels use descriptor set 1");
         environment.hostSet = options.hostSet;
         EXPECT_EQ(cndRecordEnvironment(environment_, cmd, &environment, &error), CND_SUCCESS)
             << error.message;
     });
     EXPECT_LE(maxRelativeDifference(readRadiance(images_), underSky), 1e-4);
+}
+
+// A layout alone asks for none: a shadow term is no part of the environment, and may do without.
+TEST_F(HostFunctions, ASetIsNeededWhereAKernelUsesIt)
+{
+    CndCompileDesc desc{.functions = CND_HOST_VISIBILITY_BIT,
+                        .source = shadowSource,
+                        .lightTypes = 1u << CND_LIGHT_SPHERE,
+                        .specularMethods = 1u << RunOptions{}.specular};
+    const CompiledKernels byId = compiled(desc);
+    const EnvironmentImage sky = imageOf([](const glm::dvec3& d) { return 2 + d.y; }, 64);
+    setImage(sky, 64);
+    const std::vector<glm::vec4> underSky = shade(g_);
+    const CndHostKernels withSet = byId.hostKernels(shadowSet_.layout());
+    setImage(sky, 64, nullptr, &withSet, CND_GBUFFER_FULL);
+    EXPECT_TRUE(sameBits(shade(g_), underSky));
+
+    desc.source = "float candelabraVisibility(ShadowQuery q) { return 1.0; }";
+    const CompiledKernels plain = compiled(desc);
+    const std::vector<CndLight> lights = randomSpheres(g_, 20, 9);
+    EXPECT_TRUE(sameBits(run(g_, lights, {.hostKernels = plain.hostKernels(shadowSet_.layout())}),
+                         run(g_, lights)));
 }
 
 TEST_F(HostFunctions, WhatIsMissingOrForeignIsNamed)
