@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole frames of the program's renderer: clustered against brute force, repeatability, resizing,
 // moving lights. Validation must stay silent (fixture).
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -221,6 +222,42 @@ TEST_F(RendererTest, EnvironmentDoesNotCoverSuns)
                 ASSERT_EQ(seen.pixels[i + c], 100 + sun.emission[c]) << i;
         }
     EXPECT_GT(pixels, 5u);
+}
+
+// Lights that do not light what the camera sees are not seen either.
+TEST_F(RendererTest, EmittersAreSeenInTheirLayers)
+{
+    Scene scene = hall(200);
+    Scene odd = scene;
+    odd.lights.clear();
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        scene.lights[i].layers = i % 2 ? 2 : 1;
+        if (i % 2)
+            odd.lights.push_back(scene.lights[i]);
+    }
+    FrameOptions frame = frameOf(scene);
+    // What visible lights change; they reflect nothing.
+    const auto emitters = [&](Renderer& renderer, uint32_t layers) {
+        frame.camera.layers = layers;
+        frame.lightsVisible = false;
+        const Image without = radiance(renderer, frame);
+        frame.lightsVisible = true;
+        std::vector<float> out = radiance(renderer, frame).pixels;
+        for (size_t i = 0; i < out.size(); ++i)
+            if (out[i] == without.pixels[i])
+                out[i] = 0;
+        return out;
+    };
+    const PixelSize size{160, 90};
+    Renderer renderer(context(), scene, {.size = size}), only(context(), odd, {.size = size});
+    const std::vector<float> expected = emitters(only, 0), all = emitters(renderer, 0);
+    EXPECT_GT(std::ranges::count_if(expected, [](float x) { return x > 0; }), 20);
+    EXPECT_EQ(emitters(renderer, 2), expected);
+    renderer.lightsChanged();
+    EXPECT_EQ(emitters(renderer, 2), expected);
+    EXPECT_EQ(emitters(renderer, 4), std::vector<float>(all.size()));
+    EXPECT_EQ(emitters(renderer, 0), all);
+    EXPECT_NE(expected, all);
 }
 
 TEST_F(RendererTest, EmittersAreBrighterThanWhatTheyLight)

@@ -226,6 +226,22 @@ TEST_F(TruthCommand, VisibleLightsAreSeen)
     EXPECT_EQ(on.pixels[0], off.pixels[0]);
 }
 
+// And those of other layers than the camera's are not.
+TEST_F(TruthCommand, LightsOfOtherLayersAreLeftOut)
+{
+    Scene scene = loadSceneJson(path("scene.json"));
+    scene.lights.push_back(scene.lights[0]);
+    scene.lights.back().layers = 2;
+    Camera camera = scene.cameras[0];
+    const auto count = [&](uint32_t layers) {
+        camera.layers = layers;
+        return toReference(scene, camera, 1, true).lights.size();
+    };
+    EXPECT_EQ(count(0), 2u);
+    EXPECT_EQ(count(1), 1u);
+    EXPECT_EQ(count(6), 2u);
+}
+
 // Every shape of light against the plain meaning of its parameters: what the middle of the picture
 // shows from the front, from behind and beside it.
 TEST_F(TruthCommand, EveryShapeOfLightIsSeen)

@@ -13,6 +13,7 @@
 #include "render/lit.h"
 #include "render/scene_environment.h"
 #include "render/scene_geometry.h"
+#include "scene/light_layers.h"
 
 namespace candelabra::app
 {
@@ -67,6 +68,7 @@ struct Renderer::State {
     Exposure exposure;
     Environment environment; // empty: the scene has none
     std::vector<CndLight> lights;
+    std::optional<uint32_t> emitterLayers; // of what the G-buffer shows; empty: of no lights yet
     double lightTime = 0;
     std::optional<Lit> drawn;            // what the images hold
     std::optional<HeatMapPass> heatMaps; // once one is asked for
@@ -118,9 +120,9 @@ void Renderer::State::setLights(double time)
     lightsAtTime(scene, time, lights);
     lightTime = time;
     drawn.reset();
-    const double origin[3] = {scene.lightOrigin.x, scene.lightOrigin.y, scene.lightOrigin.z};
-    take(lighting.setLights(lights, origin));
-    gbuffer.setEmitters(lights, origin);
+    const glm::dvec3& at = scene.lightOrigin;
+    take(lighting.setLights(lights, {at.x, at.y, at.z}));
+    emitterLayers.reset();
 }
 
 void Renderer::State::moveLights(double time)
@@ -198,12 +200,16 @@ PixelSize Renderer::size() const
 void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
 {
     drawn.reset();
+    if (frame.lightsVisible && emitterLayers != frame.camera.layers) {
+        const double origin[3] = {scene.lightOrigin.x, scene.lightOrigin.y, scene.lightOrigin.z};
+        gbuffer.setEmitters(lightsShown(lights, frame.camera), origin);
+        emitterLayers = frame.camera.layers;
+    }
     const glm::vec3 background = environment.get() ? glm::vec3(0) : scene.background;
     gbuffer.record(cmd, geometry,
                    {.slot = slot,
                     .camera = makeCamera(frame.camera, aspect()),
                     .clearDepth = clearDepth,
-                    // The environment is the background where there is one.
                     .background = {background.x, background.y, background.z},
                     .attachments = targets.attachments(),
                     .width = options.size.width,
@@ -343,9 +349,8 @@ void Renderer::recordBlack(VkCommandBuffer cmd)
 void Renderer::setLights(const std::vector<CndLight>& lights)
 {
     const glm::dvec3& at = state_->scene.lightOrigin;
-    const double origin[3] = {at.x, at.y, at.z};
     state_->drawn.reset();
-    take(state_->lighting.setLights(lights, origin));
+    take(state_->lighting.setLights(lights, {at.x, at.y, at.z}));
 }
 
 CndLightingFrame Renderer::lightingFrame(uint32_t slot, const FrameOptions& frame) const

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/hash.h"
+#include "scene/light_layers.h"
 #include "scene/load.h"
 
 namespace candelabra::app
@@ -68,14 +69,7 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
                                .normal = object.normal,
                                .radius = object.radius,
                                .material = object.material});
-    for (const CndLight& light : scene.lights)
-        if (!light.layers || !camera.layers || light.layers & camera.layers)
-            out.lights.push_back(light);
-        else if (lightsVisible)
-            throw SceneError(scene.name +
-                             ": has lights of other layers than the camera's, and only "
-                             "lights that are not seen have a truth without their "
-                             "light");
+    out.lights = lightsShown(scene.lights, camera);
     out.lightOrigin = scene.lightOrigin;
     out.background = scene.background;
     out.lightsVisible = lightsVisible;

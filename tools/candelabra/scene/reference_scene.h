@@ -10,11 +10,11 @@
 namespace candelabra::app
 {
 
-// The planes, balls and lights of `scene` seen from `camera`, the background included.
+// The planes, balls and lights of `scene` seen from `camera`, the background included; lights of
+// other layers than the camera's are left out.
 // `imageAspect` (width / height) serves cameras without an aspect of their own. With
 // `lightsVisible` area lights are seen. Throws SceneError for what the reference does not know:
-// meshes, an environment, orthographic cameras, lights that are seen and of other layers than the
-// camera's.
+// meshes, an environment, orthographic cameras.
 reference::Scene toReference(const Scene& scene, const Camera& camera, double imageAspect,
                              bool lightsVisible);
 

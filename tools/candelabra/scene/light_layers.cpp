@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/light_layers.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace candelabra::app
+{
+
+std::vector<CndLight> lightsShown(const std::vector<CndLight>& lights, const Camera& camera)
+{
+    std::vector<CndLight> shown;
+    std::copy_if(lights.begin(), lights.end(), std::back_inserter(shown),
+                 [&](const CndLight& light) {
+                     return !light.layers || !camera.layers || light.layers & camera.layers;
+                 });
+    return shown;
+}
+
+} // namespace candelabra::app
