@@ -40,6 +40,7 @@ FrameContent View::contentOf(const CndLightingFrame& frame, const LightTypeCount
                              bool listsKept) const
 {
     FrameContent out{.lights = lighting_.lightCount() > 0,
+                     .inLayers = lighting_.hasLightsIn(layersOf(frame.layers)),
                      .lightsChanged = lighting_.lightsChanged(),
                      .deviceLights = lighting_.hasDeviceLights(),
                      .deviceLightsChanged = lighting_.deviceLightsChanged(),
@@ -70,7 +71,8 @@ FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
     // A light set travels with the first recording, whatever it shows.
     if (!c.placedInView && !c.distantInView)
         for (size_t pass = size_t(Pass::LightOrder) + 1; pass < passCount; ++pass)
-            skip(Pass(pass), "no light reaches the view");
+            skip(Pass(pass),
+                 c.inLayers ? "no light reaches the view" : "no light of the view's layers");
     if (!c.readsAlbedoTable)
         skip(Pass::DfgTable, "lobes are added as they are");
     if (c.albedoTableFilled)

@@ -32,7 +32,8 @@ static_assert(passCount <= CND_MAX_PASSES);
 
 // What the host knows of a frame before it is recorded.
 struct FrameContent {
-    bool lights = false; // there are any
+    bool lights = false;   // there are any
+    bool inLayers = false; // some may have a layer of the view's
     // Some reach the view: of the types that have a place, of the distant ones.
     bool placedInView = false, distantInView = false;
     bool lightsChanged = false; // since the frame before

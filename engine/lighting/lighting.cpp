@@ -200,6 +200,14 @@ LightTypeCounts Lighting::countsInView(const CndCamera& camera, uint32_t layers)
     return out;
 }
 
+bool Lighting::hasLightsIn(uint32_t layers) const
+{
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (typeCounts_[type] && reach_[type].layers & layers)
+            return true;
+    return false;
+}
+
 void Lighting::recordDeviceCounts(const gpu::Frame& frame,
                                   const gpu::Buffer& counters) const noexcept
 {

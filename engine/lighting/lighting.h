@@ -104,6 +104,8 @@ public:
     const LightExtent& extent() const { return extent_; }
     // Lights by type, 0 for types none of which reaches the view.
     LightTypeCounts countsInView(const CndCamera& camera, uint32_t layers) const;
+    // False only when no light has one of these layers.
+    bool hasLightsIn(uint32_t layers) const;
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
     // There is a light set that no recording has uploaded yet.
     bool lightsChanged() const { return pending_; }

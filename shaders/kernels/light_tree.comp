@@ -33,7 +33,7 @@ void childBox(uint child, out vec3 lowest, out vec3 highest)
     }
     lowest = vec3(LARGEST);
     highest = vec3(-LARGEST);
-    if (lightEmission(child).w <= 0.0) // no light (device_lights)
+    if (lightEmission(child).w <= 0.0) // no light (device_lights), or of another layer
         return;
     const vec3 centre = lightCentre(child).xyz;
     const vec3 size = abs(centre);

@@ -137,10 +137,13 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
     EXPECT_TRUE(sameBits(frame(8), std::vector<glm::vec4>(first.size(), glm::vec4(0))));
     CndLightingStats stats{.structSize = sizeof stats};
     ASSERT_EQ(cndGetLightingStats(view, 0, &stats), CND_SUCCESS);
+    bool found = false;
     for (uint32_t i = 0; i < stats.passCount; ++i)
         if (std::string(stats.passes[i].name) == "shade_tiles") {
-            EXPECT_STREQ(stats.passes[i].skipped, "no light reaches the view");
+            EXPECT_STREQ(stats.passes[i].skipped, "no light of the view's layers");
+            found = true;
         }
+    EXPECT_TRUE(found);
     // Layers of lights change places.
     for (size_t i = 0; i < all.size(); ++i) {
         all[i].layers = 3 & ~all[i].layers;
@@ -148,6 +151,16 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
         ASSERT_EQ(cndUpdateLights(lighting, 1, &id, &all[i], &error), CND_SUCCESS) << error.message;
     }
     EXPECT_TRUE(sameBits(frame(2), first));
+    // More of them in a layer that had none.
+    const std::vector<glm::vec4> expected = run(g_, others).radiance;
+    for (CndLight& light : others)
+        light.layers = 4;
+    std::vector<CndLightId> added(others.size());
+    ASSERT_EQ(cndAddLights(lighting, uint32_t(others.size()), others.data(), added.data(), &error),
+              CND_SUCCESS)
+        << error.message;
+    EXPECT_TRUE(sameBits(frame(2), first));
+    EXPECT_TRUE(sameBits(frame(4), expected));
     cndDestroyLightingView(view);
     cndDestroyLighting(lighting);
 }
@@ -181,6 +194,21 @@ TEST_F(LightLayers, OfLightsOnTheDevice)
         const LightingResult none = in(5);
         EXPECT_TRUE(sameBits(none.radiance, black));
         EXPECT_EQ(none.stats.deviceLights, lights.size());
+    }
+    // Beside the host's of the same type. The order of a sum is that of all of them.
+    std::vector<CndLight> hosts = randomSpheres(g_, 60, 10);
+    const LightingResult hostsAlone = run(g_, hosts);
+    for (CndLight& light : hosts)
+        light.layers = 1;
+    for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
+        const auto in = [&](uint32_t layers) {
+            return run(g_, hosts, {.culling = culling, .deviceLights = &device, .layers = layers})
+                .radiance;
+        };
+        EXPECT_LE(maxRelativeDifference(in(1), hostsAlone.radiance), 1e-6);
+        EXPECT_LE(maxRelativeDifference(in(2), expected.radiance), 1e-6);
+        EXPECT_GT(maxRelativeDifference(in(0), expected.radiance), 1e-2);
+        EXPECT_GT(maxRelativeDifference(in(0), hostsAlone.radiance), 1e-2);
     }
 }
 
