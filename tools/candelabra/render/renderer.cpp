@@ -146,13 +146,6 @@ void Renderer::State::createSized()
     view = take(lighting.createView({.maxWidth = width, .maxHeight = height}));
 }
 
-uint32_t maxLightsOf(const DeviceInfo& device)
-{
-    VkPhysicalDeviceProperties properties{};
-    vkGetPhysicalDeviceProperties(device.handle, &properties);
-    return cndMaxLightCount(&properties.limits);
-}
-
 Renderer::Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options)
     : state_(std::make_unique<State>(context, scene, options))
 {

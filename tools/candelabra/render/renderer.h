@@ -69,10 +69,6 @@ struct FrameStats {
     CndExposureStats exposure{};
 };
 
-// Lights that the device has room for: their records share one storage buffer. The lighting module
-// refuses more by itself, but only after a scene with that many has been made.
-uint32_t maxLightsOf(const DeviceInfo& device);
-
 class Renderer
 {
 public:

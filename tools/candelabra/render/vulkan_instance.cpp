@@ -277,4 +277,11 @@ DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::strin
     return *best;
 }
 
+uint32_t maxLightsOf(const DeviceInfo& device)
+{
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(device.handle, &properties);
+    return cndMaxLightCount(&properties.limits);
+}
+
 } // namespace candelabra::app

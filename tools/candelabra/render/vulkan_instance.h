@@ -50,6 +50,10 @@ struct DeviceInfo {
     std::string missing;       // what candelabra needs and the device lacks; empty: usable
 };
 
+// Lights that the device has room for: their records share one storage buffer. The lighting module
+// refuses more by itself, but only after a scene with that many has been made.
+uint32_t maxLightsOf(const DeviceInfo& device);
+
 // "discrete GPU", "integrated GPU", "virtual GPU", "CPU" or "other".
 const char* deviceTypeName(VkPhysicalDeviceType type);
 
