@@ -61,6 +61,7 @@ public:
             const size_t length = at[0] >> 16;
             whole = length > 0 && length <= words_.size() - i;
             last = at[0] & 0xFFFFu;
+            whole = whole && length >= leastLength(last, at, length);
             if (whole)
                 read(last, at);
             i += length;
@@ -121,6 +122,38 @@ private:
             decorations_[at[1]].memberMatrixStride[at[2]] = at[4];
     }
 
+    // Words of an instruction, those that are read here at least.
+    static size_t leastLength(uint32_t op, const uint32_t* at, size_t length)
+    {
+        switch (op) {
+        case OpTypeImage:
+            return 9;
+        case OpTypeInt:
+        case OpTypeVector:
+        case OpTypeMatrix:
+        case OpTypeArray:
+        case OpTypePointer:
+        case OpConstant:
+        case OpVariable:
+            return 4;
+        case OpTypeFloat:
+            return 3;
+        case OpDecorate: {
+            const bool hasValue =
+                length > 2 && (at[2] == DecorationBinding || at[2] == DecorationDescriptorSet ||
+                               at[2] == DecorationArrayStride);
+            return hasValue ? 4 : 3;
+        }
+        case OpMemberDecorate: {
+            const bool hasValue =
+                length > 3 && (at[3] == DecorationOffset || at[3] == DecorationMatrixStride);
+            return hasValue ? 5 : 4;
+        }
+        default:
+            return op >= OpTypeInt && op <= OpTypePointer ? 2 : 1;
+        }
+    }
+
     static bool isInterface(uint32_t storage)
     {
         return storage == StorageUniformConstant || storage == StorageUniform ||
@@ -139,9 +172,18 @@ private:
             const auto stride = layout.memberMatrixStride.find(m);
             const uint32_t matrixStride =
                 stride == layout.memberMatrixStride.end() ? 0 : stride->second;
-            size = std::max(size, layout.memberOffset.at(m) + typeSize(type[2 + m], matrixStride));
+            size = std::max(size, layout.memberOffset.at(m) +
+                                      typeSize(member(type[2 + m], id), matrixStride));
         }
         return size;
+    }
+
+    // A type may only be made of types that come before it.
+    uint32_t member(uint32_t id, uint32_t of) const
+    {
+        if (definition(id) >= definition(of))
+            failArgument("SPIR-V with a type that holds itself or a later one");
+        return id;
     }
 
     uint32_t typeSize(uint32_t id, uint32_t matrixStride) const
@@ -152,9 +194,9 @@ private:
         case OpTypeFloat:
             return type[2] / 8;
         case OpTypeVector:
-            return typeSize(type[2], 0) * type[3];
+            return typeSize(member(type[2], id), 0) * type[3];
         case OpTypeMatrix:
-            return (type[3] - 1) * matrixStride + typeSize(type[2], 0);
+            return (type[3] - 1) * matrixStride + typeSize(member(type[2], id), 0);
         case OpTypeArray:
             return definition(type[3])[3] * decorations_.at(id).arrayStride;
         default:

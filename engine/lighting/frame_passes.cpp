@@ -26,12 +26,10 @@ bool View::keepsLists(const CndLightingFrame& frame, uint32_t sampleCount)
     if (frame.culling == CND_CULLING_CLUSTERED && lighting_.lightCount())
         key = {lighting_.lightSet(), frame.specularMethod, sampleCount, layersOf(frame.layers),
                influenceOf(frame)};
-    if (key.rule == CND_INFLUENCE_BY_ERROR) {
-        key.maxError = frame.influence.maxError;
-        key.exposure = frame.influence.exposure;
-        key.toneMap = frame.influence.toneMap;
-    }
-    const bool same = frame.surfacesUnchanged && key.lightSet && key == lists_;
+    // What an error allows depends on the other light of the image as well, and is measured at
+    // other pixels in each frame.
+    const bool same = frame.surfacesUnchanged && key.lightSet &&
+                      key.rule != CND_INFLUENCE_BY_ERROR && key == lists_;
     lists_ = key;
     return same;
 }

@@ -93,7 +93,7 @@ Influence::Influence(const Lighting& lighting, glm::uvec2 maxSize)
                               gpu::MemoryUse::Device);
     sums_ = gpu::createBuffer(device, "influence sums",
                               VkDeviceSize(samples) * gpu::INFLUENCE_SLOTS * sizeof(glm::vec3), use,
-                              gpu::MemoryUse::Device);
+                              gpu::MemoryUse::Scratch);
     const Kernels& k = lighting.kernels();
     measure_ = k.shade.anyVariant().measure.createBindings(slots);
     choose_ = k.influence.choose.createBindings(slots);

@@ -257,8 +257,6 @@ private:
         uint32_t sampleCount = 0;
         uint32_t layers = 0;
         CndInfluenceRule rule = CND_INFLUENCE_GIVEN;
-        float maxError = 0, exposure = 0; // BY_ERROR
-        CndToneMap toneMap = CND_TONEMAP_NONE;
         bool operator==(const ListsKey&) const = default;
     };
     struct SlotState {

@@ -269,7 +269,7 @@ TEST_F(InfluenceTest, ListsAreKeptWithTheirRadii)
 {
     const CpuGBuffer g = surfaces();
     create(g, brightAndDim(g));
-    CndInfluence influence{
+    const CndInfluence influence{
         .rule = CND_INFLUENCE_BY_ERROR, .maxError = 8.0f / 255, .exposure = exposureFor(uncut())};
     const auto skips = [](const CndLightingStats& stats, const char* pass) {
         const CndPassPlan* p =
@@ -280,13 +280,12 @@ TEST_F(InfluenceTest, ListsAreKeptWithTheirRadii)
     const CndLightingStats made = draw(influence);
     const std::vector<glm::vec4> image = readRadiance(images_);
     EXPECT_EQ(skips(made, "measure_influence"), "");
-    const CndLightingStats kept = draw(influence, true);
-    EXPECT_EQ(skips(kept, "measure_influence"), "surfaces and lights unchanged");
-    EXPECT_EQ(skips(kept, "cut_lights"), "surfaces and lights unchanged");
-    EXPECT_EQ(kept.cutBelow, made.cutBelow);
+    // The measurement goes on.
+    const CndLightingStats again = draw(influence, true);
+    EXPECT_EQ(skips(again, "measure_influence"), "");
+    EXPECT_EQ(skips(again, "cluster_lists"), "");
+    EXPECT_EQ(again.cutBelow, made.cutBelow);
     EXPECT_TRUE(sameBits(readRadiance(images_), image));
-    influence.exposure *= 1.01f;
-    EXPECT_EQ(skips(draw(influence, true), "cluster_lists"), "");
     EXPECT_EQ(skips(draw({}, true), "cluster_lists"), "");
     EXPECT_EQ(skips(draw({}, true), "measure_influence"), "not asked for");
 }

@@ -12,6 +12,7 @@
 #include "render/frame_ring.h"
 #include "render/readback.h"
 #include "render/surfaces.h"
+#include "scene/light_layers.h"
 #include "scene/lights.h"
 
 namespace candelabra::app
@@ -145,7 +146,8 @@ LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Sc
     lightsAtTime(scene, frame.time, lights);
     std::vector<Reach> reaches;
     for (uint32_t i = 0; i < lights.size(); ++i)
-        reaches.push_back(reachOf(i, lights[i], scene.lightOrigin));
+        if (isShown(lights[i], frame.camera))
+            reaches.push_back(reachOf(i, lights[i], scene.lightOrigin));
 
     LightCosts out;
     std::vector<LightCost> all(lights.size());

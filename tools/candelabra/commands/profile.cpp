@@ -114,6 +114,9 @@ ProfilePlan plan(const ProfileArguments& a)
         if (!a.ab.empty() || a.frame.cullingMode() != CND_CULLING_CLUSTERED)
             throw UsageError("--light-costs: is about lists of one way to draw: not with --ab or "
                              "--culling brute");
+        if (a.frame.influenceRule().rule != CND_INFLUENCE_GIVEN)
+            throw UsageError("--light-costs: knows the radii that lights are given: not with "
+                             "--influence uncut or --influence-error");
     }
     ProfilePlan p{.scene = a.scene.options(a.scene.lightCount()),
                   .gbufferLayout = a.frame.gbufferLayout(),

@@ -90,9 +90,9 @@ RenderPlan plan(const RenderArguments& a)
     const bool byError = influence.rule == CND_INFLUENCE_BY_ERROR;
     if (byError && a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
         throw UsageError("--influence-error: --specular sampled is noise, which hides what is cut");
-    if (byError && !a.pick.empty())
+    if (influence.rule != CND_INFLUENCE_GIVEN && !a.pick.empty())
         throw UsageError("--pick: shows lights with the radii that they are given: not with "
-                         "--influence-error");
+                         "--influence uncut or --influence-error");
     return {.scene = a.scene.options(a.scene.lightCount()),
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
                       .specular = a.frame.specularMethod(),

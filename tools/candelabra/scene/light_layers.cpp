@@ -7,13 +7,16 @@
 namespace candelabra::app
 {
 
+bool isShown(const CndLight& light, const Camera& camera)
+{
+    return !light.layers || !camera.layers || light.layers & camera.layers;
+}
+
 std::vector<CndLight> lightsShown(const std::vector<CndLight>& lights, const Camera& camera)
 {
     std::vector<CndLight> shown;
     std::copy_if(lights.begin(), lights.end(), std::back_inserter(shown),
-                 [&](const CndLight& light) {
-                     return !light.layers || !camera.layers || light.layers & camera.layers;
-                 });
+                 [&](const CndLight& light) { return isShown(light, camera); });
     return shown;
 }
 

@@ -9,6 +9,9 @@
 namespace candelabra::app
 {
 
+// Whether the light has a layer in common with the camera.
+bool isShown(const CndLight& light, const Camera& camera);
+
 // Those that have a layer in common with the camera, in their order.
 std::vector<CndLight> lightsShown(const std::vector<CndLight>& lights, const Camera& camera);
 

@@ -243,6 +243,10 @@ void Viewer::pick(PixelPosition pixel)
         figures_.note = "the sampled method draws other samples for a light alone: no pixel picked";
         return;
     }
+    if (frame.influence.rule != CND_INFLUENCE_GIVEN) {
+        figures_.note = "lights are listed with the radii that they are given: no pixel picked";
+        return;
+    }
     if (pixel.x >= size.width || pixel.y >= size.height) // the window became smaller
         return;
     frame.deltaTime = 0; // exposure stays as it is
