@@ -42,16 +42,18 @@ typedef enum CndInfluenceRule {
     // CndLight::influenceRadius, with a window that takes the light smoothly to 0 there:
     // (1 - (d / r)^4)^2.
     CND_INFLUENCE_GIVEN = 0,
-    CND_INFLUENCE_UNCUT = 1, // everywhere, as light does; influenceRadius is not read
-    // As far as the display can tell, by CndInfluence::maxError; influenceRadius is not read. A
-    // light of peak intensity I (cd) gets the radius sqrt(I / E) and the window of GIVEN, E one
-    // illuminance for all lights, chosen on the device with every frame. The error of a pixel
+    CND_INFLUENCE_UNCUT = 1, // everywhere, as light does; influenceRadius need only be valid
+    // As far as the display can tell, by CndInfluence::maxError; influenceRadius need only be
+    // valid. A light of peak intensity I (cd) gets the radius sqrt(I / E) and the window of GIVEN,
+    // E one illuminance for all lights, chosen on the device with every frame. The error of a pixel
     // counts all that cuts and windows of all lights together take from it. The first frame, and
-    // the first with another maxError, measures every pixel (a million of larger images) and takes
-    // as long as brute force; the others measure up to 4096, each time others: one of each 8x8 (of
-    // larger squares where the image is larger). E falls at once where they ask for it; it rises,
-    // by half an octave per frame, to what 64 frames have allowed. What comes into view may so err
-    // by more in a few pixels until its turn comes. CND_CULLING_BRUTE, the check, cuts nothing.
+    // the first with another maxError, measures every pixel (of images larger than 1024x1024 at
+    // least 260,000) and takes as long as brute force on llvmpipe; on a GPU, where it has not been
+    // timed, it may take longer: a lane evaluates all lights of a sample. The others measure up to
+    // 4096 pixels, each time others: one of each 8x8 (of larger squares where the image is larger).
+    // E falls at once where they ask for it; it rises, by half an octave per frame, to what 64
+    // frames have allowed. What comes into view may so err by more in a few pixels until its turn
+    // comes. Lists are made anew in every frame. CND_CULLING_BRUTE, the check, cuts nothing.
     CND_INFLUENCE_BY_ERROR = 2,
     CND_INFLUENCE_RULE_MAX_ENUM = 0x7FFFFFFF
 } CndInfluenceRule;
