@@ -102,7 +102,8 @@ struct Nothing<void(VKAPI_PTR*)(VkDevice, H, VkMemoryRequirements*)> {
 Planning::Planning(const CndDeviceDesc& device)
     : getInstanceProcAddr_(device.getInstanceProcAddr), desc_(device)
 {
-    if (!device.instance || !device.device || !device.getInstanceProcAddr)
+    const bool half = !device.allocator.allocate != !device.allocator.free;
+    if (!device.instance || !device.device || !device.getInstanceProcAddr || half)
         return; // what is made from it says so
     getDeviceProcAddr_ = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
         getInstanceProcAddr_(device.instance, "vkGetDeviceProcAddr"));

@@ -157,6 +157,13 @@ TEST(Planning, FailsLikeCreation)
     expectSameError(device, {.framesInFlight = 1});
     device.getInstanceProcAddr = nullptr;
     expectSameError(device, {.framesInFlight = 1});
+    device = vulkan.desc();
+    device.allocator.free = [](void*, void*) {};
+    expectSameError(device, {.framesInFlight = 1});
+    device.allocator = {.allocate = [](void*, const CndMemoryRequest*, CndMemory*) {
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }};
+    expectSameError(device, {.framesInFlight = 1});
     vulkan.absent = "CmdDispatch";
     expectSameError(vulkan.desc(), {.framesInFlight = 1});
     vulkan.absent = "GetDeviceBufferMemoryRequirements";
