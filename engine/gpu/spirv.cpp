@@ -50,7 +50,7 @@ struct Decorations {
 class Module
 {
 public:
-    explicit Module(const Spirv& spirv) : words_(spirv.words)
+    explicit Module(const Spirv& spirv) : name_(spirv.name), words_(spirv.words)
     {
         constexpr size_t headerWords = 5;
         constexpr uint32_t magic = 0x07230203;
@@ -60,17 +60,17 @@ public:
             const uint32_t* at = &words_[i];
             const size_t length = at[0] >> 16;
             whole = length > 0 && length <= words_.size() - i;
-            last = at[0] & 0xFFFFu;
+            last = opcode(at);
             whole = whole && length >= leastLength(last, at, length);
             if (whole)
                 read(last, at);
             i += length;
         }
         if (!whole || last != OpFunctionEnd) // the end of every shader
-            failArgument(std::string(spirv.name) + " is not SPIR-V, or not all of it");
+            failArgument(name_ + " is not SPIR-V, or not all of it");
     }
 
-    Reflection reflection(const char* name) const
+    Reflection reflection() const
     {
         Reflection result;
         for (const uint32_t* variable : variables_) {
@@ -78,19 +78,19 @@ public:
             const auto found = decorations_.find(variable[2]);
             const bool isBound = found != decorations_.end() && found->second.binding != ~0u;
             if (isBound && found->second.set > 1)
-                failUnsupported(std::string("shader ") + name + " uses a descriptor set above 1");
+                failUnsupported("shader " + name_ + " uses a descriptor set above 1");
             if (isBound && found->second.set == 1) {
                 result.usesHostSet = true;
                 continue;
             }
-            const uint32_t* type = definition(definition(variable[1])[3]);
+            const uint32_t* type = definition(definition(variable[1], OpTypePointer)[3]);
             if (storage == StoragePushConstant)
                 result.pushConstantSize = structSize(type[1]);
             if (!isBound)
                 continue;
             uint32_t count = 1;
-            if ((type[0] & 0xFFFFu) == OpTypeArray) {
-                count = definition(type[3])[3];
+            if (opcode(type) == OpTypeArray) {
+                count = definition(type[3], OpConstant)[3];
                 type = definition(type[2]);
             }
             result.bindings.push_back(
@@ -102,6 +102,8 @@ public:
     }
 
 private:
+    static uint32_t opcode(const uint32_t* at) { return at[0] & 0xFFFFu; }
+
     void read(uint32_t op, const uint32_t* at)
     {
         if (op >= OpTypeInt && op <= OpTypePointer)
@@ -161,6 +163,14 @@ private:
     }
 
     const uint32_t* definition(uint32_t id) const { return definitions_.at(id); }
+    // By this opcode, which says how many words can be read.
+    const uint32_t* definition(uint32_t id, uint32_t op) const
+    {
+        const uint32_t* at = definition(id);
+        if (opcode(at) != op)
+            throw std::out_of_range("another opcode");
+        return at;
+    }
 
     uint32_t structSize(uint32_t id) const
     {
@@ -182,14 +192,14 @@ private:
     uint32_t member(uint32_t id, uint32_t of) const
     {
         if (definition(id) >= definition(of))
-            failArgument("SPIR-V with a type that holds itself or a later one");
+            failArgument(name_ + " is SPIR-V with a type that holds itself or a later one");
         return id;
     }
 
     uint32_t typeSize(uint32_t id, uint32_t matrixStride) const
     {
         const uint32_t* type = definition(id);
-        switch (type[0] & 0xFFFFu) {
+        switch (opcode(type)) {
         case OpTypeInt:
         case OpTypeFloat:
             return type[2] / 8;
@@ -198,7 +208,7 @@ private:
         case OpTypeMatrix:
             return (type[3] - 1) * matrixStride + typeSize(member(type[2], id), 0);
         case OpTypeArray:
-            return definition(type[3])[3] * decorations_.at(id).arrayStride;
+            return definition(type[3], OpConstant)[3] * decorations_.at(id).arrayStride;
         default:
             return structSize(id);
         }
@@ -210,21 +220,24 @@ private:
             return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         if (storage == StorageUniform)
             return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        switch (type[0] & 0xFFFFu) {
+        switch (opcode(type)) {
         case OpTypeSampler:
             return VK_DESCRIPTOR_TYPE_SAMPLER;
         case OpTypeSampledImage:
             return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        default: {
-            const bool sampled = type[7] == 1; // OpTypeImage operand "Sampled"
+        case OpTypeImage: {
+            const bool sampled = type[7] == 1; // operand "Sampled"
             if (type[3] == DimBuffer)
                 return sampled ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                : VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
             return sampled ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         }
+        default:
+            throw std::out_of_range("no resource");
         }
     }
 
+    std::string name_;
     std::span<const uint32_t> words_;
     std::map<uint32_t, const uint32_t*> definitions_; // result id -> first word of the instruction
     std::map<uint32_t, Decorations> decorations_;
@@ -236,7 +249,7 @@ private:
 Reflection reflect(const Spirv& spirv)
 {
     try {
-        return Module(spirv).reflection(spirv.name);
+        return Module(spirv).reflection();
     } catch (const std::out_of_range&) {
         failArgument(std::string(spirv.name) + " is SPIR-V that uses what it does not define");
     }
