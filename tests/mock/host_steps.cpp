@@ -11,7 +11,8 @@ namespace candelabra::test
 namespace
 {
 
-constexpr uint32_t firstCount = 3, secondCount = 3000; // the second set needs larger buffers
+// Each needs larger buffers, and so does one more light.
+constexpr uint32_t firstCount = 3, secondCount = 1600, deviceCount = 4000;
 
 CndResult setLights(Host& h, CndLightType type, uint32_t count, CndError* error)
 {
@@ -66,6 +67,24 @@ CndResult recordTubes(Host& h, CndError* error)
     return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
 }
 
+// Those of the host are spheres, too.
+CndResult setLightsOfDevice(Host& h, CndError* error)
+{
+    const CndDeviceLights device{.type = CND_LIGHT_POINT,
+                                 .maxCount = deviceCount,
+                                 .buffer = MockVulkan::hostBuffer(),
+                                 .countBuffer = MockVulkan::hostBuffer(),
+                                 .countOffset = 16,
+                                 .influenceRadius = 2};
+    const CndLight light{.type = CND_LIGHT_SPHERE, .radius = 0.1f, .influenceRadius = 5};
+    const CndLightSet set{
+        .structSize = sizeof set, .count = 1, .lights = &light, .deviceLights = &device};
+    const CndResult result = cndSetLights(h.lighting, &set, error);
+    if (result == CND_SUCCESS)
+        h.lightCount = deviceCount + 1;
+    return result;
+}
+
 bool reportsSentence(const std::string& step)
 {
     return step.find("statistics") == std::string::npos;
@@ -83,6 +102,10 @@ void Host::destroy()
     lighting = nullptr;
     exposure = nullptr;
     environment = nullptr;
+    raster.reset();
+    targets.reset();
+    geometry.reset();
+    rasterDevice.reset();
 }
 
 const std::vector<Step>& steps()
@@ -175,6 +198,18 @@ const std::vector<Step>& steps()
              return result;
          }},
         {"record what is left", true, recordTubes},
+        {"set lights of the device", false, setLightsOfDevice},
+        {"record lights of the device", true, recordTubes},
+        {"set lights of the device again", false, setLightsOfDevice}, // which allocates nothing
+        {"add lights beside those of the device", false,
+         [](Host& h, CndError* error) {
+             const CndLight light{.type = CND_LIGHT_SPHERE, .radius = 0.1f, .influenceRadius = 5};
+             const CndResult result = cndAddLights(h.lighting, 1, &light, h.added, error);
+             if (result == CND_SUCCESS)
+                 ++h.lightCount;
+             return result;
+         }},
+        {"record all of them", true, recordTubes},
         {"record exposure", true,
          [](Host& h, CndError* error) {
              CndExposureFrame frame{.structSize = sizeof frame,
@@ -231,18 +266,19 @@ CndResult runStep(const Step& step, Host& h, CndError* error)
     return result;
 }
 
-CndResult recordAgain(Host& h, CndError* error)
+CndResult recordAgain(const std::vector<Step>& steps, Host& h, CndError* error)
 {
-    const auto record = std::find_if(steps().begin(), steps().end(), [](const Step& step) {
+    const auto record = std::find_if(steps.begin(), steps.end(), [](const Step& step) {
         return std::strcmp(step.name, "record") == 0;
     });
     return runStep(*record, h, error);
 }
 
-std::string runSteps(Host& h, CndResult expected, VkResult expectedVulkan)
+std::string runSteps(const std::vector<Step>& steps, Host& h, CndResult expected,
+                     VkResult expectedVulkan)
 {
     std::string failedStep;
-    for (const Step& step : steps()) {
+    for (const Step& step : steps) {
         CndError error{};
         const uint32_t lightsBefore = h.lightCount;
         CndResult result = runStep(step, h, &error);
@@ -258,10 +294,13 @@ std::string runSteps(Host& h, CndResult expected, VkResult expectedVulkan)
         }
         // The set of lights before it still stands, and can be recorded.
         if (h.view && lightsBefore) {
-            EXPECT_EQ(recordAgain(h, &error), CND_SUCCESS) << error.message;
+            EXPECT_EQ(recordAgain(steps, h, &error), CND_SUCCESS) << error.message;
             CndLightingStats stats{.structSize = sizeof stats};
             EXPECT_EQ(cndGetLightingStats(h.view, 0, &stats), CND_SUCCESS);
             EXPECT_EQ(stats.lightCount, h.lightCount);
+        }
+        if (h.geometry) { // nor do its emitters change: all that is drawn is alive
+            EXPECT_EQ(recordAgain(steps, h, &error), CND_SUCCESS) << error.message;
         }
         result = runStep(step, h, &error);
         EXPECT_EQ(result, CND_SUCCESS) << "again: " << step.name << ": " << error.message;

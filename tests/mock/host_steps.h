@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A host on the mock driver that creates all modules, sets lights of several kinds, edits them,
-// records and asks for statistics, step by step.
+// records and asks for statistics, step by step; and one that draws with the raster pass.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "gbuffer/gbuffer.h"
 #include "mock/mock_vulkan.h"
 
 namespace candelabra::test
@@ -22,6 +23,12 @@ struct Host {
     uint32_t lightCount = 0; // of the set that succeeded last
     CndLightId added[2] = {};
 
+    // Of rasterSteps().
+    std::unique_ptr<gpu::Device> rasterDevice;
+    std::unique_ptr<gbuffer::GBuffer> raster;
+    std::unique_ptr<gbuffer::Targets> targets;
+    std::unique_ptr<gbuffer::Geometry> geometry;
+
     ~Host() { destroy(); }
     void destroy();
 };
@@ -33,15 +40,17 @@ struct Step {
 };
 
 const std::vector<Step>& steps();
+const std::vector<Step>& rasterSteps(); // mock/raster_steps.cpp
 
 // A step, and on a device that is infinitely fast what it recorded.
 CndResult runStep(const Step& step, Host& h, CndError* error);
-// The step "record" once more.
-CndResult recordAgain(Host& h, CndError* error);
+// The step of steps(), or of rasterSteps(), that is called "record" once more.
+CndResult recordAgain(const std::vector<Step>& steps, Host& h, CndError* error);
 
 // Runs all steps. One of them fails when h.vulkan.failed gets a name: it must report `expected`,
 // leave the lights as they were, and succeed when it is tried again. Returns that step's name.
-std::string runSteps(Host& h, CndResult expected, VkResult expectedVulkan);
+std::string runSteps(const std::vector<Step>& steps, Host& h, CndResult expected,
+                     VkResult expectedVulkan);
 
 // Destroys the host's objects: nothing may be left of them, nor have been misused.
 void expectClean(Host& h, const std::string& where);

@@ -193,6 +193,18 @@ struct Override {
         const Call c("CmdDispatchIndirect");
         use(arguments);
     }
+    static void VKAPI_CALL CmdDrawIndexedIndirect(VkCommandBuffer, VkBuffer arguments, VkDeviceSize,
+                                                  uint32_t, uint32_t)
+    {
+        const Call c("CmdDrawIndexedIndirect");
+        use(arguments);
+    }
+    static void VKAPI_CALL CmdBindVertexBuffers(VkCommandBuffer, uint32_t, uint32_t count,
+                                                const VkBuffer* buffers, const VkDeviceSize*)
+    {
+        const Call c("CmdBindVertexBuffers");
+        std::for_each_n(buffers, count, use);
+    }
     static void VKAPI_CALL CmdBindPipeline(VkCommandBuffer, VkPipelineBindPoint,
                                            VkPipeline pipeline)
     {
@@ -230,7 +242,8 @@ struct Override {
             const bool texels = w.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
             const bool buffer = w.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
                                 w.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-            if (texels || buffer) // images are the host's
+            const bool ofHost = buffer && w.pBufferInfo->buffer == MockVulkan::hostBuffer();
+            if ((texels || buffer) && !ofHost) // images are the host's
                 mock->sets[w.dstSet].resources[w.dstBinding] =
                     texels ? toNumber(*w.pTexelBufferView) : toNumber(w.pBufferInfo->buffer);
         }
@@ -325,6 +338,8 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice, const char* wanted)
     X(CmdFillBuffer)
     X(CmdCopyBuffer)
     X(CmdDispatchIndirect)
+    X(CmdDrawIndexedIndirect)
+    X(CmdBindVertexBuffers)
     X(CmdBindPipeline)
     X(CmdBindDescriptorSets)
     X(UpdateDescriptorSets)
@@ -358,9 +373,12 @@ PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance, const char* wanted
 } // namespace
 
 MockVulkan::MockVulkan()
-    : limits{.maxTexelBufferElements = 1u << 27,
+    : limits{.maxImageDimension2D = 16384,
+             .maxTexelBufferElements = 1u << 27,
              .maxStorageBufferRange = 1u << 27,
              .maxComputeWorkGroupCount = {65535},
+             .maxDrawIndirectCount = 1u << 20,
+             .minStorageBufferOffsetAlignment = 16,
              .timestampComputeAndGraphics = VK_TRUE,
              .timestampPeriod = 1}
 {
@@ -418,6 +436,11 @@ VkCommandBuffer MockVulkan::commandBuffer()
 VkImageView MockVulkan::imageView()
 {
     return toHandle<VkImageView>(5);
+}
+
+VkBuffer MockVulkan::hostBuffer()
+{
+    return toHandle<VkBuffer>(6);
 }
 
 } // namespace candelabra::test

@@ -31,8 +31,9 @@ public:
     // With allocation callbacks, which every call must be given back.
     CndDeviceDesc desc() const;
     static VkCommandBuffer commandBuffer();
-    // For images of the host, which the mock knows nothing of.
+    // For images and buffers of the host, which the mock knows nothing of.
     static VkImageView imageView();
+    static VkBuffer hostBuffer();
 
     // Calls that return a VkResult, since the construction.
     uint64_t failableCalls = 0;

@@ -79,7 +79,7 @@ TEST(Allocator, EveryCallFailsInTurn)
     uint64_t calls = 0;
     {
         AllocatingHost h;
-        EXPECT_EQ(runSteps(h.host, CND_SUCCESS, VK_SUCCESS), "");
+        EXPECT_EQ(runSteps(steps(), h.host, CND_SUCCESS, VK_SUCCESS), "");
         calls = h.allocator.allocations;
         h.expectBalance("without faults");
     }
@@ -92,7 +92,8 @@ TEST(Allocator, EveryCallFailsInTurn)
             h.host.vulkan.failed = request.name;
             return VK_ERROR_OUT_OF_DEVICE_MEMORY;
         };
-        EXPECT_NE(runSteps(h.host, CND_ERROR_OUT_OF_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY), "");
+        EXPECT_NE(runSteps(steps(), h.host, CND_ERROR_OUT_OF_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY),
+                  "");
         h.expectBalance("call " + std::to_string(call));
     }
 }
