@@ -192,20 +192,20 @@ void Lighting::setLights(const CndLightSet& set)
 
 LightTypeCounts Lighting::countsInView(const CndCamera& camera, uint32_t layers) const
 {
-    LightTypeCounts out = typeCounts_;
+    LightTypeCounts out = countsInLayers(layers);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (out[type] &&
-            !(reach_[type].layers & layers && reachesView(reach_[type], origin_, camera)))
+        if (out[type] && !reachesView(reach_[type], origin_, camera))
             out[type] = 0;
     return out;
 }
 
-bool Lighting::hasLightsIn(uint32_t layers) const
+LightTypeCounts Lighting::countsInLayers(uint32_t layers) const
 {
+    LightTypeCounts out = typeCounts_;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (typeCounts_[type] && reach_[type].layers & layers)
-            return true;
-    return false;
+        if (!(reach_[type].layers & layers))
+            out[type] = 0;
+    return out;
 }
 
 void Lighting::recordDeviceCounts(const gpu::Frame& frame,

@@ -104,8 +104,10 @@ public:
     const LightExtent& extent() const { return extent_; }
     // Lights by type, 0 for types none of which reaches the view.
     LightTypeCounts countsInView(const CndCamera& camera, uint32_t layers) const;
+    // The same wherever lights reach: 0 for types none of which has one of these layers.
+    LightTypeCounts countsInLayers(uint32_t layers) const;
     // False only when no light has one of these layers.
-    bool hasLightsIn(uint32_t layers) const;
+    bool hasLightsIn(uint32_t layers) const { return countsInLayers(layers) != LightTypeCounts{}; }
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
     // There is a light set that no recording has uploaded yet.
     bool lightsChanged() const { return pending_; }
@@ -209,6 +211,8 @@ public:
 private:
     struct Plan; // sizes derived from a frame
     Plan plan(const CndLightingFrame& frame) const;
+    // Lights by type, 0 for types that the frame can do without.
+    LightTypeCounts typesOf(const CndLightingFrame& frame) const;
     void validateSurfaces(const CndLightingFrame& frame) const;
     void validate(const CndLightingFrame& frame) const;
     bool keepsLists(const CndLightingFrame& frame, uint32_t sampleCount);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -100,6 +101,16 @@ View::View(Lighting& lighting, const CndLightingViewDesc& desc)
     lighting.add(this);
 }
 
+LightTypeCounts View::typesOf(const CndLightingFrame& frame) const
+{
+    if (frame.culling == CND_CULLING_BRUTE) // the check: it knows no bound
+        return lighting_.typeCounts();
+    const uint32_t layers = layersOf(frame.layers);
+    return influenceOf(frame) == CND_INFLUENCE_GIVEN
+               ? lighting_.countsInView(frame.camera, layers)
+               : lighting_.countsInLayers(layers); // they may reach the view from anywhere
+}
+
 View::Plan View::plan(const CndLightingFrame& frame) const
 {
     const CndInfluenceRule influence = influenceOf(frame);
@@ -108,16 +119,15 @@ View::Plan View::plan(const CndLightingFrame& frame) const
            .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
            .clearDepth = frame.clearDepth,
            .lightCount = lighting_.lightCount(),
-           // Brute force is the check: it knows no bound.
-           // Lights whose radii are not those that are given may reach it from anywhere.
-           .lights = frame.culling == CND_CULLING_BRUTE || influence != CND_INFLUENCE_GIVEN
-                         ? lighting_.typeCounts()
-                         : lighting_.countsInView(frame.camera, layersOf(frame.layers)),
+           .lights = typesOf(frame),
            .trees = treeShapes(lighting_.typeCounts()),
            .tileCountX = tiles(frame.width),
            .tileCountY = tiles(frame.height),
            .sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount,
-           .splitLength = splitLength * lighting_.extent().influenceRadius};
+           // Radii that are not those that are given are not known here.
+           .splitLength = influence == CND_INFLUENCE_GIVEN
+                              ? splitLength * lighting_.extent().influenceRadius
+                              : std::numeric_limits<float>::infinity()};
     glm::dmat4 viewFromWorld;
     std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
     const double* o = lighting_.origin();
