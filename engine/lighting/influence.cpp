@@ -42,6 +42,11 @@ uint32_t area(glm::uvec2 size)
     return size.x * size.y;
 }
 
+VkDeviceSize sumBytes(uint32_t samples)
+{
+    return VkDeviceSize(samples) * gpu::INFLUENCE_SLOTS * sizeof(glm::vec3);
+}
+
 uint32_t spacingOf(glm::uvec2 size)
 {
     uint32_t spacing = gpu::INFLUENCE_MIN_SPACING;
@@ -91,8 +96,7 @@ Influence::Influence(const Lighting& lighting, glm::uvec2 maxSize)
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     data_ = gpu::createBuffer(device, "influence", sizeof(gpu::InfluenceData), use,
                               gpu::MemoryUse::Device);
-    sums_ = gpu::createBuffer(device, "influence sums",
-                              VkDeviceSize(samples) * gpu::INFLUENCE_SLOTS * sizeof(glm::vec3), use,
+    sums_ = gpu::createBuffer(device, "influence sums", sumBytes(samples), use,
                               gpu::MemoryUse::Scratch);
     const Kernels& k = lighting.kernels();
     measure_ = k.shade.anyVariant().measure.createBindings(slots);
@@ -133,6 +137,7 @@ uint32_t Influence::recordBegin(const gpu::Frame& f, const CndLightingFrame& fra
     maxError_ = frame.influence.maxError;
     frame_.size = size;
     frame_.spacing = spacingOf(size);
+    frame_.rounds = std::min(frame_.spacing * frame_.spacing, gpu::INFLUENCE_MAX_ROUNDS);
     frame_.samples = squares(size, frame_.spacing);
     frame_.previous = 1 - frame_.previous;
     frame_.toneMap = uint32_t(frame.influence.toneMap);
@@ -146,20 +151,20 @@ uint32_t Influence::recordBegin(const gpu::Frame& f, const CndLightingFrame& fra
     static_assert(sizeof terms == offsetof(gpu::InfluenceData, states));
     f.device.CmdUpdateBuffer(f.cmd, data_.get(), 0, sizeof terms, &terms);
     f.barrier();
-    return begins ? std::min(frame_.spacing * frame_.spacing, gpu::INFLUENCE_MAX_ROUNDS) : 1;
+    return begins ? frame_.rounds : 1;
 }
 
 void Influence::recordRound(const gpu::Frame& f) const noexcept
 {
-    f.device.CmdFillBuffer(f.cmd, sums_.get(), 0, VK_WHOLE_SIZE, 0);
+    f.device.CmdFillBuffer(f.cmd, sums_.get(), 0, sumBytes(area(frame_.samples)), 0);
     f.barrier();
 }
 
 void Influence::recordMeasure(const gpu::Frame& f, const gpu::Kernel<gpu::ShadeParams>& kernel,
                               const gpu::ShadeParams& params) const noexcept
 {
-    kernel.dispatch(f, measure_.set(f.slot), params,
-                    gpu::divideUp(area(frame_.samples), gpu::MEASURE_INFLUENCE_GROUP));
+    constexpr uint32_t perGroup = gpu::MEASURE_INFLUENCE_GROUP / gpu::MEASURE_INFLUENCE_LANES;
+    kernel.dispatch(f, measure_.set(f.slot), params, gpu::divideUp(area(frame_.samples), perGroup));
     f.barrier();
 }
 
@@ -173,10 +178,10 @@ void Influence::recordChoice(const gpu::Frame& f, const InfluenceKernels& kernel
 }
 
 void Influence::recordCut(const gpu::Frame& f, const InfluenceKernels& kernels,
-                          const TreeShapes& lights) const noexcept
+                          const LightTypeCounts& types, const TreeShapes& lights) const noexcept
 {
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (lights[type].lightCount && !isDistant(type))
+        if (types[type] && !isDistant(type))
             kernels.cutLights.dispatch(
                 f, cut_.set(f.slot), {lights[type].firstLight, lights[type].lightCount, type},
                 gpu::divideUp(lights[type].lightCount, gpu::CUT_LIGHTS_GROUP));
@@ -201,14 +206,17 @@ void View::recordInfluence(const gpu::Frame& f, const CndLightingFrame& frame,
             measured = kernel.name();
             gpu::ShadeParams params = shadeParams(frame, p, type);
             params.batchLevel = round;
-            inBatches(params, lightsPerBatch(frame, p, type), [&](const gpu::ShadeParams& batch) {
-                influence_.recordMeasure(u, kernel, batch);
-            });
+            // The lanes of a sample share them out.
+            const uint64_t largest =
+                uint64_t(lightsPerBatch(frame, p, type)) * gpu::MEASURE_INFLUENCE_LANES;
+            inBatches(
+                params, uint32_t(std::min<uint64_t>(largest, UINT32_MAX)),
+                [&](const gpu::ShadeParams& batch) { influence_.recordMeasure(u, kernel, batch); });
         }
         influence_.recordChoice(u, k.influence, round);
     }
     f.timer.stamp(f.cmd, measured);
-    influence_.recordCut(f, k.influence, p.trees);
+    influence_.recordCut(f, k.influence, p.lights, p.trees);
 }
 
 } // namespace candelabra::lighting

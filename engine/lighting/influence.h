@@ -52,8 +52,9 @@ public:
                        const gpu::ShadeParams& params) const noexcept;
     void recordChoice(const gpu::Frame& f, const InfluenceKernels& kernels,
                       uint32_t round) const noexcept;
+    // `types`: those of the frame, not 0; one has a place at least.
     void recordCut(const gpu::Frame& f, const InfluenceKernels& kernels,
-                   const TreeShapes& lights) const noexcept;
+                   const LightTypeCounts& types, const TreeShapes& lights) const noexcept;
 
 private:
     gpu::InfluenceFrame frame_{}; // recorded last

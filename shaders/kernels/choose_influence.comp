@@ -33,7 +33,8 @@ void main()
     const uint sampleIndex = gl_GlobalInvocationID.x;
     if (sampleIndex >= params.samples)
         return;
-    const uint turn = influenceFrame(data.frame, data.states[data.frame.previous]) + params.round;
+    const uint turn =
+        influenceTurn(data.frame, data.states[data.frame.previous], params.round);
     const uvec2 pixel = influencePixel(data.frame, sampleIndex, turn);
     if (any(greaterThanEqual(pixel, data.frame.size)))
         return;

@@ -35,20 +35,20 @@ const float NOWHERE = 1e-30;
 // of a whole period have allowed.
 InfluenceState stepFrom(InfluenceState before)
 {
+    const InfluenceFrame f = data.frame;
     const uint allowed = data.allowed;
-    InfluenceState now;
-    now.owner = data.frame.owner;
-    now.frame = influenceFrame(data.frame, before);
-    if (now.frame == 0u) {
-        now.cut = allowed;
-        now.target = allowed;
-        now.lowest = allowed;
+    InfluenceState now = InfluenceState(f.owner, influenceFrame(f, before), f.size, 1u, allowed,
+                                        allowed, allowed);
+    if (now.frame == 0u)
         return now;
-    }
-    const bool periodBegins = now.frame % INFLUENCE_PERIOD == 0u;
-    now.target = min(periodBegins ? before.lowest : before.target, allowed);
-    now.lowest = periodBegins ? allowed : min(before.lowest, allowed);
+    const bool sameSize = before.size == f.size;
+    const bool periodBegins = !sameSize || before.seen == f.spacing * f.spacing;
+    now.target = min(sameSize && periodBegins ? before.lowest : before.target, allowed);
     now.cut = min(before.cut + 1u, now.target);
+    if (!periodBegins) {
+        now.seen = before.seen + 1u;
+        now.lowest = min(before.lowest, allowed);
+    }
     return now;
 }
 

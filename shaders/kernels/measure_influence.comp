@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every light at some pixels, uncut: luminance by the illuminance that lights give there at most, which
-// is what they are cut by.
+// is what they are cut by. The lanes of a pixel take turns at its lights and add them up each for
+// itself; their sums are added in one order, so that every run has the same bits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/influence.glsl"
 #include "lib/shade_receiver.glsl"
 
-// The k-th light of the batch.
+const uint LANES = MEASURE_INFLUENCE_LANES;
+const uint SAMPLES_OF_GROUP = MEASURE_INFLUENCE_GROUP / LANES;
+
+// The k-th light of the lane's; behind them the last of the batch.
 uint lightAt(uint k)
 {
-    return params.firstLight + k;
+    const uint lane = gl_LocalInvocationIndex % LANES;
+    return params.firstLight + min(k * LANES + lane, params.lightCount - 1u);
 }
 
 #include "lib/light_walk.glsl"
@@ -21,8 +26,12 @@ layout(scalar, binding = MEASURE_INFLUENCE_DATA) readonly buffer Data
 };
 layout(scalar, binding = MEASURE_INFLUENCE_SUMS) buffer SampleSums
 {
-    vec3 sums[];
+    float sums[]; // vec3 by slot
 };
+
+const uint ROWS = 3u * INFLUENCE_SLOTS;
+// By row and lane: lanes of a group never meet in a bank of memory.
+shared float laneSums[ROWS * MEASURE_INFLUENCE_GROUP];
 
 uint slotOf(Receiver r, uint light)
 {
@@ -36,36 +45,37 @@ uint slotOf(Receiver r, uint light)
     return influenceBin(intensity * data.frame.exposure / max(d2, MIN_LENGTH2));
 }
 
+void addToLane(uint slot, vec3 luminance)
+{
+    const uint at = 3u * slot * MEASURE_INFLUENCE_GROUP + gl_LocalInvocationIndex;
+    laneSums[at] += luminance.x;
+    laneSums[at + MEASURE_INFLUENCE_GROUP] += luminance.y;
+    laneSums[at + 2u * MEASURE_INFLUENCE_GROUP] += luminance.z;
+}
+
 // As SHADE_FOUND. A lane that is done may run once more: what it finds then counts for nothing.
 #define MEASURE_FOUND(r, first, found, evaluate)                                                   \
     if (!none(found)) {                                                                            \
         uvec2 left = found;                                                                        \
         do {                                                                                       \
             const uint light = lightAt((first) + lowest(left));                                    \
-            const uint slot = none(left) ? INFLUENCE_NONE : slotOf(r, light);                      \
-            sums[firstSlot + slot] += evaluate(r, light);                                          \
+            const vec3 luminance = evaluate(r, light);                                             \
+            addToLane(slotOf(r, light), none(left) ? vec3(0.0) : luminance);                       \
             left = withoutLowest(left);                                                            \
         } while (!none(left));                                                                     \
     }
 
-void main()
+// The lane's share of all lights at the pixel.
+void measure(uvec2 pixel, float depth)
 {
-    const uint sampleIndex = gl_GlobalInvocationID.x;
-    if (sampleIndex >= data.frame.samples.x * data.frame.samples.y)
-        return;
-    const uint turn = influenceFrame(data.frame, data.states[data.frame.previous]) + params.batchLevel;
-    const uvec2 pixel = influencePixel(data.frame, sampleIndex, turn);
-    if (any(greaterThanEqual(pixel, params.size)))
-        return;
-    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == params.clearDepth)
-        return;
+    for (uint row = 0u; row < ROWS; ++row)
+        laneSums[row * MEASURE_INFLUENCE_GROUP + gl_LocalInvocationIndex] = 0.0;
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), 0.0, params.sampleCount,
                                     pixelSeed(pixel));
-    const uint firstSlot = sampleIndex * INFLUENCE_SLOTS;
-    for (uint first = 0u; first < params.lightCount; first += WALK_BLOCK) {
-        const Found found =
-            findLights(r, first, min(WALK_BLOCK, params.lightCount - first), false);
+    const uint lane = gl_LocalInvocationIndex % LANES;
+    const uint count = (params.lightCount + LANES - 1u - lane) / LANES;
+    for (uint first = 0u; first < count; first += WALK_BLOCK) {
+        const Found found = findLights(r, first, min(WALK_BLOCK, count - first), false);
 #if HAS_CONIC
         MEASURE_FOUND(r, first, found.near, evaluateNear)
 #endif
@@ -73,5 +83,31 @@ void main()
         MEASURE_FOUND(r, first, found.above, evaluateAbove)
 #endif
         MEASURE_FOUND(r, first, found.general, evaluateGeneral)
+    }
+}
+
+void main()
+{
+    const uint sampleIndex =
+        gl_WorkGroupID.x * SAMPLES_OF_GROUP + gl_LocalInvocationIndex / LANES;
+    const bool exists = sampleIndex < data.frame.samples.x * data.frame.samples.y;
+    const uint turn = influenceTurn(data.frame, data.states[data.frame.previous], params.batchLevel);
+    const uvec2 pixel = influencePixel(data.frame, sampleIndex, turn);
+    const bool inside = exists && all(lessThan(pixel, params.size));
+    const float depth =
+        inside ? texelFetch(depthImage, ivec2(pixel), 0).x : params.clearDepth;
+    if (depth != params.clearDepth)
+        measure(pixel, depth);
+    barrier();
+    if (depth == params.clearDepth)
+        return;
+    // Each lane begins with its own column: no two read the same bank.
+    const uint lane = gl_LocalInvocationIndex % LANES;
+    const uint firstLane = gl_LocalInvocationIndex - lane;
+    for (uint row = lane; row < ROWS; row += LANES) {
+        float sum = 0.0;
+        for (uint i = 0u; i < LANES; ++i)
+            sum += laneSums[row * MEASURE_INFLUENCE_GROUP + firstLane + (lane + i) % LANES];
+        sums[sampleIndex * ROWS + row] += sum;
     }
 }

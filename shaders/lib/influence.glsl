@@ -30,10 +30,17 @@ uvec2 influencePixel(InfluenceFrame f, uint sampleIndex, uint turn)
     return square * f.spacing + uvec2(evenBits(at), evenBits(at >> 1u));
 }
 
-// The frame of the history that is at hand.
+// The frame of the history that is at hand; 0 once only.
 uint influenceFrame(InfluenceFrame f, InfluenceState previous)
 {
-    return previous.owner == f.owner ? previous.frame + 1u : 0u;
+    return previous.owner == f.owner ? max(previous.frame + 1u, 1u) : 0u;
+}
+
+// Whose turn it is: those of the first frame are its rounds.
+uint influenceTurn(InfluenceFrame f, InfluenceState previous, uint round)
+{
+    const uint frame = influenceFrame(f, previous);
+    return frame == 0u ? round : f.rounds + frame - 1u;
 }
 
 // Largest intensity of a light that has a place, cd, of its strongest channel: emission as of CndLight,

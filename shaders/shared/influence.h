@@ -12,27 +12,26 @@ GPU_BEGIN
 // as I / d^2 is above it. Candidates are half octaves of exposed illuminance (illuminance times
 // exposure): bin b begins at 2^(b / 2 + INFLUENCE_LOWEST). Cut b leaves out bins 0 .. b - 1; cut 0
 // leaves out nothing.
-const uint INFLUENCE_BINS = 64u;
-const float INFLUENCE_LOWEST = -32.0f;
-// What a sample keeps: the luminance of the lights of each bin, that of distant lights, and of
-// none.
-const uint INFLUENCE_DISTANT = 64u;
-const uint INFLUENCE_NONE = 65u;
-const uint INFLUENCE_SLOTS = 66u;
+const uint INFLUENCE_BINS = 40u;
+const float INFLUENCE_LOWEST = -24.0f;
+// What a sample keeps: the luminance of the lights of each bin, and that of distant lights.
+const uint INFLUENCE_DISTANT = 40u;
+const uint INFLUENCE_SLOTS = 41u;
 
 // Pixels that are measured lie in squares of `spacing` pixels, one each, another one every frame.
-// Squares grow with the image, so that there are no more than this.
+// Squares grow with the image, so that there are no more than this. After spacing^2 frames, a
+// period, all pixels have been measured, and cuts may rise to what all of them allowed.
 const uint INFLUENCE_MAX_SAMPLES = 4096u;
 const uint INFLUENCE_MIN_SPACING = 8u;
-// Frames after which cuts may rise: all pixels of the smallest squares have been measured.
-const uint INFLUENCE_PERIOD = 64u;
-// A history begins with the pixels of so many frames at once, at most.
+// A history begins with the pixels of so many frames at once, at most; those of later frames follow
+// behind them.
 const uint INFLUENCE_MAX_ROUNDS = 256u;
 
 struct InfluenceFrame {
     uvec2 size;    // pixels
     uvec2 samples; // squares
     uint spacing;  // a power of two
+    uint rounds;   // that a history begins with
     uint owner;    // number of the history; states of another one are none
     uint previous; // index of the state of the frame before; this frame's is the other
     uint toneMap;  // TONEMAP_*
@@ -40,27 +39,31 @@ struct InfluenceFrame {
     float exposure; // > 0
     float maxError; // of the display, 0..1
 };
-GPU_SIZE(InfluenceFrame, 44)
+GPU_SIZE(InfluenceFrame, 48)
 
 struct InfluenceState {
     uint owner;
     uint frame;  // of the history
+    uvec2 size;  // of the image; another one begins a new period
+    uint seen;   // frames of this period, with this one
     uint cut;    // of the frame
     uint target; // towards which cuts rise
     uint lowest; // allowed by the frames of this period
 };
-GPU_SIZE(InfluenceState, 20)
+GPU_SIZE(InfluenceState, 32)
 
 struct InfluenceData {
     InfluenceFrame frame; // written with every frame
     uint allowed;         // likewise: INFLUENCE_BINS - 1; becomes the lowest over all samples
     InfluenceState states[2];
 };
-GPU_SIZE(InfluenceData, 88)
+GPU_SIZE(InfluenceData, 116)
 
-// --- measure_influence: one lane per sample; lights of one type. ShadeParams and bindings as of
-// shade_brute, which it otherwise is, but for SHADE_RADIANCE; batchLevel: the round.
-const uint MEASURE_INFLUENCE_GROUP = 64u;
+// --- measure_influence: lights of one type. ShadeParams and bindings as of shade_brute, which it
+// otherwise is, but for SHADE_RADIANCE; batchLevel: the round. The lanes of a sample share out the
+// lights; each has sums of its own in shared memory, of which any device has room for 32 lanes.
+const uint MEASURE_INFLUENCE_GROUP = 32u;
+const uint MEASURE_INFLUENCE_LANES = 16u; // of a sample
 const uint MEASURE_INFLUENCE_DATA = 40u;
 const uint MEASURE_INFLUENCE_SUMS = 41u; // vec3, INFLUENCE_SLOTS per sample
 

@@ -1,138 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights that are cut by an error change no pixel of the display by more, against all light by
-// brute force; their history neither jumps nor differs between runs; and without it nothing
-// changes.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
+// brute force; what is not to be measured is not; and without it nothing changes.
 #include "commands/influence_check.h"
-#include "gpu/lighting_harness.h"
-#include "reference/tone_map.h"
+#include "gpu/influence_harness.h"
 #include "render/camera.h"
 #include "scene/load.h"
-#include "shared/influence.h"
 
 namespace candelabra::test
 {
 namespace
 {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-double displayError(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b,
-                    const CndInfluence& influence)
-{
-    double largest = 0;
-    for (size_t i = 0; i < a.size(); ++i) {
-        const auto linear = [&](const glm::vec4& radiance) {
-            return reference::toneMap(influence.toneMap,
-                                      double(influence.exposure) * glm::dvec3(radiance));
-        };
-        const glm::dvec3 x = linear(a[i]), y = linear(b[i]);
-        for (int c = 0; c < 3; ++c) {
-            EXPECT_TRUE(std::isfinite(a[i][c])) << i;
-            largest = std::max(largest,
-                               std::abs(reference::srgbEncode(x[c]) - reference::srgbEncode(y[c])));
-        }
-    }
-    return largest;
-}
-
-// With which the mean luminance of the lit pixels is middle grey.
-float exposureFor(const std::vector<glm::vec4>& radiance)
-{
-    double sum = 0, lit = 0;
-    for (const glm::vec4& v : radiance)
-        if (v.y > 0) {
-            sum += double(v.y);
-            ++lit;
-        }
-    return float(0.18 * lit / sum);
-}
-
-CpuGBuffer surfaces(bool perspective = true)
-{
-    CndCamera camera;
-    if (perspective)
-        setPerspective(camera, 1.0, 1.5, 0.1);
-    else
-        setOrthographic(camera, 20, 1.5, 0.1, 50);
-    return randomGBuffer(96, 64, camera, 0, 11);
-}
-
-// Few bright lights and many dim ones.
-std::vector<CndLight> brightAndDim(const CpuGBuffer& g)
-{
-    std::vector<CndLight> lights = randomSpheres(g, 120, 12);
-    for (size_t i = 10; i < lights.size(); ++i) {
-        lights[i].radius = 0.01f;
-        for (float& e : lights[i].emission)
-            e *= 0.1f;
-    }
-    return lights;
-}
-
-class InfluenceTest : public LightingTest
-{
-protected:
-    void TearDown() override
-    {
-        cndDestroyLightingView(view_);
-        cndDestroyLighting(lighting_);
-        LightingTest::TearDown();
-    }
-    void create(const CpuGBuffer& g, const std::vector<CndLight>& lights)
-    {
-        CndError error{};
-        const CndLightingDesc desc{.structSize = sizeof desc,
-                                   .framesInFlight = 1,
-                                   .specularMethods = 1u << RunOptions{}.specular,
-                                   .influenceByError = VK_TRUE};
-        ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting_, &error), CND_SUCCESS)
-            << error.message;
-        const CndLightingViewDesc viewDesc{sizeof viewDesc, g.width, g.height, 0};
-        ASSERT_EQ(cndCreateLightingView(lighting_, &viewDesc, &view_, &error), CND_SUCCESS)
-            << error.message;
-        const CndLightSet set{
-            .structSize = sizeof set, .count = uint32_t(lights.size()), .lights = lights.data()};
-        ASSERT_EQ(cndSetLights(lighting_, &set, &error), CND_SUCCESS) << error.message;
-        show(g);
-    }
-    void show(const CpuGBuffer& g)
-    {
-        images_ = uploadImages(g);
-        frame_ = frameOf(g, images_, {});
-    }
-    CndLightingStats draw(const CndInfluence& influence, bool unchanged = false)
-    {
-        CndError error{};
-        frame_.influence = influence;
-        frame_.surfacesUnchanged = unchanged;
-        context().submitAndWait([&](VkCommandBuffer cmd) {
-            const VkClearColorValue value{{base_, base_, base_, 0}};
-            const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-            vkCmdClearColorImage(cmd, images_.radiance.image.get(), VK_IMAGE_LAYOUT_GENERAL, &value,
-                                 1, &all);
-            fullBarrier(cmd);
-            EXPECT_EQ(cndRecordLighting(view_, cmd, &frame_, &error), CND_SUCCESS) << error.message;
-        });
-        CndLightingStats stats{.structSize = sizeof stats};
-        EXPECT_EQ(cndGetLightingStats(view_, 0, &stats), CND_SUCCESS);
-        return stats;
-    }
-    std::vector<glm::vec4> uncut()
-    {
-        draw({.rule = CND_INFLUENCE_UNCUT});
-        return readRadiance(images_);
-    }
-
-    CndLighting lighting_{};
-    CndLightingView view_{};
-    Images images_;
-    CndLightingFrame frame_{};
-    float base_ = 0; // luminance that is there already
-};
 
 // Whole frames of the generated scenes.
 TEST_F(InfluenceTest, ScenesStayWithinTheError)
@@ -141,7 +18,7 @@ TEST_F(InfluenceTest, ScenesStayWithinTheError)
     for (const char* name : {"hall", "field"}) {
         const Scene scene = loadScene(name, {.lights = 150});
         Renderer renderer(context(), scene,
-                          {.size = {128, 72},
+                          {.size = {96, 54},
                            .framesInFlight = 1,
                            .specularMethods = 1u << CND_SPECULAR_CONIC,
                            .influenceByError = true});
@@ -156,13 +33,15 @@ TEST_F(InfluenceTest, ScenesStayWithinTheError)
                 for (int i = 0; i < 2; ++i)
                     context().submitAndWait(
                         [&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
-                const InfluenceCheck check = checkInfluence(context(), renderer, options,
-                                                            renderer.stats(0), scene.lights.size());
+                const FrameStats last = renderer.stats(0);
+                for (const char* pass : {"measure_influence", "cut_lights"})
+                    EXPECT_EQ(skipped(last.lighting, pass), "") << name;
+                const InfluenceCheck check =
+                    checkInfluence(context(), renderer, options, last, scene.lights.size());
                 EXPECT_LE(check.largest, check.bound) << name << " " << influenceText(check);
-                if (levels > 1) {
-                    EXPECT_GT(check.cutBelow, 0) << name;
-                    EXPECT_GT(check.largest, 0) << name;
-                }
+                // Something is cut, and it shows.
+                EXPECT_GT(check.cutBelow, 0) << name << " " << levels;
+                EXPECT_GT(check.largest, 0) << name << " " << levels;
                 RecordProperty(std::string(name) + (manual ? "_manual_" : "_auto_") +
                                    std::to_string(int(2 * levels)),
                                influenceText(check));
@@ -225,69 +104,72 @@ TEST_F(InfluenceTest, WhatIsNotAskedForChangesNothing)
     EXPECT_LE(maxRelativeDifference(readRadiance(images_), everywhere), 1e-5);
 }
 
-TEST_F(InfluenceTest, HistoriesRepeatAndNeitherJumpNorFlicker)
+// Lights of other layers are not measured, and a frame whose layers have no light does nothing.
+TEST_F(InfluenceTest, LayersAreMeasuredAlone)
 {
     const CpuGBuffer g = surfaces();
-    create(g, brightAndDim(g));
-    CndInfluence influence{
-        .rule = CND_INFLUENCE_BY_ERROR, .maxError = 8.0f / 255, .exposure = exposureFor(uncut())};
-    std::vector<float> cuts; // exposed illuminance
-    const auto frames = [&](bool white, uint32_t count) {
-        base_ = white ? 2 / influence.exposure : 0;
-        for (uint32_t i = 0; i < count; ++i)
-            cuts.push_back(draw(influence).cutBelow * influence.exposure);
-    };
-    frames(true, gpu::INFLUENCE_PERIOD); // where no light can be seen
-    for (size_t i = 1; i < cuts.size(); ++i)
-        EXPECT_LE(cuts[i], cuts[i - 1]) << i;
-    const float settled = cuts.back();
-    EXPECT_GT(settled, 0);
-    // A moment in which less may be missing: cut less at once, and for a whole period.
-    const std::vector<glm::vec4> before = readRadiance(images_);
-    frames(false, 1);
-    const float fallen = cuts.back();
-    EXPECT_LT(fallen, settled);
-    frames(true, gpu::INFLUENCE_PERIOD - 1);
-    EXPECT_EQ(cuts.back(), fallen);
-    frames(true, gpu::INFLUENCE_PERIOD + 45);
-    EXPECT_EQ(cuts.back(), settled);
-    for (size_t i = gpu::INFLUENCE_PERIOD + 1; i < cuts.size(); ++i)
-        EXPECT_LE(cuts[i], cuts[i - 1] * 1.415f) << i;
-    EXPECT_TRUE(sameBits(readRadiance(images_), before));
-
-    // Another error begins anew, and so does the first: the same bits.
-    base_ = 0;
-    influence.maxError *= 2;
-    draw(influence);
-    influence.maxError /= 2;
-    EXPECT_GT(draw(influence).cutBelow, 0);
-    const std::vector<glm::vec4> first = readRadiance(images_);
-    EXPECT_TRUE(sameBits(run(g, brightAndDim(g), {.influence = influence}).radiance, first));
-}
-
-TEST_F(InfluenceTest, ListsAreKeptWithTheirRadii)
-{
-    const CpuGBuffer g = surfaces();
-    create(g, brightAndDim(g));
+    std::vector<CndLight> shown = brightAndDim(g);
+    for (CndLight& light : shown)
+        light.layers = 1;
+    create(g, shown);
     const CndInfluence influence{
         .rule = CND_INFLUENCE_BY_ERROR, .maxError = 8.0f / 255, .exposure = exposureFor(uncut())};
-    const auto skips = [](const CndLightingStats& stats, const char* pass) {
-        const CndPassPlan* p =
-            std::find_if(stats.passes, stats.passes + stats.passCount,
-                         [&](const CndPassPlan& x) { return std::string(x.name) == pass; });
-        return std::string(p->skipped ? p->skipped : "");
-    };
-    const CndLightingStats made = draw(influence);
-    const std::vector<glm::vec4> image = readRadiance(images_);
-    EXPECT_EQ(skips(made, "measure_influence"), "");
-    // The measurement goes on.
-    const CndLightingStats again = draw(influence, true);
-    EXPECT_EQ(skips(again, "measure_influence"), "");
-    EXPECT_EQ(skips(again, "cluster_lists"), "");
-    EXPECT_EQ(again.cutBelow, made.cutBelow);
-    EXPECT_TRUE(sameBits(readRadiance(images_), image));
-    EXPECT_EQ(skips(draw({}, true), "cluster_lists"), "");
-    EXPECT_EQ(skips(draw({}, true), "measure_influence"), "not asked for");
+    const CndLightingStats alone = draw(influence);
+    EXPECT_GT(alone.cutBelow, 0);
+    const std::vector<glm::vec4> expected = readRadiance(images_);
+    // In the same places, which keeps the order; so many that lanes take their lights in blocks.
+    std::vector<CndLight> all;
+    for (const CndLight& light : shown) {
+        all.insert(all.end(), 14, light);
+        for (size_t i = all.size() - 13; i < all.size(); ++i) {
+            all[i].layers = 2;
+            all[i].emission[1] += 1000;
+        }
+        all.back().type = CND_LIGHT_TUBE;
+        all.back().radius = 0.005f;
+        all.back().axisU[0] = 0.001f;
+    }
+    set(all);
+    frame_.layers = 1;
+    CndInfluence other = influence;
+    other.maxError *= 2;
+    draw(other); // what follows is a history of its own
+    EXPECT_EQ(draw(influence).cutBelow, alone.cutBelow);
+    EXPECT_TRUE(sameBits(readRadiance(images_), expected));
+    for (const CndInfluenceRule rule : {CND_INFLUENCE_UNCUT, CND_INFLUENCE_BY_ERROR}) {
+        other.rule = rule;
+        frame_.layers = 4;
+        const CndLightingStats none = draw(other);
+        EXPECT_EQ(skipped(none, "shade_tiles"), "no light of the view's layers") << rule;
+        EXPECT_EQ(none.cutBelow, 0) << rule;
+    }
+}
+
+// Radii that lights are given say nothing where these do not hold: not where tiles are split.
+TEST_F(InfluenceTest, GivenRadiiChangeNothing)
+{
+    const CpuGBuffer g = surfaces();
+    std::vector<CndLight> lights = brightAndDim(g);
+    create(g, lights);
+    const CndInfluence influence{
+        .rule = CND_INFLUENCE_BY_ERROR, .maxError = 8.0f / 255, .exposure = exposureFor(uncut())};
+    std::vector<std::vector<glm::vec4>> images;
+    for (const float radius : {0.1f, 1000.0f}) {
+        for (CndLight& light : lights) {
+            light.radius = 0.01f;
+            light.influenceRadius = radius;
+        }
+        set(lights);
+        EXPECT_EQ(draw({}).splitTileCount > 0, radius < 1);
+        for (const CndInfluenceRule rule : {CND_INFLUENCE_UNCUT, CND_INFLUENCE_BY_ERROR}) {
+            CndInfluence other = influence;
+            other.rule = rule;
+            EXPECT_EQ(draw(other).splitTileCount, 0u) << radius << " " << rule;
+            images.push_back(readRadiance(images_));
+        }
+    }
+    EXPECT_TRUE(sameBits(images[2], images[0]));
+    EXPECT_TRUE(sameBits(images[3], images[1]));
 }
 
 TEST_F(InfluenceTest, WhatCannotBeMeasuredIsRefused)
@@ -328,6 +210,17 @@ TEST_F(InfluenceTest, WhatCannotBeMeasuredIsRefused)
     EXPECT_NE(std::string(error.message).find("influenceByError"), std::string::npos);
     cndDestroyLightingView(view);
     cndDestroyLighting(lighting);
+
+    // Kernels of hosts hold none that measures.
+    const CndKernelCode kernel{};
+    const CndLightingDesc desc{.structSize = sizeof desc,
+                               .framesInFlight = 1,
+                               .hostKernels = {.count = 1, .kernels = &kernel},
+                               .influenceByError = VK_TRUE};
+    CndLighting none{};
+    EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &none, &error), CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(error.message).find("influenceByError"), std::string::npos)
+        << error.message;
 }
 
 } // namespace

@@ -48,12 +48,12 @@ typedef enum CndInfluenceRule {
     // E one illuminance for all lights, chosen on the device with every frame. The error of a pixel
     // counts all that cuts and windows of all lights together take from it. The first frame, and
     // the first with another maxError, measures every pixel (of images larger than 1024x1024 at
-    // least 260,000) and takes as long as brute force on llvmpipe; on a GPU, where it has not been
-    // timed, it may take longer: a lane evaluates all lights of a sample. The others measure up to
-    // 4096 pixels, each time others: one of each 8x8 (of larger squares where the image is larger).
-    // E falls at once where they ask for it; it rises, by half an octave per frame, to what 64
-    // frames have allowed. What comes into view may so err by more in a few pixels until its turn
-    // comes. Lists are made anew in every frame. CND_CULLING_BRUTE, the check, cuts nothing.
+    // least 260,000) and takes about as long as brute force. The others measure up to 4096 pixels,
+    // one of each NxN and each time another: N is 8, or 16, 32, 64 ... in images larger than 0.26,
+    // 1.0, 4.2 ... million pixels. E falls at once where they ask for it; it rises, by half an
+    // octave per frame, to what the last full turn of N^2 frames has allowed. What comes into view
+    // may so err by more in a few pixels until their turn comes. Tiles are not split in depth and
+    // lists are made anew in every frame. CND_CULLING_BRUTE, the check, cuts nothing.
     CND_INFLUENCE_BY_ERROR = 2,
     CND_INFLUENCE_RULE_MAX_ENUM = 0x7FFFFFFF
 } CndInfluenceRule;
@@ -114,7 +114,7 @@ typedef struct CndLightingDesc {
     uint32_t lightCapacity; // lights; 0: 1024. Larger sets make it grow, by half at least
     uint32_t lightTypes;    // mask of 1 << CndLightType; 0: pipelines for spheres only
     // Frames may ask for CND_INFLUENCE_BY_ERROR: makes the pipelines that measure it, and views
-    // take up to 3.3 MB more. Not with hostKernels, whose functions those do not have.
+    // take up to 2.1 MB more. Not with hostKernels, whose functions those do not have.
     VkBool32 influenceByError;
 } CndLightingDesc;
 
