@@ -34,15 +34,21 @@ TEST_F(LightingTest, HostsMemoryChangesNothing)
     const std::vector<CndLight> lights = someLights(g);
     HostAllocator allocator(deviceDesc(), blockBytes);
     const CndDeviceDesc host = allocator.desc();
-    RunOptions options{.countPairs = true, .frames = 3};
-    const LightingResult own = run(g, lights, options);
-    options.host = &host;
-    // Neither what memory held before nor what a recording left in scratch memory is read.
-    int byte = 0xFF; // NaN
-    options.beforeFrame = [&] { allocator.fill(CND_MEMORY_SCRATCH, byte--); };
-    const LightingResult placed = run(g, lights, options);
-    EXPECT_TRUE(sameBits(placed, own));
-    EXPECT_EQ(placed.stats.contributingPairs, own.stats.contributingPairs);
+    for (const CndInfluenceRule rule : {CND_INFLUENCE_GIVEN, CND_INFLUENCE_BY_ERROR}) {
+        RunOptions options{.countPairs = true,
+                           .influence = {.rule = rule, .maxError = 8.0f / 255, .exposure = 1e-4f},
+                           .frames = 3};
+        const LightingResult own = run(g, lights, options);
+        options.host = &host;
+        // Neither what memory held before nor what a recording left in scratch memory is read.
+        int byte = 0xFF; // NaN
+        options.beforeFrame = [&] { allocator.fill(CND_MEMORY_SCRATCH, byte--); };
+        const LightingResult placed = run(g, lights, options);
+        EXPECT_TRUE(sameBits(placed, own)) << rule;
+        EXPECT_EQ(placed.stats.contributingPairs, own.stats.contributingPairs) << rule;
+        EXPECT_EQ(placed.stats.cutBelow, own.stats.cutBelow) << rule;
+        EXPECT_EQ(own.stats.cutBelow > 0, rule == CND_INFLUENCE_BY_ERROR);
+    }
     EXPECT_GT(allocator.allocations, 20u);
     EXPECT_TRUE(allocator.live.empty());
 }

@@ -25,7 +25,8 @@ const CndLightingDesc lightingDescs[] = {
      .timestamps = VK_TRUE,
      .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A},
      .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT,
-     .lightCapacity = 10}};
+     .lightCapacity = 10},
+    {.framesInFlight = 1, .lightCapacity = 100, .lightTypes = sphere, .influenceByError = VK_TRUE}};
 
 void expectSame(const CndMemoryUsage& planned, const CndMemoryUsage& held)
 {
