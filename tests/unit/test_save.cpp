@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes that are saved and loaded again are the same.
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "scene/load.h"
@@ -18,11 +20,11 @@ using namespace candelabra::app;
 class Save : public testing::Test
 {
 protected:
-    Scene again(const Scene& scene, const SceneSource& source,
-                const MaterialOverride& materials = {}, double time = 0)
+    Scene again(const Scene& scene, const SceneSource& source, double time = 0)
     {
-        const std::string text = sceneDescription(scene, source, materials, scene.cameras[0], time);
-        Scene out = loadScene(folder_.write("saved.json", text), {});
+        const std::string path = folder_.path("saved.json");
+        folder_.write("saved.json", sceneDescription(scene, source, scene.cameras[0], time, path));
+        Scene out = loadScene(path, {});
         EXPECT_EQ(brokenInvariant(out), "");
         return out;
     }
@@ -37,6 +39,19 @@ protected:
     }
 
     TemporaryFolder folder_;
+};
+
+// Until the end of the scope.
+class WorkingFolder
+{
+public:
+    explicit WorkingFolder(const std::string& path) { std::filesystem::current_path(path); }
+    ~WorkingFolder() { std::filesystem::current_path(before_); }
+    WorkingFolder(const WorkingFolder&) = delete;
+    WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+private:
+    std::filesystem::path before_ = std::filesystem::current_path();
 };
 
 // Directions are made unit again, angles go through degrees: what single precision may round.
@@ -130,7 +145,7 @@ TEST_F(Save, ShowcaseIsWrittenOut)
     expectSameCamera(scene.cameras[0], again(scene, {"showcase"}).cameras[0]);
     expectSameLights(scene, again(scene, {"showcase"}));
     overrideMaterials(scene, {true, 0.3f, 1});
-    const Scene metal = again(scene, {"showcase"}, {true, 0.3f, 1});
+    const Scene metal = again(scene, {"showcase"});
     ASSERT_EQ(metal.analyticObjects.size(), scene.analyticObjects.size());
     for (size_t i = 0; i < scene.analyticObjects.size(); ++i) {
         const Material& m = metal.materials[metal.analyticObjects[i].material];
@@ -148,7 +163,7 @@ TEST_F(Save, ScenesOfMeshesReferToTheirSource)
         scene.lights.erase(scene.lights.begin() + 3);
         scene.lights[5].radius *= 2;
         scene.lights[5].influenceRadius *= 2;
-        const Scene saved = again(scene, {name, 7}, {true, 0.2f, 0.5f});
+        const Scene saved = again(scene, {name, 7, {true, 0.2f, 0.5f}});
         expectSameLights(scene, saved);
         expectSameCamera(scene.cameras[0], saved.cameras[0]);
         ASSERT_EQ(saved.instances.size(), scene.instances.size()) << name;
@@ -165,24 +180,67 @@ TEST_F(Save, ScenesOfMeshesReferToTheirSource)
     }
 }
 
-TEST_F(Save, GltfFilesAreReferredTo)
+// By a way that holds wherever both are moved, and whatever folder the program is started in.
+TEST_F(Save, GltfFilesAreReferredToFromTheFolderOfTheDescription)
 {
-    const std::string file = folder_.write("triangle.gltf", triangleScene().text());
-    Scene scene = loadScene(file, {.lights = 4});
-    const Scene saved = again(scene, {file});
+    const WorkingFolder started(folder_.path(""));
+    folder_.write("all/models/triangle.gltf", triangleScene().text());
+    const Scene scene = loadScene("all/models/triangle.gltf", {.lights = 4});
+    const auto sourceIn = [&](const std::string& path) {
+        return Json::parse(sceneDescription(scene, sceneSource("all/models/triangle.gltf", 1),
+                                            scene.cameras[0], 0, path))["source"]["scene"];
+    };
+    EXPECT_EQ(sourceIn("candelabra-001.json"), "all/models/triangle.gltf");
+    EXPECT_EQ(sourceIn(folder_.path("all/models/saved.json")), "triangle.gltf");
+    const std::string deep = "all/scenes/deep/saved.json";
+    EXPECT_EQ(sourceIn(deep), "../../models/triangle.gltf");
+
+    folder_.write(deep, sceneDescription(scene, sceneSource("all/models/triangle.gltf", 1),
+                                         scene.cameras[0], 0, deep));
+    std::filesystem::rename("all", "moved");
+    std::filesystem::create_directories("elsewhere");
+    const WorkingFolder elsewhere("elsewhere");
+    const Scene saved = loadScene("../moved/scenes/deep/saved.json", {});
+    EXPECT_EQ(brokenInvariant(saved), "");
     expectSameLights(scene, saved);
     EXPECT_EQ(saved.instances.size(), scene.instances.size());
-    // Beside the description, too.
-    const std::string beside = R"({"source": {"scene": "triangle.gltf"}, "lights": [],
-        "camera": {"position": [0, 0, 3], "look_at": [0, 0, 0], "up": [0, 1, 0],
-                   "vertical_fov_degrees": 40}})";
-    EXPECT_EQ(refusal(beside), "none");
+}
+
+// What was saved, opened, and saved again, refers to the file still, under its materials.
+TEST_F(Save, DescriptionsThatReferToASceneAreSavedAgain)
+{
+    folder_.write("models/Triangle.GLB", triangleScene().glb());
+    const std::string file = folder_.path("models/Triangle.GLB"),
+                      first = folder_.path("first.json"),
+                      second = folder_.path("other/second.json");
+    const Scene scene = loadScene(file, {.lights = 4});
+    SceneSource source = sceneSource(file, 1);
+    source.materials = {true, 0.25f, 0.75f};
+    folder_.write("first.json", sceneDescription(scene, source, scene.cameras[0], 0, first));
+    const Scene opened = loadScene(first, {});
+    folder_.write("other/second.json",
+                  sceneDescription(opened, sceneSource(first, 1), opened.cameras[0], 0, second));
+    const Scene saved = loadScene(second, {});
+    expectSameLights(scene, saved);
+    ASSERT_EQ(saved.instances.size(), scene.instances.size());
+    for (const Material& m : saved.materials) {
+        EXPECT_EQ(m.perceptualRoughness, 0.25f);
+        EXPECT_EQ(m.metalness, 0.75f);
+    }
+
+    // Of a generated scene, too: its seed is that of the description.
+    const Scene hall = loadScene("hall", {.lights = 3, .seed = 9});
+    folder_.write("hall.json", sceneDescription(hall, {"hall", 9}, hall.cameras[0], 0, "x.json"));
+    const SceneSource again = sceneSource(folder_.path("hall.json"), 1);
+    EXPECT_EQ(again.scene, "hall");
+    EXPECT_EQ(again.seed, 9u);
+    EXPECT_FALSE(again.materials.on);
 }
 
 TEST_F(Save, MovingLightsStandWhereTheyAre)
 {
     const Scene scene = loadScene("hall", {.lights = 5, .moving = true});
-    const Scene saved = again(scene, {"hall"}, {}, 2.5);
+    const Scene saved = again(scene, {"hall"}, 2.5);
     std::vector<CndLight> lights;
     lightsAtTime(scene, 2.5, lights);
     ASSERT_EQ(saved.lights.size(), lights.size());
@@ -198,9 +256,9 @@ TEST_F(Save, WhatTheFormatCannotSayIsRefused)
     Scene scene = loadScene("showcase", {});
     Camera camera = scene.cameras[0];
     camera.orthographic = true;
-    EXPECT_THROW(sceneDescription(scene, {"showcase"}, {}, camera, 0), SceneError);
+    EXPECT_THROW(sceneDescription(scene, {"showcase"}, camera, 0, ""), SceneError);
     scene.materials[0].perceptualRoughness = 0;
-    EXPECT_THROW(sceneDescription(scene, {"showcase"}, {}, scene.cameras[0], 0), SceneError);
+    EXPECT_THROW(sceneDescription(scene, {"showcase"}, scene.cameras[0], 0, ""), SceneError);
 
     const std::string rest = R"(, "lights": [], "camera": {"position": [0, 0, 3],
         "look_at": [0, 0, 0], "up": [0, 1, 0], "vertical_fov_degrees": 40}})";

@@ -191,7 +191,7 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
 void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
 {
     const bool generated = isGenerated(scene);
-    const bool file = !generated && scene != "showcase";
+    const bool file = !isBuiltIn(scene);
     const auto warn = [](const char* option, const std::string& reason) {
         spdlog::warn("warning: {} has no effect: {}", option, reason);
     };

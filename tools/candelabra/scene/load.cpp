@@ -40,7 +40,8 @@ SceneFormat formatFromContent(const std::string& path)
                                                         : SceneFormat::SceneJson;
 }
 
-SceneFormat fileFormat(const std::string& path)
+// Empty: the name does not say, and there is no such file.
+std::optional<SceneFormat> fileFormat(const std::string& path)
 {
     const std::string extension = lowerExtension(path);
     if (extension == ".gltf" || extension == ".glb")
@@ -49,9 +50,7 @@ SceneFormat fileFormat(const std::string& path)
         return SceneFormat::SceneJson;
     std::error_code ignored;
     if (path.find('\0') != std::string::npos || !std::filesystem::exists(path, ignored))
-        throw SceneError(
-            "unknown scene \"" + printable(path, 4096) +
-            "\": use hall, field, fence, showcase, or the path of a .gltf, .glb or .json file");
+        return std::nullopt;
     return formatFromContent(path);
 }
 
@@ -70,8 +69,12 @@ Scene loadWithoutEnvironment(const std::string& scene, const SceneOptions& optio
         return generateFence(options);
     if (scene == "showcase")
         return generateShowcase(options);
-    Scene loaded =
-        fileFormat(scene) == SceneFormat::Gltf ? loadGltf(scene, options) : loadSceneJson(scene);
+    const auto format = fileFormat(scene);
+    if (!format)
+        throw SceneError(
+            "unknown scene \"" + printable(scene, 4096) +
+            "\": use hall, field, fence, showcase, or the path of a .gltf, .glb or .json file");
+    Scene loaded = format == SceneFormat::Gltf ? loadGltf(scene, options) : loadSceneJson(scene);
     if (options.lights)
         addRandomLights(loaded, options);
     return loaded;
@@ -94,6 +97,16 @@ SceneEnvironment loadEnvironment(const SceneOptions& options)
 bool isGenerated(const std::string& scene)
 {
     return scene == "hall" || scene == "field" || scene == "fence";
+}
+
+bool isBuiltIn(const std::string& scene)
+{
+    return isGenerated(scene) || scene == "showcase";
+}
+
+bool isGltf(const std::string& scene)
+{
+    return !isBuiltIn(scene) && fileFormat(scene) == SceneFormat::Gltf;
 }
 
 Scene loadScene(const std::string& scene, const SceneOptions& options)

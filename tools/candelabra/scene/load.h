@@ -41,6 +41,11 @@ Scene loadScene(const std::string& scene, const SceneOptions& options);
 
 // Whether `scene` is made for any number of lights: hall, field and fence.
 bool isGenerated(const std::string& scene);
+// Whether it is no file: one of those, or the showcase.
+bool isBuiltIn(const std::string& scene);
+// Whether it is a glTF file: by its name or, where that says nothing, by what is in it. Throws
+// SceneError where that cannot be read.
+bool isGltf(const std::string& scene);
 
 // The pieces behind it.
 Scene generateHall(const SceneOptions& options);

@@ -138,6 +138,27 @@ Json lightJson(const CndLight& light, const glm::dvec3& origin)
     return out;
 }
 
+// Relative, so that both may be moved together; absolute where no way leads there.
+std::string fileSeenFrom(const std::string& folder, const std::string& file)
+{
+    namespace fs = std::filesystem;
+    std::error_code unknown;
+    const fs::path relative = fs::relative(file, folder.empty() ? "." : folder, unknown);
+    return (unknown || relative.empty() ? fs::absolute(file) : relative).generic_string();
+}
+
+Json sourceJson(const SceneSource& source, const std::string& path)
+{
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    Json out{{"scene", isBuiltIn(source.scene) ? source.scene : fileSeenFrom(folder, source.scene)},
+             {"seed", source.seed}};
+    const MaterialOverride& m = source.materials;
+    if (m.on)
+        out["material"] = {{"perceptual_roughness", m.perceptualRoughness},
+                           {"metalness", m.metalness}};
+    return out;
+}
+
 } // namespace
 
 void overrideMaterials(Scene& scene, const MaterialOverride& override)
@@ -151,21 +172,14 @@ void overrideMaterials(Scene& scene, const MaterialOverride& override)
     }
 }
 
-std::string sceneDescription(const Scene& scene, const SceneSource& source,
-                             const MaterialOverride& materials, const Camera& camera, double time)
+std::string sceneDescription(const Scene& scene, const SceneSource& source, const Camera& camera,
+                             double time, const std::string& path)
 {
     Json out{{"name", scene.name}, {"camera", cameraJson(camera)}};
-    if (scene.instances.empty()) {
+    if (scene.instances.empty())
         out["objects"] = objectsJson(scene);
-    } else {
-        const bool file = source.scene.find('.') != std::string::npos;
-        out["source"] = {
-            {"scene", file ? std::filesystem::absolute(source.scene).string() : source.scene},
-            {"seed", source.seed}};
-        if (materials.on)
-            out["source"]["material"] = {{"perceptual_roughness", materials.perceptualRoughness},
-                                         {"metalness", materials.metalness}};
-    }
+    else
+        out["source"] = sourceJson(source, path);
     std::vector<CndLight> lights;
     lightsAtTime(scene, time, lights);
     out["lights"] = Json::array();

@@ -24,16 +24,22 @@ void overrideMaterials(Scene& scene, const MaterialOverride& override);
 
 // Where the surfaces of a scene are from, when a description cannot hold them (meshes).
 struct SceneSource {
-    std::string scene; // hall, field, fence, showcase, or the path of a .gltf or .glb file
+    std::string scene; // hall, field, fence, showcase, or the path of a glTF file
     uint32_t seed = 1; // of the generated ones
+    MaterialOverride materials{};
 };
 
-// `scene` with its lights where they stand at `time` seconds, seen by `camera`. Planes and balls
-// are written out; a scene with meshes refers to `source`, whose lights are replaced when it is
-// loaded, and holds `materials`. Not in it, because they are options of the command line:
-// environment, how lobes share the light, exposure. Motion of lights is lost. Throws SceneError for
-// what the format cannot say: an orthographic camera, a roughness of 0.
-std::string sceneDescription(const Scene& scene, const SceneSource& source,
-                             const MaterialOverride& materials, const Camera& camera, double time);
+// Of what loadScene makes of `scene` with such a seed: that itself, or what it refers to, if it is
+// a description that does. Throws SceneError.
+SceneSource sceneSource(const std::string& scene, uint32_t seed);
+
+// The text of a description that will stand at `path`: `scene` with its lights where they are at
+// `time` seconds, seen by `camera`. Planes and balls are written out; a scene with meshes refers to
+// `source`, to a file as it is found from the folder of `path`, and its lights are replaced when it
+// is loaded. Not in it, because they are options of the command line: environment, how lobes share
+// the light, exposure. Motion of lights is lost. Throws SceneError for what the format cannot say:
+// an orthographic camera, a roughness of 0.
+std::string sceneDescription(const Scene& scene, const SceneSource& source, const Camera& camera,
+                             double time, const std::string& path);
 
 } // namespace candelabra::app

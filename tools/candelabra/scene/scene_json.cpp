@@ -2,7 +2,7 @@
 // The small scene description that reference images are published with: one camera, exact planes
 // and balls, lights (scene_json_lights.h). Angles in degrees, lengths in any unit, radiance taken
 // as is. Instead of objects "source" may name another scene, of which all but lights and camera is
-// taken: {"scene": "hall", or the path of a .gltf or .glb file from where the description is,
+// taken: {"scene": "hall", or the path of a glTF file from where the description is,
 // "seed": 1, "material": {"perceptual_roughness": 0.4, "metalness": 0}, for all its materials}.
 #include <cmath>
 #include <filesystem>
@@ -164,35 +164,53 @@ void readObjects(const JsonValue& root, Scene& scene)
         add(list->item(i));
 }
 
-// The scene that "source" names, without its lights and cameras.
-Scene readSource(const JsonValue& json, const std::string& path)
+float readShare(const JsonValue& json, const char* key)
+{
+    return float(json.member(key).number(unitInterval));
+}
+
+// What "source" names; paths are from where the description is.
+SceneSource readSource(const JsonValue& json, const std::string& path)
 {
     json.refuseOtherKeys({"scene", "seed", "material"});
     const JsonValue name = json.member("scene");
-    SceneOptions options{.lights = 0};
+    SceneSource out{.scene = name.string()};
     if (const auto seed = json.find("seed"))
-        options.seed = uint32_t(seed->integer(0, UINT32_MAX));
-    std::string scene = name.string();
-    if (scene.ends_with(".gltf") || scene.ends_with(".glb")) {
-        options.lights.reset(); // of a file the option adds lights
-        scene = (std::filesystem::path(path).parent_path() / scene).string();
-    } else if (!isGenerated(scene) && scene != "showcase") {
-        name.fail("must be hall, field, fence, showcase, or a .gltf or .glb file, is \"" +
-                  printable(scene, 60) + "\"");
-    }
-    Scene out = loadScene(scene, options);
+        out.seed = uint32_t(seed->integer(0, UINT32_MAX));
     if (const auto material = json.find("material")) {
         material->refuseOtherKeys({"perceptual_roughness", "metalness"});
-        const auto share = [&](const char* key) {
-            return float(material->member(key).number(unitInterval));
-        };
-        overrideMaterials(out, {true, share("perceptual_roughness"), share("metalness")});
+        out.materials = {true, readShare(*material, "perceptual_roughness"),
+                         readShare(*material, "metalness")};
     }
+    if (isBuiltIn(out.scene))
+        return out;
+    out.scene = (std::filesystem::path(path).parent_path() / out.scene).string();
+    if (!isGltf(out.scene))
+        name.fail("must be hall, field, fence, showcase, or a glTF file, is \"" +
+                  printable(name.string(), 60) + "\"");
+    return out;
+}
+
+// The scene without its lights and cameras.
+Scene loadSource(const SceneSource& source)
+{
+    SceneOptions options{.seed = source.seed};
+    if (isGenerated(source.scene)) // of a file the option adds lights
+        options.lights = 0;
+    Scene out = loadScene(source.scene, options);
+    overrideMaterials(out, source.materials);
     out.lights.clear();
     out.lightMotions.clear();
     out.lightOrigin = glm::dvec3(0);
     out.cameras.clear();
     return out;
+}
+
+nlohmann::json readDocument(const std::string& path)
+{
+    const std::vector<uint8_t> bytes = readSceneFile(path);
+    return parseSceneJson(
+        path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 glm::uvec2 readResolution(const JsonValue& json)
@@ -206,11 +224,18 @@ glm::uvec2 readResolution(const JsonValue& json)
 
 } // namespace
 
+SceneSource sceneSource(const std::string& scene, uint32_t seed)
+{
+    if (isBuiltIn(scene) || isGltf(scene))
+        return {scene, seed};
+    const nlohmann::json document = readDocument(scene);
+    const auto source = JsonValue(scene, document).find("source");
+    return source ? readSource(*source, scene) : SceneSource{scene, seed};
+}
+
 Scene loadSceneJson(const std::string& path)
 {
-    const std::vector<uint8_t> bytes = readSceneFile(path);
-    const nlohmann::json document = parseSceneJson(
-        path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    const nlohmann::json document = readDocument(path);
     const JsonValue root(path, document);
     root.refuseOtherKeys({"camera", "object", "objects", "material", "source", "lights",
                           "resolution", "background", "lights_visible_to_camera", "lights_occlude",
@@ -222,7 +247,7 @@ Scene loadSceneJson(const std::string& path)
         for (const char* key : {"object", "objects", "material"})
             if (root.find(key))
                 source->fail(std::string("cannot stand beside \"") + key + "\"");
-        scene = readSource(*source, path);
+        scene = loadSource(readSource(*source, path));
     } else {
         scene.lobes = CND_LOBES_SUM; // what the format means: two-lobe materials of path tracers
     }

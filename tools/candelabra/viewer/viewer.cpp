@@ -74,6 +74,7 @@ Viewer::Viewer(const ViewerOptions& options, const ContextOptions& contextOption
       window_(system, "candelabra", options.size),
       context_(contextOptions),
       scene_(std::move(scene)),
+      source_(sceneSource(options.scene, options.sceneOptions.seed)),
       renderer_(std::make_unique<Renderer>(context_, scene_,
                                            rendererOptions(options, options.size, slotCount))),
       swapchain_(context_, window_, slotCount),
@@ -94,6 +95,7 @@ bool Viewer::open(const std::string& scene, const SceneOptions& options)
 {
     try {
         Scene loaded = loadScene(scene, options);
+        source_ = sceneSource(scene, options.seed);
         ring_.wait();
         renderer_.reset(); // they refer to the scene
         other_.reset();

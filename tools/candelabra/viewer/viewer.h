@@ -85,6 +85,7 @@ private:
     Window window_;
     VulkanContext context_;
     Scene scene_;
+    SceneSource source_;              // of its surfaces
     std::vector<Material> materials_; // as the scene has them
     size_t ownLights_ = 0;            // of a file, without those added
     std::unique_ptr<Renderer> renderer_;

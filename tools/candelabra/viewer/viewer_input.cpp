@@ -218,8 +218,10 @@ void Viewer::saveImage(const char* extension)
 void Viewer::saveScene()
 {
     save(".json", [this](const std::string& path) {
-        writeText(path, sceneDescription(scene_, {options_.scene, options_.sceneOptions.seed},
-                                         panel_.materials, camera_.camera(), time_));
+        SceneSource source = source_;
+        if (panel_.materials.on)
+            source.materials = panel_.materials;
+        writeText(path, sceneDescription(scene_, source, camera_.camera(), time_, path));
     });
 }
 
