@@ -13,6 +13,7 @@
 
 #include "commands/brute_check.h"
 #include "commands/options.h"
+#include "commands/pick.h"
 #include "harness/run_program.h"
 #include "render/error.h"
 
@@ -211,6 +212,20 @@ TEST(Options, InfluenceErrorsAreSharesOfTheDisplay)
     arguments.culling = "clustered";
     arguments.influence = "uncut";
     EXPECT_THROW(arguments.influenceRule(), UsageError);
+}
+
+// Of render --pick, which refuses it by name, and of the viewer, which says so.
+TEST(Options, PixelsArePickedWhereLightsCanBeDrawnAlone)
+{
+    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
+        for (const CndInfluenceRule rule :
+             {CND_INFLUENCE_GIVEN, CND_INFLUENCE_UNCUT, CND_INFLUENCE_BY_ERROR}) {
+            const std::string refusal = pickRefusal(CndSpecularMethod(method), rule);
+            EXPECT_EQ(refusal.find("samples") != std::string::npos, method == CND_SPECULAR_SAMPLED);
+            EXPECT_EQ(refusal.empty(),
+                      method != CND_SPECULAR_SAMPLED && rule == CND_INFLUENCE_GIVEN)
+                << refusal;
+        }
 }
 
 TEST(Options, ImageSizeComesFromTheOptionTheSceneOrTheCamera)

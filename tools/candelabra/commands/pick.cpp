@@ -72,6 +72,15 @@ glm::dvec3 Pick::sum() const
     return out;
 }
 
+std::string pickRefusal(CndSpecularMethod specular, CndInfluenceRule influence)
+{
+    if (specular == CND_SPECULAR_SAMPLED)
+        return "the sampled method draws other samples for a light alone";
+    if (influence != CND_INFLUENCE_GIVEN)
+        return "lights are shown with the radii that they are given, which this frame does not use";
+    return "";
+}
+
 Pick pickPixel(const VulkanContext& context, Renderer& renderer, const Scene& scene,
                const FrameOptions& frame, PixelPosition pixel)
 {

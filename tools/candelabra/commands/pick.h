@@ -40,8 +40,11 @@ struct Pick {
 // cd/m^2 of linear Rec.709.
 double luminanceOf(const glm::dvec3& radiance);
 
-// Draws a frame like `frame`, then the pixel under each of its lights alone. Ends with the lights
-// of the scene.
+// Why lights cannot be shown one by one in such a frame, one clause; empty: they can.
+std::string pickRefusal(CndSpecularMethod specular, CndInfluenceRule influence);
+
+// Draws a frame like `frame`, for which pickRefusal is empty, then the pixel under each of its
+// lights alone. Ends with the lights of the scene.
 Pick pickPixel(const VulkanContext& context, Renderer& renderer, const Scene& scene,
                const FrameOptions& frame, PixelPosition pixel);
 

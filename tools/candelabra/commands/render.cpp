@@ -75,8 +75,9 @@ std::optional<PixelPosition> pickedPixel(const RenderArguments& a)
         comma == std::string::npos ? std::nullopt : parseUnsigned(a.pick.substr(comma + 1));
     if (!x || !y || *x >= maxSide || *y >= maxSide)
         throw UsageError("--pick \"" + a.pick + "\": expected X,Y in pixels such as 640,360");
-    if (a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
-        throw UsageError("--pick: --specular sampled draws other samples for a light alone");
+    const std::string refusal = pickRefusal(a.frame.specularMethod(), a.frame.influenceRule().rule);
+    if (!refusal.empty())
+        throw UsageError("--pick: " + refusal);
     return PixelPosition{uint32_t(*x), uint32_t(*y)};
 }
 
@@ -90,9 +91,6 @@ RenderPlan plan(const RenderArguments& a)
     const bool byError = influence.rule == CND_INFLUENCE_BY_ERROR;
     if (byError && a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
         throw UsageError("--influence-error: --specular sampled is noise, which hides what is cut");
-    if (influence.rule != CND_INFLUENCE_GIVEN && !a.pick.empty())
-        throw UsageError("--pick: shows lights with the radii that they are given: not with "
-                         "--influence uncut or --influence-error");
     return {.scene = a.scene.options(a.scene.lightCount()),
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
                       .specular = a.frame.specularMethod(),

@@ -163,6 +163,8 @@ void Viewer::applyEdits()
         applyMaterials();
     if (!std::exchange(panel_.editor.changed, false))
         return;
+    if (panel_.wantedLights != scene_.lights.size())
+        figures_.picked.reset(); // lights have other numbers
     panel_.wantedLights = uint32_t(scene_.lights.size());
     renderer_->lightsChanged();
     if (other_)

@@ -241,12 +241,9 @@ void Viewer::pick(PixelPosition pixel)
 {
     const PixelSize size = renderer_->size();
     FrameOptions frame = optionsAt(int32_t(pixel.x));
-    if (frame.specular == CND_SPECULAR_SAMPLED) {
-        figures_.note = "the sampled method draws other samples for a light alone: no pixel picked";
-        return;
-    }
-    if (frame.influence.rule != CND_INFLUENCE_GIVEN) {
-        figures_.note = "lights are listed with the radii that they are given: no pixel picked";
+    if (const std::string refusal = pickRefusal(frame.specular, frame.influence.rule);
+        !refusal.empty()) {
+        figures_.note = refusal + ": no pixel picked";
         return;
     }
     if (pixel.x >= size.width || pixel.y >= size.height) // the window became smaller
