@@ -136,18 +136,14 @@ std::vector<CostRow> rowsOf(const LightCosts& costs, size_t count, double shadin
 
 } // namespace
 
-LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Scene& scene,
-                      const FrameOptions& frame)
+LightCosts shareOut(const PairImage& image, const std::vector<CndLight>& lights,
+                    const glm::dvec3& origin, const Camera& camera)
 {
-    const std::vector<glm::vec4> pairs = drawAndReadPairs(context, renderer, frame);
-    const Surfaces surfaces(context, renderer, frame);
-    const auto [width, height] = surfaces.size();
-    std::vector<CndLight> lights;
-    lightsAtTime(scene, frame.time, lights);
+    const auto [width, height] = image.size;
     std::vector<Reach> reaches;
     for (uint32_t i = 0; i < lights.size(); ++i)
-        if (isShown(lights[i], frame.camera))
-            reaches.push_back(reachOf(i, lights[i], scene.lightOrigin));
+        if (isShown(lights[i], camera))
+            reaches.push_back(reachOf(i, lights[i], origin));
 
     LightCosts out;
     std::vector<LightCost> all(lights.size());
@@ -161,8 +157,8 @@ LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Sc
             covered.clear();
             for (uint32_t y = top; y < std::min(top + costTile, height); ++y)
                 for (uint32_t x = left; x < std::min(left + costTile, width); ++x) {
-                    evaluated += double(pairs[size_t(y) * width + x].y);
-                    if (const auto point = surfaces.pointAt(x, y)) {
+                    evaluated += double(image.evaluated[size_t(y) * width + x]);
+                    if (const auto point = image.pointAt(x, y)) {
                         points.push_back(*point);
                         box.min = glm::min(box.min, point->position);
                         box.max = glm::max(box.max, point->position);
@@ -196,6 +192,20 @@ LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Sc
     std::stable_sort(out.lights.begin(), out.lights.end(),
                      [](const LightCost& a, const LightCost& b) { return a.pairs > b.pairs; });
     return out;
+}
+
+LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Scene& scene,
+                      const FrameOptions& frame)
+{
+    PairImage image;
+    for (const glm::vec4& pairs : drawAndReadPairs(context, renderer, frame))
+        image.evaluated.push_back(pairs.y);
+    const Surfaces surfaces(context, renderer, frame);
+    image.size = surfaces.size();
+    image.pointAt = [&](uint32_t x, uint32_t y) { return surfaces.pointAt(x, y); };
+    std::vector<CndLight> lights;
+    lightsAtTime(scene, frame.time, lights);
+    return shareOut(image, lights, scene.lightOrigin, frame.camera);
 }
 
 std::string lightCostTable(const LightCosts& costs, const Scene& scene, size_t count,

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/report.h"
+#include "reference/surface.h"
 #include "render/renderer.h"
 
 namespace candelabra::app
@@ -27,9 +29,20 @@ struct LightCosts {
     double others = 0;             // of those, in 8x8 tiles that no light covers
 };
 
-// Draws one more frame like `frame`, clustered, with its pairs counted per pixel. The pairs of a
-// tile are shared out among the lights by the pixels of it that they cover: lanes of a tile wait
-// for each other, so a light is paid for where it does not shine, too.
+// A frame as it was shaded.
+struct PairImage {
+    PixelSize size;
+    std::vector<float> evaluated; // pairs of every pixel, rows from the top
+    std::function<std::optional<reference::SurfacePoint>(uint32_t x, uint32_t y)> pointAt;
+};
+
+// The pairs of a tile are shared out among the lights by the pixels of it that they cover: lanes of
+// a tile wait for each other, so a light is paid for where it does not shine, too. Lights of other
+// layers than the camera's are in no list: they cover nothing. `origin`: of the lights' positions.
+LightCosts shareOut(const PairImage& image, const std::vector<CndLight>& lights,
+                    const glm::dvec3& origin, const Camera& camera);
+
+// Of one more frame like `frame`, clustered, which is drawn with its pairs counted per pixel.
 LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Scene& scene,
                       const FrameOptions& frame);
 
