@@ -28,6 +28,8 @@ public:
     {
         return checkReference(value, place, "value");
     }
+    // A keyword somewhere in it that is not checked; empty: none.
+    std::string unknownKeyword() const { return unknownKeyword(root_); }
     // What "schema" has to be.
     std::string name() const { return root_.at("properties").at("schema").at("const"); }
 
@@ -64,6 +66,10 @@ private:
                 fault = at + ": " + value.dump() + " is none of " + rule.dump();
             else if (key == "minimum" && value.is_number() && value < rule)
                 fault = at + ": is below " + rule.dump();
+            else if (key == "maximum" && value.is_number() && value > rule)
+                fault = at + ": is above " + rule.dump();
+            else if (key == "exclusiveMinimum" && value.is_number() && value <= rule)
+                fault = at + ": is not above " + rule.dump();
             else if ((key == "minItems" && value.size() < rule.get<size_t>()) ||
                      (key == "maxItems" && value.size() > rule.get<size_t>()))
                 fault = at + ": has " + std::to_string(value.size()) + " items";
@@ -120,8 +126,25 @@ private:
                                         "items",      "required",
                                         "minItems",   "maxItems",
                                         "properties", "additionalProperties",
+                                        "maximum",    "exclusiveMinimum",
                                         "description"};
         return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
+    }
+
+    static std::string unknownKeyword(const nlohmann::json& schema)
+    {
+        for (const auto& [key, rule] : schema.items()) {
+            std::string found = known(key) ? "" : key;
+            if (key == "items")
+                found = unknownKeyword(rule);
+            else if (key == "properties" || key == "$defs")
+                for (const auto& [name, member] : rule.items())
+                    if (found.empty())
+                        found = unknownKeyword(member);
+            if (!found.empty())
+                return found;
+        }
+        return "";
     }
 
     nlohmann::json root_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The committed results of the benchmarks are what the schemas say (the commands are run at small
 // sizes in tests/gpu), and what they forbid is found.
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "harness/json_schema.h"
@@ -36,6 +38,34 @@ TEST(Schemas, CommittedResultsAreValid)
         json.erase("provenance");
         EXPECT_NE(schema.fault(json), "") << name;
     }
+}
+
+TEST(Schemas, SayNothingThatIsNotChecked)
+{
+    int schemas = 0;
+    for (const auto& file : std::filesystem::directory_iterator(
+             CANDELABRA_TEST_DATA "/../../tools/candelabra/schemas")) {
+        EXPECT_EQ(JsonSchema(file.path().filename()).unknownKeyword(), "") << file.path();
+        ++schemas;
+    }
+    EXPECT_GE(schemas, 10);
+}
+
+TEST(Schemas, FiguresHaveBounds)
+{
+    const JsonSchema schema("render.schema.json");
+    const auto faultOf = [&](double maxError) {
+        return schema.faultOfPart({{"maxError", maxError},
+                                   {"largestError", 0},
+                                   {"meanError", 0},
+                                   {"cutBelowLux", 0},
+                                   {"bruteForceMs", 0}},
+                                  "#/properties/influence");
+    };
+    EXPECT_EQ(faultOf(0.5), "");
+    EXPECT_EQ(faultOf(1), "");
+    EXPECT_NE(faultOf(1.5), "");
+    EXPECT_NE(faultOf(0), "");
 }
 
 TEST(Schemas, ReportsHoldTheFiguresOfTheirCommands)
