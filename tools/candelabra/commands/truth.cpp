@@ -212,10 +212,14 @@ void addTruthCommand(CLI::App& app, Run& run)
                      "$XDG_CACHE_HOME or ~/.cache)")
         ->type_name("DIR");
     command->add_flag("--no-cache", a->noCache, "neither look there nor store anything there");
-    command->footer("Examples:\n"
-                    "  candelabra truth scene.json -o truth.exr\n"
-                    "  candelabra truth scene.json --shard 3/8 -o part3.truth\n"
-                    "  candelabra truth --merge part*.truth -o truth.exr");
+    command->footer(
+        "A pixel shows what `candelabra render` shows there, at its centre. Where the values "
+        "differ, it is by the\nerror of the specular method: with conic that of tubes, "
+        "rectangles and discs on glossy surfaces above all.\n\n"
+        "Examples:\n"
+        "  candelabra truth scene.json -o truth.exr\n"
+        "  candelabra truth scene.json --shard 3/8 -o part3.truth\n"
+        "  candelabra truth --merge part*.truth -o truth.exr");
     command->callback([&run, a, command] {
         for (const CLI::Option* option : command->get_options())
             if (const std::string name = option->get_name();
