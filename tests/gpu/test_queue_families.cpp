@@ -6,6 +6,7 @@
 #include "gpu/exposure_harness.h"
 #include "gpu/lighting_harness.h"
 #include "gpu/ownership.h"
+#include "render/image_barrier.h"
 
 namespace candelabra::test
 {
@@ -152,9 +153,7 @@ protected:
         LightingTest::SetUp();
         if (IsSkipped() || HasFatalFailure())
             return;
-        CndCamera camera;
-        setPerspective(camera, 1.0, 1.5, 0.1);
-        g_ = randomGBuffer(72, 48, camera, 0, 17);
+        g_ = randomGBuffer(72, 48, 17);
         lights_ = randomSpheres(g_, 150, 17);
         queues_ = std::make_unique<TwoQueues>(context());
         ownership_ = std::make_unique<Ownership>(queues_->desc(), queues_->real());
@@ -223,28 +222,14 @@ protected:
         return i == Depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     }
 
-    struct Side {
-        VkPipelineStageFlags2 stage;
-        VkAccessFlags2 access;
-        VkImageLayout layout;
-    };
     // On one family.
-    VkImageMemoryBarrier2 change(size_t i, const Side& from, const Side& to) const
+    VkImageMemoryBarrier2 change(size_t i, const app::ImageAccess& from,
+                                 const app::ImageAccess& to) const
     {
-        return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                .srcStageMask = from.stage,
-                .srcAccessMask = from.access,
-                .dstStageMask = to.stage,
-                .dstAccessMask = to.access,
-                .oldLayout = from.layout,
-                .newLayout = to.layout,
-                .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                .image = images_[i].image.get(),
-                .subresourceRange = {aspectOf(i), 0, 1, 0, 1}};
+        return app::imageBarrier(images_[i].image.get(), aspectOf(i), from, to);
     }
     // The two halves of a transfer: what happened before it, and what will after it.
-    VkImageMemoryBarrier2 release(size_t i, Family to, const Side& before,
+    VkImageMemoryBarrier2 release(size_t i, Family to, const app::ImageAccess& before,
                                   VkImageLayout layout) const
     {
         VkImageMemoryBarrier2 b = change(i, before, {0, 0, layout});
@@ -252,7 +237,8 @@ protected:
         b.dstQueueFamilyIndex = queues_->family(to);
         return b;
     }
-    VkImageMemoryBarrier2 acquire(size_t i, Family to, VkImageLayout from, const Side& after) const
+    VkImageMemoryBarrier2 acquire(size_t i, Family to, VkImageLayout from,
+                                  const app::ImageAccess& after) const
     {
         // From the stage that the semaphore holds up.
         VkImageMemoryBarrier2 b = change(i, {after.stage, 0, from}, after);
@@ -261,24 +247,19 @@ protected:
         return b;
     }
 
-    static constexpr Side nothing{0, 0, VK_IMAGE_LAYOUT_UNDEFINED};
-    static constexpr Side filled{transferStage, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
-    static constexpr Side sampled{computeStage, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    static constexpr Side stored{
+    static constexpr app::ImageAccess filled = app::transferWrite, sampled = app::computeRead,
+                                      copied = app::transferRead;
+    static constexpr app::ImageAccess stored{
         computeStage, VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
         VK_IMAGE_LAYOUT_GENERAL};
-    static constexpr Side copied{transferStage, VK_ACCESS_2_TRANSFER_READ_BIT,
-                                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-    static Side lit(size_t i) { return i == Radiance ? stored : sampled; }
+    static app::ImageAccess lit(size_t i) { return i == Radiance ? stored : sampled; }
 
     // Graphics: the G-buffer is drawn, here copied, and goes over.
     void recordBefore(VkCommandBuffer cmd)
     {
         std::vector<VkImageMemoryBarrier2> barriers;
         for (size_t i = 0; i < Display; ++i) // what they held is not wanted: no transfer back
-            barriers.push_back(change(i, {transferStage, 0, nothing.layout}, filled));
+            barriers.push_back(change(i, app::discarded, filled));
         ownership_->barrier(cmd, barriers);
         for (size_t i = 0; i < Radiance; ++i) {
             const VkBufferImageCopy copy{.imageSubresource = {aspectOf(i), 0, 0, 1},
@@ -301,7 +282,7 @@ protected:
         for (size_t i = 0; i < Display; ++i)
             if (i != forgotten)
                 barriers.push_back(acquire(i, Compute, filled.layout, lit(i)));
-        barriers.push_back(change(Display, {computeStage, 0, nothing.layout}, stored));
+        barriers.push_back(change(Display, {computeStage, 0, VK_IMAGE_LAYOUT_UNDEFINED}, stored));
         ownership_->barrier(cmd, barriers);
         CndLightingFrame frame{.width = g_.width,
                                .height = g_.height,

@@ -4,20 +4,25 @@
 namespace candelabra::app
 {
 
+VkImageMemoryBarrier2 imageBarrier(VkImage image, VkImageAspectFlags aspect,
+                                   const ImageAccess& from, const ImageAccess& to)
+{
+    return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+            .srcStageMask = from.stage,
+            .srcAccessMask = from.access,
+            .dstStageMask = to.stage,
+            .dstAccessMask = to.access,
+            .oldLayout = from.layout,
+            .newLayout = to.layout,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = image,
+            .subresourceRange = {aspect, 0, 1, 0, 1}};
+}
+
 void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, const ImageAccess& to)
 {
-    const VkImageMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-        .srcStageMask = from.stage,
-        .srcAccessMask = from.access,
-        .dstStageMask = to.stage,
-        .dstAccessMask = to.access,
-        .oldLayout = from.layout,
-        .newLayout = to.layout,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = image,
-        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+    const VkImageMemoryBarrier2 barrier = imageBarrier(image, VK_IMAGE_ASPECT_COLOR_BIT, from, to);
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                 .imageMemoryBarrierCount = 1,
                                 .pImageMemoryBarriers = &barrier};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Barriers of single-mip colour images, in terms of who uses them.
+// Barriers of images of one mip level, in terms of who uses them.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -28,6 +28,10 @@ inline constexpr ImageAccess transferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
 inline constexpr ImageAccess discarded{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE,
                                        VK_IMAGE_LAYOUT_UNDEFINED};
 
+VkImageMemoryBarrier2 imageBarrier(VkImage image, VkImageAspectFlags aspect,
+                                   const ImageAccess& from, const ImageAccess& to);
+
+// Of colour images.
 void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, const ImageAccess& to);
 
 // All texels become 0, in GENERAL, for compute to read and write.
