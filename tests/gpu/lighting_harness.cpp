@@ -154,6 +154,13 @@ CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camer
     return g;
 }
 
+CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, uint32_t seed)
+{
+    CndCamera camera;
+    setPerspective(camera, 1.0, double(width) / height, 0.1);
+    return randomGBuffer(width, height, camera, 0, seed);
+}
+
 std::vector<CndLight> randomSpheres(const CpuGBuffer& g, uint32_t count, uint32_t seed)
 {
     std::mt19937 random(seed);
@@ -278,12 +285,10 @@ std::vector<glm::vec4> LightingTest::readRadiance(const Images& images) const
 }
 
 std::pair<CndLighting, CndLightingView> LightingTest::createLighting(const CpuGBuffer& g,
-                                                                     uint32_t framesInFlight)
+                                                                     CndLightingDesc desc)
 {
     CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc,
-                               .framesInFlight = framesInFlight,
-                               .specularMethods = 1u << RunOptions{}.specular};
+    desc.structSize = sizeof desc;
     CndLighting lighting{};
     EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
         << error.message;
@@ -292,6 +297,21 @@ std::pair<CndLighting, CndLightingView> LightingTest::createLighting(const CpuGB
     EXPECT_EQ(cndCreateLightingView(lighting, &viewDesc, &view, &error), CND_SUCCESS)
         << error.message;
     return {lighting, view};
+}
+
+std::pair<CndLighting, CndLightingView> LightingTest::createLighting(const CpuGBuffer& g,
+                                                                     uint32_t framesInFlight)
+{
+    return createLighting(g, CndLightingDesc{.framesInFlight = framesInFlight,
+                                             .specularMethods = 1u << RunOptions{}.specular});
+}
+
+void LightingTest::setLights(CndLighting lighting, const std::vector<CndLight>& lights)
+{
+    CndError error{};
+    const CndLightSet set{
+        .structSize = sizeof set, .count = uint32_t(lights.size()), .lights = lights.data()};
+    EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
 }
 
 LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
@@ -304,6 +324,7 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
                                .gbufferLayout = options.layout,
                                .timestamps = true,
                                .specularMethods = 1u << options.specular,
+                               .gbuffer = options.gbuffer,
                                .materialClasses = options.materialClasses,
                                .hostKernels = options.hostKernels,
                                .influenceByError =
@@ -329,6 +350,7 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
 
     CndLightingFrame frame = frameOf(g, images, options);
+    options.withFrame(frame);
     LightingResult result;
     result.stats.structSize = sizeof result.stats;
     for (int i = 0; i < options.frames; ++i) {

@@ -54,6 +54,8 @@ void addPixel(CpuGBuffer& g, const CpuSurface& surface);
 // Bumpy walls at several depths with random materials, holes to the background among them.
 CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camera, float clearDepth,
                          uint32_t seed);
+// The same in perspective, 1 radian high, of square pixels, with reversed and infinite depth.
+CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, uint32_t seed);
 
 // Lights near the surfaces of `g` (world = view when viewFromWorld is the identity).
 std::vector<CndLight> randomSpheres(const CpuGBuffer& g, uint32_t count, uint32_t seed);
@@ -84,11 +86,13 @@ struct RunOptions {
     int frames = 1; // record this many times; the last one is read back
     uint32_t layers = 0;
     CndGBufferLayout layout = CND_GBUFFER_FULL;
+    CndGBufferDesc gbuffer{}; // of CND_GBUFFER_HOST, whose images withFrame puts in
     CndHostKernels hostKernels{};
     VkDescriptorSet hostSet = VK_NULL_HANDLE;
     bool unchanged = false; // frames after the first promise unchanged surfaces
     uint32_t materialClasses = 0;
     std::function<void()> beforeFrame = [] {};
+    std::function<void(CndLightingFrame&)> withFrame = [](CndLightingFrame&) {};
 };
 
 class LightingTest : public GpuTest
@@ -97,9 +101,13 @@ protected:
     LightingResult run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
                        const RunOptions& options = {});
 
-    // A lighting and a view for `g`, with the method of RunOptions; to be destroyed by the caller.
+    // A lighting and a view for `g`; to be destroyed by the caller.
+    std::pair<CndLighting, CndLightingView> createLighting(const CpuGBuffer& g,
+                                                           CndLightingDesc desc);
+    // With the method of RunOptions.
     std::pair<CndLighting, CndLightingView> createLighting(const CpuGBuffer& g,
                                                            uint32_t framesInFlight);
+    static void setLights(CndLighting lighting, const std::vector<CndLight>& lights);
 
     // The images of one G-buffer on the device.
     struct Images {

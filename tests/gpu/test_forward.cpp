@@ -4,10 +4,12 @@
 // them.
 #include <cmath>
 #include <iostream>
+#include <tuple>
 
 #include "candelabra_probes.h"
 #include "gpu/kernel.h"
 #include "gpu/lighting_harness.h"
+#include "gpu/pixel_difference.h"
 #include "shared/forward_probe.h"
 
 namespace candelabra::test
@@ -17,42 +19,19 @@ namespace
 
 constexpr double tolerance = 1e-5; // issue 5, acceptance line 7
 
-// Largest difference of a pixel, of its brightest channel or a hundred thousandth of the image's.
-double maxPixelDifference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
-{
-    const auto brightest = [](const glm::vec4& v) { return double(std::max({v.x, v.y, v.z})); };
-    double peak = 0, largest = 0;
-    for (const glm::vec4& pixel : b)
-        peak = std::max(peak, brightest(pixel));
-    for (size_t i = 0; i < a.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            const double difference =
-                std::abs(double(a[i][c]) - b[i][c]) / std::max(brightest(b[i]), 1e-5 * peak);
-            largest = !(difference <= largest) ? difference : largest; // NaN is the largest
-        }
-    return a.size() == b.size() && peak > 0 ? largest : INFINITY;
-}
-
 // A host with a pipeline of its own beside the module.
 class ForwardTest : public LightingTest
 {
 protected:
     void create(const CpuGBuffer& g, const std::vector<CndLight>& lights, bool byError = false)
     {
-        CndError error{};
-        const CndLightingDesc desc{.structSize = sizeof desc,
-                                   .framesInFlight = 2,
-                                   .specularMethods = 1u << CND_SPECULAR_CONIC,
-                                   .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT,
-                                   .influenceByError = byError};
-        ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting_, &error), CND_SUCCESS)
-            << error.message;
-        const CndLightingViewDesc viewDesc{sizeof viewDesc, g.width, g.height, 0};
-        ASSERT_EQ(cndCreateLightingView(lighting_, &viewDesc, &view_, &error), CND_SUCCESS)
-            << error.message;
-        const CndLightSet set{
-            .structSize = sizeof set, .count = uint32_t(lights.size()), .lights = lights.data()};
-        ASSERT_EQ(cndSetLights(lighting_, &set, &error), CND_SUCCESS) << error.message;
+        std::tie(lighting_, view_) =
+            createLighting(g, CndLightingDesc{.framesInFlight = 2,
+                                              .specularMethods = 1u << CND_SPECULAR_CONIC,
+                                              .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT,
+                                              .influenceByError = byError});
+        ASSERT_TRUE(lighting_ && view_);
+        setLights(lighting_, lights);
         createPipeline();
     }
     void TearDown() override

@@ -1,49 +1,134 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiles whose surfaces all lack a lobe are shaded without it, and look the same.
-#include "gpu/lighting_harness.h"
-#include "harness/full_tests.h"
+#include <algorithm>
+#include <cmath>
+#include <iostream>
 
-#include <glm/gtc/packing.hpp>
+#include "gpu/host_gbuffer_harness.h"
+#include "gpu/pixel_difference.h"
+#include "gpu/three_classes.h"
+#include "harness/full_tests.h"
 
 namespace candelabra::test
 {
 namespace
 {
 
-constexpr uint32_t tile = 8;
+// Of a pixel: the same formulas, in another order.
+constexpr double tolerance = 1e-5;
+constexpr uint32_t bothClasses = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
 
-glm::uvec2 half4(const glm::vec4& v)
+// As COMPACT stores them: base colour and metalness, normals of 12 bits a side.
+CpuGBuffer compact(CpuGBuffer g)
 {
-    return {glm::packHalf2x16({v.x, v.y}), glm::packHalf2x16({v.z, v.w})};
-}
-
-// From the left: columns of tiles without a specular lobe, without a diffuse one, with both; in the
-// second row of tiles every one has a pixel that is not like the others.
-CpuGBuffer threeClasses(uint32_t width, uint32_t height)
-{
-    CndCamera camera;
-    setPerspective(camera, 1.0, double(width) / height, 0.1);
-    CpuGBuffer g = randomGBuffer(width, height, camera, 0, 11);
-    for (uint32_t y = 0; y < height; ++y)
-        for (uint32_t x = 0; x < width; ++x) {
-            const size_t i = y * width + x;
-            const bool odd = y / tile == 1 && y % tile == 5 && x % tile == 3;
-            const uint32_t third = 3 * (x / tile) / (width / tile);
-            const glm::vec3 colour(0.2 + 0.01 * double(i % 50), 0.5, 0.7);
-            if (y / tile == 1) // a hole to the background would have no class
-                g.depth[i] = depthAt(camera, 4);
-            g.albedo[i] = half4(glm::vec4(third == 1 && !odd ? glm::vec3(0) : colour, 0));
-            g.specular[i] = half4(third == 0 && !odd ? glm::vec4(0) : glm::vec4(0.5f * colour, 1));
-        }
+    const auto coordinate = [](uint32_t code) {
+        const double u = double(int32_t(code << 8) >> 8) / ((1 << 23) - 1);
+        return uint32_t(std::lround(u * 2047)) & 0xFFFu;
+    };
+    for (size_t i = 0; i < g.depth.size(); ++i) {
+        const uint32_t roughness = uint32_t(std::lround(255 * storedRoughness(g, i)));
+        const glm::uvec2 code = g.normalRoughness[i];
+        g.normalRoughness[i] = {coordinate(code.x) | coordinate(code.y) << 12 | roughness << 24, 0};
+        const glm::vec3 albedo = storedHalf4(g.albedo[i]);
+        if (albedo == glm::vec3(0)) // a metal
+            g.albedo[i] = half4(glm::vec4(glm::vec3(storedHalf4(g.specular[i])), 1));
+    }
     return g;
 }
 
+// As a host stores them that tells diffuse from specular colour.
+HostPixels hostPixels(const CpuGBuffer& g, const CndGBufferDesc& desc)
+{
+    HostPixels out{.desc = desc, .width = g.width, .height = g.height};
+    for (size_t i = 0; i < g.depth.size(); ++i) {
+        const glm::dvec4 texels[] = {glm::dvec4(storedNormal(g, i), storedRoughness(g, i)),
+                                     storedHalf4(g.albedo[i]), storedHalf4(g.specular[i])};
+        for (int image = 0; image < 3; ++image)
+            appendTexel(out.images[image], VK_FORMAT_R32G32B32A32_SFLOAT, texels[image]);
+        appendDepth(out.depth, desc.depthFormat, double(g.depth[i]));
+    }
+    return out;
+}
+
+constexpr CndGBufferDesc floats(CndGBufferChannel f90)
+{
+    return {.normalEncoding = CND_NORMAL_SNORM,
+            .normalSpace = CND_NORMALS_VIEW,
+            .roughness = CND_CHANNEL_NORMAL_A,
+            .reflectance = CND_REFLECTANCE_SPECULAR,
+            .f90 = f90,
+            .normalRoughnessFormat = VK_FORMAT_R32G32B32A32_SFLOAT,
+            .albedoFormat = VK_FORMAT_R32G32B32A32_SFLOAT,
+            .specularFormat = VK_FORMAT_R32G32B32A32_SFLOAT,
+            .depthFormat = VK_FORMAT_R32_SFLOAT};
+}
+
+bool keptLists(const CndLightingStats& stats)
+{
+    return std::any_of(stats.passes, stats.passes + stats.passCount, [](const CndPassPlan& pass) {
+        return std::string(pass.name) == "tile_clusters" && pass.skipped;
+    });
+}
+
+struct Case {
+    const char* name;
+    RunOptions options;
+    CndLightType lights = CND_LIGHT_SPHERE;
+    bool diffuseClass = true; // the layout can store it
+};
+
+const Case cases[] = {
+    {"CompactLayout", {.layout = CND_GBUFFER_COMPACT}, CND_LIGHT_SPHERE, false},
+    {"HostLayout", {.layout = CND_GBUFFER_HOST, .gbuffer = floats(CND_CHANNEL_SPECULAR_A)}},
+    {"HostLayoutWithoutF90",
+     {.layout = CND_GBUFFER_HOST, .gbuffer = floats(CND_CHANNEL_NONE)},
+     CND_LIGHT_SPHERE,
+     false},
+    {"NoSpecular", {.specular = CND_SPECULAR_NONE}},
+    {"Ltc", {.specular = CND_SPECULAR_LTC}, CND_LIGHT_RECTANGLE},
+    {"Sampled", {.specular = CND_SPECULAR_SAMPLED, .sampleCount = 4}},
+};
+
+class MaterialClasses : public HostGBufferTest, public ::testing::WithParamInterface<Case>
+{
+};
+
 } // namespace
+
+TEST_P(MaterialClasses, LookTheSame)
+{
+    RunOptions options = GetParam().options;
+    CpuGBuffer g = threeClasses(72, 48);
+    const std::vector<CndLight> lights = lightsOf(GetParam().lights, g, 40, 7);
+    HostImages images;
+    if (options.layout == CND_GBUFFER_HOST) {
+        images = uploadHost(hostPixels(g, options.gbuffer));
+        options.withFrame = [&](CndLightingFrame& frame) { frame = withHost(frame, images); };
+    }
+    if (options.layout == CND_GBUFFER_COMPACT)
+        g = compact(std::move(g));
+    options.countPairs = true;
+    const LightingResult together = run(g, lights, options);
+    options.materialClasses = bothClasses;
+    const LightingResult apart = run(g, lights, options);
+    const double difference = maxPixelDifference(apart.radiance, together.radiance);
+    std::cout << GetParam().name << ": largest difference of a pixel " << difference << '\n';
+    EXPECT_LE(difference, tolerance);
+    EXPECT_GT(apart.stats.contributingPairs, 0u);
+    // Three columns of six tiles each, but for the row with others; fewer without surfaces.
+    EXPECT_EQ(apart.stats.diffuseTileCount > 8, GetParam().diffuseClass);
+    EXPECT_LE(apart.stats.diffuseTileCount, GetParam().diffuseClass ? 15u : 0u);
+    EXPECT_GT(apart.stats.specularTileCount, 8u);
+    EXPECT_LE(apart.stats.specularTileCount, 15u);
+    EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);
+}
+
+INSTANTIATE_TEST_SUITE_P(In, MaterialClasses, ::testing::ValuesIn(cases),
+                         [](const auto& test) { return test.param.name; });
 
 TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
 {
     const CpuGBuffer g = threeClasses(144, 96);
-    constexpr uint32_t both = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
     std::vector<uint32_t> types = {CND_LIGHT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_DIRECTIONAL};
     if (fullTests())
         types.insert(types.end(), {CND_LIGHT_RECTANGLE, CND_LIGHT_DISC, CND_LIGHT_POINT,
@@ -57,31 +142,42 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
             << error.message;
         return lighting;
     };
-    const CndLighting plain = create(0), classed = create(both);
-    for (const uint32_t type : types) {
+    const CndLighting plain = create(0), classed = create(bothClasses);
+    const auto compare = [&](uint32_t type, RunOptions options) {
         const std::vector<CndLight> lights = lightsOf(CndLightType(type), g, 60, 5 + type);
-        for (const CndLobeJoining lobes : {CND_LOBES_SUM, CND_LOBES_CONSERVING}) {
-            RunOptions options{.specular = CND_SPECULAR_CONIC,
-                               .countPairs = true,
-                               .lighting = plain,
-                               .lobes = lobes};
-            const LightingResult together = run(g, lights, options);
-            options.lighting = classed;
-            const LightingResult apart = run(g, lights, options);
-            EXPECT_LE(maxRelativeDifference(apart.radiance, together.radiance), 1e-6) << type;
-            EXPECT_EQ(together.stats.diffuseTileCount, 0u);
-            EXPECT_EQ(together.stats.specularTileCount, 0u);
-            EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);
-            // 6 columns each in 12 rows, but for the second; fewer where a tile has no surface.
-            EXPECT_GT(apart.stats.diffuseTileCount, 50u);
-            EXPECT_LE(apart.stats.diffuseTileCount, 66u);
-            EXPECT_GT(apart.stats.specularTileCount, 50u);
-            EXPECT_LE(apart.stats.specularTileCount, 66u);
+        options.specular = CND_SPECULAR_CONIC;
+        options.countPairs = true;
+        options.lighting = plain;
+        const LightingResult together = run(g, lights, options);
+        options.lighting = classed;
+        const LightingResult apart = run(g, lights, options);
+        const double difference = maxPixelDifference(apart.radiance, together.radiance);
+        std::cout << "type " << type << ": largest difference of a pixel " << difference << '\n';
+        EXPECT_LE(difference, tolerance) << type;
+        EXPECT_EQ(together.stats.diffuseTileCount, 0u);
+        EXPECT_EQ(together.stats.specularTileCount, 0u);
+        EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);
+        // 6 columns each in 12 rows, but for the second; fewer where a tile has no surface.
+        EXPECT_GT(apart.stats.diffuseTileCount, 50u);
+        EXPECT_LE(apart.stats.diffuseTileCount, 66u);
+        EXPECT_GT(apart.stats.specularTileCount, 50u);
+        EXPECT_LE(apart.stats.specularTileCount, 66u);
+        EXPECT_EQ(apart.stats.unlistedClusters > 0, options.listBudget > 0);
+        EXPECT_EQ(keptLists(apart.stats), options.unchanged);
+        if (!options.listBudget) {
             EXPECT_EQ(apart.stats.listedPairs, together.stats.listedPairs);
             EXPECT_EQ(apart.stats.contributingPairs, together.stats.contributingPairs);
-            EXPECT_TRUE(sameBits(apart, run(g, lights, options)));
         }
-    }
+        EXPECT_TRUE(sameBits(apart, run(g, lights, options)));
+    };
+    for (const uint32_t type : types)
+        for (const CndLobeJoining lobes : {CND_LOBES_SUM, CND_LOBES_CONSERVING})
+            compare(type, {.lobes = lobes});
+    for (const RunOptions& options :
+         {RunOptions{.errorBudget = 0.02f}, RunOptions{.energyCompensation = true},
+          RunOptions{.frames = 2, .unchanged = true},
+          RunOptions{.listBudget = 8192, .frames = 2, .unchanged = true}})
+        compare(CND_LIGHT_SPHERE, options);
     cndDestroyLighting(plain);
     cndDestroyLighting(classed);
 }
@@ -92,8 +188,7 @@ TEST_F(LightingTest, ClassesAreAlikeWithoutRoomForLists)
 {
     const CpuGBuffer g = threeClasses(144, 96);
     const std::vector<CndLight> lights = randomSpheres(g, 200, 3);
-    constexpr uint32_t both = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
-    RunOptions options{.specular = CND_SPECULAR_CONIC, .materialClasses = both};
+    RunOptions options{.specular = CND_SPECULAR_CONIC, .materialClasses = bothClasses};
     const LightingResult roomy = run(g, lights, options);
     options.listBudget = 8192;
     const LightingResult tight = run(g, lights, options);
