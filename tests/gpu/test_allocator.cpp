@@ -28,9 +28,7 @@ std::vector<CndLight> someLights(const CpuGBuffer& g)
 
 TEST_F(LightingTest, HostsMemoryChangesNothing)
 {
-    CndCamera camera;
-    setPerspective(camera, 1.0, 1.5, 0.1);
-    const CpuGBuffer g = randomGBuffer(72, 48, camera, 0, 31);
+    const CpuGBuffer g = randomGBuffer(72, 48, 31);
     const std::vector<CndLight> lights = someLights(g);
     HostAllocator allocator(deviceDesc(), blockBytes);
     const CndDeviceDesc host = allocator.desc();
@@ -81,9 +79,7 @@ TEST_F(ExposureTest, HostsMemoryChangesNothing)
 // Planned, then placed in one block of each kind, which is just large enough.
 TEST_F(LightingTest, PlannedMemoryIsEnough)
 {
-    CndCamera camera;
-    setPerspective(camera, 1.0, 1.5, 0.1);
-    const CpuGBuffer g = randomGBuffer(72, 48, camera, 0, 31);
+    const CpuGBuffer g = randomGBuffer(72, 48, 31);
     const std::vector<CndLight> lights = someLights(g);
     const CndLightingDesc desc{.framesInFlight = 2,
                                .specularMethods = 1u << RunOptions{}.specular,

@@ -99,9 +99,7 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
 {
     if (!deviceDesc().debugUtilsEnabled)
         FAIL() << "VK_EXT_debug_utils is needed to find the list buffer by its name";
-    CndCamera camera;
-    setPerspective(camera, 1.0, 1.0, 0.1);
-    const CpuGBuffer g = randomGBuffer(64, 64, camera, 0, 5);
+    const CpuGBuffer g = randomGBuffer(64, 64, 5);
     std::vector<CndLight> lights = randomSpheres(g, 50, 5);
     for (CndLight& light : lights) {
         light.influenceRadius = 40; // every tile lists every light ...

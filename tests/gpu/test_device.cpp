@@ -96,9 +96,7 @@ TEST_F(LightingTest, StatsOfFramesThatNeverWereAreAnError)
 // Devices with small texel buffers read lights as storage: another way to the same bits.
 TEST_F(LightingTest, SmallTexelBuffersChangeNothing)
 {
-    CndCamera camera;
-    setPerspective(camera, 1.0, 1.5, 0.1);
-    const CpuGBuffer g = randomGBuffer(96, 64, camera, 0, 12);
+    const CpuGBuffer g = randomGBuffer(96, 64, 12);
     const auto lights = randomSpheres(g, 500, 12);
     const CndDeviceDesc poor = interpose(deviceDesc());
     const LightingResult texels = run(g, lights);

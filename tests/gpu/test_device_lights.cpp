@@ -55,9 +55,7 @@ protected:
         LightingTest::SetUp();
         if (IsSkipped() || HasFatalFailure())
             return;
-        CndCamera camera;
-        setPerspective(camera, 1.0, 4.0 / 3, 0.1);
-        g_ = randomGBuffer(128, 96, camera, 0, 3);
+        g_ = randomGBuffer(128, 96, 3);
     }
 
     CpuGBuffer g_;

@@ -62,9 +62,7 @@ protected:
         EnvironmentTest::SetUp();
         if (IsSkipped() || HasFatalFailure())
             return;
-        CndCamera camera;
-        setPerspective(camera, 1.0, 4.0 / 3, 0.1);
-        g_ = randomGBuffer(64, 48, camera, 0, 3);
+        g_ = randomGBuffer(64, 48, 3);
         shadowSet_ = gpu::Bindings(device(), "shadows", {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}},
                                    VK_SHADER_STAGE_COMPUTE_BIT, 1);
         shadows_ = gpu::createBuffer(device(), "shadows", 1000 * sizeof(Shadow),
@@ -100,24 +98,18 @@ protected:
     }
 
     // To be destroyed by the caller.
-    std::pair<CndLighting, CndLightingView> create(const RunOptions& options, VkDeviceSize budget)
+    std::pair<CndLighting, CndLightingView> create(const RunOptions& options)
     {
-        CndError error{};
-        const CndLightingDesc desc{.structSize = sizeof desc,
-                                   .framesInFlight = 1,
-                                   .gbufferLayout = options.layout,
-                                   .specularMethods = 1u << options.specular,
-                                   .hostKernels = options.hostKernels};
-        CndLighting lighting{};
-        EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
-            << error.message;
         images_ = uploadImages(g_);
-        return {lighting, createView(lighting, budget)};
+        return createLighting(g_, CndLightingDesc{.framesInFlight = 1,
+                                                  .gbufferLayout = options.layout,
+                                                  .specularMethods = 1u << options.specular,
+                                                  .hostKernels = options.hostKernels});
     }
-    CndLightingView createView(CndLighting lighting, VkDeviceSize budget)
+    CndLightingView createNarrowView(CndLighting lighting)
     {
         CndError error{};
-        const CndLightingViewDesc desc{sizeof desc, g_.width, g_.height, budget};
+        const CndLightingViewDesc desc{sizeof desc, g_.width, g_.height, 4096};
         CndLightingView view{};
         EXPECT_EQ(cndCreateLightingView(lighting, &desc, &view, &error), CND_SUCCESS)
             << error.message;
@@ -127,12 +119,6 @@ protected:
     {
         cndDestroyLightingView(view);
         cndDestroyLighting(lighting);
-    }
-    static void set(CndLighting lighting, const std::vector<CndLight>& lights)
-    {
-        CndError error{};
-        const CndLightSet s{sizeof s, uint32_t(lights.size()), lights.data(), {}, nullptr};
-        EXPECT_EQ(cndSetLights(lighting, &s, &error), CND_SUCCESS) << error.message;
     }
     std::vector<glm::vec4> frame(CndLightingView view, const RunOptions& options)
     {
@@ -176,15 +162,15 @@ TEST_F(HostFunctions, AShadowTermScalesEachLightById)
     const CompiledKernels kernels =
         compiled({.functions = CND_HOST_VISIBILITY_BIT, .source = shadowSource});
     const RunOptions options = withShadows(kernels, {.specular = CND_SPECULAR_CONIC});
-    const auto [lighting, view] = create(options, 0);
-    const CndLightingView narrow = createView(lighting, 4096);
+    const auto [lighting, view] = create(options);
+    const CndLightingView narrow = createNarrowView(lighting);
     std::vector<CndLight> lights, scaled;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         for (const CndLight& light : lightsOf(CndLightType(type), g_, 20, 40 + type)) {
             scaled.push_back(shadowed(lights.size(), light));
             lights.push_back(light);
         }
-    set(lighting, lights);
+    setLights(lighting, lights);
     const std::vector<glm::vec4> image = frame(view, options);
     EXPECT_TRUE(sameBits(frame(narrow, options), image));
     CndLightingStats stats{.structSize = sizeof stats};
@@ -196,7 +182,7 @@ TEST_F(HostFunctions, AShadowTermScalesEachLightById)
     for (size_t id = 0; id < lights.size(); ++id)
         shadows_.as<Shadow>()[id].visible = 1;
     EXPECT_FALSE(sameBits(frame(view, options), image));
-    set(lighting, scaled);
+    setLights(lighting, scaled);
     EXPECT_TRUE(sameBits(frame(view, options), image));
     cndDestroyLightingView(narrow);
     destroy(lighting, view);
@@ -211,8 +197,8 @@ TEST_F(HostFunctions, IdsStayThroughEdits)
                                               .lightTypes = 1u << CND_LIGHT_POINT,
                                               .specularMethods = 1u << RunOptions{}.specular});
     const RunOptions options = withShadows(kernels);
-    const auto [lighting, view] = create(options, 0);
-    const auto [plain, plainView] = create({}, 0);
+    const auto [lighting, view] = create(options);
+    const auto [plain, plainView] = create({});
     std::vector<CndLight> lights = randomSpheres(g_, 120, 9);
     for (size_t i = 0; i < lights.size(); i += 2)
         lights[i].type = CND_LIGHT_POINT;
@@ -264,7 +250,7 @@ TEST_F(HostFunctions, IdsStayThroughEdits)
                                  .influenceRadius = 2};
     const CndLightSet particles{.structSize = sizeof particles, .deviceLights = &device};
     EXPECT_EQ(cndSetLights(lighting, &particles, &error), CND_SUCCESS) << error.message;
-    set(plain, seen);
+    setLights(plain, seen);
     const std::vector<glm::vec4> fromDevice = frame(view, options);
     EXPECT_LE(maxRelativeDifference(fromDevice, frame(plainView, {})), 1e-6);
     destroy(lighting, view);
@@ -289,10 +275,10 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
                        .hostKernels = kernels.hostKernels(host.layout()),
                        .hostSet = host.set(0)};
     const std::vector<CndLight> lights = randomSpheres(g_, 200, 9);
-    const auto [lighting, view] = create(options, 0);
-    const auto [plain, plainView] = create({}, 0);
-    set(lighting, lights);
-    set(plain, lights);
+    const auto [lighting, view] = create(options);
+    const auto [plain, plainView] = create({});
+    setLights(lighting, lights);
+    setLights(plain, lights);
     const std::vector<glm::vec4> expected = frame(plainView, {.countPairs = true});
     const std::vector<std::byte> ours = overlay(plainView, {});
     images_.normalRoughness.view = {}; // only depth is looked at
@@ -396,7 +382,7 @@ TEST_F(HostFunctions, WhatIsMissingOrForeignIsNamed)
     code.wordCount = 3;
     refused("is not SPIR-V", alone());
 
-    const auto [lighting, view] = create(options, 0);
+    const auto [lighting, view] = create(options);
     CndError error{};
     CndLightId id{};
     const CndLight tube = lightsOf(CND_LIGHT_TUBE, g_, 1, 1)[0];

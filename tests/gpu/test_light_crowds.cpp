@@ -15,9 +15,7 @@ constexpr VkDeviceSize megabyte = 1u << 20;
 
 CpuGBuffer surfaces(uint32_t width, uint32_t height)
 {
-    CndCamera camera;
-    setPerspective(camera, 1.0, double(width) / height, 0.1);
-    return randomGBuffer(width, height, camera, 0, 21);
+    return randomGBuffer(width, height, 21);
 }
 
 } // namespace

@@ -19,9 +19,7 @@ protected:
         LightingTest::SetUp();
         if (IsSkipped() || HasFatalFailure())
             return;
-        CndCamera camera;
-        setPerspective(camera, 1.0, 4.0 / 3, 0.1);
-        g_ = randomGBuffer(64, 48, camera, 0, 3);
+        g_ = randomGBuffer(64, 48, 3);
     }
     // Of every type, in layers 0 and 2.
     std::vector<CndLight> shown() const
@@ -62,10 +60,6 @@ TEST_F(LightLayers, LeaveTheSameBitsAsASetWithoutTheOthers)
         ASSERT_EQ(cndCreateLightingView(lighting, &viewDesc, &views[i], &error), CND_SUCCESS);
     }
     const Images images = uploadImages(g_);
-    const auto set = [&](const std::vector<CndLight>& lights) {
-        const CndLightSet s{sizeof s, uint32_t(lights.size()), lights.data(), {}, nullptr};
-        EXPECT_EQ(cndSetLights(lighting, &s, &error), CND_SUCCESS) << error.message;
-    };
     const auto frame = [&](CndLightingView view, CndCulling culling, uint32_t layers) {
         const CndLightingFrame f = frameOf(g_, images,
                                            {.specular = CND_SPECULAR_CONIC,
@@ -82,9 +76,9 @@ TEST_F(LightLayers, LeaveTheSameBitsAsASetWithoutTheOthers)
         return result;
     };
     const std::vector<CndLight> lights = shown(), all = withHidden(lights);
-    set(lights);
+    setLights(lighting, lights);
     const LightingResult expected = frame(views[0], CND_CULLING_CLUSTERED, 0);
-    set(all);
+    setLights(lighting, all);
     const LightingResult clustered = frame(views[0], CND_CULLING_CLUSTERED, 5);
     EXPECT_TRUE(sameBits(clustered, expected));
     EXPECT_EQ(clustered.stats.lightCount, all.size());
@@ -114,8 +108,7 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
     const auto [lighting, view] = createLighting(g_, 1);
     const Images images = uploadImages(g_);
     CndError error{};
-    const CndLightSet set{sizeof set, uint32_t(all.size()), all.data(), {}, nullptr};
-    ASSERT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
+    setLights(lighting, all);
     const auto frame = [&](uint32_t layers) {
         CndLightingFrame f = frameOf(g_, images, {.layers = layers});
         f.surfacesUnchanged = VK_TRUE; // lists are kept while layers stay

@@ -63,9 +63,7 @@ protected:
         LightingTest::SetUp();
         if (IsSkipped() || HasFatalFailure())
             return;
-        CndCamera camera;
-        setPerspective(camera, 1.0, 4.0 / 3, 0.1);
-        g_ = randomGBuffer(96, 72, camera, 0, 3);
+        g_ = randomGBuffer(96, 72, 3);
         images_ = uploadImages(g_);
         const CndDeviceDesc host = interpose(deviceDesc());
         CndError error{};

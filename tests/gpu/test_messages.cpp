@@ -9,9 +9,7 @@ namespace candelabra::test
 
 TEST_F(LightingTest, ListsWithoutRoomAndRejectedLightsAreToldOnce)
 {
-    CndCamera camera;
-    setPerspective(camera, 1.0, 1.5, 0.1);
-    const CpuGBuffer g = randomGBuffer(48, 32, camera, 0, 12);
+    const CpuGBuffer g = randomGBuffer(48, 32, 12);
     const std::vector<CndLight> lights = randomSpheres(g, 200, 12);
     const gpu::Buffer particles = upload("particles", std::vector<CndDeviceLight>(3)); // no radius
     const CndDeviceLights device{

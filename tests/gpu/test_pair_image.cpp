@@ -9,9 +9,7 @@ namespace candelabra::test
 
 TEST_F(LightingTest, PairImageSumsToTheStatistics)
 {
-    CndCamera camera;
-    setPerspective(camera, 1.0, 1.5, 0.1);
-    const CpuGBuffer g = randomGBuffer(120, 80, camera, 0, 8);
+    const CpuGBuffer g = randomGBuffer(120, 80, 8);
     std::vector<CndLight> lights = randomSpheres(g, 400, 5);
     for (size_t i = 0; i < lights.size(); i += 3)
         lights[i].type = CND_LIGHT_POINT; // two types are added up

@@ -40,9 +40,7 @@ void expectPlanOfWhatRan(const CndLightingStats& stats)
 
 CpuGBuffer surfaces(uint32_t seed)
 {
-    CndCamera camera;
-    setPerspective(camera, 1.0, 1.5, 0.1);
-    return randomGBuffer(120, 80, camera, 0, seed);
+    return randomGBuffer(120, 80, seed);
 }
 
 } // namespace
