@@ -6,7 +6,7 @@
 
 #include "candelabra/compiler.hpp"
 #include "gpu/environment_harness.h"
-#include "gpu/kernel.h"
+#include "gpu/host_surface.h"
 
 namespace candelabra::test
 {
@@ -33,17 +33,6 @@ float candelabraVisibility(ShadowQuery q)
     const bool right = q.type == s.type && distance(centre, s.centre) < 1e-3 &&
                        abs(length(q.normal) - 1.0) < 1e-3;
     return right ? s.visible : 7.0;
-}
-)";
-
-constexpr const char* surfaceSource = R"(
-layout(set = 1, binding = 0) uniform utexture2D hostNormals;
-layout(set = 1, binding = 1) uniform texture2D hostAlbedo;
-layout(set = 1, binding = 2) uniform texture2D hostSpecular;
-Surface candelabraReadSurface(ivec2 pixel)
-{
-    return unpackGBufferFull(texelFetch(hostNormals, pixel, 0).xy, texelFetch(hostAlbedo, pixel, 0),
-                             texelFetch(hostSpecular, pixel, 0));
 }
 )";
 
@@ -264,13 +253,8 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
                                               .lightTypes = 1u << CND_LIGHT_SPHERE,
                                               .specularMethods = 1u << RunOptions{}.specular});
     images_ = uploadImages(g_);
-    constexpr VkDescriptorType image = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     const Images read = uploadImages(g_);
-    gpu::Bindings host(device(), "host G-buffer", {{0, image, 1}, {1, image, 1}, {2, image, 1}},
-                       VK_SHADER_STAGE_COMPUTE_BIT, 1);
-    host.write(0, {gpu::Binding::sampled(0, read.normalRoughness.view.get()),
-                   gpu::Binding::sampled(1, read.albedo.view.get()),
-                   gpu::Binding::sampled(2, read.specular.view.get())});
+    const gpu::Bindings host = surfaceSet(device(), read);
     RunOptions options{.layout = CND_GBUFFER_CUSTOM,
                        .hostKernels = kernels.hostKernels(host.layout()),
                        .hostSet = host.set(0)};

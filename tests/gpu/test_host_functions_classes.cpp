@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Classes of materials in kernels with functions of a host: a surface that it reads itself, and a
 // shadow term.
+#include <string>
+
 #include "candelabra/compiler.hpp"
-#include "gpu/kernel.h"
+#include "gpu/host_surface.h"
 #include "gpu/pixel_difference.h"
 #include "gpu/three_classes.h"
 
@@ -11,15 +13,7 @@ namespace candelabra::test
 namespace
 {
 
-constexpr const char* source = R"(
-layout(set = 1, binding = 0) uniform utexture2D hostNormals;
-layout(set = 1, binding = 1) uniform texture2D hostAlbedo;
-layout(set = 1, binding = 2) uniform texture2D hostSpecular;
-Surface candelabraReadSurface(ivec2 pixel)
-{
-    return unpackGBufferFull(texelFetch(hostNormals, pixel, 0).xy, texelFetch(hostAlbedo, pixel, 0),
-                             texelFetch(hostSpecular, pixel, 0));
-}
+constexpr const char* shadowSource = R"(
 float candelabraVisibility(ShadowQuery q)
 {
     return q.light % 2u == 0u ? 1.0 : 0.25;
@@ -30,22 +24,17 @@ float candelabraVisibility(ShadowQuery q)
 
 TEST_F(LightingTest, ClassesOfSurfacesThatTheHostReadsLookTheSame)
 {
+    const std::string source = std::string(surfaceSource) + shadowSource;
     auto kernels = CompiledKernels::create(
         {.functions = CND_HOST_VISIBILITY_BIT | CND_HOST_READ_SURFACE_BIT,
-         .source = source,
+         .source = source.c_str(),
          .lightTypes = 1u << CND_LIGHT_SPHERE,
          .specularMethods = 1u << RunOptions{}.specular | 1u << CND_SPECULAR_NONE});
     ASSERT_TRUE(kernels) << kernels.error().message;
     const CpuGBuffer g = threeClasses(72, 48);
     const std::vector<CndLight> lights = randomSpheres(g, 40, 7);
     const Images read = uploadImages(g);
-    constexpr VkDescriptorType image = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-    const gpu::Bindings host(device(), "host G-buffer",
-                             {{0, image, 1}, {1, image, 1}, {2, image, 1}},
-                             VK_SHADER_STAGE_COMPUTE_BIT, 1);
-    host.write(0, {gpu::Binding::sampled(0, read.normalRoughness.view.get()),
-                   gpu::Binding::sampled(1, read.albedo.view.get()),
-                   gpu::Binding::sampled(2, read.specular.view.get())});
+    const gpu::Bindings host = surfaceSet(device(), read);
     RunOptions options{.layout = CND_GBUFFER_CUSTOM,
                        .hostKernels = kernels.value().hostKernels(host.layout()),
                        .hostSet = host.set(0)};
