@@ -57,6 +57,12 @@ void* operator new(size_t size)
     throw std::bad_alloc();
 }
 
+// Those who ask for this can do without (std::stable_sort): neither counted nor refused.
+void* operator new(size_t size, const std::nothrow_t&) noexcept
+{
+    return std::malloc(size ? size : 1);
+}
+
 void operator delete(void* memory) noexcept
 {
     std::free(memory);

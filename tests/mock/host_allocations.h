@@ -7,8 +7,8 @@
 namespace candelabra::test
 {
 
-// Counts calls of operator new of this thread, from the construction to the destruction, but for
-// those while a Pause lives.
+// Counts calls of operator new that may throw, of this thread, from the construction to the
+// destruction, but for those while a Pause lives.
 class HostAllocations
 {
 public:
