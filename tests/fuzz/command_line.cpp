@@ -18,6 +18,7 @@ Seeds fuzzSeeds()
             "truth\nscene.json\n-o\nt.exr\n--shard\n1/3",
             "bench\naccuracy\n--groups\n20\n--seed\n4",
             "bench\nskip\n--rounds\n3",
+            "render\nhall\n--influence-error\n0.5/255\n--pick\n4,5",
             "devices\n--json",
             "report\n--parts\nprofile,skip\n--out\nr",
             "completions\nbash",

@@ -90,13 +90,15 @@ std::vector<ComparedRow> rowsOf(const std::vector<ProfiledRun>& a,
     std::vector<ComparedRow> rows;
     for (const auto* side : {&a, &b})
         for (const ProfiledRun& run : *side)
-            for (const auto& [name, ms] : run.medianMs)
+            for (const auto& entry : run.medianMs) {
+                const std::string& name = entry.first; // clang 14 captures no binding
                 if (std::none_of(rows.begin(), rows.end(),
                                  [&](const ComparedRow& r) { return r.name == name; }))
                     rows.push_back({.name = name,
                                     .times = {mediansOf(a, name), mediansOf(b, name)},
                                     .ratio = {},
                                     .verdict = ""});
+            }
     std::vector<RunQuantity> comparable;
     for (const ComparedRow& row : rows)
         if (allPositive(row.times.a) && allPositive(row.times.b))
