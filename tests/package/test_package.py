@@ -140,6 +140,9 @@ def pkg_config():
     run(work / "pc_static")
     shaders = run("pkg-config", "--variable=shaderdir", "candelabra", **where).strip()
     require((pathlib.Path(shaders) / "lib/gbuffer.glsl").exists(), f"no shaders in {shaders}")
+    flags = run("pkg-config", "--cflags", "--libs", "candelabra_compiler", **where).split()
+    run("cc", main.with_name("compile.c"), "-o", work / "pc_compiler", *flags)
+    run(work / "pc_compiler", LD_LIBRARY_PATH=str(libdir()))
 
 
 def program():
