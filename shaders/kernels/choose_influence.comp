@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The highest cut at which no sample's display changes by more than the error. The window takes from
-// lights that are not cut, too: (1 - 2^-k)^2 of a light k half octaves above the cut is left.
+// lights that are not cut, too: of a light 1 / x times as bright as the cut, (1 - x^2)^2 is left.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -47,16 +47,17 @@ void main()
     const vec3 all = imageLoad(radianceImage, ivec2(pixel)).rgb +
                      sums[firstSlot + INFLUENCE_DISTANT] + placed;
     const vec3 uncut = shown(all);
-    // Of the bins from the cut up, the sums over k of 2^-k and of 4^-k times theirs.
-    vec3 halved = vec3(0.0), quartered = vec3(0.0);
+    // Of the bins from the cut up, the sums of x^2 and of x^4 times theirs.
+    vec3 squares = vec3(0.0), fourths = vec3(0.0);
     vec3 below = placed; // the cut
     uint allowed = INFLUENCE_BINS - 1u;
     for (uint cut = INFLUENCE_BINS - 1u; cut > 0u; --cut) {
         const vec3 bin = sums[firstSlot + cut];
-        halved = bin + 0.5 * halved;
-        quartered = bin + 0.25 * quartered;
+        const float x2 = cut < INFLUENCE_COARSE_BINS ? 1.0 / 16.0 : 0.5; // between two cuts
+        squares = bin + x2 * squares;
+        fourths = bin + x2 * x2 * fourths;
         below = max(below - bin, 0.0);
-        const vec3 removed = below + 2.0 * halved - quartered;
+        const vec3 removed = below + 2.0 * squares - fourths;
         const vec3 change = abs(uncut - shown(max(all - removed, 0.0)));
         if (max(change.x, max(change.y, change.z)) > data.frame.maxError)
             allowed = cut - 1u;

@@ -65,14 +65,16 @@ float peakIntensity(uint type, vec3 emission, float reach, vec4 aux0, vec4 aux1)
 // The bin of a light whose exposed illuminance this is.
 uint influenceBin(float exposedIlluminance)
 {
-    const float bin = 2.0 * (log2(max(exposedIlluminance, 1e-30)) - INFLUENCE_LOWEST);
+    const float octaves = log2(max(exposedIlluminance, 1e-30)) - INFLUENCE_FINEST;
+    const float bin = float(INFLUENCE_COARSE_BINS) + (octaves < 0.0 ? 0.5 : 2.0) * octaves;
     return uint(clamp(bin, 0.0, float(INFLUENCE_BINS - 1u)));
 }
 
 // Exposed illuminance that cut b > 0 cuts at.
 float influenceThreshold(uint cut)
 {
-    return exp2(0.5 * float(cut) + INFLUENCE_LOWEST);
+    const float bins = float(cut) - float(INFLUENCE_COARSE_BINS);
+    return exp2((bins < 0.0 ? 2.0 : 0.5) * bins + INFLUENCE_FINEST);
 }
 
 #endif

@@ -9,11 +9,13 @@
 GPU_BEGIN
 
 // One illuminance is cut at for all lights of a frame: a light of peak intensity I reaches as far
-// as I / d^2 is above it. Candidates are half octaves of exposed illuminance (illuminance times
-// exposure): bin b begins at 2^(b / 2 + INFLUENCE_LOWEST). Cut b leaves out bins 0 .. b - 1; cut 0
-// leaves out nothing.
+// as I / d^2 is above it. Candidates begin at the lower ends of bins of exposed illuminance
+// (illuminance times exposure): half octaves from 2^INFLUENCE_FINEST, and a few bins of two octaves
+// below, where only lights end that nobody sees. Cut b leaves out bins 0 .. b - 1; cut 0 leaves out
+// nothing.
 const uint INFLUENCE_BINS = 40u;
-const float INFLUENCE_LOWEST = -24.0f;
+const uint INFLUENCE_COARSE_BINS = 6u;
+const float INFLUENCE_FINEST = -22.0f;
 // What a sample keeps: the luminance of the lights of each bin, and that of distant lights.
 const uint INFLUENCE_DISTANT = 40u;
 const uint INFLUENCE_SLOTS = 41u;

@@ -116,7 +116,8 @@ TEST_F(InfluenceTest, HistoriesOfHugeImagesBeginWithAPart)
         .rule = CND_INFLUENCE_BY_ERROR, .maxError = 1.0f / 255, .exposure = 0.01f};
     const float unseen = draw(influence).cutBelow;
     EXPECT_FLOAT_EQ(unseen * influence.exposure,
-                    std::exp2(0.5f * (gpu::INFLUENCE_BINS - 1) + gpu::INFLUENCE_LOWEST));
+                    std::exp2(0.5f * (gpu::INFLUENCE_BINS - 1 - gpu::INFLUENCE_COARSE_BINS) +
+                              gpu::INFLUENCE_FINEST));
     EXPECT_LT(draw(influence).cutBelow, unseen);
     EXPECT_GT(glm::length(glm::dvec3(readRadiance(images_)[huge.width])), 0);
 }
