@@ -49,6 +49,32 @@ TEST_F(InfluenceTest, ScenesStayWithinTheError)
     }
 }
 
+// Where lamps add little to what there is, lists are short.
+TEST_F(InfluenceTest, LampsByDayEndWhereTheDisplayDoesNotTell)
+{
+    using namespace app;
+    const Scene scene = loadScene(CANDELABRA_TEST_DATA "/noon.json", {.lights = 1000});
+    Renderer renderer(context(), scene,
+                      {.size = {64, 36},
+                       .framesInFlight = 1,
+                       .specularMethods = 1u << CND_SPECULAR_CONIC,
+                       .influenceByError = true});
+    FrameOptions options{.camera = selectCamera(scene, ""),
+                         .influence = {.rule = CND_INFLUENCE_BY_ERROR, .maxError = 2.0f / 255}};
+    cndDefaultExposureSettings(&options.exposure);
+    const auto entries = [&](CndInfluenceRule rule) {
+        options.influence.rule = rule;
+        for (int i = 0; i < 2; ++i)
+            context().submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
+        return renderer.stats(0).lighting.listEntries;
+    };
+    const uint32_t all = entries(CND_INFLUENCE_UNCUT);
+    EXPECT_LT(entries(CND_INFLUENCE_BY_ERROR), all / 3);
+    const InfluenceCheck check =
+        checkInfluence(context(), renderer, options, renderer.stats(0), scene.lights.size());
+    EXPECT_LE(check.largest, check.bound) << influenceText(check);
+}
+
 // Every type, under both projections.
 TEST_F(InfluenceTest, EveryTypeStaysWithinTheError)
 {
