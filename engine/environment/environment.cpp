@@ -265,8 +265,9 @@ void Environment::validate(const CndEnvironmentFrame& frame) const
                               std::to_string(frame.height) + " is outside 1x1..16384x16384");
     if (frame.clearDepth != 0 && frame.clearDepth != 1)
         gpu::failArgument("CndEnvironmentFrame: clearDepth must be 0 or 1");
-    if (!gbuffer_.hasImages(frame) || !frame.radiance)
-        gpu::failArgument("CndEnvironmentFrame: a G-buffer or radiance view is null");
+    gbuffer_.requireImages("CndEnvironmentFrame", frame);
+    if (!frame.radiance)
+        gpu::failArgument("CndEnvironmentFrame: radiance is null");
     if (!(frame.scale >= 0 && std::isfinite(frame.scale)))
         gpu::failArgument("CndEnvironmentFrame: scale must be finite and >= 0");
     if (frame.lobes != CND_LOBES_CONSERVING && frame.lobes != CND_LOBES_SUM)

@@ -3,6 +3,9 @@
 // lib/read_gbuffer.glsl get.
 #pragma once
 
+#include <string>
+
+#include "gpu/failure.h"
 #include "gpu/kernel.h"
 #include "shared/host_gbuffer.h"
 
@@ -41,12 +44,22 @@ public:
     uint32_t code() const { return code_; }
     float dielectricF0() const { return dielectricF0_; }
 
-    // Frames of both modules that shade surfaces have the same members for them.
+    // Throws gpu::Failure where a view that is read is null. Frames of both modules that shade
+    // surfaces have the same members for them.
     template <typename Frame>
-    bool hasImages(const Frame& f) const
+    void requireImages(const char* frameName, const Frame& f) const
     {
-        return f.depth &&
-               (isCustom() || (f.normalRoughness && f.albedo && (f.specular || !readsSpecular_)));
+        const auto require = [&](const char* name, VkImageView view) {
+            if (!view)
+                gpu::failArgument(std::string(frameName) + ": " + name + " is null");
+        };
+        require("depth", f.depth);
+        if (isCustom())
+            return;
+        require("normalRoughness", f.normalRoughness);
+        require("albedo", f.albedo);
+        if (readsSpecular_)
+            require("specular", f.specular);
     }
     template <typename Frame>
     GBufferViews views(const Frame& f, const GBufferParams& params) const;

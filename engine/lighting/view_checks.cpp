@@ -30,8 +30,7 @@ void View::validateSurfaces(const CndLightingFrame& frame) const
                           std::to_string(desc_.maxWidth) + "x" + std::to_string(desc_.maxHeight));
     if (frame.clearDepth != 0 && frame.clearDepth != 1)
         gpu::failArgument("CndLightingFrame: clearDepth must be 0 or 1");
-    if (!lighting_.gbuffer().hasImages(frame))
-        gpu::failArgument("CndLightingFrame: a G-buffer view is null");
+    lighting_.gbuffer().requireImages("CndLightingFrame", frame);
     lighting_.hostKernels().requireSet("CndLightingFrame", frame.hostSet);
     checkCamera(frame.camera);
 }

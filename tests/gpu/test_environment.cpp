@@ -313,6 +313,10 @@ TEST_F(EnvironmentTest, RefusesInOneSentence)
     EXPECT_EQ(record([](CndEnvironmentFrame& f) { f.frameSlot = 2; }), CND_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(record([](CndEnvironmentFrame& f) { f.depth = VK_NULL_HANDLE; }),
               CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(error.message, "CndEnvironmentFrame: depth is null");
+    EXPECT_EQ(record([](CndEnvironmentFrame& f) { f.radiance = VK_NULL_HANDLE; }),
+              CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(error.message, "CndEnvironmentFrame: radiance is null");
     EXPECT_EQ(record([](CndEnvironmentFrame& f) { f.width = 0; }), CND_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(record([](CndEnvironmentFrame&) {}), CND_SUCCESS) << error.message;
 }

@@ -164,9 +164,19 @@ TEST(HostGBuffer, FramesNeedTheImagesThatAreRead)
         const auto overlay = view.value().recordOverlay(cmd, frame, {.image = any});
         EXPECT_EQ(bool(overlay), !readsSpecular) << overlay.error().message;
         EXPECT_STREQ(overlay.error().message,
-                     readsSpecular ? "CndLightingFrame: a G-buffer view is null" : "");
+                     readsSpecular ? "CndLightingFrame: specular is null" : "");
         frame.specular = any;
         EXPECT_TRUE(view.value().recordOverlay(cmd, frame, {.image = any}));
+        for (const auto& [member, name] :
+             {std::pair{&CndLightingFrame::normalRoughness, "normalRoughness"},
+              {&CndLightingFrame::albedo, "albedo"},
+              {&CndLightingFrame::depth, "depth"}}) {
+            CndLightingFrame without = frame;
+            without.*member = VK_NULL_HANDLE;
+            const auto refused = view.value().recordOverlay(cmd, without, {.image = any});
+            EXPECT_EQ(refused.error().message,
+                      "CndLightingFrame: " + std::string(name) + " is null");
+        }
         const auto nothing = view.value().recordOverlay(cmd, frame, {});
         EXPECT_STREQ(nothing.error().message, "CndSurfaceOverlay: image is null");
         const auto unknown = view.value().recordOverlay(
