@@ -13,13 +13,13 @@ namespace candelabra::test
 Seeds fuzzSeeds()
 {
     const std::string run =
-        R"({"schema": "candelabra profile 1",
+        R"({"schema": "candelabra profile 2",
             "provenance": {"device": "d", "driver": "e", "commit": "c"},
             "scene": {"name": "hall"}, "image": {"widthPixels": 64}, "path": "still",
             "variants": [{"settings": {"specular": "conic"}, "time": {
-                "passes": [{"name": "shade_tiles", "medianMs": 12.5}],
-                "gpu": {"medianMs": 14}, "record": {"medianMs": 0.5}, "frame": {"medianMs": 20},
-                "setLights": {"medianMs": 0.1}}}]})";
+                "passes": [{"name": "shade_tiles", "p10Ms": 12, "medianMs": 12.5}],
+                "gpu": {"p10Ms": 13, "medianMs": 14}, "record": {"p10Ms": 0.4, "medianMs": 0.5},
+                "frame": {"p10Ms": 19, "medianMs": 20}, "upload": {"p10Ms": 0.1, "medianMs": 0.1}}}]})";
     return {run, "[" + run + ", " + run + "]"};
 }
 
@@ -30,8 +30,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     using namespace candelabra;
     try {
         for (const app::ProfiledRun& run : app::readRuns(test::fuzzFile(data, size, ".json")))
-            for (const auto& [name, ms] : run.medianMs)
-                test::require(std::isfinite(ms) && ms >= 0, "time of " + name);
+            for (const app::ProfiledTime& time : run.times)
+                for (const double ms : {time.p10Ms, time.medianMs})
+                    test::require(std::isfinite(ms) && ms >= 0, "time of " + time.name);
     } catch (const app::SceneError&) {
     } catch (const app::UsageError&) {
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra compare: on files as candelabra profile writes them. Nothing here reaches Vulkan.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -32,7 +33,9 @@ protected:
     }
     json run(double shadingMs)
     {
-        const auto noisy = [&](double ms) { return json{{"medianMs", ms * noise_(random_)}}; };
+        const auto noisy = [&](double ms) {
+            return json{{"p10Ms", ms * noise_(random_)}, {"medianMs", ms * loud_(random_)}};
+        };
         const auto pass = [&](const char* name, double ms) {
             json out = noisy(ms);
             out["name"] = name;
@@ -42,7 +45,7 @@ protected:
                         {"gpu", noisy(10 + shadingMs)},
                         {"record", noisy(1)},
                         {"frame", noisy(15 + shadingMs)}};
-        return {{"schema", "candelabra profile 1"},
+        return {{"schema", "candelabra profile 2"},
                 {"provenance", {{"device", "d"}, {"driver", "1"}, {"commit", "c"}}},
                 {"scene", {{"name", "hall"}}},
                 {"image", {{"widthPixels", 1}}},
@@ -65,7 +68,7 @@ protected:
     }
 
     std::mt19937 random_{3};
-    std::lognormal_distribution<double> noise_{0, 0.005};
+    std::lognormal_distribution<double> noise_{0, 0.005}, loud_{0, 0.5};
     const std::filesystem::path dir_ =
         std::filesystem::temp_directory_path() / ("candelabra_compare_" + std::to_string(getpid()));
 };
@@ -80,6 +83,7 @@ TEST_F(CompareCommand, SaysWhatIsSlowerAndEndsWithThree)
     const json out = json::parse(outcome.out);
     EXPECT_EQ(candelabra::test::JsonSchema("compare.schema.json").fault(out), "");
     EXPECT_EQ(out["slower"], true);
+    EXPECT_EQ(out["statistic"], "p10");
     EXPECT_EQ(out["a"]["runs"], 5);
     ASSERT_EQ(out["rows"].size(), 5u);
     EXPECT_EQ(out["rows"][0]["verdict"], "cannot tell");
@@ -92,6 +96,28 @@ TEST_F(CompareCommand, SaysWhatIsSlowerAndEndsWithThree)
     EXPECT_EQ(back.exitCode, exitOk);
     EXPECT_NE(back.out.find("faster"), std::string::npos) << back.out;
     EXPECT_EQ(compare({a, b, "--tolerance", "10"}).exitCode, exitOk);
+}
+
+// The decile of a path is that of its cheapest frames.
+TEST_F(CompareCommand, MediansAreComparedAlongAPath)
+{
+    json a = runs(5, 50), b = runs(5, 52.5);
+    for (json* side : {&a, &b})
+        for (json& one : *side)
+            one["path"] = "turn";
+    const std::string fileA = write("a.json", a), fileB = write("b.json", b);
+    const ProgramOutcome outcome = compare({fileA, fileB, "--json", "-"});
+    EXPECT_EQ(outcome.exitCode, exitOk) << outcome.err;
+    const json out = json::parse(outcome.out);
+    EXPECT_EQ(out["statistic"], "median");
+    std::vector<double> medians;
+    for (const json& one : a)
+        medians.push_back(one["variants"][0]["time"]["passes"][1]["medianMs"]);
+    std::sort(medians.begin(), medians.end());
+    EXPECT_EQ(out["rows"][1]["aMs"], medians[2]);
+
+    const std::string still = write("c.json", runs(5, 50));
+    EXPECT_NE(compare({fileA, still, "--force"}).out.find("median of"), std::string::npos);
 }
 
 TEST_F(CompareCommand, RunsMayLieInManyFilesAndInPairs)
@@ -112,7 +138,8 @@ TEST_F(CompareCommand, PassesOfOneSideAreNamed)
 {
     json b = runs(5, 50);
     for (json& one : b)
-        one["variants"][0]["time"]["passes"].push_back({{"name", "extra"}, {"medianMs", 2}});
+        one["variants"][0]["time"]["passes"].push_back(
+            {{"name", "extra"}, {"p10Ms", 1}, {"medianMs", 2}});
     const ProgramOutcome outcome = compare({write("a.json", runs(5, 50)), write("b.json", b)});
     EXPECT_EQ(outcome.exitCode, exitOk) << outcome.err;
     EXPECT_NE(outcome.out.find("not in all of A"), std::string::npos) << outcome.out;
@@ -141,7 +168,7 @@ TEST_F(CompareCommand, RefusesWhatIsNotComparable)
     refused(other, "has commit c,", true);
     other = run(50);
     other["schema"] = "candelabra profile 99";
-    refused(other, "b.json: schema: must be \"candelabra profile 1\"");
+    refused(other, "b.json: schema: must be \"candelabra profile 2\"");
     other = run(50);
     other["variants"].push_back(other["variants"][0]);
     refused(other, "what --ab compared");

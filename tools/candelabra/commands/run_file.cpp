@@ -25,6 +25,7 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
         out.conditions.emplace_back(key, from.member(key).string());
     for (const char* key : {"scene", "image", "path"})
         out.conditions.emplace_back(key, json.member(key).json().dump());
+    out.still = json.member("path").json() == "still";
     const JsonValue variants = json.member("variants");
     variants.requireArray();
     if (variants.size() != 1)
@@ -34,13 +35,17 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
                    {"settings", variant.member("settings").json().dump()}};
     const JsonValue time = variant.member("time"), passes = time.member("passes");
     passes.requireArray();
-    const auto median = [](const JsonValue& row) { return row.member("medianMs").number({0}); };
+    const auto timeOf = [](std::string name, const JsonValue& row) {
+        return ProfiledTime{.name = std::move(name),
+                            .p10Ms = row.member("p10Ms").number({0}),
+                            .medianMs = row.member("medianMs").number({0})};
+    };
     for (size_t i = 0; i < passes.size(); ++i)
-        out.medianMs.emplace_back(passes.item(i).member("name").string(), median(passes.item(i)));
+        out.times.push_back(timeOf(passes.item(i).member("name").string(), passes.item(i)));
     for (const WholeTime& whole : wholeTimes)
         if (const auto row = time.find(whole.key))
-            if (const double ms = median(*row); ms > 0)
-                out.medianMs.emplace_back(whole.name, ms);
+            if (ProfiledTime t = timeOf(whole.name, *row); t.medianMs > 0)
+                out.times.push_back(std::move(t));
     return out;
 }
 

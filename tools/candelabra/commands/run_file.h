@@ -11,14 +11,21 @@
 namespace candelabra::app
 {
 
-constexpr const char* profileSchema = "candelabra profile 1";
+constexpr const char* profileSchema = "candelabra profile 2";
+
+// Of a pass, or of a whole time by its key, over the frames of a run.
+struct ProfiledTime {
+    std::string name;
+    double p10Ms = 0, medianMs = 0;
+};
 
 struct ProfiledRun {
     std::string where; // "a.json", or "a.json: [2]"
     // What has to be alike for times to be comparable, and what runs of one side share besides;
     // names with values.
     std::vector<std::pair<std::string, std::string>> conditions, version;
-    std::vector<std::pair<std::string, double>> medianMs; // of passes, then of wholeTimes by key
+    bool still = false;              // every frame draws the same
+    std::vector<ProfiledTime> times; // of passes, then of wholeTimes
 };
 
 // All runs in a file, in order. Throws SceneError for a file that is none of that command, and for
