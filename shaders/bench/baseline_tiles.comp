@@ -16,7 +16,7 @@ layout(push_constant, scalar) uniform Push
 };
 layout(binding = BASELINE_TILES_DEPTH) uniform texture2D depthImage;
 layout(binding = BASELINE_TILES_SPHERES) uniform textureBuffer spheres;
-layout(scalar, binding = BASELINE_TILES_HEADS) writeonly buffer Heads
+layout(scalar, binding = BASELINE_TILES_HEADS) buffer Heads
 {
     uint heads[];
 };
@@ -70,10 +70,11 @@ void main()
     const vec2 top = side(m.m11, m.m21, low.y, m.m23, 1.0);
     const vec2 bottom = side(m.m11, m.m21, high.y, m.m23, -1.0);
 
-    uint head = 0u, page = 0u, inPage = PAGE_LIGHTS, total = 0u;
-    const uint lights = empty ? 0u : params.lightCount;
-    for (uint begin = 0u; begin < lights; begin += 32u) {
-        const uint count = min(32u, lights - begin);
+    const uint before = params.firstLight == 0u ? 0u : heads[tile];
+    uint head = before, page = 0u, inPage = PAGE_LIGHTS, total = 0u;
+    const uint endLight = empty ? 0u : params.endLight;
+    for (uint begin = params.firstLight; begin < endLight; begin += 32u) {
+        const uint count = min(32u, endLight - begin);
         uint passed = 0u;
         for (uint k = 0u; k < count; ++k) {
             const vec4 s = texelFetch(spheres, int(begin + k));
@@ -103,7 +104,7 @@ void main()
         }
     }
     if (page != 0u)
-        entries[page] = inPage;
+        entries[page] = before / PAGE_WORDS << PAGE_COUNT_BITS | inPage;
     heads[tile] = head;
     atomicAdd(counters.listEntries, total);
 }

@@ -27,7 +27,8 @@ struct BaselineCounters {
 GPU_SIZE(BaselineCounters, 44)
 
 // --- baseline_tiles: 16x16 pixel tiles between their lowest and highest depth (Lauritzen 2010);
-// one lane per tile tests every light. A list is a chain of pages as in shared/clusters.h.
+// one lane per tile tests every light. A list is a chain of pages as in shared/clusters.h. Where
+// loops have a limit, lights come in batches: pages of the later ones lie in front.
 const uint BASELINE_TILE_SIZE = 16u; // pixels
 const uint BASELINE_TILES_DEPTH = 0u;
 const uint BASELINE_TILES_SPHERES = 1u;
@@ -39,12 +40,12 @@ struct BaselineTilesParams {
     Projection projection;
     uvec2 size;
     uint tileCountX, tileCount;
-    uint lightCount;
-    uint entryCapacity; // words
+    uint firstLight, endLight; // of the batch
+    uint entryCapacity;        // words
     float clearDepth;
     vec2 invImageSize;
 };
-GPU_SIZE(BaselineTilesParams, 92)
+GPU_SIZE(BaselineTilesParams, 96)
 
 // --- baseline_froxels, baseline_scan: 64x64 pixel tiles in slices whose depth grows exponentially,
 // between the nearest and farthest surface (Persson 2013); a lane per light counts itself in the

@@ -55,6 +55,36 @@ TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
     EXPECT_NE(cullingTables(points).find("200x120"), std::string::npos);
 }
 
+// More than a loop may test on llvmpipe.
+TEST_F(BenchCulling, EveryWayFindsAllOfManyLights)
+{
+    const CullingSettings settings{.scenes = {"hall"},
+                                   .sizes = {{96, 64}},
+                                   .lights = {70000},
+                                   .overlaps = {8},
+                                   .rounds = 1,
+                                   .bruteLimit = 0};
+    Progress progress(1, false);
+    const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
+    ASSERT_EQ(points.size(), 1u);
+    EXPECT_TRUE(cullingFailures(points).empty());
+    const Contender& engine = points[0].of(engineName);
+    for (const char* name : {tilesName, froxelsName}) {
+        const Contender& c = points[0].of(name);
+        EXPECT_LE(c.difference.value_or(1), 1e-6) << name;
+        EXPECT_EQ(c.contributingPairs, engine.contributingPairs) << name;
+    }
+
+    // What draws another image is no rival.
+    CullingPoint point = points[0];
+    const std::string best = point.bestBaseline().name;
+    for (Contender& c : point.contenders)
+        if (c.name == best)
+            c.difference = 0.1;
+    EXPECT_NE(point.bestBaseline().name, best);
+    EXPECT_EQ(cullingFailures({point}).size(), 1u);
+}
+
 TEST_F(BenchCulling, BruteForceOverTheLimitIsListedWithItsEstimate)
 {
     const CullingSettings settings{.scenes = {"fence"},

@@ -345,18 +345,27 @@ void Baselines::recordLights(const gpu::Frame& f) const
 void Baselines::recordTiles(const gpu::Frame& f) const
 {
     const glm::uvec2 count = lists_[0].grid.as<gpu::BaselineGrid>()[0].count;
-    const gpu::BaselineTilesParams params{
-        .projection = projection_,
-        .size = {frame_.width, frame_.height},
-        .tileCountX = count.x,
-        .tileCount = count.x * count.y,
-        .lightCount = lightCount_,
-        .entryCapacity = uint32_t(lists_[0].entries.size / sizeof(uint32_t)),
-        .clearDepth = frame_.clearDepth,
-        .invImageSize = 1.0f / glm::vec2(frame_.width, frame_.height)};
-    kernels_.tiles.dispatch(f, sets_.tiles.set(0), params,
-                            divideUp(params.tileCount, gpu::BASELINE_GROUP));
-    f.barrier();
+    gpu::BaselineTilesParams params{.projection = projection_,
+                                    .size = {frame_.width, frame_.height},
+                                    .tileCountX = count.x,
+                                    .tileCount = count.x * count.y,
+                                    .firstLight = 0,
+                                    .endLight = 0,
+                                    .entryCapacity =
+                                        uint32_t(lists_[0].entries.size / sizeof(uint32_t)),
+                                    .clearDepth = frame_.clearDepth,
+                                    .invImageSize = 1.0f / glm::vec2(frame_.width, frame_.height)};
+    // A light takes at most an iteration to test, one to write, and a share of the loop over 32.
+    constexpr uint32_t pixelIterations = 1024;
+    const uint32_t limit = context_.device().maxLoopIterations;
+    const uint32_t batch = limit == UINT32_MAX ? lightCount_ : (limit - pixelIterations) / 66 * 32;
+    for (uint32_t first = 0; first < lightCount_; first = params.endLight) {
+        params.firstLight = first;
+        params.endLight = first + std::min(batch, lightCount_ - first);
+        kernels_.tiles.dispatch(f, sets_.tiles.set(0), params,
+                                divideUp(params.tileCount, gpu::BASELINE_GROUP));
+        f.barrier();
+    }
 }
 
 void Baselines::recordFroxels(const gpu::Frame& f) const

@@ -246,7 +246,8 @@ const Contender& CullingPoint::bestBaseline() const
     const Contender* best = &of(tilesName);
     for (const char* name : {froxelsName, bruteName}) {
         const Contender& c = of(name);
-        if (!c.skippedMs && c.totalMs() < best->totalMs())
+        if (!c.skippedMs && c.hasRightImage() &&
+            (!best->hasRightImage() || c.totalMs() < best->totalMs()))
             best = &c;
     }
     return *best;

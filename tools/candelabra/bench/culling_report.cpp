@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "bench/culling.h"
-#include "commands/brute_check.h"
 #include "io/svg_plot.h"
 #include "io/table.h"
 
@@ -183,9 +182,9 @@ Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint
                         {"contributingOverListedToTiles", r.listedGain},
                         {"contenders", contenders}});
     }
-    return {{"rounds", settings.rounds},  {"seed", settings.seed},
-            {"specular", "conic"},        {"bruteLimitSeconds", settings.bruteLimit},
-            {"bound", BruteCheck::bound}, {"points", list}};
+    return {{"rounds", settings.rounds}, {"seed", settings.seed},
+            {"specular", "conic"},       {"bruteLimitSeconds", settings.bruteLimit},
+            {"bound", Contender::bound}, {"points", list}};
 }
 
 std::vector<CullingPlot> cullingPlots(const std::vector<CullingPoint>& points,
@@ -222,7 +221,7 @@ std::vector<std::string> cullingFailures(const std::vector<CullingPoint>& points
     std::vector<std::string> out;
     for (const CullingPoint& p : points)
         for (const Contender& c : p.contenders)
-            if (c.difference && !(*c.difference <= BruteCheck::bound))
+            if (!c.hasRightImage())
                 out.push_back(fmt::format(
                     "{}, {}: {} and candelabra differ by {:.1e} of the largest radiance",
                     titleOf(p), counted(p.lights, "light"), c.name, *c.difference));

@@ -110,7 +110,7 @@ void addBenchCulling(CLI::App& bench, Run& run)
         "                farthest surface; sphere against box\n"
         "  brute force   all lights at all pixels; once where it takes more than a second\n"
         "  floor         as many evaluations per pixel as lights contribute, none looked for\n"
-        "Exit code 1 when an image differs from the engine's by more than 1e-6 of the largest\n"
+        "Exit code 1 when an image differs from the engine's by more than 4e-6 of the largest\n"
         "radiance.\n\n"
         "Examples:\n"
         "  candelabra bench culling\n"
