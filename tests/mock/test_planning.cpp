@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory known before anything is created: it is what creation then takes, to the byte.
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <deque>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -85,7 +87,11 @@ TEST(Planning, OfLightingIsWhatCreationTakes)
         MockVulkan vulkan;
         auto planned = Lighting::plan(vulkan.desc(), desc, views);
         ASSERT_TRUE(planned) << planned.error().message;
-        auto alone = Lighting::plan(vulkan.desc(), desc, std::array<CndLightingViewDesc, 0>{});
+        std::vector<CndLightingViewDesc> listed(views.begin(), views.end());
+        auto again = Lighting::plan(vulkan.desc(), desc, listed);
+        ASSERT_TRUE(again) << again.error().message;
+        EXPECT_TRUE(std::ranges::equal(again.value().bytes, planned.value().bytes));
+        auto alone = Lighting::plan(vulkan.desc(), desc);
         ASSERT_TRUE(alone) << alone.error().message;
         expectUntouched(vulkan);
         auto lighting = Lighting::create(vulkan.desc(), desc);
@@ -146,7 +152,7 @@ TEST(Planning, FailsLikeCreation)
 {
     MockVulkan vulkan;
     const auto expectSameError = [&](const CndDeviceDesc& device, const CndLightingDesc& desc) {
-        const auto planned = Lighting::plan(device, desc, std::array<CndLightingViewDesc, 0>{});
+        const auto planned = Lighting::plan(device, desc);
         const auto created = Lighting::create(device, desc);
         EXPECT_NE(created.error().code, CND_SUCCESS);
         EXPECT_EQ(planned.error().code, created.error().code);
@@ -168,8 +174,7 @@ TEST(Planning, FailsLikeCreation)
     vulkan.absent = "CmdDispatch";
     expectSameError(vulkan.desc(), {.framesInFlight = 1});
     vulkan.absent = "GetDeviceBufferMemoryRequirements";
-    const auto unknown =
-        Lighting::plan(vulkan.desc(), {.framesInFlight = 1}, std::array<CndLightingViewDesc, 0>{});
+    const auto unknown = Lighting::plan(vulkan.desc(), {.framesInFlight = 1});
     EXPECT_EQ(unknown.error().code, CND_ERROR_UNSUPPORTED);
     vulkan.absent = "";
     const auto wide =

@@ -234,9 +234,15 @@ public:
     static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
                                        std::array<CndLightingViewDesc, n> views) noexcept
     {
+        return plan(device, desc, std::span<CndLightingViewDesc>(views));
+    }
+    // Of as many views as are known when it runs; sets their structSize.
+    static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
+                                       std::span<CndLightingViewDesc> views = {}) noexcept
+    {
         for (CndLightingViewDesc& view : views)
             view.structSize = sizeof view;
-        return detail::plan(device, cndPlanLighting, desc, uint32_t(n), views.data());
+        return detail::plan(device, cndPlanLighting, desc, uint32_t(views.size()), views.data());
     }
     // What it and its views hold now.
     Result<CndMemoryUsage> memory() const noexcept
