@@ -248,10 +248,11 @@ Drawing shown(Drawing drawing, float exposure)
 }
 
 // Few lights, or all of them everywhere would take long: one in ten as it is, the others so dim
-// that no display shows them. What looking for them costs shows where all are as they are.
+// that no display shows them, not even as highlights of smooth surfaces, which show a millionth.
+// What looking for them costs shows where all are as they are.
 Skip dimLights(SkipStage& stage)
 {
-    constexpr float starlight = 1e-6f, error = 0.5f / 255;
+    constexpr float starlight = 1e-9f, error = 0.5f / 255;
     Lights few = stage.lights();
     few.resize(std::min(few.size(), std::max<size_t>(few.size() / 16, 40)));
     Lights dim = few;
