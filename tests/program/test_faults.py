@@ -182,9 +182,9 @@ def furnish(folder):
         (folder / f"noise.{extension}").write_bytes(random.Random(extension).randbytes(999))
     (folder / "sky.png").write_bytes(b"\x89PNG\r\n\x1a\n")
     shutil.copy(data / "every_light.json", folder / "scene.json")
-    passes = [{"name": "shade_tiles", "p10Ms": 12, "medianMs": 12.5}]
-    figures = {"passes": passes} | {n: {"p10Ms": 4, "medianMs": 5} for n in ("gpu", "record", "frame", "upload")}
-    run = {"schema": "candelabra profile 2", "provenance": {"device": "d", "driver": "e", "commit": "c"},
+    passes = [{"name": "shade_tiles", "minMs": 12, "medianMs": 12.5}]
+    figures = {"frames": 60, "passes": passes} | {n: {"minMs": 4, "medianMs": 5} for n in ("gpu", "record", "frame", "upload")}
+    run = {"schema": "candelabra profile 1", "provenance": {"device": "d", "driver": "e", "commit": "c"},
            "scene": {"name": "hall"}, "image": {"widthPixels": 64}, "path": "still",
            "variants": [{"settings": {"specular": "conic"}, "time": figures}]}
     (folder / "run.json").write_text(json.dumps(run))

@@ -28,6 +28,7 @@ struct CompareArguments {
 
 struct ComparedRow {
     std::string name;
+    bool inA = false, inB = false; // in all runs of that side
     RunQuantity times;
     RunRatio ratio;
     std::string verdict;
@@ -68,8 +69,8 @@ std::vector<std::string> objections(const std::vector<ProfiledRun>& a,
 }
 
 // What stands for the frames of a run. Frames that draw the same differ by noise alone, which only
-// adds, so their first decile varies three times less from run to run than their median (DECISIONS
-// 36); where frames differ in work, it would be that of the cheapest ones.
+// adds, so the shortest varies least from run to run (DECISIONS 36); where frames differ in work,
+// it would be the cheapest.
 struct Statistic {
     const char* name; // in results
     double ProfiledTime::*ms;
@@ -79,8 +80,16 @@ Statistic statisticOf(const std::vector<ProfiledRun>& a, const std::vector<Profi
 {
     const auto still = [](const ProfiledRun& run) { return run.still; };
     return std::all_of(a.begin(), a.end(), still) && std::all_of(b.begin(), b.end(), still)
-               ? Statistic{"p10", &ProfiledTime::p10Ms}
+               ? Statistic{"min", &ProfiledTime::minMs}
                : Statistic{"median", &ProfiledTime::medianMs};
+}
+
+bool inAll(const std::vector<ProfiledRun>& runs, const std::string& name)
+{
+    return std::all_of(runs.begin(), runs.end(), [&](const ProfiledRun& run) {
+        return std::any_of(run.times.begin(), run.times.end(),
+                           [&](const ProfiledTime& t) { return t.name == name; });
+    });
 }
 
 // Times of `name` in every run; 0 where it did not take place.
@@ -101,6 +110,12 @@ bool allPositive(const std::vector<double>& values)
     return std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
 }
 
+// Not of a pass that in some run was too short to be timed.
+bool hasRatio(const ComparedRow& row)
+{
+    return allPositive(row.times.a) && allPositive(row.times.b);
+}
+
 std::vector<ComparedRow> rowsOf(const std::vector<ProfiledRun>& a,
                                 const std::vector<ProfiledRun>& b, const Statistic& statistic,
                                 bool paired)
@@ -112,33 +127,30 @@ std::vector<ComparedRow> rowsOf(const std::vector<ProfiledRun>& a,
                 if (std::none_of(rows.begin(), rows.end(),
                                  [&](const ComparedRow& r) { return r.name == time.name; }))
                     rows.push_back({.name = time.name,
+                                    .inA = inAll(a, time.name),
+                                    .inB = inAll(b, time.name),
                                     .times = {timesOf(a, time.name, statistic),
                                               timesOf(b, time.name, statistic)},
                                     .ratio = {},
                                     .verdict = ""});
     std::vector<RunQuantity> comparable;
     for (const ComparedRow& row : rows)
-        if (allPositive(row.times.a) && allPositive(row.times.b))
+        if (hasRatio(row))
             comparable.push_back(row.times);
     const std::vector<RunRatio> ratios = compareRuns(comparable, paired);
     auto next = ratios.begin();
     for (ComparedRow& row : rows) {
-        const bool inA = allPositive(row.times.a), inB = allPositive(row.times.b);
-        if (inA && inB) {
+        const bool timed = hasRatio(row);
+        if (timed)
             row.ratio = *next++;
-            row.verdict = row.ratio.isFaster()   ? "faster"
-                          : row.ratio.isSlower() ? "slower"
-                                                 : "cannot tell";
-        } else {
-            row.verdict = inA ? "not in all of B" : inB ? "not in all of A" : "not in all runs";
-        }
+        row.verdict = !row.inA && !row.inB            ? "not in all runs"
+                      : !row.inA                      ? "not in all of A"
+                      : !row.inB                      ? "not in all of B"
+                      : timed && row.ratio.isFaster() ? "faster"
+                      : timed && row.ratio.isSlower() ? "slower"
+                                                      : "cannot tell";
     }
     return rows;
-}
-
-bool hasRatio(const ComparedRow& row)
-{
-    return allPositive(row.times.a) && allPositive(row.times.b);
 }
 
 std::string comparedTable(const std::vector<ComparedRow>& rows, const Statistic& statistic)
@@ -261,8 +273,8 @@ void addCompareCommand(CLI::App& app, Run& run)
     command->add_option("--json", a->json, "all figures for machines; - is standard output")
         ->type_name("FILE");
     command->footer(
-        "A run is one call of profile. Of its frames the first decile is compared, of which the\n"
-        "noise of a machine takes least, along a path (--path turn) the median. At least 4 runs\n"
+        "A run is one call of profile. The shortest times of its frames are compared, to which a\n"
+        "busy machine adds least; along a path (--path turn) the medians. At least 4 runs\n"
         "with 4, better 5 with 5 and more, of 40 frames and more. Take the runs of A and B in "
         "turn,\n"
         "so that a machine that slows down slows both. \"cannot tell\": the interval is wider "

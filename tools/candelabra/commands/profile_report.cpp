@@ -34,7 +34,6 @@ const std::vector<double>* timesOf(const FrameSeries& series, const std::string&
 Json spreadJson(const Spread& s)
 {
     return {{"minMs", s.min},
-            {"p10Ms", s.p10},
             {"medianMs", s.median},
             {"p95Ms", s.p95},
             {"p99Ms", s.p99},

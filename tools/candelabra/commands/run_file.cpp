@@ -34,10 +34,11 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
     out.version = {{"commit", from.member("commit").string()},
                    {"settings", variant.member("settings").json().dump()}};
     const JsonValue time = variant.member("time"), passes = time.member("passes");
+    out.conditions.emplace_back("frames", time.member("frames").json().dump());
     passes.requireArray();
     const auto timeOf = [](std::string name, const JsonValue& row) {
         return ProfiledTime{.name = std::move(name),
-                            .p10Ms = row.member("p10Ms").number({0}),
+                            .minMs = row.member("minMs").number({0}),
                             .medianMs = row.member("medianMs").number({0})};
     };
     for (size_t i = 0; i < passes.size(); ++i)

@@ -11,12 +11,12 @@
 namespace candelabra::app
 {
 
-constexpr const char* profileSchema = "candelabra profile 2";
+constexpr const char* profileSchema = "candelabra profile 1";
 
 // Of a pass, or of a whole time by its key, over the frames of a run.
 struct ProfiledTime {
     std::string name;
-    double p10Ms = 0, medianMs = 0;
+    double minMs = 0, medianMs = 0;
 };
 
 struct ProfiledRun {

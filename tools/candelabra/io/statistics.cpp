@@ -56,7 +56,6 @@ Spread spreadOf(std::vector<double> values)
     const double deviation = n > 1 ? std::sqrt(squares / (n - 1)) : 0;
     return {.min = values.front(),
             .median = middleOf(values),
-            .p10 = rank(values, 0.1),
             .p95 = rank(values, 0.95),
             .p99 = rank(values, 0.99),
             .cv = mean > 0 ? deviation / mean : 0};

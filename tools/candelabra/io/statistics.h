@@ -10,8 +10,7 @@ namespace candelabra::app
 
 struct Spread {
     double min = 0, median = 0;
-    // Nearest rank: the smallest value that so many do not exceed.
-    double p10 = 0, p95 = 0, p99 = 0;
+    double p95 = 0, p99 = 0; // nearest rank: the smallest value that so many do not exceed
     double cv = 0; // coefficient of variation: standard deviation over mean; 0 for one value
 };
 
