@@ -135,8 +135,8 @@ std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
     const std::string kernelName = "kernels/" + job.kernel + ".comp";
     const ShaderSource& kernel = *find(kernelName);
     const std::string_view source = desc.source;
-    // For kernels that evaluate no lights, too: the source is the same for all, and one with
-    // another function than was promised is told so instead of that a type is missing.
+    // For kernels that evaluate no lights, too: the source is the same for all. Always, so that a
+    // source without the promised function hears that, not that ShadowQuery is undeclared.
     constexpr std::string_view query = "\n#include \"lib/shadow_query.glsl\"\n";
     const char* const texts[] = {kernel.text.data(), query.data(), source.data()};
     const int lengths[] = {int(kernel.text.size()), int(query.size()), int(source.size())};

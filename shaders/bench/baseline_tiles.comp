@@ -70,7 +70,7 @@ void main()
     const vec2 top = side(m.m11, m.m21, low.y, m.m23, 1.0);
     const vec2 bottom = side(m.m11, m.m21, high.y, m.m23, -1.0);
 
-    const uint before = params.firstLight == 0u ? 0u : heads[tile];
+    const uint before = heads[tile]; // 0, or the list of the batches before
     uint head = before, page = 0u, inPage = PAGE_LIGHTS, total = 0u;
     const uint endLight = empty ? 0u : params.endLight;
     for (uint begin = params.firstLight; begin < endLight; begin += 32u) {

@@ -404,7 +404,7 @@ def whole(name, content, reference):
 
 
 def interrupted(command, which, delay, reference):
-    """One run with `which` sent after `delay` s. None when it was ended by that, else how long it ran, in s."""
+    """One run with `which` sent after `delay` s. None when that ended it, else how long it ran, in s."""
     global count
     count += 1
     what = f"{' '.join(command)}: {which.name} after {delay:.3f} s"
@@ -424,7 +424,7 @@ def interrupted(command, which, delay, reference):
                 process.kill()
                 process.communicate()
                 fault(what, "runs on")
-                return None
+                return time.monotonic() - began
         took = time.monotonic() - began
         if process.returncode not in (0, -which):
             fault(what, f"ended with {process.returncode}: {err}")
@@ -433,7 +433,7 @@ def interrupted(command, which, delay, reference):
         for path, content in left(folder).items():
             if path not in before and (path not in reference or not whole(path, content, reference)):
                 fault(what, f"left {path}, which is no whole file of a finished run")
-        return None if process.returncode else took
+        return None if process.returncode == -which else took
 
 
 def test_signals(folder):

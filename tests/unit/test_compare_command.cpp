@@ -100,8 +100,13 @@ TEST_F(CompareCommand, SaysWhatIsSlowerAndEndsWithThree)
 }
 
 // The shortest time of a path is that of its cheapest frame.
-TEST_F(CompareCommand, MediansAreComparedAlongAPath)
+TEST_F(CompareCommand, MediansAreComparedWhereFramesDiffer)
 {
+    json moving = run(50);
+    moving["variants"][0]["time"]["upload"] = {{"minMs", 0.1}, {"medianMs", 0.2}};
+    const std::string moved = write("moved.json", moving);
+    EXPECT_NE(compare({moved, moved}).out.find("median of"), std::string::npos);
+
     json a = runs(5, 50), b = runs(5, 52.5);
     for (json* side : {&a, &b})
         for (json& one : *side)
@@ -154,8 +159,9 @@ TEST_F(CompareCommand, PassesTooShortToTimeAreNotCompared)
     const ProgramOutcome outcome =
         compare({write("a.json", runs(5, 50)), write("b.json", b), "--json", "-"});
     EXPECT_EQ(outcome.exitCode, exitOk) << outcome.err;
-    const json row = json::parse(outcome.out)["rows"][0];
-    EXPECT_EQ(row["verdict"], "cannot tell");
+    const json out = json::parse(outcome.out), row = out["rows"][0];
+    EXPECT_EQ(candelabra::test::JsonSchema("compare.schema.json").fault(out), "");
+    EXPECT_EQ(row["verdict"], "too short to time");
     EXPECT_FALSE(row.contains("ratio"));
 }
 

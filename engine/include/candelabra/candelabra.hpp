@@ -236,7 +236,7 @@ public:
     {
         return plan(device, desc, std::span<CndLightingViewDesc>(views));
     }
-    // Of as many views as are known when it runs; sets their structSize.
+    // Any number of views; fills in their structSize, so they are not const.
     static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
                                        std::span<CndLightingViewDesc> views = {}) noexcept
     {

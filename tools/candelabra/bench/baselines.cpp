@@ -355,10 +355,11 @@ void Baselines::recordTiles(const gpu::Frame& f) const
                                         uint32_t(lists_[0].entries.size / sizeof(uint32_t)),
                                     .clearDepth = frame_.clearDepth,
                                     .invImageSize = 1.0f / glm::vec2(frame_.width, frame_.height)};
-    // A light takes at most an iteration to test, one to write, and a share of the loop over 32.
+    // A light takes at most an iteration to test and one to write; 32 of them one more, and the
+    // exits of three loops.
     constexpr uint32_t pixelIterations = 1024;
     const uint32_t limit = context_.device().maxLoopIterations;
-    const uint32_t batch = limit == UINT32_MAX ? lightCount_ : (limit - pixelIterations) / 66 * 32;
+    const uint32_t batch = limit == UINT32_MAX ? lightCount_ : (limit - pixelIterations) / 68 * 32;
     for (uint32_t first = 0; first < lightCount_; first = params.endLight) {
         params.firstLight = first;
         params.endLight = first + std::min(batch, lightCount_ - first);

@@ -248,8 +248,8 @@ Drawing shown(Drawing drawing, float exposure)
 }
 
 // Few lights, or all of them everywhere would take long: one in ten as it is, the others so dim
-// that no display shows them, not even as highlights of smooth surfaces, which show a millionth.
-// What looking for them costs shows where all are as they are.
+// that no display shows them, not even as highlights of smooth surfaces, where a millionth is still
+// seen. What looking for them costs shows where all are as they are.
 Skip dimLights(SkipStage& stage)
 {
     constexpr float starlight = 1e-9f, error = 0.5f / 255;

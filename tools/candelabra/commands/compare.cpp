@@ -68,9 +68,9 @@ std::vector<std::string> objections(const std::vector<ProfiledRun>& a,
     return out;
 }
 
-// What stands for the frames of a run. Frames that draw the same differ by noise alone, which only
-// adds, so the shortest varies least from run to run (DECISIONS 36); where frames differ in work,
-// it would be the cheapest.
+// What stands for the frames of a run. Frames that draw the same differ by noise alone, which
+// mostly adds, so the shortest time varies least from run to run (DECISIONS 36); where frames
+// differ in work, it would be that of the cheapest.
 struct Statistic {
     const char* name; // in results
     double ProfiledTime::*ms;
@@ -110,7 +110,7 @@ bool allPositive(const std::vector<double>& values)
     return std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
 }
 
-// Not of a pass that in some run was too short to be timed.
+// Not of a pass that did not take place in some run, or was too short there to be timed.
 bool hasRatio(const ComparedRow& row)
 {
     return allPositive(row.times.a) && allPositive(row.times.b);
@@ -143,12 +143,13 @@ std::vector<ComparedRow> rowsOf(const std::vector<ProfiledRun>& a,
         const bool timed = hasRatio(row);
         if (timed)
             row.ratio = *next++;
-        row.verdict = !row.inA && !row.inB            ? "not in all runs"
-                      : !row.inA                      ? "not in all of A"
-                      : !row.inB                      ? "not in all of B"
-                      : timed && row.ratio.isFaster() ? "faster"
-                      : timed && row.ratio.isSlower() ? "slower"
-                                                      : "cannot tell";
+        row.verdict = !row.inA && !row.inB   ? "not in all runs"
+                      : !row.inA             ? "not in all of A"
+                      : !row.inB             ? "not in all of B"
+                      : !timed               ? "too short to time"
+                      : row.ratio.isFaster() ? "faster"
+                      : row.ratio.isSlower() ? "slower"
+                                             : "cannot tell";
     }
     return rows;
 }
@@ -268,18 +269,21 @@ void addCompareCommand(CLI::App& app, Run& run)
                      "exit with 3 only where something is slower by more than this")
         ->type_name("PERCENT")
         ->capture_default_str();
-    command->add_flag("--force", a->force,
-                      "compare runs of different devices, scenes, sizes or paths as well");
+    command->add_flag(
+        "--force", a->force,
+        "compare runs of different devices, scenes, sizes, paths or numbers of frames "
+        "as well");
     command->add_option("--json", a->json, "all figures for machines; - is standard output")
         ->type_name("FILE");
     command->footer(
-        "A run is one call of profile. The shortest times of its frames are compared, to which a\n"
-        "busy machine adds least; along a path (--path turn) the medians. At least 4 runs\n"
-        "with 4, better 5 with 5 and more, of 40 frames and more. Take the runs of A and B in "
-        "turn,\n"
-        "so that a machine that slows down slows both. \"cannot tell\": the interval is wider "
-        "than\n"
-        "the change.\n"
+        "A run is one call of profile. Of its frames the shortest time of each pass is compared, "
+        "to\n"
+        "which a busy machine adds least; the median along a path and where lights move. At least\n"
+        "4 runs with 4, better 5 with 5 and more, of 40 frames and more, of all as many. Take the\n"
+        "runs of A and B in turn, so that a machine that slows down slows both.\n"
+        "\"cannot tell\": the interval is wider than the change. \"too short to time\": in some "
+        "run\n"
+        "it took no longer than the stamp that is subtracted.\n"
         "Exit code 3: something is slower; 0: nothing is, or chance cannot be excluded.\n\n"
         "Examples:\n"
         "  for i in 1 2 3 4 5; do\n"

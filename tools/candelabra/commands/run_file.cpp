@@ -25,7 +25,6 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
         out.conditions.emplace_back(key, from.member(key).string());
     for (const char* key : {"scene", "image", "path"})
         out.conditions.emplace_back(key, json.member(key).json().dump());
-    out.still = json.member("path").json() == "still";
     const JsonValue variants = json.member("variants");
     variants.requireArray();
     if (variants.size() != 1)
@@ -41,6 +40,9 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
                             .minMs = row.member("minMs").number({0}),
                             .medianMs = row.member("medianMs").number({0})};
     };
+    const auto upload = time.find("upload"); // of lights that move
+    out.still = json.member("path").json() == "still" &&
+                (!upload || upload->member("medianMs").number({0}) == 0);
     for (size_t i = 0; i < passes.size(); ++i)
         out.times.push_back(timeOf(passes.item(i).member("name").string(), passes.item(i)));
     for (const WholeTime& whole : wholeTimes)

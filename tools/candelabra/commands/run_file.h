@@ -13,7 +13,7 @@ namespace candelabra::app
 
 constexpr const char* profileSchema = "candelabra profile 1";
 
-// Of a pass, or of a whole time by its key, over the frames of a run.
+// Of a pass or a whole time (wholeTimes) over the frames of a run.
 struct ProfiledTime {
     std::string name;
     double minMs = 0, medianMs = 0;
@@ -24,7 +24,7 @@ struct ProfiledRun {
     // What has to be alike for times to be comparable, and what runs of one side share besides;
     // names with values.
     std::vector<std::pair<std::string, std::string>> conditions, version;
-    bool still = false;              // every frame draws the same
+    bool still = false;              // every frame draws the same: camera and lights rest
     std::vector<ProfiledTime> times; // of passes, then of wholeTimes
 };
 
