@@ -235,6 +235,11 @@ double Contender::contributingPerEvaluated() const
     return ratio(contributingPairs, evaluatedPairs);
 }
 
+bool Contender::hasRightImage() const
+{
+    return !difference || *difference <= (name == bruteName ? BruteCheck::bound : reorderedBound);
+}
+
 const Contender& CullingPoint::of(const std::string& name) const
 {
     return *std::find_if(contenders.begin(), contenders.end(),

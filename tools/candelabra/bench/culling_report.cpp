@@ -182,9 +182,12 @@ Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint
                         {"contributingOverListedToTiles", r.listedGain},
                         {"contenders", contenders}});
     }
-    return {{"rounds", settings.rounds}, {"seed", settings.seed},
-            {"specular", "conic"},       {"bruteLimitSeconds", settings.bruteLimit},
-            {"bound", Contender::bound}, {"points", list}};
+    return {{"rounds", settings.rounds},
+            {"seed", settings.seed},
+            {"specular", "conic"},
+            {"bruteLimitSeconds", settings.bruteLimit},
+            {"bound", Contender::reorderedBound},
+            {"points", list}};
 }
 
 std::vector<CullingPlot> cullingPlots(const std::vector<CullingPoint>& points,

@@ -111,7 +111,7 @@ void addBenchCulling(CLI::App& bench, Run& run)
         "  brute force   all lights at all pixels; once where it takes more than a second\n"
         "  floor         as many evaluations per pixel as lights contribute, none looked for\n"
         "Exit code 1 when an image differs from the engine's by more than 4e-6 of the largest\n"
-        "radiance.\n\n"
+        "radiance, brute force by more than 1e-6.\n\n"
         "Examples:\n"
         "  candelabra bench culling\n"
         "  candelabra bench culling --scenes hall --lights 4000 --overlaps 30 --rounds 15\n"
