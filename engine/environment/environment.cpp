@@ -12,7 +12,7 @@
 #include <glm/matrix.hpp>
 
 #include "candelabra_shaders.h"
-#include "lighting/camera.h"
+#include "surfaces/camera.h"
 
 namespace candelabra::environment
 {

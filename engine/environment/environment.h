@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "gpu/kernel.h"
-#include "lighting/host_gbuffer.h"
-#include "lighting/host_kernels.h"
 #include "shared/environment.h"
+#include "surfaces/host_gbuffer.h"
+#include "surfaces/host_kernels.h"
 #include "tables/dfg_table.h"
 
 namespace candelabra::environment

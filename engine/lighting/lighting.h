@@ -7,22 +7,22 @@
 #include <memory>
 #include <vector>
 
+#include "clusters/clusters.h"
 #include "gpu/kernel.h"
-#include "lighting/clusters.h"
-#include "lighting/device_lights.h"
-#include "lighting/forward.h"
-#include "lighting/frame_passes.h"
-#include "lighting/host_gbuffer.h"
-#include "lighting/host_kernels.h"
-#include "lighting/influence.h"
-#include "lighting/light_order.h"
-#include "lighting/light_table.h"
-#include "lighting/pack_lights.h"
-#include "lighting/reach.h"
-#include "lighting/shade_kernels.h"
+#include "lights/device_lights.h"
+#include "lights/light_order.h"
+#include "lights/light_table.h"
+#include "lights/pack_lights.h"
+#include "lights/reach.h"
+#include "shading/influence.h"
+#include "shading/shade_kernels.h"
 #include "shared/lighting.h"
 #include "shared/surface_overlay.h"
+#include "surfaces/host_gbuffer.h"
+#include "surfaces/host_kernels.h"
 #include "tables/dfg_table.h"
+#include "view/forward.h"
+#include "view/frame_passes.h"
 
 namespace candelabra::lighting
 {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lighting/pack_lights.h"
+#include "lights/pack_lights.h"
 #include "viewer/light_editor.h"
 
 using namespace candelabra;

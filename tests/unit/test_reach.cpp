@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "lighting/reach.h"
+#include "lights/reach.h"
 
 using namespace candelabra;
 using namespace candelabra::lighting;

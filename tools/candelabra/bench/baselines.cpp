@@ -10,11 +10,11 @@
 #include "bench/light_kernels.h"
 #include "candelabra_bench_shaders.h"
 #include "candelabra_shaders.h"
-#include "lighting/camera.h"
-#include "lighting/pack_lights.h"
-#include "lighting/shade_kernels.h"
+#include "lights/pack_lights.h"
 #include "render/error.h"
+#include "shading/shade_kernels.h"
 #include "shared/light_order.h"
+#include "surfaces/camera.h"
 
 namespace candelabra::app
 {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lighting/shade_kernels.h"
+#include "shading/shade_kernels.h"
 
 namespace candelabra::app
 {

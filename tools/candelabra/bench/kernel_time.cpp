@@ -9,8 +9,8 @@
 
 #include "candelabra_bench_shaders.h"
 #include "io/statistics.h"
-#include "lighting/shade_kernels.h"
 #include "scene/random.h"
+#include "shading/shade_kernels.h"
 
 namespace candelabra::app
 {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "candelabra_bench_shaders.h"
-#include "lighting/pack_lights.h"
-#include "lighting/shade_kernels.h"
+#include "lights/pack_lights.h"
+#include "shading/shade_kernels.h"
 #include "tables/ltc_table.h"
 
 namespace candelabra::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/host_kernels.h"
+#include "surfaces/host_kernels.h"
 
 #include <algorithm>
 #include <iterator>

@@ -4,8 +4,8 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
-#include "lighting/host_kernels.h"
 #include "shared/lighting.h"
+#include "surfaces/host_kernels.h"
 
 namespace candelabra::lighting
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/camera.h"
+#include "surfaces/camera.h"
 
 #include <cmath>
 #include <cstring>

@@ -2,7 +2,7 @@
 // The dispatches that evaluate lights: by type, in batches where the device limits loops.
 #include <algorithm>
 
-#include "lighting/view_plan.h"
+#include "view/view_plan.h"
 
 namespace candelabra::lighting
 {

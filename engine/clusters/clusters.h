@@ -7,10 +7,10 @@
 #include <array>
 
 #include "gpu/kernel.h"
-#include "lighting/host_gbuffer.h"
-#include "lighting/host_kernels.h"
-#include "lighting/pack_lights.h"
+#include "lights/pack_lights.h"
 #include "shared/clusters.h"
+#include "surfaces/host_gbuffer.h"
+#include "surfaces/host_kernels.h"
 
 namespace candelabra::lighting
 {

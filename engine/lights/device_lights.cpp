@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/device_lights.h"
+#include "lights/device_lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "candelabra_shaders.h"
-#include "lighting/reach.h"
+#include "lights/reach.h"
 
 namespace candelabra::lighting
 {

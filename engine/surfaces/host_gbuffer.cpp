@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/host_gbuffer.h"
+#include "surfaces/host_gbuffer.h"
 
 #include <cstring>
 

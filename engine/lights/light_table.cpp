@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/light_table.h"
+#include "lights/light_table.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "gpu/failure.h"
-#include "lighting/pack_lights.h"
-#include "lighting/shade_kernels.h"
+#include "lights/pack_lights.h"
+#include "shading/shade_kernels.h"
 
 namespace candelabra::lighting
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/clusters.h"
+#include "clusters/clusters.h"
 
 #include <algorithm>
 

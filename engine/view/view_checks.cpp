@@ -2,8 +2,8 @@
 // What a frame may ask for; what the host should know of those before.
 #include <string>
 
-#include "lighting/camera.h"
 #include "lighting/lighting.h"
+#include "surfaces/camera.h"
 
 namespace candelabra::lighting
 {

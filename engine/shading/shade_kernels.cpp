@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/shade_kernels.h"
+#include "shading/shade_kernels.h"
 
 #include <bit>
 

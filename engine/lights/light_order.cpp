@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/light_order.h"
+#include "lights/light_order.h"
 
 #include <cmath>
 

@@ -5,11 +5,11 @@
 #pragma once
 
 #include "candelabra/candelabra.h"
+#include "clusters/clusters.h"
 #include "gpu/kernel.h"
-#include "lighting/clusters.h"
-#include "lighting/host_gbuffer.h"
 #include "shared/influence.h"
 #include "shared/lighting.h"
+#include "surfaces/host_gbuffer.h"
 
 namespace candelabra::lighting
 {

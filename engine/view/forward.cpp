@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/forward.h"
+#include "view/forward.h"
 
 namespace candelabra::lighting
 {

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string>
 
-#include "lighting/host_gbuffer.h"
+#include "surfaces/host_gbuffer.h"
 
 namespace candelabra::lighting
 {

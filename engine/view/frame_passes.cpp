@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/frame_passes.h"
+#include "view/frame_passes.h"
 
 #include "lighting/lighting.h"
 

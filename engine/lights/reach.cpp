@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/reach.h"
+#include "lights/reach.h"
 
 #include <cstring>
 #include <limits>
@@ -9,7 +9,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
-#include "lighting/shade_kernels.h"
+#include "shading/shade_kernels.h"
 
 namespace candelabra::lighting
 {

@@ -6,7 +6,7 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
-#include "lighting/light_order.h"
+#include "lights/light_order.h"
 #include "shared/device_lights.h"
 
 namespace candelabra::lighting

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "candelabra/candelabra.h"
-#include "lighting/light_order.h"
+#include "lights/light_order.h"
 #include "shared/lighting.h"
 
 namespace candelabra::lighting

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/pack_lights.h"
+#include "lights/pack_lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <string>
 
 #include "gpu/failure.h"
-#include "lighting/reach.h"
-#include "lighting/shade_kernels.h"
+#include "lights/reach.h"
+#include "shading/shade_kernels.h"
 #include "shared/device_lights.h"
 
 namespace candelabra::lighting

@@ -7,8 +7,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-#include "lighting/camera.h"
 #include "lighting/lighting.h"
+#include "surfaces/camera.h"
 
 namespace candelabra::lighting
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lighting/influence.h"
+#include "shading/influence.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,8 +8,8 @@
 #include <string>
 
 #include "candelabra_shaders.h"
-#include "lighting/view_plan.h"
 #include "shared/exposure.h"
+#include "view/view_plan.h"
 
 namespace candelabra::lighting
 {

@@ -7,9 +7,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-#include "lighting/camera.h"
 #include "lighting/lighting.h"
-#include "lighting/view_plan.h"
+#include "surfaces/camera.h"
+#include "view/view_plan.h"
 
 namespace candelabra::lighting
 {
