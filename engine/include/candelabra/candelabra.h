@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candelabra: C ABI of the lighting, environment and exposure modules.
+// Candelabra: the C ABI of the lighting, environment and exposure modules. This header includes all
+// of it but the optional compiler (candelabra/compiler.h).
 //
 // Conventions
 //   Units: metres, seconds, radians, photometric light units (lm, cd, lx, cd/m^2). Colours are
 //   linear Rec.709. Matrices are column-major (element [column*4 + row]), vectors are columns.
-//   Ownership: a module borrows every Vulkan handle it is given, owns only what it created, never
-//   creates a device or a queue, never submits and never waits. Recording allocates nothing.
-//   Threads: different objects may be used from different threads; calls on one object, or on a
+//   Ownership: a module borrows every Vulkan handle it is given and owns only what it created. It
+//   never creates a device or a queue, never submits and never waits. Recording allocates nothing.
+//   Threads: different objects may be used from different threads. Calls on one object, or on a
 //   view and the CndLighting it came from, must not overlap.
-//   Errors: every function that can fail returns a CndResult and, when `error` is not NULL, one
-//   sentence naming the offending thing. Nothing is thrown.
-//   Versioning: every descriptor starts with structSize = sizeof(the struct).
+//   Errors: every function that can fail returns a CndResult. Where it has an `error` parameter
+//   that is not NULL, it also writes one sentence there that names the offending thing. Nothing is
+//   thrown across the ABI.
+//   Versioning: every struct with a `structSize` member must have it set to sizeof(the struct);
+//   another value is refused.
 #ifndef CANDELABRA_CANDELABRA_H
 #define CANDELABRA_CANDELABRA_H
 

@@ -16,7 +16,7 @@
 namespace candelabra
 {
 
-// A value, or the error that prevented it.
+// A value of type T, or the error that prevented it.
 template <typename T>
 class [[nodiscard]] Result
 {
@@ -24,7 +24,7 @@ public:
     Result(T value) : value_(std::move(value)) {}
     Result(const CndError& error) : error_(error) {}
     explicit operator bool() const { return value_.has_value(); }
-    // Aborts when there is none: check first.
+    // Aborts the program if there is no value: check first.
     T& value()
     {
         if (!value_)
@@ -55,7 +55,7 @@ private:
 namespace detail
 {
 
-// Calls an ABI function with an error to fill in as its last argument.
+// Calls an ABI function whose last argument is the error to fill in.
 template <typename Function, typename... Arguments>
 Result<void> call(Function function, Arguments... arguments) noexcept
 {
@@ -64,7 +64,7 @@ Result<void> call(Function function, Arguments... arguments) noexcept
     return error;
 }
 
-// The same for a function that writes a light before its error.
+// Calls an ABI function that writes a light, its last argument but one, and an error.
 template <typename Function, typename... Arguments>
 Result<CndLight> convert(Function function, Arguments... arguments) noexcept
 {
@@ -85,7 +85,7 @@ public:
     Owner() = default;
     explicit Owner(H handle) : handle_(handle) {}
     Owner(Owner&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
-    // Destroys what was owned before.
+    // The object that *this owned before is destroyed.
     Owner& operator=(Owner&& other) noexcept
     {
         Owner moved(std::move(other));
@@ -103,7 +103,7 @@ protected:
     H handle_ = nullptr;
 };
 
-// Calls an ABI function that makes an object of `from`: a device, or the object it belongs to.
+// Calls an ABI function that creates an object from `from`: a device, or a parent object.
 template <typename Object, typename Function, typename From, typename Desc>
 Result<Object> create(Function function, From from, Desc desc) noexcept
 {
@@ -122,7 +122,7 @@ Result<Object> createOn(CndDeviceDesc device, Function function, const Desc& des
     return create<Object>(function, &device, desc);
 }
 
-// Calls an ABI function that fills in the memory of what comes before it.
+// Calls an ABI function that writes a CndMemoryUsage, its last argument but one, and an error.
 template <typename Function, typename... Arguments>
 Result<CndMemoryUsage> usage(Function function, Arguments... arguments) noexcept
 {
@@ -142,7 +142,7 @@ Result<CndMemoryUsage> plan(CndDeviceDesc device, Function function, Desc desc,
     return usage(function, &device, &desc, arguments...);
 }
 
-// Calls an ABI function that fills in the statistics of a frame slot.
+// Calls an ABI function that writes the statistics of a frame slot.
 template <typename Stats, typename Function, typename H>
 Result<std::optional<Stats>> stats(Function function, H handle, uint32_t frameSlot) noexcept
 {
@@ -161,7 +161,7 @@ Result<std::optional<Stats>> stats(Function function, H handle, uint32_t frameSl
 
 } // namespace detail
 
-// Success, or an error that names what the device lacks.
+// Returns success, or an error whose message names everything that the device lacks.
 inline Result<void> checkDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
                                 PFN_vkGetInstanceProcAddr getInstanceProcAddr) noexcept
 {
@@ -177,13 +177,13 @@ inline Result<void> checkDevice(VkInstance instance, VkPhysicalDevice physicalDe
     return error;
 }
 
-// Largest set of lights for a device with these limits.
+// Returns the largest number of lights in a set for a device with these limits.
 inline uint32_t maxLightCount(const VkPhysicalDeviceLimits& limits) noexcept
 {
     return cndMaxLightCount(&limits);
 }
 
-// One view of a Lighting; destroyed before it.
+// One view of a Lighting. Destroy it before the Lighting.
 class LightingView : public detail::Owner<CndLightingView, cndDestroyLightingView>
 {
 public:
@@ -194,7 +194,7 @@ public:
         frame.structSize = sizeof frame;
         return detail::call(cndRecordLighting, handle_, cmd, &frame);
     }
-    // Instead of the above or besides it: what is read of the G-buffer, as a picture.
+    // Records a picture of what is read from the G-buffer, with record() or instead of it.
     Result<void> recordOverlay(VkCommandBuffer cmd, CndLightingFrame frame,
                                CndSurfaceOverlay overlay) const noexcept
     {
@@ -202,7 +202,7 @@ public:
         overlay.structSize = sizeof overlay;
         return detail::call(cndRecordSurfaceOverlay, handle_, cmd, &frame, &overlay);
     }
-    // An error without CndLightingDesc::forwardStages.
+    // Fails if CndLightingDesc::forwardStages is 0.
     Result<VkDescriptorSet> forwardSet(uint32_t frameSlot) const noexcept
     {
         VkDescriptorSet set{};
@@ -211,7 +211,7 @@ public:
             return error;
         return set;
     }
-    // Empty until the GPU has finished the slot's frame; an error before there was one.
+    // Empty until the GPU has finished the slot's frame; an error if no frame was recorded in it.
     Result<std::optional<CndLightingStats>> stats(uint32_t frameSlot) const noexcept
     {
         return detail::stats<CndLightingStats>(cndGetLightingStats, handle_, frameSlot);
@@ -229,14 +229,14 @@ public:
     {
         return detail::createOn<Lighting>(device, cndCreateLighting, desc);
     }
-    // What creation and these views will take; nothing is made.
+    // Returns the memory that creation of a Lighting and these views will take; creates nothing.
     template <size_t n>
     static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
                                        std::array<CndLightingViewDesc, n> views) noexcept
     {
         return plan(device, desc, std::span<CndLightingViewDesc>(views));
     }
-    // Any number of views; fills in their structSize, so they are not const.
+    // As above for any number of views. Fills in their structSize, so they are not const.
     static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
                                        std::span<CndLightingViewDesc> views = {}) noexcept
     {
@@ -244,12 +244,12 @@ public:
             view.structSize = sizeof view;
         return detail::plan(device, cndPlanLighting, desc, uint32_t(views.size()), views.data());
     }
-    // What it and its views hold now.
+    // Returns the memory that the Lighting and its views hold now.
     Result<CndMemoryUsage> memory() const noexcept
     {
         return detail::usage(cndGetLightingMemory, handle_);
     }
-    // `origin`: what the lights' positions are relative to, world space.
+    // `origin`: the point in world space that the lights' positions are relative to.
     Result<void> setLights(std::span<const CndLight> lights, const double (&origin)[3]) noexcept
     {
         return setLights({0,
@@ -263,7 +263,7 @@ public:
         set.structSize = sizeof set;
         return detail::call(cndSetLights, handle_, &set);
     }
-    // `ids` takes as many as there are lights.
+    // Writes the lights' ids to `ids`, which must have as many elements as `lights`.
     Result<void> addLights(std::span<const CndLight> lights, std::span<CndLightId> ids) noexcept
     {
         if (ids.size() != lights.size())
@@ -306,7 +306,7 @@ public:
     }
 };
 
-// An image of the far surroundings as a light.
+// An image of the far surroundings that lights surfaces.
 class Environment : public detail::Owner<CndEnvironment, cndDestroyEnvironment>
 {
 public:
@@ -380,7 +380,7 @@ public:
     }
 };
 
-// Lumens per channel that a light emits; directional and distant lights have none.
+// Returns the lumens per channel that a light emits. Directional and distant lights fail.
 inline Result<std::array<float, 3>> luminousPowerOfLight(const CndLight& light) noexcept
 {
     std::array<float, 3> power{};
@@ -390,7 +390,7 @@ inline Result<std::array<float, 3>> luminousPowerOfLight(const CndLight& light) 
     return power;
 }
 
-// One kind of light as another with the same irradiance at a receiver; 0 lets the library choose.
+// Conversions between types of lights; see lights.h. An argument of 0 lets the library choose.
 
 inline Result<CndLight> sphereFromPoint(const CndLight& point, const float (&at)[3],
                                         float radius = 0) noexcept

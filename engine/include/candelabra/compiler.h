@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of the host's in the kernels that shade, as GLSL source. A library of its own,
-// candelabra::compiler (libcandelabra_compiler), so that nobody else links a compiler; it needs no
-// device and reads no file. What it makes is SPIR-V for CndHostKernels, which may be kept for as
-// long as the version of the library stays.
+// Compiles GLSL functions written by the host into the kernels that shade. This is a library of its
+// own, candelabra::compiler (libcandelabra_compiler), so that hosts that don't need it link no
+// compiler. It needs no device and reads no file. Its output is SPIR-V for CndHostKernels, which
+// the host may store and reuse until the version of Candelabra changes.
 #ifndef CANDELABRA_COMPILER_H
 #define CANDELABRA_COMPILER_H
 
@@ -14,21 +14,22 @@
 extern "C" {
 #endif
 
-// The functions that CndCompileDesc::source defines.
+// The functions that CndCompileDesc::source defines. A kernel calls them; their signatures must be
+// exactly these.
 typedef enum CndHostFunctionBits {
-    // float candelabraVisibility(ShadowQuery query);
-    // A shadow term, 0..1 and finite, that every light is multiplied by where it is evaluated. The
-    // query has the light's id (`light`: the low half of its CndLightId, which no other light of
-    // the set has and which is below the largest number of lights that the set has had;
-    // LIGHT_OF_DEVICE plus its index for CndDeviceLights), its `type` (LIGHT_SPHERE, ...), the
-    // surface's `position` and unit `normal`, and `toLight`, from there to the light's centre, of
-    // distant lights the unit direction: view space, metres.
+    // `float candelabraVisibility(ShadowQuery query)`: a shadow term, 0 (in shadow) to 1 (fully
+    // lit), finite, by which every light is multiplied where it is evaluated. All members of the
+    // query are in view space, in metres: `light` is the low half of the light's CndLightId, which
+    // is unique within the set and below the largest number of lights that the set has ever had
+    // (for CndDeviceLights: LIGHT_OF_DEVICE plus the light's index); `type` is LIGHT_SPHERE,
+    // LIGHT_POINT ...; `position` and `normal` (unit) are those of the surface; `toLight` points
+    // from the surface to the light's centre, and is a unit vector for distant lights.
     CND_HOST_VISIBILITY_BIT = 1,
-    // Surface candelabraReadSurface(ivec2 pixel);
-    // The surface of a pixel for CND_GBUFFER_CUSTOM: `normal` of view space, any length (its
-    // computation marked `precise`, so that every kernel gets the same bits), `albedo`, `F0`,
-    // `specularWeight` (Schlick's F90), `perceptualRoughness`. gbufferView.viewFromWorld is the
-    // camera's rotation. Is called where the frame's depth holds a surface.
+    // `Surface candelabraReadSurface(ivec2 pixel)`: the surface of a pixel, for CND_GBUFFER_CUSTOM.
+    // It is called only for pixels whose depth holds a surface. Members to fill in: `normal`, in
+    // view space, of any length (compute it with `precise` variables, so that every kernel gets the
+    // same bits), `albedo`, `F0`, `specularWeight` (Schlick's F90) and `perceptualRoughness`. The
+    // camera's rotation is available as gbufferView.viewFromWorld.
     CND_HOST_READ_SURFACE_BIT = 2,
     CND_HOST_FUNCTION_MAX_ENUM = 0x7FFFFFFF
 } CndHostFunctionBits;
@@ -36,23 +37,27 @@ typedef enum CndHostFunctionBits {
 typedef struct CndCompileDesc {
     uint32_t structSize;
     uint32_t functions; // mask of CndHostFunctionBits, not 0
-    // GLSL 4.60 without its version directive, zero terminated: the functions, what they call, and
-    // bindings of descriptor set 1 (`layout(set = 1, binding = 0) ...`). It stands behind each
-    // kernel, whose names it sees; it may include what is installed of "lib/" and "shared/".
+    // GLSL 4.60 without its version directive, zero terminated: the functions, whatever they call,
+    // and bindings in descriptor set 1 (`layout(set = 1, binding = 0) ...`). The source is appended
+    // to each kernel, so it sees the kernel's names. It may include the installed shaders of "lib/"
+    // and "shared/".
     const char* source;
-    const char* sourceName; // in messages; NULL: "source"
-    // What the lighting will be asked for: masks of 1 << CndLightType, 0: all types, and of
-    // 1 << CndSpecularMethod, 0: CND_SPECULAR_CONIC. Fewer take less time.
+    const char* sourceName; // name of the source in error messages; NULL: "source"
+    // What the lighting module will be asked for; fewer take less time to compile. `lightTypes` is
+    // a mask of 1 << CndLightType, 0 for all types; `specularMethods` is a mask of 1 <<
+    // CndSpecularMethod, 0 for CND_SPECULAR_CONIC alone.
     uint32_t lightTypes, specularMethods;
 } CndCompileDesc;
 
 typedef struct CndCompiledKernels_T* CndCompiledKernels;
 
-// Compiles every kernel that the functions belong in. An error of the source is one sentence with
-// its name, the line and what the compiler said. May be called from several threads.
+// Compiles every kernel that calls one of the functions. A mistake in the source fails with
+// CND_ERROR_INVALID_ARGUMENT and one sentence: the name of the source, the line, and the compiler's
+// message. May be called from several threads at once.
 CND_API CndResult cndCompileKernels(const CndCompileDesc* desc, CndCompiledKernels* kernels,
                                     CndError* error);
-// For CndHostKernels; valid until cndDestroyCompiledKernels.
+// Returns the compiled kernels, for CndHostKernels, and their number in `count` (not NULL). The
+// array is valid until cndDestroyCompiledKernels.
 CND_API const CndKernelCode* cndGetKernelCode(CndCompiledKernels kernels, uint32_t* count);
 CND_API void cndDestroyCompiledKernels(CndCompiledKernels kernels);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// C++20 face of compiler.h; link candelabra::compiler.
+// C++20 face of candelabra/compiler.h; link candelabra::compiler.
 #pragma once
 
 #include "candelabra/candelabra.hpp"
@@ -8,6 +8,7 @@
 namespace candelabra
 {
 
+// Owner of the kernels compiled by cndCompileKernels.
 class CompiledKernels : public detail::Owner<CndCompiledKernels, cndDestroyCompiledKernels>
 {
 public:
@@ -22,7 +23,8 @@ public:
             return error;
         return CompiledKernels(kernels);
     }
-    // For CndLightingDesc and CndEnvironmentDesc; must outlive the call that takes it.
+    // The kernels as a member of CndLightingDesc or CndEnvironmentDesc; `setLayout` is the layout
+    // of descriptor set 1 in them. This object must outlive the call that creates the module.
     CndHostKernels hostKernels(VkDescriptorSetLayout setLayout = VK_NULL_HANDLE) const noexcept
     {
         CndHostKernels out{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every module shares: version, results, the device contract, kernel times, plans of passes.
+// Shared by every module: version, results, the device contract, memory, kernel times, pass plans.
 #ifndef CANDELABRA_CORE_H
 #define CANDELABRA_CORE_H
 
@@ -26,92 +26,103 @@ extern "C" {
 
 typedef enum CndResult {
     CND_SUCCESS = 0,
-    CND_NOT_READY = 1,               // statistics: the GPU has not finished that frame yet
-    CND_ERROR_INVALID_ARGUMENT = -1, // a value outside its documented range
-    CND_ERROR_UNSUPPORTED = -2,      // the device lacks a feature, format or limit
+    CND_NOT_READY = 1,               // statistics only: the GPU has not finished that frame yet
+    CND_ERROR_INVALID_ARGUMENT = -1, // a value outside its documented range, or a null pointer
+    CND_ERROR_UNSUPPORTED = -2,      // the device lacks a feature, a format or a limit
     CND_ERROR_OUT_OF_MEMORY = -3,
-    CND_ERROR_DEVICE = -4, // a Vulkan call failed; vkResult tells which way
+    CND_ERROR_DEVICE = -4, // a Vulkan call failed; vkResult says how
     CND_RESULT_MAX_ENUM = 0x7FFFFFFF
 } CndResult;
 
+// What went wrong in a call. A successful call writes CND_SUCCESS and an empty message.
 typedef struct CndError {
     CndResult code;
-    VkResult vkResult; // VK_SUCCESS when no Vulkan call was at fault
-    char message[512]; // one sentence, zero terminated
+    VkResult vkResult; // result of the Vulkan call that failed; VK_SUCCESS when none failed
+    char message[512]; // one sentence, zero terminated, truncated to fit
 } CndError;
 
-// Version of the library that was linked, as CND_MAKE_VERSION.
+// Version of the linked library, encoded like CND_MAKE_VERSION.
 CND_API uint32_t cndGetVersion(void);
 
-// What memory is for.
+// What a block of device memory is used for.
 typedef enum CndMemoryKind {
-    CND_MEMORY_BUFFER = 0, // buffers of the GPU alone
-    // The same, but no recording reads what an earlier one left there, except for what the host
-    // asks to be kept: by CndLightingFrame::surfacesUnchanged, and a forward set until it was used.
-    // May lie over other memory of the host's that is not in use meanwhile; the host then orders
-    // both uses (stages COMPUTE_SHADER, DRAW_INDIRECT and ALL_TRANSFER, all their accesses).
+    CND_MEMORY_BUFFER = 0, // buffers that only the GPU accesses
+    // Buffers that only the GPU accesses and whose contents need not survive between recordings.
+    // Two exceptions: contents are kept for a frame with CndLightingFrame::surfacesUnchanged, and
+    // for a forward set (cndGetForwardSet) until it has been used. The host may alias this memory
+    // with other memory that is not in use at the same time; the host then orders both uses with
+    // barriers (stages COMPUTE_SHADER, DRAW_INDIRECT and ALL_TRANSFER, with all their accesses).
     CND_MEMORY_SCRATCH = 1,
-    CND_MEMORY_UPLOAD = 2,   // buffers that the host writes, in order, and the GPU reads
+    CND_MEMORY_UPLOAD = 2,   // buffers that the host writes sequentially and the GPU reads
     CND_MEMORY_READBACK = 3, // buffers that the GPU writes and the host reads: statistics
-    CND_MEMORY_IMAGE = 4,    // images of optimal tiling, of the GPU alone
+    CND_MEMORY_IMAGE = 4,    // images with optimal tiling that only the GPU accesses
     CND_MEMORY_KIND_COUNT = 5,
     CND_MEMORY_KIND_MAX_ENUM = 0x7FFFFFFF
 } CndMemoryKind;
 
-// Memory for one object, which exists; the module binds it.
+// A request for the memory of one buffer or image. The object exists already; the module binds the
+// memory to it.
 typedef struct CndMemoryRequest {
     VkMemoryRequirements requirements;
-    VkMemoryPropertyFlags required;  // the memory type has all of these
-    VkMemoryPropertyFlags preferred; // and these too where there is such a type
+    VkMemoryPropertyFlags required;  // the memory type must have all of these
+    VkMemoryPropertyFlags preferred; // and should have these too, if there is such a type
     CndMemoryKind kind;
-    VkBuffer buffer;  // for a dedicated allocation; VK_NULL_HANDLE for an image
-    VkImage image;    // the same; VK_NULL_HANDLE for a buffer
-    const char* name; // of the object; only until the call returns
+    VkBuffer buffer;  // for a dedicated allocation; VK_NULL_HANDLE when the object is an image
+    VkImage image;    // for a dedicated allocation; VK_NULL_HANDLE when the object is a buffer
+    const char* name; // debug name of the object; valid only until the call returns
 } CndMemoryRequest;
 
-// Where the object goes.
+// The host's answer to a CndMemoryRequest: where the object's memory is.
 typedef struct CndMemory {
     VkDeviceMemory memory;
     VkDeviceSize offset; // bytes, a multiple of requirements.alignment
-    void* mapped;        // at offset; not NULL where `required` has HOST_VISIBLE
-    void* allocation;    // the host's own: what `free` is given
+    void* mapped;        // address of `offset` in host memory; not NULL if `required` contains
+                         // HOST_VISIBLE
+    void* allocation;    // the host's own handle, passed to CndAllocator::free
 } CndMemory;
 
-// All device memory comes from the host, and goes back to it. Neither function may throw. They are
-// called in cndCreate..., in calls that set or edit lights, and in cndDestroy..., by the thread
-// that makes the call; never while recording.
+// The host's allocator for all device memory of a module. Neither function may throw. They are
+// called in cndCreate..., in calls that set or edit lights, and in cndDestroy..., on the calling
+// thread; never while recording.
 typedef struct CndAllocator {
-    // VK_SUCCESS and `memory` filled in, or an error, which the call that needed it then reports.
+    // Fills in `memory` and returns VK_SUCCESS, or returns an error. The ABI function that needed
+    // the memory then fails with that error.
     VkResult (*allocate)(void* user, const CndMemoryRequest* request, CndMemory* memory);
-    // The GPU has finished with it and the object is gone.
+    // Takes an allocation back. The GPU has finished using it, and its object has been destroyed.
     void (*free)(void* user, void* allocation);
+    // Passed to both functions as their first argument.
     void* user;
 } CndAllocator;
 
-// Memory by CndMemoryKind; scratch memory is transient, all other persists. One block of
-// bytes + allocations * alignment, of a type in memoryTypeBits, holds all of a kind, each behind
-// the one before it at the next multiple of its alignment.
+// Device memory of a module, per CndMemoryKind. Scratch memory is transient; all other kinds are
+// persistent. A host that suballocates can hold all objects of a kind in one block of bytes +
+// allocations * alignment bytes, of a memory type in memoryTypeBits, by placing each object after
+// the previous one at the next multiple of its alignment.
 typedef struct CndMemoryUsage {
     uint32_t structSize;
+    // Number of separate allocations.
     uint32_t allocations[CND_MEMORY_KIND_COUNT];
     VkDeviceSize bytes[CND_MEMORY_KIND_COUNT];      // sum of VkMemoryRequirements::size
-    VkDeviceSize alignment[CND_MEMORY_KIND_COUNT];  // the largest there was; 0: none
-    uint32_t memoryTypeBits[CND_MEMORY_KIND_COUNT]; // types that take every one there was
+    VkDeviceSize alignment[CND_MEMORY_KIND_COUNT];  // largest VkMemoryRequirements::alignment; 0
+                                                    // without allocations
+    uint32_t memoryTypeBits[CND_MEMORY_KIND_COUNT]; // memory types that every allocation allows
 } CndMemoryUsage;
 
 typedef enum CndMessageSeverity {
-    CND_MESSAGE_INFO = 0,    // what a call did besides: memory that grew, pipelines that were made
-    CND_MESSAGE_WARNING = 1, // works, but slower or less than was asked for
+    CND_MESSAGE_INFO = 0,    // what a call also did: memory that grew, pipelines that were created
+    CND_MESSAGE_WARNING = 1, // the call works, but slower or with less than was asked for
     CND_MESSAGE_SEVERITY_MAX_ENUM = 0x7FFFFFFF
 } CndMessageSeverity;
 
-// What is no error and worth a line in the host's log: one sentence, only until the callback
-// returns. Called in cndCreate..., in calls that set or edit lights and in cndGet...Stats, by the
-// thread that makes the call; never while recording, and not every frame. May not throw, nor call
-// the object that it is about. Errors are results and no messages.
+// Receives one sentence for the host's log about something that is worth knowing but is not an
+// error (errors are returned as results and never sent here). The sentence is valid only until the
+// callback returns. Called in cndCreate..., in calls that set or edit lights and in cndGet...Stats,
+// on the calling thread; never while recording, and not every frame. The callback must not throw
+// and must not call the object that reports.
 typedef void (*CndMessageCallback)(void* user, CndMessageSeverity severity, const char* sentence);
 
-// Borrowed handles; they must outlive every object created from them.
+// The Vulkan device that a module uses. All handles are borrowed and must outlive every object
+// created from them.
 typedef struct CndDeviceDesc {
     uint32_t structSize;
     VkInstance instance;
@@ -120,37 +131,44 @@ typedef struct CndDeviceDesc {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr;
     VkPipelineCache pipelineCache;                    // may be VK_NULL_HANDLE
     const VkAllocationCallbacks* allocationCallbacks; // may be NULL
-    VkBool32
-        debugUtilsEnabled;  // VK_EXT_debug_utils is enabled on the instance: name and label objects
-    CndAllocator allocator; // copied; all zero: the modules call vkAllocateMemory for every object
+    // VK_TRUE if the instance has VK_EXT_debug_utils enabled: objects and passes then get names.
+    VkBool32 debugUtilsEnabled;
+    // The struct is copied. All zero: the modules call vkAllocateMemory for every object
+    // themselves.
+    CndAllocator allocator;
     CndMessageCallback message; // may be NULL
-    void* messageUser;          // given to it
+    void* messageUser;          // passed to `message` as its first argument
 } CndDeviceDesc;
 
-// Writes into `missing` (comma separated, zero terminated, truncated at missingSize) what the
-// device lacks; CND_SUCCESS when it lacks nothing, CND_ERROR_UNSUPPORTED otherwise.
+// Checks whether a device has everything the modules need: Vulkan 1.3, features, limits, formats.
+// Returns CND_SUCCESS if so. Otherwise returns CND_ERROR_UNSUPPORTED and writes what is missing
+// into `missing` (comma separated, zero terminated, truncated at missingSize bytes). `missing` may
+// be NULL.
 CND_API CndResult cndCheckDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
                                  PFN_vkGetInstanceProcAddr getInstanceProcAddr, char* missing,
                                  size_t missingSize);
 
-// Sets to VK_TRUE, in feature structs the host chains into VkDeviceCreateInfo, every feature that
-// the modules need. Other members are left alone. Pointers may not be NULL.
+// Sets to VK_TRUE every feature that the modules need, in the feature structs that the host chains
+// into VkDeviceCreateInfo. Other members are left alone. The pointers must not be NULL.
 CND_API void cndRequireFeatures(VkPhysicalDeviceFeatures* core10,
                                 VkPhysicalDeviceVulkan12Features* core12,
                                 VkPhysicalDeviceVulkan13Features* core13);
 
+// GPU time of one kernel (or of all its dispatches) in one frame.
 typedef struct CndKernelTime {
-    const char* name; // static storage
+    const char* name; // name of the shader, static storage
     double ms;
 } CndKernelTime;
 
 #define CND_MAX_KERNEL_TIMES 16
 
-// A pass of a module and what became of it in one frame: the content decides. Rows of kernel times
-// have the same names; a pass whose work the GPU itself found to be empty has a row as well.
+// One pass of a module and whether it ran in one frame; passes without work in that frame's content
+// are skipped. Rows of CndKernelTime have the same names. A pass that was recorded but whose work
+// the GPU found to be empty has a row of kernel time as well.
 typedef struct CndPassPlan {
     const char* name;    // static storage
-    const char* skipped; // NULL: it ran; else why it did not, static storage
+    const char* skipped; // NULL if the pass ran; otherwise the reason why it did not, static
+                         // storage
 } CndPassPlan;
 
 #define CND_MAX_PASSES 16

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment module: an image of the far surroundings as a light.
+// The environment module: lights a scene by an image of its far surroundings.
 #ifndef CANDELABRA_ENVIRONMENT_H
 #define CANDELABRA_ENVIRONMENT_H
 
@@ -10,85 +10,103 @@
 extern "C" {
 #endif
 
-typedef struct CndEnvironment_T* CndEnvironment; // one image; any number of views
+// An environment image prepared for shading. One object serves any number of views.
+typedef struct CndEnvironment_T* CndEnvironment;
 
 typedef struct CndEnvironmentDesc {
     uint32_t structSize;
-    uint32_t framesInFlight; // 1..8, over all views together
+    uint32_t framesInFlight; // 1..8: frames recorded and not yet waited for, all views together
     CndGBufferLayout gbufferLayout;
-    // Texels of a cube face's side, a power of two 64..2048, 0 = default (256): what mirrors and
-    // the background show. 256 * cubeSize^2 bytes (256: 17 MB).
+    // Side of a cube face in texels, a power of two in 64..2048; 0: default, 256. It limits the
+    // sharpness of the background and of mirror reflections. The module takes 256 * cubeSize^2
+    // bytes for it (17 MB for 256).
     uint32_t cubeSize;
-    VkBool32 timestamps;        // time every kernel
-    CndGBufferDesc gbuffer;     // of CND_GBUFFER_HOST
-    CndHostKernels hostKernels; // as of CndLightingDesc
+    VkBool32 timestamps;        // VK_TRUE: measure the GPU time of every kernel
+    CndGBufferDesc gbuffer;     // read only with CND_GBUFFER_HOST
+    CndHostKernels hostKernels; // kernels with functions of the host; only shade_environment is
+                                // used
 } CndEnvironmentDesc;
 
-// An equirectangular image: up (+y) at the top row, -z in the middle, +x to the right of it;
-// luminance in cd/m^2 per Rec.709 channel. NaN and negative values count as 0, and nothing is
-// brighter than 2e12.
-// On entry: a float format in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to COMPUTE_SHADER /
-// SHADER_SAMPLED_READ; not needed any more once the GPU has finished the recording.
+// An equirectangular (latitude-longitude) image: up (+y) is the top row, -z is the middle, +x is to
+// the right of the middle. It holds luminance in cd/m^2 per Rec.709 channel. NaN and negative
+// values are read as 0, values above 2e12 as 2e12. On entry: a float format in
+// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to COMPUTE_SHADER / SHADER_SAMPLED_READ. The
+// image is not needed any more once the GPU has finished the recording.
 typedef struct CndEnvironmentMap {
     uint32_t structSize;
     uint32_t width, height; // texels, 1..16384
     VkImageView equirectangular;
 } CndEnvironmentMap;
 
-// One frame of one view. Entry, exit and G-buffer as for CndLightingFrame; may stand before or
-// after it (with a memory barrier between them, which cndRecordLighting begins with).
+// One frame of one view. What holds on entry and exit, and the G-buffer, are as for
+// CndLightingFrame. It may be recorded before or after the CndLightingFrame of the same view. The
+// host puts a memory barrier between the two when this one comes second; when it comes first, the
+// barrier at the start of cndRecordLighting is enough.
 typedef struct CndEnvironmentFrame {
     uint32_t structSize;
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
     uint32_t width, height; // pixels, 1..16384
     CndCamera camera;
-    float clearDepth; // depth of pixels without a surface: 0 with reversed depth, else 1
+    float clearDepth; // depth value of pixels without a surface: 0 with reversed depth, else 1
     VkImageView normalRoughness;
     VkImageView albedo;
-    VkImageView specular; // may be VK_NULL_HANDLE where the layout reads none (COMPACT)
-    VkImageView depth;    // depth aspect of a depth format, or R32_SFLOAT
-    VkImageView radiance; // R32G32B32A32_SFLOAT, storage; outgoing luminance is ADDED (cd/m^2)
-    float worldFromEnvironment[9]; // rotation of the image's space, columns
-    float scale;                   // >= 0, factor on the image's luminance
-    // The environment is seen, ADDED like all luminance, in pixels without a surface: clear those
-    // to 0, or to the distant lights that are seen there.
+    VkImageView specular; // may be VK_NULL_HANDLE if the layout does not read it
+                          // (CND_GBUFFER_COMPACT)
+    VkImageView depth;    // view of the depth aspect of a depth format, or of R32_SFLOAT
+    VkImageView radiance; // R32G32B32A32_SFLOAT storage image; outgoing luminance (cd/m^2) is ADDED
+                          // to it
+    float worldFromEnvironment[9]; // rotation matrix (3 columns) from the space of the image to the
+                                   // world
+    float scale;                   // >= 0 and finite, factor on the luminance of the image
+    // VK_TRUE: also show the environment in pixels without a surface. Its luminance is ADDED there
+    // too, so clear these pixels to 0, or to the distant lights that are visible in them.
     VkBool32 background;
     CndLobeJoining lobes;
-    // Light that bounces between microfacets is given back (Turquin 2019): without, a white metal
-    // loses up to 69% of it.
+    // VK_TRUE: compensate the energy that single-scattering microfacet models lose to multiple
+    // bounces (Turquin 2019). Without it a white metal loses up to 69% of the light.
     VkBool32 energyCompensation;
-    VkDescriptorSet hostSet; // as of CndLightingFrame
+    VkDescriptorSet hostSet; // as CndLightingFrame::hostSet
 } CndEnvironmentFrame;
 
+// Kernel times in milliseconds. The host sets structSize before the call.
 typedef struct CndEnvironmentStats {
     uint32_t structSize;
-    uint32_t kernelTimeCount; // of the frame; 0 without timestamps
+    uint32_t kernelTimeCount; // rows of the frame; 0 without timestamps
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
-    uint32_t mapKernelTimeCount; // of the last cndRecordEnvironmentMap
+    uint32_t mapKernelTimeCount; // rows of the last cndRecordEnvironmentMap
     CndKernelTime mapKernelTimes[CND_MAX_KERNEL_TIMES];
 } CndEnvironmentStats;
 
-// What creation will take: exactly that, with nothing allocated. Fails like it.
+// Writes the exact memory that cndCreateEnvironment will take, without allocating any. Fails with
+// the same errors as creation would.
 CND_API CndResult cndPlanEnvironment(const CndDeviceDesc* device, const CndEnvironmentDesc* desc,
                                      CndMemoryUsage* usage, CndError* error);
+// Creates the module. Fails with CND_ERROR_UNSUPPORTED if the device cannot filter
+// R32G32B32A32_SFLOAT images linearly.
 CND_API CndResult cndCreateEnvironment(const CndDeviceDesc* device, const CndEnvironmentDesc* desc,
                                        CndEnvironment* environment, CndError* error);
+// The GPU must have finished all work recorded with the object. NULL is ignored.
 CND_API void cndDestroyEnvironment(CndEnvironment environment);
-// What it holds, from creation on.
+// Writes the memory that the object holds, which stays the same from creation on.
 CND_API CndResult cndGetEnvironmentMemory(CndEnvironment environment, CndMemoryUsage* usage,
                                           CndError* error);
-// Records what shading needs of an image: cube, prefiltered cube, irradiance (and, the first time,
-// the table of the specular lobe's albedo). The GPU must have finished all that was recorded with
-// the object before. Submitted before the frames that use it, to the same queue. Changes compute
-// pipeline, compute descriptor set 0 and push constants; must be outside a render pass.
+// Records the preparation of an environment image: a cube map, a prefiltered cube map and
+// irradiance (and, in the first recording, the table of the specular lobe's directional albedo).
+// The GPU must have finished everything recorded with the object before. Submit it before the
+// frames that use it, to the same queue. Changes the compute pipeline, compute descriptor set 0 and
+// the push constants; must be recorded outside a render pass.
 CND_API CndResult cndRecordEnvironmentMap(CndEnvironment environment, VkCommandBuffer cmd,
                                           const CndEnvironmentMap* map, CndError* error);
-// Records shading of one frame: one kernel. Specular by split sum: exact in surroundings of one
-// luminance, else the lobe has the shape it has when seen from above. No shadows.
+// Records the shading of one frame, which is one kernel; cndRecordEnvironmentMap must have been
+// recorded before. The specular term is a split-sum approximation: exact in surroundings of
+// constant luminance, otherwise the lobe has the shape that it has when viewed from above. There
+// are no shadows. Changes the same state as cndRecordEnvironmentMap (and compute descriptor set 1
+// with host kernels); must be recorded outside a render pass.
 CND_API CndResult cndRecordEnvironment(CndEnvironment environment, VkCommandBuffer cmd,
                                        const CndEnvironmentFrame* frame, CndError* error);
-// Times of the last frame recorded in frameSlot and of the last map; CND_NOT_READY until the GPU
-// has finished them, CND_ERROR_INVALID_ARGUMENT before the first.
+// Writes kernel times of the last frame recorded in frameSlot, and of the last map. Returns
+// CND_NOT_READY until the GPU has finished both, CND_ERROR_INVALID_ARGUMENT before the first frame
+// of the slot.
 CND_API CndResult cndGetEnvironmentStats(CndEnvironment environment, uint32_t frameSlot,
                                          CndEnvironmentStats* stats);
 

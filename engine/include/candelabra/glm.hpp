@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLM types in the structs of candelabra.h, for hosts that use GLM (0.9.9 or later). The one header
-// of Candelabra that needs it; nothing else includes this.
+// Conversions between GLM types and the structs of candelabra.h, for hosts that use GLM (0.9.9 or
+// later). No other header of Candelabra includes GLM or this header.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -12,7 +12,8 @@
 namespace candelabra
 {
 
-// Into and out of three numbers: positions, axes and emission of lights, origins of light sets.
+// Copy three numbers into and out of GLM vectors: positions, axes and emission of lights, origins
+// of light sets.
 template <typename T, glm::qualifier Q>
 void assign(T (&to)[3], const glm::vec<3, T, Q>& from) noexcept
 {
@@ -25,7 +26,7 @@ glm::vec<3, T> toGlm(const T (&from)[3]) noexcept
     return {from[0], from[1], from[2]};
 }
 
-// As CndEnvironmentFrame::worldFromEnvironment.
+// Copies a rotation into CndEnvironmentFrame::worldFromEnvironment, column by column.
 template <glm::qualifier Q>
 void assign(float (&to)[9], const glm::mat<3, 3, float, Q>& from) noexcept
 {
@@ -33,8 +34,9 @@ void assign(float (&to)[9], const glm::mat<3, 3, float, Q>& from) noexcept
         to[i] = from[i / 3][i % 3];
 }
 
-// `viewFromWorld`: rotation and translation; `clipFromView`: with Vulkan's y, pointing down
-// (glm::perspective points it up: negate its [1][1]), and depth 0..1 (GLM_FORCE_DEPTH_ZERO_TO_ONE).
+// Makes a CndCamera. `viewFromWorld`: a rotation and a translation. `clipFromView`: a projection
+// for Vulkan's clip space, with y pointing down (glm::perspective points it up: negate its [1][1])
+// and depth 0..1 (GLM_FORCE_DEPTH_ZERO_TO_ONE).
 inline CndCamera camera(const glm::dmat4& viewFromWorld, const glm::mat4& clipFromView) noexcept
 {
     CndCamera out{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights, light sets, and the conversions of their photometric units.
+// Lights, light sets, and conversions between photometric units.
 #ifndef CANDELABRA_LIGHTS_H
 #define CANDELABRA_LIGHTS_H
 
@@ -9,173 +9,201 @@
 extern "C" {
 #endif
 
+// The unit of CndLight::emission depends on the type. It is per Rec.709 channel.
 typedef enum CndLightType {
-    CND_LIGHT_POINT = 0,  // emission: luminous intensity, cd
-    CND_LIGHT_SPHERE = 1, // emission: luminance, cd/m^2, constant over the sphere and directions
-    CND_LIGHT_SPOT = 2,   // emission: luminous intensity on the axis, cd
-    CND_LIGHT_DIRECTIONAL = 3,    // emission: illuminance on a surface that faces it, lx
-    CND_LIGHT_DISTANT_SPHERE = 4, // the sun: a sphere infinitely far away; luminance, cd/m^2
-    CND_LIGHT_TUBE = 5,      // capsule: all points within radius of a segment; luminance, cd/m^2
-    CND_LIGHT_RECTANGLE = 6, // luminance, cd/m^2
-    CND_LIGHT_DISC = 7,      // luminance, cd/m^2
+    CND_LIGHT_POINT = 0,       // emission is luminous intensity, cd
+    CND_LIGHT_SPHERE = 1,      // emission is luminance, cd/m^2, constant over the sphere and all
+                               // directions
+    CND_LIGHT_SPOT = 2,        // emission is luminous intensity on the axis, cd
+    CND_LIGHT_DIRECTIONAL = 3, // emission is illuminance (lx) on a surface that faces the light
+    // The sun: a sphere infinitely far away. Emission is luminance, cd/m^2.
+    CND_LIGHT_DISTANT_SPHERE = 4,
+    // A capsule: all points within `radius` of a line segment. Emission is luminance, cd/m^2.
+    CND_LIGHT_TUBE = 5,
+    CND_LIGHT_RECTANGLE = 6, // emission is luminance, cd/m^2
+    CND_LIGHT_DISC = 7,      // emission is luminance, cd/m^2
     CND_LIGHT_TYPE_COUNT = 8,
     CND_LIGHT_TYPE_MAX_ENUM = 0x7FFFFFFF
 } CndLightType;
 
-// Layers of lights and views: bits of a mask. 0 stands for all of them, so that a struct of zeros
-// is in every layer; what is in none has no use: remove the light.
+// Lights and frames have masks of layers, bits 0 to CND_LAYER_COUNT - 1. A light exists in the
+// frames that share a layer with it. The mask 0 stands for all layers, so that a zeroed struct is
+// in every layer; a light that should be in no layer is removed instead.
 #define CND_LAYER_COUNT 16
 
-// One light. Fields that a type does not use are ignored.
-// Window: a light is multiplied by (1 - (d/r)^4)^2 for d < r and is absent for d >= r, with d the
-// distance to its centre and r = influenceRadius (Lagarde and de Rousiers 2014, eq. 26, squared
-// window); with r = INFINITY it is neither windowed nor cut. Directional and distant lights have
-// no window.
+// One light. Fields that its type does not use are ignored.
+//
+// Window: a light is multiplied by (1 - (d/r)^4)^2 for d < r and is absent for d >= r, where d
+// is the distance to its centre and r is influenceRadius (Lagarde and de Rousiers 2014, eq. 26,
+// squared window). With r = INFINITY it is neither windowed nor cut. Directional and distant lights
+// have no window.
 typedef struct CndLight {
-    uint32_t type;      // CndLightType
-    float position[3];  // centre, metres, within 1e15 of CndLightSet::origin; all but directional
-                        //   and distant
-    float radius;       // 1e-15..1e15; sphere, tube, disc: metres; distant sphere: radius over
-                        //   distance, the sine of its angular radius, <= 1 (the Sun: 0.00465)
-    float direction[3]; // unit (1e-3). Spot, directional, distant: the way the light travels;
-                        //   disc: its normal, the way it faces
-    float emission[3];  // >= 0, finite; unit by type, per Rec.709 channel
-    // Metres, > 0, or INFINITY; greater than the reach of the emitter from its centre (sphere and
-    // disc: radius; tube: |axisU| + radius; rectangle: half its diagonal). All but directional and
-    // distant.
+    uint32_t type; // CndLightType
+    // Centre in metres, relative to CndLightSet::origin, each component within 1e15. All types but
+    // directional and distant sphere.
+    float position[3];
+    // 1e-15..1e15. Sphere, tube, disc: metres. Distant sphere: its radius divided by its distance,
+    // which is the sine of its angular radius, <= 1 (the Sun: 0.00465).
+    float radius;
+    // Unit vector (length within 1e-3 of 1). Spot, directional, distant sphere: the direction in
+    // which the light travels. Disc: its normal, the direction in which it emits.
+    float direction[3];
+    float emission[3]; // >= 0 and finite; unit by type, per Rec.709 channel
+    // Metres, > 0, or INFINITY; greater than the distance from the centre to the farthest point of
+    // the emitter (sphere and disc: radius; tube: |axisU| + radius; rectangle: half its diagonal).
+    // All types but directional and distant sphere.
     float influenceRadius;
-    float innerConeAngle; // radians, 0 <= inner < outer; spot: full intensity inside (half angle)
-    float outerConeAngle; // radians, inner < outer <= pi/2; spot: no light outside (half angle);
-                          //   cos inner - cos outer >= 1e-6
-    // Metres, length at least 1e-15, components within 1e15. Tube: from the centre to one end of
-    // its segment. Rectangle: from the centre to the middle of one edge, and of the next
-    // (perpendicular within 1e-3); it faces axisU x axisV.
+    // Spot: half angle of the cone with full intensity, radians, 0 <= inner < outer.
+    float innerConeAngle;
+    // Spot: half angle of the cone outside which there is no light, radians,
+    // inner < outer <= pi/2, with cos inner - cos outer >= 1e-6.
+    float outerConeAngle;
+    // Metres, length at least 1e-15, components within 1e15. Tube: axisU points from the centre to
+    // one end of its segment. Rectangle: axisU points from the centre to the middle of one edge,
+    // axisV to the middle of an adjacent edge. Both are perpendicular (cosine of their angle within
+    // 1e-3). The rectangle faces axisU x axisV.
     float axisU[3];
     float axisV[3];
-    VkBool32 twoSided; // rectangle, disc: emits from its back as well
-    // Mask of 1 << layer, below CND_LAYER_COUNT; 0: all. A light is there for the frames that have
-    // a layer in common with it (CndLightingFrame::layers).
+    VkBool32 twoSided; // rectangle, disc: VK_TRUE if the back emits as well
+    // Mask of 1 << layer, layer < CND_LAYER_COUNT; 0: all layers. The light exists in frames that
+    // share a layer with it (CndLightingFrame::layers).
     uint32_t layers;
 } CndLight;
 
-// Names a light for as long as it is in the set. Lights of cndSetLights have their index in it,
-// those of cndAddLights what that says: at least 2^32, and never the id of a light before. The id
-// of a light that is gone is refused.
+// Names a light for as long as it is in the set. A light of cndSetLights has its index in the set
+// as id. cndAddLights returns the ids of its lights; they are at least 2^32 and are never reused.
+// The id of a light that has been removed is refused.
 typedef uint64_t CndLightId;
 
-// A light in a buffer of the device, written by a particle simulation for instance. 32 bytes, two
-// vec4 in GLSL. Ranges are those of CndLight.
+// A light in a device buffer, written for instance by a particle simulation. 32 bytes, two vec4 in
+// GLSL. Ranges are those of CndLight.
 typedef struct CndDeviceLight {
     float position[3];     // metres, relative to CndLightSet::origin
     float radius;          // metres; ignored for point lights
-    float emission[3];     // as CndLight, by type
+    float emission[3];     // unit by type, as CndLight::emission
     float influenceRadius; // metres
 } CndDeviceLight;
 
-// Lights of one type that never visit the host. Buffers are borrowed: they must stay as they are
-// until the GPU has finished the first recording after cndSetLights, which reads them; call it
-// again, with the same values, for what was written since (it allocates nothing then). On entry
-// their contents are made visible to COMPUTE_SHADER / SHADER_STORAGE_READ.
-// The host cannot check them: what is outside its range gives no light and is counted in
-// CndLightingStats::rejectedLights, like what is beyond maxCount.
+// Lights of one type that are written on the device and never visit the host.
+//
+// The buffers are borrowed. The first recording after cndSetLights reads them; until the GPU has
+// finished that recording they must not change. To pass on lights that were written later, call
+// cndSetLights again with the same values, which then allocates nothing. On entry to the recording
+// the contents are visible to COMPUTE_SHADER / SHADER_STORAGE_READ.
+//
+// The host cannot check these lights: one with a value outside its range gives no light and is
+// counted in CndLightingStats::rejectedLights, as are lights beyond maxCount.
 typedef struct CndDeviceLights {
-    uint32_t type;            // CND_LIGHT_POINT or CND_LIGHT_SPHERE
-    uint32_t maxCount;        // CndDeviceLight in `buffer`, > 0; time and memory are paid for all
-    VkBuffer buffer;          // usage STORAGE_BUFFER
-    VkDeviceSize offset;      // bytes, a multiple of minStorageBufferOffsetAlignment
-    VkBuffer countBuffer;     // holds how many there are, one uint32_t; VK_NULL_HANDLE: maxCount
+    uint32_t type; // CND_LIGHT_POINT or CND_LIGHT_SPHERE
+    // Capacity of `buffer` in lights, > 0. Time and memory are paid for all of them, present or
+    // not.
+    uint32_t maxCount;
+    VkBuffer buffer;     // usage STORAGE_BUFFER
+    VkDeviceSize offset; // bytes, a multiple of minStorageBufferOffsetAlignment
+    // One uint32_t with the number of lights; VK_NULL_HANDLE: there are maxCount lights.
+    VkBuffer countBuffer;
     VkDeviceSize countOffset; // bytes, a multiple of minStorageBufferOffsetAlignment
-    // Where most of them are and how far most of them reach, metres: for speed alone.
+    // Where most of the lights are, relative to the origin, and how far most of them reach, in
+    // metres. These members affect speed only.
     float boundsMin[3], boundsMax[3];
     float influenceRadius;
-    uint32_t layers; // of all of them, as CndLight::layers
+    uint32_t layers; // of all the lights, as CndLight::layers
 } CndDeviceLights;
 
-// A set of lights around an origin. The engine subtracts the camera from the origin in double, so
-// precision depends on the distance from a light to its origin only.
+// A set of lights, with positions relative to an origin. The engine subtracts the camera from the
+// origin in double precision, so precision depends only on the distance of a light from the origin.
 typedef struct CndLightSet {
     uint32_t structSize;
     uint32_t count;
     const CndLight* lights;              // count elements, read before the call returns
-    double origin[3];                    // world space, metres
-    const CndDeviceLights* deviceLights; // may be NULL: none
+    double origin[3];                    // world space, metres, finite
+    const CndDeviceLights* deviceLights; // may be NULL: there are none
 } CndLightSet;
 
-// Largest CndLightSet::count, with CndDeviceLights::maxCount, for a device with these limits;
-// `limits` may not be NULL.
+// Returns the largest number of lights in a set, CndLightSet::count plus CndDeviceLights::maxCount,
+// for a device with these limits. `limits` must not be NULL.
 CND_API uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits);
 
-// Conversions of photometric units
+// Conversions of photometric units.
 //
-// Area lights are Lambertian emitters: from every point of their surface comes the same luminance L
-// in every direction, so a convex one of area A emits Phi = pi A L, and the irradiance of a surface
-// under it is E = L times the projected solid angle (a sphere wholly above the horizon: E = pi L
-// s^2 cos, with s = R / d). E, Phi, I and L below are per Rec.709 channel.
+// Area lights are Lambertian emitters: every point of their surface has the same luminance L in all
+// directions. So a convex emitter of area A emits the luminous power Phi = pi A L, and a surface
+// under it receives the irradiance E = L times the projected solid angle (for a sphere wholly above
+// the horizon: E = pi L s^2 cos, with s = R / d). E, Phi, I and L below are per Rec.709
+// channel.
 //
-// c_light: in rendering the "colour" of a light often is what a white Lambertian surface that faces
-// it shows, E = pi c_light. In that convention directional lights have emission = pi c_light, point
-// lights at distance d emission = pi c_light d^2, spheres and distant spheres emission = c_light /
-// s^2.
+// c_light: in rendering, the "colour" of a light often means what a white Lambertian surface shows
+// that faces it, E = pi c_light. In that convention directional lights have emission = pi c_light,
+// point lights at distance d have emission = pi c_light d^2, spheres and distant spheres have
+// emission = c_light / s^2.
 //
-// The power functions compute in double, round once and check nothing: lengths are > 0.
+// The power functions compute in double precision, round once and check nothing: lengths must be >
+// 0.
 
-// Luminance (cd/m^2) of a sphere of `radius` metres that emits `luminousPower` lumens evenly:
-// Phi = 4 pi^2 R^2 L. Keeping the power while changing the radius keeps the far field.
+// Returns the luminance (cd/m^2) of a sphere of `radius` metres that emits `luminousPower` lumens
+// evenly: Phi = 4 pi^2 R^2 L. Keeping the power while changing the radius keeps the far field.
 CND_API float cndSphereLuminanceFromPower(float luminousPower, float radius);
-// Luminance (cd/m^2) of a sphere of `radius` metres with the far field of a point light of
-// `intensity` candela: I = pi R^2 L.
+// Returns the luminance (cd/m^2) of a sphere of `radius` metres that has the far field of a point
+// light of `intensity` candela: I = pi R^2 L.
 CND_API float cndSphereLuminanceFromIntensity(float intensity, float radius);
-// Luminance (cd/m^2) of a tube that emits `luminousPower` lumens. `length`: metres between the end
-// points of its segment, 2 |axisU|, may be 0; A = 2 pi R (length + 2 R).
+// Returns the luminance (cd/m^2) of a tube that emits `luminousPower` lumens. `length` is the
+// distance between the end points of its segment in metres, 2 |axisU|, and may be 0;
+// A = 2 pi R (length + 2 R).
 CND_API float cndTubeLuminanceFromPower(float luminousPower, float length, float radius);
-// Luminance (cd/m^2) of a rectangle with sides `width` = 2 |axisU| and `height` = 2 |axisV|,
-// metres; A = width height, twice that when it is two-sided.
+// Returns the luminance (cd/m^2) of a rectangle with sides `width` = 2 |axisU| and `height` = 2
+// |axisV| in metres; A = width height, or twice that for a two-sided rectangle.
 CND_API float cndRectangleLuminanceFromPower(float luminousPower, float width, float height,
                                              VkBool32 twoSided);
-// Luminance (cd/m^2) of a disc; A = pi R^2, twice that when it is two-sided.
+// Returns the luminance (cd/m^2) of a disc; A = pi R^2, or twice that for a two-sided disc.
 CND_API float cndDiscLuminanceFromPower(float luminousPower, float radius, VkBool32 twoSided);
-// Luminous flux (lm) of `watts` of radiation at 555 nm: 683 lm/W (SI definition of the candela).
+// Returns the luminous power (lm) of `watts` of radiation at 555 nm: 683 lm/W (SI definition of the
+// candela).
 CND_API float cndLuminousPowerFromWatts(float watts);
-// Luminous power (lm) that `light` emits, without its window: spheres, tubes, rectangles and discs
-// as above, points 4 pi I, spots 2 pi I (1 - cos inner + (cos inner - cos outer) / 3). Directional
-// and distant lights have none: CND_ERROR_INVALID_ARGUMENT.
+// Writes the luminous power (lm) that `light` emits, ignoring its window: spheres, tubes,
+// rectangles and discs as above, points 4 pi I, spots 2 pi I (1 - cos inner + (cos inner - cos
+// outer) / 3). Fails with CND_ERROR_INVALID_ARGUMENT for directional and distant lights, which have
+// none.
 CND_API CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousPower[3],
                                           CndError* error);
 
-// One kind of light as another with the same irradiance at a receiver, however it is turned while
-// the whole emitter is above its horizon. `at` is the receiver's position, relative to the origin
-// of the light set like CndLight::position. Computed in double; influenceRadius and layers are
-// kept. On error nothing is written.
+// Conversions of one type of light into another that has the same irradiance at a receiver,
+// whatever the receiver's orientation, as long as the whole emitter is above its horizon. `at` is
+// the receiver's position in metres, relative to the origin of the light set like
+// CndLight::position. They compute in double precision. influenceRadius and layers are kept where
+// the new type has them. On error nothing is written.
 
-// The Sun's sine of the angular radius, 695,700 km / 149.6e6 km (IAU 2015 B3, 2012 B2).
+// Sine of the Sun's angular radius, 695,700 km / 149.6e6 km (IAU 2015 B3, 2012 B2).
 #define CND_SUN_SINE 0.00465f
 
-// A point light as a sphere with the same position and far field, L = I / (pi R^2). `radius`:
-// metres, smaller than the distance to `at`; 0 chooses a thousandth of that distance: small enough
-// to look like a point, while the luminance is a million times c_light and no more, R is 10,000
-// steps of single precision at that distance, and the form factor is in the range it is measured in
-// (s >= 1e-5).
+// Converts a point light into a sphere with the same position and far field, L = I / (pi R^2).
+// `radius` is in metres and smaller than the distance to `at`. 0 chooses a thousandth of that
+// distance (or a quarter of influenceRadius if that is smaller): small enough to look like a point,
+// while the luminance is no more than a million times c_light, R is 10,000 steps of single
+// precision at that distance, and the form factor is in the range in which it has been measured (s
+// >= 1e-5).
 CND_API CndResult cndSphereFromPoint(const CndLight* point, float radius, const float at[3],
                                      CndLight* sphere, CndError* error);
-// The limit of a sphere as its radius shrinks: I = pi R^2 L.
+// Converts a sphere into the limit of that sphere as its radius shrinks, a point light: I = pi R^2
+// L.
 CND_API CndResult cndPointFromSphere(const CndLight* sphere, CndLight* point, CndError* error);
-// A directional light as a distant sphere, L = E / (pi s^2). `sine`: of its angular radius, 0 < s
-// <= 1; 0 chooses CND_SUN_SINE.
+// Converts a directional light into a distant sphere, L = E / (pi s^2). `sine` is the sine s of its
+// angular radius, 0 < s <= 1; 0 chooses CND_SUN_SINE.
 CND_API CndResult cndDistantSphereFromDirectional(const CndLight* directional, float sine,
                                                   CndLight* distantSphere, CndError* error);
-// The limit of a distant sphere as its angular radius shrinks: E = pi s^2 L.
+// Converts a distant sphere into the limit of that sphere as its angular radius shrinks, a
+// directional light: E = pi s^2 L.
 CND_API CndResult cndDirectionalFromDistantSphere(const CndLight* distantSphere,
                                                   CndLight* directional, CndError* error);
-// A directional light as a sphere at a finite `distance` (metres) from `at`, of radius sine *
-// distance. At a receiver x metres nearer, irradiance is (1 - x / distance)^-2 times that at `at`.
-// A distance of 0 chooses the larger of 1e6 m (2% more at 10 km) and |at|: a step of single
-// precision there is 1.2e-7 rad at most, 1/40,000 of the Sun's radius, and squared distances stay
-// below 1e38. `sine` as above, but < 1.
+// Converts a directional light into a sphere at a finite `distance` (metres) from `at`, with radius
+// sine * distance. A receiver x metres nearer to it gets (1 - x / distance)^-2 times the
+// irradiance at `at`. A distance of 0 chooses the larger of 1e6 m (2% more at 10 km) and |at|: a
+// step of single precision there is at most 1.2e-7 rad, 1/40,000 of the Sun's radius, and squared
+// distances stay below 1e38. `sine` is as above, but < 1. influenceRadius becomes INFINITY.
 CND_API CndResult cndSphereFromDirectional(const CndLight* directional, const float at[3],
                                            float distance, float sine, CndLight* sphere,
                                            CndError* error);
-// A sphere as the directional light that `at` sees: from its centre, E = pi s^2 L W with the window
-// W. `at` must be outside.
+// Converts a sphere into the directional light that `at` sees: it comes from the centre of the
+// sphere, and E = pi s^2 L W with the window W. `at` must be outside the sphere.
 CND_API CndResult cndDirectionalFromSphere(const CndLight* sphere, const float at[3],
                                            CndLight* directional, CndError* error);
 
