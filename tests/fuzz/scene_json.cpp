@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene descriptions (.json).
 #include "fuzz/fuzz_target.h"
+#include "harness/paths.h"
 #include "scene/load.h"
 #include "unit/scene_invariants.h"
 
@@ -9,7 +10,7 @@ namespace candelabra::test
 
 Seeds fuzzSeeds()
 {
-    return {fileText(CANDELABRA_TEST_DATA "/every_light.json"),
+    return {fileText(dataPath("every_light.json")),
             R"({"camera": {"eye": [0, 1, 4], "target": [0, 0, 0], "fov": 45}, "objects": [],
                 "lights": []})"};
 }

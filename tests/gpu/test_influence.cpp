@@ -3,6 +3,7 @@
 // brute force; what is not to be measured is not; and without it nothing changes.
 #include "commands/influence_check.h"
 #include "gpu/influence_harness.h"
+#include "harness/paths.h"
 #include "render/camera.h"
 #include "scene/load.h"
 
@@ -53,7 +54,7 @@ TEST_F(InfluenceTest, ScenesStayWithinTheError)
 TEST_F(InfluenceTest, LampsByDayEndWhereTheDisplayDoesNotTell)
 {
     using namespace app;
-    const Scene scene = loadScene(CANDELABRA_TEST_DATA "/noon.json", {.lights = 1000});
+    const Scene scene = loadScene(dataPath("noon.json"), {.lights = 1000});
     Renderer renderer(context(), scene,
                       {.size = {64, 36},
                        .framesInFlight = 1,

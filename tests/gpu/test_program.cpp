@@ -16,6 +16,7 @@
 #include "commands/options.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
+#include "harness/paths.h"
 #include "harness/xml.h"
 #include "io/image.h"
 #include "io/table.h"
@@ -56,7 +57,7 @@ protected:
     {
         const char* device = std::getenv("CANDELABRA_TEST_DEVICE");
         const std::string command =
-            "cd '" + dir_.string() + "' && " + before + " '" + CANDELABRA_PROGRAM + "' " +
+            "cd '" + dir_.string() + "' && " + before + " " + test::programWord() + " " +
             arguments +
             (device && arguments.rfind("devices", 0) ? " --device '" + std::string(device) + "'"
                                                      : "") +
@@ -310,8 +311,8 @@ TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
                   0);
     ASSERT_EQ(nlohmann::json::parse(text("r.json")).size(), 2u);
     // Not run(): compare takes no device.
-    const std::string compare = "cd '" + dir_.string() + "' && '" + CANDELABRA_PROGRAM +
-                                "' compare r.json r.json >out.txt 2>err.txt";
+    const std::string compare = "cd '" + dir_.string() + "' && " + test::programWord() +
+                                " compare r.json r.json >out.txt 2>err.txt";
     ASSERT_EQ(WEXITSTATUS(std::system(compare.c_str())), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("shade_tiles"), std::string::npos) << text("out.txt");
     EXPECT_NE(text("out.txt").find("Fewer than 4 runs"), std::string::npos) << text("out.txt");
@@ -392,8 +393,8 @@ TEST_F(ProgramTest, MoreLightsThanTheDeviceHasRoomForAreRefused)
 TEST_F(ProgramTest, UnknownDeviceIsRefused)
 {
     for (const char* wanted : {"99", "no-such-device"}) {
-        const std::string command = "cd '" + dir_.string() + "' && '" + CANDELABRA_PROGRAM +
-                                    "' render hall -o a.png --device " + wanted + " 2>err.txt";
+        const std::string command = "cd '" + dir_.string() + "' && " + test::programWord() +
+                                    " render hall -o a.png --device " + wanted + " 2>err.txt";
         const int status = std::system(command.c_str());
         EXPECT_EQ(WEXITSTATUS(status), 2) << wanted;
         EXPECT_EQ(text("err.txt").rfind("candelabra: --device ", 0), 0u) << text("err.txt");

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "harness/paths.h"
 #include "scene/load.h"
 
 namespace
@@ -48,16 +49,16 @@ std::string textOf(const std::filesystem::path& path)
 
 TEST(Viewer, IsDrivenByKeysAndMouse)
 {
+    using namespace candelabra::test;
     for (const char* tool : {"xvfb-run", "xdotool"})
         ASSERT_EQ(std::system((std::string("command -v ") + tool + " >/dev/null").c_str()), 0)
             << tool << " is not installed (tools/setup installs it)";
     const std::filesystem::path dir =
         std::filesystem::temp_directory_path() / ("candelabra_viewer_" + std::to_string(getpid()));
     std::filesystem::create_directories(dir);
-    const std::string command = "cd '" + dir.string() +
-                                "' && PROGRAM='" CANDELABRA_PROGRAM
-                                "' xvfb-run -a bash '" CANDELABRA_TEST_DATA
-                                "/viewer_session.sh' >out.txt 2>err.txt";
+    const std::string command = "cd '" + dir.string() + "' && PROGRAM=" + programWord() +
+                                " xvfb-run -a bash " + shellWord(dataPath("viewer_session.sh")) +
+                                " >out.txt 2>err.txt";
     const int status = std::system(command.c_str());
     const std::string err = textOf(dir / "err.txt");
     // A validation message, of objects left behind too, makes it 1.

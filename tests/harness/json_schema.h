@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/paths.h"
+
 namespace candelabra::test
 {
 
@@ -17,8 +19,8 @@ class JsonSchema
 public:
     // `name`: of a file in tools/candelabra/schemas.
     explicit JsonSchema(const std::string& name)
-        : root_(nlohmann::json::parse(
-              std::ifstream(CANDELABRA_TEST_DATA "/../../tools/candelabra/schemas/" + name)))
+        : root_(
+              nlohmann::json::parse(std::ifstream(sourcePath("tools/candelabra/schemas/" + name))))
     {
     }
     // What is wrong, with its place; empty: nothing.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/paths.h"
 #include "scene/load.h"
 #include "scene/save.h"
 #include "unit/gltf_builder.h"
@@ -115,7 +116,7 @@ void expectSameCamera(const Camera& a, const Camera& b)
 
 TEST_F(Save, PlanesAndBallsUnderEveryLight)
 {
-    const Scene scene = loadSceneJson(CANDELABRA_TEST_DATA "/every_light.json");
+    const Scene scene = loadSceneJson(dataPath("every_light.json"));
     const Scene saved = again(scene, {"every_light.json"});
     expectSameLights(scene, saved);
     expectSameCamera(scene.cameras[0], saved.cameras[0]);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "constants.h"
+#include "harness/paths.h"
 #include "scene/load.h"
 #include "unit/gltf_builder.h"
 #include "unit/scene_invariants.h"
@@ -19,7 +20,7 @@ namespace
 
 using namespace candelabra::app;
 
-const std::string everyLight = std::string(CANDELABRA_TEST_DATA) + "/every_light.json";
+const std::string everyLight = dataPath("every_light.json");
 
 glm::vec3 vec(const float (&v)[3])
 {

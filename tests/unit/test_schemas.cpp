@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/json_schema.h"
+#include "harness/paths.h"
 
 namespace candelabra::test
 {
@@ -15,8 +16,8 @@ namespace
 
 nlohmann::json committedResults(const std::string& name)
 {
-    return nlohmann::json::parse(std::ifstream(CANDELABRA_TEST_DATA "/../../tools/bench/results/" +
-                                               name + "llvmpipe-mesa-22.3.6.json"));
+    return nlohmann::json::parse(
+        std::ifstream(sourcePath("tools/bench/results/" + name + "llvmpipe-mesa-22.3.6.json")));
 }
 
 } // namespace
@@ -43,8 +44,8 @@ TEST(Schemas, CommittedResultsAreValid)
 TEST(Schemas, SayNothingThatIsNotChecked)
 {
     int schemas = 0;
-    for (const auto& file : std::filesystem::directory_iterator(
-             CANDELABRA_TEST_DATA "/../../tools/candelabra/schemas")) {
+    for (const auto& file :
+         std::filesystem::directory_iterator(sourcePath("tools/candelabra/schemas"))) {
         EXPECT_EQ(JsonSchema(file.path().filename()).unknownKeyword(), "") << file.path();
         ++schemas;
     }
