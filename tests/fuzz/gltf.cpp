@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // glTF 2.0, text and binary.
+#include "gltf/gltf.h"
 #include "fuzz/fuzz_target.h"
-#include "scene/load.h"
+#include "scene/scene_error.h"
 #include "unit/broken_scene_cases.h"
 #include "unit/gltf_builder.h"
 #include "unit/scene_invariants.h"

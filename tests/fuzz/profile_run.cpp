@@ -5,7 +5,7 @@
 #include "commands/run_file.h"
 #include "fuzz/fuzz_target.h"
 #include "render/error.h"
-#include "scene/load.h"
+#include "scene/scene_error.h"
 
 namespace candelabra::test
 {

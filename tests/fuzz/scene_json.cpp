@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene descriptions (.json).
+#include "json/scene_json.h"
 #include "fuzz/fuzz_target.h"
 #include "harness/paths.h"
-#include "scene/load.h"
+#include "scene/scene_error.h"
 #include "unit/scene_invariants.h"
 
 namespace candelabra::test

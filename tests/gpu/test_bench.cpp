@@ -6,10 +6,10 @@
 #include "bench/kernel_level.h"
 #include "bench/low_roughness.h"
 #include "bench/stability.h"
+#include "generate/random.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
 #include "io/image.h"
-#include "scene/random.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

@@ -4,8 +4,8 @@
 #include "commands/influence_check.h"
 #include "gpu/influence_harness.h"
 #include "harness/paths.h"
+#include "load/load.h"
 #include "render/camera.h"
-#include "scene/load.h"
 
 namespace candelabra::test
 {

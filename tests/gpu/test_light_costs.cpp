@@ -10,8 +10,8 @@
 #include "commands/measure.h"
 #include "commands/pick.h"
 #include "harness/gpu_fixture.h"
+#include "load/load.h"
 #include "render/camera.h"
-#include "scene/load.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

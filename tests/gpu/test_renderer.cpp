@@ -11,10 +11,10 @@
 
 #include "commands/brute_check.h"
 #include "commands/measure.h"
+#include "generate/generators.h"
 #include "harness/gpu_fixture.h"
 #include "render/camera.h"
 #include "render/readback.h"
-#include "scene/load.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "harness/paths.h"
-#include "scene/load.h"
+#include "load/load.h"
 
 namespace
 {

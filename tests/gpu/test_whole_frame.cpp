@@ -12,8 +12,8 @@
 #include "harness/gpu_fixture.h"
 #include "render/camera.h"
 #include "render/readback.h"
-#include "scene/load.h"
 #include "scene/reference_scene.h"
+#include "json/scene_json.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

@@ -3,7 +3,8 @@
 // sentence. Meant to run under the address and undefined-behaviour sanitizers.
 #include <gtest/gtest.h>
 
-#include "scene/load.h"
+#include "load/load.h"
+#include "scene/scene_error.h"
 #include "unit/broken_scene_cases.h"
 #include "unit/scene_invariants.h"
 

@@ -14,6 +14,7 @@
 #include "commands/brute_check.h"
 #include "commands/options.h"
 #include "commands/pick.h"
+#include "generate/generators.h"
 #include "harness/run_program.h"
 #include "render/error.h"
 

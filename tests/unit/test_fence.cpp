@@ -5,8 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/load.h"
-#include "scene/ray_caster.h"
+#include "generate/generators.h"
+#include "generate/ray_caster.h"
+#include "scene/scene_options.h"
 #include "unit/scene_invariants.h"
 
 namespace candelabra::app

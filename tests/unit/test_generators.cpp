@@ -8,10 +8,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "scene/lights.h"
-#include "scene/load.h"
-#include "scene/ray_caster.h"
-#include "scene/shapes.h"
+#include "generate/generators.h"
+#include "generate/lights.h"
+#include "generate/ray_caster.h"
+#include "generate/shapes.h"
+#include "scene/scene_error.h"
+#include "scene/scene_options.h"
 #include "unit/scene_invariants.h"
 
 namespace candelabra::app

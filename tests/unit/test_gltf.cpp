@@ -2,6 +2,7 @@
 // glTF containers, nodes, scenes and cameras.
 #include <cmath>
 
+#include "load/load.h"
 #include "unit/gltf_fixture.h"
 
 namespace candelabra::test

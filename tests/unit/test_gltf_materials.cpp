@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/image.h"
+#include "load/load.h"
 #include "unit/gltf_fixture.h"
 
 namespace candelabra::test

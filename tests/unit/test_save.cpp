@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "harness/paths.h"
-#include "scene/load.h"
-#include "scene/save.h"
+#include "load/load.h"
+#include "scene/scene_error.h"
 #include "unit/gltf_builder.h"
 #include "unit/scene_invariants.h"
+#include "json/save.h"
+#include "json/scene_json.h"
 
 namespace candelabra::test
 {

@@ -6,11 +6,13 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "scene/light_grid.h"
-#include "scene/load.h"
-#include "scene/random.h"
-#include "scene/ray_caster.h"
-#include "scene/shapes.h"
+#include "generate/generators.h"
+#include "generate/light_grid.h"
+#include "generate/random.h"
+#include "generate/ray_caster.h"
+#include "generate/shapes.h"
+#include "scene/scene_error.h"
+#include "scene/scene_options.h"
 #include "unit/scene_invariants.h"
 
 namespace candelabra::app

@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/load.h"
+#include "load/load.h"
+#include "scene/scene_error.h"
 #include "unit/gltf_builder.h"
 #include "unit/scene_invariants.h"
 

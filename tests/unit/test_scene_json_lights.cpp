@@ -8,7 +8,8 @@
 
 #include "constants.h"
 #include "harness/paths.h"
-#include "scene/load.h"
+#include "load/load.h"
+#include "scene/scene_error.h"
 #include "unit/gltf_builder.h"
 #include "unit/scene_invariants.h"
 

@@ -8,10 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "constants.h"
-#include "scene/load.h"
-#include "scene/mesh_builder.h"
-#include "scene/random.h"
-#include "scene/shapes.h"
+#include "generate/generators.h"
+#include "generate/mesh_builder.h"
+#include "generate/random.h"
+#include "generate/shapes.h"
+#include "scene/scene_options.h"
 
 namespace candelabra::app
 {

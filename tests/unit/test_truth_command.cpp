@@ -15,8 +15,8 @@
 #include "cli.h"
 #include "io/image.h"
 #include "io/truth_file.h"
-#include "scene/load.h"
 #include "scene/reference_scene.h"
+#include "json/scene_json.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

@@ -15,7 +15,7 @@
 #include "commands/commands.h"
 #include "io/report.h"
 #include "render/error.h"
-#include "scene/load.h"
+#include "scene/scene_error.h"
 
 namespace candelabra::app
 {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/stability.h"
-#include "scene/random.h"
+#include "generate/random.h"
 
 namespace candelabra::app
 {

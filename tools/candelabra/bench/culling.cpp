@@ -12,9 +12,11 @@
 #include "bench/baselines.h"
 #include "commands/brute_check.h"
 #include "commands/measure.h"
+#include "load/load.h"
 #include "render/camera.h"
 #include "render/readback.h"
-#include "scene/load.h"
+#include "scene/scene_error.h"
+#include "scene/scene_options.h"
 
 namespace candelabra::app
 {

@@ -7,6 +7,7 @@
 
 #include "bench/light_kernels.h"
 #include "io/statistics.h"
+#include "load/load.h"
 #include "reference/render.h"
 #include "render/camera.h"
 #include "render/readback.h"

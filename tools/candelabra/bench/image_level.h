@@ -10,7 +10,7 @@
 #include "bench/image_error.h"
 #include "io/progress.h"
 #include "render/renderer.h"
-#include "scene/load.h"
+#include "scene/scene_error.h"
 
 namespace candelabra::app
 {

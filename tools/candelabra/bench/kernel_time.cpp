@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "candelabra_bench_shaders.h"
+#include "generate/random.h"
 #include "io/statistics.h"
-#include "scene/random.h"
 #include "shading/shade_kernels.h"
 
 namespace candelabra::app

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "bench/parallel.h"
+#include "generate/random.h"
 #include "reference/truth.h"
-#include "scene/random.h"
 
 namespace candelabra::app
 {

@@ -9,9 +9,10 @@
 
 #include "bench/skip_stage.h"
 #include "commands/brute_check.h"
+#include "load/load.h"
 #include "reference/tone_map.h"
 #include "render/error.h"
-#include "scene/load.h"
+#include "scene/scene_options.h"
 
 namespace candelabra::app
 {

@@ -9,6 +9,7 @@
 #include "bench/page.h"
 #include "commands/bench_commands.h"
 #include "commands/measure.h"
+#include "generate/generators.h"
 #include "io/image.h"
 #include "render/error.h"
 

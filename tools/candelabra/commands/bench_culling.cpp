@@ -10,9 +10,9 @@
 #include "bench/culling.h"
 #include "commands/bench_commands.h"
 #include "commands/measure.h"
+#include "generate/generators.h"
 #include "render/error.h"
 #include "render/renderer.h"
-#include "scene/load.h"
 
 namespace candelabra::app
 {

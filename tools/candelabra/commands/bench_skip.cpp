@@ -9,8 +9,8 @@
 #include "commands/bench_commands.h"
 #include "commands/measure.h"
 #include "commands/options.h"
+#include "generate/generators.h"
 #include "render/error.h"
-#include "scene/load.h"
 
 namespace candelabra::app
 {

@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "bench/light_kernels.h"
+#include "generate/lights.h"
 #include "io/table.h"
 #include "render/frame_ring.h"
 #include "render/readback.h"
 #include "render/surfaces.h"
 #include "scene/light_layers.h"
-#include "scene/lights.h"
 
 namespace candelabra::app
 {

@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/choice.h"
+#include "generate/generators.h"
 #include "io/table.h"
 #include "render/renderer.h"
 

@@ -12,7 +12,7 @@
 #include "io/parse.h"
 #include "render/renderer.h"
 #include "render/vulkan_context.h"
-#include "scene/load.h"
+#include "scene/scene_options.h"
 
 namespace candelabra::app
 {

@@ -16,6 +16,7 @@
 #include "io/progress.h"
 #include "io/statistics.h"
 #include "io/table.h"
+#include "load/load.h"
 #include "render/camera.h"
 #include "render/error.h"
 

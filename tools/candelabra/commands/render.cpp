@@ -14,6 +14,7 @@
 #include "commands/pick.h"
 #include "io/progress.h"
 #include "io/table.h"
+#include "load/load.h"
 #include "render/camera.h"
 #include "render/error.h"
 #include "render/readback.h"

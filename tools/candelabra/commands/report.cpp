@@ -18,6 +18,7 @@
 #include "io/markup.h"
 #include "io/statistics.h"
 #include "io/table.h"
+#include "load/load.h"
 #include "render/camera.h"
 #include "render/error.h"
 #include "render/readback.h"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "io/table.h"
+#include "load/load.h"
 #include "render/camera.h"
 #include "render/readback.h"
 

@@ -7,7 +7,7 @@
 #include "commands/brute_check.h"
 #include "commands/measure.h"
 #include "io/progress.h"
-#include "scene/load.h"
+#include "scene/scene_options.h"
 
 namespace candelabra::app
 {

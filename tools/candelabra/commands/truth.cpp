@@ -13,6 +13,7 @@
 #include "io/progress.h"
 #include "io/table.h"
 #include "io/truth_file.h"
+#include "load/load.h"
 #include "reference/render.h"
 #include "render/camera.h"
 #include "render/error.h"

@@ -8,6 +8,7 @@
 #include "commands/commands.h"
 #include "commands/measure.h"
 #include "io/table.h"
+#include "load/load.h"
 #include "render/camera.h"
 #include "render/error.h"
 #include "viewer/keys.h"

@@ -5,7 +5,7 @@
 
 #include "io/hash.h"
 #include "scene/light_layers.h"
-#include "scene/load.h"
+#include "scene/scene_error.h"
 
 namespace candelabra::app
 {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene_file.h"
 
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 #include <fcntl.h>
@@ -11,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/load.h"
+#include "scene/scene_error.h"
 
 namespace candelabra::app
 {
@@ -94,6 +96,14 @@ std::string printable(std::string_view text, size_t maxLength)
     if (text.size() > maxLength)
         out += "...";
     return out;
+}
+
+bool hasExtension(const std::string& path, std::string_view extension)
+{
+    std::string own = std::filesystem::path(path).extension().string();
+    for (char& c : own)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return own == extension;
 }
 
 std::vector<uint8_t> readSceneFile(const std::string& path)

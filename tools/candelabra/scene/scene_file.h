@@ -24,6 +24,9 @@ constexpr double maxCoordinate = 1e12;
 // one line whatever bytes a file holds.
 std::string printable(std::string_view text, size_t maxLength = 160);
 
+// Returns true if the name of `path` ends in `extension` (".json"), in lower or upper case.
+bool hasExtension(const std::string& path, std::string_view extension);
+
 // The bytes of a regular file of 1..4294967295 bytes.
 std::vector<uint8_t> readSceneFile(const std::string& path);
 // The same for a file that `file` refers to in `element`: complaints are about those two.

@@ -8,8 +8,8 @@
 
 #include "commands/pick.h"
 #include "render/renderer.h"
-#include "scene/save.h"
 #include "viewer/light_editor.h"
+#include "json/save.h"
 
 namespace candelabra::app
 {

@@ -10,7 +10,7 @@
 
 #include "render/frame_ring.h"
 #include "render/renderer.h"
-#include "scene/load.h"
+#include "scene/scene_options.h"
 #include "viewer/fly_camera.h"
 #include "viewer/overlay.h"
 #include "viewer/panel.h"

@@ -15,8 +15,8 @@
 #include "io/table.h"
 #include "render/camera.h"
 #include "render/readback.h"
-#include "scene/save.h"
 #include "viewer/viewer.h"
+#include "json/save.h"
 
 namespace candelabra::app
 {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "generate/generators.h"
+
+namespace candelabra::app
+{
+
+bool isGenerated(const std::string& scene)
+{
+    return scene == "hall" || scene == "field" || scene == "fence";
+}
+
+bool isBuiltIn(const std::string& scene)
+{
+    return isGenerated(scene) || scene == "showcase";
+}
+
+Scene generateScene(const std::string& scene, const SceneOptions& options)
+{
+    if (scene == "hall")
+        return generateHall(options);
+    if (scene == "field")
+        return generateField(options);
+    if (scene == "fence")
+        return generateFence(options);
+    return generateShowcase(options);
+}
+
+} // namespace candelabra::app

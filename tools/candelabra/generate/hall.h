@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hall's plan, shared by the files that build it. x runs along the nave, z across it, y = 0 is
+// the floor; mirror-symmetric about z = 0. Metres.
+//
+//        z: 12 | wall | aisle | arcade (6) | nave | arcade (-6) | aisle | wall | -12
+//   y:  0 floor - 5.8 springing - 8.5 arcade top - 10.4 vault springing - 16.7 crown
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "generate/lights.h"
+#include "generate/random.h"
+#include "generate/scene_builder.h"
+
+namespace candelabra::app::hall
+{
+
+constexpr double halfLength = 30;
+constexpr double halfWidth = 12;
+constexpr double naveHalf = 6; // from the middle to the arcades' planes
+constexpr double bayWidth = 5;
+constexpr int bays = 12;
+constexpr double columnRadius = 0.42;
+constexpr double springingHeight = 5.8; // of the arcades
+constexpr double archRadius = 2.05;
+constexpr double arcadeDepth = 0.9;
+constexpr double arcadeTop = 8.5;
+constexpr double gallery = 8.7; // top of the cornice, railings stand on it
+constexpr double vaultSpringing = 10.4;
+constexpr double vaultRadius = 6.3;
+constexpr double chandelierY = 7.2;
+constexpr double chandelierRadius = 1.6;
+constexpr int chandelierCups = 16;
+
+// Middle of bay 0 .. bays - 1, and the columns before it (and after the last).
+constexpr double bayCentre(int bay)
+{
+    return -halfLength + bayWidth * (bay + 0.5);
+}
+constexpr double columnX(int column)
+{
+    return -halfLength + bayWidth * column;
+}
+
+// Chandeliers hang over the middle of every other bay.
+constexpr int chandeliers = bays / 2;
+constexpr double chandelierX(int chandelier)
+{
+    return bayCentre(2 * chandelier);
+}
+
+// Height of a cable that hangs across the nave, or between columns, at t = 0..1 along it.
+constexpr double hanging(double height, double sag, double t)
+{
+    return height - 4 * sag * t * (1 - t);
+}
+constexpr double cableY = 6.6, cableSag = 1.6;     // across the nave at every column
+constexpr double garlandY = 5.3, garlandSag = 0.9; // along the arcades
+
+struct Meshes {
+    uint32_t box, tile, shaft, columnBase, capital, archedWall, archRing, vault;
+    uint32_t ball, fineBall, ring, vase, knot, baluster, rod, link, disc;
+};
+
+struct Materials {
+    uint32_t gold, copper, iron, chrome, bronze, silver;
+    uint32_t marble, darkMarble, sandstone, plaster, wood, grout;
+    std::vector<uint32_t> floor; // from mirror-smooth to rough
+    std::vector<uint32_t> stone; // wall blocks
+    std::vector<uint32_t> glaze; // coloured dielectrics of all roughnesses
+    std::vector<uint32_t> glass; // faintly glowing window panes
+};
+
+struct Kit {
+    SceneBuilder builder;
+    Meshes mesh;
+    Materials material;
+
+    uint32_t anyOf(Random& random, const std::vector<uint32_t>& materials) const
+    {
+        return materials[random.below(static_cast<uint32_t>(materials.size()))];
+    }
+};
+
+void addMeshes(Kit& kit);
+void addMaterials(Kit& kit);
+void addArchitecture(Kit& kit, Random& random);
+void addFurnishings(Kit& kit, Random& random);
+
+std::vector<LightSite> lightSites(uint32_t count, const SceneOptions& options);
+
+} // namespace candelabra::app::hall

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the hall's lights hang.
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+#include "generate/hall.h"
+
+namespace candelabra::app::hall
+{
+namespace
+{
+
+constexpr double pi = glm::pi<double>();
+// Positions are drawn again when they fall into stone, at most this often.
+constexpr int maxTries = 16;
+
+float sideOf(Random& random)
+{
+    return random.chance(0.5f) ? 1.0f : -1.0f;
+}
+
+// Small ones are frequent.
+float skewed(Random& random, float low, float high)
+{
+    const float share = random.uniform();
+    return low + (high - low) * share * share;
+}
+
+// Is a ball around `p` free of columns, walls, arcades and vault?
+bool isFree(const glm::dvec3& p, double radius)
+{
+    const double side = std::abs(p.z);
+    if (std::abs(p.x) > halfLength - 0.05 - radius || side > halfWidth - 0.1 - radius ||
+        p.y < radius + 0.02) {
+        return false;
+    }
+    if (p.y < springingHeight) {
+        const double dx = p.x - bayWidth * std::round(p.x / bayWidth), dz = side - naveHalf;
+        const double keep = radius + (p.y < 0.6 || p.y > 5 ? 0.68 : columnRadius + 0.03);
+        return dx * dx + dz * dz > keep * keep;
+    }
+    if (std::abs(side - naveHalf) < 0.5 * arcadeDepth + 0.05 + radius && p.y < gallery + radius) {
+        // Only the openings of the arches.
+        const double dx = p.x - bayWidth * (std::floor(p.x / bayWidth) + 0.5),
+                     dy = p.y - springingHeight;
+        const double free = archRadius - 0.02 - radius;
+        return free > 0 && dx * dx + dy * dy < free * free;
+    }
+    if (side > naveHalf)
+        return p.y < arcadeTop - 0.3 - radius;
+    const double above = std::max(p.y - vaultSpringing, 0.0);
+    const double free = vaultRadius - 0.5 - radius;
+    return above * above + side * side < free * free;
+}
+
+LightSite onChandelier(Random& random)
+{
+    LightSite site;
+    const int chandelier = static_cast<int>(random.below(chandeliers));
+    const double angle = 2 * pi * random.below(chandelierCups) / chandelierCups;
+    const glm::dvec3 jitter(random.uniform3() - 0.5f);
+    site.position = glm::dvec3(chandelierX(chandelier), chandelierY + 0.25, 0) +
+                    chandelierRadius * glm::dvec3(std::cos(angle), 0, std::sin(angle)) +
+                    glm::dvec3(0.3, 0.25, 0.3) * jitter;
+    site.radius = skewed(random, 0.025f, 0.08f);
+    site.colour = blackbodyColour(random.uniform(1900, 2700));
+    site.reach = 1.5f;
+    site.edgeIlluminance = 1.5f;
+    return site;
+}
+
+// Coloured bulbs on the cables across the nave.
+LightSite onCable(Random& random)
+{
+    LightSite site;
+    const uint32_t column = 1 + random.below(bays - 1);
+    const float t = random.uniform(), drop = random.uniform();
+    const float along = random.bell();
+    site.position = {columnX(static_cast<int>(column)) + 0.15 * along,
+                     hanging(cableY, cableSag, t) - 0.08 - 0.25 * drop,
+                     (2 * t - 1) * (naveHalf - 0.6)};
+    site.radius = skewed(random, 0.02f, 0.09f);
+    // Neighbouring cables differ; bulbs of one cable stay within a third of the circle.
+    const float hue = 0.381966f * static_cast<float>(column) + 0.33f * random.uniform();
+    site.colour = hueColour(hue, random.uniform(0.45f, 0.8f));
+    site.edgeIlluminance = 1.6f;
+    return site;
+}
+
+LightSite onGarland(Random& random)
+{
+    LightSite site;
+    const int bay = static_cast<int>(random.below(bays));
+    const float side = sideOf(random), t = random.uniform(), drop = random.uniform();
+    site.position = {columnX(bay) + 0.3 + t * (bayWidth - 0.6),
+                     hanging(garlandY, garlandSag, t) - 0.06 - 0.15 * drop, side * naveHalf};
+    site.radius = skewed(random, 0.02f, 0.06f);
+    site.colour = blackbodyColour(random.uniform(2300, 3600));
+    site.edgeIlluminance = 1.4f;
+    return site;
+}
+
+// Spirals around the columns.
+LightSite aroundColumn(Random& random)
+{
+    LightSite site;
+    const int column = static_cast<int>(random.below(bays + 1));
+    const float side = sideOf(random), t = random.uniform(), out = random.uniform();
+    const double angle = 2 * pi * 4 * t + column;
+    const double distance = columnRadius + 0.12 + 0.25 * out * out;
+    site.position = {columnX(column) + distance * std::cos(angle), 0.75 + 4.1 * t,
+                     side * naveHalf + distance * std::sin(angle)};
+    site.radius = skewed(random, 0.02f, 0.06f);
+    site.colour = hueColour(0.08f + 0.08f * t + 0.45f * static_cast<float>(column % 3),
+                            random.uniform(0.5f, 0.8f));
+    site.edgeIlluminance = 1.2f;
+    return site;
+}
+
+// Lanterns between the things on the floor; each bay has its hue.
+LightSite onFloor(Random& random)
+{
+    LightSite site;
+    const int bay = static_cast<int>(random.below(bays));
+    const float side = sideOf(random), across = random.bell(), along = random.uniform();
+    const float size = random.uniform();
+    site.radius = 0.03f + 0.32f * size * size * size;
+    const float lift = random.uniform();
+    const bool aisle = random.chance(0.35f);
+    site.position = {columnX(bay) + bayWidth * along, site.radius + 0.05 + 0.7 * lift * lift,
+                     side * (aisle ? 9.2 + 2.3 * across : 3.9 + 1.9 * across)};
+    const float hue = 0.618034f * static_cast<float>(bay) + (side > 0 ? 0.5f : 0.0f);
+    site.colour = hueColour(hue + 0.1f * random.uniform(), random.uniform(0.5f, 0.85f));
+    site.edgeIlluminance = 1.8f;
+    return site;
+}
+
+LightSite onWall(Random& random)
+{
+    LightSite site;
+    const int column = static_cast<int>(random.below(bays + 1));
+    const float side = sideOf(random), up = random.uniform(), along = random.bell();
+    site.radius = skewed(random, 0.04f, 0.20f);
+    site.position = {columnX(column) + 1.4 * along, 2.2 + 4.5 * up,
+                     side * (halfWidth - 0.75 - site.radius)};
+    const bool teal = random.chance(0.4f);
+    const float vary = random.uniform();
+    site.colour =
+        teal ? hueColour(0.47f + 0.08f * vary, 0.65f) : blackbodyColour(1800 + 900 * vary);
+    site.edgeIlluminance = 2;
+    return site;
+}
+
+LightSite onGallery(Random& random)
+{
+    LightSite site;
+    const float along = random.uniform(-1, 1), side = sideOf(random), up = random.uniform();
+    site.radius = skewed(random, 0.03f, 0.10f);
+    site.position = {along * (halfLength - 0.5), gallery + 0.95 + 0.5 * up,
+                     side * (naveHalf - 0.55)};
+    site.colour = blackbodyColour(random.uniform(4000, 9000));
+    site.edgeIlluminance = 1.4f;
+    return site;
+}
+
+LightSite underVault(Random& random)
+{
+    LightSite site;
+    const float angle = static_cast<float>(pi) * random.uniform(0.08f, 0.92f);
+    const int rib = static_cast<int>(random.below(bays + 1));
+    const float along = random.bell();
+    const double distance = vaultRadius - 0.75;
+    site.position = {columnX(rib) + 0.8 * along, vaultSpringing + distance * std::sin(angle),
+                     distance * std::cos(angle)};
+    site.radius = skewed(random, 0.03f, 0.10f);
+    const float hue = random.uniform(0.58f, 0.86f);
+    site.colour = hueColour(hue, random.uniform(0.4f, 0.7f));
+    site.edgeIlluminance = 1.5f;
+    return site;
+}
+
+// Paper moons that float in nave and aisles: few, large, and far-reaching. They fill the space
+// between the small lights.
+LightSite floating(Random& random)
+{
+    LightSite site;
+    const float along = random.uniform(-1, 1), across = random.bell(), up = random.uniform();
+    const bool aisle = random.chance(0.35f);
+    const float side = sideOf(random);
+    site.radius = random.uniform(0.10f, 0.28f);
+    site.position =
+        aisle ? glm::dvec3(along * (halfLength - 2), 2.5 + 4.5 * up, side * (9 + 1.5 * across))
+              : glm::dvec3(along * (halfLength - 2), 2.5 + 9 * up, 4.5 * across);
+    site.reach = 3.5f;
+    site.colour = blackbodyColour(random.uniform(2500, 6500));
+    site.edgeIlluminance = 0.5f;
+    return site;
+}
+
+// Fireflies everywhere.
+LightSite firefly(Random& random)
+{
+    LightSite site;
+    const glm::dvec3 at(random.uniform3());
+    site.position = {(2 * at.x - 1) * halfLength, 0.1 + at.y * (vaultSpringing + 5),
+                     (2 * at.z - 1) * halfWidth};
+    site.radius = random.uniform(0.02f, 0.03f);
+    site.reach = 1.2f;
+    const float hue = random.uniform(0.1f, 0.2f);
+    site.colour = hueColour(hue, random.uniform(0.3f, 0.6f));
+    site.edgeIlluminance = 0.8f;
+    return site;
+}
+
+// Small lamps let into the floor of the nave, in the joints of the tiles.
+LightSite inPavement(Random& random)
+{
+    LightSite site;
+    const uint32_t cell = random.below(2 * static_cast<uint32_t>(halfLength));
+    const float across = random.uniform(-1, 1), along = random.bell();
+    site.radius = random.uniform(0.02f, 0.045f);
+    site.position = {cell - halfLength + 0.08 * along, 0.03 + site.radius, 3.9 * across};
+    site.colour = blackbodyColour(random.uniform(2200, 5000));
+    site.edgeIlluminance = 1;
+    return site;
+}
+
+// Around the golden knot at the far end.
+LightSite onShrine(Random& random)
+{
+    LightSite site;
+    const float along = random.uniform(), across = random.bell(), up = random.uniform();
+    site.radius = skewed(random, 0.03f, 0.12f);
+    site.position = {22.5 + 6.5 * along, 1.2 + 5 * up, 4.5 * across};
+    site.colour = blackbodyColour(random.uniform(1900, 3200));
+    site.edgeIlluminance = 2.5f;
+    return site;
+}
+
+using MakeSite = LightSite (*)(Random&);
+
+struct Kind {
+    float share;
+    MakeSite make;
+};
+
+// Shares add up to 1.
+constexpr Kind kinds[] = {{0.13f, onChandelier}, {0.17f, onCable},    {0.10f, onGarland},
+                          {0.12f, aroundColumn}, {0.14f, onFloor},    {0.10f, onWall},
+                          {0.05f, onGallery},    {0.05f, underVault}, {0.03f, floating},
+                          {0.06f, firefly},      {0.04f, inPavement}, {0.01f, onShrine}};
+
+MakeSite anyKind(Random& random)
+{
+    float at = random.uniform();
+    for (const Kind& kind : kinds) {
+        if (at < kind.share)
+            return kind.make;
+        at -= kind.share;
+    }
+    return kinds[0].make;
+}
+
+} // namespace
+
+std::vector<LightSite> lightSites(uint32_t count, const SceneOptions& options)
+{
+    // Streams of their own: the hall is the same for any number of lights, and resting and moving
+    // lights start from the same places.
+    Random random(options.seed, 1), motionRandom(options.seed, 2);
+    std::vector<LightSite> sites;
+    sites.reserve(count);
+    for (uint32_t i = 0; i < count; ++i) {
+        const MakeSite make = anyKind(random);
+        LightSite site = make(random);
+        for (int attempt = 1; attempt < maxTries && !isFree(site.position, site.radius);
+             ++attempt) {
+            site = make(random);
+        }
+        site.reach *= random.uniform(0.7f, 1.45f);
+        if (options.moving) {
+            const float radius = 0.2f + skewed(motionRandom, 0.0f, 1.8f);
+            const float speed = motionRandom.uniform(0.3f, 1.5f);
+            site.motion = circleMotion(motionRandom, site.position.y, site.radius, radius, speed);
+        }
+        sites.push_back(site);
+    }
+    return sites;
+}
+
+} // namespace candelabra::app::hall

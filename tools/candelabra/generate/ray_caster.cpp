@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "generate/ray_caster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "scene/mesh_bounds.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr double far = std::numeric_limits<double>::infinity();
+
+// Distance at which the ray enters the box, infinity when it misses it or enters beyond `nearest`.
+double enterBox(const Ray& ray, const glm::dvec3& inverseDirection, const Bounds& box,
+                double nearest)
+{
+    double enter = 0, leave = nearest;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double a = (box.min[axis] - ray.origin[axis]) * inverseDirection[axis];
+        const double b = (box.max[axis] - ray.origin[axis]) * inverseDirection[axis];
+        // 0 * infinity is NaN when the ray runs inside a side of the box: fmin and fmax drop it.
+        enter = std::fmax(enter, std::fmin(a, b));
+        leave = std::fmin(leave, std::fmax(a, b));
+    }
+    return enter <= leave ? enter : far;
+}
+
+// Distance along a ray in object space (direction of any length) and barycentrics; Moeller and
+// Trumbore 1997, both sides.
+struct TriangleHit {
+    double distance = far, u = 0, v = 0;
+};
+
+TriangleHit hitTriangle(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& a,
+                        const glm::dvec3& b, const glm::dvec3& c)
+{
+    const glm::dvec3 edge1 = b - a, edge2 = c - a;
+    const glm::dvec3 p = glm::cross(direction, edge2);
+    const double determinant = glm::dot(edge1, p);
+    if (determinant == 0)
+        return {};
+    const glm::dvec3 s = origin - a;
+    const glm::dvec3 q = glm::cross(s, edge1);
+    const double u = glm::dot(s, p) / determinant;
+    const double v = glm::dot(direction, q) / determinant;
+    const double t = glm::dot(edge2, q) / determinant;
+    const bool inside = u >= 0 && v >= 0 && u + v <= 1 && t > 0;
+    return inside ? TriangleHit{t, u, v} : TriangleHit{};
+}
+
+bool isInvertible(const glm::dmat4& m)
+{
+    const double determinant = glm::determinant(glm::dmat3(m));
+    return std::isnormal(determinant);
+}
+
+} // namespace
+
+BoxTree::BoxTree(const std::vector<Bounds>& boxes)
+{
+    order_.resize(boxes.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    if (!boxes.empty()) {
+        nodes_.reserve(boxes.size());
+        build(boxes, 0, static_cast<uint32_t>(boxes.size()));
+    }
+}
+
+void BoxTree::build(const std::vector<Bounds>& boxes, uint32_t first, uint32_t count)
+{
+    const size_t self = nodes_.size();
+    nodes_.emplace_back();
+    Bounds all = boxes[order_[first]], centres{glm::dvec3(far), glm::dvec3(-far)};
+    for (uint32_t i = first; i < first + count; ++i) {
+        const Bounds& box = boxes[order_[i]];
+        all.min = glm::min(all.min, box.min);
+        all.max = glm::max(all.max, box.max);
+        centres.min = glm::min(centres.min, box.min + box.max);
+        centres.max = glm::max(centres.max, box.min + box.max);
+    }
+    nodes_[self].box = all;
+    if (count <= 4) {
+        nodes_[self].first = first;
+        nodes_[self].count = count;
+        return;
+    }
+    const glm::dvec3 extent = centres.max - centres.min;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
+    const uint32_t half = count / 2;
+    std::nth_element(order_.begin() + first, order_.begin() + first + half,
+                     order_.begin() + first + count, [&](uint32_t a, uint32_t b) {
+                         return boxes[a].min[axis] + boxes[a].max[axis] <
+                                boxes[b].min[axis] + boxes[b].max[axis];
+                     });
+    build(boxes, first, half);
+    nodes_[self].first = static_cast<uint32_t>(nodes_.size());
+    build(boxes, first + half, count - half);
+}
+
+template <typename Visit>
+void BoxTree::traverse(const Ray& ray, double& nearest, Visit&& visit) const
+{
+    if (nodes_.empty())
+        return;
+    const glm::dvec3 inverseDirection = 1.0 / ray.direction;
+    uint32_t stack[64]; // halving 2^32 items needs 32
+    uint32_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const uint32_t index = stack[--depth];
+        const Node& node = nodes_[index];
+        if (enterBox(ray, inverseDirection, node.box, nearest) == far)
+            continue;
+        for (uint32_t i = 0; i < node.count; ++i)
+            visit(order_[node.first + i], nearest);
+        if (node.count == 0) {
+            const uint32_t left = index + 1, right = node.first;
+            const double toLeft = enterBox(ray, inverseDirection, nodes_[left].box, nearest);
+            const double toRight = enterBox(ray, inverseDirection, nodes_[right].box, nearest);
+            stack[depth++] = toLeft < toRight ? right : left;
+            stack[depth++] = toLeft < toRight ? left : right;
+        }
+    }
+}
+
+RayCaster::RayCaster(const Scene& scene) : scene_(scene), meshTrees_(scene.meshes.size())
+{
+    std::vector<Bounds> meshBoxes;
+    for (const Mesh& mesh : scene.meshes)
+        meshBoxes.push_back(meshBounds(mesh));
+    std::vector<Bounds> boxes;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (scene.meshes[instance.mesh].indices.empty() ||
+            !isInvertible(instance.worldFromObject)) {
+            continue;
+        }
+        boxes.push_back(transformBounds(meshBoxes[instance.mesh], instance.worldFromObject));
+        instanceIds_.push_back(i);
+        objectFromWorld_.push_back(glm::inverse(instance.worldFromObject));
+    }
+    instances_ = BoxTree(boxes);
+}
+
+std::optional<RayHit> RayCaster::cast(const Ray& ray)
+{
+    RayHit best;
+    best.distance = far;
+    instances_.traverse(ray, best.distance,
+                        [&](uint32_t item, double&) { hitInstance(item, ray, best); });
+    for (const AnalyticObject& object : scene_.analyticObjects)
+        hitAnalytic(object, ray, best);
+    if (best.distance == far)
+        return std::nullopt;
+    best.position = ray.origin + best.distance * ray.direction;
+    if (glm::dot(best.normal, ray.direction) > 0)
+        best.normal = -best.normal;
+    return best;
+}
+
+const BoxTree& RayCaster::meshTree(uint32_t mesh)
+{
+    std::optional<BoxTree>& tree = meshTrees_[mesh];
+    if (!tree) {
+        const Mesh& source = scene_.meshes[mesh];
+        std::vector<Bounds> boxes(source.indices.size() / 3);
+        for (size_t t = 0; t < boxes.size(); ++t) {
+            const glm::dvec3 a(source.vertices[source.indices[3 * t]].position);
+            const glm::dvec3 b(source.vertices[source.indices[3 * t + 1]].position);
+            const glm::dvec3 c(source.vertices[source.indices[3 * t + 2]].position);
+            boxes[t] = {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+        }
+        tree = BoxTree(boxes);
+    }
+    return *tree;
+}
+
+void RayCaster::hitInstance(uint32_t item, const Ray& ray, RayHit& best)
+{
+    const Instance& instance = scene_.instances[instanceIds_[item]];
+    const Mesh& mesh = scene_.meshes[instance.mesh];
+    const glm::dmat4& objectFromWorld = objectFromWorld_[item];
+    // Not normalised: distances stay those of the world ray.
+    const Ray local{glm::dvec3(objectFromWorld * glm::dvec4(ray.origin, 1)),
+                    glm::dvec3(objectFromWorld * glm::dvec4(ray.direction, 0))};
+    meshTree(instance.mesh).traverse(local, best.distance, [&](uint32_t triangle, double& nearest) {
+        const Vertex& a = mesh.vertices[mesh.indices[3 * triangle]];
+        const Vertex& b = mesh.vertices[mesh.indices[3 * triangle + 1]];
+        const Vertex& c = mesh.vertices[mesh.indices[3 * triangle + 2]];
+        const TriangleHit hit = hitTriangle(local.origin, local.direction, glm::dvec3(a.position),
+                                            glm::dvec3(b.position), glm::dvec3(c.position));
+        if (hit.distance >= nearest)
+            return;
+        nearest = hit.distance;
+        const glm::dvec3 normal = (1 - hit.u - hit.v) * glm::dvec3(a.normal) +
+                                  hit.u * glm::dvec3(b.normal) + hit.v * glm::dvec3(c.normal);
+        best.normal = glm::normalize(glm::transpose(glm::dmat3(objectFromWorld)) * normal);
+        best.material = instance.material;
+    });
+}
+
+void RayCaster::hitAnalytic(const AnalyticObject& object, const Ray& ray, RayHit& best) const
+{
+    const glm::dvec3 toObject = object.point - ray.origin;
+    double distance = far;
+    if (object.type == AnalyticObject::Type::Plane) {
+        const double down = -glm::dot(object.normal, ray.direction);
+        if (down > 0)
+            distance = -glm::dot(object.normal, toObject) / down;
+    } else {
+        const double along = glm::dot(toObject, ray.direction);
+        const glm::dvec3 miss = toObject - along * ray.direction;
+        const double rest = object.radius * object.radius - glm::dot(miss, miss);
+        distance = rest >= 0 ? along - std::sqrt(rest) : far;
+    }
+    if (distance > 0 && distance < best.distance) {
+        best.distance = distance;
+        best.normal = object.type == AnalyticObject::Type::Plane
+                          ? object.normal
+                          : (distance * ray.direction - toObject) / object.radius;
+        best.material = object.material;
+    }
+}
+
+Ray cameraRay(const Camera& camera, uint32_t x, uint32_t y, uint32_t width, uint32_t height)
+{
+    const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
+    const glm::dvec3 up = glm::cross(right, camera.forward);
+    const double aspect = camera.aspect.value_or(static_cast<double>(width) / height);
+    const double ndcX = 2 * (x + 0.5) / width - 1, ndcY = 1 - 2 * (y + 0.5) / height;
+    if (camera.orthographic) {
+        const double half = 0.5 * camera.orthographicHeight;
+        return {camera.position + half * (ndcX * aspect * right + ndcY * up), camera.forward};
+    }
+    const double slope = std::tan(0.5 * camera.verticalFov);
+    return {camera.position,
+            glm::normalize(camera.forward + slope * (ndcX * aspect * right + ndcY * up))};
+}
+
+} // namespace candelabra::app

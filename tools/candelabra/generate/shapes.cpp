@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "generate/shapes.h"
+
+#include <cmath>
+
+#include "generate/mesh_builder.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr float pi = glm::pi<float>();
+
+// The end of a closed line is its beginning, to the bit: no cracks at seams.
+float closed(float turn)
+{
+    return turn < 1 ? turn : 0;
+}
+
+// Unit circle around y, turning so that u x v points out when v goes up.
+glm::vec3 around(float turn)
+{
+    turn = closed(turn);
+    return {std::cos(2 * pi * turn), 0, -std::sin(2 * pi * turn)};
+}
+
+glm::vec3 aroundTangent(float turn)
+{
+    turn = closed(turn);
+    return {-std::sin(2 * pi * turn), 0, -std::cos(2 * pi * turn)};
+}
+
+// Normals of a profile run in the (radius, height) plane, averaged where two pieces meet.
+std::vector<glm::vec2> profileNormals(const ProfileRun& run)
+{
+    std::vector<glm::vec2> normals(run.size(), glm::vec2(0));
+    for (size_t i = 0; i + 1 < run.size(); ++i) {
+        const glm::vec2 along = glm::normalize(run[i + 1] - run[i]);
+        const glm::vec2 normal{along.y, -along.x};
+        normals[i] += normal;
+        normals[i + 1] += normal;
+    }
+    for (glm::vec2& normal : normals)
+        normal = glm::normalize(normal);
+    return normals;
+}
+
+} // namespace
+
+Mesh makeBox()
+{
+    Mesh mesh;
+    for (int turn = 0; turn < 4; ++turn) {
+        // Quarter turns about y, written as exact integers.
+        const glm::vec3 out{turn == 0   ? 1
+                            : turn == 2 ? -1
+                                        : 0,
+                            0,
+                            turn == 1   ? -1
+                            : turn == 3 ? 1
+                                        : 0};
+        const glm::vec3 side = glm::cross(glm::vec3(0, 1, 0), out);
+        const glm::vec3 up{0, 1, 0};
+        appendQuad(mesh, 0.5f * (out - side - up), 0.5f * (out + side - up),
+                   0.5f * (out + side + up), 0.5f * (out - side + up), out);
+    }
+    const size_t sides = mesh.vertices.size();
+    for (const float y : {-0.5f, 0.5f}) {
+        appendQuad(mesh, {-0.5f, y, 0.5f}, {0.5f, y, 0.5f}, {0.5f, y, -0.5f}, {-0.5f, y, -0.5f},
+                   {0, y, 0});
+    }
+    for (size_t i = sides; i < mesh.vertices.size(); ++i)
+        mesh.vertices[i].uv[0] = mesh.vertices[i].uv[1] = glm::vec2(0);
+    return mesh;
+}
+
+Mesh makeBevelledBox(float bevel)
+{
+    // Corner `sign` of the face across `axis`.
+    const auto corner = [bevel](const glm::vec3& sign, int axis) {
+        glm::vec3 p = sign * (0.5f - bevel);
+        p[axis] = 0.5f * sign[axis];
+        return p;
+    };
+    Mesh mesh;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+        for (const float s : {-1.0f, 1.0f}) {
+            glm::vec3 out(0);
+            out[axis] = s;
+            glm::vec3 q[4];
+            const float signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+            for (int i = 0; i < 4; ++i) {
+                glm::vec3 sign(0);
+                sign[axis] = s;
+                sign[next] = signs[i][0];
+                sign[last] = signs[i][1];
+                q[i] = corner(sign, axis);
+            }
+            appendQuad(mesh, q[0], q[1], q[2], q[3], out);
+            // Edges between the faces of `axis` and `next`, along `last`.
+            for (const float t : {-1.0f, 1.0f}) {
+                glm::vec3 low(0), high(0);
+                low[axis] = high[axis] = s;
+                low[next] = high[next] = t;
+                low[last] = -1;
+                high[last] = 1;
+                appendQuad(mesh, corner(low, axis), corner(high, axis), corner(high, next),
+                           corner(low, next), low + high);
+            }
+        }
+    }
+    for (int bits = 0; bits < 8; ++bits) {
+        const glm::vec3 sign{bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1};
+        appendFlatTriangle(mesh, corner(sign, 0), corner(sign, 1), corner(sign, 2), sign);
+    }
+    return mesh;
+}
+
+Mesh makeTile(float bevel)
+{
+    Mesh mesh;
+    const float in = 0.5f - bevel;
+    const glm::vec2 signs[4] = {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
+    glm::vec3 top[4], rim[4];
+    for (int i = 0; i < 4; ++i) {
+        top[i] = {signs[i].x * in, 0, signs[i].y * in};
+        rim[i] = {signs[i].x * 0.5f, -bevel, signs[i].y * 0.5f};
+    }
+    appendQuad(mesh, top[0], top[1], top[2], top[3], {0, 1, 0});
+    for (int i = 0; i < 4; ++i) {
+        const int j = (i + 1) % 4;
+        appendQuad(mesh, rim[i], rim[j], top[j], top[i], {0, 1, 0});
+    }
+    return mesh;
+}
+
+Mesh makeGround(uint32_t cells)
+{
+    Mesh mesh;
+    appendGrid(mesh, cells, cells, [](float u, float v) {
+        return SurfacePoint{{u - 0.5f, 0, 0.5f - v}, {0, 1, 0}, {1, 0, 0}};
+    });
+    return mesh;
+}
+
+Mesh makeSphere(uint32_t segments, uint32_t rings)
+{
+    Mesh mesh;
+    appendGrid(mesh, segments, rings, [](float u, float v) {
+        const bool pole = v == 0 || v == 1;
+        const float radius = pole ? 0 : std::sin(pi * v);
+        const glm::vec3 p = radius * around(u) - glm::vec3(0, std::cos(pi * v), 0);
+        return SurfacePoint{p, p, aroundTangent(u)};
+    });
+    return mesh;
+}
+
+Mesh makeTorus(float majorRadius, float minorRadius, uint32_t segments, uint32_t sides)
+{
+    Mesh mesh;
+    appendGrid(mesh, segments, sides, [=](float u, float v) {
+        const glm::vec2 section = direction(2 * pi * closed(v));
+        const glm::vec3 normal = around(u) * section.x + glm::vec3(0, section.y, 0);
+        return SurfacePoint{around(u) * majorRadius + normal * minorRadius, normal,
+                            aroundTangent(u)};
+    });
+    return mesh;
+}
+
+Mesh makeKnot(float tubeRadius, uint32_t segments, uint32_t sides)
+{
+    // p(t) = (2 + cos 3t)(cos 2t, ., -sin 2t) + (0, sin 3t, 0), scaled to about unit width.
+    const auto at = [](float t) {
+        const float r = 2 + std::cos(3 * t);
+        return glm::vec3(r * std::cos(2 * t), std::sin(3 * t), -r * std::sin(2 * t)) / 6.0f;
+    };
+    Mesh mesh;
+    appendGrid(mesh, segments, sides, [&](float u, float v) {
+        const float t = 2 * pi * closed(u), step = 0.01f;
+        const glm::vec3 p = at(t), before = at(t - step), after = at(t + step);
+        const glm::vec3 along = glm::normalize(after - before);
+        const glm::vec3 binormal = glm::normalize(glm::cross(along, after - 2.0f * p + before));
+        const glm::vec2 section = direction(2 * pi * closed(v));
+        const glm::vec3 normal = glm::cross(binormal, along) * section.x - binormal * section.y;
+        return SurfacePoint{p + normal * tubeRadius, normal, along};
+    });
+    return mesh;
+}
+
+Mesh makeLathe(const std::vector<ProfileRun>& runs, uint32_t segments)
+{
+    Mesh mesh;
+    for (const ProfileRun& run : runs) {
+        const std::vector<glm::vec2> normals = profileNormals(run);
+        const float last = static_cast<float>(run.size() - 1);
+        appendGrid(mesh, segments, static_cast<uint32_t>(run.size() - 1), [&](float u, float v) {
+            const size_t i = static_cast<size_t>(v * last + 0.5f);
+            return SurfacePoint{around(u) * run[i].x + glm::vec3(0, run[i].y, 0),
+                                around(u) * normals[i].x + glm::vec3(0, normals[i].y, 0),
+                                aroundTangent(u)};
+        });
+    }
+    return mesh;
+}
+
+Mesh makeCylinder(uint32_t segments)
+{
+    return makeLathe({{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 1}}}, segments);
+}
+
+} // namespace candelabra::app

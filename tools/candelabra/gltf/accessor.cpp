@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/accessor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+// Accessors without a buffer view are all zeros and have no bytes to bound their count.
+constexpr uint64_t maxZeroCount = uint64_t{1} << 24;
+
+template <typename T>
+T load(const uint8_t* p) // buffers need not be aligned
+{
+    T value;
+    std::memcpy(&value, p, sizeof(T));
+    return value;
+}
+
+// glTF 2.0, section 3.6.2.2: signed values map to [-1, 1], the most negative one is clamped.
+float component(const uint8_t* p, int type, bool normalized)
+{
+    switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: {
+        const float x = load<int8_t>(p);
+        return normalized ? std::max(x / 127.0f, -1.0f) : x;
+    }
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return normalized ? static_cast<float>(*p) / 255.0f : static_cast<float>(*p);
+    case TINYGLTF_COMPONENT_TYPE_SHORT: {
+        const float x = load<int16_t>(p);
+        return normalized ? std::max(x / 32767.0f, -1.0f) : x;
+    }
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: {
+        const float x = load<uint16_t>(p);
+        return normalized ? x / 65535.0f : x;
+    }
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return static_cast<float>(load<uint32_t>(p));
+    default:
+        return load<float>(p);
+    }
+}
+
+uint32_t unsignedComponent(const uint8_t* p, int type)
+{
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+        return *p;
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+        return load<uint16_t>(p);
+    return load<uint32_t>(p);
+}
+
+} // namespace
+
+GltfAccessor::GltfAccessor(const GltfDocument& document, int index)
+    : document_(document), element_(gltfElement("accessors", static_cast<size_t>(index)))
+{
+    const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(index)];
+    const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
+    const bool isMatrix = accessor.type > TINYGLTF_TYPE_VEC4 && accessor.type <= TINYGLTF_TYPE_MAT4;
+    components_ = isMatrix ? 0 : components;
+    componentType_ = accessor.componentType;
+    componentSize_ = static_cast<size_t>(
+        tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType)));
+    normalized_ = accessor.normalized;
+    const size_t elementSize = componentSize_ * static_cast<size_t>(components);
+    if (accessor.bufferView >= 0)
+        elements_ =
+            locate(accessor.bufferView, accessor.byteOffset, accessor.count, elementSize, true);
+    else if (accessor.count > maxZeroCount)
+        document.fail(element_, "has " + std::to_string(accessor.count) +
+                                    " elements and no bufferView; 16777216 are allowed");
+    count_ = accessor.count;
+    if (accessor.sparse.isSparse)
+        readSparse(accessor);
+}
+
+GltfAccessor::Elements GltfAccessor::locate(int view, uint64_t byteOffset, uint64_t count,
+                                            size_t elementSize, bool mayBeStrided) const
+{
+    const std::span<const uint8_t> bytes = document_.bufferView(view, element_);
+    const size_t declared = document_.model.bufferViews[static_cast<size_t>(view)].byteStride;
+    const size_t stride = mayBeStrided && declared ? declared : elementSize;
+    if (stride < elementSize)
+        document_.fail(element_, "has elements of " + std::to_string(elementSize) +
+                                     " bytes, more than the byteStride of bufferViews[" +
+                                     std::to_string(view) + "]");
+    // count <= bytes.size() first, so that the product cannot overflow
+    if (byteOffset > bytes.size() || count > bytes.size() ||
+        stride * (count - 1) + elementSize > bytes.size() - byteOffset)
+        document_.fail(element_, std::to_string(count) + " elements do not fit into the " +
+                                     std::to_string(bytes.size()) + " bytes of bufferViews[" +
+                                     std::to_string(view) + "]");
+    return {bytes.data() + byteOffset, stride};
+}
+
+void GltfAccessor::readSparse(const tinygltf::Accessor& accessor)
+{
+    const auto& sparse = accessor.sparse;
+    const auto count = static_cast<uint64_t>(sparse.count);
+    const int type = sparse.indices.componentType;
+    if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+        document_.fail(element_,
+                       "sparse.indices.componentType must be unsigned, is " + std::to_string(type));
+    const auto indexSize =
+        static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(type)));
+    const Elements indices =
+        locate(sparse.indices.bufferView, static_cast<uint64_t>(sparse.indices.byteOffset), count,
+               indexSize, false);
+    const int components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
+    sparseValues_ =
+        locate(sparse.values.bufferView, static_cast<uint64_t>(sparse.values.byteOffset), count,
+               componentSize_ * static_cast<size_t>(components), false);
+    sparseIndices_.reserve(count);
+    for (uint64_t k = 0; k < count; ++k) {
+        const uint32_t i = unsignedComponent(indices.data + k * indices.stride, type);
+        if (i >= count_)
+            document_.fail(element_, "sparse index " + std::to_string(i) + " is beyond its " +
+                                         std::to_string(count_) + " elements");
+        if (k > 0 && i <= sparseIndices_.back())
+            document_.fail(element_, "sparse indices do not increase strictly");
+        sparseIndices_.push_back(i);
+    }
+}
+
+const uint8_t* GltfAccessor::find(size_t i) const
+{
+    if (!sparseIndices_.empty()) {
+        const auto it = std::lower_bound(sparseIndices_.begin(), sparseIndices_.end(), i);
+        if (it != sparseIndices_.end() && *it == i)
+            return sparseValues_.data +
+                   static_cast<size_t>(it - sparseIndices_.begin()) * sparseValues_.stride;
+    }
+    return elements_.data ? elements_.data + i * elements_.stride : nullptr;
+}
+
+glm::vec4 GltfAccessor::read(size_t i) const
+{
+    glm::vec4 value{0};
+    const uint8_t* p = find(i);
+    for (int c = 0; p && c < components_; ++c) {
+        value[c] =
+            component(p + static_cast<size_t>(c) * componentSize_, componentType_, normalized_);
+        if (!std::isfinite(value[c]))
+            document_.fail(element_, "element " + std::to_string(i) + " is not finite");
+    }
+    return value;
+}
+
+uint32_t GltfAccessor::readUnsigned(size_t i) const
+{
+    const uint8_t* p = find(i);
+    return p ? unsignedComponent(p, componentType_) : 0;
+}
+
+} // namespace candelabra::app

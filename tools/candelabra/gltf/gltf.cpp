@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF 2.0 -> Scene. The steps are in the other files of this folder; this file walks the nodes.
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+#include "gltf/document.h"
+#include "gltf/gltf.h"
+#include "gltf/lights.h"
+#include "gltf/material.h"
+#include "gltf/mesh.h"
+#include "gltf/nodes.h"
+#include "scene/light_placement.h"
+#include "scene/scene_error.h"
+#include "scene/scene_file.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+// 0.5 GB of instances; nodes times primitives can be far more than a file's size.
+constexpr size_t maxInstances = size_t{1} << 22;
+
+class SceneBuilder
+{
+public:
+    SceneBuilder(const GltfDocument& document, const SceneOptions& options, Scene& scene)
+        : document_(document),
+          options_(options),
+          scene_(scene),
+          defaultMaterial_(readGltfMaterials(document, scene))
+    {
+    }
+
+    void add(const GltfPlacedNode& placed);
+    void finish();
+
+private:
+    static constexpr int64_t noMesh = -1;
+
+    void addMesh(const GltfPlacedNode& placed);
+    void addCamera(const GltfPlacedNode& placed);
+    // Index into scene.meshes, read on first use; noMesh for what cannot be drawn.
+    int64_t mesh(size_t gltfMesh, size_t primitive, bool mirrored);
+    uint32_t material(const tinygltf::Primitive& primitive) const
+    {
+        return primitive.material < 0 ? defaultMaterial_
+                                      : static_cast<uint32_t>(primitive.material);
+    }
+
+    const GltfDocument& document_;
+    const SceneOptions& options_;
+    Scene& scene_;
+    uint32_t defaultMaterial_;
+    GltfMeshBudget budget_;
+    std::map<std::tuple<size_t, size_t, bool>, int64_t> meshes_;
+    GltfLights lights_;
+};
+
+void SceneBuilder::add(const GltfPlacedNode& placed)
+{
+    const tinygltf::Node& node = document_.model.nodes[placed.node];
+    if (node.mesh >= 0)
+        addMesh(placed);
+    if (node.camera >= 0)
+        addCamera(placed);
+    addGltfLights(document_, placed.node, placed.worldFromNode, options_, lights_);
+}
+
+int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, bool mirrored)
+{
+    const auto key = std::make_tuple(gltfMesh, primitive, mirrored);
+    if (const auto found = meshes_.find(key); found != meshes_.end())
+        return found->second;
+    int64_t index = noMesh;
+    std::optional<Mesh> result;
+    if (mirrored) {
+        const int64_t original = mesh(gltfMesh, primitive, false);
+        if (original != noMesh) {
+            const Mesh& source = scene_.meshes[static_cast<size_t>(original)];
+            takeGltfBudget(document_, gltfElement("meshes", gltfMesh), source.vertices.size(),
+                           source.indices.size(), budget_);
+            result = mirroredMesh(source);
+        }
+    } else {
+        const auto& source = document_.model.meshes[gltfMesh].primitives[primitive];
+        result = readGltfPrimitive(document_, gltfMesh, primitive,
+                                   scene_.materials[material(source)], budget_);
+    }
+    if (result) {
+        index = static_cast<int64_t>(scene_.meshes.size());
+        scene_.meshes.push_back(std::move(*result));
+    }
+    meshes_.emplace(key, index);
+    return index;
+}
+
+void SceneBuilder::addMesh(const GltfPlacedNode& placed)
+{
+    const auto gltfMesh = static_cast<size_t>(document_.model.nodes[placed.node].mesh);
+    const std::string element = gltfElement("nodes", placed.node);
+    const double determinant = glm::determinant(glm::dmat3(placed.worldFromNode));
+    if (determinant == 0 || !std::isfinite(1 / determinant)) {
+        document_.warn(element, "flattens its mesh to nothing; the mesh is left out");
+        return;
+    }
+    // Every instance gets a transform that keeps orientation, so that front faces stay
+    // counter-clockwise: a mirroring one is M = (M S) S with S = diag(-1, 1, 1), S in the mesh.
+    const bool mirrored = determinant < 0;
+    glm::dmat4 world = placed.worldFromNode;
+    if (mirrored)
+        world[0] = -world[0];
+    const auto& primitives = document_.model.meshes[gltfMesh].primitives;
+    for (size_t p = 0; p < primitives.size(); ++p) {
+        const int64_t index = mesh(gltfMesh, p, mirrored);
+        if (index == noMesh)
+            continue;
+        if (scene_.instances.size() >= maxInstances)
+            document_.fail(element, "brings the scene above " + std::to_string(maxInstances) +
+                                        " mesh instances");
+        scene_.instances.push_back({static_cast<uint32_t>(index), material(primitives[p]), world});
+    }
+}
+
+// glTF cameras look along -z of their node with +y up; scale does not matter.
+void SceneBuilder::addCamera(const GltfPlacedNode& placed)
+{
+    const tinygltf::Node& node = document_.model.nodes[placed.node];
+    const auto index = static_cast<size_t>(node.camera);
+    const tinygltf::Camera& source = document_.model.cameras[index];
+    const std::string element = gltfElement("cameras", index);
+    Camera camera;
+    camera.name = source.name.empty() ? node.name : source.name;
+    const glm::dmat4& m = placed.worldFromNode;
+    const glm::dvec3 y(m[1]), z(m[2]);
+    if (!(glm::length(glm::cross(y, z)) > 1e-12 * glm::length(y) * glm::length(z))) {
+        document_.warn(element, "is scaled to nothing by its node and is left out");
+        return;
+    }
+    camera.position = glm::dvec3(m[3]);
+    camera.forward = -glm::normalize(z);
+    camera.up = glm::normalize(y - camera.forward * glm::dot(camera.forward, y));
+    camera.orthographic = source.type == "orthographic";
+    if (camera.orthographic) {
+        const tinygltf::OrthographicCamera& lens = source.orthographic;
+        if (!(lens.xmag > 0) || !(lens.ymag > 0))
+            document_.fail(element, "xmag and ymag must be > 0");
+        camera.orthographicHeight = 2 * lens.ymag;
+        camera.aspect = lens.xmag / lens.ymag;
+        camera.nearPlane = lens.znear;
+        camera.farPlane = lens.zfar;
+    } else {
+        const tinygltf::PerspectiveCamera& lens = source.perspective;
+        camera.verticalFov = lens.yfov;
+        if (lens.aspectRatio > 0)
+            camera.aspect = lens.aspectRatio;
+        camera.nearPlane = lens.znear;
+        camera.farPlane = lens.zfar; // 0: infinite
+    }
+    if (camera.farPlane != 0 && !(camera.farPlane > camera.nearPlane))
+        document_.fail(element, "zfar must be greater than znear");
+    scene_.cameras.push_back(camera);
+}
+
+// Looks at the middle of what there is, slightly from above, far enough to see all of it.
+Camera framingCamera(const Scene& scene)
+{
+    const Bounds bounds = sceneBounds(scene);
+    const glm::dvec3 centre = 0.5 * (bounds.min + bounds.max);
+    const double radius = std::max(0.5 * glm::length(bounds.max - bounds.min), 1e-3);
+    Camera camera;
+    camera.name = "default";
+    const double distance = 1.1 * radius / std::sin(0.5 * camera.verticalFov);
+    camera.forward = -glm::normalize(glm::dvec3(0.45, 0.3, 1));
+    camera.position = centre - distance * camera.forward;
+    const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, glm::dvec3(0, 1, 0)));
+    camera.up = glm::cross(right, camera.forward);
+    camera.nearPlane = std::min(camera.nearPlane, 0.01 * distance);
+    return camera;
+}
+
+void SceneBuilder::finish()
+{
+    scene_.lights = std::move(lights_.lights);
+    placeLights(scene_, lights_.positions);
+    if (scene_.lights.empty() && !options_.lights)
+        document_.warn("", "has no lights; --lights N adds some");
+    if (scene_.cameras.empty())
+        scene_.cameras.push_back(framingCamera(scene_));
+}
+
+// For a file whose name says nothing: binary glTF begins with its magic, and the JSON of every
+// other glTF file has an "asset" object.
+bool hasGltfContent(const std::string& path)
+{
+    const std::vector<uint8_t> bytes = readSceneFile(path);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.substr(0, 4) == "glTF")
+        return true;
+    const size_t start = text.find_first_not_of(" \t\r\n");
+    if (start == std::string_view::npos || text[start] != '{')
+        failScene(path, "", "is neither glTF (.gltf, .glb) nor a scene description (.json)");
+    return parseSceneJson(path, text).contains("asset");
+}
+
+} // namespace
+
+bool isGltf(const std::string& path)
+{
+    if (hasExtension(path, ".gltf") || hasExtension(path, ".glb"))
+        return true;
+    std::error_code ignored;
+    if (hasExtension(path, ".json") || path.find('\0') != std::string::npos ||
+        !std::filesystem::exists(path, ignored))
+        return false;
+    return hasGltfContent(path);
+}
+
+Scene loadGltf(const std::string& path, const SceneOptions& options)
+{
+    if (options.punctualRadius &&
+        !(*options.punctualRadius > 0 && *options.punctualRadius <= maxCoordinate))
+        throw SceneError("the radius for punctual lights must be > 0 and at most 1e12, is " +
+                         std::to_string(*options.punctualRadius));
+    const GltfDocument document = openGltf(path);
+    Scene scene;
+    scene.name = std::filesystem::path(path).stem().string();
+    SceneBuilder builder(document, options, scene);
+    for (const GltfPlacedNode& placed : placeGltfNodes(document))
+        builder.add(placed);
+    builder.finish();
+    scene.warnings = document.warnings;
+    return scene;
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/lights.h"
+
+#include <cmath>
+#include <limits>
+
+#include "scene/json_value.h"
+#include "scene/scene_file.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+struct Emission {
+    glm::dvec3 color{1};
+    double intensity = 1;
+};
+
+// glTF lets colours exceed 1; what counts is that the product fits into single precision.
+void setEmission(const GltfDocument& document, const std::string& element, const Emission& e,
+                 CndLight& light)
+{
+    for (int i = 0; i < 3; ++i) {
+        const double value = e.color[i] * e.intensity;
+        if (!(value <= static_cast<double>(std::numeric_limits<float>::max())))
+            document.fail(element, "emits more than single precision holds");
+        light.emission[i] = static_cast<float>(value);
+    }
+}
+
+void setInfluence(const GltfDocument& document, const std::string& element, double range,
+                  CndLight& light)
+{
+    light.influenceRadius = range > 0 ? static_cast<float>(range) : INFINITY;
+    if (!(light.influenceRadius > 0))
+        document.fail(element, "range is too small for single precision");
+    const bool round = light.type == CND_LIGHT_SPHERE || light.type == CND_LIGHT_DISC;
+    if (round && !(light.influenceRadius > light.radius))
+        document.fail(element, "range " + std::to_string(range) +
+                                   " must be greater than the light's radius " +
+                                   std::to_string(light.radius));
+    const auto& u = light.axisU;
+    const auto& v = light.axisV;
+    const float diagonal = std::hypot(std::hypot(u[0], u[1], u[2]), std::hypot(v[0], v[1], v[2]));
+    if (light.type == CND_LIGHT_RECTANGLE && !(light.influenceRadius > diagonal * (1 + 1e-6f)))
+        document.fail(element, "range " + std::to_string(range) +
+                                   " must be greater than half the light's diagonal " +
+                                   std::to_string(diagonal));
+}
+
+void setRadius(const GltfDocument& document, const std::string& element, double radius,
+               CndLight& light)
+{
+    light.type = CND_LIGHT_SPHERE;
+    light.radius = static_cast<float>(radius);
+    if (!(light.radius > 0) || !(radius <= maxCoordinate))
+        document.fail(element, "radius must be > 0 and at most 1e12, is " + std::to_string(radius));
+}
+
+// extras are free-form: only an object with a "radius" means us.
+std::optional<double> extrasRadius(const GltfDocument& document, const nlohmann::json& light,
+                                   const std::string& element)
+{
+    const auto extras = light.find("extras");
+    if (extras == light.end() || !extras->is_object() || !extras->contains("radius"))
+        return std::nullopt;
+    const JsonValue value(document.file, *extras, element + ".extras");
+    return value.member("radius").number(NumberRange::positive(maxCoordinate));
+}
+
+// Unit vector along the node's -z axis.
+bool direction(const glm::dmat4& worldFromNode, CndLight& light)
+{
+    const glm::dvec3 z(worldFromNode[2]);
+    const double length = glm::length(z);
+    if (!(length > 0))
+        return false;
+    for (int i = 0; i < 3; ++i)
+        light.direction[i] = static_cast<float>(0 - z[i] / length); // no negative zeros
+    return true;
+}
+
+void setCone(const GltfDocument& document, const std::string& element,
+             const tinygltf::SpotLight& spot, CndLight& light)
+{
+    const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
+    // Exporters round pi/2 up; the largest float below pi/2 is what we use then.
+    if (!(inner >= 0) || !(outer > inner) || !(outer <= 1.5708))
+        document.fail(element + ".spot",
+                      "angles must satisfy 0 <= innerConeAngle < outerConeAngle <= pi/2, are " +
+                          std::to_string(inner) + " and " + std::to_string(outer));
+    light.innerConeAngle = static_cast<float>(inner);
+    light.outerConeAngle =
+        std::min(static_cast<float>(outer), std::nextafter(static_cast<float>(pi / 2), 0.0f));
+    if (!(light.innerConeAngle < light.outerConeAngle))
+        document.fail(element + ".spot", "angles are equal in single precision");
+}
+
+void addPunctual(const GltfDocument& document, size_t index, const glm::dmat4& worldFromNode,
+                 const SceneOptions& options, GltfLights& out)
+{
+    const std::string element = "extensions.KHR_lights_punctual." + gltfElement("lights", index);
+    const tinygltf::Light& source = document.model.lights[index];
+    const nlohmann::json& json =
+        (*GltfDocument::extension(document.json, "KHR_lights_punctual"))["lights"][index];
+    CndLight light = {};
+    Emission emission;
+    emission.intensity = source.intensity;
+    if (source.color.size() == 3)
+        emission.color = {source.color[0], source.color[1], source.color[2]};
+    const bool isPoint = source.type == "point";
+    auto radius = extrasRadius(document, json, element);
+    if (radius && !isPoint) {
+        document.warn(element, "extras.radius is used by point lights only");
+        radius.reset();
+    }
+    if (isPoint && !radius)
+        radius = options.punctualRadius;
+    light.type = isPoint                 ? CND_LIGHT_POINT
+                 : source.type == "spot" ? CND_LIGHT_SPOT
+                                         : CND_LIGHT_DIRECTIONAL;
+    if (isPoint && radius) {
+        setRadius(document, element, *radius, light);
+        emission.intensity /= pi * *radius * *radius; // I = pi R^2 L
+    }
+    if (!isPoint && !direction(worldFromNode, light)) {
+        document.warn(element, "is scaled to nothing by its node and is left out");
+        return;
+    }
+    if (light.type == CND_LIGHT_SPOT)
+        setCone(document, element, source.spot, light);
+    if (light.type == CND_LIGHT_DIRECTIONAL && options.sunRadius) {
+        light.type = CND_LIGHT_DISTANT_SPHERE;
+        light.radius = static_cast<float>(*options.sunRadius);
+        emission.intensity /= pi * *options.sunRadius * *options.sunRadius; // E = pi s^2 L
+    }
+    setEmission(document, element, emission, light);
+    setInfluence(document, element, source.range, light);
+    out.lights.push_back(light);
+    out.positions.push_back(glm::dvec3(worldFromNode[3]));
+}
+
+// Where the -z side of a node's xy plane faces: perpendicular to the plane whatever the node does,
+// on the other side when it mirrors. With z scaled to nothing that side is lost and taken to be
+// that of a node that does not mirror.
+glm::dvec3 facing(const glm::dmat4& worldFromNode)
+{
+    const glm::dvec3 x(worldFromNode[0]), y(worldFromNode[1]), z(worldFromNode[2]);
+    const glm::dvec3 normal = glm::normalize(glm::cross(glm::normalize(x), glm::normalize(y)));
+    return glm::dot(normal, z) < 0 ? normal : -normal;
+}
+
+// A rect faces -z; `width` lies along x, `height` along y.
+void setSides(const JsonValue& source, const glm::dmat4& worldFromNode, CndLight& light)
+{
+    light.type = CND_LIGHT_RECTANGLE;
+    const auto side = [&](const char* key, const glm::dvec4& axis, float(&out)[3]) {
+        const auto json = source.find(key);
+        const double length = json ? json->number(NumberRange::positive(maxCoordinate)) : 1;
+        for (int i = 0; i < 3; ++i)
+            out[i] = static_cast<float>(0.5 * length * axis[i]);
+        if (!(glm::length(glm::vec3(out[0], out[1], out[2])) > 1e-15f))
+            source.fail(std::string(key) + " is too small for single precision");
+    };
+    const glm::dvec3 x(worldFromNode[0]), y(worldFromNode[1]);
+    // It faces axisU x axisV.
+    const bool alongY = glm::dot(glm::cross(x, y), facing(worldFromNode)) > 0;
+    side("width", worldFromNode[0], light.axisU);
+    side("height", alongY ? worldFromNode[1] : -worldFromNode[1], light.axisV);
+    if (!(std::abs(glm::dot(glm::normalize(x), glm::normalize(y))) <= 0.99e-3))
+        source.fail("is sheared by its node: its sides must be perpendicular");
+}
+
+void addArea(const GltfDocument& document, size_t index, const glm::dmat4& worldFromNode,
+             GltfLights& out)
+{
+    const std::string element = "extensions.KHR_lights_area." + gltfElement("lights", index);
+    const nlohmann::json& json =
+        (*GltfDocument::extension(document.json, "KHR_lights_area"))["lights"][index];
+    const JsonValue source(document.file, json, element);
+    const auto shape = source.find("shape") ? source.find("shape") : source.find("type");
+    if (!shape)
+        source.fail("\"shape\" is missing");
+    const std::string& name = shape->string();
+    if (name != "sphere" && name != "rect" && name != "disk")
+        shape->fail("must be sphere, disk or rect, is \"" + printable(name, 60) + "\"");
+    const double scales[3] = {glm::length(glm::dvec3(worldFromNode[0])),
+                              glm::length(glm::dvec3(worldFromNode[1])),
+                              glm::length(glm::dvec3(worldFromNode[2]))};
+    // Rects and disks lie across z, so that its scale means nothing to them.
+    const double scale = name == "sphere" ? std::cbrt(scales[0] * scales[1] * scales[2])
+                                          : std::sqrt(scales[0] * scales[1]);
+    if (!(scale > 0)) {
+        document.warn(element, "is scaled to nothing by its node and is left out");
+        return;
+    }
+    CndLight light = {};
+    Emission emission;
+    if (const auto color = source.find("color"))
+        emission.color = color->vector3({0});
+    if (const auto intensity = source.find("intensity"))
+        emission.intensity = intensity->number({0});
+    if (name == "rect") {
+        setSides(source, worldFromNode, light);
+    } else {
+        const bool disk = name == "disk";
+        for (size_t i = 0; i < (disk ? 2 : 3); ++i)
+            if (std::abs(scales[i] - scale) > 1e-3 * scale) {
+                document.warn(element, "is scaled differently along its axes; it stays a " + name);
+                break;
+            }
+        const auto radius = source.find("radius");
+        setRadius(document, element, (radius ? radius->number() : 1) * scale, light);
+        if (disk) {
+            light.type = CND_LIGHT_DISC;
+            const glm::dvec3 n = facing(worldFromNode);
+            for (int i = 0; i < 3; ++i)
+                light.direction[i] = static_cast<float>(n[i]);
+        }
+    }
+    setEmission(document, element, emission, light);
+    const auto range = source.find("range");
+    setInfluence(document, element, range ? range->number() : 0, light);
+    out.lights.push_back(light);
+    out.positions.push_back(glm::dvec3(worldFromNode[3]));
+}
+
+} // namespace
+
+void addGltfLights(const GltfDocument& document, size_t node, const glm::dmat4& worldFromNode,
+                   const SceneOptions& options, GltfLights& out)
+{
+    const nlohmann::json& json = document.json["nodes"][node];
+    if (const auto* extension = GltfDocument::extension(json, "KHR_lights_punctual"))
+        addPunctual(document, (*extension)["light"].get<size_t>(), worldFromNode, options, out);
+    if (const auto* extension = GltfDocument::extension(json, "KHR_lights_area"))
+        addArea(document, (*extension)["light"].get<size_t>(), worldFromNode, out);
+}
+
+} // namespace candelabra::app

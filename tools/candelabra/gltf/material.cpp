@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/material.h"
+
+#include <cmath>
+#include <limits>
+
+#include "gltf/image.h"
+#include "scene/scene_file.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+// Factors may leave [0, 1] by 1e-4 (checked on opening): rounding by exporters.
+float unit(double x)
+{
+    return static_cast<float>(glm::clamp(x, 0.0, 1.0));
+}
+
+glm::vec3 unitColor(const std::vector<double>& v)
+{
+    return {unit(v[0]), unit(v[1]), unit(v[2])};
+}
+
+double numberOr(const nlohmann::json& object, const char* key, double otherwise)
+{
+    const auto found = object.find(key);
+    return found == object.end() ? otherwise : found->get<double>();
+}
+
+glm::dvec2 vector2Or(const nlohmann::json& object, const char* key, glm::dvec2 otherwise)
+{
+    const auto found = object.find(key);
+    return found == object.end() ? otherwise
+                                 : glm::dvec2((*found)[0].get<double>(), (*found)[1].get<double>());
+}
+
+class MaterialReader
+{
+public:
+    MaterialReader(const GltfDocument& document, Scene& scene)
+        : document_(document), textures_(document, scene)
+    {
+    }
+
+    Material read(size_t index);
+
+private:
+    // `slot` is the JSON of a textureInfo; absent slots give an empty reference.
+    TextureRef textureRef(const nlohmann::json& owner, const char* slot, bool srgb);
+    void readSurface(const tinygltf::Material& source, const nlohmann::json& json,
+                     Material& material);
+    void readEmission(const tinygltf::Material& source, const nlohmann::json& json,
+                      Material& material);
+    void readDielectric(const nlohmann::json& json, Material& material);
+
+    const GltfDocument& document_;
+    GltfTextures textures_;
+    std::string element_; // "materials[3]"
+};
+
+TextureRef MaterialReader::textureRef(const nlohmann::json& owner, const char* slot, bool srgb)
+{
+    TextureRef ref;
+    const auto found = owner.find(slot);
+    if (found == owner.end())
+        return ref;
+    const nlohmann::json& info = *found;
+    int64_t uvSet = info.contains("texCoord") ? info["texCoord"].get<int64_t>() : 0;
+    if (const auto* transform = GltfDocument::extension(info, "KHR_texture_transform")) {
+        uvSet = transform->contains("texCoord") ? (*transform)["texCoord"].get<int64_t>() : uvSet;
+        const glm::dvec2 offset = vector2Or(*transform, "offset", {0, 0});
+        const glm::dvec2 scale = vector2Or(*transform, "scale", {1, 1});
+        const double angle = numberOr(*transform, "rotation", 0);
+        const double c = std::cos(angle), s = std::sin(angle);
+        // Counter-clockwise with v pointing down, offset * rotation * scale; the listing in the
+        // extension's text has the sign of the sine wrong (glTF issue 1563).
+        ref.uRow = glm::vec3(c * scale.x, s * scale.y, offset.x);
+        ref.vRow = glm::vec3(-s * scale.x, c * scale.y, offset.y);
+    }
+    if (uvSet > 1) {
+        document_.warn(element_ + "." + slot, "uses TEXCOORD_" + std::to_string(uvSet) +
+                                                  "; sets 0 and 1 are read, it is left out");
+        return TextureRef{};
+    }
+    ref.uvSet = static_cast<uint32_t>(uvSet);
+    ref.texture = textures_.find(info["index"].get<int>(), srgb);
+    return ref;
+}
+
+void MaterialReader::readSurface(const tinygltf::Material& source, const nlohmann::json& json,
+                                 Material& material)
+{
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    material.baseColor = unitColor(pbr.baseColorFactor);
+    material.alpha = unit(pbr.baseColorFactor[3]);
+    material.metalness = unit(pbr.metallicFactor);
+    material.perceptualRoughness = unit(pbr.roughnessFactor);
+    if (const auto found = json.find("pbrMetallicRoughness"); found != json.end()) {
+        material.baseColorTexture = textureRef(*found, "baseColorTexture", true);
+        material.metallicRoughnessTexture = textureRef(*found, "metallicRoughnessTexture", false);
+    }
+    material.normalTexture = textureRef(json, "normalTexture", false);
+    material.normalScale = static_cast<float>(source.normalTexture.scale);
+    material.doubleSided = source.doubleSided;
+    material.alphaCutoff = static_cast<float>(source.alphaCutoff);
+    if (source.alphaMode == "MASK")
+        material.alphaMode = AlphaMode::Mask;
+    else if (source.alphaMode == "BLEND")
+        document_.warn(element_, "is blended by alpha; it is drawn opaque");
+}
+
+void MaterialReader::readEmission(const tinygltf::Material& source, const nlohmann::json& json,
+                                  Material& material)
+{
+    const auto* extension = GltfDocument::extension(json, "KHR_materials_emissive_strength");
+    const double strength = extension ? numberOr(*extension, "emissiveStrength", 1) : 1;
+    // cd/m^2: glTF 2.0, section 3.9.4
+    material.emission = glm::vec3(glm::dvec3(unitColor(source.emissiveFactor)) * strength);
+    material.emissiveTexture = textureRef(json, "emissiveTexture", true);
+}
+
+// KHR_materials_ior: F0 = ((n-1)/(n+1))^2, 0 means total reflection. KHR_materials_specular:
+// F0 = min(F0 * colour, 1) * factor and F90 = factor for the dielectric part.
+void MaterialReader::readDielectric(const nlohmann::json& json, Material& material)
+{
+    double f0 = 0.04;
+    if (const auto* extension = GltfDocument::extension(json, "KHR_materials_ior")) {
+        const double n = numberOr(*extension, "ior", 1.5);
+        if (n != 0 && n < 1)
+            document_.fail(element_ + ".extensions.KHR_materials_ior.ior",
+                           "must be 0 or >= 1, is " + std::to_string(n));
+        f0 = n == 0 ? 1 : std::pow((n - 1) / (n + 1), 2);
+    }
+    material.dielectricF0 = glm::vec3(static_cast<float>(f0));
+    const auto* specular = GltfDocument::extension(json, "KHR_materials_specular");
+    if (!specular)
+        return;
+    const float factor = unit(numberOr(*specular, "specularFactor", 1));
+    glm::dvec3 color{1};
+    if (const auto found = specular->find("specularColorFactor"); found != specular->end())
+        for (int i = 0; i < 3; ++i)
+            color[i] = (*found)[static_cast<size_t>(i)].get<double>();
+    material.dielectricF0 = glm::vec3(glm::min(f0 * color, glm::dvec3(1))) * factor;
+    // One weight for the whole material: metals keep F90 = 1 in proportion to the metalness factor.
+    material.specularWeight = glm::mix(factor, 1.0f, material.metalness);
+    for (const char* slot : {"specularTexture", "specularColorTexture"})
+        if (specular->contains(slot))
+            document_.warn(element_, std::string(slot) + " is left out, its factor is used");
+    if (factor < 1 && material.metallicRoughnessTexture.texture >= 0)
+        document_.warn(element_, "specularFactor follows metallicFactor, not its texture");
+}
+
+Material MaterialReader::read(size_t index)
+{
+    element_ = gltfElement("materials", index);
+    const tinygltf::Material& source = document_.model.materials[index];
+    const nlohmann::json& json = document_.json["materials"][index];
+    Material material;
+    material.name = source.name;
+    readSurface(source, json, material);
+    readEmission(source, json, material);
+    readDielectric(json, material);
+    if (GltfDocument::extension(json, "KHR_materials_unlit"))
+        document_.warn(element_, "is unlit, which says nothing about light; it is lit here");
+    const float largest = std::numeric_limits<float>::max();
+    for (int i = 0; i < 3; ++i)
+        if (!(material.emission[i] <= largest))
+            document_.fail(element_, "emits more than single precision holds");
+    return material;
+}
+
+} // namespace
+
+uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene)
+{
+    MaterialReader reader(document, scene);
+    for (size_t i = 0; i < document.model.materials.size(); ++i)
+        scene.materials.push_back(reader.read(i));
+    bool isDefaultUsed = false;
+    for (const tinygltf::Mesh& mesh : document.model.meshes)
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
+            isDefaultUsed = isDefaultUsed || primitive.material < 0;
+    if (!isDefaultUsed)
+        return 0;
+    // glTF 2.0, section 3.7.2.1: white, metallic and rough.
+    Material material;
+    material.name = "glTF default";
+    material.metalness = 1;
+    scene.materials.push_back(material);
+    return static_cast<uint32_t>(scene.materials.size() - 1);
+}
+
+} // namespace candelabra::app

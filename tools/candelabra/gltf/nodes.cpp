@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/nodes.h"
+
+#include <cmath>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "scene/scene_file.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+constexpr int noParent = -1;
+
+std::string nodeName(size_t i)
+{
+    return gltfElement("nodes", i);
+}
+
+std::vector<int> findParents(const GltfDocument& document)
+{
+    const auto& nodes = document.model.nodes;
+    std::vector<int> parents(nodes.size(), noParent);
+    for (size_t i = 0; i < nodes.size(); ++i)
+        for (const int child : nodes[i].children) {
+            int& parent = parents[static_cast<size_t>(child)];
+            if (parent != noParent)
+                document.fail(nodeName(static_cast<size_t>(child)),
+                              "has two parents, " + nodeName(static_cast<size_t>(parent)) +
+                                  " and " + nodeName(i));
+            parent = static_cast<int>(i);
+        }
+    return parents;
+}
+
+// With one parent each, a cycle is a chain of parents that comes back: every node is walked once.
+void refuseCycles(const GltfDocument& document, const std::vector<int>& parents)
+{
+    constexpr size_t unseen = 0;
+    std::vector<size_t> walk(parents.size(), unseen);
+    for (size_t start = 0; start < parents.size(); ++start)
+        for (size_t i = start; walk[i] == unseen; i = static_cast<size_t>(parents[i])) {
+            walk[i] = start + 1;
+            if (parents[i] == noParent)
+                break;
+            if (walk[static_cast<size_t>(parents[i])] == start + 1)
+                document.fail(nodeName(i), "is its own ancestor");
+        }
+}
+
+std::vector<size_t> findRoots(const GltfDocument& document, const std::vector<int>& parents)
+{
+    std::vector<size_t> roots;
+    if (document.model.scenes.empty()) {
+        if (!parents.empty())
+            document.warn("", "has no scene; all its nodes are used");
+        for (size_t i = 0; i < parents.size(); ++i)
+            if (parents[i] == noParent)
+                roots.push_back(i);
+        return roots;
+    }
+    const auto index = static_cast<size_t>(std::max(document.model.defaultScene, 0));
+    std::vector<bool> listed(parents.size(), false);
+    for (const int root : document.model.scenes[index].nodes) {
+        const auto i = static_cast<size_t>(root);
+        if (parents[i] != noParent)
+            document.fail(gltfElement("scenes", index), nodeName(i) + " is not a root node");
+        if (listed[i])
+            document.fail(gltfElement("scenes", index), nodeName(i) + " is listed twice");
+        listed[i] = true;
+        roots.push_back(i);
+    }
+    return roots;
+}
+
+glm::dmat4 localTransform(const GltfDocument& document, size_t index)
+{
+    const tinygltf::Node& node = document.model.nodes[index];
+    if (!node.matrix.empty()) {
+        const glm::dmat4 m = glm::make_mat4(node.matrix.data());
+        for (int column = 0; column < 4; ++column)
+            if (!(std::abs(m[column][3] - (column == 3 ? 1 : 0)) <= 1e-6))
+                document.fail(nodeName(index) + ".matrix", "must have 0, 0, 0, 1 as its last row");
+        return m;
+    }
+    glm::dmat4 m{1};
+    if (!node.rotation.empty()) {
+        const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+        if (!(glm::length(q) > 1e-6))
+            document.fail(nodeName(index) + ".rotation", "is no rotation: all zero");
+        m = glm::mat4_cast(glm::normalize(q));
+    }
+    if (!node.scale.empty())
+        for (int i = 0; i < 3; ++i)
+            m[i] *= node.scale[static_cast<size_t>(i)];
+    if (!node.translation.empty())
+        m[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1);
+    return m;
+}
+
+void refuseHuge(const GltfDocument& document, size_t index, const glm::dmat4& world)
+{
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!(std::abs(world[column][row]) <= maxCoordinate))
+                document.fail(nodeName(index), "its transform exceeds 1e12 in world space");
+}
+
+} // namespace
+
+std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
+{
+    const std::vector<int> parents = findParents(document);
+    refuseCycles(document, parents);
+    const std::vector<size_t> roots = findRoots(document, parents);
+
+    std::vector<GltfPlacedNode> placed;
+    std::vector<GltfPlacedNode> open; // a stack: chains of nodes can be long
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+        open.push_back({*root, glm::dmat4(1)}); // with the parent's transform
+    while (!open.empty()) {
+        GltfPlacedNode current = open.back();
+        open.pop_back();
+        current.worldFromNode *= localTransform(document, current.node);
+        refuseHuge(document, current.node, current.worldFromNode);
+        placed.push_back(current);
+        const std::vector<int>& children = document.model.nodes[current.node].children;
+        for (auto child = children.rbegin(); child != children.rend(); ++child)
+            open.push_back({static_cast<size_t>(*child), current.worldFromNode});
+    }
+    return placed;
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "json/save.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "generate/generators.h"
+#include "scene/scene_error.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degrees = 180 / 3.14159265358979323846;
+
+Json toJson(const glm::dvec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+glm::dvec3 toVec3(const float (&v)[3])
+{
+    return {v[0], v[1], v[2]};
+}
+
+// Numbers of the bits, as the loader has them; nothing for all layers.
+void addLayers(Json& json, uint32_t layers)
+{
+    for (uint32_t i = 0; i < CND_LAYER_COUNT; ++i)
+        if (layers & 1u << i)
+            json["layers"].push_back(i);
+}
+
+Json cameraJson(const Camera& camera)
+{
+    if (camera.orthographic)
+        throw SceneError(
+            "scene descriptions have no orthographic cameras: this scene is not saved");
+    Json out{{"position", toJson(camera.position)},
+             {"look_at", toJson(camera.position + camera.forward)},
+             {"up", toJson(camera.up)},
+             {"vertical_fov_degrees", camera.verticalFov * degrees}};
+    if (camera.aspect)
+        out["aspect"] = *camera.aspect;
+    addLayers(out, camera.layers);
+    return out;
+}
+
+Json materialJson(const Material& m)
+{
+    if (!(m.perceptualRoughness > 0))
+        throw SceneError(
+            "scene descriptions have no roughness of 0: choose another, this scene is not saved");
+    // A material of the format is a dielectric whose F0 is final.
+    const glm::dvec3 base(m.baseColor), f0(m.dielectricF0);
+    const double metalness = m.metalness;
+    return {{"name", m.name},
+            {"albedo", toJson((1 - metalness) * base)},
+            {"F0", toJson(glm::mix(f0, base, metalness))},
+            {"perceptual_roughness", m.perceptualRoughness},
+            {"diffuse", m.diffuseWeight != 0},
+            {"specular", m.specularWeight != 0}};
+}
+
+Json objectsJson(const Scene& scene)
+{
+    Json out = Json::array();
+    for (const AnalyticObject& o : scene.analyticObjects) {
+        Json object =
+            o.type == AnalyticObject::Type::Plane
+                ? Json{{"type", "plane"}, {"point", toJson(o.point)}, {"normal", toJson(o.normal)}}
+                : Json{{"type", "sphere"}, {"center", toJson(o.point)}, {"radius", o.radius}};
+        object["material"] = materialJson(scene.materials[o.material]);
+        out.push_back(object);
+    }
+    return out;
+}
+
+Json placementJson(const CndLight& light, const glm::dvec3& centre)
+{
+    const Json position = toJson(centre), direction = toJson(toVec3(light.direction));
+    const glm::dvec3 u = toVec3(light.axisU);
+    switch (light.type) {
+    case CND_LIGHT_SPHERE:
+        return {{"type", "sphere"}, {"position", position}, {"radius", light.radius}};
+    case CND_LIGHT_DISTANT_SPHERE:
+        return {{"type", "distant_sphere"},
+                {"direction", direction},
+                {"sin_angular_radius", light.radius}};
+    case CND_LIGHT_TUBE:
+        return {{"type", "tube"},
+                {"start", toJson(centre - u)},
+                {"end", toJson(centre + u)},
+                {"radius", light.radius}};
+    case CND_LIGHT_RECTANGLE:
+        return {{"type", "rectangle"},
+                {"position", position},
+                {"axis_u", toJson(u)},
+                {"axis_v", toJson(toVec3(light.axisV))},
+                {"two_sided", light.twoSided != 0}};
+    case CND_LIGHT_DISC:
+        return {{"type", "disc"},
+                {"position", position},
+                {"normal", direction},
+                {"radius", light.radius},
+                {"two_sided", light.twoSided != 0}};
+    case CND_LIGHT_SPOT:
+        return {{"type", "spot"},
+                {"position", position},
+                {"direction", direction},
+                {"inner_cone_degrees", double(light.innerConeAngle) * degrees},
+                {"outer_cone_degrees", double(light.outerConeAngle) * degrees}};
+    case CND_LIGHT_DIRECTIONAL:
+        return {{"type", "directional"}, {"direction", direction}};
+    default:
+        return {{"type", "point"}, {"position", position}};
+    }
+}
+
+Json lightJson(const CndLight& light, const glm::dvec3& origin)
+{
+    Json out = placementJson(light, origin + toVec3(light.position));
+    const bool distant =
+        light.type == CND_LIGHT_DIRECTIONAL || light.type == CND_LIGHT_DISTANT_SPHERE;
+    const char* emission = light.type == CND_LIGHT_DIRECTIONAL ? "illuminance"
+                           : light.type == CND_LIGHT_POINT || light.type == CND_LIGHT_SPOT
+                               ? "intensity"
+                               : "radiance";
+    out[emission] = toJson(toVec3(light.emission));
+    if (!distant && std::isfinite(light.influenceRadius))
+        out["influence_radius"] = light.influenceRadius;
+    addLayers(out, light.layers);
+    return out;
+}
+
+// Relative, so that both may be moved together; absolute where no way leads there.
+std::string fileSeenFrom(const std::string& folder, const std::string& file)
+{
+    namespace fs = std::filesystem;
+    std::error_code unknown;
+    const fs::path relative = fs::relative(file, folder.empty() ? "." : folder, unknown);
+    return (unknown || relative.empty() ? fs::absolute(file) : relative).generic_string();
+}
+
+Json sourceJson(const SceneSource& source, const std::string& path)
+{
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    Json out{{"scene", isBuiltIn(source.scene) ? source.scene : fileSeenFrom(folder, source.scene)},
+             {"seed", source.seed}};
+    const MaterialOverride& m = source.materials;
+    if (m.on)
+        out["material"] = {{"perceptual_roughness", m.perceptualRoughness},
+                           {"metalness", m.metalness}};
+    return out;
+}
+
+} // namespace
+
+void overrideMaterials(Scene& scene, const MaterialOverride& override)
+{
+    if (!override.on)
+        return;
+    for (Material& material : scene.materials) {
+        material.perceptualRoughness = override.perceptualRoughness;
+        material.metalness = override.metalness;
+        material.metallicRoughnessTexture = {};
+    }
+}
+
+std::string sceneDescription(const Scene& scene, const SceneSource& source, const Camera& camera,
+                             double time, const std::string& path)
+{
+    Json out{{"name", scene.name}, {"camera", cameraJson(camera)}};
+    if (scene.instances.empty())
+        out["objects"] = objectsJson(scene);
+    else
+        out["source"] = sourceJson(source, path);
+    std::vector<CndLight> lights;
+    lightsAtTime(scene, time, lights);
+    out["lights"] = Json::array();
+    for (const CndLight& light : lights)
+        out["lights"].push_back(lightJson(light, scene.lightOrigin));
+    if (scene.resolution)
+        out["resolution"] = {scene.resolution->x, scene.resolution->y};
+    out["background"] = toJson(glm::dvec3(scene.background));
+    out["lights_visible_to_camera"] = scene.lightsVisible;
+    return out.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace candelabra::app

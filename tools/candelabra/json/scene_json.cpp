@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// The small scene description that reference images are published with: one camera, exact planes
+// and balls, lights (scene_json_lights.h). Angles in degrees, lengths in any unit, radiance taken
+// as is. Instead of objects "source" may name another scene, of which all but lights and camera is
+// taken: {"scene": "hall", or the path of a glTF file from where the description is,
+// "seed": 1, "material": {"perceptual_roughness": 0.4, "metalness": 0}, for all its materials}.
+#include <cmath>
+#include <filesystem>
+
+#include "generate/generators.h"
+#include "gltf/gltf.h"
+#include "scene/json_value.h"
+#include "scene/scene_file.h"
+#include "json/save.h"
+#include "json/scene_json.h"
+#include "json/scene_json_lights.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
+constexpr NumberRange unitInterval{0, 1};
+
+glm::vec3 color(const JsonValue& value, const NumberRange& range)
+{
+    return glm::vec3(value.vector3(range));
+}
+
+// A unit vector; lengths below 1e-6 have no direction worth the name.
+glm::dvec3 direction(const JsonValue& value)
+{
+    const glm::dvec3 v = value.vector3(coordinate);
+    if (!(glm::length(v) > 1e-6))
+        value.fail("must not be zero");
+    return glm::normalize(v);
+}
+
+Camera readCamera(const JsonValue& json)
+{
+    json.refuseOtherKeys({"position", "look_at", "up", "vertical_fov_degrees", "aspect", "layers"});
+    Camera camera;
+    camera.name = "scene camera";
+    camera.position = json.member("position").vector3(coordinate);
+    const glm::dvec3 toTarget = json.member("look_at").vector3(coordinate) - camera.position;
+    if (!(glm::length(toTarget) > 1e-6))
+        json.member("look_at").fail("must not be the camera's position");
+    camera.forward = glm::normalize(toTarget);
+    const glm::dvec3 right = glm::cross(camera.forward, direction(json.member("up")));
+    if (!(glm::length(right) > 1e-6))
+        json.member("up").fail("must not be parallel to the viewing direction");
+    camera.up = glm::cross(glm::normalize(right), camera.forward);
+    const JsonValue fov = json.member("vertical_fov_degrees");
+    const double degrees = fov.number(NumberRange::positive(179.9));
+    camera.verticalFov = degrees * 3.14159265358979323846 / 180;
+    if (const auto aspect = json.find("aspect"))
+        camera.aspect = aspect->number({1e-3, 1e3});
+    if (const auto layers = json.find("layers"))
+        camera.layers = readLayers(*layers);
+    // The reference cameras see everything in front of them; nearer than this nothing is resolved.
+    camera.nearPlane = 1e-3;
+    return camera;
+}
+
+float readPerceptualRoughness(const JsonValue& json)
+{
+    const auto alphaJson = json.find("alpha");
+    const auto roughnessJson = json.find("perceptual_roughness");
+    if (!alphaJson && !roughnessJson)
+        json.fail("\"alpha\" is missing");
+    if (!alphaJson)
+        return static_cast<float>(roughnessJson->number(NumberRange::positive(1)));
+    const double fromAlpha = std::sqrt(alphaJson->number(NumberRange::positive(1)));
+    if (roughnessJson) {
+        const double roughness = roughnessJson->number(NumberRange::positive(1));
+        if (!(std::abs(roughness - fromAlpha) <= 1e-6))
+            roughnessJson->fail("must be the square root of alpha");
+    }
+    return static_cast<float>(fromAlpha);
+}
+
+// F0 in the file is final while Material mixes it with the base colour by metalness, so metalness
+// goes into the base colour and the material itself is a dielectric.
+Material readMaterial(const JsonValue& json)
+{
+    json.refuseOtherKeys({"name", "albedo", "diffuse", "specular", "F0", "reflectance", "alpha",
+                          "perceptual_roughness", "metalness"});
+    Material material;
+    if (const auto name = json.find("name"))
+        material.name = name->string();
+    const auto metalnessJson = json.find("metalness");
+    const double metalness = metalnessJson ? metalnessJson->number(unitInterval) : 0;
+    const glm::dvec3 albedo = json.member("albedo").vector3(unitInterval);
+    material.baseColor = glm::vec3((1 - metalness) * albedo);
+    material.metalness = 0;
+    material.perceptualRoughness = readPerceptualRoughness(json);
+    if (const auto f0 = json.find("F0"))
+        material.dielectricF0 = color(*f0, unitInterval);
+    if (const auto reflectance = json.find("reflectance")) {
+        if (json.find("F0"))
+            reflectance->fail("cannot stand beside \"F0\"");
+        // Lagarde and de Rousiers 2014, eq. 25: 0.5 is a common dielectric, F0 = 0.04.
+        const double r = reflectance->number(unitInterval);
+        material.dielectricF0 = glm::vec3(static_cast<float>(0.16 * r * r));
+    }
+    const auto diffuse = json.find("diffuse");
+    const auto specular = json.find("specular");
+    material.diffuseWeight = diffuse && !diffuse->boolean() ? 0.0f : 1.0f;
+    if (specular && !specular->boolean()) {
+        material.specularWeight = 0;
+        material.dielectricF0 = glm::vec3(0); // F90 = 0 alone leaves F0 (1 - (1 - VoH)^5)
+    }
+    return material;
+}
+
+AnalyticObject readObject(const JsonValue& json)
+{
+    AnalyticObject object;
+    const JsonValue type = json.member("type");
+    if (type.string() == "plane") {
+        json.refuseOtherKeys({"type", "point", "normal", "material"});
+        object.type = AnalyticObject::Type::Plane;
+        object.point = json.member("point").vector3(coordinate);
+        object.normal = direction(json.member("normal"));
+    } else if (type.string() == "sphere") {
+        json.refuseOtherKeys({"type", "center", "radius", "material"});
+        object.type = AnalyticObject::Type::Ball;
+        object.point = json.member("center").vector3(coordinate);
+        object.radius = json.member("radius").number(NumberRange::positive(maxCoordinate));
+    } else {
+        type.fail("must be \"plane\" or \"sphere\", is \"" + printable(type.string(), 60) + "\"");
+    }
+    return object;
+}
+
+// "object" with the one "material", or our extension: "objects", each with its own or the common
+// material.
+void readObjects(const JsonValue& root, Scene& scene)
+{
+    const auto common = root.find("material");
+    if (common)
+        scene.materials.push_back(readMaterial(*common));
+    const auto add = [&](const JsonValue& json) {
+        AnalyticObject object = readObject(json);
+        if (const auto own = json.find("material")) {
+            object.material = static_cast<uint32_t>(scene.materials.size());
+            scene.materials.push_back(readMaterial(*own));
+        } else if (!common) {
+            json.fail("has no material and the scene has none");
+        }
+        scene.analyticObjects.push_back(object);
+    };
+    const auto list = root.find("objects");
+    if (!list) {
+        add(root.member("object"));
+        return;
+    }
+    if (root.find("object"))
+        list->fail("cannot stand beside \"object\"");
+    list->requireArray();
+    if (list->size() == 0)
+        list->fail("must not be empty");
+    for (size_t i = 0; i < list->size(); ++i)
+        add(list->item(i));
+}
+
+float readShare(const JsonValue& json, const char* key)
+{
+    return float(json.member(key).number(unitInterval));
+}
+
+// What "source" names; paths are from where the description is.
+SceneSource readSource(const JsonValue& json, const std::string& path)
+{
+    json.refuseOtherKeys({"scene", "seed", "material"});
+    const JsonValue name = json.member("scene");
+    SceneSource out{.scene = name.string()};
+    if (const auto seed = json.find("seed"))
+        out.seed = uint32_t(seed->integer(0, UINT32_MAX));
+    if (const auto material = json.find("material")) {
+        material->refuseOtherKeys({"perceptual_roughness", "metalness"});
+        out.materials = {true, readShare(*material, "perceptual_roughness"),
+                         readShare(*material, "metalness")};
+    }
+    if (isBuiltIn(out.scene))
+        return out;
+    out.scene = (std::filesystem::path(path).parent_path() / out.scene).string();
+    if (!isGltf(out.scene))
+        name.fail("must be hall, field, fence, showcase, or a glTF file, is \"" +
+                  printable(name.string(), 60) + "\"");
+    return out;
+}
+
+// The scene without its lights and cameras.
+Scene loadSource(const SceneSource& source)
+{
+    SceneOptions options{.seed = source.seed};
+    if (isGenerated(source.scene)) // of a file the option adds lights
+        options.lights = 0;
+    Scene out = isBuiltIn(source.scene) ? generateScene(source.scene, options)
+                                        : loadGltf(source.scene, options);
+    overrideMaterials(out, source.materials);
+    out.lights.clear();
+    out.lightMotions.clear();
+    out.lightOrigin = glm::dvec3(0);
+    out.cameras.clear();
+    return out;
+}
+
+nlohmann::json readDocument(const std::string& path)
+{
+    const std::vector<uint8_t> bytes = readSceneFile(path);
+    return parseSceneJson(
+        path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+glm::uvec2 readResolution(const JsonValue& json)
+{
+    json.requireArray();
+    if (json.size() != 2)
+        json.fail("must be [width, height]");
+    return {static_cast<uint32_t>(json.item(0).integer(1, 16384)),
+            static_cast<uint32_t>(json.item(1).integer(1, 16384))};
+}
+
+} // namespace
+
+SceneSource sceneSource(const std::string& scene, uint32_t seed)
+{
+    if (isBuiltIn(scene) || isGltf(scene))
+        return {scene, seed};
+    const nlohmann::json document = readDocument(scene);
+    const auto source = JsonValue(scene, document).find("source");
+    return source ? readSource(*source, scene) : SceneSource{scene, seed};
+}
+
+Scene loadSceneJson(const std::string& path)
+{
+    const nlohmann::json document = readDocument(path);
+    const JsonValue root(path, document);
+    root.refuseOtherKeys({"camera", "object", "objects", "material", "source", "lights",
+                          "resolution", "background", "lights_visible_to_camera", "lights_occlude",
+                          // informative:
+                          "name", "about", "channels", "references", "rendered_terms"});
+    Scene scene;
+    const auto source = root.find("source");
+    if (source) {
+        for (const char* key : {"object", "objects", "material"})
+            if (root.find(key))
+                source->fail(std::string("cannot stand beside \"") + key + "\"");
+        scene = loadSource(readSource(*source, path));
+    } else {
+        scene.lobes = CND_LOBES_SUM; // what the format means: two-lobe materials of path tracers
+    }
+    const auto name = root.find("name");
+    scene.name = name && name->json().is_string() ? name->string()
+                                                  : std::filesystem::path(path).stem().string();
+    scene.cameras.push_back(readCamera(root.member("camera")));
+    if (!source)
+        readObjects(root, scene);
+    readSceneLights(root.member("lights"), scene);
+    if (const auto resolution = root.find("resolution"))
+        scene.resolution = readResolution(*resolution);
+    if (const auto background = root.find("background"))
+        scene.background = color(*background, {0});
+    const auto visible = root.find("lights_visible_to_camera");
+    scene.lightsVisible = visible && visible->boolean();
+    const auto occlude = root.find("lights_occlude");
+    if (occlude && occlude->boolean())
+        scene.warnings.push_back(path + ": lights_occlude: lights do not block light here");
+    return scene;
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "load/load.h"
+
+#include <filesystem>
+
+#include "generate/generators.h"
+#include "generate/lights.h"
+#include "gltf/gltf.h"
+#include "scene/scene_error.h"
+#include "scene/scene_file.h"
+#include "json/scene_json.h"
+
+namespace candelabra::app
+{
+
+namespace
+{
+
+bool fileExists(const std::string& path)
+{
+    std::error_code ignored;
+    return path.find('\0') == std::string::npos && std::filesystem::exists(path, ignored);
+}
+
+Scene loadFile(const std::string& scene, const SceneOptions& options)
+{
+    if (isGltf(scene))
+        return loadGltf(scene, options);
+    if (hasExtension(scene, ".json") || fileExists(scene))
+        return loadSceneJson(scene);
+    throw SceneError(
+        "unknown scene \"" + printable(scene, 4096) +
+        "\": use hall, field, fence, showcase, or the path of a .gltf, .glb or .json file");
+}
+
+Scene loadWithoutEnvironment(const std::string& scene, const SceneOptions& options)
+{
+    if (isBuiltIn(scene))
+        return generateScene(scene, options);
+    Scene loaded = loadFile(scene, options);
+    if (options.lights)
+        addRandomLights(loaded, options);
+    return loaded;
+}
+
+SceneEnvironment loadEnvironment(const SceneOptions& options)
+{
+    try {
+        return {.file = options.environment,
+                .radiance = loadImageByExtension(options.environment),
+                .rotation = options.environmentRotation,
+                .scale = options.environmentScale};
+    } catch (const ImageError& error) {
+        throw SceneError(std::string("--environment: ") + error.what());
+    }
+}
+
+} // namespace
+
+Scene loadScene(const std::string& scene, const SceneOptions& options)
+{
+    // The small file first: a typing error in its name should not cost the making of a scene.
+    std::optional<SceneEnvironment> environment;
+    if (!options.environment.empty())
+        environment = loadEnvironment(options);
+    Scene out = loadWithoutEnvironment(scene, options);
+    out.environment = std::move(environment);
+    out.lobes = options.lobes.value_or(out.lobes);
+    out.energyCompensation = options.energyCompensation;
+    return out;
+}
+
+} // namespace candelabra::app

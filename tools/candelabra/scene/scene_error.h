@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+
+namespace candelabra::app
+{
+
+// A scene that cannot be used. what() is one sentence that names the file, the element and the
+// reason. The program ends with exit code 2.
+struct SceneError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+} // namespace candelabra::app
