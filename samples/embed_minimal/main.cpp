@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candelabra in a Vulkan program of one's own: a lamp before a wall, one frame, no window. Says
-// what the pixel in the middle should be and ends with 1 when it is something else.
+// Candelabra in a Vulkan program: one frame of a lamp in front of a wall, without a window. The
+// program computes by hand what the pixel in the middle should be, prints both values, and ends
+// with exit code 1 when they differ.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -23,9 +24,14 @@ T orExit(candelabra::Result<T> result)
         return std::move(result.value());
 }
 
+// How compute shaders use the radiance image: lighting writes it, exposure reads it.
+constexpr ImageUse storageWrite{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+constexpr ImageUse sampledRead{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                               VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                               VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+
 // [readme]
-// `host` stands for your renderer: its device, images and command buffer. orExit() prints
-// error().message, one sentence that names the fault.
 constexpr CndLight lamp{.type = CND_LIGHT_SPHERE,
                         .position = {0, 0, -1}, // metres, relative to the origin of the set
                         .radius = 0.1f,
@@ -34,7 +40,7 @@ constexpr CndLight lamp{.type = CND_LIGHT_SPHERE,
 
 CndExposureStats drawFrame(Host& host)
 {
-    const CndDeviceDesc device{.instance = host.instance, // borrowed, as is all you pass
+    const CndDeviceDesc device{.instance = host.instance, // borrowed, like everything you pass
                                .physicalDevice = host.physicalDevice,
                                .device = host.device,
                                .getInstanceProcAddr = vkGetInstanceProcAddr};
@@ -44,35 +50,31 @@ CndExposureStats drawFrame(Host& host)
     orExit(lighting.setLights({&lamp, 1}, {0, 0, 0}));
 
     VkCommandBuffer cmd = beginFrame(&host);
-    drawWall(&host); // your G-buffer pass; radiance is cleared or holds what you emit
+    drawWall(&host); // your G-buffer pass; it clears the radiance image or draws emission into it
     orExit(view.record(cmd, {.width = host.width,
                              .height = host.height,
                              .camera = host.camera,
-                             .clearDepth = 0, // of pixels without a surface; depth is reversed
+                             .clearDepth = 0, // depth where there is no surface (reversed depth)
                              .normalRoughness = host.normalRoughness.view,
                              .albedo = host.albedo.view,
                              .specular = host.specular.view,
                              .depth = host.depth.view,
                              .radiance = host.radiance.view,
                              .specularMethod = CND_SPECULAR_CONIC}));
-    constexpr auto compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    imageBarrier(
-        cmd, &host.radiance,
-        {VK_IMAGE_LAYOUT_GENERAL, compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-        {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, compute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT});
+    imageBarrier(cmd, &host.radiance, storageWrite, sampledRead);
     orExit(exposure.record(cmd, {.width = host.width,
                                  .height = host.height,
                                  .radiance = host.radiance.view,
                                  .display = host.display.view,
-                                 .reset = true, // the first frame has nothing to adapt from
+                                 .reset = true, // first frame: no earlier one to adapt from
                                  .settings = candelabra::defaultExposureSettings()}));
     endFrame(&host);
-    return *orExit(exposure.stats(0)); // never waits; this frame is finished
+    return *orExit(exposure.stats(0)); // does not wait: endFrame() has waited for this frame
 }
 // [readme]
 
-// A Lambertian wall that faces a sphere at distance d: albedo times luminance times (radius / d)^2,
-// times the lamp's window.
+// Luminance of a Lambertian wall that faces a sphere light at distance d: albedo times luminance
+// times (radius / d)^2, times the window that ends the lamp's influence.
 static float wallLuminance(int channel)
 {
     const float distance = WALL_DISTANCE + lamp.position[2];
@@ -81,7 +83,8 @@ static float wallLuminance(int channel)
     return WALL_ALBEDO * lamp.emission[channel] * s * s * window * window;
 }
 
-// PBR Neutral below where it compresses highlights (Khronos 2024), then sRGB.
+// The display value of a channel: the PBR Neutral tone map (Khronos 2024), below the point where it
+// starts to compress highlights, then the sRGB curve.
 static float displayed(float exposed, float darkest)
 {
     const float offset = darkest < 0.08f ? darkest - 6.25f * darkest * darkest : 0.04f;

@@ -8,7 +8,7 @@
 //            specular        RGBA16F       rgb: F0, a: specular weight (Schlick F90)
 //   COMPACT  normalRoughness R32_UINT      [11..0] octahedral u, [23..12] v, [31..24] roughness
 //            albedo          RGBA8_SRGB    rgb: base colour, a: metalness (linear)
-//   16 + 8 + 8 (+ 4 depth) against 4 + 4 (+ 4 depth) bytes per pixel without radiance.
+//   Bytes per pixel: FULL 8 + 8 + 8, COMPACT 4 + 4; 4 more for depth. Radiance is not counted.
 #ifndef CND_SHARED_GBUFFER_H
 #define CND_SHARED_GBUFFER_H
 

@@ -104,8 +104,8 @@ TEST_F(LightCostsTest, LightsOfAPixelAddUpToIt)
                     << c.scene << " " << pixel.x << "," << pixel.y;
             lights += pick.lights.size();
             for (const PickedLight& light : pick.lights)
-                // Tubes, rectangles and discs have a fitted lobe, far off in places (README,
-                // limits).
+                // Tubes, rectangles and discs are left out: their fitted lobe can be far from the
+                // truth (tools/bench/RESULTS.md, accuracy of one light).
                 if (light.radiance.y > 0.01 * pick.radiance.y &&
                     scene.lights[light.light].type < CND_LIGHT_TUBE)
                     worst = std::max(worst, std::abs(light.radiance.y / light.truth.y - 1));

@@ -23,7 +23,7 @@ CndCamera defaultCamera(uint32_t width, uint32_t height)
     return camera;
 }
 
-// The bar of issue and README: largest difference to brute force over the largest radiance.
+// Largest allowed difference to brute force, relative to the largest radiance.
 constexpr double equalToBrute = 1e-6;
 
 double peak(const std::vector<glm::vec4>& image)

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Rules about the documents: links and anchors resolve, figures are the measured ones, listings are
+what the tests build, decisions have their four parts, and the names that documents cite exist.
+Usage: test_documents.py REPOSITORY"""
+import fnmatch
+import pathlib
+import re
+import subprocess
+import sys
+
+root = pathlib.Path(sys.argv[1]).resolve()
+failures = []
+
+
+def fail(path, why):
+    failures.append(f"{path.relative_to(root)}: {why}")
+
+
+def files(pattern):
+    """Files of the repository by the end of their name: not of build folders, nor of git."""
+    return [p for p in sorted(root.rglob(pattern))
+            if p.relative_to(root).parts[0] not in ("build", "out", ".git") and p.is_file()]
+
+
+README, DECISIONS = root / "README.md", root / "engine/DECISIONS.md"
+RESULTS, DESIGN = root / "tools/bench/RESULTS.md", root / "engine/DESIGN.md"
+DOCUMENTS = files("*.md")
+SOURCES = [p for p in files("*") if p.suffix in (".c", ".comp", ".cpp", ".frag", ".glsl", ".h", ".hpp", ".py", ".vert")]
+
+
+def without_code(text):
+    """The text without fenced listings and inline code, in which brackets are no links."""
+    return re.sub(r"`[^`\n]*`", "code", re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE))
+
+
+def anchors(path):
+    """The anchors that GitHub gives to the headings of a document."""
+    out = set()
+    listing = False
+    for line in path.read_text(encoding="utf-8").split("\n"):
+        listing = listing != line.startswith("```")
+        heading = re.match(r"#{1,6} (.*)", line)
+        if not heading or listing:
+            continue
+        text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading[1]).replace("`", "").strip().lower()
+        slug = re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
+        number = 0
+        while (slug if not number else f"{slug}-{number}") in out:
+            number += 1
+        out.add(slug if not number else f"{slug}-{number}")
+    return out
+
+
+def check_link(document, target):
+    if re.match(r"[a-z]+:", target):  # of the web: needs a network
+        return
+    place, _, anchor = target.partition("#")
+    path = (document.parent / place).resolve() if place else document
+    if not path.exists() or root not in [path, *path.parents]:
+        fail(document, f"links to {target}, which does not exist")
+    elif anchor and (path.suffix != ".md" or anchor not in anchors(path)):
+        fail(document, f"links to {target}, but {path.name} has no such heading")
+
+
+for document in DOCUMENTS:
+    text = without_code(document.read_text(encoding="utf-8"))
+    for target in re.findall(r"\]\(\s*([^)\s]+)[^)]*\)", text) + re.findall(r"^\[[^\]]+\]:\s*(\S+)", text, re.MULTILINE):
+        check_link(document, target)
+
+# The front page stays short.
+MAX_README_LINES, MAX_LISTING_LINES = 220, 40
+lines = README.read_text().count("\n")
+if lines > MAX_README_LINES:
+    fail(README, f"has {lines} lines, at most {MAX_README_LINES}")
+
+# Its embedding listing is the sample that the package tests build and run.
+sample = root / "samples/embed_minimal/main.cpp"
+parts = sample.read_text().split("// [readme]\n")
+if len(parts) != 3 or f"```cpp\n{parts[1]}```" not in README.read_text():
+    fail(README, f"does not hold the listing of {sample.relative_to(root)}")
+elif parts[1].count("\n") > MAX_LISTING_LINES:
+    fail(sample, f"its listing has {parts[1].count(chr(10))} lines, at most {MAX_LISTING_LINES}")
+
+# Figures are those measured.
+check = subprocess.run([sys.executable, root / "tools/update_results", "--check"],
+                       capture_output=True, text=True)
+if check.returncode:
+    failures.append((check.stdout + check.stderr).strip())
+
+# Decisions: an index of all of them, numbered without gaps, and four parts in at most 15 lines each.
+PARTS = ["Question.", "Choice.", "Evidence.", "Reopen when"]
+MAX_ENTRY_LINES, MAX_ENTRY_COLUMNS = 15, 120
+head, *entries = re.split(r"^## ", DECISIONS.read_text(encoding="utf-8"), flags=re.MULTILINE)
+titles = [entry.split("\n", 1)[0] for entry in entries]
+for number, (title, entry) in enumerate(zip(titles, entries), 1):
+    if not title.startswith(f"{number}. "):
+        fail(DECISIONS, f'"{title}" should have the number {number}')
+    if f"- [{title}](#" not in head:
+        fail(DECISIONS, f'"{title}" is not in the index')
+    body = entry.rstrip().split("\n")[1:]
+    if re.findall(r"^- \*\*([^*]+)\*\*", entry, re.MULTILINE) != PARTS:
+        fail(DECISIONS, f'"{title}" does not have the parts {", ".join(PARTS)}, in this order')
+    if len(body) > MAX_ENTRY_LINES:
+        fail(DECISIONS, f'"{title}" has {len(body)} lines, at most {MAX_ENTRY_LINES}')
+    for line in body:
+        if len(line) > MAX_ENTRY_COLUMNS:
+            fail(DECISIONS, f'"{title}" has a line of {len(line)} columns, at most {MAX_ENTRY_COLUMNS}')
+if len(re.findall(r"^- \[", head, re.MULTILINE)) != len(entries):
+    fail(DECISIONS, "its index has a line too many")
+
+# Decisions that sources and documents cite by number exist.
+for path in SOURCES + DOCUMENTS:
+    for number in re.findall(r"DECISIONS(?:\.md)?`?,? (\d+)", path.read_text(encoding="utf-8")):
+        if not 1 <= int(number) <= len(entries):
+            fail(path, f"cites decision {number}, which does not exist")
+
+# Source files and tests that these documents name exist.
+source_names = {p.relative_to(root).as_posix() for p in SOURCES}
+tests = {f"{suite}.{name}" for path in files("test_*.cpp")
+         for suite, name in re.findall(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", path.read_text(), re.MULTILINE)}
+for document in (DECISIONS, DESIGN, RESULTS):
+    text = document.read_text(encoding="utf-8")
+    for name in re.findall(r"`([\w/.]+\.(?:c|comp|cpp|frag|glsl|h|hpp|py|vert))`", text):
+        if not any(("/" + s).endswith("/" + name.replace("../", "")) for s in source_names):
+            fail(document, f"names {name}, which does not exist")
+    for name in re.findall(r"`([A-Z]\w+\.\w+)`", text):
+        if name not in tests and not re.search(r"\.(md|txt)$", name):
+            fail(document, f"names the test {name}, which does not exist")
+    for pattern in re.findall(r"--gtest_filter=([\w.*]+)", text):
+        if not fnmatch.filter(tests, pattern):
+            fail(document, f"runs {pattern}, which no test is named like")
+
+# What the guides for hosts name is in the public headers.
+headers = "".join(p.read_text() for p in (root / "engine/include/candelabra").iterdir())
+for name in ("INTEGRATION.md", "UPDATE.md"):
+    guide = root / "engine" / name
+    text = guide.read_text()
+    fields = re.findall(r"[{,]\s*\.(\w+) =", "".join(re.findall(r"```cpp\n(.*?)```", text, re.DOTALL)))
+    for word in sorted(set(re.findall(r"\b(?:Cnd|cnd|CND_)\w+", text) + fields)):
+        if not re.search(rf"\b{word}\b", headers):
+            fail(guide, f"names {word}, which is not in the headers")
+
+print("\n".join(failures) or f"{len(DOCUMENTS)} documents keep the rules")
+sys.exit(1 if failures else 0)
