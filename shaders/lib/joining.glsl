@@ -14,7 +14,7 @@
 // joining LOBES_SUM: the lobes are added, nothing is taken from the diffuse one.
 // joining LOBES_CONSERVING: the diffuse lobe gets what the specular one leaves of a white
 //   surrounding. Deviation from glTF 2.0, appendix B, whose mix by F(VoH) reflects more light than
-//   there is at grazing angles (engine/DECISIONS.md).
+//   there is at grazing angles (engine/DECISIONS.md, 14).
 void joinLobes(inout ShadingPoint p, vec2 albedo, uint joining, uint energyCompensation)
 {
     if (energyCompensation != 0u) {
