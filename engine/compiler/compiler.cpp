@@ -56,7 +56,7 @@ public:
     void releaseInclude(IncludeResult* result) override { delete result; }
 };
 
-// A kernel, and for which family of lib/light_families.glsl, if it has any.
+// A kernel, and for which family of shading/light_families.glsl, if it has any.
 struct Job {
     std::string kernel, family;
     std::string name() const { return family.empty() ? kernel : kernel + ":" + family; }

@@ -99,7 +99,7 @@ struct Family {
     const gpu::Spirv* measure;
 };
 
-// shaders/lib/light_families.glsl.
+// shaders/shading/light_families.glsl.
 Family familyOf(uint32_t lightType, CndSpecularMethod method)
 {
     using namespace spirv;

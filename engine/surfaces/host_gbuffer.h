@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the surfaces of a host are read: what of its G-buffer is checked, and what the shaders of
-// lib/read_gbuffer.glsl get.
+// kernels/common/read_gbuffer.glsl get.
 #pragma once
 
 #include <string>

@@ -5,9 +5,9 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_vote : require
 #include "lib/pixel_of_lane.glsl"
-#include "lib/shade_receiver.glsl"
+#include "kernels/common/shade_receiver.glsl"
 #include "bench/baseline_walk.glsl"
-#include "lib/light_walk.glsl"
+#include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(scalar, binding = BASELINE_COUNTERS) buffer Counters
@@ -40,7 +40,7 @@ uint turns(uvec2 found)
 
 void main()
 {
-    const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane();
+    const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane(gl_LocalInvocationIndex);
     const bool inside = all(lessThan(pixel, params.size));
     const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : params.clearDepth;
     const bool surface = depth != params.clearDepth;

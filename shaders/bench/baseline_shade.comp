@@ -3,16 +3,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/pixel_of_lane.glsl"
-#include "lib/shade_receiver.glsl"
+#include "kernels/common/shade_receiver.glsl"
 #include "bench/baseline_walk.glsl"
-#include "lib/light_walk.glsl"
+#include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
 
 void main()
 {
-    const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane();
+    const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane(gl_LocalInvocationIndex);
     if (any(greaterThanEqual(pixel, params.size)))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;

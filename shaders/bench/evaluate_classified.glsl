@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One light as shade_brute.comp treats it, and its lobes apart. After lib/light_walk.glsl.
+// One light as shade_brute.comp treats it, and its lobes apart. After shading/light_walk.glsl.
 
 vec3 evaluateClassified(Receiver r, uint light)
 {

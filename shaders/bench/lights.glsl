@@ -5,7 +5,7 @@
 #include "lib/brdf.glsl"
 #define LIGHT_STREAM_CORE BENCH_CORE
 #define LIGHT_STREAM_CORE_WORDS BENCH_CORE_WORDS
-#include "lib/light_stream.glsl"
+#include "kernels/common/light_stream.glsl"
 #include "bench/ltc_table.glsl"
 
 layout(push_constant, scalar) uniform Push
@@ -22,7 +22,7 @@ uint lightAt(uint k)
     return k;
 }
 
-#include "lib/light_walk.glsl"
+#include "shading/light_walk.glsl"
 
 #include "bench/evaluate_classified.glsl"
 

@@ -43,7 +43,7 @@ uint lightAt(uint k)
     return k;
 }
 
-#include "lib/light_walk.glsl"
+#include "shading/light_walk.glsl"
 #include "bench/evaluate_classified.glsl"
 #include "bench/sweep_cases.glsl"
 

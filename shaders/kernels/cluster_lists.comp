@@ -9,10 +9,10 @@
 #include "lib/cluster_test.glsl"
 #define LIGHT_STREAM_CORE CLUSTER_LISTS_CORE
 #define LIGHT_STREAM_CORE_WORDS CLUSTER_LISTS_CORE_WORDS
-#include "lib/light_stream.glsl"
+#include "kernels/common/light_stream.glsl"
 #define TREE_NODES CLUSTER_LISTS_NODES
 #define TREE_NODE_WORDS CLUSTER_LISTS_NODE_WORDS
-#include "lib/light_tree.glsl"
+#include "kernels/common/light_tree.glsl"
 
 layout(local_size_x = CLUSTER_LISTS_GROUP) in;
 layout(push_constant, scalar) uniform Push
@@ -44,8 +44,8 @@ layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
     LightingCounters counters;
 };
 
-#include "lib/cluster_of_lane.glsl"
-#include "lib/list_pages.glsl"
+#include "kernels/common/cluster_of_lane.glsl"
+#include "kernels/common/list_pages.glsl"
 
 // Leaves found before their lights are tested: lanes take turns at walking and testing together.
 const uint QUEUE = 16u;
@@ -66,33 +66,34 @@ void main()
     // should have tested: devices may cut loops short without a word.
     const bool isBlock = params.which == LISTS_OF_BLOCKS;
     uint steps = 0u, expected = 0u;
+    ListWriter list = beginList();
     uint from = byParent ? parent : NO_PAGE;
-    while (from != NO_PAGE && steps < params.maxSteps && !(full && isBlock)) {
+    while (from != NO_PAGE && steps < params.maxSteps && !(list.full && isBlock)) {
         const uint header = entries[from * PAGE_WORDS];
         const uint count = header & ((1u << PAGE_COUNT_BITS) - 1u);
         for (uint first = 0u; first < count; first += TREE_WIDTH) {
-            makeRoom();
+            makeRoom(list);
             const uint end = min(first + TREE_WIDTH, count);
             for (uint i = first; i < end; ++i)
-                testLight(bounds, entries[from * PAGE_WORDS + 1u + i]);
+                testLight(list, bounds, entries[from * PAGE_WORDS + 1u + i]);
         }
         expected += count;
         steps += count;
         from = header >> PAGE_COUNT_BITS;
     }
-    bool cut = from != NO_PAGE || tested != expected;
+    bool cut = from != NO_PAGE || list.tested != expected;
 
     // What has no room is walked for its length alone: shade_unlisted goes the way through the tree.
-    const bool measure = full && !isBlock && params.maxUnlistedSteps != 0xFFFFFFFFu;
+    const bool measure = list.full && !isBlock && params.maxUnlistedSteps != 0xFFFFFFFFu;
     if (byParent && measure)
-        steps = total = 0u;
+        steps = list.found = 0u;
     const uint lightEnd = params.tree.firstLight + params.tree.lightCount;
     const uint lastLeaf = (params.tree.lightCount - 1u) / TREE_WIDTH;
     const uint missing = (lastLeaf + 1u) * TREE_WIDTH - params.tree.lightCount; // of a full leaf
     uint leaves[QUEUE];
-    TreeWalk walk = beginTreeWalk(params.tree);
+    TreeWalk walk = beginTreeWalk(params.tree, TREE_LEVELS);
     walk.done = walk.done || (byParent && !measure);
-    while (!walk.done && steps < params.maxSteps && !(full && isBlock)) {
+    while (!walk.done && steps < params.maxSteps && !(list.full && isBlock)) {
         uint found = 0u;
         while (!walk.done && found < QUEUE && steps < params.maxSteps) {
             const bool touched = boxTouches(bounds, treeNode(walk));
@@ -101,37 +102,32 @@ void main()
                 ++found;
             }
             if (touched && walk.level > 1u)
-                descend(walk);
+                descend(params.tree, walk);
             else
                 skipSubtree(params.tree, walk);
             ++steps;
         }
         for (uint k = 0u; k < found; ++k) {
-            makeRoom();
+            makeRoom(list);
             const uint first = params.tree.firstLight + leaves[k] * TREE_WIDTH;
             for (uint i = first; i < min(first + TREE_WIDTH, lightEnd); ++i)
-                testLight(bounds, i);
+                testLight(list, bounds, i);
         }
         const bool atEnd = found != 0u && leaves[found - 1u] == lastLeaf;
         expected += found * TREE_WIDTH - (atEnd ? missing : 0u);
         steps += found * TREE_WIDTH;
     }
-    cut = cut || !walk.done || tested != expected;
-    if (page != NO_PAGE)
-        entries[page * PAGE_WORDS] = inPage;
+    cut = cut || !walk.done || list.tested != expected;
     const bool tooLong =
-        cut || total > params.longest || (full && steps >= params.maxUnlistedSteps);
-    lists[at] = tooLong       ? LIST_LONG
-                : total == 0u ? LIST_EMPTY
-                : full        ? LIST_UNLISTED
-                              : headPage;
+        cut || list.found > params.longest || (list.full && steps >= params.maxUnlistedSteps);
+    lists[at] = endList(list, tooLong);
     if (isBlock)
         return;
-    const bool withoutList = tooLong || (full && total != 0u);
+    const bool withoutList = tooLong || (list.full && list.found != 0u);
     if (withoutList)
         appendUnlisted(cluster.tile);
-    else if (total != 0u)
+    else if (list.found != 0u)
         appendLit(cluster.tile);
-    atomicAdd(counters.listEntries, withoutList ? 0u : total);
-    atomicMax(counters.maxListLength, total);
+    atomicAdd(counters.listEntries, withoutList ? 0u : list.found);
+    atomicMax(counters.maxListLength, list.found);
 }

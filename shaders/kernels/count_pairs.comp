@@ -5,9 +5,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_vote : require
-#include "lib/shade_receiver.glsl"
-#include "lib/tile_walk.glsl"
-#include "lib/light_walk.glsl"
+#include "kernels/common/shade_receiver.glsl"
+#include "kernels/common/tile_walk.glsl"
+#include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(scalar, binding = SHADE_COUNTERS) buffer Counters

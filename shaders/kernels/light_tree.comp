@@ -6,7 +6,7 @@
 #include "shared/clusters.h"
 #define LIGHT_STREAM_CORE LIGHT_TREE_CORE
 #define LIGHT_STREAM_CORE_WORDS LIGHT_TREE_CORE_WORDS
-#include "lib/light_stream.glsl"
+#include "kernels/common/light_stream.glsl"
 
 layout(local_size_x = LIGHT_TREE_GROUP) in;
 layout(push_constant, scalar) uniform Push

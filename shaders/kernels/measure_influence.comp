@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/influence.glsl"
-#include "lib/shade_receiver.glsl"
+#include "kernels/common/shade_receiver.glsl"
 
 const uint LANES = MEASURE_INFLUENCE_LANES;
 const uint SAMPLES_OF_GROUP = MEASURE_INFLUENCE_GROUP / LANES;
@@ -17,7 +17,7 @@ uint lightAt(uint k)
     return params.firstLight + min(k * LANES + lane, params.lightCount - 1u);
 }
 
-#include "lib/light_walk.glsl"
+#include "shading/light_walk.glsl"
 
 layout(local_size_x = MEASURE_INFLUENCE_GROUP) in;
 layout(scalar, binding = MEASURE_INFLUENCE_DATA) readonly buffer Data

@@ -4,15 +4,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/environment.h"
-#define DFG_BINDING SHADE_ENVIRONMENT_DFG
-#include "lib/dfg.glsl"
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_PACKED SHADE_ENVIRONMENT_NORMAL_ROUGHNESS
 #define GBUFFER_NORMAL SHADE_ENVIRONMENT_HOST_NORMAL
 #define GBUFFER_VIEW SHADE_ENVIRONMENT_GBUFFER_VIEW
 #define GBUFFER_ALBEDO SHADE_ENVIRONMENT_ALBEDO
 #define GBUFFER_SPECULAR SHADE_ENVIRONMENT_SPECULAR
-#include "lib/read_gbuffer.glsl"
+#include "kernels/common/read_gbuffer.glsl"
+#include "lib/dfg.glsl"
 #include "lib/joining.glsl"
 #include "lib/projection.glsl"
 
@@ -26,6 +25,13 @@ layout(binding = SHADE_ENVIRONMENT_RADIANCE, rgba32f) uniform image2D radianceIm
 layout(binding = SHADE_ENVIRONMENT_CUBE) uniform samplerCube environment;
 layout(binding = SHADE_ENVIRONMENT_PREFILTERED) uniform samplerCube prefiltered;
 layout(binding = SHADE_ENVIRONMENT_IRRADIANCE) uniform samplerCube irradiance;
+layout(binding = SHADE_ENVIRONMENT_DFG) uniform textureBuffer dfgTexels;
+
+// The table of lib/dfg.glsl.
+vec4 dfgTexel(int entry)
+{
+    return texelFetch(dfgTexels, entry);
+}
 
 // What the eye sees beyond all surfaces: from the mip whose texels are as large as the pixel.
 vec3 background(uvec2 pixel)

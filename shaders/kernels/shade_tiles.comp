@@ -2,9 +2,9 @@
 // Adds the lights of each cluster's list to the scene radiance, in the tiles that hold a surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/shade_receiver.glsl"
-#include "lib/tile_walk.glsl"
-#include "lib/light_walk.glsl"
+#include "kernels/common/shade_receiver.glsl"
+#include "kernels/common/tile_walk.glsl"
+#include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;

@@ -4,12 +4,12 @@
 // parts of the tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/shade_receiver.glsl"
+#include "kernels/common/shade_receiver.glsl"
 #include "lib/cluster_test.glsl"
-#include "lib/tile_of_group.glsl"
+#include "kernels/common/tile_of_group.glsl"
 #define TREE_NODES SHADE_NODES
 #define TREE_NODE_WORDS SHADE_NODE_WORDS
-#include "lib/light_tree.glsl"
+#include "kernels/common/light_tree.glsl"
 
 // The page of a list that has none in memory.
 uint page[PAGE_LIGHTS];
@@ -19,7 +19,7 @@ uint lightAt(uint k)
     return page[k];
 }
 
-#include "lib/light_walk.glsl"
+#include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
@@ -48,15 +48,13 @@ void main()
     page[0] = params.tree.firstLight; // read when there is none
     const uint end = params.tree.firstLight + params.tree.lightCount;
     const ClusterBounds bounds = makeClusterBounds(clusters[cluster]);
-    TreeWalk walk = beginTreeWalk(params.tree);
-    uint endOfTop = treeLevelSize(params.tree, treeTop);
+    TreeWalk walk = beginTreeWalk(params.tree, inBatches ? params.batchLevel : TREE_LEVELS);
+    uint endOfTop = treeLevelSize(params.tree, walk.top);
     if (inBatches) {
-        treeTop = min(treeTop, params.batchLevel);
-        const uint bits = treeTop * TREE_WIDTH_BITS;
-        const uint behind = params.firstLight + params.lightCount - params.tree.firstLight;
-        walk.level = treeTop;
+        const uint bits = walk.top * TREE_WIDTH_BITS;
+        const uint firstAfter = params.firstLight + params.lightCount - params.tree.firstLight;
         walk.index = (params.firstLight - params.tree.firstLight) >> bits;
-        endOfTop = (behind + (1u << bits) - 1u) >> bits;
+        endOfTop = (firstAfter + (1u << bits) - 1u) >> bits;
     }
     while (!walk.done) {
         uint inPage = 0u;
@@ -72,10 +70,10 @@ void main()
                 }
             }
             if (touched && walk.level > 1u)
-                descend(walk);
+                descend(params.tree, walk);
             else
                 skipSubtree(params.tree, walk);
-            walk.done = walk.done || (walk.level == treeTop && walk.index >= endOfTop);
+            walk.done = walk.done || (walk.level == walk.top && walk.index >= endOfTop);
         }
         shadeBlock(sums, r, 0u, inPage, true);
     }

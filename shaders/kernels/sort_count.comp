@@ -2,7 +2,7 @@
 // How often each digit occurs in each run of lights.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/sort_run.glsl"
+#include "kernels/common/sort_run.glsl"
 
 layout(scalar, binding = SORT_COUNT_KEYS) readonly buffer Keys
 {

@@ -2,7 +2,7 @@
 // Exclusive sums of the totals of sort_sums, in one group.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/sort_run.glsl"
+#include "kernels/common/sort_run.glsl"
 
 layout(scalar, binding = SORT_OFFSETS_SUMS) buffer Sums
 {

@@ -2,7 +2,7 @@
 // Moves lights to where the sums over counted digits put them; equal digits keep their order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/sort_run.glsl"
+#include "kernels/common/sort_run.glsl"
 
 layout(scalar, binding = SORT_SCATTER_FROM) readonly buffer From
 {

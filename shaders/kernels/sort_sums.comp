@@ -2,7 +2,7 @@
 // Exclusive sums of the counters, by lanes of SORT_SUM counters each, and each lane's total.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/sort_run.glsl"
+#include "kernels/common/sort_run.glsl"
 
 layout(scalar, binding = SORT_SUMS_COUNTS) buffer Counts
 {

@@ -3,7 +3,7 @@
 // those of a tile walk its pixels in step.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/cluster_bounds.glsl"
+#include "kernels/common/cluster_bounds.glsl"
 
 layout(local_size_x = SPLIT_TILES_GROUP) in;
 layout(scalar, binding = TILE_CLUSTERS_TILES) readonly buffer Tiles

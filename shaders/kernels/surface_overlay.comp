@@ -9,7 +9,7 @@
 #define GBUFFER_VIEW SHADE_GBUFFER_VIEW
 #define GBUFFER_ALBEDO SHADE_ALBEDO
 #define GBUFFER_SPECULAR SHADE_SPECULAR
-#include "lib/read_gbuffer.glsl"
+#include "kernels/common/read_gbuffer.glsl"
 #include "lib/projection.glsl"
 #include "lib/tone_map.glsl"
 

@@ -6,8 +6,8 @@
 #extension GL_GOOGLE_include_directive : require
 #define GBUFFER_ALBEDO TILE_CLUSTERS_ALBEDO
 #define GBUFFER_SPECULAR TILE_CLUSTERS_SPECULAR
-#include "lib/cluster_bounds.glsl"
-#include "lib/tile_class.glsl"
+#include "kernels/common/cluster_bounds.glsl"
+#include "kernels/common/tile_class.glsl"
 
 layout(local_size_x = TILE_CLUSTERS_GROUP) in;
 layout(scalar, binding = TILE_CLUSTERS_TILES) writeonly buffer Tiles

@@ -3,7 +3,9 @@
 #ifndef CND_LIB_BRDF
 #define CND_LIB_BRDF
 
+#include "lib/gbuffer.glsl"
 #include "lib/math.glsl"
+#include "shared/lighting.h"
 
 // One shaded point: everything that does not depend on the light. Directions are unit and point away
 // from the surface.

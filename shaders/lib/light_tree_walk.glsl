@@ -5,15 +5,14 @@
 
 #include "shared/clusters.h"
 
+// Where a walk is. It visits the nodes of the level `top`, and below those whatever it descends to.
 struct TreeWalk {
-    uint level; // of the node at hand; 1: leaves
-    uint index; // within its level
+    uint level;      // of the node at hand; 1: leaves
+    uint index;      // of that node within its level
+    uint levelFirst; // index in the node buffer of the first node of that level
+    uint top;
     bool done;
 };
-
-// First node of each level (index 0 is not used), and the number of levels.
-uint treeLevelFirst[TREE_LEVELS + 1u];
-uint treeTop;
 
 uint treeLevelSize(TreeShape tree, uint level)
 {
@@ -21,40 +20,43 @@ uint treeLevelSize(TreeShape tree, uint level)
     return (tree.lightCount + (1u << bits) - 1u) >> bits;
 }
 
-// At the first node of the highest level.
-TreeWalk beginTreeWalk(TreeShape tree)
+// Stands at the first node of the highest level, or of the level `highest` where that is lower.
+TreeWalk beginTreeWalk(TreeShape tree, uint highest)
 {
-    uint first = tree.firstNode;
-    treeTop = 0u;
-    for (uint level = 1u; level <= TREE_LEVELS; ++level) {
-        const uint size = treeLevelSize(tree, level);
-        treeLevelFirst[level] = first;
-        first += size;
-        treeTop = treeTop == 0u && size <= TREE_WIDTH ? level : treeTop;
+    TreeWalk walk = TreeWalk(1u, 0u, tree.firstNode, 1u, tree.lightCount == 0u);
+    while (walk.level < highest && treeLevelSize(tree, walk.level) > TREE_WIDTH) {
+        walk.levelFirst += treeLevelSize(tree, walk.level);
+        ++walk.level;
     }
-    return TreeWalk(treeTop, 0u, tree.lightCount == 0u);
+    walk.top = walk.level;
+    return walk;
 }
 
-// In the node buffer.
+// Index in the node buffer of the node at hand.
 uint treeNodeIndex(TreeWalk walk)
 {
-    return treeLevelFirst[walk.level] + walk.index;
+    return walk.levelFirst + walk.index;
 }
 
-void descend(inout TreeWalk walk)
+// Goes to the first child of the node at hand.
+void descend(TreeShape tree, inout TreeWalk walk)
 {
     --walk.level;
+    walk.levelFirst -= treeLevelSize(tree, walk.level);
     walk.index <<= TREE_WIDTH_BITS;
 }
 
-// To the node behind the subtree at hand.
+// Goes to the node that follows the subtree of the node at hand: the next child of its parent, or,
+// from the last child, the node that follows the parent.
 void skipSubtree(TreeShape tree, inout TreeWalk walk)
 {
     ++walk.index;
     walk.done = walk.index >= treeLevelSize(tree, walk.level);
-    const uint up = min(uint(findLSB(walk.index)) / TREE_WIDTH_BITS, treeTop - walk.level);
-    walk.level += up;
-    walk.index >>= up * TREE_WIDTH_BITS;
+    while (walk.index % TREE_WIDTH == 0u && walk.level < walk.top) {
+        walk.levelFirst += treeLevelSize(tree, walk.level);
+        ++walk.level;
+        walk.index >>= TREE_WIDTH_BITS;
+    }
 }
 
 #endif

@@ -4,11 +4,11 @@
 #ifndef CND_LIB_PIXEL_OF_LANE
 #define CND_LIB_PIXEL_OF_LANE
 
-// Of TILE_SIZE^2 lanes, the pixel within the tile.
-uvec2 pixelOfLane()
+// The pixel within the tile, for lanes 0 .. TILE_SIZE^2 - 1.
+uvec2 pixelOfLane(uint lane)
 {
-    const uint i = gl_LocalInvocationIndex;
-    return uvec2(bitfieldInsert(i & 3u, i >> 3u, 2, 1), bitfieldInsert(i >> 2u & 1u, i >> 4u, 1, 2));
+    return uvec2(bitfieldInsert(lane & 3u, lane >> 3u, 2, 1),
+                 bitfieldInsert(lane >> 2u & 1u, lane >> 4u, 1, 2));
 }
 
 #endif

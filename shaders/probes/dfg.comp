@@ -2,8 +2,8 @@
 // Test-only: the directional albedo as looked up, and the lobes joined with it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 #include "shared/dfg_probe.h"
-#define DFG_BINDING PROBE_TABLE
 #include "lib/dfg.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/joining.glsl"
@@ -21,6 +21,13 @@ layout(scalar, binding = PROBE_OUTPUT) writeonly buffer Output
 {
     DfgProbeOutput outputs[];
 };
+layout(binding = PROBE_TABLE) uniform textureBuffer dfgTexels;
+
+// The table of lib/dfg.glsl.
+vec4 dfgTexel(int entry)
+{
+    return texelFetch(dfgTexels, entry);
+}
 
 void main()
 {

@@ -43,7 +43,7 @@ GPU_SIZE(BenchResponse, 12)
 
 // Specialisation constants beside those of lighting.h.
 const uint SPEC_BENCH_EVALUATION = 16u; // time_lights: EVALUATE_*
-// The loops of lib/light_walk.glsl.
+// The loops of shading/light_walk.glsl.
 const uint EVALUATE_POINT = 0u;   // sphere whose size is within the error budget
 const uint EVALUATE_ABOVE = 1u;   // sphere above the horizon
 const uint EVALUATE_NEAR = 2u;    // sphere that nearly touches the horizon, or tiny across it

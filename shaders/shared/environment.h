@@ -79,7 +79,7 @@ const uint SHADE_ENVIRONMENT_CUBE = 5u;
 const uint SHADE_ENVIRONMENT_PREFILTERED = 6u;
 const uint SHADE_ENVIRONMENT_IRRADIANCE = 7u;
 const uint SHADE_ENVIRONMENT_DFG = 8u;
-const uint SHADE_ENVIRONMENT_HOST_NORMAL = 9u;   // lib/read_gbuffer.glsl
+const uint SHADE_ENVIRONMENT_HOST_NORMAL = 9u;   // kernels/common/read_gbuffer.glsl
 const uint SHADE_ENVIRONMENT_GBUFFER_VIEW = 10u; // GBufferViewParams
 // Bits of ShadeEnvironmentParams::flags.
 const uint ENVIRONMENT_BACKGROUND = 1u; // fill pixels without a surface

@@ -52,10 +52,13 @@ ALLOWED = [
     ("samples", ["host.h", "ball", "lib/forward.glsl"]),
     ("tools/fit", ["fit/", "reference/", "shared/ltc.h"]),
     ("shaders/shared", ["shared/"]),
+    # The name by which hosts' shaders include what shading/forward.glsl holds.
+    ("shaders/lib/forward.glsl", ["shading/forward.glsl"]),
     ("shaders/lib", ["shared/", "lib/"]),
-    ("shaders/kernels", ["shared/", "lib/"]),
+    ("shaders/shading", ["shared/", "lib/", "shading/"]),
+    ("shaders/kernels", ["shared/", "lib/", "shading/", "kernels/common/"]),
     ("shaders/gbuffer", ["shared/", "lib/", "gbuffer/"]),
-    ("shaders/bench", ["shared/", "lib/", "bench/"]),
+    ("shaders/bench", ["shared/", "lib/", "shading/", "kernels/common/", "bench/"]),
 ]
 # Standard library and Vulkan only, in what hosts include.
 PUBLIC_SYSTEM = re.compile(r"^(vulkan/vulkan_core\.h|[a-z_]+(\.h)?)$")
@@ -82,7 +85,7 @@ for path in SOURCES:
         if len(line) > columns:
             fail(path, f"line {number} has {len(line)} columns, at most {columns}")
     for folder, allowed in ALLOWED:
-        if not name.startswith(folder + "/"):
+        if name != folder and not name.startswith(folder + "/"):
             continue
         for include in re.findall(r'#include "([^"]+)"', text):
             if not any(include.startswith(a) for a in allowed):
@@ -102,6 +105,22 @@ for path in SOURCES:
         if re.search(r"\bvk[A-Z]\w+\(", re.sub(r"//.*", "", path.read_text())):
             fail(path, "calls a Vulkan prototype instead of the host's function table")
 
+# What shaders/lib holds is pure: results follow from arguments and constants. Bindings, parameters,
+# specialisation constants and the state of a lane belong to shaders/shading and shaders/kernels.
+IMPURE = {
+    "a layout": r"\blayout\s*\(",
+    "the includer's params": r"\bparams\b",
+    "the includer's counters": r"\bcounters\b",
+    "a built-in variable": r"\bgl_\w+",
+    "shared memory": r"^shared\b",
+    "a variable outside functions": r"^(?!const\b|struct\b)\w+ \w+(\[[^\]]*\])?\s*[=,;]",
+}
+for path in sorted((root / "shaders/lib").rglob("*.glsl")):
+    code = re.sub(r"//.*", "", path.read_text(encoding="utf-8"))
+    for what, pattern in IMPURE.items():
+        if found := re.search(pattern, code, re.MULTILINE):
+            fail(path, f"is not pure: it uses {what}: {found[0]}")
+
 # One #ifdef __cplusplus in shaders: prelude.h.
 for path in SOURCES:
     name = path.relative_to(root).as_posix()
@@ -113,7 +132,7 @@ for path in SOURCES:
 listed = re.findall(r"(?:kernels|gbuffer|probes|bench)/\w+\.\w+", (root / "shaders/CMakeLists.txt").read_text())
 for folder in ("kernels", "gbuffer", "probes", "bench"):
     for path in sorted((root / "shaders" / folder).glob("*")):
-        if path.suffix != ".glsl" and f"{folder}/{path.name}" not in listed:
+        if path.is_file() and path.suffix != ".glsl" and f"{folder}/{path.name}" not in listed:
             fail(path, "is not in shaders/CMakeLists.txt")
 
 # Names that are banned because they do not say which quantity is meant.

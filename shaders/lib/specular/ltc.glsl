@@ -2,8 +2,7 @@
 // Heitz, Dupuy, Hill and Neubelt 2016, "Real-time polygonal-light shading with linearly transformed
 // cosines", with a fit of our own (tools/fit) whose maps keep the horizon in place: lights are cut at
 // the true horizon, nothing leaks from below it, and a light that fills the hemisphere gives the
-// lobe's directional albedo. The includer provides vec4 ltcTexel(uint index), the table of
-// engine/tables/ltc_table.h.
+// lobe's directional albedo.
 #ifndef CND_LIB_SPECULAR_LTC
 #define CND_LIB_SPECULAR_LTC
 
@@ -12,6 +11,9 @@
 #include "lib/elliptic_cone.glsl"
 #include "lib/lights/rectangle.glsl"
 #include "lib/lights/tube.glsl"
+
+// An entry of the table of engine/tables/ltc_table.h; the includer defines it.
+vec4 ltcTexel(uint index);
 
 // One lobe under a map with rows rowX, rowY and the normal: w = (rowX.l, rowY.l, n.l).
 struct LtcLobe {

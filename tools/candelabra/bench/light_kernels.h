@@ -31,7 +31,7 @@ const char* methodName(CndSpecularMethod method);
 // them.
 std::vector<CndSpecularMethod> methodsOf(uint32_t lightType);
 
-// A bench kernel in the families of shaders/lib/light_families.glsl: BENCH_FAMILIES(time_lights) is
+// A bench kernel in the families of shading/light_families.glsl: BENCH_FAMILIES(time_lights) is
 // spirv::time_lights_comp in all of them.
 using Families = std::array<const gpu::Spirv*, 6>;
 #define BENCH_FAMILIES(kernel)                                                                     \

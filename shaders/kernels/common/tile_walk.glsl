@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lights of a pixel's cluster, as blocks for light_walk.glsl. Distant lights have no lists: every
 // one of them is every cluster's.
-#include "lib/light_reach.glsl"
-#include "lib/tile_of_group.glsl"
+#include "shading/light_reach.glsl"
+#include "kernels/common/tile_of_group.glsl"
 
 layout(scalar, binding = SHADE_ENTRIES) readonly buffer Entries
 {

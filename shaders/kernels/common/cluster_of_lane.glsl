@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which cluster a lane of cluster_lists makes the list of, and the work lists of tiles it is for. The
 // includer provides params, counters, tiles[] and splits.
-#ifndef CND_LIB_CLUSTER_OF_LANE
-#define CND_LIB_CLUSTER_OF_LANE
+#ifndef CND_COMMON_CLUSTER_OF_LANE
+#define CND_COMMON_CLUSTER_OF_LANE
 
 layout(scalar, binding = CLUSTER_LISTS_LIT) buffer Lit
 {

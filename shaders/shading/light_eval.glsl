@@ -2,13 +2,13 @@
 // Outgoing luminance of one shaded point under one light. The includer provides lightCentre(),
 // lightEmission(), lightAux[] and ltcTexel(); with CANDELABRA_VISIBILITY lightIds[], and the host the
 // shadow term.
-#ifndef CND_LIB_LIGHT_EVAL
-#define CND_LIB_LIGHT_EVAL
+#ifndef CND_SHADING_LIGHT_EVAL
+#define CND_SHADING_LIGHT_EVAL
 
-#include "lib/light_families.glsl"
-#include "lib/light_reach.glsl"
+#include "shading/light_families.glsl"
+#include "shading/light_reach.glsl"
 #include "lib/lights/sphere.glsl"
-#include "lib/lobes_of_class.glsl"
+#include "shading/lobes_of_class.glsl"
 #ifdef CANDELABRA_VISIBILITY
 #include "lib/shadow_query.glsl"
 #endif
@@ -160,9 +160,9 @@ vec3 diffuseResponse(ShadingPoint p, float formFactor)
     return HAS_DIFFUSE ? p.albedo * formFactor : vec3(0.0);
 }
 
-#include "lib/eval_sphere.glsl"
-#include "lib/eval_area.glsl"
-#include "lib/eval_punctual.glsl"
+#include "shading/eval_sphere.glsl"
+#include "shading/eval_area.glsl"
+#include "shading/eval_punctual.glsl"
 
 // Outgoing luminance by evaluation. A function each: drivers inline all of it at every call before
 // they drop what specialisation rules out, and one function for all took minutes to compile.

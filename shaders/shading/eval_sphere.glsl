@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Responses to spheres, near and distant, of unit luminance. Part of lib/light_eval.glsl.
+// Responses to spheres, near and distant, of unit luminance. Part of shading/light_eval.glsl.
 
 #if LIGHT_FAMILY == FAMILY_SPHERE
 // Response of the specular lobe to a sphere of unit luminance; the closed form is not among these.

@@ -3,10 +3,10 @@
 // lanes found differs little between neighbours, so shading it diverges little. Each way of evaluation
 // has its own loop and its own sum, in light order: results do not depend on where blocks begin.
 // The includer provides uint lightAt(uint k), the k-th light.
-#ifndef CND_LIB_LIGHT_WALK
-#define CND_LIB_LIGHT_WALK
+#ifndef CND_SHADING_LIGHT_WALK
+#define CND_SHADING_LIGHT_WALK
 
-#include "lib/light_eval.glsl"
+#include "shading/light_eval.glsl"
 
 const uint WALK_BLOCK = 64u; // lights tested together: bits of two words
 

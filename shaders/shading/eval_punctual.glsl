@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Responses to lights without size. Part of lib/light_eval.glsl.
+// Responses to lights without size. Part of shading/light_eval.glsl.
 
 #if HAS_PUNCTUAL
 // Response to unit illuminance on a surface that faces the light, from the unit direction l.

@@ -2,8 +2,8 @@
 // Families of lights and methods that share code. The kernels that shade are compiled once per family:
 // drivers inline everything before they drop what specialisation rules out, and one module for all
 // took them seconds per pipeline.
-#ifndef CND_LIB_LIGHT_FAMILIES
-#define CND_LIB_LIGHT_FAMILIES
+#ifndef CND_SHADING_LIGHT_FAMILIES
+#define CND_SHADING_LIGHT_FAMILIES
 
 #define FAMILY_PUNCTUAL 1  // point, spot, directional
 #define FAMILY_CONIC 2     // sphere, distant sphere by SPECULAR_CONIC, SPECULAR_CONIC_FULL

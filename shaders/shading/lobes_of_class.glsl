@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the surfaces at hand may have: the class of their tile is a specialisation constant.
-#ifndef CND_LIB_LOBES_OF_CLASS
-#define CND_LIB_LOBES_OF_CLASS
+#ifndef CND_SHADING_LOBES_OF_CLASS
+#define CND_SHADING_LOBES_OF_CLASS
 
 #include "shared/lighting.h"
-#include "lib/light_families.glsl"
+#include "shading/light_families.glsl"
 
 #if LIGHT_FAMILY == FAMILY_ALL
 const uint tileClass = CLASS_ANY;

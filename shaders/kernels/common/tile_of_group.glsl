@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tile that a workgroup shades, one of the WorkList of its class, and the lists of its pixels.
-#ifndef CND_LIB_TILE_OF_GROUP
-#define CND_LIB_TILE_OF_GROUP
+#ifndef CND_COMMON_TILE_OF_GROUP
+#define CND_COMMON_TILE_OF_GROUP
 
 #include "shared/clusters.h"
-#include "lib/lobes_of_class.glsl"
+#include "shading/lobes_of_class.glsl"
 #include "lib/pixel_of_lane.glsl"
 #include "lib/projection.glsl"
 
@@ -41,7 +41,7 @@ bool takeTile(out uint tile, out uvec2 pixel)
     const uint firsts = (work.count + 1u) / 2u;
     tile = workTiles[work.first + (at < firsts ? 2u * at : 2u * (at - firsts) + 1u)];
     pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
-            pixelOfLane();
+            pixelOfLane(gl_LocalInvocationIndex);
     return all(lessThan(pixel, params.size));
 }
 

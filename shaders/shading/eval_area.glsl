@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Responses to tubes, rectangles and discs of unit luminance. Part of lib/light_eval.glsl.
+// Responses to tubes, rectangles and discs of unit luminance. Part of shading/light_eval.glsl.
 
 #if HAS_TUBES || HAS_RECTANGLES || HAS_DISCS
 // Responses do not depend on the scale, and at a distance of about 1 no product of lengths overflows.

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pixel that a shading kernel lights, with its lobes joined.
-#include "lib/shade_inputs.glsl"
-#define DFG_BINDING SHADE_DFG
+#include "kernels/common/shade_inputs.glsl"
 #include "lib/dfg.glsl"
 #include "lib/joining.glsl"
 
+layout(binding = SHADE_DFG) uniform textureBuffer dfgTexels;
 layout(binding = SHADE_LTC) uniform textureBuffer ltcTexels;
+
+// The table of lib/dfg.glsl.
+vec4 dfgTexel(int entry)
+{
+    return texelFetch(dfgTexels, entry);
+}
 
 // The table of lib/specular/ltc.glsl.
 vec4 ltcTexel(uint index)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the light tree like lights (light_stream.glsl, to be included before); the includer defines
 // TREE_NODES and TREE_NODE_WORDS, the binding ids.
-#ifndef CND_LIB_LIGHT_TREE
-#define CND_LIB_LIGHT_TREE
+#ifndef CND_COMMON_LIGHT_TREE
+#define CND_COMMON_LIGHT_TREE
 
 #include "lib/light_tree_walk.glsl"
 #include "lib/bounds.glsl"

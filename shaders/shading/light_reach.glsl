@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which lights can reach a point. All lights of a dispatch are of one type, a specialisation constant;
 // shaders of hosts go from type to type.
-#ifndef CND_LIB_LIGHT_REACH
-#define CND_LIB_LIGHT_REACH
+#ifndef CND_SHADING_LIGHT_REACH
+#define CND_SHADING_LIGHT_REACH
 
 #include "shared/lighting.h"
-#include "lib/light_families.glsl"
+#include "shading/light_families.glsl"
 
 #if LIGHT_FAMILY == FAMILY_ALL
 uint lightType; // of the lights at hand

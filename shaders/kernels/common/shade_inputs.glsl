@@ -7,12 +7,12 @@
 #define GBUFFER_VIEW SHADE_GBUFFER_VIEW
 #define GBUFFER_ALBEDO SHADE_ALBEDO
 #define GBUFFER_SPECULAR SHADE_SPECULAR
-#include "lib/read_gbuffer.glsl"
+#include "kernels/common/read_gbuffer.glsl"
 #include "lib/brdf.glsl"
 #include "lib/projection.glsl"
 #define LIGHT_STREAM_CORE SHADE_CORE
 #define LIGHT_STREAM_CORE_WORDS SHADE_CORE_WORDS
-#include "lib/light_stream.glsl"
+#include "kernels/common/light_stream.glsl"
 
 layout(push_constant, scalar) uniform Push
 {

@@ -7,7 +7,7 @@
 #define GBUFFER_PACKED TILE_CLUSTERS_NORMALS
 #define GBUFFER_NORMAL TILE_CLUSTERS_HOST_NORMALS
 #define GBUFFER_VIEW TILE_CLUSTERS_GBUFFER_VIEW
-#include "lib/read_gbuffer.glsl"
+#include "kernels/common/read_gbuffer.glsl"
 #include "lib/projection.glsl"
 
 layout(push_constant, scalar) uniform Push

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The class of a tile: which lobe none of its surfaces has. The includer provides params and
 // depthAt(), and reads the whole G-buffer.
-#ifndef CND_LIB_TILE_CLASS
-#define CND_LIB_TILE_CLASS
+#ifndef CND_COMMON_TILE_CLASS
+#define CND_COMMON_TILE_CLASS
 
 #include "shared/lighting.h"
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions that hosts' shaders include by the name of lib/forward.glsl, which says how to use
+// them, and the bindings of the set FORWARD_SET.
+#ifndef CND_SHADING_FORWARD
+#define CND_SHADING_FORWARD
+
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/forward.h"
+#include "lib/gbuffer.glsl"
+#include "lib/brdf.glsl"
+#include "lib/projection.glsl"
+#include "lib/dfg.glsl"
+#include "lib/joining.glsl"
+#include "lib/light_tree_walk.glsl"
+
+layout(scalar, set = FORWARD_SET, binding = FORWARD_VIEW) readonly buffer ForwardViewBuffer
+{
+    ForwardView forwardView;
+};
+layout(scalar, set = FORWARD_SET, binding = FORWARD_CORE) readonly buffer ForwardCore
+{
+    vec4 lightCore[];
+};
+layout(scalar, set = FORWARD_SET, binding = FORWARD_AUX) readonly buffer ForwardAux
+{
+    vec4 lightAux[];
+};
+layout(scalar, set = FORWARD_SET, binding = FORWARD_NODES) readonly buffer ForwardNodes
+{
+    vec4 treeNodes[];
+};
+layout(scalar, set = FORWARD_SET, binding = FORWARD_IDS) readonly buffer ForwardIds
+{
+    uint lightIds[]; // by number: low half of the CndLightId, or LIGHT_OF_DEVICE and an index
+};
+layout(set = FORWARD_SET, binding = FORWARD_DFG) uniform textureBuffer dfgTexels;
+layout(set = FORWARD_SET, binding = FORWARD_LTC) uniform textureBuffer ltcTexels;
+
+// The table of lib/dfg.glsl.
+vec4 dfgTexel(int entry)
+{
+    return texelFetch(dfgTexels, entry);
+}
+
+vec4 ltcTexel(uint index)
+{
+    return texelFetch(ltcTexels, int(index));
+}
+
+vec4 lightCentre(uint light)
+{
+    return lightCore[light * LIGHT_CORE_STRIDE];
+}
+
+vec4 lightEmission(uint light)
+{
+    return lightCore[light * LIGHT_CORE_STRIDE + 1u];
+}
+
+// Lights that were found and are not evaluated yet, all of one type.
+uint foundLights[PAGE_LIGHTS + 1u];
+
+uint lightAt(uint k)
+{
+    return foundLights[k];
+}
+
+#define LIGHT_FAMILY FAMILY_ALL
+#include "shading/light_walk.glsl"
+
+// Steps through the lights of one type that reach a position. One at a time.
+struct LightCursor {
+    uint light; // behind nextLight(): its number, for evaluateLight()
+    vec3 position;
+    uint next, end; // of the leaf at hand
+    TreeWalk walk;
+};
+
+LightCursor lightsAt(uint type, vec3 position)
+{
+    lightType = type;
+    const TreeShape tree = forwardView.trees[type];
+    if (IS_DISTANT) // all of them, without a tree
+        return LightCursor(0u, position, tree.firstLight, tree.firstLight + tree.lightCount,
+                           TreeWalk(0u, 0u, 0u, 0u, true));
+    return LightCursor(0u, position, 0u, 0u, beginTreeWalk(tree, TREE_LEVELS));
+}
+
+// To the next light; false behind the last.
+bool nextLight(inout LightCursor c)
+{
+    const TreeShape tree = forwardView.trees[lightType];
+    bool found = false;
+    while (!found && (c.next < c.end || !c.walk.done)) {
+        if (c.next < c.end) {
+            c.light = c.next;
+            ++c.next;
+            const float d2 = length2(towardsLight(lightCentre(c.light).xyz, c.position));
+            found = d2 < lightEmission(c.light).w;
+        } else {
+            const uint at = treeNodeIndex(c.walk) * TREE_NODE_STRIDE;
+            const bool inside = all(lessThanEqual(treeNodes[at].xyz, c.position)) &&
+                                all(lessThanEqual(c.position, treeNodes[at + 1u].xyz));
+            if (inside && c.walk.level == 1u) {
+                c.next = tree.firstLight + c.walk.index * TREE_WIDTH;
+                c.end = min(c.next + TREE_WIDTH, tree.firstLight + tree.lightCount);
+            }
+            if (inside && c.walk.level > 1u)
+                descend(tree, c.walk);
+            else
+                skipSubtree(tree, c.walk);
+        }
+    }
+    return found;
+}
+
+// What a surface prepares once for all lights.
+Receiver forwardReceiver(Surface surface, vec3 position)
+{
+    ShadingPoint p =
+        makeShadingPoint(surface, position, towardsEye(forwardView.projection, position));
+    if (forwardView.lobes != LOBES_SUM)
+        joinLobes(p, directionalAlbedo(p.NoV, p.alpha),
+                  forwardView.lobes & (COMPENSATE_ENERGY - 1u),
+                  forwardView.lobes & COMPENSATE_ENERGY);
+    return makeReceiver(p, 0.0, 1u, 0u);
+}
+
+// Luminance towards the eye, cd/m^2, that a light of the cursor's type adds.
+vec3 evaluateLight(Receiver receiver, uint light)
+{
+    foundLights[0] = light;
+    Sums sums = noLight();
+    shadeBlock(sums, receiver, 0u, 1u, true);
+    return total(sums);
+}
+
+// The first type from this one on that has lights, or LIGHT_TYPE_COUNT.
+uint typeWithLights(uint type)
+{
+    while (type < LIGHT_TYPE_COUNT &&
+           forwardView.trees[min(type, LIGHT_TYPE_COUNT - 1u)].lightCount == 0u)
+        ++type;
+    return min(type, LIGHT_TYPE_COUNT);
+}
+
+// Luminance towards the eye, cd/m^2, of a surface under all lights: what the view's own pass adds to
+// the radiance of an opaque one, in the same order.
+vec3 litSurface(Surface surface, vec3 position)
+{
+    const Receiver receiver = forwardReceiver(surface, position);
+    vec3 luminance = vec3(0.0);
+    uint type = typeWithLights(0u);
+    if (type == LIGHT_TYPE_COUNT)
+        return luminance;
+    LightCursor cursor = lightsAt(type, position);
+    Sums sums = noLight();
+    // Conditions at the end, as of SHADE_FOUND; a lane that is done may run once more (Mesa 22.3): its
+    // cursor is behind the last light then, or foundLights has room for one more.
+    do {
+        uint count = 0u;
+        bool more;
+        do {
+            more = nextLight(cursor);
+            foundLights[count] = cursor.light;
+            count += more ? 1u : 0u;
+        } while (more && count < PAGE_LIGHTS);
+        shadeBlock(sums, receiver, 0u, count, true);
+        if (!more) {
+            luminance += total(sums);
+            sums = noLight();
+            type = typeWithLights(type + 1u);
+            if (type < LIGHT_TYPE_COUNT)
+                cursor = lightsAt(type, position);
+        }
+    } while (type < LIGHT_TYPE_COUNT);
+    return luminance;
+}
+
+// Illuminance, lx, that a light of the cursor's type gives a surface that faces its centre, and the
+// unit direction towards that: for volumes, whose phase function is evaluated for that direction.
+vec3 illuminanceTowards(uint light, vec3 position, out vec3 direction)
+{
+    direction = normalize(towardsLight(lightCentre(light).xyz, position));
+    Surface surface;
+    surface.normal = direction;
+    surface.albedo = vec3(PI);
+    surface.F0 = vec3(0.0);
+    surface.specularWeight = 0.0;
+    surface.perceptualRoughness = 1.0;
+    return evaluateLight(makeReceiver(makeShadingPoint(surface, position, direction), 0.0, 1u, 0u),
+                         light);
+}
+
+#endif
