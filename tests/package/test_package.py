@@ -6,6 +6,7 @@ Everything is written to BUILD/package."""
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -70,7 +71,7 @@ def install():
         library = libdir() / f"{name}.so"
         symbols = {line.split()[-1] for line in run("nm", "-D", "--defined-only", library).splitlines()}
         declared = set(re.findall(r"CND_API[^;(]*?\b(cnd\w+)\(",
-                                  "".join(h.read_text() for h in headers)))
+                                  "".join(h.read_text(encoding="utf-8") for h in headers)))
         require(symbols == declared, f"{name}: exported and declared differ in {symbols ^ declared}")
         major_minor = re.search(r"SONAME.*\[(.*)\]", run("readelf", "-d", library))
         require(re.fullmatch(rf"{name}\.so\.\d+\.\d+", major_minor[1]), f"SONAME {major_minor[1]}")
@@ -80,7 +81,7 @@ def install():
              if p.suffix in (".h", ".hpp", ".glsl", ".cmake", ".pc") and p.is_file()]
     require(len(texts) > 10, f"only {len(texts)} files were installed")
     for path in texts:
-        text = path.read_text()
+        text = path.read_text(encoding="utf-8")
         require("glm" not in text.lower() or path.name == "glm.hpp", f"{path} names GLM")
         for place in (source, build, work / "first"):
             require(f"{place}/" not in text, f"{path} names {place}")
@@ -130,17 +131,17 @@ def fetched():
 
 def pkg_config():
     where = {"PKG_CONFIG_PATH": str(libdir() / "pkgconfig")}
-    flags = run("pkg-config", "--cflags", "--libs", "candelabra", **where).split()
-    static = run("pkg-config", "--cflags", "--libs", "--static", "candelabra", **where).split()
+    flags = shlex.split(run("pkg-config", "--cflags", "--libs", "candelabra", **where))
+    static = shlex.split(run("pkg-config", "--cflags", "--libs", "--static", "candelabra", **where))
     main = source / "tests/package/consumer/main.c"
     run("cc", main, "-o", work / "pc_shared", *flags)
     run(work / "pc_shared", LD_LIBRARY_PATH=str(libdir()))
     run("cc", main, "-o", work / "pc_static",
         *(f.replace("-lcandelabra", "-l:libcandelabra.a") for f in static))
     run(work / "pc_static")
-    shaders = run("pkg-config", "--variable=shaderdir", "candelabra", **where).strip()
+    shaders, = shlex.split(run("pkg-config", "--variable=shaderdir", "candelabra", **where))
     require((pathlib.Path(shaders) / "lib/gbuffer.glsl").exists(), f"no shaders in {shaders}")
-    flags = run("pkg-config", "--cflags", "--libs", "candelabra_compiler", **where).split()
+    flags = shlex.split(run("pkg-config", "--cflags", "--libs", "candelabra_compiler", **where))
     run("cc", main.with_name("compile.c"), "-o", work / "pc_compiler", *flags)
     run(work / "pc_compiler", LD_LIBRARY_PATH=str(libdir()))
 
@@ -160,16 +161,17 @@ def program():
             "--version")
     libraries = run("readelf", "-d", folder / "bin/candelabra")
     require("libcandelabra" not in libraries and not re.search("R(UN)?PATH", libraries), libraries)
-    require((folder / "share/man/man1/candelabra.1").read_text().startswith(".TH CANDELABRA 1"),
+    require((folder / "share/man/man1/candelabra.1").read_text(encoding="utf-8").startswith(".TH CANDELABRA 1"),
             "the manual page has no title")
-    script = ("source $0; COMP_WORDS=(candelabra render --spec); COMP_CWORD=2; _candelabra; "
-              "echo ${COMPREPLY[@]}")
+    script = ('source "$0"; COMP_WORDS=(candelabra render --spec); COMP_CWORD=2; _candelabra; '
+              'echo "${COMPREPLY[@]}"')
     offered = run("bash", "-c", script, folder / completions)
     require(offered == "--specular\n", f"completed --spec to {offered}")
 
 
 def debian():
     folder = clean(work / "debian")
+    os.umask(0o077)  # a package is the same whatever the umask of the person who makes it
     run("cpack", "--config", build / "CPackConfig.cmake", "-B", folder)
     wanted = {"libcandelabra-dev": (r"lib/(.*/)?libcandelabra\.so\.\d+\.\d+\.\d+",
                                     "include/candelabra/candelabra.h"),
@@ -178,6 +180,8 @@ def debian():
     require(packages.keys() == wanted.keys(), f"made {packages}")
     for name, package in packages.items():
         listing = run("dpkg-deb", "--contents", package)
+        for line in listing.splitlines():
+            require(re.match("drwxr-xr-x|-r..r-.r-.|l", line), f"others cannot read {line} of {name}")
         for path in wanted[name]:
             require(re.search(f"/usr/{path}\n", listing), f"no {path} in\n{listing}")
         for path in (p for other in wanted if other != name for p in wanted[other]):
