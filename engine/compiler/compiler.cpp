@@ -19,7 +19,7 @@ struct CndCompiledKernels_T {
         std::vector<uint32_t> words;
     };
     std::vector<Kernel> kernels;
-    std::vector<CndKernelCode> codes; // of kernels
+    std::vector<CndKernelCode> codes; // one per kernel, pointing into `kernels`
 };
 
 namespace candelabra::compiler
@@ -29,7 +29,7 @@ namespace
 
 using Compiled = CndCompiledKernels_T;
 
-// glslang counts who uses it.
+// Initialises glslang while it lives; glslang counts its users.
 struct Process {
     Process() { glslang::InitializeProcess(); }
     ~Process() { glslang::FinalizeProcess(); }
@@ -56,13 +56,14 @@ public:
     void releaseInclude(IncludeResult* result) override { delete result; }
 };
 
-// A kernel, and for which family of shading/light_families.glsl, if it has any.
+// A kernel to compile, and the family of light types (shading/light_families.glsl) to compile it
+// for; empty if the kernel does not depend on the family.
 struct Job {
     std::string kernel, family;
     std::string name() const { return family.empty() ? kernel : kernel + ":" + family; }
 };
 
-// Families that lights of these types have with these methods.
+// Returns the families of light types that these types need with these methods (both masks).
 std::vector<std::string> familiesOf(uint32_t types, uint32_t methods)
 {
     const auto has = [&](auto... type) { return (types & (... | (1u << type))) != 0; };
@@ -70,7 +71,7 @@ std::vector<std::string> familiesOf(uint32_t types, uint32_t methods)
     std::vector<std::string> out;
     if (has(CND_LIGHT_POINT, CND_LIGHT_SPOT, CND_LIGHT_DIRECTIONAL))
         out.push_back("PUNCTUAL");
-    // Every lighting can do spheres.
+    // Spheres are always included: every CndLighting creates their pipelines.
     if (methods & conic)
         out.push_back("CONIC");
     if (methods & ~conic)
@@ -103,7 +104,7 @@ std::vector<Job> jobsOf(const CndCompileDesc& desc)
     return jobs;
 }
 
-// What the compiler said, as the end of one sentence.
+// Fails with the first error of the compiler's log, as the end of one sentence.
 [[noreturn]] void fail(const Job& job, const CndCompileDesc& desc, const std::string& log)
 {
     constexpr std::string_view error = "ERROR: ";
@@ -135,8 +136,9 @@ std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
     const std::string kernelName = "kernels/" + job.kernel + ".comp";
     const ShaderSource& kernel = *find(kernelName);
     const std::string_view source = desc.source;
-    // For kernels that evaluate no lights, too: the source is the same for all. Always, so that a
-    // source without the promised function hears that, not that ShadowQuery is undeclared.
+    // Every kernel includes the declaration of ShadowQuery: those that evaluate no lights get the
+    // same source, and a source that lacks the promised function is then reported as such instead
+    // of "ShadowQuery undeclared".
     constexpr std::string_view query = "\n#include \"lib/shadow_query.glsl\"\n";
     const char* const texts[] = {kernel.text.data(), query.data(), source.data()};
     const int lengths[] = {int(kernel.text.size()), int(query.size()), int(source.size())};

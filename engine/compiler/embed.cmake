@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Writes shader_sources.cpp: cmake -DROOT=shaders -DFILES=a;b -DOUTPUT=file -P embed.cmake
+# Writes shader_sources.cpp. Usage: cmake -DROOT=shaders -DFILES=a;b -DOUTPUT=file -P embed.cmake
 set(entries)
 foreach(file ${FILES})
     file(READ ${ROOT}/${file} text)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaders as text, by the name that includes give them. Made by embed.cmake.
+// The shaders as text, found by the name that #include uses. embed.cmake generates the definition.
 #pragma once
 
 #include <span>

@@ -44,8 +44,8 @@ CndEnvironmentDesc checked(CndEnvironmentDesc desc)
     return desc;
 }
 
-// Cubes are read with linear filtering, which Vulkan does not promise for 32-bit floats; half
-// floats would not hold the sun.
+// Cube maps are read with linear filtering, which Vulkan does not guarantee for 32-bit floats. Half
+// floats could not hold the sun's luminance.
 void requireLinearFilter(const gpu::Device& device)
 {
     VkFormatProperties2 properties{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2};
@@ -98,7 +98,7 @@ bool isRotation(const glm::dmat3& m)
     const glm::dmat3 product = glm::transpose(m) * m;
     for (int c = 0; c < 3; ++c)
         for (int r = 0; r < 3; ++r)
-            if (!(std::abs(product[c][r] - (c == r)) <= 1e-5)) // NaN too
+            if (!(std::abs(product[c][r] - (c == r)) <= 1e-5)) // also false for NaN
                 return false;
     return glm::determinant(m) > 0;
 }
@@ -151,7 +151,7 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
             {cubeSampled(gpu::ENVIRONMENT_PREFILTER_SOURCE, source_, sampler_.get()),
              Binding::storage(gpu::ENVIRONMENT_PREFILTER_OUTPUT, prefiltered_.mips[level].get())});
     const uint32_t sourceMip =
-        mips - mipCount(gpu::ENVIRONMENT_IRRADIANCE_SOURCE_SIZE); // cubeSize is larger
+        mips - mipCount(gpu::ENVIRONMENT_IRRADIANCE_SOURCE_SIZE); // below cubeSize
     sets_.irradiance.write(
         0, {Binding::storage(gpu::ENVIRONMENT_IRRADIANCE_SOURCE, source_.mips[sourceMip].get()),
             Binding::storage(gpu::ENVIRONMENT_IRRADIANCE_OUTPUT, irradiance_.mips[0].get())});
@@ -176,7 +176,7 @@ void Environment::recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map)
     const gpu::Frame f{device_, cmd, timer_, mapSlot()};
     device_.beginLabel(cmd, "candelabra environment map");
     timer_.begin(cmd, f.slot);
-    f.barrier(); // against frames before, which use the same images
+    f.barrier(); // waits for earlier frames, which use the same images
     recordLayouts(f);
     gbuffer_.record(f);
     dfg_.recordFill(f);
@@ -187,7 +187,7 @@ void Environment::recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map)
     mapped_ = true;
 }
 
-// Our images stay in GENERAL; what they held is not wanted.
+// Moves the cube maps to layout GENERAL, in which they stay. Their previous contents are discarded.
 void Environment::recordLayouts(const gpu::Frame& f) const noexcept
 {
     VkImageMemoryBarrier2 barriers[3];
@@ -216,7 +216,7 @@ void Environment::recordLayouts(const gpu::Frame& f) const noexcept
 void Environment::recordCube(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept
 {
     const auto groups = [](uint32_t size) { return divideUp(size, gpu::ENVIRONMENT_GROUP); };
-    // A face spans a quarter of the image's width and half its height.
+    // A cube face spans a quarter of the image's width and half of its height.
     const uint32_t perTexel =
         std::max(divideUp(map.width, 4 * desc_.cubeSize), divideUp(map.height, 2 * desc_.cubeSize));
     cube_.dispatch(f, sets_.cube.set(0),
@@ -302,8 +302,9 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
 
     glm::dmat4 viewFromWorld;
     std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
-    const glm::dmat3 environmentFromView = glm::transpose(
-        glm::dmat3(viewFromWorld) * rotationOf(frame.worldFromEnvironment)); // rotations
+    const glm::dmat3 environmentFromView =
+        glm::transpose(glm::dmat3(viewFromWorld) *
+                       rotationOf(frame.worldFromEnvironment)); // inverse of a rotation
     uint32_t flags = 0;
     flags |= frame.background ? ENVIRONMENT_BACKGROUND : 0;
     flags |= frame.lobes == CND_LOBES_SUM ? ENVIRONMENT_SUM : 0;

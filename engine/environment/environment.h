@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment module behind the C ABI: an image of the far surroundings as a light.
+// The environment module behind the C ABI: lights surfaces by an image of the far surroundings.
 #pragma once
 
 #include <vector>
@@ -17,10 +17,11 @@ class Environment
 {
 public:
     Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& desc);
-    Environment(const Environment&) = delete; // its objects point to device_
+    Environment(const Environment&) = delete; // not copied or moved: members point to device_
     Environment& operator=(const Environment&) = delete;
 
-    // Both throw gpu::Failure on arguments out of range; once recording starts nothing can fail.
+    // recordMap and record throw gpu::Failure on arguments out of range; once recording starts
+    // nothing can fail.
     void recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map);
     void record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame);
     CndResult stats(uint32_t slot, CndEnvironmentStats& stats) const noexcept;
@@ -31,7 +32,8 @@ private:
     void recordLayouts(const gpu::Frame& f) const noexcept;
     void recordCube(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept;
     void recordPrefiltering(const gpu::Frame& f) const noexcept;
-    uint32_t mapSlot() const { return uint32_t(recorded_.size()); } // of the timer
+    // The timer's slot for recordMap, which follows those of the frames.
+    uint32_t mapSlot() const { return uint32_t(recorded_.size()); }
 
     struct Sets {
         gpu::Bindings cube, mip, prefilter, irradiance, shade;
@@ -50,11 +52,12 @@ private:
     lighting::HostKernels hostKernels_;
     gpu::Kernel<gpu::ShadeEnvironmentParams> shade_;
     Sets sets_;
-    gpu::CubeImage source_;      // the environment, all mips
-    gpu::CubeImage prefiltered_; // levels by alpha
+    gpu::CubeImage source_;      // the environment as a cube map, all mips
+    gpu::CubeImage prefiltered_; // the environment convolved with the GGX lobe, one mip level per
+                                 // alpha
     gpu::CubeImage irradiance_;
     gpu::Handle<VkSampler> sampler_;
-    std::vector<bool> recorded_; // per frame slot
+    std::vector<bool> recorded_; // per frame slot: a frame has been recorded in it
     bool mapped_ = false;
 };
 

@@ -25,15 +25,15 @@ static_assert(gpu::TONEMAP_ACES == CND_TONEMAP_ACES);
 static_assert(gpu::TONEMAP_PBR_NEUTRAL == CND_TONEMAP_PBR_NEUTRAL);
 static_assert(gpu::TONEMAP_AGX == CND_TONEMAP_AGX);
 
-constexpr VkDeviceSize maskBytes = 64 * 64 * sizeof(uint32_t); // largest mask
+constexpr VkDeviceSize maskBytes = 64 * 64 * sizeof(uint32_t); // the largest mask: 64 x 64 weights
 
 struct Readback {
     gpu::HistogramData data;
     gpu::ExposureState state;
-    uint32_t marker; // written last
+    uint32_t marker; // written last: the frame is done
 };
 
-// Different for every object of the process.
+// Returns another number for every Exposure of the process.
 uint32_t nextOwner() noexcept
 {
     static std::atomic<uint32_t> next{gpu::EXPOSURE_FIRST_OWNER};
@@ -131,7 +131,7 @@ void Exposure::record(VkCommandBuffer cmd, const CndExposureFrame& frame)
 {
     validate(frame);
     writeBindings(frame);
-    if (!++recordings_) // 0 means unused
+    if (!++recordings_) // 0 stands for an unused slot
         ++recordings_;
     slots_[frame.frameSlot] = {recordings_, frame.settings.manual == VK_TRUE,
                                frame.display != VK_NULL_HANDLE};
@@ -139,7 +139,7 @@ void Exposure::record(VkCommandBuffer cmd, const CndExposureFrame& frame)
     const gpu::Frame f{device_, cmd, timer_, frame.frameSlot};
     device_.beginLabel(cmd, "candelabra exposure");
     timer_.begin(cmd, frame.frameSlot);
-    f.barrier(); // against the frame before, which uses the same buffers
+    f.barrier(); // waits for the previous frame, which uses the same buffers
     device_.CmdFillBuffer(cmd, data_.get(), 0, VK_WHOLE_SIZE, 0);
     f.barrier();
     if (!frame.settings.manual) {
@@ -190,7 +190,7 @@ void Exposure::recordReadback(const gpu::Frame& f) const noexcept
     const VkBufferCopy state{.dstOffset = offsetof(Readback, state),
                              .size = sizeof(gpu::ExposureState)};
     device_.CmdCopyBuffer(f.cmd, state_.get(), target, 1, &state);
-    f.barrier(); // the marker says that all of the frame is done
+    f.barrier(); // the marker may be written only after all the rest
     device_.CmdFillBuffer(f.cmd, target, offsetof(Readback, marker), sizeof(uint32_t),
                           slots_[f.slot].marker);
     f.hostBarrier();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exposure module behind the C ABI: histogram, adaptation, tone mapping of one view.
+// The exposure module behind the C ABI: histogram, adaptation and tone mapping of one view.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 namespace candelabra::exposure
 {
 
-// Throw gpu::Failure naming the field that is out of its documented range.
+// Both throw gpu::Failure naming the field that is out of its documented range.
 void validateSettings(const CndExposureSettings& settings);
 void validateMask(const uint8_t* weights, uint32_t width, uint32_t height);
-// Settings and time step, both valid, as the kernel takes them; owner is left 0.
+// Converts settings and time step, both valid, into kernel parameters; `owner` is left 0.
 gpu::AdaptExposureParams adaptParams(const CndExposureSettings& settings, float deltaTime,
                                      bool reset) noexcept;
 
@@ -21,7 +21,7 @@ class Exposure
 {
 public:
     Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc);
-    Exposure(const Exposure&) = delete; // its objects point to device_
+    Exposure(const Exposure&) = delete; // not copied or moved: members point to device_
     Exposure& operator=(const Exposure&) = delete;
 
     void setMask(const uint8_t* weights, uint32_t width, uint32_t height);
@@ -49,15 +49,16 @@ private:
     gpu::Kernel<gpu::ToneMapParams> toneMap_[CND_TONEMAP_COUNT];
     Sets sets_;
     gpu::Buffer data_, state_, mask_;
-    std::vector<gpu::Buffer> readback_; // per slot
+    std::vector<gpu::Buffer> readback_; // per frame slot
     struct Slot {
-        uint32_t marker = 0; // what the GPU writes when it is done, 0: unused
+        uint32_t marker = 0; // value that the GPU writes when the frame is done; 0: slot not used
+                             // yet
         bool manual = false, toneMapped = false;
     };
     std::vector<Slot> slots_;
     glm::uvec2 maskSize_{0};
     uint32_t recordings_ = 0;
-    uint32_t owner_; // see EXPOSURE_FIRST_OWNER
+    uint32_t owner_; // marks this object's history in state_, see EXPOSURE_FIRST_OWNER
 };
 
 } // namespace candelabra::exposure

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defaults, ranges and camera arithmetic of the exposure module.
+// Defaults and ranges of the exposure settings, and the exposure arithmetic of a camera.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,11 +11,11 @@ namespace candelabra::exposure
 namespace
 {
 
-// Starlight is EV -16, the sun's disk EV 33; with any compensation the factor 1 / (1.2 * 2^EV) is a
-// normal float.
+// Starlight is about EV -16 and the sun's disc EV 33. With any allowed compensation the exposure
+// factor 1 / (1.2 * 2^EV) is still a normal float.
 constexpr float maxEv100 = 64;
 constexpr float maxCompensation = 32;
-// Shares travel in units of 2^-32 of the histogram: this window is thousands of them wide.
+// Percentiles are passed to the kernel in units of 2^-32, of which the smallest window is 4295.
 constexpr double minPercentileWindow = 1e-6;
 
 void require(bool condition, const char* sentence)
@@ -24,7 +24,7 @@ void require(bool condition, const char* sentence)
         gpu::failArgument(sentence);
 }
 
-// Written so that NaN fails.
+// Fails for NaN too: the comparison is written so.
 void requireWithin(const char* field, float value, float limit)
 {
     if (!(std::abs(value) <= limit))
@@ -40,7 +40,7 @@ void requirePositive(const char* field, float value)
                           " must be finite and > 0, is " + std::to_string(value));
 }
 
-// `share` in [0, 1) as a multiple of 2^-32.
+// Returns `share`, in [0, 1), in units of 2^-32.
 uint32_t fixedPoint(double share)
 {
     constexpr double one = 4294967296.0;
@@ -83,7 +83,8 @@ void validateMask(const uint8_t* weights, uint32_t width, uint32_t height)
 gpu::AdaptExposureParams adaptParams(const CndExposureSettings& s, float deltaTime,
                                      bool reset) noexcept
 {
-    // In double: exp(-dt speed) of many short steps must multiply to that of a long one.
+    // In double precision: the factors exp(-dt speed) of many short steps must multiply to that of
+    // one long step.
     const auto keep = [&](float speed) { return float(std::exp(-double(deltaTime) * speed)); };
     return {.manual = s.manual ? 1u : 0u,
             .reset = reset ? 1u : 0u,
@@ -102,7 +103,7 @@ gpu::AdaptExposureParams adaptParams(const CndExposureSettings& s, float deltaTi
 void cndDefaultExposureSettings(CndExposureSettings* settings)
 {
     *settings = {.manual = VK_FALSE,
-                 .manualEv100 = 10, // a lit interior at ISO 100
+                 .manualEv100 = 10, // EV100 of a lit interior
                  .compensation = 0,
                  .minEv100 = -6,
                  .maxEv100 = 18,

@@ -54,7 +54,7 @@ TextureSet textureSetOf(const Material& m)
     return set;
 }
 
-// Index of each material's texture set; fills `sets`.
+// Returns the index of each material's texture set, and fills `sets`.
 std::vector<uint32_t> collectTextureSets(const GeometryDesc& desc, std::vector<TextureSet>& sets)
 {
     TextureSet none;
@@ -123,13 +123,13 @@ gpu::InstanceBounds instanceBounds(const glm::dmat4& worldFromObject, const Pack
     glm::dvec3 extent(0);
     for (int column = 0; column < 3; ++column)
         extent += glm::abs(glm::dvec3(worldFromObject[column])) * half[column];
-    // Rounding to float may shrink it by 2^-24, the vertex shader's own rounding is of that size
-    // too.
+    // Rounding to float may shrink the box by 2^-24 (relative), and the vertex shader rounds by
+    // about as much.
     constexpr double growth = 1 + 4 * std::numeric_limits<float>::epsilon();
     return {center.hi, center.lo, glm::vec3(extent * growth)};
 }
 
-// Chunks of one batch of `count` instances that starts at `first`.
+// Appends the chunks of one batch of `count` instances that starts at instance `first`.
 void addChunks(std::vector<gpu::Chunk>& chunks, uint32_t first, uint32_t count, uint32_t batch)
 {
     const uint32_t firstChunk = uint32_t(chunks.size());

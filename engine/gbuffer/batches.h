@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Groups instances into draws.
+// Groups instances into draws, on three levels:
 //
-//   run     pipeline variant, cull mode, winding and texture set: one multi-draw call
-//    batch  and one mesh: one indirect draw; at most maxBatchInstances
-//     chunk up to 64 instances: one lane of the culling kernels
+//   run     one multi-draw call: same pipeline variant, cull mode, winding and texture set
+//    batch  one indirect draw: also the same mesh; at most maxBatchInstances
+//     chunk up to 64 instances: handled by one lane of the culling kernels
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,18 @@
 namespace candelabra::gbuffer
 {
 
-// compact_instances sums the counts of up to maxBatchInstances / CHUNK_SIZE = 256 chunks per lane.
+// Limit of compact_instances, whose lanes each sum the counts of at most 256 chunks.
 constexpr uint32_t maxBatchInstances = 256 * gpu::CHUNK_SIZE;
 
 enum class Variant : uint32_t { Plain, Detailed, Masked, Count };
 
-using TextureSet = std::array<int32_t, gpu::TEXTURES_PER_MATERIAL>; // by TEXTURE_*, -1: none
+using TextureSet = std::array<int32_t, gpu::TEXTURES_PER_MATERIAL>; // texture indices by TEXTURE_*;
+                                                                    // -1: no texture
 
 struct Run {
     Variant variant;
     bool doubleSided;
-    bool mirrored; // the transforms turn the winding round
+    bool mirrored; // the transforms mirror the mesh, which reverses its winding
     uint32_t textureSet;
     uint32_t firstCommand, commandCount;
 };
@@ -34,15 +35,15 @@ struct Run {
 struct Batches {
     std::vector<TextureSet> textureSets; // [0] has no textures
     std::vector<Run> runs;
-    std::vector<gpu::DrawCommand> commands; // instanceCount is 0: the GPU fills it in
+    std::vector<gpu::DrawCommand> commands; // instanceCount is 0: the GPU writes it
     std::vector<gpu::Chunk> chunks;
-    std::vector<gpu::InstanceRecord> instances; // batch after batch
-    std::vector<gpu::InstanceBounds> bounds;    // as many
+    std::vector<gpu::InstanceRecord> instances; // sorted by batch
+    std::vector<gpu::InstanceBounds> bounds;    // one per instance
 };
 
-// Keeps the order of instances within a batch; batches are sorted by state, then by mesh. At most
-// `maxDraws` commands per run. Throws gpu::Failure naming an instance, or material, that refers to
-// something that does not exist.
+// Sorts instances into batches. Batches are sorted by state, then by mesh; within a batch instances
+// keep their order. A run has at most `maxDraws` commands. Throws gpu::Failure naming an instance,
+// or a material, that refers to something that does not exist.
 Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
                      uint32_t maxDraws);
 

@@ -12,8 +12,8 @@ namespace candelabra::gbuffer
 namespace
 {
 
-// x minus what a float keeps of it. g++ 12.2 vectorises double(float(x)) of neighbouring members to
-// x and so returns 0 (-O2, x86-64); volatile keeps the rounding.
+// Returns the part of x that a float loses. g++ 12.2 vectorises double(float(x)) of neighbouring
+// members to x, so that the result would be 0 (-O2, x86-64); volatile keeps the rounding.
 float remainder(double x)
 {
     const volatile float kept = float(x);
@@ -41,8 +41,8 @@ CameraTerms::CameraTerms(const CndCamera& camera, float clearDepth)
     perspective = glm::dvec3(w) != glm::dvec3(0);
     forward = glm::normalize(perspective ? glm::dvec3(w) : glm::dvec3(reversedDepth ? -z : z));
 
-    // Perspective: points p of the ray satisfy x.p = ndc.x w.p and y.p = ndc.y w.p, so p - eye is a
-    // multiple of m^-1 (ndc, 1). Orthographic: the same with a constant w and parallel rays.
+    // Perspective: the points p of the ray satisfy x.p = ndc.x w.p and y.p = ndc.y w.p, so p - eye
+    // is a multiple of m^-1 (ndc, 1). Orthographic: w is constant, and the rays are parallel.
     const glm::dvec3 third = perspective ? glm::dvec3(w) : forward;
     const glm::dmat3 m = glm::transpose(glm::dmat3(glm::dvec3(x), glm::dvec3(y), third));
     const glm::dmat3 inverse = glm::inverse(m);
@@ -53,13 +53,14 @@ CameraTerms::CameraTerms(const CndCamera& camera, float clearDepth)
         rayOrigin = {-(inverse * glm::dvec3(x.w, y.w, 0)), inverse[0] * w.w, inverse[1] * w.w};
         rayDirection = {forward, glm::dvec3(0), glm::dvec3(0)};
     }
-    // Right-handed view space with x right and y up looks along -z; Vulkan's clip y points down.
+    // A right-handed view space with x right and y up looks along -z; y of Vulkan's clip space
+    // points down.
     mirrored = glm::determinant(m) < 0;
 
     const std::array<glm::dvec4, 6> clipPlanes{w + x, w - x, w + y, w - y, z, w - z};
     for (size_t i = 0; i < planes.size(); ++i) {
         const double length = glm::length(glm::dvec3(clipPlanes[i]));
-        // An infinite far plane has no direction (up to the rounding of the float matrix).
+        // An infinite far plane has no direction (but for the rounding of the float matrix).
         constexpr double noDirection = 1e-12;
         if (length <= noDirection * glm::length(clipPlanes[i]))
             planes[i] = {0, 0, 0, clipPlanes[i].w < 0 ? -1 : 1};

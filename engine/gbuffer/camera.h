@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything the raster pass derives from a CndCamera, in double.
+// Everything that the raster pass derives from a CndCamera, computed in double precision.
 #pragma once
 
 #include <array>
@@ -14,27 +14,29 @@
 namespace candelabra::gbuffer
 {
 
-// A position as two floats: x = hi + lo to 2^-48 relative.
+// A position as the sum of two floats, x = hi + lo, with a relative error of 2^-48.
 struct DoubleSingle {
     glm::vec3 hi, lo;
     explicit DoubleSingle(const glm::dvec3& x);
 };
 
 struct CameraTerms {
-    // Any perspective or orthographic clipFromView whose depth is `clearDepth` (0 or 1) far away.
+    // Accepts any perspective or orthographic clipFromView; `clearDepth` (0 or 1) is the depth of
+    // the far end.
     CameraTerms(const CndCamera& camera, float clearDepth);
 
     glm::mat4 clipFromView;
-    glm::dmat3 viewFromWorld; // rotation
-    glm::dvec3 position;      // world, of the view space's origin
+    glm::dmat3 viewFromWorld; // the rotation alone
+    glm::dvec3 position;      // origin of view space in world space
     bool perspective;
     bool reversedDepth;
-    bool mirrored; // the image is a mirror image: windings are turned round
-    // Ray through a point of the screen, view space, affine in ndc: [0] + x [1] + y [2].
+    bool mirrored; // the image is mirrored, which reverses windings
+    // The view-space ray through a point of the screen, affine in ndc: [0] + ndc.x [1] + ndc.y [2].
     std::array<glm::dvec3, 3> rayOrigin, rayDirection;
     glm::dvec3 forward; // unit, view space
-    // Clip volume around `position`, world axes: inside where dot(xyz, p - position) + w >= 0. Unit
-    // normals; a plane at infinity is (0, 0, 0, 1).
+    // Planes of the clip volume, relative to `position`, in world axes: a point p is inside where
+    // dot(xyz, p - position) + w >= 0. Normals have unit length; a plane at infinity is (0, 0, 0,
+    // 1).
     std::array<glm::dvec4, 6> planes;
 
     glm::dvec3 viewFrom(const glm::dvec3& world) const

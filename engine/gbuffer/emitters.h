@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visible area lights, copied into one upload buffer per frame slot when they changed.
+// The visible area lights. Changed lights are copied into one upload buffer per frame slot.
 #pragma once
 
 #include <array>
@@ -19,29 +19,31 @@ class Emitters
 public:
     Emitters(const gpu::Device& device, uint32_t slots) : device_(&device), slots_(slots) {}
 
-    // Keeps the area lights. Throws gpu::Failure; then the previous set stays.
+    // Stores the area lights among `lights`. Throws gpu::Failure; then the previous set stays.
     void set(std::span<const CndLight> lights, const double origin[3]);
 
-    // The buffer of `slot` with the latest set; the GPU must have finished the slot's last frame.
+    // Returns the buffer of `slot`, filled with the latest set. The GPU must have finished the
+    // slot's previous frame.
     const gpu::Buffer& update(uint32_t slot) noexcept;
 
-    // Lights of one shape, neighbours in the buffer.
+    // The lights of one shape, contiguous in the buffer.
     struct Group {
         uint32_t first = 0, count = 0;
     };
-    // By shape: shapes[i] is the type of group i. Distant ones come last: they are drawn where
-    // nothing else is.
+    // shapes[i] is the light type of group i. Distant spheres come last: they are drawn where
+    // nothing else was drawn.
     static constexpr std::array<CndLightType, 5> shapes{CND_LIGHT_SPHERE, CND_LIGHT_TUBE,
                                                         CND_LIGHT_RECTANGLE, CND_LIGHT_DISC,
                                                         CND_LIGHT_DISTANT_SPHERE};
     const std::array<Group, shapes.size()>& groups() const { return groups_; }
     bool empty() const { return records_.empty(); }
-    const std::array<double, 3>& origin() const { return origin_; } // world
+    const std::array<double, 3>& origin() const { return origin_; } // world space
 
 private:
     struct Slot {
         gpu::Buffer buffer;
-        gpu::Buffer larger; // replaces buffer at the next update: the GPU may still read that one
+        // Replaces `buffer` at the next update, because the GPU may still read `buffer` until then.
+        gpu::Buffer larger;
         uint64_t version = 0;
     };
     const gpu::Device* device_;

@@ -23,7 +23,7 @@ namespace
 
 using GeometryImpl = Geometry::Impl;
 
-constexpr uint32_t maxFramesInFlight = 8; // as in the C ABI
+constexpr uint32_t maxFramesInFlight = 8; // the limit of the C ABI
 
 gpu::RasterFrame rasterFrame(const CameraTerms& camera, const FrameInputs& in,
                              const std::array<double, 3>& emitterOrigin)
@@ -82,7 +82,7 @@ struct GBuffer::Impl {
     gpu::Kernel<gpu::CompactInstancesParams> compactInstances;
     Pipelines pipelines;
     std::vector<gpu::Buffer> rasterFrames; // one RasterFrame per slot
-    gpu::Bindings raySets;                 // per slot
+    gpu::Bindings raySets;                 // one per slot
     Emitters emitters;
 
     Impl(const gpu::Device& d, const GBufferDesc& g);
@@ -156,7 +156,7 @@ void GBuffer::Impl::beginRendering(VkCommandBuffer cmd, const FrameInputs& in) c
     const auto& b = in.background;
     const VkClearValue background{.color = {.float32 = {b[0], b[1], b[2], 1}}};
     const Attachments& a = in.attachments;
-    // By fragment output location (shaders/gbuffer/output.glsl).
+    // In the order of fragment output locations (shaders/gbuffer/output.glsl).
     const VkRenderingAttachmentInfo colors[] = {
         attachment(a.normalRoughness, color, zero), attachment(a.albedo, color, zero),
         attachment(a.radiance, color, background), attachment(a.specular, color, zero)};
@@ -238,9 +238,11 @@ void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records
         if (!group.count)
             continue;
         if (Emitters::shapes[i] == CND_LIGHT_DISTANT_SPHERE)
-            device.CmdSetDepthCompareOp(cmd, VK_COMPARE_OP_EQUAL); // where depth is clear
+            device.CmdSetDepthCompareOp(cmd, VK_COMPARE_OP_EQUAL); // only where the depth is still
+                                                                   // clear
         device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.emitters[i].get());
-        device.CmdDraw(cmd, 4, group.count, 0, group.first); // a quad each, triangle strip
+        device.CmdDraw(cmd, 4, group.count, 0, group.first); // one quad per emitter, as a triangle
+                                                             // strip
     }
 }
 
@@ -271,7 +273,7 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
     const gpu::Buffer& emitters = s.emitters.update(in.slot);
 
     s.timer.begin(cmd, in.slot);
-    waitForEarlierDraws(s.device, cmd); // they read what culling writes
+    waitForEarlierDraws(s.device, cmd); // earlier draws read what culling will write
     s.recordCulling({s.device, cmd, s.timer, in.slot}, g, camera, in);
 
     s.device.beginLabel(cmd, "gbuffer_raster");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GBuffer: the default raster pass. Culls and draws a Geometry, exact planes and balls, and visible
-// area lights into the G-buffer that the lighting module reads.
+// GBuffer: the default raster pass. It culls and draws a Geometry, exact planes and balls, and
+// visible area lights into the G-buffer that the lighting module reads.
 #pragma once
 
 #include <cstdint>
@@ -18,47 +18,49 @@ namespace candelabra::gbuffer
 struct GBufferDesc {
     uint32_t framesInFlight = 2; // 1..8
     CndGBufferLayout layout = CND_GBUFFER_FULL;
-    bool timestamps = false; // rows: cull_instances, compact_instances, gbuffer_raster
+    bool timestamps = false; // timer rows: cull_instances, compact_instances, gbuffer_raster
 };
 
 struct FrameInputs {
     uint32_t slot = 0; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
     CndCamera camera;
-    float clearDepth = 0;         // 0: reversed depth, compared with GREATER; else 1, with LESS
+    float clearDepth = 0;         // 0: reversed depth, compared with GREATER; 1: compared with LESS
     float background[3]{0, 0, 0}; // luminance of pixels without a surface, cd/m^2
     Attachments attachments;
-    uint32_t width = 0, height = 0; // pixels, at most those of the images
+    uint32_t width = 0, height = 0; // pixels, at most the size of the images
     bool cullInstances = true;      // false: draw every instance (to check the culling)
     bool drawInstances = true;
     bool drawAnalytic = true;
     bool drawEmitters = true;
 };
 
-// One frame per slot: use one GBuffer per view. All frames go to one queue.
+// Each frame slot holds one frame, so use one GBuffer per view. Submit all frames to one queue.
 class GBuffer
 {
 public:
-    // Throws gpu::Failure. Compiles every pipeline.
+    // Creates every pipeline. Throws gpu::Failure.
     GBuffer(const gpu::Device& device, const GBufferDesc& desc);
     ~GBuffer();
     GBuffer(GBuffer&&) noexcept;
     GBuffer& operator=(GBuffer&&) noexcept;
 
-    // Area lights to show, punctual ones are skipped; positions are relative to `origin`. The dark
-    // back of a one-sided light is not drawn; distant spheres are drawn where there is no surface,
-    // of several in one direction the last. Takes effect at the next recording; read before the
-    // call returns. May allocate when the count grows; throws gpu::Failure, and then the previous
-    // set stays.
+    // Sets the area lights to show; punctual lights are skipped. Positions are relative to
+    // `origin`. The dark back of a one-sided light is not drawn. Distant spheres are drawn where
+    // there is no surface; if several overlap, the last one is visible. The lights are read before
+    // the call returns and shown from the next recording on. May allocate memory when their number
+    // grows. Throws gpu::Failure; then the previous set stays.
     void setEmitters(std::span<const CndLight> lights, const double origin[3]);
 
-    // Records one frame. On entry the attachments may be in any state: their contents are
-    // discarded, and all earlier work is waited for. On exit normalRoughness, albedo, specular and
-    // depth are in SHADER_READ_ONLY_OPTIMAL and radiance in GENERAL, visible to COMPUTE_SHADER as
-    // CndLightingFrame wants them. Outside a render pass. Changes the graphics and compute state.
+    // Records one frame, outside a render pass. On entry the attachments may be in any state: their
+    // contents are discarded, and all earlier work is waited for. On exit normalRoughness, albedo,
+    // specular and depth are in SHADER_READ_ONLY_OPTIMAL and radiance in GENERAL, visible to
+    // COMPUTE_SHADER as CndLightingFrame requires. Changes graphics and compute state of the
+    // command buffer.
     void record(VkCommandBuffer cmd, const Geometry& geometry, const FrameInputs& in) noexcept;
 
-    // Times of the last frame recorded in `slot` into an array of CND_MAX_KERNEL_TIMES. The host
-    // must have waited for that frame; false when the device cannot tell.
+    // Writes the kernel times of the last frame recorded in `slot` to an array of
+    // CND_MAX_KERNEL_TIMES. The host must have waited for that frame. Returns false if the device
+    // cannot tell the times.
     bool times(uint32_t slot, CndKernelTime* times, uint32_t& count) const noexcept;
 
 private:

@@ -19,12 +19,12 @@ namespace
 using gpu::Binding;
 using gpu::MemoryUse;
 
-// Offsets in the staging buffer: texel size of RGBA8, and of what CPUs like to copy.
+// Alignment in the staging buffer: at least an RGBA8 texel, and convenient for memcpy.
 constexpr VkDeviceSize stagingAlignment = 16;
-// Levels of a 2^15 texture, the largest any device allows today.
+// Mip levels of a texture of 2^15 texels per side, the largest that any device allows today.
 constexpr uint32_t maxMipLevels = 16;
 
-// Collects what goes to the GPU, so that there is one staging buffer of the right size.
+// Collects all uploads first, so that one staging buffer of the right size can be created.
 class Uploads
 {
 public:
@@ -41,7 +41,7 @@ public:
         return b;
     }
 
-    // The data must stay until write().
+    // The data must stay valid until write().
     void add(const gpu::Buffer& target, VkDeviceSize offset, std::span<const std::byte> data)
     {
         if (data.empty())
@@ -83,8 +83,8 @@ private:
     }
 
     Geometry::Impl& g_;
-    std::vector<std::span<const std::byte>> sources_; // as many as g_.copies
-    std::vector<Chain> chains_;                       // as many as g_.textureCopies
+    std::vector<std::span<const std::byte>> sources_; // one per g_.copies
+    std::vector<Chain> chains_;                       // one per g_.textureCopies
     VkDeviceSize size_ = 0;
 };
 
@@ -241,10 +241,10 @@ Geometry::Geometry(const gpu::Device& device, const GeometryDesc& desc)
     g.materials = uploads.buffer("materials", materials, texels);
     g.bounds = uploads.buffer("instance bounds", batches.bounds, storage);
     g.chunks = uploads.buffer("chunks", batches.chunks, storage);
-    g.commands =
-        uploads.buffer("draw commands", batches.commands,
-                       storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT); // hosts may count what was drawn
+    g.commands = uploads.buffer("draw commands", batches.commands,
+                                storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT); // lets hosts copy out how
+                                                                       // many instances were drawn
     g.chunkCount = uint32_t(batches.chunks.size());
     createTexels(g, g.instances, "instances");
     createTexels(g, g.materials, "materials");

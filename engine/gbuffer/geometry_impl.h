@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a Geometry owns, as GBuffer sees it.
+// The GPU objects that a Geometry owns and GBuffer uses.
 #pragma once
 
 #include <vector>
@@ -12,16 +12,16 @@
 namespace candelabra::gbuffer
 {
 
-// Set 0 of the mesh shaders: the union of both stages' bindings.
+// Descriptor set 0 of the mesh shaders: the union of the bindings of both stages.
 std::vector<gpu::ReflectedBinding> meshBindings();
 
 struct Geometry::Impl {
-    // A part of the staging buffer that goes to a buffer.
+    // Part of the staging buffer that is copied to a buffer.
     struct Copy {
         VkBuffer target;
         VkBufferCopy region;
     };
-    // A part of the staging buffer that goes to all mip levels of textures[index].
+    // Part of the staging buffer that is copied to all mip levels of a texture.
     struct TextureCopy {
         uint32_t texture;
         VkDeviceSize offset;
@@ -30,21 +30,21 @@ struct Geometry::Impl {
     const gpu::Device* device;
     GeometryCounts counts;
 
-    // vertices holds all VertexCore, then, from detailOffset, all VertexDetail.
+    // All VertexCore, followed from detailOffset on by all VertexDetail.
     gpu::Buffer vertices, indices;
     VkDeviceSize detailOffset = 0;
     gpu::Buffer instances, materials; // texel buffers
     gpu::Buffer bounds, chunks, bits, chunkCounts, visible, commands;
     uint32_t chunkCount = 0;
 
-    std::vector<gpu::Image> textures; // those of the description, then a white texel
+    std::vector<gpu::Image> textures; // those of the description, followed by a white texel
     std::vector<gpu::Handle<VkSampler>> samplers;
     gpu::Bindings meshSets; // one set per texture set
     gpu::Bindings cullSet, compactSet;
 
     std::vector<Run> runs;
     std::vector<AnalyticObject> analyticObjects;
-    std::vector<Material> materialFactors; // by material, for the analytic objects
+    std::vector<Material> materialFactors; // by material index, for the analytic objects
 
     gpu::Buffer staging;
     std::vector<Copy> copies;

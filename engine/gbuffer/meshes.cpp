@@ -11,7 +11,7 @@ namespace candelabra::gbuffer
 namespace
 {
 
-// Share of vertex cache efficiency that may be given up for less overdraw (meshoptimizer's advice).
+// Share of vertex cache efficiency that may be lost to reduce overdraw (meshoptimizer's advice).
 constexpr float overdrawThreshold = 1.05f;
 
 void validate(const Mesh& mesh, size_t index)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All meshes in one vertex and one index buffer.
+// Packs all meshes into one vertex and one index buffer.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@
 namespace candelabra::gbuffer
 {
 
-// What every draw reads, and what only textured or vertex-coloured draws read.
+// The vertex data that every draw reads (core), and that only textured or vertex-coloured draws
+// read (detail).
 struct VertexCore {
     float position[3], normal[3];
 };
@@ -22,19 +23,19 @@ struct VertexDetail {
 struct PackedMesh {
     uint32_t firstIndex = 0, indexCount = 0;
     uint32_t vertexOffset = 0;
-    bool colored = false;     // some vertex colour is not 1
-    float min[3]{}, max[3]{}; // bounds of the used vertices
+    bool colored = false;     // some vertex colour differs from 1
+    float min[3]{}, max[3]{}; // bounding box of the used vertices
 };
 
 struct PackedMeshes {
     std::vector<VertexCore> core;
-    std::vector<VertexDetail> detail; // as many as core
+    std::vector<VertexDetail> detail; // one per core
     std::vector<uint32_t> indices;
     std::vector<PackedMesh> meshes;
 };
 
-// Merges equal vertices and reorders triangles and vertices for the vertex cache, overdraw and
-// fetch locality (meshoptimizer). Throws gpu::Failure naming the mesh whose indices are out of
+// Merges equal vertices and reorders triangles and vertices for the vertex cache, little overdraw
+// and fetch locality (meshoptimizer). Throws gpu::Failure naming the mesh whose indices are out of
 // range.
 PackedMeshes packMeshes(std::span<const Mesh> meshes);
 

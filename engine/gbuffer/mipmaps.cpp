@@ -13,14 +13,14 @@ namespace
 
 constexpr size_t channels = 4;
 
-// IEC 61966-2-1, argument in steps of 1/255.
+// Decodes an sRGB code, 0..255, not necessarily an integer (IEC 61966-2-1).
 double linearFromSrgb(double code)
 {
     const double c = code / 255.0;
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-// Conversion between 8-bit codes and linear values, rounding in the encoded space.
+// Converts between 8-bit codes and linear values; rounds to the nearest code in the encoded space.
 class Encoding
 {
 public:
@@ -42,17 +42,18 @@ public:
 
 private:
     std::array<float, 256> values_;
-    std::array<float, 255> limits_; // values that round up to the next code
+    std::array<float, 255> limits_; // limits_[i]: the linear value from which on a value is rounded
+                                    // to code i + 1
 };
 
-// Source texels under one destination texel along one axis, and their shares.
+// The source texels under one destination texel along one axis, and their weights.
 struct Taps {
     uint32_t first, count;
     float weights[3];
 };
 
-// Halving `n` texels, rounded down. Odd n = 2m+1 onto m: the destination is (2m+1)/m texels wide,
-// so the shares of texels 2i, 2i+1, 2i+2 are (m-i, m, i+1) / (2m+1).
+// Returns the taps for halving `n` texels, rounded down. For odd n = 2m+1 the m destination texels
+// are (2m+1)/m texels wide, so texels 2i, 2i+1, 2i+2 have the weights (m-i, m, i+1) / (2m+1).
 std::vector<Taps> halvingTaps(uint32_t n)
 {
     if (n == 1)
@@ -68,7 +69,8 @@ std::vector<Taps> halvingTaps(uint32_t n)
     return taps;
 }
 
-// `read(x, y, channel)` gives the source in linear space; the result is width * height * 4 floats.
+// Halves an image. `read(x, y, channel)` returns the source in linear space; the result has 4
+// floats per texel.
 template <typename Read>
 std::vector<float> halve(uint32_t width, uint32_t height, const Read& read)
 {

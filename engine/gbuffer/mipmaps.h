@@ -17,13 +17,14 @@ struct MipLevel {
     size_t offset; // bytes from the start of the chain
 };
 
-// Levels down to 1x1 (each half, rounded down), packed one after the other, 4 bytes per texel.
+// Returns the levels down to 1x1, each half as large (rounded down), packed one after the other, 4
+// bytes per texel.
 std::vector<MipLevel> mipLayout(uint32_t width, uint32_t height);
 size_t chainBytes(const std::vector<MipLevel>& levels);
 
-// Writes all levels. Each texel is the average over exactly its area of the level above, also when
-// a side is odd (three weighted taps); RGB of sRGB textures is averaged in linear space, alpha
-// always as it is. Levels are not rounded between each other: the error is half a step of 8 bits.
+// Writes all levels. Each texel is the average over exactly its area in the next larger level, also
+// when a side is odd (three weighted taps). RGB of sRGB textures is averaged in linear space, alpha
+// is averaged as it is. Intermediate levels are not rounded, so the error is half a step of 8 bits.
 void writeMips(const Texture& texture, const std::vector<MipLevel>& levels,
                std::span<std::byte> chain);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The barriers around the raster pass: its side of the contract in gbuffer.h.
+// The barriers around the raster pass, which implement what gbuffer.h promises on entry and exit.
 #pragma once
 
 #include "gbuffer/targets.h"
@@ -8,12 +8,13 @@
 namespace candelabra::gbuffer
 {
 
-// Culling may overwrite what earlier draws read.
+// Makes culling, which overwrites draw data, wait for earlier draws that read it.
 void waitForEarlierDraws(const gpu::Device& device, VkCommandBuffer cmd) noexcept;
-// From any state to attachments, and culling's results to draws.
+// Moves the attachments from any state to attachment layouts, and makes culling results visible to
+// draws.
 void prepareAttachments(const gpu::Device& device, VkCommandBuffer cmd,
                         const Attachments& attachments) noexcept;
-// To what CndLightingFrame wants.
+// Moves the attachments to the state that CndLightingFrame requires.
 void handToCompute(const gpu::Device& device, VkCommandBuffer cmd,
                    const Attachments& attachments) noexcept;
 

@@ -26,7 +26,7 @@ struct PipelineDesc {
     VkPipelineLayout layout;
 };
 
-// Colour formats by fragment output location; returns how many.
+// Writes the colour formats by fragment output location and returns their number.
 uint32_t colorFormats(CndGBufferLayout layout, std::array<VkFormat, 4>& formats)
 {
     const TargetFormats f = targetFormats(layout);
@@ -56,7 +56,7 @@ private:
     std::vector<uint32_t> values_;
 };
 
-// State that all pipelines share.
+// Fixed-function state that all pipelines share.
 constexpr VkPipelineViewportStateCreateInfo viewportState{
     .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
     .viewportCount = 1,
@@ -160,12 +160,12 @@ constexpr VkVertexInputBindingDescription emitterStreams[] = {
     {0, sizeof(gpu::EmitterRecord), VK_VERTEX_INPUT_RATE_INSTANCE}};
 constexpr VkVertexInputAttributeDescription emitterAttributes[] = {
     {gpu::EMITTER_POSITION, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
-     offsetof(gpu::EmitterRecord, position)}, // with the radius that follows it
+     offsetof(gpu::EmitterRecord, position)}, // and radius, which follows it
     {gpu::EMITTER_LUMINANCE, 0, VK_FORMAT_R32G32B32_SFLOAT,
      offsetof(gpu::EmitterRecord, luminance)},
     {gpu::EMITTER_AXIS_U, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::EmitterRecord, axisU)},
     {gpu::EMITTER_AXIS_V, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
-     offsetof(gpu::EmitterRecord, axisV)}}; // with twoSided
+     offsetof(gpu::EmitterRecord, axisV)}}; // and twoSided, which follows it
 
 } // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The graphics pipelines of the raster pass.
+// Creates the graphics pipelines of the raster pass.
 #pragma once
 
 #include <array>
@@ -11,21 +11,23 @@
 namespace candelabra::gbuffer
 {
 
-// Dynamic state of all of them: viewport, scissor, cull mode, front face, depth comparison.
+// All pipelines have the same dynamic state: viewport, scissor, cull mode, front face, depth
+// comparison.
 struct Pipelines {
     Pipelines(const gpu::Device& device, CndGBufferLayout layout);
 
     gpu::Handle<VkDescriptorSetLayout> meshSet, raySet;
     gpu::Handle<VkPipelineLayout> meshLayout, analyticLayout, emitterLayout;
     std::array<gpu::Handle<VkPipeline>, size_t(Variant::Count)> mesh;
-    std::array<gpu::Handle<VkPipeline>, 2> analytic;                       // by ANALYTIC_*
-    std::array<gpu::Handle<VkPipeline>, Emitters::shapes.size()> emitters; // as Emitters::shapes
+    std::array<gpu::Handle<VkPipeline>, 2> analytic; // by ANALYTIC_*
+    // in the order of Emitters::shapes
+    std::array<gpu::Handle<VkPipeline>, Emitters::shapes.size()> emitters;
 };
 
-// Vertex buffer bindings of the mesh pipelines; the emitter pipeline has binding 0 alone.
+// Vertex buffer bindings of the mesh pipelines. The emitter pipelines use binding 0 only.
 enum MeshStream : uint32_t { StreamCore, StreamDetail, StreamInstance, StreamCount };
 
-// Set 0 of the ray-cast pipelines.
+// Bindings of descriptor set 0 in the ray-cast pipelines.
 std::vector<gpu::ReflectedBinding> rayBindings();
 
 } // namespace candelabra::gbuffer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One sampler per combination of modes in use.
+// Creates one sampler for each combination of modes that is used.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The images of a G-buffer: formats per layout, and a helper that owns one set.
+// The images of a G-buffer: formats per layout, and an owner of one set of images.
 #pragma once
 
 #include "candelabra/candelabra.h"
@@ -13,15 +13,16 @@ struct Attachment {
     VkImageView view = VK_NULL_HANDLE;
 };
 
-// Borrowed images of one size, at least that of the frame.
+// Borrowed images, all of one size, at least that of the frame.
 struct Attachments {
     Attachment normalRoughness, albedo, radiance, depth;
-    Attachment specular; // FULL only
+    Attachment specular; // layout FULL only
 };
 
-// Bytes per pixel: FULL 8 + 8 + 8 + 4 + 16 = 44, COMPACT 4 + 4 + 4 + 16 = 28.
+// Formats of the images. Bytes per pixel: FULL 8 + 8 + 8 + 4 + 16 = 44, COMPACT 4 + 4 + 4 + 16 =
+// 28.
 struct TargetFormats {
-    VkFormat normalRoughness, albedo, specular, depth, radiance; // COMPACT: specular UNDEFINED
+    VkFormat normalRoughness, albedo, specular, depth, radiance; // COMPACT: `specular` is UNDEFINED
 };
 TargetFormats targetFormats(CndGBufferLayout layout);
 
@@ -33,8 +34,8 @@ struct Targets {
     Attachments attachments() const;
 };
 
-// Images that can be attachments, be sampled, be copied from; radiance also a storage image and
-// cleared. Throws gpu::Failure.
+// Creates images that can be used as attachments, sampled and copied from; radiance can also be a
+// storage image and be cleared. Throws gpu::Failure.
 Targets createTargets(const gpu::Device& device, CndGBufferLayout layout, uint32_t width,
                       uint32_t height);
 

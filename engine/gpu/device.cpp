@@ -9,7 +9,7 @@ namespace candelabra::gpu
 namespace
 {
 
-// The one list of features the engine uses: X(struct, member).
+// The only list of the features that the engine uses: X(struct, member).
 #define CND_REQUIRED_FEATURES(X)                                                                   \
     X(core10, multiDrawIndirect)                                                                   \
     X(core10, drawIndirectFirstInstance)                                                           \
@@ -19,7 +19,7 @@ namespace
     X(core13, maintenance4)                                                                        \
     X(core13, shaderTerminateInvocation)
 
-// Limits that the engine needs above Vulkan's guaranteed minimum: X(limit, least).
+// Limits that must exceed Vulkan's guaranteed minimum: X(limit, least value).
 #define CND_REQUIRED_LIMITS(X)                                                                     \
     X(maxComputeWorkGroupInvocations, 256) /* exposure: a lane per histogram bin */                \
     X(maxComputeWorkGroupSize[0], 256)                                                             \
@@ -196,7 +196,7 @@ std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice p
     if (!getProperties2)
         return {"an instance of Vulkan 1.1 or newer"};
     getProperties2(physicalDevice, &properties2);
-    constexpr VkSubgroupFeatureFlags subgroupNeeds = // count_pairs
+    constexpr VkSubgroupFeatureFlags subgroupNeeds = // used by count_pairs
         VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
         VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
     if ((core11.subgroupSupportedOperations & subgroupNeeds) != subgroupNeeds ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Device: the host's borrowed handles, our function table, and the limits we plan with.
+// Device: the host's borrowed handles, the engine's Vulkan function table, and the device's limits.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace candelabra::gpu
 {
 
-// Storage buffers of a kernel, at most: cluster_lists. The descriptor set of a host comes on top.
+// The most storage buffers that a kernel has (cluster_lists). A host's descriptor set adds its own.
 constexpr uint32_t maxStorageBuffers = 10;
 
 class Device
@@ -33,45 +33,45 @@ public:
     VkDevice handle;
     VkPipelineCache pipelineCache;
     const VkAllocationCallbacks* allocationCallbacks;
-    CndAllocator allocator;     // allocate is null: memory is ours
+    CndAllocator allocator;     // if allocate is null, the engine allocates device memory itself
     CndMessageCallback message; // may be null
     void* messageUser;
     VkPhysicalDeviceLimits limits{};
-    // Loop iterations that one shader invocation may do, all its loops together. llvmpipe ends
-    // loops silently after 65535 (LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm); no limit
-    // elsewhere.
+    // Loop iterations that one shader invocation may execute, over all its loops. llvmpipe ends
+    // loops silently after 65535 (LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm); other devices
+    // have no limit.
     uint32_t maxLoopIterations = UINT32_MAX;
     VkPhysicalDeviceMemoryProperties memory{};
-    // Of all objects that live on this device: they keep it (gpu/memory.h).
+    // Memory of all objects that exist on this device, kept up to date by gpu/memory.h.
     mutable CndMemoryUsage usage{};
 
-    // Throws Failure when `out` is another version's.
+    // Copies `usage` to `out`. Throws Failure if out.structSize is that of another version.
     void readUsage(CndMemoryUsage& out) const;
 
-    // Debug-utils name; nothing when the extension is off.
+    // Gives an object a debug-utils name; does nothing when the extension is off.
     void name(VkObjectType type, uint64_t object, const std::string& text) const;
     template <typename H>
     void name(VkObjectType type, H object, const std::string& text) const
     {
         name(type, reinterpret_cast<uint64_t>(object), text);
     }
-    // A sentence for the host's log, as of printf.
+    // Sends a sentence to the host's message callback, formatted as by printf.
     [[gnu::format(printf, 3, 4)]] void say(CndMessageSeverity severity, const char* format,
                                            ...) const noexcept;
     void beginLabel(VkCommandBuffer cmd, const char* text) const;
     void endLabel(VkCommandBuffer cmd) const;
 
-    // Index of a memory type allowed by `typeBits` with all of `required` and, if there is one, all
-    // of `preferred`. Throws Failure when there is none.
+    // Returns the index of a memory type in `typeBits` that has all of `required` and, if possible,
+    // all of `preferred`. Throws Failure when there is none.
     uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags required,
                         VkMemoryPropertyFlags preferred) const;
 };
 
-// What the engine needs and the device lacks, in words; empty when it lacks nothing.
+// Returns in words what the engine needs and the device lacks; empty when nothing is missing.
 std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice physicalDevice,
                                          PFN_vkGetInstanceProcAddr getInstanceProcAddr);
 
-// Sets every feature the engine needs.
+// Sets every feature that the engine needs to VK_TRUE.
 void requireFeatures(VkPhysicalDeviceFeatures& core10, VkPhysicalDeviceVulkan12Features& core12,
                      VkPhysicalDeviceVulkan13Features& core13);
 

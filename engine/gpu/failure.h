@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How creation fails inside the engine: one exception type, caught at the C ABI (guard), so that
-// nothing is thrown across it.
+// How the engine reports errors inside: it throws one exception type, which guard() catches at the
+// C ABI, so that nothing is thrown across it.
 #pragma once
 
 #include <exception>
@@ -17,23 +17,26 @@ namespace candelabra::gpu
 struct Failure {
     CndResult code;
     VkResult vkResult;
-    std::string message; // one sentence without the final full stop
+    std::string message; // one sentence without its full stop
 };
 
-// CND_SUCCESS for success codes but VK_NOT_READY.
+// Returns CND_SUCCESS for all Vulkan success codes except VK_NOT_READY, which becomes
+// CND_NOT_READY.
 CndResult resultOf(VkResult result) noexcept;
 
-// Throws a Failure when `result` is an error; `what` names the call and the object.
+// Throws a Failure if `result` is an error; `what` names the call and the object.
 void check(VkResult result, const std::string& what);
 
+// The fail functions throw a Failure with the result code of their name.
 [[noreturn]] void failArgument(std::string message);
-// Fails when one of the pointers an ABI function was given is null.
+// Throws a Failure if one of the pointers that an ABI function was given is null.
 void requireNotNull(const char* function, std::initializer_list<const void*> pointers);
 [[noreturn]] void failUnsupported(std::string message);
 
+// Fills in `error`, if it is not null, and returns `code`.
 CndResult report(CndError* error, CndResult code, VkResult vkResult, const char* message) noexcept;
 
-// Runs `body` and turns every way of failing into a result code and a sentence.
+// Runs `body` and turns anything that it throws into a result code and a sentence.
 template <typename Body>
 CndResult guard(CndError* error, Body&& body) noexcept
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every Vulkan entry point the engine calls, but for those that cndCheckDevice looks up before
-// there is a device. The engine loads no Vulkan: the table is filled from the host's
+// Every Vulkan function that the engine calls, except those that cndCheckDevice looks up before
+// there is a device. The engine does not load Vulkan: the table is filled through the host's
 // vkGetInstanceProcAddr.
 #pragma once
 
@@ -69,7 +69,7 @@
     X(MapMemory)                                                                                   \
     X(UpdateDescriptorSets)
 
-// VK_EXT_debug_utils; null when the host did not enable it.
+// VK_EXT_debug_utils; the pointers are null if the host did not enable it.
 #define CND_DEBUG_FUNCTIONS(X)                                                                     \
     X(CmdBeginDebugUtilsLabelEXT)                                                                  \
     X(CmdEndDebugUtilsLabelEXT)                                                                    \

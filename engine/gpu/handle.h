@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handle: move-only owner of one Vulkan object. The only place vkDestroy* is called (memory:
-// gpu/memory.h).
+// Handle: move-only owner of one Vulkan object. vkDestroy* is called nowhere else (memory is freed
+// in gpu/memory.cpp).
 #pragma once
 
 #include <utility>

@@ -177,7 +177,7 @@ KernelBase::KernelBase(const Device& device, const Spirv& spirv, uint32_t params
     if (storageBuffers > ptrdiff_t(maxStorageBuffers))
         failUnsupported(
             std::string("internal: ") + name_ + " has " + std::to_string(storageBuffers) +
-            " storage buffers, devices are asked for " + std::to_string(maxStorageBuffers));
+            " storage buffers, cndCheckDevice requires only " + std::to_string(maxStorageBuffers));
     constexpr VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
     setLayout_ = createSetLayout(device, name_, reflection_.bindings, stage);
     if (reflection_.usesHostSet && !hostLayout)

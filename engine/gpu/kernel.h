@@ -14,17 +14,18 @@
 namespace candelabra::gpu
 {
 
-// What a pass may touch while recording.
+// What a module needs to record commands of one frame.
 struct Frame {
     const Device& device;
     VkCommandBuffer cmd;
     Timer& timer;
-    uint32_t slot;                            // frame in flight
-    VkDescriptorSet hostSet = VK_NULL_HANDLE; // set 1 of kernels that use it
+    uint32_t slot;                            // index of the frame in flight
+    VkDescriptorSet hostSet = VK_NULL_HANDLE; // descriptor set 1, for kernels that use it
 
-    // Makes shader and transfer writes so far visible to later shader work and transfers.
+    // Makes all shader and transfer writes so far visible to later compute shaders, indirect
+    // commands and transfers.
     void barrier() const noexcept;
-    // Makes transfer writes so far visible to the host once it has waited for the frame.
+    // Makes all transfer writes so far visible to the host, once it has waited for the frame.
     void hostBarrier() const noexcept;
 };
 
@@ -33,7 +34,7 @@ struct SpecConstant {
     uint32_t value;
 };
 
-// One descriptor of a set: the binding number and what goes there.
+// One descriptor of a set: the binding number and the resource bound to it.
 struct Binding {
     uint32_t binding;
     VkBuffer buffer = VK_NULL_HANDLE;
@@ -41,7 +42,7 @@ struct Binding {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkBufferView texels = VK_NULL_HANDLE;
     VkSampler sampler = VK_NULL_HANDLE;
-    VkDeviceSize offset = 0, range = VK_WHOLE_SIZE; // of the buffer
+    VkDeviceSize offset = 0, range = VK_WHOLE_SIZE; // byte range of `buffer`
 
     static Binding of(uint32_t b, const Buffer& x) { return {.binding = b, .buffer = x.get()}; }
     static Binding ofTexels(uint32_t b, const Buffer& x)
@@ -58,7 +59,8 @@ struct Binding {
     }
 };
 
-// Set 0 of a shader: its layout, one descriptor set per frame slot, and the way to fill one.
+// Descriptor set 0 of a shader: its layout, `setCount` sets of that layout, and a way to write
+// them.
 class Bindings
 {
 public:
@@ -68,8 +70,8 @@ public:
 
     VkDescriptorSetLayout layout() const { return layout_.get(); }
     VkDescriptorSet set(uint32_t index) const { return sets_[index]; }
-    // Writes every binding of set `index`; the GPU must not be using it. All bindings of the layout
-    // must be given (a driver crashed on bindings left unwritten).
+    // Writes set `index`, which the GPU must not be using. Every binding of the layout must be
+    // given (a driver crashed on bindings that were never written).
     void write(uint32_t index, std::initializer_list<Binding> bindings) const;
 
 private:
@@ -88,7 +90,8 @@ public:
     KernelBase(const Device& device, const Spirv& spirv, uint32_t paramsSize,
                std::initializer_list<SpecConstant> constants, VkDescriptorSetLayout hostLayout);
     const char* name() const { return name_; }
-    // One set per frame slot, for one user (view) of the kernel.
+    // Creates `setCount` descriptor sets (one per frame slot, mostly) for one user of the kernel,
+    // such as a view.
     Bindings createBindings(uint32_t setCount) const;
 
 protected:
@@ -109,26 +112,29 @@ private:
     Handle<VkPipeline> pipeline_;
 };
 
-// Params: the push constant struct of the shader, from shaders/shared.
+// A kernel with a typed parameter struct. Params is the shader's push constant struct, from
+// shaders/shared.
 template <typename Params>
 class Kernel : public KernelBase
 {
 public:
     Kernel() = default;
-    // `hostLayout`: of set 1, for kernels that use it.
+    // `hostLayout`: layout of descriptor set 1, for kernels that use it.
     Kernel(const Device& device, const Spirv& spirv,
            std::initializer_list<SpecConstant> constants = {},
            VkDescriptorSetLayout hostLayout = VK_NULL_HANDLE)
         : KernelBase(device, spirv, sizeof(Params), constants, hostLayout)
     {
     }
-    // Group counts; a zero count records nothing but the timer row.
+    // Records a dispatch of x * y * z work groups. With a count of 0 only the timer row is
+    // recorded.
     void dispatch(const Frame& frame, VkDescriptorSet set, const Params& params, uint32_t x,
                   uint32_t y = 1, uint32_t z = 1) const noexcept
     {
         dispatchRaw(frame, set, &params, sizeof params, x, y, z);
     }
-    // Group counts (VkDispatchIndirectCommand) from byte `at` of `arguments`.
+    // Records a dispatch whose group counts (VkDispatchIndirectCommand) are read from `arguments`,
+    // at byte `at`.
     void dispatchIndirect(const Frame& frame, VkDescriptorSet set, const Params& params,
                           const Buffer& arguments, VkDeviceSize at = 0) const noexcept
     {
@@ -136,7 +142,7 @@ public:
     }
 };
 
-// Handles shared with pipelines that are not kernels (raster passes).
+// Creators shared with pipelines that are not kernels (raster passes).
 Handle<VkShaderModule> createShaderModule(const Device& device, const Spirv& spirv);
 Handle<VkDescriptorSetLayout> createSetLayout(const Device& device, const char* name,
                                               std::span<const ReflectedBinding> bindings,

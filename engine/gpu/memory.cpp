@@ -51,6 +51,7 @@ bool isMapped(const CndMemoryRequest& request)
 }
 
 // What is wrong with what the host's allocator gave; null: nothing.
+// Returns what is wrong with the memory that the host's allocator gave, or null.
 const char* faultOf(const CndMemoryRequest& request, const CndMemory& given)
 {
     if (!given.memory)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buffer and Image: rule-of-zero bundles of handles, each with its own memory, from the device or
-// from the host's allocator.
+// Buffer and Image: Vulkan objects bundled with their own memory, which comes from the device or
+// from the host's allocator. They follow the rule of zero.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,17 @@ namespace candelabra::gpu
 {
 
 enum class MemoryUse {
-    Device = CND_MEMORY_BUFFER,     // GPU only
-    Scratch = CND_MEMORY_SCRATCH,   // GPU only; no recording needs what an earlier one left
-    Upload = CND_MEMORY_UPLOAD,     // host writes once in order, GPU reads; mapped and coherent
-    Readback = CND_MEMORY_READBACK, // GPU writes, host reads; mapped, coherent, perhaps cached
-    Image = CND_MEMORY_IMAGE,       // GPU only
+    Device = CND_MEMORY_BUFFER,     // accessed by the GPU only
+    Scratch = CND_MEMORY_SCRATCH,   // accessed by the GPU only; contents need not survive between
+                                    // recordings
+    Upload = CND_MEMORY_UPLOAD,     // written sequentially by the host, read by the GPU; mapped and
+                                    // coherent
+    Readback = CND_MEMORY_READBACK, // written by the GPU, read by the host; mapped, coherent,
+                                    // cached if possible
+    Image = CND_MEMORY_IMAGE,       // accessed by the GPU only
 };
 
-// Owner of the memory of one object.
+// Owner of the memory of one buffer or image.
 class Memory
 {
 public:
@@ -51,12 +54,12 @@ private:
 };
 
 struct Buffer {
-    // Members are destroyed in reverse order: the memory goes last.
+    // The members are destroyed in reverse order, so that the memory is freed last.
     Memory memory;
     Handle<VkBuffer> buffer;
-    Handle<VkBufferView> texels; // optional R32G32B32A32_SFLOAT view
+    Handle<VkBufferView> texels; // optional view, R32G32B32A32_SFLOAT
     VkDeviceSize size = 0;
-    std::byte* mapped = nullptr; // null for what is of the GPU only
+    std::byte* mapped = nullptr; // null if only the GPU accesses the buffer
 
     VkBuffer get() const { return buffer.get(); }
     template <typename T>
@@ -66,11 +69,12 @@ struct Buffer {
     }
 };
 
-// `size` 0 is rounded up to 16 bytes so that every binding can always be written.
+// Creates a buffer of at least 16 bytes, so that even an empty one can be bound.
 Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize size,
                     VkBufferUsageFlags usage, MemoryUse use);
 
-// Adds a texel view over the first min(size, limit) bytes; needs UNIFORM_TEXEL_BUFFER usage.
+// Adds a texel view of the buffer's first bytes, as many as maxTexelBufferElements allows. The
+// buffer needs usage UNIFORM_TEXEL_BUFFER.
 void createTexelView(const Device& device, Buffer& buffer);
 
 struct Image {
@@ -82,20 +86,22 @@ struct Image {
     uint32_t mipLevels = 1;
 };
 
-// 2D image, optimal tiling, one layer, with a view of all mip levels and the given aspect.
+// Creates a 2D image with optimal tiling and one layer, and a view of all its mip levels with the
+// given aspect.
 Image createImage(const Device& device, const std::string& name, VkFormat format, uint32_t width,
                   uint32_t height, VkImageUsageFlags usage, VkImageAspectFlags aspect,
                   uint32_t mipLevels = 1);
 
-// R32G32B32A32_SFLOAT cube for sampling and for writing in compute.
+// An R32G32B32A32_SFLOAT cube map that can be sampled and written by compute shaders.
 struct CubeImage {
     Memory memory;
     Handle<VkImage> image;
-    Handle<VkImageView> view;              // a cube, all mips
-    std::vector<Handle<VkImageView>> mips; // each an array of six layers, for storage
+    Handle<VkImageView> view;              // cube view of all mip levels
+    std::vector<Handle<VkImageView>> mips; // per mip level, an array view of the six faces, for
+                                           // storage
 };
 
-// `size` texels a side.
+// `size`: texels per side of a face.
 CubeImage createCubeImage(const Device& device, const std::string& name, uint32_t size,
                           uint32_t mipLevels);
 

@@ -12,13 +12,14 @@ namespace candelabra::gpu
 namespace
 {
 
-// Vulkan's functions carry no context.
+// State of the current Planning, thread-local because Vulkan functions carry no user pointer.
 struct Context {
     Planning* planning = nullptr;
     PFN_vkGetDeviceBufferMemoryRequirements getBufferNeeds = nullptr;
     PFN_vkGetDeviceImageMemoryRequirements getImageNeeds = nullptr;
-    VkMemoryRequirements needs{}; // of the buffer or image made last, which are asked for at once
-    uint64_t handles = 0;         // given out
+    VkMemoryRequirements needs{}; // of the buffer or image created last, which are queried right
+                                  // after creation
+    uint64_t handles = 0;         // number of handles given out
 };
 thread_local Context context;
 
@@ -48,7 +49,8 @@ void describe(const VkImageCreateInfo* info, VkDevice device)
 
 void describe(const void*, VkDevice) {}
 
-// A function by its shape: succeeds, and writes handles where it would make objects.
+// Nothing<F>::call has the signature of the Vulkan function F. It succeeds without doing anything,
+// and returns made-up handles where F would create objects.
 template <typename F>
 struct Nothing;
 
@@ -91,7 +93,7 @@ struct Nothing<PFN_vkAllocateDescriptorSets> {
     }
 };
 
-// Buffers and images alike.
+// vkGetBufferMemoryRequirements and vkGetImageMemoryRequirements.
 template <typename H>
 struct Nothing<void(VKAPI_PTR*)(VkDevice, H, VkMemoryRequirements*)> {
     static void VKAPI_CALL call(VkDevice, H, VkMemoryRequirements* out) { *out = context.needs; }
@@ -104,7 +106,7 @@ Planning::Planning(const CndDeviceDesc& device)
 {
     const bool half = !device.allocator.allocate != !device.allocator.free;
     if (!device.instance || !device.device || !device.getInstanceProcAddr || half)
-        return; // what is made from it says so
+        return; // creating an object from desc() reports what is wrong
     getDeviceProcAddr_ = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
         getInstanceProcAddr_(device.instance, "vkGetDeviceProcAddr"));
     if (!getDeviceProcAddr_)
@@ -122,7 +124,8 @@ Planning::Planning(const CndDeviceDesc& device)
     desc_.debugUtilsEnabled = VK_FALSE;
     desc_.allocator = {.allocate = allocate,
                        .free = [](void*, void* allocation) { std::free(allocation); }};
-    desc_.message = nullptr; // of creation, which comes yet
+    // Messages belong to the real creation, which may follow.
+    desc_.message = nullptr;
 }
 
 Planning::~Planning()
@@ -140,7 +143,7 @@ PFN_vkVoidFunction Planning::instanceFunction(VkInstance instance, const char* n
 PFN_vkVoidFunction Planning::deviceFunction(VkDevice device, const char* name)
 {
     if (!context.planning->getDeviceProcAddr_(device, name))
-        return nullptr; // nor will creation find it
+        return nullptr; // creation will not find it either
 #define X(f)                                                                                       \
     if (std::strcmp(name, "vk" #f) == 0)                                                           \
         return reinterpret_cast<PFN_vkVoidFunction>(PFN_vk##f(Nothing<PFN_vk##f>::call));
@@ -151,7 +154,7 @@ PFN_vkVoidFunction Planning::deviceFunction(VkDevice device, const char* name)
 
 VkResult Planning::allocate(void*, const CndMemoryRequest* request, CndMemory* memory)
 {
-    void* bytes = nullptr; // where it is mapped: creation writes a little of it
+    void* bytes = nullptr; // mapped memory is real: creation writes to a little of it
     if (request->required & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) {
         bytes = std::malloc(size_t(request->requirements.size));
         if (!bytes)

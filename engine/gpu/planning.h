@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What objects will take, known by making them on Vulkan functions that make nothing: what these
-// are asked for is what the device would be asked for, with no list of buffers beside the code.
+// Planning finds out how much memory a module will take without creating it. The module's own code
+// runs with Vulkan functions that only record the requested sizes, so there is no separate list of
+// buffers to keep up to date.
 #pragma once
 
 #include "candelabra/candelabra.h"
@@ -8,16 +9,18 @@
 namespace candelabra::gpu
 {
 
+// While a Planning exists, objects created from desc() on this thread use no device memory.
 class Planning
 {
 public:
-    // Throws Failure. One at a time on a thread, which alone uses what is made from desc().
+    // Throws Failure. At most one Planning may exist per thread, and only that thread may use the
+    // objects created from desc().
     explicit Planning(const CndDeviceDesc& device);
     ~Planning();
     Planning(const Planning&) = delete;
     Planning& operator=(const Planning&) = delete;
 
-    // The device to create from; only its limits and memory requirements are real.
+    // The device description to create from. Only its limits and memory requirements are real.
     const CndDeviceDesc& desc() const { return desc_; }
 
 private:

@@ -66,8 +66,8 @@ public:
                 read(last, at);
             i += length;
         }
-        if (!whole || last != OpFunctionEnd) // the end of every shader
-            failArgument(name_ + " is not SPIR-V, or not all of it");
+        if (!whole || last != OpFunctionEnd) // every shader ends with a function
+            failArgument(name_ + " is not SPIR-V, or is truncated");
     }
 
     Reflection reflection() const
@@ -124,7 +124,7 @@ private:
             decorations_[at[1]].memberMatrixStride[at[2]] = at[4];
     }
 
-    // Words of an instruction, those that are read here at least.
+    // Returns the smallest length in words of an instruction, or of those words that are read here.
     static size_t leastLength(uint32_t op, const uint32_t* at, size_t length)
     {
         switch (op) {
@@ -163,7 +163,7 @@ private:
     }
 
     const uint32_t* definition(uint32_t id) const { return definitions_.at(id); }
-    // By this opcode, which says how many words can be read.
+    // Returns a definition that must have opcode `op`, which guarantees how many words can be read.
     const uint32_t* definition(uint32_t id, uint32_t op) const
     {
         const uint32_t* at = definition(id);
@@ -188,11 +188,12 @@ private:
         return size;
     }
 
-    // A type may only be made of types that come before it.
+    // Checks that a member type is defined before the type `of` that contains it: no cycles.
     uint32_t member(uint32_t id, uint32_t of) const
     {
         if (definition(id) >= definition(of))
-            failArgument(name_ + " is SPIR-V with a type that holds itself or a later one");
+            failArgument(name_ +
+                         " is SPIR-V with a type that contains itself or a type defined later");
         return id;
     }
 
@@ -251,7 +252,8 @@ Reflection reflect(const Spirv& spirv)
     try {
         return Module(spirv).reflection();
     } catch (const std::out_of_range&) {
-        failArgument(std::string(spirv.name) + " is SPIR-V that uses what it does not define");
+        failArgument(std::string(spirv.name) +
+                     " is SPIR-V that refers to an id that it does not define");
     }
 }
 

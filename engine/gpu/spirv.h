@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embedded shader modules, and what the engine reads back out of them to check its own C++ side.
+// Embedded shader modules, and reflection of their interface to check the engine's C++ side
+// against.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace candelabra::gpu
 {
 
 struct Spirv {
-    const char* name; // file name, e.g. "shade_tiles.comp": also label and timer row
+    const char* name; // file name, such as "shade_tiles.comp"; also the label and timer row
     std::span<const uint32_t> words;
 };
 
@@ -24,14 +25,14 @@ struct ReflectedBinding {
 };
 
 struct Reflection {
-    std::vector<ReflectedBinding> bindings; // descriptor set 0, by binding number
-    uint32_t pushConstantSize = 0;          // bytes, 0 without push constants
-    bool usesHostSet = false;               // descriptor set 1, of whatever bindings
+    std::vector<ReflectedBinding> bindings; // descriptor set 0, sorted by binding number
+    uint32_t pushConstantSize = 0;          // bytes; 0 without push constants
+    bool usesHostSet = false;               // descriptor set 1 is used, with whatever bindings
     bool operator==(const Reflection&) const = default;
 };
 
-// Reads bindings and the push constant block. Throws Failure on a module that uses a set above 1,
-// or is none.
+// Reads the bindings and the push constant block of a shader. Throws Failure if it uses a
+// descriptor set above 1 or is not valid SPIR-V.
 Reflection reflect(const Spirv& spirv);
 
 } // namespace candelabra::gpu

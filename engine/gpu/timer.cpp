@@ -11,8 +11,8 @@ namespace
 {
 constexpr uint32_t stampsPerSlot = Timer::maxScopes + 1;
 
-// Bits of a timestamp that count on every queue one can dispatch on: which queue it will be is the
-// host's business. Differences are taken modulo these bits, since narrow counters wrap.
+// Returns a mask of the timestamp bits that are valid on every queue that can dispatch, because the
+// host may use any of them. Differences are taken modulo this mask, since narrow counters wrap.
 uint64_t validBits(const Device& device)
 {
     uint32_t count = 0;
@@ -63,7 +63,7 @@ void Timer::begin(VkCommandBuffer cmd, uint32_t slot) noexcept
 
 void Timer::stamp(VkCommandBuffer cmd, const char* name) noexcept
 {
-    if (!pool_) // nor are there slots, when it was never given any
+    if (!pool_) // an empty Timer, whose slots_ is empty too, has no pool either
         return;
     Slot& slot = slots_[current_];
     if (slot.count == maxScopes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timer: GPU time of named, consecutive scopes of a frame.
+// Timer: measures the GPU time of named, consecutive scopes of a frame.
 #pragma once
 
 #include <vector>
@@ -9,25 +9,27 @@
 namespace candelabra::gpu
 {
 
-// One stamp at the start of a frame and one after each scope, so a scope's time runs from the end
-// of the one before it: n scopes cost n + 1 stamps and their times add up to the total. Scopes of
-// the same name are summed into one row, in order of first use. A disabled timer records nothing.
+// One timestamp is written at the start of a frame and one after each scope, so a scope lasts from
+// the end of the previous one to its own end: n scopes take n + 1 timestamps, and their times add
+// up to the total. Scopes with the same name are summed in one row; rows are in order of first use.
+// A disabled timer records nothing.
 class Timer
 {
 public:
     Timer() = default;
-    // `slots` frames in flight, each at most maxScopes scopes with CND_MAX_KERNEL_TIMES names;
-    // scopes beyond that are not timed.
+    // `slots`: number of frames in flight. Each frame has at most maxScopes scopes, with at most
+    // CND_MAX_KERNEL_TIMES different names; further scopes are not timed.
     static constexpr uint32_t maxScopes = 511;
     Timer(const Device& device, const char* name, uint32_t slots, bool enabled);
 
-    // Starts a frame; outside a render pass. The GPU must have finished the slot's previous frame.
+    // Starts a frame. Must be recorded outside a render pass; the GPU must have finished the slot's
+    // previous frame.
     void begin(VkCommandBuffer cmd, uint32_t slot) noexcept;
-    // Ends the scope `name` (static storage). Outside a render pass.
+    // Ends the scope `name` (static storage). Must be recorded outside a render pass.
     void stamp(VkCommandBuffer cmd, const char* name) noexcept;
 
-    // Writes the times of the last frame in `slot`. CND_NOT_READY while the GPU has not finished
-    // it, an error when it never will.
+    // Writes the times of the last frame in `slot`. Returns CND_NOT_READY while the GPU has not
+    // finished it, an error if it never will.
     CndResult read(uint32_t slot, CndKernelTime* times, uint32_t& count) const noexcept;
 
 private:

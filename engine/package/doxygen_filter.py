@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Doxygen's input filter: the headers' comments, which are plain //, as documentation.
+"""Doxygen's input filter: turns the plain // comments of the headers into documentation comments.
 
-A comment behind a declaration is about what stands before it, and so are the lines that go on with it;
-any other is about what follows, the first of a file about the file."""
+A trailing comment, with the lines that continue it, documents the declaration before it. Any other
+comment documents the declaration that follows, and the first comment of a file documents the file."""
 import re
 import sys
 
 
 def documented(lines):
-    behind = None  # column of the comment behind a declaration that may go on
-    head = True    # in the comment that opens the file
+    behind = None  # column of a trailing comment that the next line may continue
+    head = True    # inside the comment that opens the file
     for line in lines:
         alone = re.match(r"( *)//( ?)(.*)", line)
         after = re.match(r"(.*\S.*?)//( .*)", line)

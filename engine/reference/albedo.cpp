@@ -21,7 +21,8 @@ struct Node {
     double x, weight; // on [0, 1]
 };
 
-// Tanh-sinh rule (Takahasi and Mori 1974) with 2 n + 1 nodes: converges whatever the ends are like.
+// Tanh-sinh rule (Takahasi and Mori 1974) with 2 n + 1 nodes: it converges whatever the function
+// does at the ends.
 std::vector<Node> tanhSinh(int n)
 {
     std::vector<Node> nodes;
@@ -35,9 +36,9 @@ std::vector<Node> tanhSinh(int n)
     return nodes;
 }
 
-// Microfacet normals at azimuth phi from the eye's: angle theta from the surface normal with
-// tan(theta) = alpha sinh(x), which spreads the lobe's peak and tail evenly. The reflected ray is
-// above the horizon while cos(2 theta - psi) > 0.
+// Integrates over microfacet normals at azimuth phi relative to the eye's. Their angle theta from
+// the surface normal is parametrised by tan(theta) = alpha sinh(x), which spreads the lobe's peak
+// and tail evenly. The reflected ray is above the horizon while cos(2 theta - psi) > 0.
 DirectionalAlbedo azimuthSlice(double NoV, double alpha, double phi, const std::vector<Node>& rule)
 {
     const double sinV = std::sqrt((1 - NoV) * (1 + NoV));
@@ -53,7 +54,7 @@ DirectionalAlbedo azimuthSlice(double NoV, double alpha, double phi, const std::
         const double sinH = tangent * NoH;
         const double VoH = tilt * sinH + NoV * NoH;
         const double NoL = 2 * VoH * NoH - NoV;
-        if (NoL <= 0 || VoH <= 0) // rounding at the end of the interval
+        if (NoL <= 0 || VoH <= 0) // rounding errors at the end of the interval
             continue;
         const double g2 = 1 / (1 + lambdaV + smithLambda(std::min(NoL, 1.0), alpha));
         const double dTheta = alpha * std::cosh(x) * NoH * NoH; // d theta / d x
@@ -68,11 +69,13 @@ DirectionalAlbedo integrate(double NoV, double alpha, int n)
 {
     const std::vector<Node> rule = tanhSinh(n);
     DirectionalAlbedo sum;
-    // At grazing angles the slices change quickly where the azimuth is a right angle.
+    // At grazing angles the slices change quickly where the azimuth is a right angle, so split
+    // there.
     for (const double start : {0.0, pi / 2})
         for (const Node& node : rule) {
             const DirectionalAlbedo slice = azimuthSlice(NoV, alpha, start + pi / 2 * node.x, rule);
-            const double weight = 2 * (pi / 2) * node.weight; // both sides of the eye's plane
+            const double weight = 2 * (pi / 2) * node.weight; // factor 2: both sides of the eye's
+                                                              // plane
             sum.a += weight * slice.a;
             sum.b += weight * slice.b;
         }

@@ -13,7 +13,7 @@ namespace candelabra::reference
 namespace
 {
 
-// Cosines of normalised vectors miss [0, 1] by a few rounding errors.
+// Cosines of normalised vectors exceed [0, 1] by a few rounding errors.
 constexpr double cosineSlack = 1e-12;
 
 void requireDomain(bool inside, const char* name, double value)
@@ -80,7 +80,7 @@ SpecularBrdf ggxBrdf(const glm::dvec3& normal, const glm::dvec3& toEye, const gl
         return {};
     const glm::dvec3 sum = toEye + toLight;
     const double length = glm::length(sum);
-    // An eye straight against the light: only possible with NoV <= 0, where nothing is seen.
+    // The eye is exactly opposite the light: only possible with NoV <= 0, where nothing is visible.
     if (length == 0)
         return {};
     const glm::dvec3 half = sum / length;

@@ -16,7 +16,7 @@ namespace
 
 constexpr double pi = std::numbers::pi;
 
-// Polar coordinates around a pole, and where in them the outline is above the horizon.
+// Polar coordinates around a pole, and the part of the outline above the horizon in them.
 class PolarRegion
 {
 public:
@@ -27,7 +27,7 @@ public:
 
     glm::dvec3 spoke(double phi) const { return std::cos(phi) * pole_.x + std::sin(phi) * pole_.y; }
 
-    // Interval of theta, inside [0, pi].
+    // Returns the interval of theta on a spoke, inside [0, pi].
     std::optional<Arc> interval(const glm::dvec3& spoke) const
     {
         std::optional<Arc> arc = outline_.arc(pole_.z, spoke);
@@ -39,8 +39,8 @@ public:
         return arc;
     }
 
-    // Angles phi at which the interval's ends are not smooth: tangents and corners of the outline,
-    // and where it meets the horizon.
+    // Returns the angles phi at which the ends of the interval are not smooth: tangents and corners
+    // of the outline, and where the outline meets the horizon.
     std::vector<double> breaks() const
     {
         std::vector<double> out = outline_.angles(pole_);
@@ -71,7 +71,8 @@ LightResponse directionDomainSpecular(const SurfacePoint& given, double alpha,
     const SurfacePoint surface = liftEye(given);
     const glm::dvec3& n = surface.normal;
     const double NoV = glm::dot(n, surface.toEye);
-    // From the tangential part, so that the mirror direction is as exact at grazing as elsewhere.
+    // Computed from the tangential part, so that the mirror direction is as exact at grazing angles
+    // as elsewhere.
     const glm::dvec3 mirror = glm::normalize(NoV * n - (surface.toEye - NoV * n));
     const Frame pole = frameAround(mirror, n);
     const PolarRegion region(outline, n, pole);
@@ -82,8 +83,8 @@ LightResponse directionDomainSpecular(const SurfacePoint& given, double alpha,
         const std::optional<Arc> arc = region.interval(spoke);
         if (!arc)
             return out;
-        // A half-vector slope alpha is this far from the mirror direction: alpha NoV in halves of
-        // the angle across the plane of incidence and alpha along it.
+        // Distance from the mirror direction at which the half-vector slope is alpha: in half
+        // angles it is alpha NoV across the plane of incidence and alpha along it.
         const double cosine = std::cos(phi), sine = std::sin(phi);
         const double width = alpha * NoV / std::sqrt(NoV * NoV * cosine * cosine + sine * sine);
         const auto toU = [&](double theta) {

@@ -29,7 +29,7 @@ struct Range {
     double low, high;
 };
 
-// The part of a range in which base + slope x > 0.
+// Returns the part of a range in which base + slope x > 0.
 Range positivePart(Range range, double base, double slope)
 {
     if (slope > 0)
@@ -41,7 +41,7 @@ Range positivePart(Range range, double base, double slope)
     return range;
 }
 
-// Angles with base + x cos t + y sin t = 0, in [-pi, pi]: none or two.
+// Appends the angles in [-pi, pi] with base + x cos t + y sin t = 0: none or two.
 void addCircleRoots(double base, double x, double y, std::vector<double>& out)
 {
     const double amplitude = std::hypot(x, y);
@@ -52,14 +52,14 @@ void addCircleRoots(double base, double x, double y, std::vector<double>& out)
     out.push_back(std::remainder(centre + width, 2 * pi));
 }
 
-// The receiver at the origin.
+// The surface point that receives the light, moved to the origin.
 struct Receiver {
     SurfacePoint surface;
     double alpha;
     glm::dvec3 mirror;
 
-    // The integrand times the solid angle of a surface element of size `area` around p whose
-    // normal makes the cosine `facing` with the way to the receiver.
+    // Returns the integrand times the solid angle of a surface element of size `area` at p, where
+    // `facing` is the cosine between the element's normal and the direction to the receiver.
     std::array<double, 3> element(const glm::dvec3& p, double facing, double area) const
     {
         const double distance2 = glm::dot(p, p);
@@ -73,7 +73,7 @@ struct Receiver {
         return {a, a * brdf.schlickWeight, weight / pi};
     }
 
-    // Where the line start + x step passes the mirror ray.
+    // Returns x at which the line start + x step passes closest to the mirror ray.
     double nearMirror(const glm::dvec3& start, const glm::dvec3& step) const
     {
         const glm::dvec3 a = start - glm::dot(start, mirror) * mirror;
@@ -103,7 +103,7 @@ void accumulate(LightResponse& out, const Integral<6>& part)
     out.converged = out.converged && part.converged;
 }
 
-// One row: f over the range, broken at `interesting` where that is inside.
+// Integrates f along one row, which is broken at `interesting` if that lies inside the range.
 template <class F>
 Integral<3> alongRow(const Range& range, double interesting, double relative, F&& f)
 {
@@ -115,7 +115,7 @@ Integral<3> alongRow(const Range& range, double interesting, double relative, F&
                             f);
 }
 
-// Breaks inside the range, with its ends.
+// Returns the breaks inside the range, with its ends, sorted.
 std::vector<double> panelsOf(const Range& range, std::vector<double> breaks)
 {
     std::erase_if(breaks, [&](double x) { return !(x > range.low && x < range.high); });
@@ -125,7 +125,8 @@ std::vector<double> panelsOf(const Range& range, std::vector<double> breaks)
     return breaks;
 }
 
-// Points center + x u + y v with |x|, |y| <= 1 (rectangle) or x^2 + y^2 <= 1 (disc).
+// Integrates over points center + x u + y v with |x|, |y| <= 1 (rectangle) or x^2 + y^2 <= 1
+// (disc).
 LightResponse planar(const Receiver& receiver, const glm::dvec3& center, const glm::dvec3& u,
                      const glm::dvec3& v, bool disc, double relative)
 {
@@ -140,12 +141,12 @@ LightResponse planar(const Receiver& receiver, const glm::dvec3& center, const g
         addCircleRoots(base, nu, nv, angles);
         for (const double angle : angles)
             breaks.push_back(std::sin(angle));
-        // Rows that lie in the horizon.
+        // The row that lies in the horizon.
         breaks.push_back(-base / nv);
     } else {
         breaks = {-(base + nu) / nv, -(base - nu) / nv};
     }
-    // The mirror ray's hit: center + x u + y v parallel to the mirror direction.
+    // The row that the mirror ray hits: center + x u + y v is parallel to the mirror direction.
     const double approach = glm::dot(normal, receiver.mirror);
     if (approach != 0) {
         const glm::dvec3 hit = receiver.mirror * (glm::dot(normal, center) / approach) - center;
@@ -174,8 +175,8 @@ LightResponse planar(const Receiver& receiver, const glm::dvec3& center, const g
 }
 
 struct Tube {
-    glm::dvec3 center, axis; // axis: unit
-    double half, radius;     // half the segment
+    glm::dvec3 center, axis; // unit
+    double half, radius;     // half the length of the segment; radius
 };
 
 void addCylinder(const Receiver& receiver, const Tube& tube, double relative, LightResponse& out)
@@ -191,7 +192,8 @@ void addCylinder(const Receiver& receiver, const Tube& tube, double relative, Li
     for (const double end : {-tube.half, tube.half})
         addCircleRoots(glm::dot(n, tube.center + end * tube.axis), tube.radius * glm::dot(n, e1),
                        tube.radius * glm::dot(n, e2), breaks);
-    // Where the mirror ray, seen along the axis, meets the circle or passes it.
+    // The angle at which the mirror ray, projected along the axis, meets the circle or passes it
+    // closest.
     const double d1 = glm::dot(receiver.mirror, e1), d2 = glm::dot(receiver.mirror, e2);
     if (const double d = d1 * d1 + d2 * d2; d > 0) {
         const double inside =
@@ -221,8 +223,9 @@ void addCylinder(const Receiver& receiver, const Tube& tube, double relative, Li
     accumulate(out, sum);
 }
 
-// The half of a sphere around `center` whose normals point along `outward`, in polar coordinates of
-// the normal around the way to the receiver. No breaks: halving finds the corners.
+// Integrates over the half of a sphere around `center` whose normals point along `outward`, in
+// polar coordinates of the normal around the direction to the receiver. It needs no breaks: halving
+// panels finds the corners.
 void addHemisphere(const Receiver& receiver, const glm::dvec3& center, const glm::dvec3& outward,
                    double radius, double relative, LightResponse& out)
 {
@@ -235,10 +238,10 @@ void addHemisphere(const Receiver& receiver, const glm::dvec3& center, const glm
     const auto along = [&](double phi) {
         Values values{};
         const glm::dvec3 spoke = std::cos(phi) * pole.x + std::sin(phi) * pole.y;
-        // outward . normal > 0: angles within pi / 2 of a centre in [-pi, pi].
+        // outward . normal > 0 holds within pi / 2 of `middle`, which is in [-pi, pi].
         const double middle = std::atan2(glm::dot(outward, spoke), glm::dot(outward, pole.z));
         const Range range{std::max(0.0, middle - pi / 2), std::min(rim, middle + pi / 2)};
-        // n . (center + radius normal) > 0: angles within `width` of `up`.
+        // n . (center + radius normal) > 0 holds within `width` of `up`.
         const double x = glm::dot(n, pole.z), y = glm::dot(n, spoke);
         const double least = -glm::dot(n, center) / radius;
         const double up = std::atan2(y, x);

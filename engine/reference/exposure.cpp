@@ -17,7 +17,7 @@ constexpr int minExponent = -12; // lower edge of bin 0, log2 of cd/m^2
 constexpr int maxExponent = 20;  // upper edge of bin 255
 constexpr uint32_t binsPerOctave = 8;
 constexpr uint32_t mantissaShift = 20; // leaves three bits of the mantissa: 2^3 = binsPerOctave
-constexpr uint32_t fractionShift = 16; // the next four bits say where in the bin
+constexpr uint32_t fractionShift = 16; // the next four bits are the position within the bin
 constexpr uint32_t fractions = 16;
 constexpr uint32_t exponentBias = 127; // IEEE 754 binary32
 static_assert(binsPerOctave * (maxExponent - minExponent) == CND_HISTOGRAM_BINS);
@@ -56,8 +56,8 @@ std::optional<uint32_t> histogramBin(float luminance)
         return 0;
     if (luminance >= std::ldexp(1.0f, maxExponent))
         return CND_HISTOGRAM_BINS - 1;
-    // A float's exponent and the top of its mantissa, read as one integer, count the bins from
-    // 2^-127.
+    // The exponent of a float and the top bits of its mantissa, read as one integer, number the
+    // bins from 2^-127 on.
     const uint32_t bits = std::bit_cast<uint32_t>(luminance);
     return (bits >> mantissaShift) - (exponentBias + minExponent) * binsPerOctave;
 }
@@ -125,7 +125,7 @@ Histogram buildHistogram(std::span<const float> rgba, uint32_t width, uint32_t h
 
 std::optional<double> percentileMeanLog2(const Histogram& histogram, double low, double high)
 {
-    double total = 0; // at most 15 * 2^28, exact in double
+    double total = 0; // at most 15 * 2^28, which is exact in double
     for (const uint32_t count : histogram.counts)
         total += count;
     const double black = histogram.blackWeight < total ? histogram.blackWeight : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the two lobes of a material share the light, in double.
+// How the two lobes of a material share the light. In double precision.
 #pragma once
 
 #include "candelabra/candelabra.h"
@@ -8,11 +8,13 @@
 namespace candelabra::reference
 {
 
-// The material as an eye at this cosine sees it, with A = F0 (a - b) + F90 b the share of a white
-// surrounding that its specular lobe reflects (albedo.h):
-//   energyCompensation: the lobe times g = 1 + F0 (1 / a - 1) (Turquin 2019, eq. 16);
-//   CND_LOBES_CONSERVING: the diffuse lobe times 1 - g A, not below 0.
-// Albedos are taken at no less than NoV 1e-4 and alpha 0.002, where a is 1 to 1e-6 already.
+// Returns the material as it appears to an eye at this cosine. With A = F0 (a - b) + F90 b, the
+// share of uniform surroundings that its specular lobe reflects (albedo.h):
+//   energyCompensation: the specular lobe is multiplied by g = 1 + F0 (1 / a - 1) (Turquin 2019,
+//     eq. 16);
+//   CND_LOBES_CONSERVING: the diffuse lobe is multiplied by 1 - g A, at least 0.
+// Albedos are evaluated at NoV >= 1e-4 and alpha >= 0.002, where a differs from 1 by less than
+// 1e-6.
 Material joinLobes(Material material, double NoV, CndLobeJoining lobes, bool energyCompensation);
 
 } // namespace candelabra::reference

@@ -26,7 +26,8 @@ bool hasSpecular(const Material& material, CndSpecularMethod method)
            (material.f0 != glm::dvec3(0) || material.specularWeight != 0);
 }
 
-// Outgoing luminance under illuminance `perpendicular` (lx on a facing surface) from one direction.
+// Returns the outgoing luminance under illuminance `perpendicular` (lx on a surface that faces the
+// light) from one direction.
 glm::dvec3 fromDirection(const SurfacePoint& surface, const Material& material,
                          const glm::dvec3& toLight, const glm::dvec3& perpendicular,
                          CndSpecularMethod method)

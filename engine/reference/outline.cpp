@@ -24,7 +24,7 @@ double angleOf(const Frame& pole, const glm::dvec3& direction)
     return std::atan2(glm::dot(direction, pole.y), glm::dot(direction, pole.x));
 }
 
-// Directions t of a plane with A cos^2 t + 2 B cos t sin t + C sin^2 t = 0: up to four.
+// Appends the directions t of a plane with A cos^2 t + 2 B cos t sin t + C sin^2 t = 0: up to four.
 void addRoots(double A, double B, double C, std::vector<double>& out)
 {
     const double root = B * B - A * C;
@@ -42,8 +42,8 @@ class CapOutline final : public Outline
 public:
     explicit CapOutline(const SphereCap& cap) : cap_(cap), cosine_(cap.cosine()) {}
 
-    // The circle's plane is cut at the distance e from the axis: sin^2 of the half width is
-    // (s^2 - e^2) / (1 - e^2).
+    // The circle's plane is at distance e from the axis: sin^2 of the arc's half width is (s^2 -
+    // e^2) / (1 - e^2).
     std::optional<Arc> arc(const glm::dvec3& p, const glm::dvec3& q) const override
     {
         const double e = glm::dot(cap_.axis, glm::cross(p, q));
@@ -56,7 +56,7 @@ public:
     std::vector<double> angles(const Frame& pole) const override
     {
         const double across = std::hypot(glm::dot(cap_.axis, pole.x), glm::dot(cap_.axis, pole.y));
-        if (across <= std::sqrt(cap_.sin2)) // the pole, or its opposite, is inside
+        if (across <= std::sqrt(cap_.sin2)) // the pole or its opposite is inside
             return {};
         const double centre = angleOf(pole, cap_.axis);
         const double half =
@@ -116,8 +116,8 @@ private:
     glm::dvec3 centre_;
 };
 
-// Directions w with |h w - C (w . N)|^2 <= R^2 (w . N)^2, h = C . N the distance of the plane, on
-// the side of the disc.
+// Directions w with |h w - C (w . N)|^2 <= R^2 (w . N)^2 on the side of the disc; h = C . N is the
+// distance of its plane.
 class DiscOutline final : public Outline
 {
 public:
@@ -134,20 +134,20 @@ public:
     std::optional<Arc> arc(const glm::dvec3& p, const glm::dvec3& q) const override
     {
         const Form f = form(p, q);
-        // A cos^2 + 2 B cos sin + C sin^2 <= 0 is an arc and its opposite.
+        // A cos^2 + 2 B cos sin + C sin^2 <= 0 holds on an arc and on its opposite.
         const double half = (f.A - f.C) / 2, mean = (f.A + f.C) / 2;
-        const double root = f.B * f.B - f.A * f.C; // = half^2 + B^2 - mean^2
+        const double root = f.B * f.B - f.A * f.C; // equals half^2 + B^2 - mean^2
         if (!(root > 0))
             return std::nullopt;
         const double middle = std::atan2(f.B, half) / 2 + pi / 2;
-        // cos(2 width) = mean / hypot(half, B), sin(2 width) = sqrt(root) / the same.
+        // cos(2 width) = mean / hypot(half, B), sin(2 width) = sqrt(root) / hypot(half, B).
         const double width = std::atan2(std::sqrt(root), mean) / 2;
         const bool front =
             glm::dot(normal_, p) * std::cos(middle) + glm::dot(normal_, q) * std::sin(middle) > 0;
         return Arc{front ? middle : middle + pi, width};
     }
 
-    // The arc vanishes where B^2 = A C, which is a quadratic form in the direction as well.
+    // The arc vanishes where B^2 = A C, which is also a quadratic form in the direction.
     std::vector<double> angles(const Frame& pole) const override
     {
         const Form x = form(pole.z, pole.x), y = form(pole.z, pole.y);
@@ -183,8 +183,8 @@ SphereCap capOf(const glm::dvec3& center, double radius)
     return {center / distance, s * s};
 }
 
-// Two caps and, unless one holds the other, the polygon between the four points at which the two
-// common tangent planes touch the spheres.
+// The outline of a capsule: two caps and, unless one contains the other, the polygon between the
+// four points at which the two common tangent planes touch the spheres.
 class CapsuleOutline final : public Outline
 {
 public:
@@ -221,7 +221,7 @@ public:
                 out = part;
                 return;
             }
-            // The union of overlapping arcs.
+            // The arcs overlap: take their union.
             const double shift = wrapped(part->centre - out->centre);
             const double low = std::min(-out->halfWidth, shift - part->halfWidth);
             const double high = std::max(out->halfWidth, shift + part->halfWidth);

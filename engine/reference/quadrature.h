@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adaptive Gauss-Kronrod quadrature of several functions at once, with its own error estimate.
+// Adaptive Gauss-Kronrod quadrature of several functions at once, with an error estimate.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,8 @@
 namespace candelabra::reference
 {
 
-// N functions over one interval. `error` bounds the value's error as a rule, not as a theorem.
+// Integrals of N functions over one interval. `error` usually bounds the error; it is an estimate,
+// not a proof.
 template <size_t N>
 struct Integral {
     std::array<double, N> value{};
@@ -24,9 +25,9 @@ struct Integral {
 namespace detail
 {
 
-// The 15-point Kronrod rule and the 7-point Gauss rule inside it: Piessens, de Doncker-Kapenga,
-// Ueberhuber and Kahaner 1983 (QUADPACK, qk15). Nodes from the end inwards; every second one,
-// beginning with the second, is a Gauss node.
+// The 15-point Kronrod rule and the 7-point Gauss rule inside it (Piessens, de Doncker-Kapenga,
+// Ueberhuber and Kahaner 1983: QUADPACK, qk15). Nodes are listed from the end inwards; every second
+// one, beginning with the second, is a Gauss node.
 inline constexpr std::array<double, 8> kronrodNodes = {
     0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
     0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
@@ -47,8 +48,8 @@ struct Panel {
     std::array<double, N> value, error;
 };
 
-// One panel. Error as QUADPACK estimates it: the difference of the two rules, scaled down by the
-// power 3/2 where it is small against the function's deviation from its mean.
+// Integrates one panel. The error is estimated as QUADPACK does: the difference of the two rules,
+// scaled down with the power 3/2 where it is small against the function's deviation from its mean.
 template <size_t N, class F>
 Panel<N> kronrod(double low, double high, F& f)
 {
@@ -86,10 +87,10 @@ Panel<N> kronrod(double low, double high, F& f)
 } // namespace detail
 
 // Integrates f, which maps a double to std::array<double, N>, from the first to the last of
-// `breaks` (increasing; the points where f is not smooth belong into it). The panel with the
-// largest error is halved until, for each of the first `Judged` functions, the sum of errors is
-// below `relative` times the larger of its own integral and a thousandth of the largest one; or
-// below `absolute`; or until there are MaxPanels panels.
+// `breaks` (increasing; include the points where f is not smooth). The panel with the largest error
+// is halved until, for each of the first `Judged` functions, the sum of errors is below `relative`
+// times the larger of its own integral and a thousandth of the largest one, or below `absolute`; or
+// until there are MaxPanels panels.
 template <size_t Judged, size_t MaxPanels, class F>
 auto integrate(std::span<const double> breaks, double relative, double absolute, F&& f)
 {
@@ -135,7 +136,7 @@ auto integrate(std::span<const double> breaks, double relative, double absolute,
                 }
         const double low = panels[worst].low, high = panels[worst].high;
         const double middle = (low + high) / 2;
-        if (!(middle > low && middle < high)) { // nothing left to halve
+        if (!(middle > low && middle < high)) { // the panel cannot be halved any more
             sum.converged = false;
             break;
         }
@@ -147,7 +148,7 @@ auto integrate(std::span<const double> breaks, double relative, double absolute,
         add(low, middle);
         add(middle, high);
     }
-    // Subtracting halved panels leaves rounding errors behind: sum what is there.
+    // Subtracting halved panels leaves rounding errors in the sums: sum the final panels again.
     sum.value = {};
     sum.error = {};
     for (size_t i = 0; i < count; ++i)
@@ -158,14 +159,14 @@ auto integrate(std::span<const double> breaks, double relative, double absolute,
     return sum;
 }
 
-// Responses to a luminance of 1 that nobody asks about: slivers so thin above the horizon that
+// Absolute tolerance for the response to a luminance of 1. Slivers so thin above the horizon that
 // their edges are rounding errors never reach a relative tolerance.
 inline constexpr double negligible = 1e-24;
 
-// The outer of two integrals: over the panels between neighbouring breaks for which `active` says
-// so of their middle, under one tolerance. f maps a double to N values, of which the first `Judged`
-// are judged. Each panel is mapped with vanishing slope at both ends, so that functions which start
-// there like a square root (the width of a disc near its rim) become smooth.
+// The outer of two nested integrals: over the panels between neighbouring breaks whose middle is
+// `active`, under one tolerance. f maps a double to N values, of which the first `Judged` decide
+// about convergence. Each panel is reparametrised with zero slope at both ends, so that functions
+// that start there like a square root (the width of a disc near its rim) become smooth.
 template <size_t Judged, class Active, class F>
 auto integratePanels(std::span<const double> breaks, double relative, Active&& active, F&& f)
 {
@@ -182,7 +183,7 @@ auto integratePanels(std::span<const double> breaks, double relative, Active&& a
             const size_t i = std::min(static_cast<size_t>(x), panels.size() - 1);
             const double width = panels[i][1] - panels[i][0];
             const double half = pi / 2 * (x - static_cast<double>(i));
-            const double sine = std::sin(half); // 1 - cos without cancellation near the start
+            const double sine = std::sin(half); // gives 1 - cos without cancellation near the start
             auto value = f(panels[i][0] + width * sine * sine);
             for (double& v : value)
                 v *= width * pi * sine * std::cos(half);

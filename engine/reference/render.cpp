@@ -43,8 +43,8 @@ std::optional<double> intersectPlane(const Object& plane, const Ray& ray)
     return t > 0 ? std::optional(t) : std::nullopt;
 }
 
-// The distance of the centre from the ray decides, instead of b^2 - ac, which cancels for balls
-// that are far away compared with their radius.
+// Decides by the distance of the centre from the ray instead of by b^2 - ac, which cancels for
+// balls that are far away compared with their radius.
 std::optional<double> intersectBall(const Object& ball, const Ray& ray)
 {
     const glm::dvec3 fromCenter = ray.origin - ball.point;
@@ -64,7 +64,7 @@ void require(bool condition, const std::string& sentence)
         throw std::invalid_argument(sentence);
 }
 
-// `lightTypes`: how many of the light types, in their order, there is a model for.
+// `lightTypes`: how many of the light types, in enum order, have a model.
 void validate(const Scene& scene, uint32_t width, uint32_t height, uint32_t lightTypes)
 {
     require(width > 0 && height > 0, "the image is empty");
@@ -88,8 +88,8 @@ void validate(const Scene& scene, uint32_t width, uint32_t height, uint32_t ligh
     }
 }
 
-// Calls work(i) for 0 <= i < count from this many threads (0: every core); the first exception
-// stops all of them and is thrown here.
+// Calls work(i) for 0 <= i < count from `threads` threads (0: one per core). The first exception
+// stops all threads and is rethrown here.
 template <class Work>
 void inParallel(uint32_t count, uint32_t threads, Work&& work)
 {
@@ -118,7 +118,7 @@ void inParallel(uint32_t count, uint32_t threads, Work&& work)
 }
 
 struct ObjectHit {
-    const Object* object = nullptr; // none
+    const Object* object = nullptr; // null: the ray hits nothing
     double distance = std::numeric_limits<double>::infinity();
 };
 
@@ -148,11 +148,11 @@ Hit surfaceAt(const ObjectHit& nearest, const Ray& ray)
     return hit;
 }
 
-// What a pixel shows by itself, and the surface there that lights add to, if it is one.
+// What a pixel shows: its own luminance, and the surface there, if any, that lights illuminate.
 struct Seen {
     glm::dvec3 luminance{0};
     std::optional<SurfacePoint> surface;
-    Material material; // of the surface, as seen from there
+    Material material; // of the surface, as it appears from the eye
 };
 
 Seen look(const Scene& scene, const Ray& ray)

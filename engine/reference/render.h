@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole images of exact planes and balls in double: direct light, no shadows, no antialiasing.
+// Whole images of exact planes and balls: direct light, no shadows, no antialiasing. In double
+// precision.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,9 @@
 namespace candelabra::reference
 {
 
-// Pinhole: right = normalize(cross(forward, up)), up' = cross(right, forward); the ray of pixel
-// (column i, row j from the top) is forward + tan(fov / 2) (x aspect right + y up') with
-// x = 2 (i + 0.5) / width - 1, y = 1 - 2 (j + 0.5) / height.
+// A pinhole camera: right = normalize(cross(forward, up)), up' = cross(right, forward). The ray of
+// the pixel in column i, row j from the top, is forward + tan(fov / 2) (x aspect right + y up')
+// with x = 2 (i + 0.5) / width - 1, y = 1 - 2 (j + 0.5) / height.
 struct Camera {
     glm::dvec3 position{0};
     glm::dvec3 forward{0, 0, -1}; // any length but 0
@@ -30,8 +31,8 @@ struct Camera {
 struct Object {
     enum class Type { Plane, Ball } type = Type::Plane;
     glm::dvec3 point{0};        // plane: a point on it; ball: centre
-    glm::dvec3 normal{0, 1, 0}; // plane: unit; only the side it points to is seen
-    double radius = 1;          // ball, seen from outside only
+    glm::dvec3 normal{0, 1, 0}; // plane: unit normal; only the side it points to is visible
+    double radius = 1;          // ball: visible from outside only
     uint32_t material = 0;      // index into Scene::materials
 };
 
@@ -41,10 +42,10 @@ struct Scene {
     std::vector<Object> objects;
     std::vector<CndLight> lights;
     glm::dvec3 lightOrigin{0};
-    glm::dvec3 background{0};   // cd/m^2 where nothing is seen
-    bool lightsVisible = false; // area lights are seen, and hide what is behind them
+    glm::dvec3 background{0};   // cd/m^2 of pixels without a surface
+    bool lightsVisible = false; // area lights are visible, and hide what lies beyond them
     CndLobeJoining lobes = CND_LOBES_SUM;
-    bool energyCompensation = false; // both: joining.h
+    bool energyCompensation = false; // see joining.h, as for `lobes`
 };
 
 struct Image {
@@ -62,38 +63,39 @@ struct Hit {
     uint32_t material = 0;
 };
 
-// The object that the ray through a pixel's centre meets first; empty where it meets none. Lights
-// are none.
+// Returns the object that the ray through a pixel's centre meets first; empty if there is none.
+// Lights are not objects.
 std::optional<Hit> tracePixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
                               uint32_t row);
 
-// Luminance of one pixel, cd/m^2: emission of what is seen plus, of surfaces, all lights.
+// Returns the luminance of one pixel, cd/m^2: the emission of what is visible there and, for
+// surfaces, the light of all lights.
 glm::dvec3 renderPixel(const Scene& scene, uint32_t width, uint32_t height, uint32_t column,
                        uint32_t row, CndSpecularMethod specularMethod);
 
-// Changes with every change of an integrator that can change a pixel by more than its tolerance:
-// stored truths of another version are no longer true.
+// Version of the integrators. It changes with every change that can alter a pixel by more than its
+// tolerance; stored truths of another version are invalid.
 inline constexpr uint32_t truthVersion = 1;
 
 struct TruthOptions {
-    double relative = 1e-4; // tolerance of every light's contribution, 1e-9..1e-2
-    uint32_t threads = 0;   // 0: one for every core
-    // After each row, from any thread but never from two at a time; may be empty.
+    double relative = 1e-4; // relative tolerance of every light's contribution, 1e-9..1e-2
+    uint32_t threads = 0;   // 0: one per core
+    // Called after each row, from any thread but never concurrently; may be empty.
     std::function<void()> onRow;
 };
 
 struct TruthRows {
-    std::vector<glm::dvec3> pixels; // cd/m^2; width of them for each row asked for
-    uint64_t unconverged = 0;       // contributions that missed the tolerance
+    std::vector<glm::dvec3> pixels; // cd/m^2; `width` pixels for each requested row
+    uint64_t unconverged = 0;       // number of contributions that missed the tolerance
 };
 
-// Like renderPixel, with every light integrated (truth.h). Rows count from the top; the result does
+// Like renderPixel, but integrates every light (truth.h). Rows count from the top; the result does
 // not depend on the number of threads. Throws std::invalid_argument for a scene outside the ranges
 // above.
 TruthRows renderTruth(const Scene& scene, uint32_t width, uint32_t height,
                       std::span<const uint32_t> rows, const TruthOptions& options);
 
-// All pixels, on every core; the result does not depend on the number of cores. Throws
+// Renders all pixels on all cores; the result does not depend on the number of cores. Throws
 // std::invalid_argument for a scene outside the ranges above.
 Image render(const Scene& scene, uint32_t width, uint32_t height, CndSpecularMethod specularMethod);
 

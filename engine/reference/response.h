@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the integrators of area lights have in common: their result and the eye's direction.
+// What the integrators of area lights share: their result, and directions of the eye.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace candelabra::reference
 {
 
-// Response of a surface to a light of luminance 1: f is the form factor E / pi, a the specular lobe
-// with Fresnel 1, b with Fresnel (1 - VoH)^5. Outgoing luminance is
-// L (albedo f + F0 (a - b) + F90 b). The errors are the quadrature's own estimates, 0 for closed
+// Response of a surface to a light of luminance 1: f is the form factor E / pi, a is the specular
+// lobe with Fresnel 1, b is the specular lobe with Fresnel (1 - VoH)^5. Outgoing luminance is L
+// (albedo f + F0 (a - b) + F90 b). The errors are the quadrature's own estimates, 0 for closed
 // forms.
 struct LightResponse {
     double a = 0, b = 0, f = 0;
@@ -23,7 +23,7 @@ struct LightResponse {
     bool converged = true; // the requested tolerance was reached
 };
 
-// A cap of directions: those l with dot(l, axis) >= sqrt(1 - sin2).
+// A cap of directions: all directions l with dot(l, axis) >= sqrt(1 - sin2).
 struct SphereCap {
     glm::dvec3 axis{0, 1, 0}; // unit
     double sin2 = 0;          // squared sine of the half angle, 0..1
@@ -33,11 +33,12 @@ struct SphereCap {
     double oneMinusCosine() const { return sin2 / (1 + cosine()); }
 };
 
-// The widest cap of the specular lobe: 89.4 degrees. A receiver on or inside a sphere sees this.
+// The widest cap that the specular lobe uses, 89.4 degrees; receivers on or inside a sphere use it.
 inline constexpr double maxSpecularSin2 = 0.9999;
 
-// The surface with its eye lifted to NoV >= minNoV (brdf.h) in its own plane of incidence, which
-// keeps it a unit vector: Smith is undefined below the horizon. Analytic objects never need it.
+// Returns the surface with its eye raised to NoV >= minNoV (brdf.h) in its own plane of incidence,
+// which keeps toEye a unit vector: Smith's function is undefined below the horizon. Analytic
+// objects never need it.
 inline SurfacePoint liftEye(SurfacePoint surface)
 {
     const double NoV = glm::dot(surface.normal, surface.toEye);
@@ -49,8 +50,8 @@ inline SurfacePoint liftEye(SurfacePoint surface)
     return surface;
 }
 
-// Two unit vectors that make a right-handed frame with the unit vector `z`; the first lies in the
-// plane of z and `hint` where they are not parallel.
+// A right-handed frame around the unit vector `z`. x lies in the plane of z and `hint` unless they
+// are parallel.
 struct Frame {
     glm::dvec3 x, y, z;
 };

@@ -18,7 +18,7 @@ namespace
 
 constexpr double pi = std::numbers::pi;
 
-// The problem in the frame with the normal as z and the eye in the xz plane.
+// The integration problem in a frame with the normal as z and the eye in the xz plane.
 class SlopeProblem
 {
 public:
@@ -31,7 +31,8 @@ public:
         c_ = {glm::dot(cap.axis, frame.x), glm::dot(cap.axis, frame.y),
               glm::dot(cap.axis, frame.z)};
         omc_ = s2_ / (1 + std::sqrt(1 - s2_));
-        // cos s - dot(mirror, c), from the difference of the two, which is exact where it matters.
+        // z0_ = cos s - dot(mirror, c), computed from their difference, which is exact where it
+        // matters.
         const glm::dvec3 miss = c_ - glm::dvec3(-vx_, 0, vz_);
         z0_ = glm::dot(miss, miss) / 2 - omc_;
         lambdaV_ = smithLambda(std::min(vz_, 1.0), alpha);
@@ -39,7 +40,7 @@ public:
 
     bool visible() const { return s2_ > 0 && c_.z > -std::sqrt(s2_); }
 
-    // Angles of the rays at which the integral over a ray is not smooth.
+    // Returns the angles of the rays at which the integral over a ray is not smooth.
     std::vector<double> breaks() const
     {
         std::vector<double> out = {-pi, 0, pi};
@@ -57,7 +58,7 @@ public:
                 add(angle + pi);
             }
         }
-        // Rays to where the cap's rim meets the horizon: m = l + v there.
+        // Rays to the points where the cap's rim meets the horizon: m = l + v there.
         const double across = std::hypot(c_.x, c_.y);
         if (std::abs(c_.z) < std::sqrt(s2_) && across > 0) {
             const double along = std::min((1 - omc_) / across, 1.0);
@@ -73,9 +74,10 @@ public:
     }
 
     // Whether the ray at this angle meets the cap above the horizon.
+    // True if the ray at this angle meets the cap above the horizon.
     bool meets(double angle) const { return makeRay(angle).count > 0; }
 
-    // a and b of one ray, and their estimated errors.
+    // Returns a and b integrated along one ray, and their estimated errors.
     std::array<double, 4> alongRay(double angle, double relative) const
     {
         const Ray ray = makeRay(angle);
@@ -95,9 +97,9 @@ public:
 
 private:
     struct Ray {
-        double vd;      // eye along the ray
+        double vd;      // component of the eye along the ray
         double horizon; // slope at which the light direction reaches the horizon
-        int count;      // intervals of slopes inside the cap and above the horizon
+        int count;      // number of slope intervals that are inside the cap and above the horizon
         double low[2], high[2];
     };
 
@@ -108,11 +110,11 @@ private:
         ray.vd = vx_ * cosine;
         const double ve = -vx_ * sine;
         const double cd = c_.x * cosine + c_.y * sine, ce = c_.y * cosine - c_.x * sine;
-        // vz r^2 - 2 vd r - vz < 0: the light above the horizon. Roots multiply to -1.
+        // The light is above the horizon where vz r^2 - 2 vd r - vz < 0. The roots multiply to -1.
         const double length = std::hypot(ray.vd, vz_);
         ray.horizon = ray.vd > 0 ? (ray.vd + length) / vz_ : vz_ / (length - ray.vd);
-        // a r^2 + 2 b r + z0 <= 0: inside the cap. The discriminant in this form is exact:
-        // b^2 - a z0 = s^2 - (ve + ce)^2 + 2 (1 - cos s) ve ce.
+        // The slope r is inside the cap where a r^2 + 2 b r + z0 <= 0. The discriminant in this
+        // form is exact: b^2 - a z0 = s^2 - (ve + ce)^2 + 2 (1 - cos s) ve ce.
         const double a = (1 - omc_) + vx_ * c_.x + vz_ * c_.z - 2 * ray.vd * cd;
         const double b = -(vz_ * cd + c_.z * ray.vd);
         const double discriminant = s2_ - (ve + ce) * (ve + ce) + 2 * omc_ * ve * ce;
@@ -133,7 +135,7 @@ private:
         if (q == 0)
             return ray;
         const double first = z0_ / q;
-        if (a == 0) { // one end at infinity, on the side where 2 b r + z0 <= 0
+        if (a == 0) { // one end is at infinity, on the side where 2 b r + z0 <= 0
             if (b < 0)
                 add(first, ray.horizon);
             else
@@ -151,7 +153,7 @@ private:
         return ray;
     }
 
-    // p22 r dr times dot(v, m) G2, times pi; and the same with Schlick's weight.
+    // Returns p22 r dr dot(v, m) G2 times pi, and the same times Schlick's weight.
     std::array<double, 2> density(const Ray& ray, double u) const
     {
         const double sine = std::sin(u), cosine = std::cos(u);

@@ -14,8 +14,8 @@ namespace candelabra::reference
 namespace
 {
 
-// x - sin x for x >= 0 without cancellation. Below 1 the alternating series
-// x^3/3! - x^5/5! + ... is summed until it no longer changes.
+// Returns x - sin x for x >= 0 without cancellation. Below 1 it sums the alternating series x^3/3!
+// - x^5/5! + ... until the sum no longer changes.
 double minusSine(double x)
 {
     if (x >= 1)
@@ -55,7 +55,8 @@ double sphereFormFactor(double c, double s)
         throw std::domain_error("sphereFormFactor: needs -1 <= c <= 1 and 0 <= s <= 1");
     if (std::abs(c) >= s)
         return std::max(c, 0.0) * s * s;
-    // A whole circle splits into the parts above and below: F(c) - F(-c) = c s^2.
+    // The form factor of a whole circle is the sum of the parts above and below: F(c) - F(-c) = c
+    // s^2.
     if (c < 0)
         return std::max(crossingFormFactor(-c, s) + c * s * s, 0.0);
     return crossingFormFactor(c, s);

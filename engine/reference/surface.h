@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is lit: one shading point and its material, in double.
+// One shading point and its material. In double precision.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,7 +17,7 @@ struct Material {
     glm::dvec3 diffuseAlbedo{0}; // 0..1, already scaled by 1 - metalness
     glm::dvec3 f0{0};            // Schlick reflectance at normal incidence, 0..1
     double specularWeight = 0;   // Schlick F90, 0..1; with f0 = 0 it removes the specular lobe
-    double alpha = 1;            // GGX width, 0 < alpha <= 1; a floor is up to the caller
+    double alpha = 1;            // GGX width, 0 < alpha <= 1; a lower limit is up to the caller
     glm::dvec3 emission{0};      // cd/m^2
     glm::dvec3 specularGain{1};  // factor on the specular lobe (joining.h)
 };

@@ -18,14 +18,14 @@ glm::dvec3 clip(const glm::dvec3& color)
     return glm::clamp(color, 0.0, 1.0);
 }
 
-// Rows as in the sources; glm stores columns.
+// The arguments are rows, as in the publications; glm stores columns.
 glm::dmat3 fromRows(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z)
 {
     return glm::transpose(glm::dmat3(x, y, z));
 }
 
-// S. Hill's fit. The input matrix joins linear sRGB -> XYZ -> D60 -> AP1 -> RRT saturation, the
-// output matrix the way back with the ODT's saturation.
+// S. Hill's fit. The input matrix combines linear sRGB -> XYZ -> D60 -> AP1 -> RRT saturation, the
+// output matrix the way back including the ODT's saturation.
 glm::dvec3 hillAces(const glm::dvec3& color)
 {
     static const glm::dmat3 input = fromRows(
@@ -39,7 +39,7 @@ glm::dvec3 hillAces(const glm::dvec3& color)
     return clip(output * (numerator / denominator));
 }
 
-// The symbols of the specification: F90, Ks and Kd are its constants.
+// The names are those of the specification: F90, Ks and Kd are its constants.
 glm::dvec3 pbrNeutral(const glm::dvec3& color)
 {
     constexpr double f90 = 0.04;
@@ -68,14 +68,14 @@ double agxContrast(double x)
 
 glm::dvec3 agx(const glm::dvec3& color)
 {
-    // Columns as published.
+    // The columns as published.
     static const glm::dmat3 inset(0.842479062253094, 0.0423282422610123, 0.0423756549057051,
                                   0.0784335999999992, 0.878468636469772, 0.0784336,
                                   0.0792237451477643, 0.0791661274605434, 0.879142973793104);
     static const glm::dmat3 outset(1.19687900512017, -0.0528968517574562, -0.0529716355144438,
                                    -0.0980208811401368, 1.15190312990417, -0.0980434501171241,
                                    -0.0990297440797205, -0.0989611768448433, 1.15107367264116);
-    // log2 range of AgX: 10 stops below and 6.5 above middle grey 0.18.
+    // AgX's range in log2: 10 stops below and 6.5 stops above middle grey 0.18.
     constexpr double minEv = -12.47393;
     constexpr double maxEv = 4.026069;
     constexpr double displayExponent = 2.2;

@@ -135,7 +135,7 @@ Truth truthLuminance(const SurfacePoint& surface, const Material& material, cons
 {
     if (light.type == CND_LIGHT_POINT || light.type == CND_LIGHT_SPOT ||
         light.type == CND_LIGHT_DIRECTIONAL) {
-        // Any method but NONE: punctual lights have only one specular lobe.
+        // Any method but CND_SPECULAR_NONE does: punctual lights have only one specular lobe.
         return {outgoingLuminance(surface, material, light, lightOrigin,
                                   hasSpecular(material) ? CND_SPECULAR_KARIS : CND_SPECULAR_NONE),
                 true};

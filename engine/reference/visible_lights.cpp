@@ -16,7 +16,7 @@ glm::dvec3 vec3(const float (&values)[3])
     return {values[0], values[1], values[2]};
 }
 
-// Distances along a unit direction between which a ray is inside; empty: from > to.
+// Distances along a unit direction between which a ray is inside an emitter; from > to: never.
 struct Inside {
     double from = std::numeric_limits<double>::infinity();
     double to = -std::numeric_limits<double>::infinity();
@@ -28,7 +28,7 @@ struct Inside {
     }
 };
 
-// The distance of the centre from the ray decides, as for balls that are lit.
+// Decides by the distance of the centre from the ray, as intersectBall of render.cpp does.
 void addSphere(Inside& inside, const glm::dvec3& direction, const glm::dvec3& toCenter,
                double radius)
 {
@@ -41,8 +41,8 @@ void addSphere(Inside& inside, const glm::dvec3& direction, const glm::dvec3& to
     inside.add(nearest + std::sqrt(depth2));
 }
 
-// The hull of its two end balls; where a ray passes through the side of the cylinder between them,
-// there too.
+// Returns where the ray is inside a capsule: the hull of the intervals of its two end balls and of
+// the points where the ray passes through the side of the cylinder between them.
 Inside insideTube(const glm::dvec3& direction, const glm::dvec3& toCenter, const glm::dvec3& half,
                   double radius)
 {
@@ -54,7 +54,8 @@ Inside insideTube(const glm::dvec3& direction, const glm::dvec3& toCenter, const
     const auto across = [&](const glm::dvec3& v) { return v - glm::dot(v, axis) * axis; };
     const glm::dvec3 flat = across(direction);
     const double speed2 = glm::dot(flat, flat);
-    if (!(speed2 > 1e-24)) // along the axis: in by one ball, out by the other
+    if (!(speed2 > 1e-24)) // the ray is parallel to the axis: it enters by one ball and leaves by
+                           // the other
         return inside;
     const double nearest = glm::dot(across(toCenter), flat) / speed2;
     const glm::dvec3 miss = across(toCenter) - nearest * flat;
@@ -113,7 +114,8 @@ std::optional<glm::dvec3> distantLuminance(std::span<const CndLight> lights,
         if (light.type != CND_LIGHT_DISTANT_SPHERE)
             continue;
         const glm::dvec3 toLight = -glm::normalize(vec3(light.direction));
-        // The sine itself: the cosine of a small angle does not tell it from smaller ones.
+        // Compares the sine itself: the cosine of a small angle cannot be told from that of a
+        // smaller one.
         if (glm::dot(d, toLight) > 0 && glm::length(glm::cross(d, toLight)) <= light.radius)
             out = vec3(light.emission);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The specular lobe's directional albedo over alpha and NoV (shaders/shared/dfg.h), computed on the
-// device; lighting and environment own one each.
+// The directional albedo of the specular lobe over alpha and NoV (shaders/shared/dfg.h), computed
+// on the device. The lighting and environment modules own one table each.
 #pragma once
 
 #include "gpu/kernel.h"
@@ -12,19 +12,19 @@ namespace candelabra::tables
 class DfgTable
 {
 public:
-    // `device` must outlive it.
+    // `device` must outlive the table.
     explicit DfgTable(const gpu::Device& device);
     DfgTable(const DfgTable&) = delete;
     DfgTable& operator=(const DfgTable&) = delete;
 
     // The first call records the kernel that fills the table (one scope of the frame's timer, 28
-    // million evaluations); later ones nothing. The caller's next barrier makes it visible. That
-    // first recording must be submitted before any that reads the table.
+    // million evaluations); later calls record nothing. The caller's next barrier makes the table
+    // visible. The first recording must be submitted before any recording that reads the table.
     void recordFill(const gpu::Frame& frame) noexcept;
 
     bool filled() const { return recorded_; }
 
-    // For Binding::ofTexels, at the DFG_BINDING of lib/dfg.glsl. 147 KB.
+    // The table, 147 KB, to be bound with Binding::ofTexels at DFG_BINDING (lib/dfg.glsl).
     const gpu::Buffer& buffer() const { return entries_; }
 
 private:

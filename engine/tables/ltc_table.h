@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fitted table of linearly transformed cosines; shared/ltc.h says what it holds.
+// The fitted table of linearly transformed cosines; shared/ltc.h describes its contents.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 namespace candelabra::tables
 {
 
-// LTC_TABLE_SIZE^2 * LTC_TEXELS texels of 4 floats, as a buffer of vec4 holds them.
+// Returns LTC_TABLE_SIZE^2 * LTC_TEXELS texels of 4 floats, laid out as an array of vec4.
 std::span<const float> ltcTable();
 
 } // namespace candelabra::tables

@@ -80,9 +80,11 @@ std::string sentence(const Words& words, CndResult expected = CND_ERROR_INVALID_
     return "";
 }
 
-constexpr const char* notWhole = "moon.comp is not SPIR-V, or not all of it";
-constexpr const char* undefined = "moon.comp is SPIR-V that uses what it does not define";
-constexpr const char* endless = "moon.comp is SPIR-V with a type that holds itself or a later one";
+constexpr const char* notWhole = "moon.comp is not SPIR-V, or is truncated";
+constexpr const char* undefined =
+    "moon.comp is SPIR-V that refers to an id that it does not define";
+constexpr const char* endless =
+    "moon.comp is SPIR-V with a type that contains itself or a type defined later";
 
 // Push constants of the type with id 9.
 std::vector<Words> pushing(std::vector<Words> types)
