@@ -19,7 +19,7 @@ void checkVulkan(VkResult result, const char* what)
 
 #define VK(call) checkVulkan((call), #call " failed")
 
-// The first device that has what Candelabra needs.
+// Returns the first device that has everything Candelabra needs.
 static VkPhysicalDevice choosePhysicalDevice(VkInstance instance)
 {
     VkPhysicalDevice devices[16];
@@ -69,7 +69,7 @@ void createHostDevice(Host* host, uint32_t instanceExtensionCount,
     VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                                           .pNext = &core12};
     cndRequireFeatures(&features.features, &core12, &core13);
-    core13.dynamicRendering = VK_TRUE; // for render passes of the samples' own
+    core13.dynamicRendering = VK_TRUE; // for the samples' own rendering
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                            .queueFamilyIndex = host->queueFamily,
@@ -180,7 +180,7 @@ Host createHost(uint32_t width, uint32_t height)
                                 sampled | storage | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     host.display = createImage(&host, VK_FORMAT_R8G8B8A8_UNORM, storage);
 
-    const float cotangent = 2; // of half the vertical field of view: 53 degrees
+    const float cotangent = 2; // cotangent of half the vertical field of view, which is 53 degrees
     for (int i = 0; i < 4; ++i)
         host.camera.viewFromWorld[5 * i] = 1;
     // Reversed depth with an infinite far plane: depth = near plane / distance.
@@ -256,10 +256,10 @@ static void clearColour(VkCommandBuffer cmd, const HostImage* image, VkClearColo
     imageBarrier(cmd, image, cleared, after);
 }
 
-// Every pixel is alike, so clears draw it. A real pass packs normals with lib/gbuffer.glsl.
+// All pixels are equal, so clears draw the wall. A real pass packs normals with lib/gbuffer.glsl.
 void drawWall(Host* host)
 {
-    // The normal (0, 0, 1) of view space is octahedral (0, 0); roughness 0xFFFF is 1.
+    // The view-space normal (0, 0, 1) is (0, 0) in octahedral encoding; roughness 0xFFFF is 1.
     const VkClearColorValue facing = {.uint32 = {0xFF000000u, 0xFF000000u}};
     const VkClearColorValue albedo = {.float32 = {WALL_ALBEDO, WALL_ALBEDO, WALL_ALBEDO}};
     const VkClearColorValue zero = {.float32 = {0}};

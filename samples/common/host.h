@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Vulkan program that the headless samples put Candelabra into: a device, a G-buffer that shows
-// a wall, one command buffer. A real renderer has all of this already. Vulkan errors end the
-// program with a message: this is a sample.
+// The Vulkan program into which the headless samples integrate Candelabra: a device, a G-buffer
+// that shows a wall, one command buffer. A real renderer has all of this already. Vulkan errors end
+// the program with a message, because this is a sample.
 #ifndef CANDELABRA_SAMPLES_HOST_H
 #define CANDELABRA_SAMPLES_HOST_H
 
@@ -29,20 +29,20 @@ typedef struct Host {
     VkCommandPool pool;
     VkCommandBuffer cmd;
     uint32_t width, height;
-    CndCamera camera; // at the world's origin, looks down -z, reversed depth
+    CndCamera camera; // at the world's origin, looks along -z, reversed depth
     HostImage normalRoughness, albedo, specular, depth, radiance, display;
 } Host;
 
-// The wall: it fills the picture, faces the camera, and is matt.
+// The wall fills the picture, faces the camera and is matt.
 #define WALL_DISTANCE 2.0f // metres
 #define WALL_ALBEDO 0.5f
 
 Host createHost(uint32_t width, uint32_t height);
 void destroyHost(Host* host);
 
-// The parts of it, for hosts that draw something else: what is above the images, with the
-// extensions of a window (count 0: none); and images of two dimensions, which can be cleared and
-// copied too.
+// The parts of createHost, for samples that draw something else: everything but the images, with
+// instance and device extensions for a window (a count of 0: none); and 2D images, which can also
+// be cleared and copied.
 void createHostDevice(Host* host, uint32_t instanceExtensionCount,
                       const char* const* instanceExtensions, uint32_t deviceExtensionCount,
                       const char* const* deviceExtensions);
@@ -52,18 +52,19 @@ HostImage createHostImage(const Host* host, VkFormat format, uint32_t width, uin
 void destroyHostImage(const Host* host, HostImage image);
 VkDeviceMemory allocateHostMemory(const Host* host, VkMemoryRequirements needs,
                                   VkMemoryPropertyFlags flags);
-// Ends the program, with a message, unless `result` is VK_SUCCESS.
+// Ends the program with a message unless `result` is VK_SUCCESS.
 void checkVulkan(VkResult result, const char* what);
 
-// Begins the command buffer.
+// Begins the host's command buffer.
 VkCommandBuffer beginFrame(Host* host);
-// The G-buffer pass: leaves its images as CndLightingFrame wants them, radiance black, and display
-// ready to be written.
+// The G-buffer pass. Leaves its images in the state that CndLightingFrame requires, radiance black,
+// and display ready to be written.
 void drawWall(Host* host);
-// Submits and waits.
+// Submits the command buffer and waits until it has finished.
 void endFrame(Host* host);
 
-// Where an image is used: its layout there, and what must be done before or see it after.
+// How an image is used at some point: its layout, and the stage and access that a barrier waits for
+// or makes visible.
 typedef struct ImageUse {
     VkImageLayout layout;
     VkPipelineStageFlags2 stage;
@@ -71,9 +72,10 @@ typedef struct ImageUse {
 } ImageUse;
 void imageBarrier(VkCommandBuffer cmd, const HostImage* image, ImageUse from, ImageUse to);
 
-// Copies all pixels, `size` bytes together, rows from the top, after the frame.
+// Copies all pixels of an image to `pixels`, `size` bytes in total, rows from the top. Call it
+// after endFrame().
 void readPixels(Host* host, const HostImage* image, ImageUse written, void* pixels, size_t size);
-// The pixel in the middle, of `size` bytes.
+// Copies the pixel in the middle, `size` bytes.
 void readCentre(Host* host, const HostImage* image, VkImageLayout layout, void* pixel, size_t size);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candelabra from plain C: a wall in the sun, photographed by hand. Says what the pixel in the
-// middle should be and ends with 1 when it is something else.
+// Candelabra from plain C: a wall in the sun, with manual exposure. Prints what the pixel in the
+// middle should be and exits with 1 if it is something else.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #define ILLUMINANCE 50000.0f // lx, on a surface that faces the sun
 #define PI 3.14159265f
 
-// Every descriptor says how large it is.
+// Every descriptor states its size.
 #define SIZED(Type) .structSize = sizeof(Type)
 
 static void check(CndResult result, const CndError* error)
@@ -87,7 +87,7 @@ static void draw(Host* host)
     recordFrame(host, view, exposure);
 
     cndDestroyExposure(exposure);
-    cndDestroyLightingView(view); // before its lighting
+    cndDestroyLightingView(view); // the view must be destroyed before its lighting
     cndDestroyLighting(lighting);
 }
 
@@ -111,7 +111,7 @@ int main(void)
     readCentre(&host, &host.display, VK_IMAGE_LAYOUT_GENERAL, display, sizeof display);
     destroyHost(&host);
 
-    // A Lambertian surface: albedo / pi of its illuminance.
+    // The luminance of a Lambertian surface is albedo / pi times its illuminance.
     const float expected = WALL_ALBEDO / PI * ILLUMINANCE;
     const float exposed = expected * cndExposureFromEv100(settings().manualEv100);
     const float expectedDisplay = 255 * srgb(exposed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The front of a transparent ball under all lights of the view.
+// Shades the front of a transparent ball with all lights of the view.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define FORWARD_SET 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A transparent ball, drawn into the radiance of a frame. Push constants of ball.frag.
+// A transparent ball, drawn into the radiance of a frame. Ball has the push constants of ball.frag.
 #ifndef CANDELABRA_SAMPLES_BALL_H
 #define CANDELABRA_SAMPLES_BALL_H
 
@@ -8,9 +8,11 @@
 
 struct Ball {
     float centre[3], radius; // view space, metres
-    float albedo[3];         // of its coat, which covers
-    float opacity;           // this share of what is behind
-    float F0, F90;           // of the coat
+    // Diffuse albedo of its coat.
+    float albedo[3];
+    // Share of the background that the coat covers.
+    float opacity;
+    float F0, F90; // Fresnel reflectance of the coat at 0 and 90 degrees
     float perceptualRoughness;
 };
 
@@ -19,7 +21,7 @@ struct BallPass {
     VkPipeline pipeline;
 };
 
-// `lights`: the layout of set 0, cndGetForwardSetLayout.
+// `lights`: the layout of descriptor set 0, from cndGetForwardSetLayout.
 BallPass createBallPass(VkDevice device, VkDescriptorSetLayout lights);
 void destroyBallPass(VkDevice device, const BallPass& pass);
 

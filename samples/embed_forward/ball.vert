@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A triangle over the whole frame: the fragment shader finds the ball.
+// A triangle that covers the whole frame; the fragment shader finds the ball.
 #version 460
 
 void main()

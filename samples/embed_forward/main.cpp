@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Transparent objects lit through Candelabra's GLSL: three balls before a wall that the module
-// lights itself, by the same lights. Writes embed_forward.ppm (or the file that is named), compares
-// wall and middle ball with the closed form, pixel by pixel, and ends with 1 when they are wrong.
+// Transparent objects lit through Candelabra's GLSL: three balls in front of a wall. The module
+// lights the wall itself, with the same lights. Writes embed_forward.ppm (or the file named as
+// argument), compares the wall and the middle ball with their closed form, pixel by pixel, and
+// exits with 1 if they are wrong.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -40,7 +41,7 @@ constexpr CndLight lamps[] = {
     lamp(-0.7f, 0.6f, -1.0f, 9000, 3000, 2000), lamp(0.1f, 0.7f, -0.8f, 5000, 5000, 5000),
     lamp(0.8f, 0.4f, -1.1f, 1500, 3000, 9000), lamp(0.0f, -0.6f, -1.6f, 1000, 5000, 1000)};
 
-// Left and right: a coat that shines; middle: a matt one, for which there is a closed form.
+// Left and right ball: a glossy coat. Middle ball: a matt coat, for which there is a closed form.
 constexpr Ball balls[] = {
     {{-0.55f, -0.05f, -1.5f}, 0.25f, {0.6f, 0.1f, 0.05f}, 0.7f, 0.04f, 1, 0.25f},
     {{0.0f, 0.0f, -1.3f}, 0.25f, {0.7f, 0.7f, 0.6f}, 0.6f, 0, 0, 1},
@@ -53,7 +54,7 @@ constexpr ImageUse blended{
     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 
-// Behind the lighting of the opaque surfaces, in the order from far to near.
+// Draws the balls from far to near, after the lighting of the opaque surfaces.
 void drawBalls(Host& host, const BallPass& pass, VkDescriptorSet lights)
 {
     const VkCommandBuffer cmd = host.cmd;
@@ -108,7 +109,7 @@ void drawFrame(Host& host)
         device, {.framesInFlight = 1, .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT}));
     auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
     for (const CndLight& light : lamps)
-        orExit(lighting.addLight(light)); // ids, to change or remove them later
+        orExit(lighting.addLight(light)); // returns an id, to change or remove the light later
     const BallPass pass = createBallPass(host.device, orExit(lighting.forwardSetLayout()));
 
     const VkCommandBuffer cmd = beginFrame(&host);
@@ -140,8 +141,9 @@ static double dot(Vec a, Vec b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// Luminance of a Lambertian surface, one channel: albedo times luminance times (radius / d)^2 times
-// cosine times window. False where a lamp crosses the horizon, which takes more than that.
+// Luminance of a Lambertian surface in one channel: albedo * luminance * (radius / d)^2 * cosine *
+// window, summed over the lamps. Returns false if a lamp crosses the horizon, where this formula
+// does not hold.
 static bool lambert(Vec position, Vec normal, double albedo, int channel, double& luminance)
 {
     luminance = 0;
@@ -158,14 +160,14 @@ static bool lambert(Vec position, Vec normal, double albedo, int channel, double
     return true;
 }
 
-// Through the centre of a pixel, z = -1.
+// Returns a ray through the centre of a pixel, with z = -1.
 static Vec pixelRay(const Host& host, uint32_t x, uint32_t y)
 {
     return {((2 * x + 1.0) / host.width - 1) / host.camera.clipFromView[0],
             ((2 * y + 1.0) / host.height - 1) / host.camera.clipFromView[5], -1};
 }
 
-// Distance along a ray of length 1 to a ball, or 0.
+// Returns the distance along a ray of length 1 to a ball, or 0 if the ray misses it.
 static double hit(const Ball& ball, Vec unit)
 {
     const Vec centre{ball.centre[0], ball.centre[1], ball.centre[2]};
@@ -174,7 +176,8 @@ static double hit(const Ball& ball, Vec unit)
     return inside > 0 ? along - std::sqrt(inside) : 0;
 }
 
-// The matt ball over the wall, and the wall between the balls; counts what it compares.
+// Compares the matt ball in front of the wall, and the wall between the balls, and counts the
+// values compared.
 static bool isRight(const Host& host, const std::vector<float>& radiance)
 {
     int compared[2] = {0, 0};
@@ -196,7 +199,7 @@ static bool isRight(const Host& host, const std::vector<float>& radiance)
                 if (!lambert(wall, {0, 0, 1}, WALL_ALBEDO, c, expected))
                     continue;
                 if (t != 0) {
-                    // Near its outline a ray's rounding moves the point it hits.
+                    // Near the ball's outline, rounding of the ray moves the point that it hits.
                     if (out.z < 0.2 * r || !lambert(front, {out.x / r, out.y / r, out.z / r},
                                                     mattBall.albedo[c], c, coat))
                         continue;
@@ -207,7 +210,8 @@ static bool isRight(const Host& host, const std::vector<float>& radiance)
                 ++compared[t != 0];
             }
         }
-    std::printf("%d values of the wall and %d of the ball differ by up to %.1e of them\n",
+    std::printf("%d values of the wall and %d of the ball differ from the closed form by up to "
+                "%.1e of it\n",
                 compared[0], compared[1], largest);
     return compared[0] > 10000 && compared[1] > 3000 && largest < 5e-5;
 }
@@ -221,7 +225,7 @@ static void writePpm(const char* path, const Host& host, const std::vector<float
     }
     std::fprintf(file, "P6 %u %u 255\n", host.width, host.height);
     for (size_t i = 0; i < radiance.size(); ++i)
-        if (i % 4 != 3) { // 25 cd/m^2 is white
+        if (i % 4 != 3) { // 25 cd/m^2 is displayed as white
             const float encoded = std::pow(std::clamp(radiance[i] / 25, 0.0f, 1.0f), 1 / 2.2f);
             std::fputc(int(std::lround(255 * encoded)), file);
         }

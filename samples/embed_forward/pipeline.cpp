@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What any renderer does for a transparent pass; nothing here is about Candelabra but the layout of
-// set 0.
+// The pipeline of a transparent pass, as in any renderer. Only the layout of set 0 is specific to
+// Candelabra.
 #include <cstdio>
 #include <cstdlib>
 
@@ -69,12 +69,12 @@ BallPass createBallPass(VkDevice device, VkDescriptorSetLayout lights)
     const VkPipelineMultisampleStateCreateInfo samples{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
         .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    // Reversed depth: nearer is greater. Transparent surfaces are tested and do not write.
+    // Reversed depth: nearer is greater. Transparent surfaces are depth-tested but write no depth.
     const VkPipelineDepthStencilStateCreateInfo depth{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
         .depthTestEnable = VK_TRUE,
         .depthCompareOp = VK_COMPARE_OP_GREATER};
-    // Over what is behind, premultiplied.
+    // Blends over what is already there, with premultiplied alpha.
     const VkPipelineColorBlendAttachmentState over{
         .blendEnable = VK_TRUE,
         .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,

@@ -9,7 +9,7 @@
 namespace
 {
 
-// As boxes.vert has them.
+// The push constants of boxes.vert.
 struct Push {
     glm::mat4 clipFromWorld;
     glm::vec4 centreRoughness, halfSizeMetalness, baseColour;
@@ -88,7 +88,7 @@ Boxes::Boxes(const Host& host) : device_(host.device)
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
         .viewportCount = 1,
         .scissorCount = 1};
-    // Back faces are left out, so that every normal that is drawn faces the camera.
+    // Back faces are culled, so that every normal in the G-buffer faces the camera.
     const VkPipelineRasterizationStateCreateInfo raster{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
         .cullMode = VK_CULL_MODE_BACK_BIT,
@@ -145,7 +145,7 @@ Boxes::~Boxes()
 void Boxes::record(VkCommandBuffer cmd, const GBuffer& g, VkExtent2D size,
                    const glm::mat4& clipFromWorld) const
 {
-    // The compute shaders of the frame before have read the same images.
+    // The compute shaders of the previous frame have read the same images.
     const ImageUse before{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0};
     const HostImage* colours[] = {&g.normal, &g.baseColour, &g.roughnessMetalness};
     VkRenderingAttachmentInfo attachments[3];
@@ -154,7 +154,8 @@ void Boxes::record(VkCommandBuffer cmd, const GBuffer& g, VkExtent2D size,
         attachments[i] = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                           .imageView = colours[i]->view,
                           .imageLayout = colourAttachment.layout,
-                          .loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE, // depth tells what is drawn
+                          .loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE, // depth tells which pixels are
+                                                                     // drawn
                           .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
     }
     imageBarrier(cmd, &g.depth, before, depthAttachment);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's own G-buffer: world-space normals, base colour, roughness and metalness.
+// Writes the host's own G-buffer: world-space normals, base colour, roughness and metalness.
 #version 460
 layout(push_constant) uniform Push
 {

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's scene and its G-buffer pass: boxes, in images of the host's own choice.
+// The host's scene and its G-buffer pass: boxes, drawn into images whose formats the host chose.
 #pragma once
 
 #include <glm/glm.hpp>
 
 #include "window.h"
 
-// What the pass leaves behind, and what Candelabra adds its light to and shows.
+// The images of the pass, and those that Candelabra adds its light to and displays.
 struct GBuffer {
     HostImage normal;             // A2B10G10R10_UNORM: 0.5 + 0.5 * normal, world space
     HostImage baseColour;         // R8G8B8A8_SRGB
     HostImage roughnessMetalness; // R8G8_UNORM
-    HostImage depth;              // D32_SFLOAT, 0 at the near plane, 1 far away
+    HostImage depth;              // D32_SFLOAT, 0 at the near plane, 1 at the far plane
     HostImage radiance, display;
 
     void create(const Host& host, VkExtent2D size);
     void destroy(const Host& host);
 };
 
-// How Candelabra is told about it.
+// Describes this layout to Candelabra.
 constexpr CndGBufferDesc gbufferDesc{.normalEncoding = CND_NORMAL_UNORM,
                                      .normalSpace = CND_NORMALS_WORLD,
                                      .roughness = CND_CHANNEL_SPECULAR_R,
@@ -38,7 +38,7 @@ public:
     Boxes(const Boxes&) = delete;
     Boxes& operator=(const Boxes&) = delete;
 
-    // Draws the G-buffer and leaves it, and radiance, as CndLightingFrame wants them.
+    // Draws the G-buffer. Leaves its images in the state that CndLightingFrame requires.
     void record(VkCommandBuffer cmd, const GBuffer& gbuffer, VkExtent2D size,
                 const glm::mat4& clipFromWorld) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A box: six faces of two triangles, seen from outside.
+// A box: six faces of two triangles each, with front faces outside.
 #version 460
 layout(push_constant) uniform Push
 {
@@ -19,7 +19,7 @@ void main()
     const vec2 corner = corners[gl_VertexIndex % 6];
     vec3 at;
     at[axis] = side;
-    at[(axis + 1) % 3] = corner.x * side; // keeps the winding on both sides
+    at[(axis + 1) % 3] = corner.x * side; // times side: keeps the winding on opposite faces
     at[(axis + 2) % 3] = corner.y;
     normalWorld = vec3(0.0);
     normalWorld[axis] = side;

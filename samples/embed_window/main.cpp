@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candelabra in a small renderer with a window: its own G-buffer layout, moving lights, resizing,
-// two frames in flight, a panel, and the overlay that shows what Candelabra reads of the G-buffer.
+// Candelabra in a small renderer with a window: a G-buffer layout of its own, moving lights,
+// resizing, two frames in flight, a panel, and the overlay that shows what Candelabra reads from
+// the G-buffer.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -38,8 +39,8 @@ T orExit(candelabra::Result<T> result)
 struct Options {
     uint64_t frames = UINT64_MAX;
     uint32_t width = 1280, height = 720;
-    std::string screenshot; // of the last frame
-    bool resize = false;    // to three quarters, half way
+    std::string screenshot; // file for the last frame
+    bool resize = false;    // resize the window to three quarters, half way through
     Settings settings;
 };
 
@@ -47,7 +48,7 @@ constexpr char usage[] =
     "usage: embed_window [--frames N] [--size WxH] [--lights N] [--overlay 0..6] [--resize]\n"
     "                    [--screenshot FILE.ppm]\n"
     "--overlay shows what Candelabra reads (CndSurfaceQuantity), --resize changes the window's\n"
-    "size half way, --screenshot needs --frames. With --frames, time goes 1/60 s a frame.\n";
+    "size half way, --screenshot needs --frames. With --frames, each frame lasts 1/60 s.\n";
 
 Options parse(int count, char** words)
 {
@@ -96,7 +97,7 @@ struct Camera {
     }
 };
 
-// Round the boxes. Depth from 0 at the near plane to 1 at the far one.
+// The camera circles the boxes. Depth is 0 at the near plane and 1 at the far plane.
 Camera cameraAt(double seconds, VkExtent2D size)
 {
     const double angle = 0.2 * seconds + 0.6;
@@ -108,7 +109,7 @@ Camera cameraAt(double seconds, VkExtent2D size)
     return c;
 }
 
-// Lamps that circle above the floor, some higher than the boxes.
+// Lamps that circle above the floor, some of them higher than the boxes.
 void lightsAt(double seconds, int count, std::vector<CndLight>& lights)
 {
     lights.clear();
@@ -127,11 +128,11 @@ void lightsAt(double seconds, int count, std::vector<CndLight>& lights)
     }
 }
 
-// What Candelabra needs of the window's size.
+// Everything that depends on the window's size.
 struct Targets {
     GBuffer gbuffer;
     candelabra::LightingView view;
-    VkExtent2D size{}; // 0: none yet
+    VkExtent2D size{}; // 0: not created yet
 };
 
 void resize(Targets& t, const Host& host, candelabra::Lighting& lighting, VkExtent2D size)
@@ -140,7 +141,7 @@ void resize(Targets& t, const Host& host, candelabra::Lighting& lighting, VkExte
     if (t.size.width)
         t.gbuffer.destroy(host);
     t.gbuffer.create(host, size);
-    // A view serves every size up to its own.
+    // A view serves every frame size up to its own.
     t.view = orExit(lighting.createView({.maxWidth = size.width, .maxHeight = size.height}));
     t.size = size;
 }
@@ -148,7 +149,8 @@ void resize(Targets& t, const Host& host, candelabra::Lighting& lighting, VkExte
 void showDisplay(const Window::Frame& frame, const HostImage& display, VkExtent2D size)
 {
     imageBarrier(frame.cmd, &display, storageInCompute, blitSource);
-    imageBarrier(frame.cmd, &frame.target, // waits for what the semaphore of the image waits for
+    // The wait stage makes this barrier wait for the semaphore that acquired the image.
+    imageBarrier(frame.cmd, &frame.target,
                  {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0}, blitTarget);
     const VkOffset3D end{int32_t(size.width), int32_t(size.height), 1};
     const VkImageBlit blit{.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
@@ -210,7 +212,7 @@ int main(int argc, char** argv)
             std::chrono::duration<double>(now - std::exchange(last, now)).count();
         const double step = options.frames == UINT64_MAX ? std::min(elapsed, 0.1) : 1.0 / 60;
         seconds += settings.moving ? step : 0;
-        // Of the slot's last frame, if there was one of this view.
+        // The statistics are those of the slot's previous frame, if this view recorded one.
         if (auto stats = targets.view.stats(frame->slot); stats && stats.value())
             longestList = stats.value()->maxListLength;
 

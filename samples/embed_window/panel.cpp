@@ -12,7 +12,7 @@
 namespace
 {
 
-// Debian's Dear ImGui draws in render passes.
+// Debian's version of Dear ImGui draws in render passes.
 VkRenderPass createPass(VkDevice device, VkFormat format)
 {
     const VkAttachmentDescription colour{.format = format,
@@ -53,7 +53,7 @@ Panel::Panel(const Window& window) : window_(window)
                 "creating a descriptor pool");
     pass_ = createPass(host.device, window.format());
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // leaves no file behind
+    ImGui::GetIO().IniFilename = nullptr; // write no settings file
     ImGui_ImplGlfw_InitForVulkan(window.get(), true);
     ImGui_ImplVulkan_InitInfo info{};
     info.Instance = host.instance;
@@ -66,7 +66,7 @@ Panel::Panel(const Window& window) : window_(window)
     info.ImageCount = std::max(framesInFlight, window.imageCount());
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     ImGui_ImplVulkan_Init(&info, pass_);
-    Host once = host; // of which its own command buffer is used
+    Host once = host; // a copy, to use its command buffer once
     ImGui_ImplVulkan_CreateFontsTexture(beginFrame(&once));
     endFrame(&once);
     ImGui_ImplVulkan_DestroyFontUploadObjects();

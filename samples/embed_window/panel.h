@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be set while the program runs: Dear ImGui over the picture.
+// The panel with settings that can be changed while the program runs: Dear ImGui over the picture.
 #pragma once
 
 #include "window.h"
 
 struct Settings {
     int lightCount = 64;
-    int overlay = -1; // CndSurfaceQuantity, -1: the lit picture
+    int overlay = -1; // a CndSurfaceQuantity; -1: the lit picture
     bool moving = true;
 };
 
@@ -18,8 +18,8 @@ public:
     Panel(const Panel&) = delete;
     Panel& operator=(const Panel&) = delete;
 
-    // The window's target as colourAttachment says, before and after.
-    // `longestList`: CndLightingStats::maxListLength.
+    // Draws the panel into the window's target, which must be and stays as `colourAttachment` says.
+    // `longestList` is CndLightingStats::maxListLength.
     void record(const Window::Frame& frame, VkExtent2D size, Settings& settings,
                 uint32_t longestList);
 
@@ -27,5 +27,5 @@ private:
     const Window& window_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkRenderPass pass_ = VK_NULL_HANDLE;
-    VkFramebuffer framebuffers_[framesInFlight]{}; // of the slots' last frames
+    VkFramebuffer framebuffers_[framesInFlight]{}; // one per slot, of its last frame
 };

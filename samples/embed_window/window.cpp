@@ -64,7 +64,7 @@ Window::Window(const char* title, uint32_t width, uint32_t height)
         checkVulkan(vkCreateFence(host_.device, &fence, nullptr, &slot.fence), "creating a fence");
         slot.acquired = createSemaphore(host_.device);
     }
-    // UNORM: what Candelabra displays is encoded already.
+    // A UNORM format, because Candelabra's display image is sRGB-encoded already.
     VkSurfaceFormatKHR formats[64];
     count = 64;
     vkGetPhysicalDeviceSurfaceFormatsKHR(host_.physicalDevice, surface_, &count, formats);
@@ -112,7 +112,7 @@ void Window::createSwapchain()
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     size_ = can.currentExtent;
-    if (size_.width == UINT32_MAX) // ours to choose
+    if (size_.width == UINT32_MAX) // the program may choose the size
         size_ = {
             std::clamp(uint32_t(width), can.minImageExtent.width, can.maxImageExtent.width),
             std::clamp(uint32_t(height), can.minImageExtent.height, can.maxImageExtent.height)};
@@ -161,7 +161,7 @@ void Window::createSwapchain()
 std::optional<Window::Frame> Window::begin()
 {
     glfwPollEvents();
-    int width = 0, height = 0; // drivers may be late to say that the size has changed
+    int width = 0, height = 0; // drivers may report a new size late
     glfwGetFramebufferSize(window_, &width, &height);
     if (stale_ || uint32_t(width) != size_.width || uint32_t(height) != size_.height) {
         createSwapchain();
@@ -178,7 +178,7 @@ std::optional<Window::Frame> Window::begin()
         stale_ = true;
         return {};
     }
-    if (acquired != VK_SUBOPTIMAL_KHR) // shown as well as it can be; end() sees to the size
+    if (acquired != VK_SUBOPTIMAL_KHR) // show it as it is; end() marks the swapchain stale
         checkVulkan(acquired, "acquiring a window image");
     checkVulkan(vkResetFences(host_.device, 1, &slot.fence), "resetting a fence");
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
@@ -191,7 +191,7 @@ void Window::end(const Frame& frame)
 {
     const Slot& slot = slots_[frame.slot];
     checkVulkan(vkEndCommandBuffer(frame.cmd), "ending a command buffer");
-    // The first that touches the window's image is the blit.
+    // The blit is the first command that accesses the window's image.
     const VkPipelineStageFlags waitStage = VK_PIPELINE_STAGE_TRANSFER_BIT;
     const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
                               .waitSemaphoreCount = 1,

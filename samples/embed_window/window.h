@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window with its device and swapchain, and two frames in flight: what a renderer has anyway.
+// A window with its device and swapchain and two frames in flight, as every renderer has.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ struct GLFWwindow;
 
 constexpr uint32_t framesInFlight = 2;
 
-// Layout, stage and access of an image where it is used.
+// Layout, stage and access of images at the places where they are used.
 constexpr ImageUse unused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_NONE, 0};
 constexpr ImageUse colourAttachment{
     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -45,23 +45,25 @@ public:
 
     const Host& host() const { return host_; }
     GLFWwindow* get() const { return window_; }
-    VkExtent2D size() const { return size_; } // pixels of the swapchain
+    VkExtent2D size() const { return size_; } // size of the swapchain in pixels
     VkFormat format() const { return format_; }
     uint32_t imageCount() const { return uint32_t(images_.size()); }
 
     struct Frame {
-        VkCommandBuffer cmd; // begun
-        uint32_t slot;       // whose last frame the GPU has finished
-        uint32_t image;      // of the swapchain
-        HostImage target;    // that image, as a HostImage; unused when the frame begins
+        VkCommandBuffer cmd; // recording has begun
+        uint32_t slot;       // the GPU has finished the slot's previous frame
+        uint32_t image;      // index in the swapchain
+        HostImage target;    // that swapchain image as a HostImage; its contents are undefined when
+                             // the frame begins
     };
-    // None while the window has no area, or its size has just changed: ask size() again.
+    // Begins a frame. Returns nothing while the window has no area, or if its size has just
+    // changed: ask size() again.
     std::optional<Frame> begin();
-    // `target` must be as `presented` says.
+    // Submits and presents the frame; its target must be as `presented` says.
     void end(const Frame& frame);
 
-    // Records a copy of the target, which must be as copySource says; end() of the same frame waits
-    // for it and writes a PPM.
+    // Records a copy of the target, which must be as `copySource` says. end() of the same frame
+    // waits for the copy and writes it as a PPM file.
     void copyTo(const Frame& frame, const std::string& file);
 
 private:
@@ -76,16 +78,16 @@ private:
     VkFormat format_ = VK_FORMAT_UNDEFINED;
     VkExtent2D size_{};
     std::vector<HostImage> images_;
-    std::vector<VkSemaphore> rendered_; // per image
+    std::vector<VkSemaphore> rendered_; // one per swapchain image
     struct Slot {
         VkCommandBuffer cmd;
         VkFence fence;
         VkSemaphore acquired;
     } slots_[framesInFlight]{};
     uint64_t frames_ = 0;
-    bool stale_ = false; // the swapchain is to be made anew
+    bool stale_ = false; // the swapchain must be recreated
 
-    std::string copyFile_; // empty: no copy is under way
+    std::string copyFile_; // empty: no copy is pending
     VkBuffer copy_ = VK_NULL_HANDLE;
     VkDeviceMemory copyMemory_ = VK_NULL_HANDLE;
 };
