@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What shading costs when nothing is looked for: every pixel evaluates as many lights in each way as
-// contribute to it, from a tiny fixed list. The image means nothing.
+// Shading cost without any search for lights: every pixel evaluates as many lights in each way as
+// contribute to it, taken from a tiny fixed list. The resulting image is meaningless.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/pixel_of_lane.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One lane per light: visits the froxels that the bounds of its sphere cover and counts, or enters,
-// itself where the sphere touches the froxel's box.
+// One lane per light. It visits the froxels covered by the bounds of the light's sphere; where the
+// sphere touches the froxel's box, it counts the light or enters it into the froxel's list.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -27,10 +27,11 @@ layout(scalar, binding = BASELINE_FROXELS_ENTRIES) writeonly buffer Entries
     uint entries[];
 };
 
-// First and last tile along one axis that the box of a sphere may cover, as ndc over distance.
+// Returns the first and last tile along one axis that the box of a sphere may cover.
 ivec2 range(float centre, float r, vec2 near, float m, float m2, float pixelsPerNdc, uint count)
 {
-    // x / w is largest or smallest at a corner of (x, w); w > 0 is the distance.
+    // x / w is largest and smallest at corners of the range of (x, w); w > 0 is the distance from the
+    // eye.
     const vec2 low = (m * (centre - r) / near) - m2, high = (m * (centre + r) / near) - m2;
     const float from = min(min(low.x, low.y), min(high.x, high.y));
     const float to = max(max(low.x, low.y), max(high.x, high.y));
@@ -60,7 +61,7 @@ void main()
                            params.pixelsPerNdc.x, params.froxelCount.x);
     const ivec2 ys = range(m.m11 < 0.0 ? -s.y : s.y, s.w, ends, abs(m.m11), m.m21,
                            params.pixelsPerNdc.y, params.froxelCount.y);
-    // One slice more on either side: log2 rounds.
+    // One more slice on either side, because log2 rounds.
     const int z0 = max(sliceOf(ends.x * 0.9999), 0), z1 = sliceOf(ends.y * 1.0001);
     const int width = xs.y - xs.x + 1, area = width * (ys.y - ys.x + 1);
     const int froxels = area * (z1 - z0 + 1);

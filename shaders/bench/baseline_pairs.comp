@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// count_pairs.comp over the lists of a baseline; also how often each pixel evaluates in which way.
+// count_pairs.comp for the lists of a baseline. It also counts how often each pixel evaluates in which
+// way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -24,13 +25,14 @@ uint bits(uvec2 x)
     return uint(bitCount(x.x) + bitCount(x.y));
 }
 
-// Lanes that run the loop over `found`, those that wait for others included, per lane.
+// Returns how many turns the loop over `found` takes for this lane, including turns in which it waits
+// for others.
 uint turns(uvec2 found)
 {
     return subgroupMax(bits(found));
 }
 
-// 64-bit sum: the addition that wraps carries.
+// 64-bit sum: the addition that wraps around carries.
 #define COUNT(counter, n)                                                                          \
     {                                                                                              \
         const uint more = subgroupAdd(n);                                                          \
@@ -45,7 +47,7 @@ void main()
     const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : params.clearDepth;
     const bool surface = depth != params.clearDepth;
     uint listed = 0u, evaluated = 0u, influenced = 0u;
-    uvec3 found3 = uvec3(0u); // above, near, general
+    uvec3 found3 = uvec3(0u); // lights evaluated above, near and across the horizon (general)
     Block block = Block(0u, 0u, 0u);
     Receiver r;
     if (surface) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts of froxels -> where their lists begin, in one group: each lane sums a run, then writes it.
+// Prefix sum: light counts of froxels -> starts of their lists. One group; each lane sums a run, then
+// writes it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/baselines.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// shade_tiles.comp over the lists of a baseline.
+// shade_tiles.comp for the lists of a baseline.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/pixel_of_lane.glsl"

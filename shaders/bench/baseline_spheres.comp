@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spheres of influence, so that culling reads one texel per light.
+// Writes the spheres of influence to a compact buffer, so that culling reads one texel per light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/baselines.h"
@@ -24,7 +24,7 @@ void main()
     if (light >= params.lightCount)
         return;
     const float r2 = core[light * LIGHT_CORE_STRIDE + 1u].w;
-    // A hair more: tests round.
+    // Enlarged a little, because the tests round.
     const vec3 centre = core[light * LIGHT_CORE_STRIDE].xyz;
     const vec3 far = abs(centre);
     const float margin = 4e-6 * max(far.x, max(far.y, far.z));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights of 16x16 pixel tiles: sphere against the planes of the tile's frustum and its range of depth.
-// One lane per tile, so that eight or more tiles test a light that all of them read; 32 lights are
-// tested before those that passed are written.
+// Light lists of 16x16 pixel tiles: tests spheres against the planes of the tile's frustum and its
+// depth range. One lane per tile, so that the lanes of a subgroup, eight or more tiles, test a light
+// that all of them read. 32 lights are tested before those that passed are written.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -33,7 +33,7 @@ layout(scalar, binding = BASELINE_TILES_RANGES) writeonly buffer Ranges
     vec2 ranges[];
 };
 
-// Of a frustum's side through the eye: its components along one axis and z.
+// Returns the unit normal of a frustum side through the eye: its components along one axis and along z.
 vec2 side(float m, float m2, float ndc, float m23, float inwards)
 {
     return inwards * normalize(vec2(m, m2 - ndc * m23));
@@ -64,13 +64,13 @@ void main()
 
     const vec2 low = 2.0 * vec2(first) * params.invImageSize - 1.0;
     const vec2 high = 2.0 * vec2(end) * params.invImageSize - 1.0;
-    // Inside: clip.x >= low w and clip.x <= high w, and so on, for w > 0.
+    // A point is inside where clip.x >= low w, clip.x <= high w, and so on, for w > 0.
     const vec2 left = side(m.m00, m.m20, low.x, m.m23, 1.0);
     const vec2 right = side(m.m00, m.m20, high.x, m.m23, -1.0);
     const vec2 top = side(m.m11, m.m21, low.y, m.m23, 1.0);
     const vec2 bottom = side(m.m11, m.m21, high.y, m.m23, -1.0);
 
-    const uint before = heads[tile]; // 0, or the list of the batches before
+    const uint before = heads[tile]; // 0, or the list made by earlier batches
     uint head = before, page = 0u, inPage = PAGE_LIGHTS, total = 0u;
     const uint endLight = empty ? 0u : params.endLight;
     for (uint begin = params.firstLight; begin < endLight; begin += 32u) {
@@ -85,7 +85,7 @@ void main()
         }
         total += uint(bitCount(passed));
         while (passed != 0u) {
-            if (inPage == PAGE_LIGHTS) { // a page never ends a chain empty
+            if (inPage == PAGE_LIGHTS) { // a chain of pages never ends with an empty page
                 const uint next = atomicAdd(counters.entryCursor, PAGE_WORDS) + PAGE_WORDS;
                 if (next + PAGE_WORDS > params.entryCapacity) {
                     counters.overflowed = 1u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lists of the baselines, as blocks for light_walk.glsl.
+// Reads the lists of the baselines as blocks for light_walk.glsl.
 #include "shared/baselines.h"
 #include "shared/clusters.h"
 
@@ -23,8 +23,8 @@ uint lightAt(uint k)
 }
 
 struct Block {
-    uint first, count; // count 0: no more; first still is one that can be read
-    uint next;         // tiles: page, froxels: lights left
+    uint first, count; // a count of 0 ends the walk; `first` is a readable index even then
+    uint next; // tiles: next page; froxels: number of lights left
 };
 
 Block pageBlock(uint page)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One light as shade_brute.comp treats it, and its lobes apart. After shading/light_walk.glsl.
+// Evaluates one light as shade_brute.comp does, with separate lobes. Include it after
+// shading/light_walk.glsl.
 
 vec3 evaluateClassified(Receiver r, uint light)
 {
@@ -8,8 +9,8 @@ vec3 evaluateClassified(Receiver r, uint light)
     return total(sums);
 }
 
-// Makes the channels of the response those of BenchResponse: albedo in x; F0 = F90 = 1 in y gives A,
-// F90 = 1 alone in z gives B.
+// Sets up a material whose response has the channels of BenchResponse: the albedo term in x; with F0 =
+// F90 = 1 term A in y; with F90 = 1 alone term B in z.
 void separateLobes(inout ShadingPoint p)
 {
     p.albedo = vec3(1.0, 0.0, 0.0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Response of receiver i to light i, by the shipping evaluation of one light type and specular method.
+// Response of receiver i to light i, evaluated by the shipping code of one light type and specular
+// method.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "bench/lights.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the lights cost each pixel, in false colours with a legend.
+// Shows in false colours, with a legend, what the lights cost each pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/heat_map.h"
@@ -19,7 +19,7 @@ layout(scalar, binding = HEAT_MAP_COLOURS) readonly buffer Colours
 uint colourOf(vec4 pairs)
 {
     const uint pixelClass = uint(pairs.w);
-    if (params.which == HEAT_MAP_CLASS || pixelClass == 0u) // none: no surface
+    if (params.which == HEAT_MAP_CLASS || pixelClass == 0u) // class 0: no surface
         return HEAT_MAP_STEPS + min(pixelClass, HEAT_MAP_CLASSES - 1u);
     const float lights = params.which == HEAT_MAP_LISTED ? pairs.x : pairs.y;
     const float place = params.which == HEAT_MAP_EFFICIENCY

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bindings of the benchmark kernels, and the shipping evaluation of lights over them.
+// Bindings of the benchmark kernels, and the shipping evaluation of the lights bound there.
 #include "shared/bench.h"
 #include "lib/gbuffer.glsl"
 #include "lib/brdf.glsl"

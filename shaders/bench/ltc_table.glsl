@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of lib/specular/ltc.glsl.
+// Binding of the table that lib/specular/ltc.glsl reads.
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/bench.h"
 

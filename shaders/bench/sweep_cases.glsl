@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the slices of sweep_inputs.comp draw. All values are within the documented ranges of CndLight;
-// points may be anything that a G-buffer can hold.
+// The random cases of sweep_inputs.comp, one kind per slice. Lights are within the documented ranges of
+// CndLight; surface points may be anything that a G-buffer can hold.
 
 struct SweepPoint {
     vec3 position, n, v;
@@ -30,7 +30,8 @@ SweepPoint makeSweepPoint(uint slice)
         p.position = randomLog10(5.0, 6.0) * randomDirection();
     else if (chance(0.3))
         p.position = randomLog10(-2.0, 3.0) * randomDirection();
-    // Half the towards-eye vectors are not unit: they arrive as minus the position.
+    // The vectors towards the eye need not be unit: half of them are scaled as if computed from a
+    // position.
     if (slice == SWEEP_DENORMAL && chance(0.5))
         p.v = p.v * 1e-10 + 1e-39 * randomDirection();
     p.albedo = vec3(random01(), random01(), chance(0.5) ? 0.0 : 1.0);
@@ -39,7 +40,7 @@ SweepPoint makeSweepPoint(uint slice)
     return p;
 }
 
-// Direction to the light and sine of its half angle.
+// Returns the direction to the light, and the sine of its half angle.
 vec4 sweepDirection(uint slice, SweepPoint p)
 {
     const vec3 v = normalize(p.v * (slice == SWEEP_DENORMAL ? 1e10 : 1.0));
@@ -57,7 +58,7 @@ vec4 sweepDirection(uint slice, SweepPoint p)
         const uint which = randomBelow(4u);
         return vec4(besides(which == 0u ? p.n : which == 1u ? mirror : which == 2u ? v : -p.n), s);
     }
-    // Half of the lights are where the lobe is.
+    // Half of the lights are placed within the lobe.
     if (chance(0.5))
         return vec4(normalize(mirror + (s + p.perceptualRoughness * p.perceptualRoughness + 1e-4) *
                                            random01() * randomDirection()),
@@ -79,8 +80,8 @@ void makeSweepLight(uint slice, SweepPoint p)
         const uint which = randomBelow(4u);
         d = which == 0u ? 0.0 : which == 1u ? size * random01() : size * (1.0 + hair());
     }
-    // Rounding of the position moves the light; the record holds what the shader saw. Not precise,
-    // compilers take centre - position back to d * at.
+    // Rounding of the position moves the light; the record must hold what the shader sees. Without
+    // `precise`, compilers simplify centre - position back to d * at.
     precise const vec3 centre = p.position + d * at.xyz;
     vec3 u = randomDirection();
     if (chance(0.3))

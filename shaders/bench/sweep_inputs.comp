@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random and adversarial inputs for the shipping evaluation of lights: counts responses that are NaN,
+// Random and adversarial inputs for the shipping evaluation of lights. Counts responses that are NaN,
 // infinite or negative and keeps the first of them, or records every configuration.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -24,7 +24,7 @@ layout(scalar, binding = SWEEP_COUNTERS) buffer Counters
     SweepCounters counters;
 };
 
-// The light at hand, where light_eval.glsl looks for one.
+// The current light, with the accessors through which light_eval.glsl reads lights.
 vec4 centreReach, emissionInfluence;
 vec4 lightAux[LIGHT_AUX_STRIDE];
 

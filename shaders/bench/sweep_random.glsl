@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random inputs of sweep_inputs.comp: counter-based, so that an index stands for a configuration.
+// Random numbers for sweep_inputs.comp. They are counter-based, so that an index determines a
+// configuration.
 #ifndef CND_BENCH_SWEEP_RANDOM
 #define CND_BENCH_SWEEP_RANDOM
 
@@ -7,7 +8,7 @@
 
 uint sweepState;
 
-// Jarzynski and Olano 2020, "Hash functions for GPU rendering": PCG.
+// The PCG hash of Jarzynski and Olano 2020, "Hash functions for GPU rendering".
 uint sweepHash(uint x)
 {
     const uint state = x * 747796405u + 2891336453u;
@@ -26,7 +27,7 @@ uint randomBits()
     return sweepState;
 }
 
-// [0, 1]: both ends occur.
+// Returns a number in [0, 1]; both ends can occur.
 float random01()
 {
     return float(randomBits() >> 8u) * (1.0 / 16777215.0);
@@ -65,7 +66,7 @@ vec3 randomDirection()
     return vec3(r * cos(angle), r * sin(angle), z);
 }
 
-// Nothing, an ulp or so, or a little more: what makes "equal" and "nearly equal".
+// Returns zero, about an ulp, or a little more, for cases that are equal or nearly equal.
 float hair()
 {
     const uint which = randomBelow(4u);
@@ -79,7 +80,7 @@ vec3 besides(vec3 direction)
     return normalize(direction + hair() * randomDirection());
 }
 
-// Direction with this cosine to n, around it anywhere.
+// Returns a direction with this cosine to n, at a random azimuth.
 vec3 directionAt(vec3 n, float cosine)
 {
     const vec3 any = abs(n.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The diffuse form factor of a sphere alone: the shipping form against the usual one.
+// Times the diffuse form factor of a sphere: the shipping form against the usual one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "bench/lights.glsl"
@@ -15,8 +15,8 @@ layout(scalar, binding = BENCH_OUTPUT) writeonly buffer Output
     float sums[];
 };
 
-// Lagarde and de Rousiers 2014, section 4.7.2, in the form with one acos and one atan, over pi. In
-// single precision it loses small lights and gives NaN where the light touches the horizon.
+// The usual form of Lagarde and de Rousiers 2014, section 4.7.2, with one acos and one atan, divided by
+// pi. In single precision it loses small lights and returns NaN where the light touches the horizon.
 float naiveFormFactor(float c, float s2)
 {
     const float sine = sqrt(1.0 - c * c);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every lane evaluates the same lights in one way, as the inner loop of shade_tiles.comp does: run with
-// two light counts, the difference of the times is the cost of the lights between them.
+// Every lane evaluates the same lights in one way, as the inner loop of shade_tiles.comp does. Run with
+// two light counts: the difference of the times is the cost of the additional lights.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "bench/lights.glsl"
@@ -16,7 +16,7 @@ layout(scalar, binding = BENCH_OUTPUT) writeonly buffer Output
     float sums[];
 };
 
-// A constant: one of the functions is left.
+// `evaluation` is a specialisation constant, so only one of the calls remains.
 vec3 evaluate(Receiver r, uint light)
 {
 #if LIGHT_FAMILY == FAMILY_CONIC

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact plane or ball: the ray through the pixel centre is intersected, depth is that of the hit.
+// An exact plane or ball: intersects the ray through the pixel centre and writes the depth of the hit.
 // Hits outside the depth range are clipped, as geometry is.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -19,7 +19,8 @@ void main()
     vec3 positionView, normal;
     bool hit;
     if (shape == ANALYTIC_PLANE) {
-        // height and slope were projected on the normal in double, so no float cancels.
+        // height and slope were projected onto the normal in double precision, so nothing cancels in
+        // float.
         const float height = params.height.x + ndc.x * params.height.y + ndc.y * params.height.z;
         const float slope = params.slope.x + ndc.x * params.slope.y + ndc.y * params.slope.z;
         const vec3 origin =

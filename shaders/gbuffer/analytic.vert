@@ -5,5 +5,6 @@
 void main()
 {
     const vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
-    gl_Position = vec4(corner * 4.0 - 1.0, 0.5, 1.0); // any depth: the fragment shader writes its own
+    // any depth will do: the fragment shader writes its own
+    gl_Position = vec4(corner * 4.0 - 1.0, 0.5, 1.0);
 }

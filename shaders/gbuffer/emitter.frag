@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A visible area light, ray-cast at the pixel centre. In perspective the near plane does not cut
-// lights: one that holds the camera, or is very close, has its luminance along every ray that meets it.
-// Distant spheres lie behind everything: they are drawn where depth is clear, and leave it so.
+// A visible area light, ray-cast at the pixel centre. In perspective views the near plane does not cut
+// lights: one that contains the camera, or is very close to it, shows its luminance along every ray
+// that meets it. Distant spheres lie behind everything: they are drawn where depth is clear, and leave
+// it clear.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gbuffer/emitter_shapes.glsl"
@@ -10,10 +11,11 @@
 
 layout(constant_id = RASTER_SHAPE) const uint shape = LIGHT_SPHERE;
 
-layout(location = 0) flat in vec4 inCenter; // view space, with the radius; distant: direction, sine
+// view-space centre, radius; distant sphere: direction, sine of its angular radius
+layout(location = 0) flat in vec4 inCenter;
 layout(location = 1) flat in vec3 inLuminance;
 layout(location = 2) flat in vec3 inAxisU; // view space
-layout(location = 3) flat in vec4 inAxisV; // view space, and whether it is two-sided
+layout(location = 3) flat in vec4 inAxisV; // view space; w: whether it is two-sided
 
 EmitterHit intersectEmitter(Ray ray)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A quad per visible area light that covers its projection: perpendicular to the line of sight to the
-// sphere around it, as large as the tangent cone, at unit distance (only directions matter). Seen from
-// inside that sphere or from very close it is the whole screen.
+// One quad per visible area light that covers the light's projection. It is perpendicular to the line
+// of sight to the bounding sphere, as large as the tangent cone, at unit distance (only directions
+// matter). Seen from inside that sphere or from very close it is the whole screen.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gbuffer/rays.glsl"
@@ -13,20 +13,22 @@ layout(location = EMITTER_LUMINANCE) in vec3 luminance;
 layout(location = EMITTER_AXIS_U) in vec3 axisU;
 layout(location = EMITTER_AXIS_V) in vec4 axisVAndTwoSided;
 
-layout(location = 0) flat out vec4 outCenter; // view space, with the radius; distant: direction, sine
+// view-space centre, radius; distant sphere: direction, sine of its angular radius
+layout(location = 0) flat out vec4 outCenter;
 layout(location = 1) flat out vec3 outLuminance;
 layout(location = 2) flat out vec3 outAxisU; // view space
-layout(location = 3) flat out vec4 outAxisV; // view space, and whether it is two-sided
+layout(location = 3) flat out vec4 outAxisV; // view space; w: whether it is two-sided
 
-// Angular rounding of the quad and of pixel rays, with a margin of about 50.
+// Angular rounding error of the quad and of pixel rays, with a safety factor of about 50.
 const float MARGIN = 1e-5;
 
-// From the centre to the farthest point of the light.
+// Returns the distance from the centre to the farthest point of the light.
 float reachOf()
 {
     if (shape == LIGHT_TUBE)
         return length(axisU) + positionAndRadius.w;
-    if (shape == LIGHT_RECTANGLE) // a diagonal, of which there are two when the sides are not square
+    // half the longer diagonal, as the axes need not be exactly perpendicular
+    if (shape == LIGHT_RECTANGLE)
         return max(length(axisU + axisVAndTwoSided.xyz), length(axisU - axisVAndTwoSided.xyz));
     return positionAndRadius.w;
 }
@@ -44,7 +46,7 @@ void main()
 
     const vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 2.0 - 1.0;
     const float radius = reachOf();
-    const vec3 toCenter = distant ? center : center - frame.rayOrigin[0]; // from the eye
+    const vec3 toCenter = distant ? center : center - frame.rayOrigin[0]; // seen from the eye
     const float distanceToCenter = length(toCenter);
     const float sinCone = radius / distanceToCenter;
     const vec3 axis = perspective ? toCenter / distanceToCenter : frame.forward;
@@ -61,9 +63,11 @@ void main()
     const vec3 positionView =
         (perspective ? frame.rayOrigin[0] + axis : center) + reach * (corner.x * u + corner.y * v);
     gl_Position = frame.clipFromView * vec4(positionView, 1.0);
-    // tan(cone) = 7: larger quads lose precision. Parallel rays all look at one point of the sky.
+    // Larger quads than tan(cone) = 7 lose precision. In orthographic views all rays look at one point
+    // of the sky.
     if (perspective ? !(sinCone < 0.99) : distant)
         gl_Position = vec4(corner, 0.0, 1.0);
-    // Depth is written per pixel. This one is never clipped by near or far, but keeps w away from 0.
+    // Depth is written per pixel. This value is never clipped at the near or far end, and keeps w away
+    // from 0.
     gl_Position.z = gl_Position.w - 1e-3;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays against the shapes of area lights, view space.
+// Intersection of rays with the shapes of area lights, in view space.
 #ifndef CND_GBUFFER_EMITTER_SHAPES
 #define CND_GBUFFER_EMITTER_SHAPES
 
@@ -7,20 +7,21 @@
 
 struct EmitterHit {
     bool hit;
-    float near, far; // distances along the ray; perspective: negative is behind the camera
-    vec3 normal;     // unit, at near, against the ray
+    float near, far; // distances along the ray; in perspective a negative one is behind the camera
+    vec3 normal; // unit, at distance `near`, facing against the ray
 };
 
 EmitterHit intersectBall(Ray ray, vec3 center, float radius)
 {
-    const float distanceToCenter = length(center - frame.rayOrigin[0]); // of the eye
+    const float distanceToCenter = length(center - frame.rayOrigin[0]); // from the eye
     const float power = (distanceToCenter - radius) * (distanceToCenter + radius);
     const SphereHit s = intersectSphere(ray, center, radius, power);
     return EmitterHit(s.hit, s.near, s.far, s.normal);
 }
 
 // The tube is the union of a cylinder and a ball at either end; a ray enters a union where it first
-// enters one of its parts. It enters the cylinder through its side: the flat ends are inside the balls.
+// enters one of its parts. It can enter the cylinder only through its side, because the flat ends are
+// inside the balls.
 EmitterHit intersectTube(Ray ray, vec3 center, vec3 halfAxis, float radius)
 {
     const EmitterHit a = intersectBall(ray, center - halfAxis, radius);
@@ -32,14 +33,15 @@ EmitterHit intersectTube(Ray ray, vec3 center, vec3 halfAxis, float radius)
         tube.far = b.far;
     tube.hit = a.hit || b.hit;
 
-    // Everything across the axis, where the cylinder is a circle; as intersectSphere.
+    // Projected across the axis the cylinder is a circle; the rest is as in intersectSphere.
     const float halfLength = length(halfAxis);
     const vec3 axis = halfAxis / halfLength;
     const vec3 toCenter = center - ray.origin;
     const vec3 flatDirection = ray.direction - dot(ray.direction, axis) * axis;
     const vec3 flatToCenter = toCenter - dot(toCenter, axis) * axis;
     const float speed2 = dot(flatDirection, flatDirection);
-    if (!(speed2 > 1e-10)) // along the axis: in by one ball, out by the other
+    // the ray is parallel to the axis: it enters by one ball and leaves by the other
+    if (!(speed2 > 1e-10))
         return tube;
     const float along = dot(flatToCenter, flatDirection) / speed2;
     const vec3 across = flatToCenter - along * flatDirection;
@@ -63,7 +65,7 @@ EmitterHit intersectTube(Ray ray, vec3 center, vec3 halfAxis, float radius)
     return tube;
 }
 
-// Where a ray meets a plane, as a light that is seen from its front, or from both sides.
+// Intersects a ray with a plane light, which is visible from its front, or from both sides.
 EmitterHit intersectFlat(Ray ray, vec3 center, vec3 normal, bool twoSided)
 {
     const float slope = dot(ray.direction, normal);
@@ -82,12 +84,13 @@ EmitterHit intersectDisc(Ray ray, vec3 center, vec3 normal, float radius, bool t
     return disc;
 }
 
-// The parallelogram center + a axisU + b axisV with a and b within +-1.
+// Intersects the parallelogram center + a axisU + b axisV with a and b within +-1.
 EmitterHit intersectRectangle(Ray ray, vec3 center, vec3 axisU, vec3 axisV, bool twoSided)
 {
     const float lengthU = length(axisU), lengthV = length(axisV);
     const vec3 u = axisU / lengthU, v = axisV / lengthV;
-    const vec3 across = cross(u, v); // unit to the square of what u and v are off a right angle
+    // its length differs from 1 by the square of the deviation of u and v from a right angle
+    const vec3 across = cross(u, v);
     EmitterHit rectangle = intersectFlat(ray, center, normalize(across), twoSided);
     const vec3 fromCenter = rectangle.near * ray.direction - (center - ray.origin);
     const float area = dot(across, across);

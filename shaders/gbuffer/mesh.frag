@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Metallic-roughness material of a mesh (glTF 2.0, section 3.9 and appendix B) into the G-buffer.
-// Shading normals that face away from the viewer are written as they are: bending them here would
-// hide the fault from lighting, which clamps NoV.
+// Writes the metallic-roughness material of a mesh (glTF 2.0, section 3.9 and appendix B) to the
+// G-buffer. Shading normals that face away from the viewer are written unchanged: bending them here
+// would hide the fault from the lighting, which clamps NoV.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -65,8 +65,8 @@ void main()
         if (masked && color.a * base.a < rough.w)
             discard;
     }
-    // A normal that has vanished (opposite vertex normals) becomes +z, which packs as finite values;
-    // 1e-38 is next to the smallest normal float.
+    // A normal that has vanished (opposite vertex normals) is replaced by +z, which packs to finite
+    // values. 1e-38 is close to the smallest normal float.
     const float squaredLength = dot(normal, normal);
     normal = squaredLength > 1e-38 ? normal * inversesqrt(squaredLength) : vec3(0.0, 0.0, 1.0);
     writeSurface(gl_FrontFacing ? normal : -normal, m);

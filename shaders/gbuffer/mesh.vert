@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instanced triangle meshes. View-space positions come from a difference of double-single positions,
-// so they are as good 1000 km from the world's origin as at it.
+// Draws instanced triangle meshes. View-space positions are computed from a difference of double-single
+// positions, so they are as precise 1000 km from the world's origin as at the origin.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -17,7 +17,7 @@ layout(binding = MESH_INSTANCES) uniform textureBuffer instances;
 layout(location = MESH_POSITION) in vec3 position; // object space
 layout(location = MESH_NORMAL_IN) in vec3 normal;
 layout(location = MESH_TANGENT) in vec4 tangent; // w: handedness
-layout(location = MESH_UV) in vec4 uv;           // both sets
+layout(location = MESH_UV) in vec4 uv; // both uv sets
 layout(location = MESH_COLOR) in vec4 color;
 layout(location = MESH_INSTANCE) in uint instance;
 
@@ -27,7 +27,7 @@ layout(location = 2) out vec4 outTangent;
 layout(location = 3) out vec4 outUv;
 layout(location = 4) out vec4 outColor;
 
-// Exact difference of the high parts (Knuth's TwoSum), then everything that was lost before.
+// Exact difference of the high parts (Knuth's TwoSum), plus the rounding error and the low parts.
 vec3 cameraRelative(vec3 hi, vec3 lo)
 {
     precise vec3 difference = hi - params.cameraHi;
@@ -37,10 +37,10 @@ vec3 cameraRelative(vec3 hi, vec3 lo)
     return result;
 }
 
-// A zero vector stays zero.
+// Normalises a vector; a zero vector stays zero.
 vec3 safeNormalize(vec3 v)
 {
-    return v * inversesqrt(max(dot(v, v), 1e-38)); // 1e-38: next to the smallest normal float
+    return v * inversesqrt(max(dot(v, v), 1e-38)); // 1e-38 is close to the smallest normal float
 }
 
 void main()
@@ -57,8 +57,8 @@ void main()
     const vec3 positionView = params.viewFromWorld * (origin + worldFromObject * position);
     gl_Position = params.clipFromView * vec4(positionView, 1.0);
 
-    // Normals transform by the inverse transpose = cofactors / determinant; only the sign of the
-    // determinant (mirrored instances) matters for the direction.
+    // Normals transform by the inverse transpose, which is cofactors / determinant. Only the sign of
+    // the determinant (mirrored instances) matters for the direction.
     const mat3 cofactors = mat3(cross(y.xyz, z.xyz), cross(z.xyz, x.xyz), cross(x.xyz, y.xyz));
     const float handedness = dot(x.xyz, cofactors[0]) < 0.0 ? -1.0 : 1.0;
     outNormal = params.viewFromWorld * safeNormalize(handedness * (cofactors * normal));

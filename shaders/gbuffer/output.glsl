@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour attachments of the raster pass and how a surface is written to them.
+// The colour attachments of the raster pass, and how a surface is written to them.
 #include "lib/gbuffer.glsl"
 #include "shared/raster.h"
 
@@ -8,7 +8,7 @@ layout(constant_id = RASTER_LAYOUT) const uint gbufferLayout = 0u;
 layout(location = 0) out uvec2 outNormalRoughness;
 layout(location = 1) out vec4 outAlbedo;
 layout(location = 2) out vec4 outRadiance; // cd/m^2
-layout(location = 3) out vec4 outSpecular; // no attachment in COMPACT
+layout(location = 3) out vec4 outSpecular; // layout COMPACT has no such attachment
 
 struct MaterialSample {
     vec3 baseColor;
@@ -35,7 +35,7 @@ void writeSurface(vec3 normal, MaterialSample m)
     }
 }
 
-// A pixel that shows an emitter: its luminance, and nothing for lighting to add to.
+// Writes a pixel that shows an emitter: its luminance, and a surface to which lighting adds nothing.
 void writeEmitter(vec3 normal, vec3 luminance)
 {
     outRadiance = vec4(luminance, 1.0);

@@ -15,7 +15,7 @@ struct Ray {
     vec3 direction; // unit
 };
 
-// Centre of the pixel in normalised device coordinates; the numerator is exact.
+// Returns the pixel centre in normalised device coordinates; the numerator is exact.
 vec2 pixelNdc(vec2 fragCoord)
 {
     return (2.0 * fragCoord - frame.size) / frame.size;
@@ -36,18 +36,18 @@ float depthOf(vec3 positionView)
     return clip.z / clip.w;
 }
 
-// Ray against sphere. The squared distance from the axis is formed from the perpendicular vector, and
-// the near root as power / (sum of two positive terms): neither cancels for small far spheres nor for
-// a camera close to a large one (Haines et al. 2019, "Precision improvements for ray/sphere
-// intersection").
+// Intersection of a ray with a sphere. The squared distance from the axis is computed from the
+// perpendicular vector, and the near root as power / (sum of two positive terms): neither cancels for
+// small far spheres nor for a camera close to a large one (Haines et al. 2019, "Precision improvements
+// for ray/sphere intersection").
 struct SphereHit {
     bool hit;
-    float near, far; // distances along the ray; perspective: negative is behind the camera
-    vec3 normal;     // at near, outwards
+    float near, far; // distances along the ray; in perspective a negative one is behind the camera
+    vec3 normal; // at distance `near`, pointing outwards
 };
 
-// `power` = |center - rayOrigin[0]|^2 - radius^2, of the middle of the screen: the caller may have it
-// in higher precision.
+// `power` = |center - rayOrigin[0]|^2 - radius^2, for the ray through the middle of the screen. It is a
+// parameter because the caller may know it in higher precision.
 SphereHit intersectSphere(Ray ray, vec3 center, float radius, float power)
 {
     const vec3 toCenter = center - ray.origin;
@@ -55,7 +55,7 @@ SphereHit intersectSphere(Ray ray, vec3 center, float radius, float power)
     const vec3 across = toCenter - along * ray.direction;
     const float distanceToAxis = length(across);
     const float halfChord = sqrt(max((radius - distanceToAxis) * (radius + distanceToAxis), 0.0));
-    // Power of this ray's origin; in perspective all rays share one.
+    // The power of this ray's origin; in perspective all rays share one origin.
     const vec3 shift = ray.origin - frame.rayOrigin[0];
     const float rayPower = power - dot(2.0 * (center - frame.rayOrigin[0]) - shift, shift);
     SphereHit s;

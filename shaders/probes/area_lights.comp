@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test-only: diffuse and specular of the area lights, and linearly transformed cosines of spheres.
+// Test-only: diffuse and specular response of the area lights, and transformed cosines of spheres.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/area_probe.h"

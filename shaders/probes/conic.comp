@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test-only: the specular methods of sphere lights on given inputs.
+// Test-only: the specular methods of sphere lights, evaluated on given inputs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/lighting.h"

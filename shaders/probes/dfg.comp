@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test-only: the directional albedo as looked up, and the lobes joined with it.
+// Test-only: lookup of the directional albedo, and the lobes joined with it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test-only: lib/forward.glsl at the surfaces of a G-buffer, as a host's shader would use it.
+// Test-only: evaluates lib/forward.glsl at the surfaces of a G-buffer, as a host's shader would.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

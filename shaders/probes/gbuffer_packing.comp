@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test-only: packing and unpacking of both G-buffer layouts.
+// Test-only: packs and unpacks both G-buffer layouts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/gbuffer_probe.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test-only: the shipping sphere light functions on given inputs.
+// Test-only: the shipping functions of sphere lights, evaluated on given inputs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/lighting.h"
