@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts of options: cameras, sizes, numbers.
+// Fuzzes the parsing of option values: cameras, sizes, numbers.
 #include <cmath>
 
 #include "fuzz/fuzz_target.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Command lines, one argument a line: parsed and not run.
+// Fuzzes command lines, with one argument per line of input: they are parsed but not run.
 #include <sstream>
 
 #include "commands/commands.h"
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     for (const std::string& argument : arguments)
         argv.push_back(argument.c_str());
     static Run run;
-    static CLI::App app("fuzzed"); // made once: making it takes longer than parsing
+    static CLI::App app("fuzzed"); // created once, because creation takes longer than parsing
     if (app.get_subcommands({}).empty())
         for (const auto add : {addBenchCommand, addCompareCommand, addDevicesCommand,
                                addManualCommands, addProfileCommand, addRenderCommand,
@@ -46,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
             add(app, run);
     try {
         app.parse(int(argv.size()), argv.data());
-    } catch (const CLI::Error&) { // --help is one
+    } catch (const CLI::Error&) { // also thrown for --help
     }
     return 0;
 }

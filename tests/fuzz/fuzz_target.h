@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every fuzzer defines: one input, and valid inputs to start from. With libFuzzer (preset
-// fuzz) the first is called by its driver, else by mutations.cpp.
+// What every fuzzer defines: a function that processes one input, and valid inputs to start from.
+// The function is called by libFuzzer's driver (preset fuzz) or by mutations.cpp.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 #include <unistd.h>
 
-// Returns 0. What it throws or a sanitizer finds is the finding.
+// Returns 0. An exception that it throws, or a fault that a sanitizer finds, is a finding.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace candelabra::test
@@ -23,7 +23,8 @@ namespace candelabra::test
 using Seeds = std::vector<std::string>;
 Seeds fuzzSeeds();
 
-// The file that loaders get, of this process alone.
+// Writes the input to a file for loaders that read files, and returns its path, which is specific
+// to this process.
 inline std::string fuzzFile(const uint8_t* data, size_t size, const std::string& extension)
 {
     static const std::string folder = [] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF 2.0, text and binary.
+// Fuzzes the glTF 2.0 loader, text and binary.
 #include "gltf/gltf.h"
 #include "fuzz/fuzz_target.h"
 #include "scene/scene_error.h"

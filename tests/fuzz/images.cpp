@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Floating-point images; the first byte chooses the format.
+// Fuzzes the loaders of floating-point images; the first byte chooses the format.
 #include "fuzz/fuzz_target.h"
 #include "io/image.h"
 
@@ -20,7 +20,7 @@ Seeds fuzzSeeds()
         for (const uint32_t channels : {1u, 3u}) {
             app::Image image{.width = width, .height = 3, .channels = channels};
             for (uint32_t i = 0; i < width * 3 * channels; ++i)
-                image.pixels.push_back(float(i / 4) * 0.25f); // has runs
+                image.pixels.push_back(float(i / 4) * 0.25f); // contains runs of equal values
             for (size_t format = 0; format < std::size(extensions); ++format) {
                 const std::string path = fuzzFile(nullptr, 0, extensions[format]);
                 app::saveImageByExtension(path, image);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver: seeds, then mutations of them, always the same.
-//   fuzz_X [EXECUTIONS] [FILE...]        FILE: run as they are
+// A fuzzing driver: runs the seeds, then mutations of them, always the same sequence.
+//   fuzz_X [EXECUTIONS] [FILE...]        each FILE is run unchanged
 #include <algorithm>
 #include <random>
 
@@ -32,7 +32,7 @@ public:
     }
 
 private:
-    // 0 .. below - 1; 0 for 0.
+    // Returns a number in 0 .. below - 1; 0 if `below` is 0.
     size_t pick(size_t below) { return below ? random_() % below : 0; }
 
     void mutate(std::string& s)
@@ -56,7 +56,7 @@ private:
         case 4:
             s.replace(at, count, interesting[pick(std::size(interesting))]);
             break;
-        case 5: { // what stands elsewhere, of another seed too
+        case 5: { // bytes from elsewhere, also from another seed
             const std::string& from = seeds_[pick(seeds_.size())];
             const size_t first = pick(from.size());
             s.insert(at, from, first, pick(64));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of `candelabra profile`, which `compare` reads.
+// Fuzzes the parsing of results of `candelabra profile`, as `compare` reads them.
 #include <cmath>
 
 #include "commands/run_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene descriptions (.json).
+// Fuzzes the loader of scene descriptions (.json).
 #include "json/scene_json.h"
 #include "fuzz/fuzz_target.h"
 #include "harness/paths.h"

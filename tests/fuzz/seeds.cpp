@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// With libFuzzer, whose driver knows nothing of our seeds: writes them as files of a corpus.
+// For libFuzzer, whose driver does not know fuzzSeeds(): writes them as the files of a corpus.
 //   fuzz_X --write-seeds=DIRECTORY
 #include "fuzz/fuzz_target.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shards of truth images.
+// Fuzzes the reader of truth image shards.
 #include "fuzz/fuzz_target.h"
 #include "io/truth_file.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the slow sweeps are asked for: tools/test --full.
+// Returns whether the slow sweeps were requested: tools/test --full.
 #pragma once
 
 #include <cstdlib>

@@ -12,7 +12,8 @@ namespace candelabra::test
 namespace
 {
 
-// Messages that are faults of the layer, by exact id, each with the proof beside it. None so far.
+// Validation messages that are faults of the layer itself, by exact id, each with its proof beside
+// it. There are none so far.
 bool isLayerFault(const app::ValidationMessage&)
 {
     return false;
@@ -25,11 +26,11 @@ void failOnMessages(const std::vector<app::ValidationMessage>& messages)
             ADD_FAILURE() << "validation: " << m.id << "\n" << m.text;
 }
 
-// Owns the context, so that it is destroyed (and leaks are reported) before the process ends.
+// Owns the context, so that it is destroyed, and leaks are reported, before the process ends.
 class ContextOwner : public ::testing::Environment
 {
 public:
-    // Null when there is no usable device; then `reason` says why.
+    // Returns null if there is no usable device; `reason` then tells why.
     const app::VulkanContext* get()
     {
         if (context_ || !reason.empty())
@@ -51,7 +52,8 @@ public:
     {
         if (!context_)
             return;
-        // The log must outlive the device to hear of objects that were not destroyed.
+        // The log must outlive the device, to receive messages about objects that were not
+        // destroyed.
         context_->destroyDevice();
         failOnMessages(context_->instance().messages().take());
         context_.reset();
@@ -64,7 +66,7 @@ private:
 
 ContextOwner& owner()
 {
-    // GoogleTest deletes environments; registering happens before main in every test binary.
+    // GoogleTest deletes its environments. This one is registered before main in every test binary.
     static auto* const environment =
         static_cast<ContextOwner*>(::testing::AddGlobalTestEnvironment(new ContextOwner));
     return *environment;

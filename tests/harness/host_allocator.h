@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host's allocator (CndAllocator): places everything in large blocks, one behind the other, in
-// memory that holds garbage. It sees the device through the host's functions alone.
+// A host's allocator (CndAllocator) for tests: places everything in large blocks, one object after
+// the other, in memory that holds garbage. It calls the device only through the host's functions.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,14 @@ namespace candelabra::test
 class HostAllocator
 {
 public:
-    // Blocks of at least so many bytes, as many as it takes.
+    // Allocates as many blocks as needed, each of at least `blockBytes` bytes.
     HostAllocator(const CndDeviceDesc& host, VkDeviceSize blockBytes) : host_(host)
     {
         std::fill_n(blockBytes_, CND_MEMORY_KIND_COUNT, blockBytes);
         instanceFunction<PFN_vkGetPhysicalDeviceMemoryProperties>(
             "vkGetPhysicalDeviceMemoryProperties")(host.physicalDevice, &types_);
     }
-    // One block of each kind, as large as planned and no larger.
+    // Allocates one block of each kind, exactly as large as planned.
     HostAllocator(const CndDeviceDesc& host, const CndMemoryUsage& planned) : HostAllocator(host, 0)
     {
         for (int kind = 0; kind < CND_MEMORY_KIND_COUNT; ++kind) {
@@ -36,7 +36,7 @@ public:
         }
         planned_ = true;
     }
-    // Nothing may be in use.
+    // Destroy it only when no allocation is in use.
     ~HostAllocator()
     {
         const auto free = deviceFunction<PFN_vkFreeMemory>("vkFreeMemory");
@@ -47,7 +47,7 @@ public:
     HostAllocator(const HostAllocator&) = delete;
     HostAllocator& operator=(const HostAllocator&) = delete;
 
-    // The host's device, with this allocator.
+    // Returns the host's device with this allocator.
     CndDeviceDesc desc()
     {
         CndDeviceDesc out = host_;
@@ -70,17 +70,17 @@ public:
         VkMemoryRequirements requirements;
         CndMemory at;
     };
-    std::map<uint64_t, Placed> live; // by number
-    uint64_t allocations = 0;        // calls
+    std::map<uint64_t, Placed> live; // by allocation number
+    uint64_t allocations = 0;        // number of calls of allocate
     uint64_t unknownFrees = 0;
-    // What a request gets instead of memory, unless it is VK_SUCCESS.
+    // Returns the result that refuses a request, or VK_SUCCESS to serve it.
     std::function<VkResult(const CndMemoryRequest&)> refuse = [](const auto&) {
         return VK_SUCCESS;
     };
-    // Changes what is given.
+    // Modifies the answer of allocate, to test how faulty answers are handled.
     std::function<void(CndMemory&)> spoil = [](CndMemory&) {};
 
-    // Fills what lives of a kind, where the CPU can.
+    // Fills all live objects of a kind that the CPU can access with `byte`.
     void fill(CndMemoryKind kind, int byte)
     {
         for (const auto& [number, placed] : live)
@@ -92,7 +92,7 @@ private:
     struct Block {
         VkDeviceMemory memory;
         VkDeviceSize size, used;
-        std::byte* mapped; // null: the CPU cannot
+        std::byte* mapped; // null: not accessible to the CPU
     };
 
     template <typename F>
@@ -107,7 +107,7 @@ private:
             instanceFunction<PFN_vkGetDeviceProcAddr>("vkGetDeviceProcAddr")(host_.device, name));
     }
 
-    // One that the CPU sees where there is one; UINT32_MAX: none fits.
+    // Returns a memory type for the request, host-visible if possible; UINT32_MAX if none fits.
     uint32_t memoryType(const CndMemoryRequest& request) const
     {
         constexpr VkMemoryPropertyFlags visible =
@@ -182,7 +182,8 @@ private:
     uint32_t typeBits_[CND_MEMORY_KIND_COUNT] = {~0u, ~0u, ~0u, ~0u, ~0u};
     bool planned_ = false;
     VkPhysicalDeviceMemoryProperties types_{};
-    std::map<std::pair<uint32_t, CndMemoryKind>, std::vector<Block>> blocks_; // by type and kind
+    // by memory type and kind
+    std::map<std::pair<uint32_t, CndMemoryKind>, std::vector<Block>> blocks_;
 };
 
 } // namespace candelabra::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host's log, filled by the message callback.
+// A host's log: collects what the message callback receives.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ struct Message {
 struct HostLog {
     std::vector<Message> messages;
 
-    // The device, with this log.
+    // Returns the device with this log as its message callback.
     CndDeviceDesc desc(CndDeviceDesc device)
     {
         device.message = [](void* user, CndMessageSeverity severity, const char* sentence) {
@@ -29,7 +29,7 @@ struct HostLog {
         device.messageUser = this;
         return device;
     }
-    // The one message since the last call holds this.
+    // Expects exactly one message since the last call, and that it contains `part`.
     void expect(CndMessageSeverity severity, const std::string& part)
     {
         ASSERT_EQ(messages.size(), 1u) << part;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// As much of JSON Schema (2020-12) as tools/candelabra/schemas uses; anything else there is a
-// fault.
+// A validator for the part of JSON Schema (2020-12) that tools/candelabra/schemas uses. Any other
+// keyword in a schema is reported as a fault.
 #pragma once
 
 #include <algorithm>
@@ -17,22 +17,22 @@ namespace candelabra::test
 class JsonSchema
 {
 public:
-    // `name`: of a file in tools/candelabra/schemas.
+    // `name`: file name of a schema in tools/candelabra/schemas.
     explicit JsonSchema(const std::string& name)
         : root_(
               nlohmann::json::parse(std::ifstream(sourcePath("tools/candelabra/schemas/" + name))))
     {
     }
-    // What is wrong, with its place; empty: nothing.
+    // Returns what is wrong with the value, and where; empty if it is valid.
     std::string fault(const nlohmann::json& value) const { return check(value, root_, "value"); }
-    // The same of a part: "#/properties/points".
+    // As fault(), for a part of the schema such as "#/properties/points".
     std::string faultOfPart(const nlohmann::json& value, const std::string& place) const
     {
         return checkReference(value, place, "value");
     }
-    // A keyword somewhere in it that is not checked; empty: none.
+    // Returns a keyword of the schema that is not checked here; empty if there is none.
     std::string unknownKeyword() const { return unknownKeyword(root_); }
-    // What "schema" has to be.
+    // Returns the value that the member "schema" must have.
     std::string name() const { return root_.at("properties").at("schema").at("const"); }
 
 private:
@@ -92,7 +92,7 @@ private:
         return "";
     }
 
-    // "#/place" in this file or "file#/place" in another.
+    // `reference` is "#/place" in this file or "file#/place" in another file.
     std::string checkReference(const nlohmann::json& value, const std::string& reference,
                                const std::string& at) const
     {
@@ -112,7 +112,8 @@ private:
             if (rule != schema["properties"].end()) {
                 if (const std::string fault = check(member, *rule, at + "." + name); !fault.empty())
                     return fault;
-            } else if (schema.contains("additionalProperties")) { // only ever false
+            } else if (schema.contains("additionalProperties")) { // the schemas use no other value
+                                                                  // than false
                 return at + ": has \"" + name + "\", which is not in the schema";
             }
         }

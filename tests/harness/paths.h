@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the tests find files. The paths are compiled into one small library and nowhere else, so
-// that a compiler cache (ccache) serves the tests to clones in other folders.
+// Paths of files that tests use. They are compiled into one small library and nowhere else, so that
+// a compiler cache (ccache) serves the tests to clones in other folders.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@
 namespace candelabra::test
 {
 
-// A file or folder of the repository: "tools/candelabra/schemas".
+// Returns the path of a file or folder of the repository, such as "tools/candelabra/schemas".
 std::string sourcePath(const std::string& name);
-// A file of tests/data.
+// Returns the path of a file in tests/data.
 std::string dataPath(const std::string& name);
-// The candelabra program that was built together with the tests, as one word of a shell's command.
+// Returns the path of the candelabra program that was built with the tests, quoted as one word of a
+// shell command.
 std::string programWord();
-// Any text as one word of a shell's command.
+// Returns any text quoted as one word of a shell command.
 std::string shellWord(const std::string& text);
 
 } // namespace candelabra::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line, run inside the test: what it printed and how it ended.
+// Runs the program's command line inside the test and returns its output and exit code.
 #pragma once
 
 #include <cstdio>

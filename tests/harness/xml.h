@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A real XML parser (Python's expat, which the structure tests need anyway) over what we write.
+// Checks XML that the program wrote with an independent parser (Python's expat, which the structure
+// tests need anyway).
 #pragma once
 
 #include <cstdio>
@@ -8,7 +9,7 @@
 namespace candelabra::test
 {
 
-// What is wrong with the file; empty: it is well-formed. `path` without quotes.
+// Returns what is wrong with the file; empty if it is well-formed. `path` must not contain quotes.
 inline std::string xmlFault(const std::string& path)
 {
     const std::string command = "python3 -c 'import sys, xml.dom.minidom as m\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file of its own, so that no caller sees that operator new is malloc.
+// In a file of its own, so that no caller's compiler sees that operator new is malloc.
 #include "mock/host_allocations.h"
 
 #include <cstdlib>
@@ -12,7 +12,7 @@ namespace
 
 struct HeapState {
     uint64_t count = 0, failing = UINT64_MAX;
-    int paused = 1; // counts at 0
+    int paused = 1; // allocations count while this is 0
 };
 thread_local HeapState heap;
 
@@ -45,7 +45,7 @@ HostAllocations::Pause::~Pause()
 
 } // namespace candelabra::test
 
-// For the whole program: outside of HostAllocations they are malloc and free.
+// Replaces operator new of the whole program. Outside of HostAllocations it is malloc and free.
 void* operator new(size_t size)
 {
     using candelabra::test::heap;
@@ -57,7 +57,8 @@ void* operator new(size_t size)
     throw std::bad_alloc();
 }
 
-// Those who ask for this can do without (std::stable_sort): neither counted nor refused.
+// Callers of this form can do without memory (std::stable_sort), so it is neither counted nor
+// refused.
 void* operator new(size_t size, const std::nothrow_t&) noexcept
 {
     return std::malloc(size ? size : 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What code under test takes from the heap: counted, or refused.
+// Counts or refuses heap allocations of the code under test.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 namespace candelabra::test
 {
 
-// Counts calls of operator new that may throw, of this thread, from the construction to the
-// destruction, but for those while a Pause lives.
+// Counts the calls of throwing operator new on this thread while the object lives, except while a
+// Pause lives.
 class HostAllocations
 {
 public:
-    // The call number `failing`, from 0, throws std::bad_alloc.
+    // Call number `failing`, counted from 0, throws std::bad_alloc.
     explicit HostAllocations(uint64_t failing = UINT64_MAX);
     ~HostAllocations();
     HostAllocations(const HostAllocations&) = delete;

@@ -11,7 +11,7 @@ namespace candelabra::test
 namespace
 {
 
-// Each needs larger buffers, and so does one more light.
+// Numbers of lights; each needs larger buffers than the one before, and so does one more light.
 constexpr uint32_t firstCount = 3, secondCount = 1600, deviceCount = 4000;
 
 CndResult setLights(Host& h, CndLightType type, uint32_t count, CndError* error)
@@ -67,7 +67,7 @@ CndResult recordTubes(Host& h, CndError* error)
     return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
 }
 
-// Those of the host are spheres, too.
+// The lights of the host in this set are spheres.
 CndResult setLightsOfDevice(Host& h, CndError* error)
 {
     const CndDeviceLights device{.type = CND_LIGHT_POINT,
@@ -176,7 +176,7 @@ const std::vector<Step>& steps()
              return cndUpdateLights(h.lighting, 1, &id, &light, error);
          }},
         {"record the updated lights", true, recordTubes},
-        {"add lights of another type", false, // to full buffers
+        {"add lights of another type", false, // the buffers are full
          [](Host& h, CndError* error) {
              const CndLight light{.type = CND_LIGHT_DISC,
                                   .radius = 0.1f,
@@ -200,7 +200,7 @@ const std::vector<Step>& steps()
         {"record what is left", true, recordTubes},
         {"set lights of the device", false, setLightsOfDevice},
         {"record lights of the device", true, recordTubes},
-        {"set lights of the device again", false, setLightsOfDevice}, // which allocates nothing
+        {"set lights of the device again", false, setLightsOfDevice}, // allocates nothing
         {"add lights beside those of the device", false,
          [](Host& h, CndError* error) {
              const CndLight light{.type = CND_LIGHT_SPHERE, .radius = 0.1f, .influenceRadius = 5};
@@ -256,7 +256,7 @@ const std::vector<Step>& steps()
     return all;
 }
 
-// A step, and on a device that is infinitely fast what it recorded.
+// Runs a step; what it recorded is submitted and finishes at once.
 CndResult runStep(const Step& step, Host& h, CndError* error)
 {
     const CndResult result = step.run(h, error);
@@ -292,14 +292,15 @@ std::string runSteps(const std::vector<Step>& steps, Host& h, CndResult expected
             EXPECT_EQ(error.vkResult, expectedVulkan) << step.name << ", " << h.vulkan.failed;
             EXPECT_GT(std::strlen(error.message), 10u) << step.name << ", " << h.vulkan.failed;
         }
-        // The set of lights before it still stands, and can be recorded.
+        // The previous set of lights must still stand, and be recordable.
         if (h.view && lightsBefore) {
             EXPECT_EQ(recordAgain(steps, h, &error), CND_SUCCESS) << error.message;
             CndLightingStats stats{.structSize = sizeof stats};
             EXPECT_EQ(cndGetLightingStats(h.view, 0, &stats), CND_SUCCESS);
             EXPECT_EQ(stats.lightCount, h.lightCount);
         }
-        if (h.geometry) { // nor do its emitters change: all that is drawn is alive
+        if (h.geometry) { // the previous emitters are unchanged too: everything that is drawn must
+                          // be alive
             EXPECT_EQ(recordAgain(steps, h, &error), CND_SUCCESS) << error.message;
         }
         result = runStep(step, h, &error);

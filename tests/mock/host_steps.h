@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host on the mock driver that creates all modules, sets lights of several kinds, edits them,
-// records and asks for statistics, step by step; and one that draws with the raster pass.
+// A host on the mock driver that, step by step, creates all modules, sets lights of several kinds,
+// edits them, records and asks for statistics; and a host that draws with the raster pass.
 #pragma once
 
 #include <functional>
@@ -15,15 +15,15 @@ namespace candelabra::test
 
 struct Host {
     MockVulkan vulkan;
-    CndDeviceDesc device = vulkan.desc(); // what all modules are created from
+    CndDeviceDesc device = vulkan.desc(); // all modules are created from it
     CndLighting lighting = nullptr;
     CndLightingView view = nullptr;
     CndExposure exposure = nullptr;
     CndEnvironment environment = nullptr;
-    uint32_t lightCount = 0; // of the set that succeeded last
+    uint32_t lightCount = 0; // size of the last set that was accepted
     CndLightId added[2] = {};
 
-    // Of rasterSteps().
+    // Used by rasterSteps() only.
     std::unique_ptr<gpu::Device> rasterDevice;
     std::unique_ptr<gbuffer::GBuffer> raster;
     std::unique_ptr<gbuffer::Targets> targets;
@@ -35,24 +35,25 @@ struct Host {
 
 struct Step {
     const char* name;
-    bool records; // may allocate nothing, and call only what records
+    bool records; // such a step may allocate nothing and may call recording functions only
     std::function<CndResult(Host&, CndError*)> run;
 };
 
 const std::vector<Step>& steps();
 const std::vector<Step>& rasterSteps(); // mock/raster_steps.cpp
 
-// A step, and on a device that is infinitely fast what it recorded.
+// Runs a step; what it recorded is submitted and finishes at once.
 CndResult runStep(const Step& step, Host& h, CndError* error);
-// The step of steps(), or of rasterSteps(), that is called "record" once more.
+// Runs again the step named "record" of steps() or of rasterSteps().
 CndResult recordAgain(const std::vector<Step>& steps, Host& h, CndError* error);
 
-// Runs all steps. One of them fails when h.vulkan.failed gets a name: it must report `expected`,
-// leave the lights as they were, and succeed when it is tried again. Returns that step's name.
+// Runs all steps. If one of them fails, which sets h.vulkan.failed, it must report `expected`,
+// leave the lights as they were, and succeed when it is run again. Returns the name of the failed
+// step.
 std::string runSteps(const std::vector<Step>& steps, Host& h, CndResult expected,
                      VkResult expectedVulkan);
 
-// Destroys the host's objects: nothing may be left of them, nor have been misused.
+// Destroys the host's objects and expects that nothing leaked or was misused.
 void expectClean(Host& h, const std::string& where);
 
 } // namespace candelabra::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mock driver says of its physical device.
+// The mock driver's answers about its physical device.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace candelabra::test
 {
 
-// By its name without vk; null: not there.
+// Returns the function of this name (without "vk"), or null if there is none.
 PFN_vkVoidFunction physicalDeviceFunction(const std::string& name);
 
 } // namespace candelabra::test

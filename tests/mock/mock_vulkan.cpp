@@ -16,7 +16,7 @@ namespace
 
 MockVulkan* mock = nullptr;
 
-// Any handle is a number that is given out once.
+// Handles are numbers, each given out only once.
 template <typename H>
 H toHandle(uint64_t number)
 {
@@ -28,7 +28,7 @@ uint64_t toNumber(H handle)
     return reinterpret_cast<uint64_t>(handle);
 }
 
-// Stateless: addresses are enough.
+// The callbacks need no state: only their address is compared.
 const VkAllocationCallbacks callbacks{};
 
 uint64_t nextHandle()
@@ -48,7 +48,7 @@ void expectCallbacks(const char* name, const VkAllocationCallbacks* given)
         misuse(std::string(name) + " without the host's allocation callbacks");
 }
 
-// Begins every mocked function: books it and says whether it fails.
+// Every mocked function begins with a Call, which records the call and decides whether it fails.
 class Call
 {
 public:
@@ -80,14 +80,14 @@ void expectIdle(const char* name, uint64_t handle)
                    " uses");
 }
 
-// A function's name as a template argument.
+// The name of a function, as a template argument.
 template <size_t n>
 struct Name {
     char text[n]{};
     constexpr Name(const char (&from)[n]) { std::copy_n(from, n, text); } // NOLINT
 };
 
-// A function by its shape; nothing for shapes that need one of their own (Override).
+// A mock made from the signature of a function alone; null for signatures that need an Override.
 template <Name N, typename F>
 struct Mock {
     static constexpr F call = nullptr;
@@ -243,7 +243,8 @@ struct Override {
             const bool buffer = w.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
                                 w.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
             const bool ofHost = buffer && w.pBufferInfo->buffer == MockVulkan::hostBuffer();
-            if ((texels || buffer) && !ofHost) // images are the host's
+            if ((texels || buffer) && !ofHost) // the mock does not track images, which are the
+                                               // host's
                 mock->sets[w.dstSet].resources[w.dstBinding] =
                     texels ? toNumber(*w.pTexelBufferView) : toNumber(w.pBufferInfo->buffer);
         }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Vulkan driver that keeps books and computes nothing: hands out handles, remembers which live,
-// fails when told to. The engine calls nothing but what the host's vkGetInstanceProcAddr returns,
-// so this is all of Vulkan that it sees. One at a time: Vulkan's function pointers carry no
-// context.
+// A mock Vulkan driver that keeps track of objects and computes nothing: it hands out handles,
+// remembers which are alive, and fails calls on request. The engine calls only what the host's
+// vkGetInstanceProcAddr returns, so this is all of Vulkan that it sees. Only one mock may exist at
+// a time, because Vulkan's function pointers carry no context.
 #pragma once
 
 #include <cstddef>
@@ -28,58 +28,58 @@ public:
     MockVulkan& operator=(const MockVulkan&) = delete;
 
     static const MockVulkan& current();
-    // With allocation callbacks, which every call must be given back.
+    // Contains allocation callbacks, which the engine must pass to every call that takes some.
     CndDeviceDesc desc() const;
     static VkCommandBuffer commandBuffer();
-    // For images and buffers of the host, which the mock knows nothing of.
+    // Stand-ins for images and buffers of the host, which the mock does not track.
     static VkImageView imageView();
     static VkBuffer hostBuffer();
 
-    // Calls that return a VkResult, since the construction.
+    // Number of calls since construction that return a VkResult.
     uint64_t failableCalls = 0;
-    // That one of them that fails, from 0, how, and, when it was called, its name.
+    // The index of the call that fails (from 0) and its result. `failed` receives its name.
     uint64_t failingCall = UINT64_MAX;
     VkResult error = VK_ERROR_OUT_OF_HOST_MEMORY;
     std::string failed;
-    // A device function by this name is not there.
+    // Name of a device function that is reported as missing.
     std::string absent;
-    VkPhysicalDeviceLimits limits; // ample
+    VkPhysicalDeviceLimits limits; // generous values
     VkDriverId driver = VkDriverId(0);
 
-    // What was recorded since the last submission, which is then in flight until it finishes.
-    // Fills happen when it finishes; what else is recorded never does.
+    // submit() puts everything recorded since the last submission in flight; finish() completes it.
+    // Fills are executed at completion, all other commands never.
     uint64_t submit();
     void finish(uint64_t submission);
 
-    // Every device function called since it was last cleared, and every one asked for.
+    // Names of all device functions called since the set was last cleared, and of all looked up.
     std::set<std::string> called, lookedUp;
     // Handles that were created and not destroyed, with their kind.
     std::map<uint64_t, std::string> alive;
-    // What a driver would have crashed on, or shown wrong.
+    // Uses of the API that a real driver would have punished with a crash or wrong results.
     std::vector<std::string> misuse;
 
     struct Memory {
         VkDeviceSize size = 0;
-        std::unique_ptr<std::byte[]> bytes; // when mapped
+        std::unique_ptr<std::byte[]> bytes; // allocated when mapped
     };
     std::map<VkDeviceMemory, Memory> memories;
     struct Buffer {
         VkDeviceSize size = 0;
         VkDeviceMemory memory = VK_NULL_HANDLE;
-        VkDeviceSize offset = 0; // in it
+        VkDeviceSize offset = 0; // in `memory`
     };
     std::map<VkBuffer, Buffer> buffers;
 
-    // Of a command buffer: what it uses, and what it leaves behind.
+    // What a command buffer uses, and what it will change.
     struct Commands {
-        std::set<uint64_t> used; // handles
+        std::set<uint64_t> used; // handles of objects
         struct Fill {
             VkBuffer buffer;
             VkDeviceSize offset, size;
             uint32_t data;
         };
         std::vector<Fill> fills;
-        struct Read { // of mapped memory, which must stay as it was
+        struct Read { // mapped memory that the GPU reads, and that must not change until then
             VkBuffer buffer;
             VkDeviceSize offset;
             std::vector<std::byte> bytes;
@@ -90,7 +90,7 @@ public:
     std::map<uint64_t, Commands> inFlight;
     struct DescriptorSet {
         VkDescriptorPool pool = VK_NULL_HANDLE;
-        std::map<uint32_t, uint64_t> resources; // by binding: buffers and texel views
+        std::map<uint32_t, uint64_t> resources; // by binding: handles of buffers and texel views
     };
     std::map<VkDescriptorSet, DescriptorSet> sets;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The raster pass, whose C++ throws what the C ABI of the modules reports.
+// Steps of the raster pass. Its C++ interface throws what the C ABI of the modules would report.
 #include <array>
 #include <iterator>
 
@@ -13,7 +13,7 @@ namespace
 
 constexpr uint32_t width = 64, height = 48;
 
-// Static: none of it is allocated while the heap fails.
+// Static, so that nothing of it is allocated while the heap fails.
 constexpr gbuffer::Vertex vertices[] = {
     {.position = {0, 0, -2}, .normal = {0, 0, 1}, .tangent = {1, 0, 0, 1}},
     {.position = {1, 0, -2}, .normal = {0, 0, 1}, .tangent = {1, 0, 0, 1}},
@@ -21,7 +21,7 @@ constexpr gbuffer::Vertex vertices[] = {
 constexpr uint32_t triangle[] = {0, 1, 2};
 constexpr uint8_t texels[4 * 4 * 4] = {};
 
-// A mesh with a texture, a plane and a ball.
+// Creates a scene of a textured mesh, a plane and a ball.
 gbuffer::Geometry makeGeometry(const gpu::Device& device)
 {
     const gbuffer::Mesh mesh{vertices, triangle};
@@ -42,7 +42,7 @@ gbuffer::Geometry makeGeometry(const gpu::Device& device)
              .analyticObjects = objects}};
 }
 
-// `count` of each shape.
+// Sets `count` emitters of each shape.
 CndResult setEmitters(Host& h, uint32_t count, CndError* error)
 {
     constexpr CndLightType types[] = {CND_LIGHT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE,
@@ -120,7 +120,7 @@ const std::vector<Step>& rasterSteps()
          [](Host& h, CndError*) {
              CndKernelTime times[CND_MAX_KERNEL_TIMES];
              uint32_t count = 0;
-             // It only says that it failed.
+             // times() reports only that it failed, not how.
              return h.raster->times(0, times, count) ? CND_SUCCESS : gpu::resultOf(h.vulkan.error);
          }},
     };

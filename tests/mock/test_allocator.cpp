@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All device memory from the host's allocator: nothing from elsewhere, all of it given back, and
-// every way in which it can fail.
+// Tests that all device memory comes from the host's allocator and is given back, and tests every
+// way in which the allocator can fail.
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -15,14 +15,14 @@ namespace
 
 constexpr VkDeviceSize blockBytes = 1 << 20;
 
-// A host with an allocator, which goes last.
+// A host with an allocator, which is destroyed last.
 struct AllocatingHost {
     Host host;
     HostAllocator allocator{host.vulkan.desc(), blockBytes};
 
     AllocatingHost() { host.device = allocator.desc(); }
     ~AllocatingHost() { host.destroy(); }
-    // All is given back.
+    // Expects that all memory has been given back.
     void expectBalance(const std::string& where)
     {
         host.destroy();
@@ -69,7 +69,7 @@ TEST(Allocator, TakesEverything)
     }
     EXPECT_EQ(kinds.size(), size_t(CND_MEMORY_KIND_COUNT));
     EXPECT_GT(h.allocator.live.size(), 40u);
-    // Blocks of the host's are all the memory there is.
+    // The host's blocks are the only memory allocations.
     EXPECT_LT(h.host.vulkan.memories.size(), 70u);
     h.expectBalance("at the end");
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every Vulkan call that can fail is made to fail, in turn, in a host that creates all modules,
-// sets lights of several kinds, records and asks for statistics, and in one that draws with the
-// raster pass; then the heap. Each time: a result code, a sentence, nothing leaked, and the same
-// step succeeds when it is tried again.
+// Makes every Vulkan call that can fail do so, one by one, in a host that creates all modules, sets
+// lights of several kinds, records and asks for statistics, and in a host that draws with the
+// raster pass. Then does the same with heap allocations. Each time the step must return a result
+// code and a sentence, leak nothing, and succeed when it is run again.
 #include <array>
 #include <iostream>
 
@@ -19,7 +19,7 @@ namespace
 struct Family {
     const char* name;
     const std::vector<Step>& (*steps)();
-    std::vector<const char*> failing; // steps
+    std::vector<const char*> failing; // names of steps that can fail
     std::vector<const char*> functions;
 };
 
@@ -46,7 +46,8 @@ const Family families[] = {
       "BindImageMemory", "CreateSampler", "GetQueryPoolResults"}},
 };
 
-// Runs take ten times as long then: each call has one of the errors, in turn, all with --full.
+// With the sanitizer runs take ten times as long: then each call fails with only one of the errors,
+// in turn. --full tries all.
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool sanitized = true;
 #else
@@ -99,7 +100,7 @@ TEST_P(Faults, EveryVulkanCallFailsInTurn)
 TEST_P(Faults, TheHeapFailsInTurn)
 {
     uint64_t total = 0;
-    for (int i = 0; i < 2; ++i) { // the first time also makes what lasts as long as the program
+    for (int i = 0; i < 2; ++i) { // the first run also allocates what lives as long as the program
         Host h;
         const HostAllocations allocations;
         for (const Step& step : all_)
@@ -108,7 +109,8 @@ TEST_P(Faults, TheHeapFailsInTurn)
     }
     ASSERT_GT(total, 1000u);
     std::cout << total << " allocations\n";
-    // The first ones one by one, then ever more apart: most are alike, of reading SPIR-V.
+    // Tries the first allocations one by one, then ever larger strides: most are alike, from
+    // reading SPIR-V.
     for (uint64_t failing = 0; failing < total && !HasFailure(); failing += 1 + failing / 100) {
         Host h;
         int failures = 0;
@@ -130,7 +132,7 @@ TEST_P(Faults, TheHeapFailsInTurn)
     }
 }
 
-// Also that nothing is looked up that submits, waits or takes a queue.
+// Also checks that no function is looked up that submits, waits or takes a queue.
 TEST_P(Faults, RecordingOnlyRecords)
 {
     Host h;
@@ -152,7 +154,7 @@ TEST_P(Faults, RecordingOnlyRecords)
         EXPECT_TRUE(h.vulkan.called.contains(uploads ? "CmdCopyBuffer" : "CmdDispatch"))
             << step.name;
         std::set<std::string> mayCall = {"UpdateDescriptorSets"};
-        if (h.raster) // what a larger set of emitters replaced
+        if (h.raster) // buffers that a larger set of emitters replaced
             mayCall.insert({"DestroyBuffer", "FreeMemory"});
         for (const std::string& name : h.vulkan.called)
             EXPECT_TRUE(name.starts_with("Cmd") || mayCall.contains(name)) << name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layouts of a host's G-buffer: those that can be are taken, every mistake has its sentence.
+// Layouts of a host's G-buffer: valid ones are accepted, and every mistake gets its own sentence.
 #include <string>
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace candelabra::test
 namespace
 {
 
-// World-space normals of 10 bits, base colour, roughness and metalness packed.
+// World-space normals with 10 bits; base colour; roughness and metalness packed.
 CndGBufferDesc common()
 {
     return {.normalEncoding = CND_NORMAL_UNORM,
@@ -25,7 +25,7 @@ CndGBufferDesc common()
             .depthFormat = VK_FORMAT_D24_UNORM_S8_UINT};
 }
 
-// Diffuse albedo with smoothness, specular colour with F90.
+// Diffuse albedo with smoothness; specular colour with F90.
 CndGBufferDesc specularColour()
 {
     return {.normalEncoding = CND_NORMAL_OCTAHEDRAL_SNORM,
@@ -39,7 +39,7 @@ CndGBufferDesc specularColour()
             .depthFormat = VK_FORMAT_R32_SFLOAT};
 }
 
-// Empty when both modules take the layout, else what both say.
+// Returns what both modules say about the layout; empty if they accept it.
 std::string sentence(const CndGBufferDesc& gbuffer, CndGBufferLayout layout = CND_GBUFFER_HOST)
 {
     MockVulkan vulkan;
@@ -58,7 +58,7 @@ struct Mistake {
     void (*make)(CndGBufferDesc&);
 };
 
-// Exactly what is said of each, after "CndGBufferDesc: ".
+// The exact message for each mistake, after "CndGBufferDesc: ".
 const Mistake mistakes[] = {
     {"roughness names no channel", common,
      [](CndGBufferDesc& d) { d.roughness = CND_CHANNEL_NONE; }},

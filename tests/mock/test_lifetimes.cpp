@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two views with three frames in flight each, changing sizes and sets of lights, on the mock
-// driver, which knows what a submission uses until it is finished: nothing may be destroyed or
-// written before, and nothing may pile up.
+// driver, which knows what a submission uses until it finishes: nothing may be destroyed or written
+// before that, and nothing may pile up.
 #include <algorithm>
 #include <numeric>
 #include <random>
@@ -63,7 +63,7 @@ public:
         ASSERT_TRUE(updated) << updated.error().message;
     }
 
-    // Some lights of the middle go, copies of some come, more of them on average.
+    // Removes some lights from the middle and adds copies of some, more of them on average.
     void exchangeLights()
     {
         const uint32_t size = uint32_t(lights_.size());
@@ -85,7 +85,7 @@ public:
 
     void randomFrame(FlightingView& v)
     {
-        const uint32_t what = pick(6); // while frames are in flight
+        const uint32_t what = pick(6); // what to change while frames are in flight
         if (what == 0)
             setLights(pick(largestCount));
         else if (what == 1 && !lights_.empty())
@@ -122,7 +122,7 @@ public:
             vulkan_.finish(submission);
     }
 
-    // Bytes in all memory, and objects.
+    // Returns the bytes of all memory, and the number of objects.
     std::pair<VkDeviceSize, size_t> held() const
     {
         VkDeviceSize bytes = 0;
@@ -134,7 +134,7 @@ public:
     const MockVulkan& vulkan() const { return vulkan_; }
 
 private:
-    // 0 .. below - 1.
+    // Returns a random number in 0 .. below - 1.
     uint32_t pick(uint32_t below) { return uint32_t(random_() % below); }
 
     void resize(FlightingView& v, uint32_t width, uint32_t height)
@@ -172,7 +172,7 @@ TEST(Lifetimes, StormOfSizesAndLights)
     for (const std::string& what : storm.vulkan().misuse)
         ADD_FAILURE() << what;
     EXPECT_GT(early.first, 1u << 20);
-    // Sizes and counts have seen their largest long before; what waits to be freed varies.
+    // Sizes and counts reached their maximum long before; only what waits to be freed varies.
     const auto [bytes, objects] = storm.held();
     EXPECT_LT(double(bytes), 1.5 * double(early.first));
     EXPECT_LT(double(objects), 1.2 * double(early.second));
@@ -181,7 +181,7 @@ TEST(Lifetimes, StormOfSizesAndLights)
             storm.wait(v, slot);
 }
 
-// What a larger set of lights replaced is kept for the frames in flight, and no longer.
+// Buffers that a larger set of lights replaced live only as long as frames in flight use them.
 TEST(Lifetimes, OutgrownBuffersAreFreed)
 {
     Storm storm;
@@ -194,7 +194,7 @@ TEST(Lifetimes, OutgrownBuffersAreFreed)
     storm.setLights(10 * largestCount);
     const VkDeviceSize both = storm.held().first;
     allSlots();
-    allSlots(); // the host promises that the frames before growing are finished
+    allSlots(); // the host promises that the frames recorded before growing have finished
     storm.setLights(10 * largestCount);
     storm.setLights(10 * largestCount);
     EXPECT_LT(storm.held().first, both);

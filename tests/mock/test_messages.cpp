@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host's message callback hears: little, once, and nothing while recording.
+// What the host's message callback receives: little, each message once, and none while recording.
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(Messages, TellOfLateWorkAndNeverWhileRecording)
     Host h;
     HostLog log;
     h.device = log.desc(h.device);
-    std::map<std::string, size_t> heard; // by step
+    std::map<std::string, size_t> heard; // number of messages by step
     for (const Step& step : steps()) {
         CndError error{};
         ASSERT_EQ(runStep(step, h, &error), CND_SUCCESS) << step.name << ": " << error.message;
@@ -40,7 +40,7 @@ TEST(Messages, TellOfLateWorkAndNeverWhileRecording)
     }
     EXPECT_EQ(heard["create lighting"], 0u);
     EXPECT_EQ(heard["create view"], 0u);
-    // Tubes are new, and the room is too small; so it is for discs.
+    // Tubes are a new type, and the capacity is too small; the same holds for discs.
     EXPECT_EQ(heard["set more lights of another type"], 2u);
     EXPECT_EQ(heard["add lights of another type"], 2u);
 }
@@ -63,7 +63,7 @@ TEST(Messages, RoomMadeAtCreationIsEnough)
         {.type = CND_LIGHT_DISC, .radius = 0.1f, .direction = {0, 0, 1}, .influenceRadius = 5});
     ASSERT_TRUE(lighting.value().setLights(lights, {0, 0, 0}));
     log.expectNone();
-    EXPECT_EQ(vulkan.alive.size(), objects); // neither buffers nor pipelines
+    EXPECT_EQ(vulkan.alive.size(), objects); // neither new buffers nor new pipelines
     lights.push_back(lights[0]);
     ASSERT_TRUE(lighting.value().setLights(lights, {0, 0, 0}));
     log.expect(CND_MESSAGE_INFO, "from room for 3000 to room for 4500 lights");
@@ -80,10 +80,10 @@ TEST(Messages, TellOfWhatTheDeviceLacks)
     CndDeviceDesc device = log.desc(vulkan.desc());
     vulkan.limits.timestampComputeAndGraphics = VK_FALSE;
     ASSERT_TRUE(Exposure::create(device, {.framesInFlight = 1}));
-    log.expectNone(); // nobody asked
+    log.expectNone(); // timestamps were not requested
     ASSERT_TRUE(Exposure::create(device, {.framesInFlight = 1, .timestamps = VK_TRUE}));
     log.expect(CND_MESSAGE_WARNING, "timestamps were asked for");
-    vulkan.limits.maxTexelBufferElements = 65536; // Vulkan's least
+    vulkan.limits.maxTexelBufferElements = 65536; // the smallest value that Vulkan allows
     ASSERT_TRUE(Lighting::create(device, {.framesInFlight = 1}));
     log.expect(CND_MESSAGE_INFO, "maxTexelBufferElements is 65536");
     vulkan.limits.maxTexelBufferElements = 1u << 27;
@@ -91,7 +91,7 @@ TEST(Messages, TellOfWhatTheDeviceLacks)
     ASSERT_TRUE(Lighting::create(device, {.framesInFlight = 1}));
     log.expect(CND_MESSAGE_INFO, "ends loops after 65535 iterations");
     vulkan.driver = VkDriverId(0);
-    device.debugUtilsEnabled = VK_TRUE; // the mock has none
+    device.debugUtilsEnabled = VK_TRUE; // the mock does not have the extension
     ASSERT_TRUE(Lighting::create(device, {.framesInFlight = 1}));
     log.expect(CND_MESSAGE_WARNING, "debugUtilsEnabled");
     device.debugUtilsEnabled = VK_FALSE;

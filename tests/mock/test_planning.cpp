@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory known before anything is created: it is what creation then takes, to the byte.
+// Memory planned before anything is created equals what creation then takes, to the byte.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -40,7 +40,7 @@ void expectSame(const CndMemoryUsage& planned, const CndMemoryUsage& held)
     }
 }
 
-// The device's books agree.
+// Expects that the module's figures agree with the mock's.
 void expectHeld(const MockVulkan& vulkan, const CndMemoryUsage& usage)
 {
     VkDeviceSize bytes = 0, held = 0;
@@ -103,7 +103,7 @@ TEST(Planning, OfLightingIsWhatCreationTakes)
         CndMemoryUsage held = lighting.value().memory().value();
         expectSame(planned.value(), held);
         expectHeld(vulkan, held);
-        // A set within what was made ready takes nothing more.
+        // A set within the prepared capacity takes nothing more.
         const CndLight light{.type = CND_LIGHT_SPHERE, .radius = 0.1f, .influenceRadius = 5};
         if (desc.lightTypes) {
             const std::vector<CndLight> lights(desc.lightCapacity, light);
@@ -143,7 +143,7 @@ TEST(Planning, ABlockOfEachKindHoldsEverything)
         ASSERT_TRUE(view) << view.error().message;
         EXPECT_LE(vulkan.memories.size(), size_t(CND_MEMORY_KIND_COUNT));
         EXPECT_TRUE(vulkan.misuse.empty());
-        // And no more: the next view finds no room.
+        // The blocks hold no more than planned: the next view finds no room.
         EXPECT_EQ(lighting.value().createView(views[0]).error().code, CND_ERROR_OUT_OF_MEMORY);
     }
 }

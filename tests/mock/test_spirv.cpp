@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is read out of SPIR-V, of words written here one by one; and that no instruction that is too
-// short, no id of something else and no type that holds itself is read as what it is not.
+// Reflection of SPIR-V, on modules written here word by word. Instructions that are too short, ids
+// of the wrong kind and types that contain themselves must be refused instead of misread.
 #include <algorithm>
 #include <string>
 
@@ -16,7 +16,7 @@ namespace
 
 using Words = std::vector<uint32_t>;
 
-// SPIR-V specification 1.6, section 3; of operands those that the engine tells apart.
+// SPIR-V specification 1.6, section 3; only those operands that the engine distinguishes.
 enum : uint32_t {
     TypeInt = 21,
     TypeFloat = 22,
@@ -49,7 +49,7 @@ enum : uint32_t {
     Stored = 2,
 };
 
-// An opcode and its operands, with the length that they have.
+// Returns an instruction of an opcode and its operands, with its length filled in.
 Words instruction(Words opcodeAndOperands)
 {
     opcodeAndOperands[0] |= uint32_t(opcodeAndOperands.size()) << 16;
@@ -67,10 +67,10 @@ Words moduleOf(const std::vector<Words>& instructions)
     return all;
 }
 
-// What is said of the words; empty when they are taken.
+// Returns the message about the words; empty if they are accepted.
 std::string sentence(const Words& words, CndResult expected = CND_ERROR_INVALID_ARGUMENT)
 {
-    const Words exact(words); // no capacity behind the last, for the sanitizers
+    const Words exact(words); // no spare capacity at the end, for the sanitizers
     try {
         gpu::reflect({"moon.comp", exact});
     } catch (const gpu::Failure& failure) {
@@ -86,7 +86,7 @@ constexpr const char* undefined =
 constexpr const char* endless =
     "moon.comp is SPIR-V with a type that contains itself or a type defined later";
 
-// Push constants of the type with id 9.
+// Appends push constants of the type with id 9.
 std::vector<Words> pushing(std::vector<Words> types)
 {
     types.push_back({TypePointer, 20, PushConstant, 9});
@@ -94,7 +94,7 @@ std::vector<Words> pushing(std::vector<Words> types)
     return types;
 }
 
-// Of the type with id 9, at binding 0.
+// Appends a variable of the type with id 9, at binding 0.
 std::vector<Words> bound(std::vector<Words> types, uint32_t storage)
 {
     types.push_back({TypePointer, 20, storage, 9});
@@ -146,7 +146,7 @@ TEST(Spirv, BindingsAndPushConstantsAreRead)
         resources.push_back({Decorate, 60 + binding, DescriptorSet, 0});
         expected.bindings.insert(expected.bindings.begin(), {binding, is, count});
     };
-    add(17, Uniform, 8, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1); // sorted when they are read
+    add(17, Uniform, 8, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1); // bindings are sorted when read
     add(17, StorageBuffer, 7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1);
     add(16, UniformConstant, 6, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 5);
     add(15, UniformConstant, 5, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1);
@@ -155,13 +155,14 @@ TEST(Spirv, BindingsAndPushConstantsAreRead)
     add(12, UniformConstant, 2, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1);
     add(11, UniformConstant, 1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1);
     add(10, UniformConstant, 0, VK_DESCRIPTOR_TYPE_SAMPLER, 1);
-    resources.push_back({Variable, 40, 90, UniformConstant}); // of the host
+    resources.push_back({Variable, 40, 90, UniformConstant}); // belongs to the host's set
     resources.push_back({Decorate, 90, Binding, 0});
     resources.push_back({Decorate, 90, DescriptorSet, 1});
     EXPECT_EQ(gpu::reflect({"moon.comp", moduleOf(resources)}), expected);
 }
 
-// Each is taken with all words that are read of it, at the very end, and not with one less.
+// Each instruction is accepted at the very end of a module if all words that are read exist, and
+// refused with one word less.
 TEST(Spirv, InstructionsThatAreTooShortAreRefused)
 {
     const Words least[] = {{TypeInt, 1, 32, 0},
@@ -198,13 +199,13 @@ TEST(Spirv, ModulesThatAreNotWholeAreRefused)
     EXPECT_EQ(sentence(whole), "");
     for (size_t count = 0; count < whole.size(); ++count)
         EXPECT_EQ(sentence({whole.begin(), whole.begin() + long(count)}), notWhole) << count;
-    Words swapped = whole; // of the other byte order
+    Words swapped = whole; // the other byte order
     swapped[0] = 0x03022307;
     EXPECT_EQ(sentence(swapped), notWhole);
     Words stuck = whole; // an instruction of no words
     stuck.back() = FunctionEnd;
     EXPECT_EQ(sentence(stuck), notWhole);
-    Words beyond = whole; // and one that does not end
+    Words beyond = whole; // an instruction that goes on after the end
     beyond.back() = 2u << 16 | FunctionEnd;
     EXPECT_EQ(sentence(beyond), notWhole);
 }
@@ -214,11 +215,12 @@ TEST(Spirv, IdsOfSomethingElseAreRefused)
     const auto refused = [](const std::vector<Words>& instructions) {
         EXPECT_EQ(sentence(moduleOf(instructions)), undefined);
     };
-    refused(bound({}, Uniform));                        // no type 9
-    refused(bound({{TypeStruct, 9}}, UniformConstant)); // a struct for an image
-    refused(bound({{TypeSampler, 8}, {TypeArray, 9, 8, 8}}, UniformConstant)); // a type for a count
+    refused(bound({}, Uniform));                        // there is no type 9
+    refused(bound({{TypeStruct, 9}}, UniformConstant)); // a struct in place of an image
+    // a type in place of a count
+    refused(bound({{TypeSampler, 8}, {TypeArray, 9, 8, 8}}, UniformConstant));
     refused({{Decorate, 21, Binding, 0}, {TypeSampler, 20}, {Variable, 20, 21, Uniform}});
-    refused(pushing({{TypeStruct, 9}})); // without decorations
+    refused(pushing({{TypeStruct, 9}})); // a struct without decorations
     refused(pushing({{TypeFloat, 1, 32}, {TypeStruct, 9, 1}, {MemberDecorate, 9, 1, Offset, 0}}));
     refused(pushing({{TypeSampler, 8},
                      {TypeArray, 7, 8, 8},

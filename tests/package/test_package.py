@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Candelabra as other projects get it: installed into a folder that is then moved, found from clean
-build folders, or fetched. Usage: test_package.py STEP SOURCE BUILD GENERATOR; `install` goes first.
-Everything is written to BUILD/package."""
+"""Tests Candelabra as other projects get it: installed into a folder that is then moved, found from
+clean build folders, or fetched. Usage: test_package.py STEP SOURCE BUILD GENERATOR; the step `install`
+must run first. Everything is written to BUILD/package."""
 import os
 import pathlib
 import re
@@ -14,7 +14,7 @@ import sys
 step, source, build, generator = sys.argv[1], *map(pathlib.Path, sys.argv[2:4]), sys.argv[4]
 work = build / "package"
 prefix = work / "prefix"
-# Validation with synchronization validation for the samples; the loader says which layers it took.
+# The samples run with validation and synchronization validation; the loader's log names its layers.
 LAYERS = {"VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
           "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
           "VK_LOADER_DEBUG": "layer"}
@@ -48,7 +48,7 @@ def configure_and_build(project, folder, *options):
 
 
 def run_sample(*command):
-    os.chdir(work)  # where it may write pictures
+    os.chdir(work)  # the sample may write pictures here
     log = run(*command, **LAYERS)
     require(re.search(r"Insert instance layer.*VK_LAYER_KHRONOS_validation", log),
             log + "\nvalidation was not active")
@@ -63,7 +63,7 @@ def libdir():
 def install():
     clean(work)
     run("cmake", "--install", build, "--prefix", work / "first")
-    (work / "first").rename(prefix)  # whoever remembers the first place is found out
+    (work / "first").rename(prefix)  # finds out whether anything remembers the first place
 
     compiler = [h for h in (prefix / "include").rglob("*.h") if h.stem == "compiler"]
     others = [h for h in (prefix / "include").rglob("*.h") if h.stem != "compiler"]
@@ -102,7 +102,7 @@ def show_window(program):
                    "--screenshot", file, *options)
         _, size, _, pixels = file.read_bytes().split(b"\n", 3)
         require(size == b"480 270" and len(pixels) == 480 * 270 * 3, f"{file} is {size}")
-        # Right of the panel.
+        # The part of the picture to the right of the panel.
         shown = [pixels[i:i + 3] for y in range(270) for i in range((480 * y + 300) * 3,
                                                                     480 * (y + 1) * 3, 3)]
         mean = sum(map(sum, shown)) / len(shown) / 3

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What goes wrong around the program, as a table of cases: malformed values of every option of every
-command, files that cannot be read or written, full disks, signals at random times. Each has to end with
-its exit code and one sentence on stderr, and leaves no part of a file and nothing temporary.
+"""Tests faults around the program as a table of cases: malformed values of every option of every command,
+files that cannot be read or written, full disks, signals at random times. Each case must end with its
+exit code and one sentence on stderr, and must leave neither partial nor temporary files.
 
-Usage: test_faults.py PROGRAM DATA [GROUP...]; the groups are options, files, disk and signals. Without
-CANDELABRA_FULL_TESTS=1 only what takes no GPU is run of the last two, and few signals."""
+Usage: test_faults.py PROGRAM DATA [GROUP...]; the groups are options, files, disk and signals. Unless
+CANDELABRA_FULL_TESTS=1, the last two groups run only cases that need no GPU, and only few signals."""
 import contextlib
 import json
 import os
@@ -26,7 +26,7 @@ full = os.environ.get("CANDELABRA_FULL_TESTS") == "1"
 device = os.environ.get("CANDELABRA_TEST_DEVICE")
 USAGE, FAILED = 2, 1
 failures, count = [], 0
-shaders = tempfile.TemporaryDirectory(prefix="candelabra_faults_")  # pipelines, for all runs
+shaders = tempfile.TemporaryDirectory(prefix="candelabra_faults_")  # pipeline cache of all runs
 
 
 def environment(**more):
@@ -98,8 +98,8 @@ NUMBERS = ["x", "nan", "inf", "1e999", "1,5"]
 NAMES = ["nonsense", "CONIC2"]
 PLACES = ["no/such/folder/x.json", ".", "/dev/null"]
 
-# What every command's option of this name refuses. A value that is refused only once the scene or the
-# device is known is as good: nothing was drawn by then.
+# By option: the values that every command must refuse. Values that are refused only once the scene
+# or the device is known are listed too: nothing has been drawn by then.
 BAD = {
     "--lights": COUNTS, "--seed": COUNTS, "--samples": [*COUNTS, "0", "4097"],
     "--frames": [*COUNTS, "0"], "--overlaps": [*NUMBERS, "0", "-1"],
@@ -127,7 +127,8 @@ BAD = {
     "--scene": ["village", "no_such.glb", "empty.json", "folder.json"],
     "--a": ["no_such.json", "empty.json", "noise.json"], "--b": ["no_such.json"],
 }
-# Exceptions; None: only with other options, and under "combinations" below.
+# Exceptions by command and option. None: tested only together with other options, under
+# COMBINATIONS below.
 BAD_OF = {
     ("compare", "--json"): ["no/such/folder/x.json", "."], ("devices", "--json"): ["=maybe"],
     ("truth", "--output"): ["x.png", "x", "no/such/x.exr", "folder.exr"],
@@ -137,7 +138,8 @@ BAD_OF = {
     ("bench culling", "--lights"): [*COUNTS, "0", "1,,2"], ("bench culling", "--size"): [*SIZES, "8x8,"],
     ("bench culling", "--overlaps"): COUNTS, ("stress", "--lights"): [*COUNTS, "0", "5,5", "5,,6"],
 }
-# What stands before the option under test; `{}` of it is left out there when it is given twice.
+# The arguments before the option under test. Where the option is given twice, the `{}` of its first
+# use is left out.
 BASE = {
     "render": ["render", "hall", "--lights=5", "--size=8x8", "--output=x.png"],
     "stress": ["stress", "--lights=5", "--size=8x8", "--out=o", "-q"],
@@ -152,7 +154,7 @@ BASE = {
     "bench stability": ["bench", "stability", "--configs=1000", "--out=o"],
     "devices": ["devices"], "manual": ["manual"], "completions": ["completions", "bash"],
 }
-# Command lines in which single options are right.
+# Command lines that are wrong only as a whole; each single option is right.
 COMBINATIONS = [
     ([], "subcommand"), (["paint"], "paint"), (["bench"], "subcommand"), (["bench", "speed"], "speed"), (["bench", "skip", "hall"], "hall"),
     (["render"], "scene"), (["render", "hall"], "nothing to write"), (["render", "village", "-o", "x.png"], "village"),
@@ -244,7 +246,8 @@ def test_options(folder):
                     given = [option + value] if value.startswith("=") else [option, value]
                     environ = environment(DISPLAY=name) if command == "view" else environment()
                     shown = "-o" if option == "--output" else option
-                    # Of a file or a place the sentence says its name.
+                    # For files and places the sentence must contain the given name instead of the
+                    # option's.
                     named = value if option in ("--environment", "--scene") else shown
                     named = "size" if option == "--size" and value == "16385x1" else named
                     refused([*base, *given], USAGE, named, folder, env=environ, may_change=[r"o/.*"])
@@ -327,7 +330,7 @@ def refused_without_permission(folder, options):
 
 # ---- full disks -------------------------------------------------------------------------------
 
-# Commands, what they are named after in the sentence, and whether they take a device.
+# Commands, the file name that the sentence must contain, and whether they need a device.
 WRITERS = [
     (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "-o", "{}/x.exr"], "x.exr", False),
     (["truth", "scene.json", "--size", "32x32", "--tolerance", "1e-2", "--no-cache", "-q", "-o", "{}/x.pfm"], "x.pfm", False),
@@ -383,11 +386,11 @@ def test_disk(folder):
         if not disk:
             print("no file system may be mounted here: limits of file sizes stand in for full disks")
         for number, (command, named, takes_device) in enumerate(wanted):
-            # Benchmarks make all kernels there are: half a minute of an idle core, without a GPU.
+            # Benchmarks create all kernels, which takes an idle core half a minute without a GPU.
             options = {"env": environment(DISPLAY=name), "timeout": 600 if takes_device else 120}
             if disk:
                 refused([a.format("disk") for a in command], FAILED, named, folder, **options)
-            if disk and number % 4: # both ways of every kind
+            if disk and number % 4:  # both ways are tried for every kind
                 continue
             shutil.rmtree(folder / "limited", ignore_errors=True)
             (folder / "limited").mkdir()
@@ -402,7 +405,7 @@ def test_disk(folder):
 
 # ---- signals ----------------------------------------------------------------------------------
 
-# Commands whose files do not change from run to run, or that can be told whole by their end.
+# Commands whose files do not differ between runs, or whose completeness can be seen from their end.
 LONG = [
     (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "--cache", "kept", "-q", "-o", "x.exr"], False),
     (["truth", "scene.json", "--size", "64x48", "--tolerance", "1e-3", "--no-cache", "-q", "--shard", "1/2", "-o", "x.truth"], False),
@@ -482,8 +485,9 @@ def test_signals(folder):
             fault(" ".join(command), f"ended with {process.returncode}: {err}")
             continue
         reference = {n: c for n, c in left(folder).items() if n not in before}
-        # The first run may have shared the machine and been slow, and later ones may outrun their signal:
-        # such a run says how long one takes now, and another is made in its place.
+        # The first run may have been slow because it shared the machine, and later runs may finish
+        # before their signal. Such a run updates the expected duration, and is replaced by another
+        # one.
         hits = 0
         for _ in range(8 * wanted):
             if hits == wanted:

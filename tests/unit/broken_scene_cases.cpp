@@ -46,7 +46,7 @@ std::string nested(size_t depth)
     return std::string(depth, '[') + std::string(depth, ']');
 }
 
-// Everything that can happen to JSON text itself, for one file name.
+// Adds the ways in which the JSON text of one file can be damaged.
 void addTextCases(std::vector<BrokenCase>& cases, const std::string& file, const std::string& valid)
 {
     const auto add = [&](const std::string& name, const std::string& text,
@@ -75,7 +75,7 @@ void putLittleEndian(Bytes& bytes, size_t at, uint32_t value)
         bytes[at + i] = static_cast<uint8_t>(value >> (8 * i));
 }
 
-// Binary data that is wrong in itself: floats that are not numbers, indices beyond the vertices.
+// Adds cases with wrong binary data: floats that are not numbers, indices beyond the vertices.
 void addDataCases(std::vector<BrokenCase>& cases)
 {
     const auto add = [&](const char* name, int view, const auto& values, const char* element) {
@@ -200,7 +200,7 @@ std::vector<BrokenCase> brokenGltfCases()
     const GltfBuilder valid = completeGltf();
     for (const Edit& edit : gltfEdits) {
         GltfBuilder b = valid;
-        b.json["buffers"]; // so that edits of the root replace all
+        b.json["buffers"]; // creates the member, so that edits of the root replace everything
         b.json = edited(valid.json, edit);
         const bool isObject = b.json.is_object();
         const std::string text = isObject ? b.text() : b.json.dump();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes that loaders must refuse, and the valid ones they are made from.
+// Scenes that loaders must refuse, and the valid scenes from which they are made.
 #pragma once
 
 #include <string>
@@ -14,16 +14,16 @@ struct BrokenCase {
     std::string name;
     std::string file; // name of the file to write
     Bytes bytes;
-    std::string element; // must occur in the message
+    std::string element; // the error message must contain this
 };
 
-// Valid: nodes, a textured material with a normal map, sparse and quantised accessors, a camera,
-// lights of every kind, some with a radius.
+// A valid glTF scene with nodes, a textured material with a normal map, sparse and quantised
+// accessors, a camera, and lights of every kind, some with a radius.
 GltfBuilder completeGltf();
-// Valid: plane and ball, lights, every key.
+// A valid scene description with plane, ball, lights, and every key.
 std::string completeSceneJson();
 
-std::vector<BrokenCase> brokenGltfCases();      // as .gltf and, where it applies, as .glb
+std::vector<BrokenCase> brokenGltfCases();      // as .gltf and, where possible, as .glb
 std::vector<BrokenCase> brokenContainerCases(); // chunks, truncation, text encoding
 std::vector<BrokenCase> brokenSceneJsonCases();
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of single changes that turn a valid scene into one that must be refused.
+// Tables of single changes, each of which turns a valid scene into one that must be refused.
 #pragma once
 
 namespace candelabra::test
 {
 
-// A value put at a JSON pointer, or the key removed when `value` is empty.
+// Puts `value` at a JSON pointer, or removes the key if `value` is empty.
 struct Edit {
     const char* name;
     const char* pointer;
@@ -13,8 +13,8 @@ struct Edit {
     const char* element;
 };
 
-// completeGltf: accessors 0 positions, 1 normals, 2 uv, 3 indices, 4 colours; bufferViews in that
-// order, then 5 sparse indices, 6 sparse values, 7 image.
+// Indices in completeGltf: accessors 0 positions, 1 normals, 2 uv, 3 indices, 4 colours;
+// bufferViews in the same order, then 5 sparse indices, 6 sparse values, 7 image.
 inline constexpr Edit gltfEdits[] = {
     {"root is a list", "", "[]", "must be an object"},
     {"root is null", "", "null", "must be an object"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names that many tests use: they are compiled together, so each stands once.
+// Names that many tests use. Several test files are compiled as one, so each name may be defined
+// only once.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes small glTF files for the loader's tests, as text with base64 data or as binary glTF.
+// Builds small glTF files for the loader's tests, as text with base64 data or as binary glTF.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace candelabra::test
 using Json = nlohmann::json;
 using Bytes = std::vector<uint8_t>;
 
-// A folder that exists as long as the object.
+// A folder that exists as long as this object.
 class TemporaryFolder
 {
 public:
@@ -36,18 +36,18 @@ private:
 Bytes readBytes(const std::string& path);
 std::string encodeBase64(const Bytes& bytes);
 
-// The bytes of a binary glTF file with these chunks.
+// Returns the bytes of a binary glTF file with these chunks.
 Bytes makeGlb(const std::string& json, const Bytes& binary);
 
 constexpr int componentByte = 5120, componentUnsignedByte = 5121, componentShort = 5122,
               componentUnsignedShort = 5123, componentUnsignedInt = 5125, componentFloat = 5126;
 
-// Everything lives in buffer 0. Edit `json` freely before saving.
+// Builds a glTF whose data all lives in buffer 0. `json` may be edited freely before saving.
 struct GltfBuilder {
     Json json = {{"asset", {{"version", "2.0"}}}};
     Bytes binary;
 
-    // Index of a new buffer view over these bytes.
+    // Adds a buffer view of these bytes and returns its index.
     template <typename T>
     int view(const std::vector<T>& values, int byteStride = 0)
     {
@@ -64,23 +64,23 @@ struct GltfBuilder {
         return static_cast<int>(json["bufferViews"].size()) - 1;
     }
 
-    // Index of a new accessor; `extra` is merged into it.
+    // Adds an accessor and returns its index; `extra` is merged into it.
     int accessor(int view, int componentType, const char* type, size_t count,
                  const Json& extra = Json::object());
 
     int floats(const std::vector<float>& values, const char* type);
     int indices(const std::vector<uint16_t>& values);
 
-    // Index of a new mesh with one primitive.
+    // Adds a mesh with one primitive and returns its index.
     int mesh(const Json& primitive);
-    // Index of a new node, which also becomes a root of scene 0.
+    // Adds a node that is a root of scene 0, and returns its index.
     int rootNode(const Json& node);
 
-    std::string text() const; // .gltf
+    std::string text() const; // as .gltf
     Bytes glb() const;
 };
 
-// One node with one triangle (0,0,0), (1,0,0), (0,1,0), normals +z, no lights, no camera.
+// A node with one triangle (0,0,0), (1,0,0), (0,1,0) with normals +z; no lights, no camera.
 GltfBuilder triangleScene();
 
 } // namespace candelabra::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Common ground of the glTF tests: load what a GltfBuilder made, look at warnings and geometry.
+// Fixture of the glTF tests: loads what a GltfBuilder made, and inspects warnings and geometry.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ namespace candelabra::test
 class GltfTest : public testing::Test
 {
 protected:
-    // Also checks the invariants of every scene.
+    // Loads a scene and checks the invariants that every scene must satisfy.
     app::Scene load(const GltfBuilder& builder, const app::SceneOptions& options = {})
     {
         app::Scene scene = app::loadScene(folder_.write("scene.gltf", builder.text()), options);
@@ -26,7 +26,7 @@ protected:
         return scene;
     }
 
-    // The message of the SceneError, or "no error".
+    // Returns the message of the SceneError that loading throws, or "no error".
     std::string error(const GltfBuilder& builder, const app::SceneOptions& options = {})
     {
         try {
@@ -53,7 +53,7 @@ protected:
         return glm::dvec3(instance.worldFromObject * glm::dvec4(p, 1));
     }
 
-    // Normal of the counter-clockwise side of a triangle, its length twice the area.
+    // Returns the normal of a triangle's counter-clockwise side; its length is twice the area.
     static glm::dvec3 worldAreaNormal(const app::Scene& scene, const app::Instance& instance,
                                       size_t triangle)
     {
@@ -63,7 +63,7 @@ protected:
         return glm::cross(b - a, c - a);
     }
 
-    // Vertex normal as a renderer transforms it: by the inverse transpose.
+    // Returns a vertex normal as a renderer transforms it: by the inverse transpose.
     static glm::dvec3 worldNormal(const app::Scene& scene, const app::Instance& instance,
                                   size_t corner)
     {

@@ -77,7 +77,7 @@ glm::vec3 vec(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-// From its centre to its farthest point; 0 for punctual lights.
+// Returns the distance from a light's centre to its farthest point; 0 for punctual lights.
 float reachOf(const CndLight& l)
 {
     switch (l.type) {
@@ -142,7 +142,7 @@ std::string checkCamera(const Camera& c)
     return "";
 }
 
-// Applies `check` to each element; the first complaint comes with its number.
+// Applies `check` to each element; returns the first complaint with the element's index.
 template <typename T, typename Check>
 std::string each(const char* what, const std::vector<T>& items, Check check)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every loaded scene must satisfy, so that nothing behind the loader has to check again.
+// Invariants that every loaded scene must satisfy, so that the code after the loader need not check
+// them.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 namespace candelabra::test
 {
 
-// Empty, or one sentence naming the first thing that is wrong.
+// Returns one sentence naming the first violation; empty if there is none.
 std::string brokenInvariant(const app::Scene& scene);
 
 } // namespace candelabra::test

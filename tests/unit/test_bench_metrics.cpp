@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The benchmark's sample sets and statistics, judged with responses whose errors are known.
+// Tests the benchmark's sample sets and statistics with responses whose errors are known.
 #include <cmath>
 #include <limits>
 
@@ -12,7 +12,7 @@ namespace candelabra::app
 namespace
 {
 
-// The truth itself as a method's response.
+// Returns the truth itself as a method's responses.
 std::vector<gpu::BenchResponse> perfect(const SampleSet& set)
 {
     std::vector<gpu::BenchResponse> out;
@@ -64,7 +64,7 @@ TEST(BenchMetrics, TruthHasNoErrorAgainstItself)
     EXPECT_GT(e.mirror.crossing.count, 20u);
 }
 
-// 10% too much everywhere is at most 10% of the peak, exactly that at the peak, and 10% of the
+// An error of 10% everywhere is at most 10% of the peak, exactly 10% at the peak, and 10% of the
 // scan.
 TEST(BenchMetrics, KnownErrorsAreReported)
 {

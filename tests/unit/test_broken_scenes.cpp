@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever bytes come in, a loader answers with a scene that keeps its invariants or with one
+// Whatever bytes a loader gets, it returns a scene that satisfies its invariants, or fails with one
 // sentence. Meant to run under the address and undefined-behaviour sanitizers.
 #include <gtest/gtest.h>
 
@@ -16,7 +16,8 @@ namespace
 
 using namespace candelabra::app;
 
-// Empty when `message` is one sentence about `file` that mentions `element`.
+// Returns what is wrong with the message; empty if it is one sentence about `file` that contains
+// `element`.
 std::string unfitMessage(const std::string& message, const std::string& file,
                          const std::string& element)
 {
@@ -115,7 +116,8 @@ TEST(BrokenScenes, WhatIsNoFile)
     EXPECT_EQ(unfitMessage(message(text), text, "is neither glTF"), "");
 }
 
-// Accessors without a buffer view cost no bytes, and a strip makes three corners of each vertex.
+// Accessors without a buffer view take no bytes in the file, and a triangle strip turns each vertex
+// into three corners.
 TEST(BrokenScenes, FewBytesCannotFillTheMemory)
 {
     GltfBuilder b = triangleScene();
@@ -127,9 +129,9 @@ TEST(BrokenScenes, FewBytesCannotFillTheMemory)
                                       "vertices"});
 }
 
-// --- random damage, from fixed seeds
+// --- random damage from fixed seeds
 
-// splitmix64 (Steele, Lea and Flood 2014): the same numbers everywhere.
+// splitmix64 (Steele, Lea and Flood 2014), which gives the same numbers on every platform.
 class Random
 {
 public:
@@ -189,7 +191,7 @@ Bytes damaged(Bytes bytes, Random& random)
             bytes.insert(from, copy.begin(), copy.end());
             break;
         }
-        default: // a digit for a digit keeps JSON valid and changes numbers
+        default: // replaces digits by digits, which keeps the JSON valid and changes numbers
             for (size_t k = at; k < bytes.size(); ++k)
                 if (bytes[k] >= '0' && bytes[k] <= '9') {
                     bytes[k] = static_cast<uint8_t>('0' + random.below(10));
@@ -216,11 +218,12 @@ TEST(BrokenScenes, RandomBytes)
             tryToLoad(folder, name, damaged(bytes, random), outcome);
         }
         EXPECT_GT(outcome.refused, 100) << name;
-        EXPECT_GT(outcome.loaded, 10) << name; // damage that matters must not be all there is
+        EXPECT_GT(outcome.loaded, 10) << name; // some damage must leave the scene loadable
     }
 }
 
-// Another value in a random place of the JSON: gets past the parser and deep into the loader.
+// Puts another value at a random place of the JSON: this passes the parser and gets deep into the
+// loader.
 TEST(BrokenScenes, RandomValues)
 {
     const Json values = Json::parse(R"([null, true, -1, 0, 1, 2, 3, 7, 255, 65536, 4294967295,
@@ -247,7 +250,7 @@ TEST(BrokenScenes, RandomValues)
                 try {
                     json.at(pointer) = values[random.below(values.size())];
                 } catch (const Json::exception&) {
-                    // an earlier change took the place away
+                    // an earlier change removed this place
                 }
             }
             const std::string text = json.dump();

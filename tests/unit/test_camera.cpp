@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's camera: pinhole convention, reversed depth, and what is refused.
+// Tests the program's camera: pinhole convention, reversed depth, and invalid input.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ using namespace candelabra::app;
 namespace
 {
 
-// Clip coordinates of a world point, in double.
+// Returns the clip coordinates of a world point, computed in double precision.
 glm::dvec4 project(const CndCamera& camera, const glm::dvec3& world)
 {
     glm::dmat4 view, clip;
@@ -33,8 +33,8 @@ Camera oblique()
     return camera;
 }
 
-// A point at `distance` along the ray through pixel (x, y) of a w x h image, by the pinhole formula
-// direction = forward + tan(fov/2) (x aspect right + y up').
+// Returns a point at `distance` along the ray through pixel (i, j) of a w x h image, by the pinhole
+// formula direction = forward + tan(fov/2) (x aspect right + y up').
 glm::dvec3 onPixelRay(const Camera& c, double i, double j, double w, double h, double distance)
 {
     const double x = 2 * (i + 0.5) / w - 1, y = 1 - 2 * (j + 0.5) / h;
@@ -138,7 +138,7 @@ TEST(Camera, SelectionByNameIndexAndNumbers)
     EXPECT_EQ(typed.position, glm::dvec3(1, 2, 3));
     EXPECT_EQ(typed.forward, glm::dvec3(0, 0, -1));
     EXPECT_NEAR(typed.verticalFov, std::acos(0.5), 1e-12);
-    // Looking straight down is a view, too.
+    // A camera that looks straight down is valid too.
     EXPECT_NO_THROW(makeCamera(selectCamera(scene, "0,9,0,0,0,0"), 1));
     for (const char* bad :
          {"2", "cellar", "1,2,3", "1,2,3,1,2,3", "0,0,0,0,0,nan", "0,0,0,1,0,0,180"})

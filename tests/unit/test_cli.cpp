@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line: what is refused, how, and with which exit code. Nothing here reaches Vulkan.
+// Tests the command line: what is refused, with which message and exit code. Nothing here uses
+// Vulkan.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -154,7 +155,7 @@ TEST(Cli, HelpNamesTheCamerasOfGeneratedScenes)
     expectNames("showcase", generateShowcase({}));
 }
 
-// `warnOfIdleOptions` of these arguments, as the user sees it.
+// Checks the output of warnOfIdleOptions, as the user sees it.
 TEST(Options, IdleOnesAreNamed)
 {
     const auto warnings = [](const std::string& scene, std::optional<uint32_t> lights) {
@@ -215,7 +216,7 @@ TEST(Options, InfluenceErrorsAreSharesOfTheDisplay)
     EXPECT_THROW(arguments.influenceRule(), UsageError);
 }
 
-// Of render --pick, which refuses it by name, and of the viewer, which says so.
+// render --pick refuses frames in which lights cannot be drawn alone; the viewer says so.
 TEST(Options, PixelsArePickedWhereLightsCanBeDrawnAlone)
 {
     for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
@@ -252,8 +253,8 @@ TEST(Options, ImageSizeComesFromTheOptionTheSceneOrTheCamera)
 namespace
 {
 
-// The sample costs at most sampledPairs or, if that is more, minSampledTiles tiles; and it uses at
-// least half of that unless the image has no more pixels: tiles at the border may be cut.
+// The sample costs at most sampledPairs or, if that is more, minSampledTiles tiles. It uses at
+// least half of that unless the image has no more pixels, because tiles at the border may be cut.
 void expectSampleWithinBudget(size_t pixels, size_t imagePixels, uint64_t lights)
 {
     constexpr uint64_t tilePixels = sampledTile * sampledTile;
@@ -264,7 +265,7 @@ void expectSampleWithinBudget(size_t pixels, size_t imagePixels, uint64_t lights
 
 } // namespace
 
-// Every pixel is in at most one rectangle, and none is outside the image.
+// Every pixel is in at most one rectangle, and no rectangle extends outside the image.
 TEST(BruteCheck, RectanglesCoverTheImageOnceOrSampleIt)
 {
     for (const PixelSize size : {PixelSize{1, 1}, {17, 3}, {641, 359}, {1280, 720}})

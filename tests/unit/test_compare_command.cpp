@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra compare: on files as candelabra profile writes them. Nothing here reaches Vulkan.
+// Tests candelabra compare on files as candelabra profile writes them. Nothing here uses Vulkan.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -99,7 +99,7 @@ TEST_F(CompareCommand, SaysWhatIsSlowerAndEndsWithThree)
     EXPECT_EQ(compare({a, b, "--tolerance", "10"}).exitCode, exitOk);
 }
 
-// The shortest time of a path is that of its cheapest frame.
+// The shortest time along a path is that of its cheapest frame, so medians are compared.
 TEST_F(CompareCommand, MediansAreComparedWhereFramesDiffer)
 {
     json moving = run(50);
@@ -151,7 +151,7 @@ TEST_F(CompareCommand, PassesOfOneSideAreNamed)
     EXPECT_NE(outcome.out.find("not in all of A"), std::string::npos) << outcome.out;
 }
 
-// A short pass may be shorter than the stamp that is subtracted.
+// A short pass may take less time than the timestamp overhead that is subtracted.
 TEST_F(CompareCommand, PassesTooShortToTimeAreNotCompared)
 {
     json b = runs(5, 50);
@@ -188,7 +188,7 @@ TEST_F(CompareCommand, RefusesWhatIsNotComparable)
         one["variants"][0]["time"]["frames"] = 20;
     refused(other, "has frames 60,", true);
     other = runs(5, 50);
-    other[4]["provenance"]["commit"] = "later"; // within one side
+    other[4]["provenance"]["commit"] = "later"; // runs of one side differ
     refused(other, "has commit c,", true);
     other = run(50);
     other["schema"] = "candelabra profile 99";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GLSL of hosts in the kernels: which kernels it is compiled into, and what is said of its faults.
+// Compiles GLSL functions of hosts: into which kernels, and what is said about mistakes in them.
 #include <set>
 #include <string>
 
@@ -78,7 +78,7 @@ TEST(Compiler, ErrorsNameTheLineOfTheSource)
     EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT, .source = ""}),
               "cndCompileKernels: source does not define candelabraVisibility with the parameters "
               "of CndHostFunctionBits");
-    // The other function than the one that was promised.
+    // The source defines the other function instead of the promised one.
     EXPECT_EQ(
         compileError({.functions = CND_HOST_READ_SURFACE_BIT,
                       .source = shadow,

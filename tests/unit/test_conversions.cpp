@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photometric conversions of the public interface against irradiance computed in double.
+// Tests the photometric conversions of the public interface against irradiance computed in double
+// precision.
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -38,8 +39,8 @@ CndLight light(CndLightType type)
             .axisV = {0, 0.3f, 0.4f}};
 }
 
-// Irradiance in the green channel of a surface at `at` that faces the light's centre, in double and
-// with the window; all of the emitter is above its horizon.
+// Returns the irradiance, in the green channel, of a surface at `at` that faces the light's centre,
+// with the window; the whole emitter is above its horizon.
 double irradianceFacing(const CndLight& l, const glm::dvec3& at)
 {
     const glm::dvec3 toLight = vec(l.position) - at;
@@ -59,8 +60,8 @@ double irradianceFacing(const CndLight& l, const glm::dvec3& at)
     }
 }
 
-// Luminous power in the green channel: the irradiance of a large sphere around the light,
-// integrated (Gauss-Legendre with 12 nodes along the axis, 24 steps around it).
+// Returns the luminous power in the green channel: the irradiance of a large sphere around the
+// light, integrated (Gauss-Legendre with 12 nodes along the axis, 24 steps around it).
 double powerThroughSphere(const CndLight& l)
 {
     // Abramowitz and Stegun 1964, table 25.4, n = 12.
@@ -75,7 +76,8 @@ double powerThroughSphere(const CndLight& l)
             const double node = i % 12 < 6 ? nodes[i % 6] : -nodes[i % 6];
             const double z = (i < 12 ? 0.5 : -0.5) * (1 + node);
             const double phi = 2 * pi * (k + 0.5) / 24, r = std::sqrt(1 - z * z);
-            // The disc's and rectangle's luminance has an edge in its plane; z is along the normal.
+            // The luminance of disc and rectangle jumps at their plane, so z is taken along the
+            // normal.
             const glm::dvec3 normal =
                 l.type == CND_LIGHT_DISC ? glm::dvec3(0.6, -0.8, 0) : glm::dvec3(0, -0.8, 0.6);
             const glm::dvec3 x(normal.z, 0, -normal.x), u = glm::normalize(x);
@@ -132,11 +134,12 @@ TEST(Conversions, LuminanceFromPowerIsTheInverseOfPower)
     EXPECT_FLOAT_EQ(cndSphereLuminanceFromPower(powerOf(), 0.25f), 200);
     l = light(CND_LIGHT_POINT);
     EXPECT_FLOAT_EQ(powerOf(), float(4 * pi * 200));
-    // A cone with hard edges of half angle 90 degrees: half of all directions.
+    // A cone with hard edges and a half angle of 90 degrees contains half of all directions.
     l = light(CND_LIGHT_SPOT);
     l.innerConeAngle = l.outerConeAngle = float(pi / 2);
     EXPECT_FLOAT_EQ(powerOf(), float(2 * pi * 200));
-    // Smooth edges, by the midpoint rule over the cosine of the spot's own attenuation.
+    // Smooth edges, integrated by the midpoint rule over the cosine with the spot's own
+    // attenuation.
     l = light(CND_LIGHT_SPOT);
     double sum = 0;
     constexpr int steps = 200000;
@@ -150,7 +153,7 @@ TEST(Conversions, LuminanceFromPowerIsTheInverseOfPower)
     EXPECT_NEAR(double(powerOf()) / (2 * pi * 200 * sum), 1, 1e-6);
 }
 
-// Constant power while the radius shrinks a millionfold: irradiance stays what it is.
+// With constant power the irradiance stays the same while the radius shrinks a millionfold.
 TEST(Conversions, ConstantPowerRadiusSweep)
 {
     const glm::dvec3 at(1, 2, 2);
@@ -166,7 +169,8 @@ TEST(Conversions, ConstantPowerRadiusSweep)
     EXPECT_LE(worst, 2e-7);
 }
 
-// Random lights there and back: the irradiance at the receiver is the same to single precision.
+// Converts random lights there and back: the irradiance at the receiver stays the same to single
+// precision.
 TEST(Conversions, IrradianceIsMatched)
 {
     std::mt19937 random(7);
@@ -264,7 +268,7 @@ TEST(Conversions, ChosenSizesFitSinglePrecision)
                   << " rad\n";
         EXPECT_LE(angle, 1.2e-7);
     }
-    CndLight near = light(CND_LIGHT_POINT); // a receiver far beyond the light's influence
+    CndLight near = light(CND_LIGHT_POINT); // the receiver is far outside the light's influence
     near.influenceRadius = 0.5f;
     const float far[3] = {1e6f, 0, 0};
     auto sphere = sphereFromPoint(near, far);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra.hpp, as far as it needs no device: ownership, results, what it hands through.
+// Tests what candelabra.hpp does without a device: ownership, results, arguments passed through.
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defaults, ranges and conversions of the exposure module: everything that needs no device.
+// Tests defaults, ranges and conversions of the exposure module: everything that needs no device.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -25,7 +25,7 @@ CndExposureSettings defaults()
     return settings;
 }
 
-// The sentence of the failure, empty when there is none.
+// Returns the message of the failure; empty if there is none.
 std::string refusal(const std::function<void()>& action)
 {
     try {
@@ -122,7 +122,7 @@ TEST(ExposureSettings, parametersAreExact)
     EXPECT_NEAR(double(p.highShare) / 4294967296.0, 1 - 1e-6, 1e-9);
     EXPECT_EQ(p.reset, 0u);
     EXPECT_EQ(p.keepUp, 1);
-    // An hour in one frame is no different from the end of adaptation.
+    // A frame that lasts an hour completes the adaptation.
     EXPECT_EQ(exposure::adaptParams(s, 3600, false).keepUp, 0);
 }
 
@@ -133,7 +133,7 @@ TEST(ExposureConversions, knownCameras)
     EXPECT_NEAR(cndEv100FromCamera(1, 1, 100), 0, 1e-6);
     EXPECT_NEAR(cndEv100FromCamera(1, 1, 400), -2, 1e-6);
     EXPECT_NEAR(cndExposureFromEv100(0), 1 / 1.2, 1e-7);
-    EXPECT_NEAR(cndExposureFromEv100(3) * 9.6, 1, 1e-6); // 9.6 cd/m^2 saturate
+    EXPECT_NEAR(cndExposureFromEv100(3) * 9.6, 1, 1e-6); // 9.6 cd/m^2 saturate at EV100 3
 }
 
 } // namespace candelabra::test

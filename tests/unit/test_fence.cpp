@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene of depth discontinuities.
+// Tests the generated scene of depth discontinuities.
 #include <cmath>
 #include <cstring>
 
@@ -48,13 +48,13 @@ TEST(Fence, IsTheSamePlaceForAnyNumberOfLights)
         ASSERT_EQ(none.instances[i].worldFromObject, some.instances[i].worldFromObject);
 }
 
-// What it is for: most tiles of 16x16 pixels see things metres apart.
+// The purpose of the scene: most tiles of 16x16 pixels see objects that are metres apart.
 TEST(Fence, TilesHoldSeveralDepths)
 {
     const Scene scene = generateFence({.lights = 0});
     const Camera& camera = scene.cameras[0];
     RayCaster caster(scene);
-    constexpr uint32_t columns = 160, rows = 90; // of 1280x720: 8 pixels apart, 2x2 per tile
+    constexpr uint32_t columns = 160, rows = 90; // for 1280x720: 8 pixels apart, 2x2 per tile
     std::vector<double> depth(columns * rows, 0);
     size_t hits = 0;
     for (uint32_t y = 0; y < rows; ++y)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// FLIP and the errors of images, on images whose differences are known.
+// Tests FLIP and the error measures of images on images whose differences are known.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -27,9 +27,9 @@ TEST(Flip, EqualImagesDoNotDiffer)
         EXPECT_EQ(x, 0);
 }
 
-// Without features the value is the compressed HyAB distance alone. Black to white: 100^0.7
-// = 25.12; green to blue, the largest: 41.28, whose knee is at 40%: 0.95 + 0.05 (25.12 - 16.51)
-// / 24.77.
+// Without features the value is the compressed HyAB distance alone. Black to white: 100^0.7 =
+// 25.12. The largest distance, green to blue, is 41.28, and the knee is at 40% of it: 0.95 + 0.05
+// (25.12 - 16.51) / 24.77.
 TEST(Flip, BlackAgainstWhiteIsWithinTheLastFivePercent)
 {
     const auto map = flipMap(plain(glm::vec3(0)), plain(glm::vec3(1)));
@@ -46,7 +46,7 @@ TEST(Flip, GreenAgainstBlueIsOneAndOrderDoesNotMatter)
     EXPECT_NEAR(meanOf(flipMap(blue, green)), 1, 1e-3);
 }
 
-// A line one pixel wide is blurred away in colour from far off, but its edge is a feature.
+// From afar, a line one pixel wide is blurred away in colour, but its edge remains a feature.
 TEST(Flip, LinesDifferMoreThanTheirMeanColour)
 {
     DisplayImage lines = plain(glm::vec3(0.5f));
@@ -73,7 +73,7 @@ TEST(ImageDifferences, OfAKnownFactor)
     EXPECT_NEAR(d.maxOverPeak, 0.1, 1e-6);
     EXPECT_NEAR(d.energy, 0.1, 1e-6);
     EXPECT_NEAR(d.relL1, 0.1, 1e-6);
-    // 0.04 / (4 + 0.01 mean^2), the mean nearly 2; the black sample has no error.
+    // 0.04 / (4 + 0.01 mean^2) with a mean of nearly 2; the black sample has no error.
     EXPECT_NEAR(d.relMse, 0.01 / 1.01 * 299 / 300, 1e-5);
 
     value.pixels[7] = NAN;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewer's camera.
+// Tests the viewer's camera.
 #include <cmath>
 #include <numbers>
 
@@ -38,7 +38,7 @@ TEST(FlyCamera, StartsWhereTheSceneCameraIs)
         expectNear(now.position, start.position);
         expectNear(now.forward, start.forward);
         EXPECT_EQ(now.verticalFov, start.verticalFov);
-        EXPECT_FALSE(now.aspect.has_value()); // the window's counts
+        EXPECT_FALSE(now.aspect.has_value()); // the window's aspect ratio applies
     }
 }
 
@@ -65,7 +65,7 @@ TEST(FlyCamera, LooksRightAndDownWithTheMouse)
     camera.update({.look = {10, 10}}, 0.1);
     EXPECT_GT(camera.camera().forward.x, 0);
     EXPECT_LT(camera.camera().forward.y, 0);
-    camera.update({.look = {0, -1e9}}, 0.1); // stops short of straight up
+    camera.update({.look = {0, -1e9}}, 0.1); // the view stops short of straight up
     EXPECT_GT(camera.camera().forward.y, 0.99);
     EXPECT_GT(glm::length(glm::cross(camera.camera().forward, glm::dvec3(0, 1, 0))), 1e-3);
 }
@@ -88,9 +88,9 @@ TEST(FlyCamera, OrbitKeepsThePointInTheMiddle)
     const glm::dvec3 pivot = camera.camera().position + 4.0 * camera.camera().forward;
     camera.update({.look = {300, -100}}, 0.1);
     expectNear(camera.camera().position + 4.0 * camera.camera().forward, pivot);
-    camera.wheel(1); // nearer
+    camera.wheel(1); // moves nearer to the pivot
     expectNear(camera.camera().position + 4 / 1.25 * camera.camera().forward, pivot);
-    camera.update({.move = {0, 0, 1}}, 0.2); // as does moving forward, never through it
+    camera.update({.move = {0, 0, 1}}, 0.2); // so does moving forward, but never through the pivot
     expectNear(camera.camera().position + (4 / 1.25 - 0.2) * camera.camera().forward, pivot);
     camera.update({.move = {0, 0, 1}}, 1e6);
     EXPECT_GT(glm::dot(pivot - camera.camera().position, camera.camera().forward), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The procedural scenes and their lights.
+// Tests the procedural scenes and their lights.
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -29,7 +29,7 @@ SceneOptions withLights(uint32_t lights, uint32_t seed = 1)
     return options;
 }
 
-// FNV-1a over what a generator makes.
+// Returns an FNV-1a hash of what a generator makes.
 uint64_t fingerprint(const Scene& scene)
 {
     uint64_t hash = 0xcbf29ce484222325ull;
@@ -59,7 +59,7 @@ struct Seen {
     glm::dvec3 position{0}, normal{0}; // relative to the lights' origin
 };
 
-// What camera 0 sees on a grid other than the generators' own.
+// Returns the points that camera 0 sees, on another grid than the generators use.
 std::vector<Seen> seenPoints(const Scene& scene, uint32_t columns, uint32_t rows)
 {
     std::vector<Seen> points;
@@ -75,8 +75,8 @@ std::vector<Seen> seenPoints(const Scene& scene, uint32_t columns, uint32_t rows
     return points;
 }
 
-// Mean over the points of lights inside whose influence they lie and which are not wholly below
-// their horizon; lights from index `first` on.
+// Returns, averaged over the points, the number of lights whose influence contains the point and
+// which are not wholly below its horizon; counts lights from index `first` on.
 double meanContributing(const Scene& scene, const std::vector<Seen>& points, size_t first = 0)
 {
     std::vector<CndLight> lights;
@@ -123,7 +123,7 @@ std::string errorOf(const std::function<void()>& act)
     return "no error";
 }
 
-// A room of 10 x 4 x 6 m seen from inside, with a ball in it.
+// Creates a room of 10 x 4 x 6 m, seen from inside, with a ball in it.
 Scene makeRoom()
 {
     Scene scene;
@@ -142,7 +142,7 @@ Scene makeRoom()
     return scene;
 }
 
-// By name, so that the tests' names are readable and the same in every run.
+// Parametrised by name, so that test names are readable and the same in every run.
 class GeneratedScene : public testing::TestWithParam<std::string>
 {
 protected:
@@ -175,7 +175,7 @@ TEST_P(GeneratedScene, HoldsWhatTheLoadersPromise)
     size_t triangles = 0;
     for (const Instance& instance : scene.instances) {
         triangles += scene.meshes[instance.mesh].indices.size() / 3;
-        // Mirrored instances would turn their triangles inside out.
+        // Mirrored instances would be inside out.
         ASSERT_GT(glm::determinant(glm::dmat3(instance.worldFromObject)), 0);
     }
     EXPECT_LE(triangles, 1500000u);
@@ -232,7 +232,8 @@ TEST_P(GeneratedScene, MakesAMillionLights)
 {
     const Scene scene = make(withLights(1000000));
     expectSphereLights(scene, 1000000);
-    // Few points, because every light is tried: 5 standard errors of a mean of 8 (spread below 8).
+    // Only few points, because every light is tried for each. The tolerance is 5 standard errors of
+    // a mean of 8 (standard deviation below 8).
     EXPECT_NEAR(meanContributing(scene, seenPoints(scene, 19, 11)), 8, 3);
 }
 
@@ -244,14 +245,14 @@ TEST_P(GeneratedScene, MovingLightsStayOverTheFloor)
     ASSERT_EQ(scene.lightMotions.size(), 3000u);
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const LightMotion& motion = scene.lightMotions[i];
-        // The lowest point of the ellipse that the circle's heights make.
+        // The lowest point of the ellipse that the circle's vertical components describe.
         const float dip = std::hypot(motion.axisU.y, motion.axisV.y);
         const double height = scene.lightOrigin.y + scene.lights[i].position[1];
         ASSERT_GT(height - dip, 0) << i;
         ASSERT_GT(std::abs(motion.angularSpeed), 0);
         ASSERT_GE(glm::length(motion.axisU), 0.19f);
     }
-    // They start where the resting lights are, but for the circle.
+    // Apart from the offset on the circle, they start where the resting lights are.
     options.moving = false;
     const Scene resting = make(options);
     EXPECT_TRUE(resting.lightMotions.empty());
@@ -269,13 +270,13 @@ TEST_P(GeneratedScene, RefusesOptionsThatMakeNoSense)
         EXPECT_NE(errorOf([&] { make(options); }).find(": overlaps: "), std::string::npos)
             << bad << ": " << errorOf([&] { make(options); });
     }
-    // Some lights are always behind a surface.
+    // Some lights are always occluded by a surface.
     options.overlaps = 100;
     EXPECT_NE(errorOf([&] { make(options); }).find("cannot be reached with 100 lights"),
               std::string::npos);
     options = withLights(0xffffffffu);
     EXPECT_NE(errorOf([&] { make(options); }).find(": lights: "), std::string::npos);
-    // Without explicit overlaps, few lights are no error.
+    // Without explicit overlaps, a small number of lights is no error.
     EXPECT_EQ(make(withLights(1)).lights.size(), 1u);
     EXPECT_EQ(make(withLights(5)).lights.size(), 5u);
 }
@@ -289,7 +290,7 @@ TEST(LightColours, HaveUnitLuminance)
     for (const float hue : {0.0f, 0.2f, 0.5f, 0.9f, -1.3f, 7.25f}) {
         EXPECT_NEAR(glm::dot(hueColour(hue, 0.7f), weights), 1, 1e-5f);
     }
-    // 6504 K is close to the white of D65, 2000 K far to the red, 20000 K to the blue.
+    // 6504 K is close to the white of D65, 2000 K is very red, 20000 K is blue.
     const glm::vec3 white = blackbodyColour(6504);
     EXPECT_NEAR(white.r / white.b, 1, 0.1f);
     EXPECT_GT(blackbodyColour(2000).r, 5 * blackbodyColour(2000).b);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra/glm.hpp: what goes in comes out, columns where they belong.
+// Tests candelabra/glm.hpp: values survive conversion there and back, with columns in the right
+// place.
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>

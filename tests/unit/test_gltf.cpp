@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF containers, nodes, scenes and cameras.
+// Tests glTF containers, nodes, scenes and cameras.
 #include <cmath>
 
 #include "load/load.h"
@@ -50,7 +50,7 @@ TEST_F(Gltf, BuffersInFilesMayBeLargerThanDeclared)
 TEST_F(Gltf, HierarchiesMultiplyInDouble)
 {
     GltfBuilder builder = triangleScene();
-    // 1e7 + 1/64 does not fit into a float.
+    // The sum 1e7 + 1/64 needs more digits than a float has.
     builder.json["nodes"][0]["translation"] = {0, 0, 0.015625};
     builder.json["nodes"].push_back(
         {{"children", {0}}, {"translation", {0, 0, 1e7}}, {"scale", {2, 2, 1}}});
@@ -89,7 +89,8 @@ TEST_F(Gltf, MirroredNodesKeepFrontFacesAndTangentFrames)
         const glm::dvec3 face = glm::normalize(worldAreaNormal(scene, instance, 0));
         EXPECT_NEAR(glm::distance(face, worldNormal(scene, instance, 0)), 0, 1e-6);
     }
-    // (x, y, z) -> (-2x, 3y, z) -> (z, -2x, 3y): corners, normal, tangent and bitangent by hand
+    // (x, y, z) -> (-2x, 3y, z) -> (z, -2x, 3y): corners, normal, tangent and bitangent computed by
+    // hand.
     const Instance& turned = scene.instances[1];
     EXPECT_NEAR(glm::distance(worldNormal(scene, turned, 0), glm::dvec3(1, 0, 0)), 0, 1e-6);
     const Vertex& v = scene.meshes[turned.mesh].vertices[0];
@@ -164,7 +165,7 @@ TEST_F(Gltf, CamerasFollowTheirNodes)
          "perspective": {"yfov": 0.5, "znear": 0.1, "zfar": 50, "aspectRatio": 2}},
         {"type": "orthographic",
          "orthographic": {"xmag": 6, "ymag": 3, "znear": 0, "zfar": 20}}])");
-    // turned by 90 degrees about y: looks along -x; scale does not matter
+    // Turned by 90 degrees about y, so it looks along -x; scale must not matter.
     const double s = std::sqrt(0.5);
     b.rootNode({{"camera", 0},
                 {"rotation", {0, s, 0, s}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF accessors, topologies, vertex colours, missing or broken normals and tangents.
+// Tests glTF accessors, topologies, vertex colours, and missing or broken normals and tangents.
 #include <cmath>
 
 #include "unit/gltf_fixture.h"
@@ -53,13 +53,13 @@ TEST_F(GltfGeometry, SparseAccessorsReplaceElements)
     EXPECT_EQ(onTop[0].position, glm::vec3(-1, -1, 0));
     EXPECT_EQ(onTop[1].position, glm::vec3(1, 0, 0));
     EXPECT_EQ(onTop[2].position, glm::vec3(0, 5, 0));
-    b.json["accessors"][0].erase("bufferView"); // over zeros
+    b.json["accessors"][0].erase("bufferView"); // without a buffer view the base values are zeros
     const auto overZeros = load(b).meshes.at(0).vertices;
     EXPECT_EQ(overZeros[0].position, glm::vec3(-1, -1, 0));
     EXPECT_EQ(overZeros[1].position, glm::vec3(0, 0, 0));
 }
 
-// A unit square of four corners in the plane z = 0, drawn in every way glTF has.
+// A unit square of four corners in the plane z = 0, drawn in every way that glTF offers.
 TEST_F(GltfGeometry, TopologiesAndIndexTypesGiveTheSameSquare)
 {
     const std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
@@ -91,12 +91,13 @@ TEST_F(GltfGeometry, TopologiesAndIndexTypesGiveTheSameSquare)
             const Mesh& mesh = scene.meshes.at(0);
             ASSERT_EQ(mesh.indices.size(), 6u);
             const Instance& square = scene.instances.at(0);
-            EXPECT_EQ(worldAreaNormal(scene, square, 0), glm::dvec3(0, 0, 1)); // half each
+            // each triangle is half of the square
+            EXPECT_EQ(worldAreaNormal(scene, square, 0), glm::dvec3(0, 0, 1));
             EXPECT_EQ(worldAreaNormal(scene, square, 1), glm::dvec3(0, 0, 1));
             glm::dvec3 sum{0};
             for (size_t corner = 0; corner < 6; ++corner)
                 sum += worldPosition(scene, square, corner);
-            EXPECT_EQ(sum, glm::dvec3(3, 3, 0)); // together they cover it
+            EXPECT_EQ(sum, glm::dvec3(3, 3, 0)); // together they cover the square
         }
 }
 
@@ -155,7 +156,8 @@ TEST_F(GltfGeometry, BrokenNormalsAndTangentsAreReplacedAndReported)
     const Scene scene = load(b);
     for (const Vertex& v : scene.meshes.at(0).vertices)
         EXPECT_EQ(v.normal, glm::vec3(0, 0, 1));
-    EXPECT_EQ(scene.meshes[0].vertices[2].tangent, glm::vec4(1, 0, 0, -1)); // made perpendicular
+    // made perpendicular to the normal
+    EXPECT_EQ(scene.meshes[0].vertices[2].tangent, glm::vec4(1, 0, 0, -1));
     EXPECT_TRUE(warns(scene, "2 normals have no length"));
     EXPECT_TRUE(warns(scene, "2 tangents have no direction"));
 }

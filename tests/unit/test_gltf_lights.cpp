@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_lights_punctual and KHR_lights_area: units, directions, radii, influence.
+// Tests KHR_lights_punctual and KHR_lights_area: units, directions, radii, influence.
 #include <cmath>
 
 #include "constants.h"
@@ -16,7 +16,7 @@ using namespace candelabra::app;
 class GltfLights : public GltfTest
 {
 protected:
-    // A scene of these lights alone, light i at (i, 2, 3).
+    // Returns a scene that contains only these lights; light i is at (i, 2, 3).
     static GltfBuilder scene(const char* extension, const char* lights)
     {
         GltfBuilder b;
@@ -95,7 +95,7 @@ TEST_F(GltfLights, RadiusMakesASphereOfTheSameIntensity)
     SceneOptions options;
     options.punctualRadius = 0.5;
     const Scene sized = load(scene("KHR_lights_punctual", lights), options);
-    EXPECT_EQ(sized.lights[0].radius, 0.25f); // its own
+    EXPECT_EQ(sized.lights[0].radius, 0.25f); // its own radius
     EXPECT_EQ(sized.lights[1].type, uint32_t{CND_LIGHT_SPHERE});
     EXPECT_EQ(sized.lights[1].radius, 0.5f);
     EXPECT_NEAR(sized.lights[1].emission[0] * pi * 0.25, 50, 1e-4);
@@ -133,7 +133,7 @@ TEST_F(GltfLights, AreaRectsAndDisksFaceMinusZ)
     ASSERT_EQ(s.lights.size(), 2u);
     const CndLight& rect = s.lights[0];
     EXPECT_EQ(rect.type, uint32_t{CND_LIGHT_RECTANGLE});
-    EXPECT_EQ(rect.axisU[0], 2); // half of 2 m, twice as large
+    EXPECT_EQ(rect.axisU[0], 2); // half of 2 m, scaled by 2
     EXPECT_EQ(rect.axisV[1], -0.75f);
     EXPECT_EQ(rect.emission[0], 300);
     EXPECT_FALSE(rect.twoSided);
@@ -149,8 +149,8 @@ TEST_F(GltfLights, AreaRectsAndDisksFaceMinusZ)
               std::string::npos);
 }
 
-// The side that emits goes where the node's -z goes, also through a mirror; without z it is the one
-// of a node that does not mirror.
+// The emitting side faces where the node's -z points, also through a mirror. If the scale of z is
+// 0, the side of the node without mirroring emits.
 TEST_F(GltfLights, MirroredAndFlatAreaLights)
 {
     const glm::dvec3 scales[] = {{1, 1, 1},   {-2, 1, 1}, {1, -2, 1},  {1, 1, -1},
@@ -185,7 +185,7 @@ TEST_F(GltfLights, DirectionalLightsBecomeSunsOfTheSameIlluminance)
     EXPECT_EQ(sun.type, uint32_t{CND_LIGHT_DISTANT_SPHERE});
     EXPECT_EQ(sun.radius, 0.00465f);
     EXPECT_EQ(sun.direction[2], -1);
-    // E = pi s^2 L: 1.5e9 cd/m^2, the Sun's at noon.
+    // E = pi s^2 L; 1.5e9 cd/m^2 is the luminance of the Sun at noon.
     EXPECT_NEAR(sun.emission[0] * pi * 0.00465 * 0.00465, 1e5, 0.02);
     EXPECT_NEAR(sun.emission[2] * pi * 0.00465 * 0.00465, 5e4, 0.02);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF materials, textures, texture transforms, and the tangents that normal maps need.
+// Tests glTF materials, textures, texture transforms, and the tangents that normal maps need.
 #include <cmath>
 
 #include "io/image.h"
@@ -17,7 +17,7 @@ using namespace candelabra::app;
 class GltfMaterials : public GltfTest
 {
 protected:
-    // 2 x 1 pixels: the first (10, 20, 30), the second white.
+    // Returns an image of 2 x 1 pixels: (10, 20, 30), then white.
     Bytes png()
     {
         const uint8_t rgb[] = {10, 20, 30, 255, 255, 255};
@@ -25,7 +25,7 @@ protected:
         return readBytes(folder_.path("pixels.png"));
     }
 
-    // The triangle scene with a material, and textures 0.. all of that image.
+    // Returns the triangle scene with a material and `textures` textures, all of that image.
     GltfBuilder withMaterial(const char* material, size_t textures = 0)
     {
         GltfBuilder b = triangleScene();
@@ -96,7 +96,7 @@ TEST_F(GltfMaterials, TexturesKnowTheirColourSpaceAndSampler)
     b.json["textures"][2]["sampler"] = 0;
     const Scene scene = load(b);
     const Material& m = scene.materials.at(0);
-    EXPECT_EQ(scene.textures.size(), 3u); // base colour and emission share one
+    EXPECT_EQ(scene.textures.size(), 3u); // base colour and emission share a texture
     EXPECT_EQ(m.baseColorTexture.texture, m.emissiveTexture.texture);
     const Texture& base = scene.textures.at(static_cast<size_t>(m.baseColorTexture.texture));
     EXPECT_TRUE(base.srgb && base.repeatU && base.repeatV && !base.mirrorU && !base.nearest);
@@ -135,8 +135,8 @@ TEST_F(GltfMaterials, TextureTransform)
                                           1));
     const TextureRef& ref = scene.materials.at(0).baseColorTexture;
     EXPECT_EQ(ref.uvSet, 1u);
-    // Scaling (1, 0) gives (2, 0); a quarter turn counter-clockwise with v pointing down leads up
-    // the image, to (0, -2). Likewise (0, 1) -> (0, 3) -> (3, 0).
+    // Scaling turns (1, 0) into (2, 0); a quarter turn counter-clockwise, with v pointing down,
+    // turns that upwards in the image to (0, -2). Likewise (0, 1) -> (0, 3) -> (3, 0).
     const glm::vec3 u(1, 0, 1), v(0, 1, 1);
     EXPECT_NEAR(glm::dot(ref.uRow, u), 0.5, 1e-6);
     EXPECT_NEAR(glm::dot(ref.vRow, u), 0.25 - 2, 1e-6);
@@ -156,8 +156,8 @@ TEST_F(GltfMaterials, WhatIsLeftOutIsReported)
         EXPECT_TRUE(warns(scene, text)) << text;
 }
 
-// Two triangles of a square in z = 0 with the image upright (v down), and two beside it with the
-// image mirrored; the middle corners are shared by both.
+// Two triangles form a square in z = 0 with the image upright (v down), two more form a square
+// beside it with the image mirrored; both share the middle corners.
 TEST_F(GltfMaterials, TangentsFollowTheNormalMap)
 {
     GltfBuilder b = withMaterial(R"({"normalTexture": {"index": 0}})", 1);
@@ -173,7 +173,7 @@ TEST_F(GltfMaterials, TangentsFollowTheNormalMap)
         const Vertex& v = mesh.vertices[mesh.indices[corner]];
         const bool upright = corner < 6;
         EXPECT_EQ(v.tangent, glm::vec4(upright ? 1 : -1, 0, 0, upright ? 1 : -1)) << corner;
-        // Green of a normal map points up the image, here +y everywhere.
+        // The green channel of a normal map points up the image, which is +y everywhere here.
         EXPECT_EQ(glm::cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w, glm::vec3(0, 1, 0));
     }
 }
@@ -198,7 +198,7 @@ TEST_F(GltfMaterials, UvsWithoutDirectionStillGiveAFrame)
     GltfBuilder b = withMaterial(R"({"normalTexture": {"index": 0}})", 1);
     b.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
         b.floats({0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f}, "VEC2");
-    const Scene scene = load(b); // the invariants ask for unit tangents perpendicular to normals
+    const Scene scene = load(b); // the invariants require unit tangents perpendicular to normals
     EXPECT_EQ(scene.meshes.at(0).vertices.size(), 3u);
 }
 

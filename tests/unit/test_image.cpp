@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image files: what is written comes back, nothing half-written stays, errors are one sentence.
+// Tests image files: what is written is read back, nothing half-written remains, errors are one
+// sentence.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -26,7 +27,7 @@ using namespace candelabra::app;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-// Every value differs; magnitudes from 2^-20 to 2^20.
+// Returns an image in which all values differ; magnitudes go from 2^-20 to 2^20.
 Image testImage(uint32_t width, uint32_t height, uint32_t channels)
 {
     Image image{width, height, channels, {}};
@@ -36,7 +37,7 @@ Image testImage(uint32_t width, uint32_t height, uint32_t channels)
     return image;
 }
 
-// Bit by bit, so that NaN equals itself and -0 differs from 0.
+// Compares bit by bit, so that NaN equals itself and -0 differs from 0.
 void expectSame(const Image& a, const Image& b)
 {
     ASSERT_EQ(a.width, b.width);
@@ -107,10 +108,10 @@ TEST(ImageFiles, ExrHasZipScanlinesOfFloats)
         return at == std::string::npos ? -1
                                        : int{bytes[at + name.size() + type.size() + 6 + offset]};
     };
-    EXPECT_EQ(attribute("compression", "compression", 0), 3); // ZIP, 16 rows a block
+    EXPECT_EQ(attribute("compression", "compression", 0), 3); // ZIP, blocks of 16 rows
     EXPECT_EQ(attribute("channels", "chlist", 0), 'B');       // alphabetical
     EXPECT_EQ(attribute("channels", "chlist", 2), 2);         // float
-    EXPECT_EQ(bytes[5], 0);                                   // neither tiled nor deep
+    EXPECT_EQ(bytes[5], 0);                                   // flags: neither tiled nor deep
 }
 
 TEST(ImageFiles, HdrKeepsEightBits)
@@ -130,8 +131,8 @@ TEST(ImageFiles, HdrKeepsEightBits)
                 const auto in = [&](size_t c) {
                     return image.pixels[p * channels + (channels == 3 ? c : 0)];
                 };
-                // Truncated to 8 bits of the largest channel, whose own mantissa has its top bit
-                // set.
+                // Values are truncated to 8 bits relative to the largest channel, whose mantissa
+                // has its top bit set.
                 const float step = std::max({in(0), in(1), in(2)}) / 128;
                 for (size_t c = 0; c < 3; ++c)
                     ASSERT_NEAR(pixels.get()[3 * p + c], in(c), step) << p;
@@ -152,7 +153,7 @@ TEST(ImageFiles, ReadersAreChosenByExtension)
         for (size_t i = 0; i < image.pixels.size(); i += 3) {
             const float largest =
                 std::max({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
-            for (size_t c = i; c < i + 3; ++c) // RGBE: 8 bits of the largest channel
+            for (size_t c = i; c < i + 3; ++c) // RGBE keeps 8 bits relative to the largest channel
                 ASSERT_NEAR(back.pixels[c], image.pixels[c], largest / 128) << name;
         }
     }
@@ -163,14 +164,14 @@ TEST(ImageFiles, ReadersAreChosenByExtension)
               std::string::npos);
 }
 
-// Reading it back is as exact as stb's reader.
+// Our reader is as exact as that of stb.
 TEST(ImageFiles, HdrIsReadAsStbReadsIt)
 {
     const TemporaryFolder folder;
     const std::string path = folder.path("image.hdr");
     for (const auto& [width, height] : sizes) {
         Image image = testImage(width, height, 3);
-        if (width == 200) // long runs
+        if (width == 200) // with long runs
             std::fill_n(image.pixels.begin(), 3 * 1000, 7.0f);
         saveHdr(path, image);
         const Image back = loadHdr(path);
@@ -184,12 +185,12 @@ TEST(ImageFiles, HdrIsReadAsStbReadsIt)
     }
 }
 
-// A file that ends early must be an error at every length: it made the reader before this one wait
-// for ever, or give pixels that are not there.
+// A file that is cut off must be an error at every length. An earlier reader waited forever, or
+// returned pixels that were not in the file.
 TEST(ImageFiles, DamagedHdrIsOneSentence)
 {
     const TemporaryFolder folder;
-    for (const uint32_t width : {3u, 40u}) { // flat; in runs
+    for (const uint32_t width : {3u, 40u}) { // stored flat, and in runs
         saveHdr(folder.path("good.hdr"), testImage(width, 5, 3));
         const Bytes good = readBytes(folder.path("good.hdr"));
         for (size_t length = 0; length < good.size(); ++length) {
@@ -280,7 +281,8 @@ TEST(ImageFiles, AFullDiskLeavesTheOldFile)
 
     rlimit old = {};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN); // fail like a full disk instead
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN); // fail as on a full disk instead of being
+                                                        // killed
     const rlimit small = {1000, old.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
     const std::string message = errorOf([&] { savePfm(path, testImage(100, 100, 3)); });
@@ -292,10 +294,10 @@ TEST(ImageFiles, AFullDiskLeavesTheOldFile)
     size_t files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
         files += entry.is_regular_file();
-    EXPECT_EQ(files, 1u); // nothing temporary is left
+    EXPECT_EQ(files, 1u); // no temporary file is left
 }
 
-// Found by libFuzzer: tinyexr allocates whatever the corners of the data window say.
+// Found by libFuzzer: tinyexr allocates whatever size the data window claims.
 TEST(ImageFiles, ExrsOfAbsurdSizesAreRefused)
 {
     const TemporaryFolder folder;
@@ -304,7 +306,8 @@ TEST(ImageFiles, ExrsOfAbsurdSizesAreRefused)
     const std::string name = "dataWindow";
     const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
     ASSERT_NE(at, bytes.end());
-    const auto corner = at + 11 + 6 + 4; // behind name, type "box2i" and size: x, y, x, y
+    const auto corner = at + 11 + 6 + 4; // skips the name, the type "box2i" and the size; then x,
+                                         // y, x, y
     for (const int32_t y : {std::numeric_limits<int32_t>::min(), -20'000, 8}) {
         for (int i = 0; i < 4; ++i)
             corner[4 + i] = static_cast<uint8_t>(static_cast<uint32_t>(y) >> (8 * i));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of heat maps.
+// Tests the colours of heat maps.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ using namespace candelabra::app;
 namespace
 {
 
-// CIE L*, 0..100.
+// Returns CIE L*, 0..100.
 double lightness(glm::vec3 srgb)
 {
     const auto linear = [](double c) {
@@ -39,7 +39,7 @@ TEST(Legend, BarShowsEveryColourInOrder)
 {
     const Legend legend = barLegend("lights", {{0, "0"}, {1, "1000"}}, 2);
     ASSERT_EQ(legend.pixels.size(), size_t(legend.width) * legend.height);
-    // Somewhere there is a row that goes from the first colour to the last.
+    // One row must go from the first colour to the last.
     bool found = false;
     for (uint32_t y = 0; y < legend.height && !found; ++y) {
         const auto row = legend.pixels.begin() + long(y) * legend.width;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the evaluated pairs of a frame are shared out among its lights (what is drawn for it, and
-// that the sums are the engine's: gpu/test_light_costs.cpp).
+// Tests how the evaluated pairs of a frame are shared out among its lights.
+// gpu/test_light_costs.cpp tests what is drawn for that, and that the sums are the engine's.
 #include <algorithm>
 #include <numeric>
 
@@ -18,7 +18,8 @@ using namespace candelabra::app;
 
 constexpr uint32_t side = 16; // pixels: four tiles
 
-// A floor, a metre of it per pixel, of which the right column shows nothing; 3 pairs a pixel.
+// Returns the pair image of a floor, one metre per pixel, 3 pairs per pixel; the right column shows
+// nothing.
 PairImage floorImage()
 {
     return {.size = {side, side},
@@ -46,7 +47,7 @@ double sumOfPairs(const LightCosts& costs)
 
 TEST(LightCosts, AreSharedByThePixelsThatLightsCover)
 {
-    CndLight spot = lampAt(4, 4); // straight down: only what is below it
+    CndLight spot = lampAt(4, 4); // points straight down, so it lights only what is below it
     spot.type = CND_LIGHT_SPOT;
     spot.direction[1] = -1;
     spot.outerConeAngle = 0.1f;
@@ -57,18 +58,19 @@ TEST(LightCosts, AreSharedByThePixelsThatLightsCover)
     EXPECT_EQ(costs.surfaces, side * (side - 1));
     EXPECT_EQ(costs.pairs, 3.0 * side * side);
     EXPECT_EQ(costs.others, 0);
-    ASSERT_EQ(costs.lights.size(), 2u); // the spot meets no centre of a pixel
+    ASSERT_EQ(costs.lights.size(), 2u); // the spot covers no pixel centre
     EXPECT_EQ(costs.lights[0].light, 3u);
     EXPECT_EQ(costs.lights[0].pixels, costs.surfaces);
     EXPECT_EQ(costs.lights[1].light, 1u);
-    // Of the pixels whose centres are within 3 m of (4, 4) on a grid of metres.
+    // 32 pixel centres on a grid of 1 m are within 3 m of (4, 4).
     EXPECT_EQ(costs.lights[1].pixels, 32u);
     EXPECT_EQ(costs.coveredPairs, costs.surfaces + 32);
-    EXPECT_DOUBLE_EQ(costs.lights[1].pairs, 3.0 * 64 * 32 / (64 + 32)); // of its tile
+    EXPECT_DOUBLE_EQ(costs.lights[1].pairs, 3.0 * 64 * 32 / (64 + 32)); // its share of its tile's
+                                                                        // pairs
     EXPECT_DOUBLE_EQ(sumOfPairs(costs), costs.pairs);
 }
 
-// They are in no list, and what they would cover is not theirs.
+// Such lights are in no list, and pixels that they would cover are not attributed to them.
 TEST(LightCosts, LightsOfOtherLayersCostNothing)
 {
     const std::vector<CndLight> lights = {lampAt(4, 4, 1), lampAt(5, 5, 2), lampAt(12, 4, 2),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the viewer's editor does to lights: they stay valid and keep their power.
+// Tests what the viewer's editor does to lights: they stay valid and keep their power.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(LightEditor, AddsSelectsMovesAndRemoves)
     EXPECT_EQ(scene.lightMotions.size(), 1u);
     EXPECT_FALSE(editor.selected);
     editor.changed = false;
-    removeLight(scene, editor); // none is selected
+    removeLight(scene, editor); // no light is selected
     moveLight(scene, editor, {1, 1, 1});
     scaleLightRadius(scene, editor, 2);
     EXPECT_FALSE(editor.changed);
@@ -92,7 +92,7 @@ TEST(LightEditor, EveryTypeBecomesEveryOtherAndIsValid)
             EXPECT_NO_THROW(lighting::validateLights(scene.lights)) << from << " " << to;
             EXPECT_GT(scene.lights[0].emission[1], 0) << from << " " << to;
         }
-    // Between types that have a power it is kept.
+    // A conversion between types that have a luminous power keeps it.
     LightEditor editor;
     Scene scene = sceneWithALight(editor);
     for (const CndLightType type :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The committed table of linearly transformed cosines holds what tools/fit would put there.
+// Tests that the committed table of linearly transformed cosines is what tools/fit would write.
 #include <iostream>
 #include <span>
 
@@ -54,11 +54,12 @@ TEST(LtcTable, HoldsTheLobesIntegralsAndFitsThem)
     mean *= 100.0 / count;
     std::cout << "mean error of " << count << " entries " << mean
               << " % of the peak, largest error of an albedo " << largestAlbedoError << "\n";
-    EXPECT_LE(mean, 3.3); // half of the entries are at grazing; over all angles it is lower
+    EXPECT_LE(mean, 3.3); // half of the entries are at grazing angles; averaged over all angles the
+                          // error is lower
     EXPECT_LE(largestAlbedoError, 1e-6);
 }
 
-// A descent from the shape of another entry ends where the table is.
+// A descent that starts from the shape of another entry ends at the entry in the table.
 TEST(LtcTable, IsWhatTheFitFinds)
 {
     double inTable = 0, fitted = 0;

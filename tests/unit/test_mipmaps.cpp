@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mip chains that textures get.
+// Tests the mip chains of textures.
 #include <cmath>
 #include <random>
 
@@ -53,7 +53,8 @@ TEST(Mipmaps, LevelsHalveDownToOneTexel)
     EXPECT_EQ(chainBytes(levels), offset);
 }
 
-// Level 1 against areas integrated in double, odd and even sides, sRGB and linear.
+// Compares level 1 with areas integrated in double precision, for odd and even sides, sRGB and
+// linear.
 TEST(Mipmaps, FirstLevelIsTheExactAreaAverage)
 {
     for (const auto& [width, height] : {std::pair{8u, 8u}, {7u, 5u}, {1u, 9u}, {64u, 3u}})
@@ -83,7 +84,7 @@ TEST(Mipmaps, FirstLevelIsTheExactAreaAverage)
                                 area += share;
                             }
                         const double code = chain[levels[1].offset + (size_t(y) * w + x) * 4 + c];
-                        // Half a code on either side, and float rounding.
+                        // Tolerance: half a code on either side, and float rounding.
                         const auto value = [&](double k) {
                             return decode ? linearFromSrgb(k) : k / 255;
                         };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes of lights against views: no point that a camera shows may be lost.
+// Tests boxes around lights against views: no point that a camera shows may be lost.
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -30,7 +30,7 @@ View makeView(const glm::dmat4& viewFromWorld, const glm::dmat4& clipFromView)
     return out;
 }
 
-// Reversed and infinite, or orthographic.
+// Returns a random view, reversed and infinite or orthographic.
 View randomView(std::mt19937& random)
 {
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -88,7 +88,7 @@ TEST(Reach, NoPointInViewIsLost)
         }
     }
     EXPECT_GT(shown, 10000);
-    EXPECT_GT(leftOut, 5000); // and it is worth asking
+    EXPECT_GT(leftOut, 5000); // lights are left out often enough to make the test worthwhile
 }
 
 TEST(Reach, ReplacedLightsWidenTheBox)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directional albedo of the reference BRDF: against a second integrator over light directions, and
-// what ways of joining the lobes make of a white surrounding.
+// Tests the directional albedo of the reference BRDF against a second integrator over light
+// directions, and how much of uniform surroundings each way of joining the lobes reflects.
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -22,7 +22,7 @@ namespace
 {
 
 // Midpoint rule over light directions in polar coordinates around the mirror direction, where the
-// lobe is; shares nothing with the quadrature over microfacet normals.
+// lobe is. It shares nothing with the quadrature over microfacet normals.
 DirectionalAlbedo overLightDirections(double NoV, double alpha)
 {
     const double sinV = std::sqrt(1 - NoV * NoV);
@@ -32,7 +32,7 @@ DirectionalAlbedo overLightDirections(double NoV, double alpha)
     const int rings = 1500, spokes = 720;
     for (int ring = 0; ring < rings; ++ring) {
         const double u = (ring + 0.5) / rings;
-        const double angle = pi * u * u; // crowds towards the mirror direction
+        const double angle = pi * u * u; // concentrates rings near the mirror direction
         const double area = std::sin(angle) * 2 * pi * u / rings * (2 * pi / spokes);
         for (int spoke = 0; spoke < spokes; ++spoke) {
             const double phi = 2 * pi * (spoke + 0.5) / spokes;
@@ -62,8 +62,8 @@ TEST(ReferenceAlbedo, agreesWithQuadratureOverLightDirections)
     EXPECT_TRUE(worst.within(1e-4));
 }
 
-// Perpendicular view, alpha = 1: D = 1 / pi and Lambda(v) = 0, so a = integral of
-// 4 cos(h) G2 d(cos h) over cos(h) > sqrt(1/2) with G2 = 2 NoL / (1 + NoL), NoL = 2 cos^2(h) - 1,
+// For perpendicular view and alpha = 1: D = 1 / pi and Lambda(v) = 0, so a is the integral of 4
+// cos(h) G2 d(cos h) over cos(h) > sqrt(1/2) with G2 = 2 NoL / (1 + NoL) and NoL = 2 cos^2(h) - 1,
 // which is 1 - ln 2.
 TEST(ReferenceAlbedo, perpendicularViewOfTheRoughestLobeHasAClosedForm)
 {
@@ -83,8 +83,9 @@ TEST(ReferenceAlbedo, staysBetweenZeroAndOneAndNearsOneForSmoothSurfaces)
     EXPECT_NEAR(specularAlbedo(0.5, 0.002).a, 1, 1e-4);
 }
 
-// Why `conserving` scales the diffuse lobe by the albedo table and not, as glTF 2.0 (appendix B),
-// per light by 1 - F(VoH): a white dielectric in a white surrounding would shine brighter than it.
+// The reason why `conserving` scales the diffuse lobe by the albedo table instead of, as glTF 2.0
+// (appendix B), per light by 1 - F(VoH): with glTF's mix a white dielectric would be brighter than
+// its uniform surroundings.
 TEST(ReferenceAlbedo, glTFMixReflectsMoreThanThereIs)
 {
     const double F0 = 0.04;

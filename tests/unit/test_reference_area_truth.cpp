@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The truth about rectangles, discs and tubes: closed forms, limits, and a second integrator over
-// the emitter's surface.
+// Tests the truth about rectangles, discs and tubes: closed forms, limits, and a second integrator
+// over the emitter's surface.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -85,7 +85,8 @@ TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
         WorstCase worst;
         int crossing = 0;
         while (static_cast<int>(differences.size()) < count) {
-            const double alpha = std::pow(0.03, unit(random)); // narrower is dear for the second
+            const double alpha = std::pow(0.03, unit(random)); // narrower lobes are slow for the
+                                                               // second integrator
             const double view = unit(random) * 89 * pi / 180;
             const SurfacePoint surface{{0, 0, 0}, {0, 0, 1}, {std::sin(view), 0, std::cos(view)}};
             const glm::dvec3 mirror(-surface.toEye.x, 0, surface.toEye.z);
@@ -106,12 +107,12 @@ TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
             const glm::dvec3 center(light.position[0], light.position[1], light.position[2]);
             const double along = std::clamp(-glm::dot(center, u), -size, size);
             if (tube && glm::length(center + along * u) < 1.01 * light.radius)
-                continue; // inside: not the same model
+                continue; // inside the tube both use different models
             const LightResponse a = truthResponse(surface, alpha, light, glm::dvec3(0), 1e-6);
             const LightResponse b =
                 emitterDomainResponse(surface, alpha, light, glm::dvec3(0), 1e-5);
             if (a.f == 0 && b.f == 0)
-                continue; // seen from behind or below the horizon: nothing to compare
+                continue; // seen from behind or below the horizon: there is nothing to compare
             crossing += std::abs(center.z) < size;
             double difference = 0;
             for (const auto& [x, y] : {std::pair{a.a, b.a}, {a.b, b.b}, {a.f, b.f}})
@@ -129,7 +130,8 @@ TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
     }
 }
 
-// Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3, B-4 and B-12.
+// Closed forms from Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3, B-4
+// and B-12.
 TEST(ReferenceAreaTruth, formFactorsMatchTheirClosedForms)
 {
     WorstCase worst;
@@ -140,14 +142,14 @@ TEST(ReferenceAreaTruth, formFactorsMatchTheirClosedForms)
                   "disc", size);
         for (const double aspect : {1.0, 0.25}) {
             const double a = float(size), b = float(size * aspect);
-            // Parallel to the surface, one corner above it: u x v points down.
+            // Parallel to the surface, with one corner above it: u x v points down.
             const double x = std::sqrt(1 + a * a), y = std::sqrt(1 + b * b);
             const double parallel =
                 (a / x * std::atan(b / x) + b / y * std::atan(a / y)) / (2 * pi);
             const CndLight ceiling = makeRectangle({a / 2, b / 2, 1}, {0, b / 2, 0}, {a / 2, 0, 0});
             worst.add(std::abs(formFactor(ceiling) / parallel - 1), "parallel", size, aspect);
-            // A wall 1 m away, from floor to height a and to b at one side; then the same wall
-            // reaching as far below the floor, which must not change anything.
+            // A wall 1 m away, from the floor to height a, with width b to one side. Then the same
+            // wall continued as far below the floor, which must not change anything.
             const double edge = std::sqrt(1 + a * a);
             const double wall = (std::atan(b) - std::atan(b / edge) / edge) / (2 * pi);
             const CndLight above = makeRectangle({1, b / 2, a / 2}, {0, 0, a / 2}, {0, b / 2, 0});
@@ -156,7 +158,7 @@ TEST(ReferenceAreaTruth, formFactorsMatchTheirClosedForms)
             worst.add(std::abs(formFactor(cut) / wall - 1), "wall cut by the floor", size, aspect);
         }
     }
-    // An endless tube: F = R / d for a receiver that faces it.
+    // An infinitely long tube: F = R / d for a receiver that faces it.
     const double tube = formFactor(makeTube({0, 0, 2}, {1e6, 0, 0}, 0.5f));
     worst.add(std::abs(tube / 0.25 - 1), "tube");
     EXPECT_TRUE(worst.within(1e-7)); // positions are floats
@@ -164,7 +166,7 @@ TEST(ReferenceAreaTruth, formFactorsMatchTheirClosedForms)
 
 TEST(ReferenceAreaTruth, degenerateShapesMeet)
 {
-    // A tube without length is a sphere; beyond its end only the nearer sphere is seen.
+    // A tube without length is a sphere. From beyond its end only the nearer end sphere is visible.
     const CndLight sphere = makeSphere({-1, 0.5f, 1}, 0.5f, glm::vec3(1));
     const LightResponse ball = truthResponse(upward, 0.25, sphere, glm::dvec3(0), 1e-8);
     const LightResponse shortTube =
@@ -175,7 +177,7 @@ TEST(ReferenceAreaTruth, degenerateShapesMeet)
     const LightResponse pointed = truthResponse(
         upward, 0.25, makeTube(glm::dvec3(-1, 0.5, 1) + 2.0 * away, 2.0 * away, 0.5f), {}, 1e-8);
     EXPECT_NEAR(pointed.a / ball.a, 1, 1e-6);
-    // A small disc and a small square of one area are one light.
+    // A small disc and a small square of the same area are equivalent.
     const double side = std::sqrt(pi) * 1e-3;
     const CndLight disc = makeDisc({-1, 0.5, 1}, {1, 0, -1}, 1e-3f);
     const glm::dvec3 u = side / 2 * glm::dvec3(0, 1, 0);
@@ -212,12 +214,12 @@ TEST(ReferenceAreaTruth, oneSideShinesUnlessBothDo)
     EXPECT_EQ(specular(makeTube({0, 0, -1}, {1, 0, 0}, 0.5f)), 0);
 }
 
-// Inside a tube its surface continues, as it does for the sphere.
+// As for the sphere, the response inside a tube continues that at its surface.
 TEST(ReferenceAreaTruth, tubesAreContinuousAtTheirSurface)
 {
     for (const glm::dvec3& outward :
          {glm::dvec3(0, 0.6, 0.8), glm::dvec3(0.6, 0, 0.8), glm::dvec3(0, 0, -1)}) {
-        // The tube lies along x; its nearest point is at its middle, or at its end.
+        // The tube lies along x; the nearest point of its segment is in the middle, or at its end.
         const double end = outward.x > 0 ? 1 : 0;
         const auto at = [&](double distance) {
             const glm::dvec3 center = distance * outward + end * glm::dvec3(1, 0, 0);

@@ -31,8 +31,8 @@ TEST(ReferenceBrdf, distributionIsNormalised)
     EXPECT_TRUE(worst.within(1e-9));
 }
 
-// Projected-area normalisation of masking (Heitz 2014): microfacets that the eye sees cover exactly
-// the projected area of the surface, which ties Lambda to D.
+// Projected-area normalisation of masking (Heitz 2014): the microfacets that the eye sees cover
+// exactly the projected area of the surface. This ties Lambda to D.
 TEST(ReferenceBrdf, visibleNormalsCoverTheProjectedSurface)
 {
     WorstCase worst;
@@ -43,7 +43,8 @@ TEST(ReferenceBrdf, visibleNormalsCoverTheProjectedSurface)
                 const double sinH = std::sqrt(1 - NoH * NoH);
                 return ggxD(NoH, alpha) * integratePositivePart(NoV * NoH, sinV * sinH);
             };
-            // Half vectors below sinV partly face away from the eye: a kink of the integrand.
+            // Half vectors with NoH below sinV partly face away from the eye, which makes a kink in
+            // the integrand.
             const double seen = integrate(0, sinV, ring) + integrate(sinV, 1, ring);
             const double masked = seen / (1 + smithLambda(NoV, alpha));
             worst.add(std::abs(masked / NoV - 1), "alpha", alpha, "NoV", NoV);
@@ -70,7 +71,7 @@ TEST(ReferenceBrdf, isReciprocal)
     EXPECT_TRUE(worst.within(1e-9));
 }
 
-// Everything at normal incidence: D = 1 / (pi alpha^2), no shadowing, so D V = 1 / (4 pi alpha^2).
+// At normal incidence D = 1 / (pi alpha^2) and there is no shadowing, so D V = 1 / (4 pi alpha^2).
 TEST(ReferenceBrdf, normalIncidenceIsTheClosedForm)
 {
     const glm::dvec3 n(0, 1, 0);

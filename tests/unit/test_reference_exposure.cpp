@@ -71,7 +71,7 @@ TEST(ReferenceHistogram, binsCheckedByHand)
     EXPECT_EQ(histogramBin(0x1.2p-12f), 1u); // 1 + 1/8
     EXPECT_EQ(histogramBin(0x1p-11f), 8u);
     EXPECT_EQ(histogramBin(std::nextafter(1.0f, 0.0f)), 95u);
-    EXPECT_EQ(histogramBin(1.0f), 96u); // 12 octaves of 8 bins
+    EXPECT_EQ(histogramBin(1.0f), 96u); // 12 octaves of 8 bins each
     EXPECT_EQ(histogramBin(1.5f), 100u);
     EXPECT_EQ(histogramBin(std::nextafter(0x1p20f, 0.0f)), 255u);
     EXPECT_EQ(histogramBin(0x1.cp19f), 254u);
@@ -82,7 +82,8 @@ TEST(ReferenceHistogram, binsCheckedByHand)
     EXPECT_EQ(histogramBin(-nan), std::nullopt);
 }
 
-// Every edge 2^e (1 + k/8) opens its own bin and ends the one before; its middle is inside.
+// Every edge 2^e (1 + k/8) is the first value of its bin and ends the bin before; the middle is
+// inside.
 TEST(ReferenceHistogram, edgesAreExactFloats)
 {
     for (int bin = 1; bin < CND_HISTOGRAM_BINS; ++bin) {
@@ -96,7 +97,7 @@ TEST(ReferenceHistogram, edgesAreExactFloats)
             ASSERT_EQ(histogramBin(static_cast<float>(inside)), static_cast<uint32_t>(bin));
         }
     }
-    // 7.5 sixteenths and a half are the middle.
+    // 7.5 sixteenths plus half a sixteenth is the middle of the bin.
     EXPECT_NEAR(binLog2Luminance(96, 7.5), std::log2(1 + 0.5 / 8), 1e-15);
     EXPECT_EQ(binFraction(0), 0u);
     EXPECT_EQ(binFraction(inf), 15u);
@@ -108,13 +109,13 @@ TEST(ReferenceHistogram, luminanceIsRoundedAfterEveryOperation)
     EXPECT_EQ(histogramLuminance(1, 0, 0), 0.2126f);
     EXPECT_EQ(histogramLuminance(0, 1, 0), 0.7152f);
     EXPECT_EQ(histogramLuminance(0, 0, 1), 0.0722f);
-    // Some of these colours tell the order and the roundings from any other way to sum.
+    // Some of these colours distinguish this order and rounding from any other way to sum.
     int fused = 0, otherOrder = 0;
     for (int i = 1; i < 200; ++i) {
         const float x = static_cast<float>(i);
         const float r = x * 0.37f, g = x * 1.13f, b = x * 2.71f;
         const float red = 0.2126f * r, green = 0.7152f * g, blue = 0.0722f * b;
-        // A sum of two floats is exact enough in double to round once.
+        // A sum of two floats is exact enough in double precision to be rounded only once.
         const auto sum = [](double left, double right) { return static_cast<float>(left + right); };
         ASSERT_EQ(histogramLuminance(r, g, b), sum(sum(red, green), blue));
         fused += histogramLuminance(r, g, 0) != std::fma(0.7152f, g, red);
@@ -132,7 +133,7 @@ TEST(ReferenceHistogram, invalidPixelsAreCountedAndLeftOut)
     const Histogram histogram = average({1, nan, 1, -inf, inf, nan});
     EXPECT_EQ(histogram.invalidPixels, 2u);
     EXPECT_EQ(total(histogram), 4u);
-    // 0.2126 + 0.7152 + 0.0722 may round to either side of 1 in float32.
+    // 0.2126 + 0.7152 + 0.0722 in float32 may round to either side of 1.
     const uint32_t bin = *histogramBin(histogramLuminance(1, 1, 1));
     EXPECT_EQ(histogram.counts[bin], 2u);
     EXPECT_EQ(histogram.counts[0], 1u);
@@ -151,7 +152,7 @@ TEST(ReferenceHistogram, centreWeightsFallFromTheCentre)
         const uint32_t weight = centreWeight(x, 540, 1921, 1081);
         ASSERT_GE(weight, 1u);
         ASSERT_EQ(weight, centreWeight(1920 - x, 540, 1921, 1081));
-        // The formula as it is evaluated in 32 bits.
+        // The formula as the shader evaluates it in 32 bits.
         const uint32_t dx = x < 960 ? 1920 - 2 * x : 2 * x - 1920;
         ASSERT_EQ(weight, 15 - std::min(14u, 15u * dx * 1081u / (1921u * 1081u)));
     }
@@ -180,7 +181,7 @@ TEST(ReferenceExposure, percentilesCutFractionsOfBins)
     histogram.counts[10] = 4;
     histogram.counts[20] = 4;
     histogram.counts[200] = 2;
-    histogram.fractions[20] = 4 * 6; // each six sixteenths into its bin
+    histogram.fractions[20] = 4 * 6; // each pixel is six sixteenths into its bin
     const double a = binLog2Luminance(10, 0), b = binLog2Luminance(20, 6),
                  c = binLog2Luminance(200, 0);
     EXPECT_NEAR(*percentileMeanLog2(histogram, 0, 1), (4 * a + 4 * b + 2 * c) / 10, 1e-13);
@@ -203,14 +204,14 @@ TEST(ReferenceExposure, followsTheSameCurveAtAnyFrameRate)
     }
     EXPECT_NEAR(ends[1], ends[0], 1e-12);
     EXPECT_NEAR(ends[2], ends[0], 1e-12);
-    // Closed form: 0.2 s at speed 3 up, then 0.4 s at speed 1 down.
+    // Closed form: 0.2 s upwards at speed 3, then 0.4 s downwards at speed 1.
     const double up = adapt(bright, automatic(), 0, 0, true).targetEv100;
     const double down = adapt(dark, automatic(), 0, 0, true).targetEv100;
     const double turn = up + (2 - up) * std::exp(-0.6);
     EXPECT_NEAR(ends[0], down + (turn - down) * std::exp(-0.4), 1e-12);
 }
 
-// A picture with a spread of luminances that gets brighter in small steps.
+// An image with a spread of luminances that gets brighter in small steps.
 TEST(ReferenceExposure, rampGivesMonotoneContinuousEv)
 {
     std::vector<float> image(4096);
@@ -227,13 +228,15 @@ TEST(ReferenceExposure, rampGivesMonotoneContinuousEv)
             largest = std::max(largest, ev - previous);
         }
         previous = ev;
-        // Mean of the spread is 2 stops, K adds 3; a bin's middle is at most 0.01 off on average.
+        // The mean of the spread is 2 stops and K adds 3. The assumed middle of a bin is off by at
+        // most 0.01 on average.
         ASSERT_NEAR(ev, stops + 5, 0.02);
     }
     EXPECT_LT(largest, 0.03);
 }
 
-// Even a flat picture is never off by more than half a sixteenth of a bin, and never turns back.
+// Even for a uniform image the error is never more than half a sixteenth of a bin, and the EV never
+// falls.
 TEST(ReferenceExposure, flatPictureIsWithinAHundredthOfAStop)
 {
     double previous = -100;
@@ -245,7 +248,7 @@ TEST(ReferenceExposure, flatPictureIsWithinAHundredthOfAStop)
     }
 }
 
-// A lit object on an empty background is exposed for the object.
+// A lit object in front of an empty background is exposed for the object.
 TEST(ReferenceExposure, blackBackgroundIsLeftOut)
 {
     const double object = targetEv({100, 200});
@@ -265,7 +268,7 @@ TEST(ReferenceExposure, extremeInputsStayFinite)
             EXPECT_LE(result.adaptedEv100, settings.maxEv100) << value;
         }
     }
-    // Nothing measured: stay where we were, or start from EV 0.
+    // If nothing was metered the value stays, or starts from EV 0 after a reset.
     EXPECT_EQ(adapt(average({nan}), settings, 5, 0.1, false).adaptedEv100, 5);
     EXPECT_EQ(adapt(average({nan}), settings, 5, 0.1, true).adaptedEv100, 0);
 }
@@ -284,7 +287,7 @@ TEST(ReferenceExposure, clampCompensationAndManualFollowTheContract)
     EXPECT_EQ(manual.targetEv100, -3);
     EXPECT_EQ(manual.adaptedEv100, -3);
     EXPECT_DOUBLE_EQ(manual.exposure, 16 / 1.2);
-    EXPECT_EQ(adapt(average({1}), automatic(), 9, 0, false).adaptedEv100, 9); // no time passed
+    EXPECT_EQ(adapt(average({1}), automatic(), 9, 0, false).adaptedEv100, 9); // no time has passed
 }
 
 } // namespace candelabra::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference renderer against images of an independent path tracer, and its geometry.
+// Tests the reference renderer against images of an independent path tracer, and its geometry.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -55,7 +55,7 @@ Scene planeScene(const glm::dvec3& eye, const glm::dvec3& target, const glm::dve
     return scene;
 }
 
-// Mean of |candidate - truth| / truth, as compare scripts call it for lit pixels.
+// Returns the mean of |candidate - truth| / truth over the lit pixels.
 double meanRelativeError(const Image& image, std::span<const GreyPixel> truth)
 {
     double sum = 0;
@@ -66,7 +66,8 @@ double meanRelativeError(const Image& image, std::span<const GreyPixel> truth)
     return sum / static_cast<double>(truth.size());
 }
 
-// Accepted: 0.3 % of model error plus the mean magnitude (0.8 rms) of the path tracer's noise.
+// The accepted error: 0.3 % for the model plus the mean magnitude (0.8 rms) of the path tracer's
+// noise.
 double acceptedError(double noiseRms)
 {
     return 0.003 + 0.8 * noiseRms;
@@ -94,8 +95,8 @@ TEST(ReferenceRender, lambertPlaneCutByASphereMatchesThePathTracer)
     EXPECT_LE(error, acceptedError(0.00446));
 }
 
-// The BRDF integrated over the light by brute force: D, Smith, Schlick and Lambert together, with
-// no area-light approximation, on a dielectric at grazing view.
+// Integrates the BRDF over the light by brute force, for a dielectric at a grazing view: D, Smith,
+// Schlick and Lambert together, without an area-light approximation.
 TEST(ReferenceRender, integratedBrdfMatchesThePathTracer)
 {
     const glm::dvec3 albedo(0.2, 0.3, 0.5), center(0.5, 1.2, -3);
@@ -133,13 +134,14 @@ TEST(ReferenceRender, ballIsHitOnItsNearSide)
     ASSERT_TRUE(hit);
     EXPECT_NEAR(glm::distance(hit->surface.position, glm::dvec3(0, 0, 1)), 0, 1e-15);
     EXPECT_NEAR(glm::distance(hit->surface.normal, glm::dvec3(0, 0, 1)), 0, 1e-15);
-    // The rim, seen from 5: half angle asin(1/5). Just inside hits, just outside misses.
+    // The ball's rim seen from a distance of 5 is at the angle asin(1/5): just inside it hits, just
+    // outside misses.
     const double rim = std::tan(std::asin(0.2));
     scene.camera.verticalFov = 2 * std::atan(2 * rim * (1 - 1e-9));
     EXPECT_TRUE(tracePixel(scene, 2, 1, 1, 0));
     scene.camera.verticalFov = 2 * std::atan(2 * rim * (1 + 1e-9));
     EXPECT_FALSE(tracePixel(scene, 2, 1, 1, 0));
-    scene.camera.position = glm::dvec3(0); // from inside nothing is seen
+    scene.camera.position = glm::dvec3(0); // from inside nothing is visible
     EXPECT_FALSE(tracePixel(scene, 1, 1, 0, 0));
 }
 

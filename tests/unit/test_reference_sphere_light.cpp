@@ -19,8 +19,8 @@ using namespace candelabra::reference;
 namespace
 {
 
-// F by integration over the cap: polar angle outside, azimuth inside, split where the horizon first
-// cuts a ring.
+// Computes F by integration over the cap: polar angle outside, azimuth inside, split where the
+// horizon first cuts a ring.
 double bruteFormFactor(double c, double s)
 {
     const double sinb = std::sqrt((1 - c) * (1 + c));
@@ -95,7 +95,7 @@ TEST(ReferenceFormFactor, splitsAWholeCircle)
     EXPECT_TRUE(worst.within(1e-14));
 }
 
-// Through both tangencies and s = 1 the value neither jumps nor turns back.
+// Through both tangencies, and at s = 1, the value neither jumps nor turns back.
 TEST(ReferenceFormFactor, isContinuousAndMonotoneAcrossTheHorizon)
 {
     for (const double s : {1e-5, 0.1, 0.9, 1.0}) {
@@ -123,11 +123,11 @@ TEST(ReferenceFormFactor, receiverInsideContinuesTheSurfaceValue)
     const glm::dvec3 direction = glm::normalize(glm::dvec3(1, 0.5, 0));
     const double outside = sphereDiffuse(surface, direction * (1 + 1e-10), 1);
     const double inside = sphereDiffuse(surface, direction * 0.5, 1);
-    EXPECT_NEAR(outside, inside, 1e-4); // the approach goes with sqrt(d - R)
+    EXPECT_NEAR(outside, inside, 1e-4); // the difference falls like sqrt(d - R)
     EXPECT_DOUBLE_EQ(sphereDiffuse(surface, glm::dvec3(0), 1), 0.5);
 }
 
-// Head-on illuminance pi L s^2 = I / d^2 with I = pi R^2 L and Phi = 4 pi I.
+// Head-on illuminance is pi L s^2 = I / d^2 with I = pi R^2 L and Phi = 4 pi I.
 TEST(ReferenceSphereLight, unitsAgreeWithThePointLightOfTheSameIntensity)
 {
     const SurfacePoint surface = surfaceAt({0, 1, 0});
@@ -137,10 +137,11 @@ TEST(ReferenceSphereLight, unitsAgreeWithThePointLightOfTheSameIntensity)
     const CndLight sphere = makeSphere({0, 3, 0}, radius, glm::vec3(luminance));
     EXPECT_NEAR(lit(surface, whiteLambert(), sphere) * pi / E, 1, 1e-12);
     const CndLight point = makePunctual(CND_LIGHT_POINT, {0, 3, 0}, static_cast<float>(intensity));
-    EXPECT_NEAR(lit(surface, whiteLambert(), point) * pi / E, 1, 1e-6); // float emission
+    EXPECT_NEAR(lit(surface, whiteLambert(), point) * pi / E, 1, 1e-6); // the emission is a float
 }
 
-// A white Lambert plane in a luminous hemisphere (s = 1, straight above) has the luminance of it.
+// A white Lambertian plane under a luminous hemisphere (s = 1, straight above) has the luminance of
+// the hemisphere.
 TEST(ReferenceSphereLight, whiteFurnaceIsOne)
 {
     const CndLight dome = makeSphere({0, 2, 0}, 2, glm::vec3(1));
@@ -149,8 +150,8 @@ TEST(ReferenceSphereLight, whiteFurnaceIsOne)
 
 TEST(ReferenceSphereLight, diffuseTendsToThePointLight)
 {
-    // Above the horizon it is the point light; in the crossing band off by at most 0.2123 s^3, the
-    // value at c = 0 (a disc on edge: 2 / (3 pi) s^3).
+    // Above the horizon the sphere equals the point light. In the band where it crosses the horizon
+    // the difference is at most 0.2123 s^3, reached at c = 0 (a disc seen edge-on: 2 / (3 pi) s^3).
     WorstCase worst;
     for (const double s : {1e-4, 1e-3, 1e-2}) {
         for (double x = -1; x <= 1; x += 1.0 / 32) {
@@ -162,8 +163,9 @@ TEST(ReferenceSphereLight, diffuseTendsToThePointLight)
     EXPECT_NEAR(sphereFormFactor(0, 1e-4) * 1e12, 2 / (3 * pi), 1e-8);
 }
 
-// With constant intensity the exact specular term of a sphere reaches the point light's with an
-// error that falls like R^2; the representative point's falls like R, because alpha' does.
+// With constant intensity the exact specular term of a sphere approaches that of the point light
+// with an error that falls like R^2. The error of the representative point falls like R, because
+// alpha' does.
 TEST(ReferenceSphereLight, specularTendsToThePointLight)
 {
     const SurfacePoint surface = surfaceAt({0.6, 0.7, 0.1});
@@ -179,7 +181,7 @@ TEST(ReferenceSphereLight, specularTendsToThePointLight)
             return glm::dvec3(ggxBrdf(surface.normal, surface.toEye, w, alpha).value * cosine);
         });
         exact[i] = std::abs(sum.x / (pi * s * s) / point - 1);
-        // A tenth of the radius, where the terms of higher order no longer show.
+        // At a tenth of the radius terms of higher order are negligible.
         const double a = karisSphereSpecular(surface, alpha, l * distance, radius / 10).a;
         karis[i] = std::abs(a / (pi * s * s / 100) / point - 1);
     }
@@ -189,7 +191,8 @@ TEST(ReferenceSphereLight, specularTendsToThePointLight)
     EXPECT_LT(karis[0], 0.004);
 }
 
-// The eye looks straight into the mirror image of the sphere: everything is known in closed form.
+// The eye looks straight into the mirror image of the sphere, where everything is known in closed
+// form.
 TEST(ReferenceSphereLight, representativePointOnTheAxis)
 {
     const double alpha = 0.2, radius = 0.5, distance = 4, s = radius / distance;
@@ -199,14 +202,15 @@ TEST(ReferenceSphereLight, representativePointOnTheAxis)
     EXPECT_NEAR(response.a, s * s / (4 * widened * widened), 1e-15);
     EXPECT_EQ(response.b, 0);
     EXPECT_EQ(karisSphereSpecular(surface, alpha, {0, -distance, 0}, radius).a, 0);
-    // A mirror ray that meets the sphere off its centre gives the mirror direction itself.
+    // If the mirror ray meets the sphere off its centre, the representative direction is the mirror
+    // direction.
     const SurfacePoint tilted = surfaceAt({0.6, 0.8, 0});
     const double offset = std::sqrt(16.09), sOffset = radius / offset;
     const double lobe = 1 / (pi * alpha * alpha) * smithVisibility(0.8, 0.8, alpha) * 0.8;
     const double norm = std::pow(alpha / (alpha + sOffset / 2), 2);
     const double hit = karisSphereSpecular(tilted, alpha, {-2.4, 3.2, 0.3}, radius).a;
     EXPECT_NEAR(hit / (pi * sOffset * sOffset * lobe * norm), 1, 1e-12);
-    // Receiver inside, and in the centre: defined and finite.
+    // A receiver inside the sphere, and at its centre: the value is defined and finite.
     EXPECT_GT(karisSphereSpecular(surface, alpha, {0, 0.2, 0}, radius).a, 0);
     EXPECT_EQ(karisSphereSpecular(surface, alpha, {0, 0, 0}, radius).a, 0);
 }
@@ -219,7 +223,7 @@ TEST(ReferenceSphereLight, windowIsSmoothAtItsRadius)
     EXPECT_EQ(lightWindow(3, 2), 0);
     EXPECT_EQ(lightWindow(1e30, INFINITY), 1);
     const double h = 1e-5;
-    EXPECT_NEAR(lightWindow(2 - h, 2) / h, 0, 1e-4); // value and slope vanish: C1
+    EXPECT_NEAR(lightWindow(2 - h, 2) / h, 0, 1e-4); // value and slope vanish: the window is C1
     EXPECT_GT(lightWindow(2 - h, 2), 0);
 }
 
@@ -255,7 +259,7 @@ TEST(ReferencePunctualLight, spotFadesBetweenItsCones)
     spot.outerConeAngle = 0.6f;
     spot.direction[1] = -1;
     EXPECT_NEAR(lit(surfaceAt({0, 1, 0}), whiteLambert(), spot), 12 / (4 * pi), 1e-14);
-    spot.direction[1] = 1; // shines away
+    spot.direction[1] = 1; // the spot points away
     EXPECT_EQ(lit(surfaceAt({0, 1, 0}), whiteLambert(), spot), 0);
 }
 
@@ -269,7 +273,7 @@ TEST(ReferencePunctualLight, directionalIsIlluminance)
     EXPECT_EQ(lit(surfaceAt({0, 1, 0}), whiteLambert(), sun), 0);
 }
 
-// Mirror direction at grazing view: VoH = 0.2, so Schlick's weight is 0.8^5.
+// In the mirror direction at a grazing view VoH is 0.2, so Schlick's weight is 0.8^5.
 TEST(ReferencePunctualLight, fresnelMixesF0AndF90)
 {
     const double cosine = 0.2, sine = std::sqrt(1 - cosine * cosine), p = std::pow(0.8, 5);
@@ -282,7 +286,7 @@ TEST(ReferencePunctualLight, fresnelMixesF0AndF90)
         material.alpha = 0.4;
         material.f0 = glm::dvec3(1);
         material.specularWeight = 1;
-        const double one = lit(surface, material, light); // F0 = F90 = 1: no Fresnel
+        const double one = lit(surface, material, light); // F0 = F90 = 1: no Fresnel effect
         material.specularWeight = 0;
         EXPECT_NEAR(lit(surface, material, light) / one, 1 - p, 1e-6);
         material.f0 = glm::dvec3(0.04);

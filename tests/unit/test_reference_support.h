@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of the reference share: a record of the worst case of a sweep, and brute-force
-// quadrature that knows nothing of the closed forms under test.
+// Helpers of the reference tests: a record of the worst case of a sweep, and brute-force quadrature
+// that does not use the closed forms under test.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@
 namespace candelabra::test
 {
 
-// Keeps the largest error of a sweep and where it was. NaN beats everything, and a sweep that
-// checked nothing fails.
+// Keeps the largest error of a sweep and the place where it occurred. NaN counts as larger than
+// everything, and a sweep that checked nothing fails.
 class WorstCase
 {
 public:
@@ -48,8 +48,8 @@ private:
     std::string where_ = "(nothing was checked)";
 };
 
-// Tanh-sinh quadrature over [a, b] (Takahasi and Mori 1974): converges through integrable kinks and
-// square-root ends. 300 nodes, about 1e-13 of the integrand's size.
+// Tanh-sinh quadrature over [a, b] (Takahasi and Mori 1974), which converges despite integrable
+// kinks and square-root ends. 300 nodes, error about 1e-13 of the integrand's size.
 inline double integrate(double a, double b, const std::function<double(double)>& f)
 {
     const double step = 1.0 / 48;
@@ -64,7 +64,7 @@ inline double integrate(double a, double b, const std::function<double(double)>&
     return sum * step * half;
 }
 
-// Integral over phi in [0, 2 pi] of max(A + B cos phi, 0), by the midpoint rule on the interval in
+// Integrates max(A + B cos phi, 0) over phi in [0, 2 pi], by the midpoint rule on the interval in
 // which the integrand is positive.
 inline double integratePositivePart(double A, double B)
 {
@@ -81,15 +81,15 @@ inline double integratePositivePart(double A, double B)
     return 2 * integrate(0, edge, [=](double phi) { return A + B * std::cos(phi); });
 }
 
-// Integral of f over the directions within asin(s) of the unit axis; f smooth on the cap.
+// Integrates f over the directions within asin(s) of the unit axis; f must be smooth on the cap.
 inline glm::dvec3 integrateCap(const glm::dvec3& axis, double s,
                                const std::function<glm::dvec3(const glm::dvec3&)>& f)
 {
     const glm::dvec3 helper = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 tangent = glm::normalize(glm::cross(axis, helper));
     const glm::dvec3 bitangent = glm::cross(axis, tangent);
-    // Area of a cap goes with 1 - cos: the midpoint rule in that variable after w = u^2, which
-    // makes the integrand smooth at the axis.
+    // The area of a cap is proportional to w = 1 - cos. Uses the midpoint rule in u with w = u^2,
+    // which makes the integrand smooth at the axis.
     const double height = s * s / (1 + std::sqrt(1 - s * s));
     const int rings = 48, spokes = 64;
     glm::dvec3 sum(0);

@@ -65,14 +65,15 @@ TEST(ReferenceToneMap, noneAndReinhardByHand)
 
 TEST(ReferenceToneMap, pbrNeutralKeepsBaseColours)
 {
-    // Below the compression start the colour is only shifted by F90 = 0.04 ...
+    // Below the start of the compression the colour is only shifted by F90 = 0.04 ...
     const glm::dvec3 kept = toneMap(CND_TONEMAP_PBR_NEUTRAL, {0.5, 0.3, 0.1});
     EXPECT_NEAR(glm::distance(kept, glm::dvec3(0.46, 0.26, 0.06)), 0, 1e-15);
     // ... or by less in the toe: 0.04 - 0.04^2 / 0.16 = 0.03 for a minimum of 0.04.
     EXPECT_NEAR(toneMap(CND_TONEMAP_PBR_NEUTRAL, {0.5, 0.3, 0.04}).b, 0.01, 1e-15);
-    // A grey peak of 1: p = 0.96, d = 0.24, p' = 1 - 0.0576 / 0.44; grey ignores desaturation.
+    // A grey peak of 1: p = 0.96, d = 0.24, p' = 1 - 0.0576 / 0.44; desaturation does not affect
+    // grey.
     EXPECT_NEAR(grey(CND_TONEMAP_PBR_NEUTRAL, 1), 1 - 0.24 * 0.24 / 0.44, 1e-12);
-    // Continuous where compression starts, peak 0.76 + 0.04.
+    // Continuous where the compression starts, at a peak of 0.76 + 0.04.
     EXPECT_NEAR(grey(CND_TONEMAP_PBR_NEUTRAL, 0.8 - 1e-9),
                 grey(CND_TONEMAP_PBR_NEUTRAL, 0.8 + 1e-9), 1e-8);
     // A red of 2: p = 2, p' = 1 - 0.0576 / 1.48, desaturated by 0.15 (p - p').
@@ -84,7 +85,7 @@ TEST(ReferenceToneMap, pbrNeutralKeepsBaseColours)
     EXPECT_GT(toneMap(CND_TONEMAP_PBR_NEUTRAL, {1e6, 0, 0}).b, 0.99);
 }
 
-// The rational fit of a grey g, matrices aside (their rows sum to 1).
+// For a grey g only the rational fit remains, because the rows of the matrices sum to 1.
 TEST(ReferenceToneMap, acesGreyIsTheRationalFit)
 {
     WorstCase worst;
@@ -107,7 +108,7 @@ TEST(ReferenceToneMap, agxPutsMiddleGreyInTheMiddleOfTheDisplay)
     EXPECT_NEAR(std::pow(grey(CND_TONEMAP_AGX, 0.18), 1 / 2.2), 0.5, 0.005);
     EXPECT_LT(grey(CND_TONEMAP_AGX, 1e-5), 1e-5);
     const glm::dvec3 red = toneMap(CND_TONEMAP_AGX, {16, 0, 0});
-    EXPECT_GT(red.g, 0.1); // saturated highlights bleach
+    EXPECT_GT(red.g, 0.1); // saturated highlights are desaturated
     EXPECT_GT(red.r, 1.5 * red.g);
 }
 

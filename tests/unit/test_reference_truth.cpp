@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The truth about spheres: two integrators in different domains, limits, and its error estimate.
+// Tests the truth about spheres: two integrators in different domains, limits, and its error
+// estimate.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -40,8 +41,8 @@ SurfacePoint eyeAt(double angle)
     return {{0, 0, 0}, {0, 0, 1}, {std::sin(angle), 0, std::cos(angle)}};
 }
 
-// perceptualRoughness 0.0447..1 (alpha 0.002..1), half angle 0.005..89 degrees, view to 89 degrees;
-// three in five centres near the mirror direction, the others over everything that is visible.
+// Perceptual roughness 0.0447..1 (alpha 0.002..1), half angle 0.005..89 degrees, view angle up to
+// 89 degrees. Three in five centres are near the mirror direction, the others anywhere visible.
 CapCase randomCase(std::mt19937_64& random)
 {
     std::uniform_real_distribution<double> unit(0, 1);
@@ -63,7 +64,8 @@ CapCase randomCase(std::mt19937_64& random)
     return out;
 }
 
-// Response of a cap of this size on the mirror direction: close to the largest there is.
+// Returns the response of a cap of this size in the mirror direction, which is close to the largest
+// possible.
 double peakOf(const CapCase& c)
 {
     const glm::dvec3& v = c.surface.toEye;
@@ -75,7 +77,7 @@ double peakOf(const CapCase& c)
 TEST(ReferenceQuadrature, isExactForPolynomialsAndHonestAboutTheRest)
 {
     const std::array<double, 2> ends = {0, 2};
-    for (int power = 0; power <= 22; ++power) { // the Kronrod rule's degree
+    for (int power = 0; power <= 22; ++power) { // up to the degree of the Kronrod rule
         const auto sum =
             reference::integrate<1, 2>(std::span<const double>(ends), 1, 0, [&](double x) {
                 return std::array<double, 1>{std::pow(x, power)};
@@ -83,7 +85,7 @@ TEST(ReferenceQuadrature, isExactForPolynomialsAndHonestAboutTheRest)
         const double exact = std::pow(2, power + 1) / (power + 1);
         EXPECT_NEAR(sum.value[0] / exact, 1, 4e-15) << power;
     }
-    // A kink in an unknown place, and a narrow peak.
+    // A kink at an unknown place, and a narrow peak.
     const auto sum =
         reference::integrate<2, 200>(std::span<const double>(ends), 1e-9, 0, [](double x) {
             const double t = (x - 0.7) / 1e-3;
@@ -95,7 +97,7 @@ TEST(ReferenceQuadrature, isExactForPolynomialsAndHonestAboutTheRest)
     EXPECT_LE(std::abs(sum.value[0] - kink), std::max(sum.error[0], 1e-15));
     EXPECT_LE(sum.error[0], 1e-9 * kink);
     EXPECT_LE(std::abs(sum.value[1] - peak), 1e-9 * peak);
-    // What cannot be done says so.
+    // An integral that cannot be resolved must say so.
     const auto wild =
         reference::integrate<1, 4>(std::span<const double>(ends), 1e-12, 0, [](double x) {
             return std::array<double, 1>{std::sin(1000 * x * x)};
@@ -116,7 +118,7 @@ TEST(ReferenceTruth, twoIntegratorsInDifferentDomainsAgree)
         const LightResponse directions =
             directionDomainSpecular(c.surface, c.alpha, *capOutline(c.cap), 1e-6);
         unconverged += !slopes.converged + !directions.converged;
-        const double floor = 1e-2 * peakOf(c); // 1e-4 of the value or 1e-6 of the peak
+        const double floor = 1e-2 * peakOf(c); // compares to 1e-4 of the value or 1e-6 of the peak
         const double a = std::abs(slopes.a - directions.a) / std::max(slopes.a, floor);
         const double b = std::abs(slopes.b - directions.b) / std::max(slopes.b, floor);
         differences.push_back(std::max(a, b));
@@ -132,7 +134,7 @@ TEST(ReferenceTruth, twoIntegratorsInDifferentDomainsAgree)
     EXPECT_EQ(unconverged, 0);
 }
 
-// A loose tolerance may err by what it says it errs, seen from a tight one.
+// With a loose tolerance the error, judged by a tight tolerance, is within the estimate.
 TEST(ReferenceTruth, errorEstimateCoversTheError)
 {
     std::mt19937_64 random(2);
@@ -181,14 +183,14 @@ TEST(ReferenceTruth, smoothSurfacesShowTheMirrorImage)
     const double alpha = 0.002;
     const glm::dvec3 mirror(-surface.toEye.x, 0, surface.toEye.z);
     const LightResponse inside = truthOfCap(surface, alpha, {mirror, 0.04}, 1e-6);
-    EXPECT_NEAR(inside.a, 1, 4e-4); // the lobe's tail beyond the cap: (alpha / 0.1)^2
+    EXPECT_NEAR(inside.a, 1, 4e-4); // minus the lobe's tail beyond the cap: (alpha / 0.1)^2
     EXPECT_NEAR(inside.b, std::pow(1 - surface.toEye.z, 5), 4e-4);
     const Frame frame = frameAround(mirror, surface.normal);
     const double away = std::asin(0.2) + 0.1;
     const glm::dvec3 aside = std::cos(away) * mirror + std::sin(away) * frame.y;
     EXPECT_LE(truthOfCap(surface, alpha, {aside, 0.04}, 1e-6).a, 1e-3);
     const glm::dvec3 edge = std::cos(std::asin(0.2)) * mirror + 0.2 * frame.y;
-    EXPECT_NEAR(truthOfCap(surface, alpha, {edge, 0.04}, 1e-6).a, 0.5, 0.02); // it is curved
+    EXPECT_NEAR(truthOfCap(surface, alpha, {edge, 0.04}, 1e-6).a, 0.5, 0.02); // the edge is curved
 }
 
 TEST(ReferenceTruth, nothingComesFromBelowTheHorizon)
@@ -201,15 +203,16 @@ TEST(ReferenceTruth, nothingComesFromBelowTheHorizon)
     EXPECT_EQ(at(-s).a, 0);
     EXPECT_EQ(at(-s).f, 0);
     EXPECT_EQ(at(-0.9).b, 0);
-    // It rises like the width of the visible sliver to the power 5/2 (3/2 for the area, once more
-    // for shadowing): no jump.
+    // The response rises like the power 5/2 of the width of the visible sliver (3/2 for the area,
+    // one more for shadowing), without a jump.
     EXPECT_GT(at(-s + 1e-4).a, 0);
     EXPECT_LE(at(-s + 1e-4).a, 1e-6);
     EXPECT_LE(std::abs(at(-1e-9).a - at(1e-9).a), 1e-7);
     EXPECT_LE(std::abs(at(s - 1e-9).a - at(s + 1e-9).a), 1e-7);
 }
 
-// Corners of the domain: every response finite, never negative, a <= 1, b <= a, in both domains.
+// In the corners of its domain every response is finite and not negative, a <= 1 and b <= a, in
+// both integration domains.
 TEST(ReferenceTruth, holdsInTheCornersOfItsDomain)
 {
     int count = 0;
@@ -249,7 +252,8 @@ TEST(ReferenceTruth, receiversInsideASphereContinueItsSurface)
         return truthResponse(moved, 0.3, light, glm::dvec3(0), 1e-7);
     };
     const LightResponse outside = response(1 + 1e-9), inside = response(1 - 1e-9);
-    EXPECT_NEAR(outside.f, (1 + 0.8) / 2, 2e-4); // goes with the square root of the height
+    EXPECT_NEAR(outside.f, (1 + 0.8) / 2, 2e-4); // the difference falls with the square root of the
+                                                 // height
     EXPECT_NEAR(inside.f, outside.f, 1e-4);
     EXPECT_NEAR(inside.a, outside.a, 1e-6);
     EXPECT_NEAR(response(0.25).a, inside.a, 1e-6);
@@ -280,7 +284,8 @@ TEST(ReferenceTruth, luminanceCollectsLobesWindowAndEmission)
     EXPECT_EQ(truthLuminance(surface, material, light, glm::dvec3(0), 1e-8).luminance,
               glm::dvec3(0));
 
-    // A distant sphere is a sphere far away; a point light is a small sphere of the same intensity.
+    // A distant sphere is a sphere far away, and a point light is a small sphere of the same
+    // intensity.
     light = makeSphere({-1e6f, 2e6f, 3e6f}, 2e5f, {10, 20, 40});
     const glm::dvec3 far = truthLuminance(surface, material, light, glm::dvec3(0), 1e-8).luminance;
     CndLight distant = light;

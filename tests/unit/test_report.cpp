@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables, plots, parsing and files of the program.
+// Tests tables, plots, parsing and output files of the program.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -50,7 +50,7 @@ TEST(Table, ThreeDigits)
 TEST(PassTimes, SummariesAreOrderStatistics)
 {
     PassTimes times;
-    for (int i = 20; i >= 1; --i) { // 1..20 ms, last first
+    for (int i = 20; i >= 1; --i) { // 1..20 ms in descending order
         const PassTime frame[] = {{"cull", 1}, {"shade", double(i)}};
         times.add(frame);
     }
@@ -109,7 +109,7 @@ TEST(SvgPlot, SlopeOneIsDrawnAsSlopeOne)
         ASSERT_EQ(std::sscanf(svg.c_str() + at, "<circle cx=\"%lf\" cy=\"%lf\"", &x[i], &y[i]), 2);
     }
     EXPECT_GT(x[1], x[0]);
-    EXPECT_LT(y[1], y[0]); // upwards
+    EXPECT_LT(y[1], y[0]); // the y axis of SVG points down
     EXPECT_NEAR(x[2] - x[1], x[1] - x[0], 0.2);
     EXPECT_NEAR(y[2] - y[1], y[1] - y[0], 0.2);
 }
@@ -162,7 +162,7 @@ TEST_F(FileTest, PlotsAreWellFormed)
         EXPECT_EQ(test::xmlFault(dir_ / "plot.svg"), "");
     }
     writeText(dir_ / "plot.svg", "<svg><a></svg>");
-    EXPECT_NE(test::xmlFault(dir_ / "plot.svg"), ""); // it is able to fail
+    EXPECT_NE(test::xmlFault(dir_ / "plot.svg"), ""); // the check is able to fail
 }
 
 TEST_F(FileTest, UnwritablePlacesAreFoundBeforeTheWork)
@@ -172,7 +172,7 @@ TEST_F(FileTest, UnwritablePlacesAreFoundBeforeTheWork)
     EXPECT_THROW(requireWritable("-o", dir_), UsageError);
     EXPECT_THROW(requireWritable("-o", dir_ / "missing" / "a.png"), UsageError);
     EXPECT_THROW(requireWritable("-o", ""), UsageError);
-    EXPECT_THROW(requireWritable("--json", "/dev/null"), UsageError); // would be replaced
+    EXPECT_THROW(requireWritable("--json", "/dev/null"), UsageError); // would be replaced by a file
 }
 
 TEST(Report, CommandLineCanBePastedBack)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulated runs: how often chance is called a difference, and a difference found.
+// Simulated runs: how often noise is reported as a difference, and how often a difference is found.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -11,16 +11,17 @@ using namespace candelabra::app;
 namespace
 {
 
-constexpr size_t passes = 14; // of a frame of the program, with its three sums
+constexpr size_t passes = 14; // passes of a frame of the program, and its three sums
 
-// Runs of a machine whose speed as a whole varies, and each pass on top; skewed, as times are.
+// Simulates a machine whose overall speed varies between runs, and each pass on top; skewed, as
+// times are.
 class Machine
 {
 public:
     Machine(double ofRun, double ofPass) : run_(0, ofRun), pass_(0, ofPass) {}
 
-    // `change`: what pass 3 takes on side B, over A. `together`: runs of A and B beside each other
-    // share the speed of the machine.
+    // `change`: time of pass 3 on side B relative to side A. `together`: runs of A and B that are
+    // paired share the speed of the machine.
     std::vector<RunQuantity> measure(size_t runs, double change, bool together = false)
     {
         std::vector<RunQuantity> out(passes);
@@ -58,7 +59,7 @@ TEST(RunComparison, OneComparisonOfTwentyRaisesAFalseAlarm)
         unpaired += finds(compareRuns(machine.measure(5, 1), false));
         paired += finds(compareRuns(machine.measure(6, 1, true), true));
     }
-    // 20 are expected; 33 or more have a chance of 1 in 300.
+    // 20 are expected; 33 or more have a probability of 1 in 300.
     EXPECT_LT(unpaired, 33);
     EXPECT_LT(paired, 33);
 }
@@ -87,7 +88,7 @@ TEST(RunComparison, NoiseWiderThanTheChangeIsNotCalledOne)
     EXPECT_GT(row.p, 0.05);
 }
 
-// Runs beyond what can be dealt in every way are dealt at random, the same every time.
+// If there are too many runs for all permutations, random ones are drawn, the same every time.
 TEST(RunComparison, ManyRunsNarrowTheIntervalAndRepeat)
 {
     Machine machine(0.01, 0.02);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes that are saved and loaded again are the same.
+// Tests that scenes are the same after saving and loading.
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-// Until the end of the scope.
+// Changes the working folder until the end of the scope.
 class WorkingFolder
 {
 public:
@@ -57,7 +57,8 @@ private:
     std::filesystem::path before_ = std::filesystem::current_path();
 };
 
-// Directions are made unit again, angles go through degrees: what single precision may round.
+// Tolerance: directions are normalised again and angles are converted through degrees, both in
+// single precision.
 void expectSameVector(const float (&a)[3], const float (&b)[3], const std::string& what)
 {
     for (int i = 0; i < 3; ++i)
@@ -158,7 +159,7 @@ TEST_F(Save, ShowcaseIsWrittenOut)
     }
 }
 
-// Surfaces come from the source, with its seed; lights are those of the description.
+// Surfaces come from the source, with its seed; lights come from the description.
 TEST_F(Save, ScenesOfMeshesReferToTheirSource)
 {
     for (const char* name : {"hall", "field", "fence"}) {
@@ -183,7 +184,8 @@ TEST_F(Save, ScenesOfMeshesReferToTheirSource)
     }
 }
 
-// By a way that holds wherever both are moved, and whatever folder the program is started in.
+// The path is relative, so it stays valid when both files are moved and wherever the program is
+// started.
 TEST_F(Save, GltfFilesAreReferredToFromTheFolderOfTheDescription)
 {
     const WorkingFolder started(folder_.path(""));
@@ -209,7 +211,8 @@ TEST_F(Save, GltfFilesAreReferredToFromTheFolderOfTheDescription)
     EXPECT_EQ(saved.instances.size(), scene.instances.size());
 }
 
-// What was saved, opened, and saved again, refers to the file still, under its materials.
+// A description that was saved, opened and saved again still refers to the file below its
+// materials.
 TEST_F(Save, DescriptionsThatReferToASceneAreSavedAgain)
 {
     folder_.write("models/Triangle.GLB", triangleScene().glb());
@@ -231,7 +234,7 @@ TEST_F(Save, DescriptionsThatReferToASceneAreSavedAgain)
         EXPECT_EQ(m.metalness, 0.75f);
     }
 
-    // Of a generated scene, too: its seed is that of the description.
+    // For a generated scene, too, the seed comes from the description.
     const Scene hall = loadScene("hall", {.lights = 3, .seed = 9});
     folder_.write("hall.json", sceneDescription(hall, {"hall", 9}, hall.cameras[0], 0, "x.json"));
     const SceneSource again = sceneSource(folder_.path("hall.json"), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene queries: bounds, rays, positions of moving lights.
+// Tests scene queries: bounds, rays, positions of moving lights.
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
@@ -33,12 +33,12 @@ TEST(SceneBounds, CoverAllInstances)
 {
     EXPECT_EQ(sceneBounds({}).max, glm::dvec3(0));
     Scene scene = sceneOf(makeBox(), glm::translate(glm::dmat4(1), {1e7, 2, 3}));
-    scene.meshes.emplace_back(); // without vertices: bounds nothing
+    scene.meshes.emplace_back(); // a mesh without vertices does not extend the bounds
     scene.instances.push_back({1, 0, glm::dmat4(1)});
     Bounds bounds = sceneBounds(scene);
     EXPECT_EQ(bounds.min, glm::dvec3(1e7 - 0.5, 1.5, 2.5));
     EXPECT_EQ(bounds.max, glm::dvec3(1e7 + 0.5, 2.5, 3.5));
-    // Turned by 45 degrees and doubled: half a diagonal of sqrt(2).
+    // Turned by 45 degrees and doubled: half the diagonal is sqrt(2).
     scene.instances[0].worldFromObject =
         glm::scale(glm::rotate(glm::dmat4(1), glm::radians(45.0), {0, 1, 0}), glm::dvec3(2));
     bounds = sceneBounds(scene);
@@ -64,7 +64,7 @@ TEST(LightsAtTime, FollowTheirCircles)
     EXPECT_EQ(out[0].position[0], 5);
     EXPECT_NEAR(out[1].position[0], 5, 1e-6);
     EXPECT_NEAR(out[1].position[2], 2, 1e-6);
-    // Still on the circle, and where it should be, after a day.
+    // After a day the light is still on the circle, and where it should be.
     lightsAtTime(scene, 86400.5, out);
     EXPECT_NEAR(std::hypot(out[1].position[0] - 5, out[1].position[2]), 2, 1e-5);
     const double angle = static_cast<double>(glm::pi<float>()) * 86400.5;
@@ -98,7 +98,8 @@ TEST(RayCaster, FindsTheNearestTriangle)
 {
     Scene scene = sceneOf(makeBox(), glm::translate(glm::dmat4(1), {0, 0, -5}));
     scene.instances.push_back({0, 0, glm::translate(glm::dmat4(1), {0, 0, -9})});
-    scene.instances.push_back({0, 0, glm::scale(glm::dmat4(1), {1, 0, 1})}); // flat: left out
+    // flat, so it is left out
+    scene.instances.push_back({0, 0, glm::scale(glm::dmat4(1), {1, 0, 1})});
     RayCaster caster(scene);
     const auto hit = caster.cast({{0.1, 0.2, 0}, {0, 0, -1}});
     ASSERT_TRUE(hit);
@@ -106,7 +107,7 @@ TEST(RayCaster, FindsTheNearestTriangle)
     EXPECT_NEAR(hit->normal.z, 1, 1e-9);
     EXPECT_FALSE(caster.cast({{0.1, 0.7, 0}, {0, 0, -1}}));
     EXPECT_FALSE(caster.cast({{0, 0, 0}, {0, 0, 1}}));
-    // From inside, the normal turns to the ray.
+    // For a ray from inside, the normal faces the ray.
     const auto inside = caster.cast({{0, 0, -5}, {0, 1, 0}});
     ASSERT_TRUE(inside);
     EXPECT_NEAR(inside->normal.y, -1, 1e-9);
@@ -114,7 +115,7 @@ TEST(RayCaster, FindsTheNearestTriangle)
 
 TEST(RayCaster, AgreesWithTheSphereItApproximates)
 {
-    // Scaled and far out, so that every space takes part.
+    // Scaled and far from the origin, so that every coordinate space matters.
     const glm::dvec3 centre{1000, -50, 300};
     const Scene scene = sceneOf(makeSphere(128, 64),
                                 glm::scale(glm::translate(glm::dmat4(1), centre), glm::dvec3(3)));
@@ -157,7 +158,7 @@ TEST(CameraRay, GoesThroughPixelCentres)
 {
     Camera camera{.position = {1, 2, 3}};
     camera.verticalFov = glm::radians(90.0);
-    // The middle pixel of an odd image looks along forward.
+    // The middle pixel of an image with odd sides looks along `forward`.
     EXPECT_NEAR(cameraRay(camera, 1, 1, 3, 3).direction.z, -1, 1e-15);
     const glm::dvec3 corner = cameraRay(camera, 0, 0, 4, 2).direction;
     EXPECT_NEAR(corner.x / corner.z, 1.5, 1e-12);  // left

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene description of the reference images: values arrive as written, errors name the element.
+// Tests the scene description of the reference images: values arrive as written, errors name the
+// element.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ protected:
         return scene;
     }
 
-    // The message without the file's folder.
+    // Returns the error message without the file's folder.
     std::string error(const Json& json)
     {
         const std::string file = folder_.write("scene.json", json.dump());
@@ -153,7 +154,7 @@ TEST_F(SceneJson, OccludingLightsAreAnnounced)
 
 struct ErrorCase {
     const char* pointer; // where to put `value`
-    const char* value;   // JSON, or "" to remove
+    const char* value;   // JSON, or "" to remove the key
     const char* message;
 };
 

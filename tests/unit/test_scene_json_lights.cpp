@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every type of light in the scene description: values arrive as written, in the units of the
+// Tests every type of light in the scene description: values arrive as written, in the units of the
 // public interface; errors are one sentence that names the key.
 #include <cmath>
 #include <fstream>
@@ -44,7 +44,7 @@ double power(const CndLight& light, int channel)
 class SceneJsonLights : public testing::Test
 {
 protected:
-    // Without lights.
+    // Returns a valid scene without lights.
     static Json emptyScene()
     {
         return Json::parse(R"({
@@ -54,7 +54,8 @@ protected:
             "material": {"albedo": [0.8, 0.6, 0.4], "alpha": 0.09}, "lights": []})");
     }
 
-    // What loading a scene with this light says after "scene.json: lights[0]".
+    // Returns what follows "scene.json: lights[0]" in the error message for a scene with this
+    // light.
     std::string error(const Json& light)
     {
         Json json = emptyScene();
@@ -124,7 +125,8 @@ TEST_F(SceneJsonLights, EveryTypeArrivesAsWritten)
     EXPECT_TRUE(scene.lightsVisible);
 }
 
-// The Sun at its distance, and lights far from the origin: the place of the other lights decides.
+// The Sun at its distance and lights far from the origin: only the other lights decide where the
+// origin is.
 TEST_F(SceneJsonLights, DistantLightsDoNotMoveTheOrigin)
 {
     Json json = emptyScene();
@@ -160,7 +162,7 @@ TEST_F(SceneJsonLights, ReflectanceIsAnF0)
     }
 }
 
-// Every key of every light of the data file, replaced or removed, names itself.
+// Replaces or removes every key of every light of the data file: the error names that key.
 TEST_F(SceneJsonLights, EveryBadValueNamesItsKey)
 {
     std::ifstream file(everyLight);
@@ -171,7 +173,7 @@ TEST_F(SceneJsonLights, EveryBadValueNamesItsKey)
             for (const char* bad : {"null", "{}", "[]", "\"x\"", "-1", "[1, 2]", "1e300",
                                     "[1e300, 0, 0]", "[0, 0, \"1\"]"}) {
                 if (key == "layers" && std::string(bad) == "[1, 2]")
-                    continue; // is good
+                    continue; // a valid value for this key
                 Json broken = light;
                 broken[key] = Json::parse(bad);
                 const std::string message = error(broken);
@@ -242,7 +244,7 @@ TEST_F(SceneJsonLights, ErrorsSayWhy)
            ".layers: must not be empty (all layers: leave it out)");
     expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "layers": [0, 16]})",
            ".layers[1]: must be an integer between 0 and 15, is 16");
-    // The widest spot there is.
+    // The widest possible spot.
     expect(R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
                "inner_cone_degrees": 0, "outer_cone_degrees": 90, "intensity": [1, 1, 1]})",
            "no error");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The committed results of the benchmarks are what the schemas say (the commands are run at small
-// sizes in tests/gpu), and what they forbid is found.
+// Tests that the committed benchmark results satisfy the schemas, and that violations are found.
+// The commands themselves are run at small sizes in tests/gpu.
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(Schemas, CommittedResultsAreValid)
     for (const auto& [name, file] : cases) {
         const JsonSchema schema(std::string(name) + ".schema.json");
         nlohmann::json json = committedResults(file);
-        json["schema"] = schema.name(); // runs older than the schemas do not name theirs
+        json["schema"] = schema.name(); // results from before the schemas do not name theirs
         EXPECT_EQ(schema.fault(json), "") << name;
         json.erase("provenance");
         EXPECT_NE(schema.fault(json), "") << name;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The meshes of the procedural scenes: well formed, and of the volume that geometry says.
+// Tests the meshes of the procedural scenes: they are well formed and have the volume that geometry
+// predicts.
 #include <cmath>
 #include <set>
 
@@ -21,7 +22,8 @@ namespace
 
 using test::pi;
 
-// By the divergence theorem; positive when a closed mesh is wound counter-clockwise from outside.
+// Computes the volume by the divergence theorem; it is positive if a closed mesh is wound
+// counter-clockwise seen from outside.
 double volume(const Mesh& mesh)
 {
     double sum = 0;
@@ -34,7 +36,7 @@ double volume(const Mesh& mesh)
     return sum;
 }
 
-// Empty, or what is wrong with the mesh.
+// Returns what is wrong with the mesh; empty if nothing is.
 std::string brokenMesh(const Mesh& mesh)
 {
     if (mesh.indices.empty() || mesh.indices.size() % 3 != 0) {
@@ -82,7 +84,7 @@ TEST(Shapes, VolumesFollowFromGeometry)
                 0.5 * 0.5 * pi * (4 - 1), 0.005);
     // Cone of radius 1 and height 2.
     EXPECT_NEAR(volume(makeLathe({{{0, 0}, {1, 0}}, {{1, 0}, {0, 2}}}, 128)), 2 * pi / 3, 0.002);
-    // A box less its edges (right triangles of side b) and corners, counted once.
+    // A box minus its edges (right triangles with sides b) and its corners, each counted once.
     const double b = 0.1, edge = 1 - 2 * b;
     const double corner = b * b * b - b * b * b / 6;
     EXPECT_NEAR(volume(makeBevelledBox(0.1f)), 1 - 12 * edge * b * b / 2 - 8 * corner, 1e-5);
@@ -117,8 +119,8 @@ TEST(Shapes, GeneratedScenesHoldOnlyWellFormedMeshes)
 
 TEST(Shapes, ClosedSurfacesCloseToTheBit)
 {
-    // Every position of a closed grid is used by at least three triangles' worth of edges; a seam
-    // that missed its start by one bit would leave positions with an open edge.
+    // In a closed surface every directed edge has its opposite. A seam that missed its start by one
+    // bit would leave open edges.
     const Mesh mesh = makeTorus(1, 0.3f, 9, 5);
     std::set<std::array<float, 6>> edges;
     const auto edge = [&](uint32_t from, uint32_t to) {
@@ -142,7 +144,7 @@ TEST(Shapes, AppendedPartsKeepTheirNormalsUnderUnevenScale)
     appendMesh(mesh, makeSphere(24, 12), glm::scale(glm::mat4(1), {1, 3, 0.5f}));
     EXPECT_NEAR(volume(mesh), volume(makeSphere(24, 12)) * 1.5, 1e-4);
     for (const Vertex& v : mesh.vertices) {
-        // Gradient of the ellipsoid.
+        // The gradient of the ellipsoid's equation.
         const glm::vec3 gradient = v.position / glm::vec3(1, 9, 0.25f);
         EXPECT_GT(glm::dot(glm::normalize(gradient), v.normal), 0.9999f);
     }
@@ -171,7 +173,7 @@ TEST(Random, StaysInRange)
         bells += bell;
         ASSERT_LT(random.below(7), 7u);
     }
-    // Five standard errors.
+    // Tolerances of five standard errors.
     EXPECT_NEAR(sum / 100000, 0.5, 5 * 0.289 / 316);
     EXPECT_NEAR(bells / 100000, 0, 5 * 0.333 / 316);
 }

@@ -24,7 +24,8 @@ TEST(Statistics, SpreadOfKnownValues)
     EXPECT_EQ(one.cv, 0);
 }
 
-// Ranks of the interval are those of the tables: the 6th pair is the first to give one.
+// The ranks of the interval are those in published tables: six pairs are the least that give an
+// interval.
 TEST(Statistics, IntervalOfTheMedianHasTheTabulatedRanks)
 {
     const auto interval = [](size_t n) {
@@ -48,7 +49,7 @@ TEST(Statistics, IntervalOfTheMedianHasTheTabulatedRanks)
 TEST(Statistics, NoiseIsCalledADifferenceInAtMostOneTrialOfTwenty)
 {
     std::mt19937 random(1);
-    std::lognormal_distribution<double> noise(0, 0.2); // a busy machine: skewed
+    std::lognormal_distribution<double> noise(0, 0.2); // noise of a busy machine: skewed
     int alarms = 0, found = 0;
     constexpr int trials = 400;
     for (int trial = 0; trial < trials; ++trial) {

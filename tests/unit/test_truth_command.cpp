@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra truth: images, shards and their merging, the cache. Nothing here reaches Vulkan.
+// Tests candelabra truth: images, shards and their merging, the cache. Nothing here uses Vulkan.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -56,7 +56,7 @@ protected:
     {
         std::ofstream(path(name)) << text;
     }
-    // The exit code; what went to stderr is in err_.
+    // Returns the exit code; err_ receives what went to stderr.
     int run(std::vector<std::string> arguments)
     {
         arguments.insert(arguments.begin(), {"candelabra", "truth"});
@@ -81,7 +81,7 @@ protected:
 
 } // namespace
 
-// The whole way from the scene's file to pixels, against an independent path tracer.
+// Tests the whole way from the scene file to pixels against an independent path tracer.
 TEST_F(TruthCommand, MatchesThePathTracer)
 {
     const Scene scene = loadSceneJson(path("scene.json"));
@@ -90,7 +90,7 @@ TEST_F(TruthCommand, MatchesThePathTracer)
     for (const ColourPixel& pixel : grazing)
         if (rows.empty() || rows.back() != pixel.row)
             rows.push_back(pixel.row);
-    if (rows.size() > 24) // half a second on one core
+    if (rows.size() > 24) // takes half a second on one core
         rows.resize(24);
     const reference::TruthRows truth = reference::renderTruth(model, 256, 256, rows, {});
     double sum = 0, squares = 0;
@@ -109,7 +109,7 @@ TEST_F(TruthCommand, MatchesThePathTracer)
     std::cout << "mean relative error " << sum / count << ", relMSE " << squares / count << " over "
               << count << " values (the path tracer's noise: 0.0052, 2.7e-5)\n";
     EXPECT_LE(sum / count, 0.8 * 0.0052);
-    // A sample of a hundred pixels from a noise with long tails.
+    // The sample has only a hundred pixels, and the noise has long tails.
     EXPECT_LE(squares / count, 3 * 0.0052 * 0.0052);
     EXPECT_EQ(truth.unconverged, 0u);
 }
@@ -131,7 +131,7 @@ TEST_F(TruthCommand, ShardsMergeToTheWholeImage)
               0)
         << err_;
     EXPECT_EQ(loadExr(path("merged.exr")).pixels, whole.pixels);
-    // More shards than rows: some are empty.
+    // With more shards than rows, some shards are empty.
     ASSERT_EQ(runScene("empty", {"4x2", "--no-cache", "--shard", "3/3"}), 0) << err_;
     EXPECT_TRUE(loadTruthShard(path("empty")).pixels.empty());
 }
@@ -157,7 +157,7 @@ TEST_F(TruthCommand, MergeRefusesWhatDoesNotBelongTogether)
     }
     EXPECT_EQ(run({"--merge", path("a1"), "-o", path("out.pfm")}), 2);
     EXPECT_NE(err_.find("shard 2 of 2 is missing"), std::string::npos) << err_;
-    // Damage of every kind is found.
+    // Damage of every kind is detected.
     std::ifstream file(path("a1"), std::ios::binary);
     const std::string good((std::istreambuf_iterator<char>(file)), {});
     for (const size_t at : {size_t(0), good.find('\n') - 5, good.find('\n') + 3, good.size() - 1}) {
@@ -184,13 +184,14 @@ TEST_F(TruthCommand, CacheRemembersWhatWasComputed)
     };
     ASSERT_EQ(runScene("a.pfm", {"8x4", "--cache", path("cache")}), 0) << err_;
     ASSERT_EQ(files().size(), 1u);
-    // What is found is taken, which a false entry shows.
+    // An existing entry is used, as a falsified entry shows.
     TruthShard entry = loadTruthShard(files()[0]);
     entry.pixels[0] = 42;
     saveTruthShard(files()[0], entry);
     ASSERT_EQ(runScene("b.pfm", {"8x4", "--cache", path("cache")}), 0) << err_;
     EXPECT_EQ(loadPfm(path("b.pfm")).pixels[0], 42);
-    // Not for another tolerance, size or scene; a damaged entry is computed again.
+    // An entry is not used for another tolerance, size or scene, and a damaged entry is computed
+    // again.
     ASSERT_EQ(runScene("c.pfm", {"8x4", "--cache", path("cache"), "--tolerance", "1e-3"}), 0);
     ASSERT_EQ(runScene("c.pfm", {"8x5", "--cache", path("cache")}), 0);
     std::string other = dielectric;
@@ -212,7 +213,7 @@ TEST_F(TruthCommand, ScenesWithoutATruthAreRefused)
     EXPECT_NE(err_.find("meshes"), std::string::npos) << err_;
 }
 
-// Visible lights are balls that emit; what they light does not change.
+// Visible lights are balls that emit light; the surfaces that they light do not change.
 TEST_F(TruthCommand, VisibleLightsAreSeen)
 {
     std::string facing = dielectric;
@@ -221,12 +222,12 @@ TEST_F(TruthCommand, VisibleLightsAreSeen)
     ASSERT_EQ(runScene("off.pfm", {"3x3", "--no-cache"}), 0) << err_;
     ASSERT_EQ(runScene("on.pfm", {"3x3", "--no-cache", "--lights-visible", "on"}), 0) << err_;
     const Image off = loadPfm(path("off.pfm")), on = loadPfm(path("on.pfm"));
-    EXPECT_EQ(off.pixels[12], 0); // the middle: above the horizon
+    EXPECT_EQ(off.pixels[12], 0); // the middle is above the horizon
     EXPECT_EQ(on.pixels[12], 10);
     EXPECT_EQ(on.pixels[0], off.pixels[0]);
 }
 
-// And those of other layers than the camera's are not.
+// Lights that share no layer with the camera are invisible and light nothing.
 TEST_F(TruthCommand, LightsOfOtherLayersAreLeftOut)
 {
     Scene scene = loadSceneJson(path("scene.json"));
@@ -242,8 +243,8 @@ TEST_F(TruthCommand, LightsOfOtherLayersAreLeftOut)
     EXPECT_EQ(count(6), 2u);
 }
 
-// Every shape of light against the plain meaning of its parameters: what the middle of the picture
-// shows from the front, from behind and beside it.
+// Tests every shape of light against the plain meaning of its parameters: what the middle of the
+// image shows when seen from the front, from behind and from beside it.
 TEST_F(TruthCommand, EveryShapeOfLightIsSeen)
 {
     const auto seen = [&](const std::string& light, const char* eye, const char* target) {
@@ -276,9 +277,9 @@ TEST_F(TruthCommand, EveryShapeOfLightIsSeen)
         "radius": 0.5, "luminance": [7, 7, 7]})";
     EXPECT_EQ(seen(tube, "[0, 0, 50]", "[1.9, 0.49, 0]"), 7); // its side
     EXPECT_NE(seen(tube, "[0, 0, 50]", "[1.9, 0.52, 0]"), 7);
-    EXPECT_EQ(seen(tube, "[0, 0, 50]", "[2.48, 0, 0]"), 7); // its end, which is round
+    EXPECT_EQ(seen(tube, "[0, 0, 50]", "[2.48, 0, 0]"), 7); // its end, which is a hemisphere
     EXPECT_NE(seen(tube, "[0, 0, 50]", "[2.48, 0.3, 0]"), 7);
-    EXPECT_EQ(seen(tube, "[9, 0, 0]", "[0, 0, 0]"), 7);  // along it
+    EXPECT_EQ(seen(tube, "[9, 0, 0]", "[0, 0, 0]"), 7);  // along the axis
     EXPECT_EQ(seen(tube, "[1, 0, 0]", "[1, 0, -1]"), 7); // from inside
     const std::string sun =
         R"({"type": "distant_sphere", "sin_angular_radius": 0.1, "direction": [0, 0, -1],
@@ -289,7 +290,7 @@ TEST_F(TruthCommand, EveryShapeOfLightIsSeen)
     EXPECT_EQ(seen(sun + ", " + tube, "[0, 0, 5]", "[0, 0, 0]"), 7);
 }
 
-// A white surrounding seems to be reflected once: what conserving lobes are for.
+// Conserving lobes reflect less than summed lobes, and energy compensation reflects more.
 TEST_F(TruthCommand, LobesShareTheLight)
 {
     const auto pixel = [&](std::vector<std::string> more) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shadow term of the host's, compiled from an installed package without any file of its shaders.
+// Compiles a shadow term of the host with an installed package that has no shader files.
 #include <candelabra/compiler.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls into every module without a device: all of the library must link, and be of one version.
+// Calls into every module without a device: the whole library must link, and be of one version.
 #include <candelabra/candelabra.h>
 
 int main(void)
