@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hand-made host of the environment module: image in, one frame's radiance out.
+// A hand-made host of the environment module: takes an image and returns the radiance of one frame.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,10 @@ struct EnvironmentImage {
     std::vector<glm::vec4> pixels;
 };
 
-// Luminance from a unit direction of the environment's space, grey.
+// Luminance, grey, that arrives from a unit direction of the environment's space.
 using Sky = std::function<double(const glm::dvec3& direction)>;
 
-// `sky` at the centre of every pixel.
+// Samples `sky` at the centre of every pixel.
 EnvironmentImage imageOf(const Sky& sky, uint32_t width);
 
 struct EnvironmentOptions {
@@ -29,15 +29,16 @@ struct EnvironmentOptions {
     bool background = false;
     CndLobeJoining lobes = CND_LOBES_CONSERVING;
     bool energyCompensation = false;
-    float radianceBefore = 0; // of every pixel and channel
+    float radianceBefore = 0; // initial radiance of every pixel and channel
 };
 
 class EnvironmentTest : public LightingTest
 {
 protected:
     void TearDown() override;
-    // Keeps the device's cube of `image` until the next call. `gbuffer`: surfaces will be of
-    // CND_GBUFFER_HOST; `custom`: of `customLayout`; else FULL.
+    // Prepares the environment of `image`, which is kept until the next call. Surfaces will use
+    // CND_GBUFFER_HOST if `gbuffer` is given, `customLayout` if `custom` is given, else
+    // CND_GBUFFER_FULL.
     void setImage(const EnvironmentImage& image, uint32_t cubeSize = 0,
                   const CndGBufferDesc* gbuffer = nullptr, const CndHostKernels* custom = nullptr,
                   CndGBufferLayout customLayout = CND_GBUFFER_CUSTOM);

@@ -57,12 +57,12 @@ Picture wildPicture(uint32_t width, uint32_t height, uint32_t seed)
     Picture p{width, height, {}};
     p.rgba.reserve(size_t(4) * width * height);
     for (size_t i = 0; i < size_t(width) * height; ++i) {
-        // Grey pixels reach every bin; where channels differ by decades one of them decides.
+        // Grey pixels reach every bin; where channels differ by decades, one of them decides.
         const float grey = wildValue(random);
         const bool coloured = random() % 2;
         for (int c = 0; c < 3; ++c)
             p.rgba.push_back(coloured ? wildValue(random) : grey);
-        p.rgba.push_back(infinity); // the fourth is ignored
+        p.rgba.push_back(infinity); // alpha is ignored
     }
     return p;
 }

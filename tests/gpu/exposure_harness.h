@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hand-made host of the exposure module: pictures in, statistics and display images out.
+// A hand-made host of the exposure module: takes pictures and returns statistics and display
+// images.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 namespace candelabra::test
 {
 
-// Radiance on the CPU, four floats per pixel, rows from the top.
+// Radiance on the CPU: four floats per pixel, rows from the top.
 struct Picture {
     uint32_t width = 0, height = 0;
     std::vector<float> rgba;
@@ -21,14 +22,14 @@ struct Picture {
 Picture flatPicture(uint32_t width, uint32_t height, float value);
 Picture greyPicture(uint32_t width, uint32_t height, const std::vector<float>& values);
 
-// Log-uniform in 1e-10..1e10 with a fifth of special values: bin edges and their neighbours,
-// denormals, zeros, negatives, infinities, NaN.
+// Log-uniform in 1e-10..1e10; a fifth are special values: bin edges and their neighbours,
+// denormals, zeros, negative values, infinities, NaN.
 float wildValue(std::mt19937& random);
 Picture wildPicture(uint32_t width, uint32_t height, uint32_t seed);
 
 double uniform(std::mt19937& random); // [0, 1)
 
-// Automatic, every pixel alike, no dither.
+// Automatic exposure, all pixels weighted equally, no dithering.
 CndExposureSettings plainSettings();
 CndExposureSettings manualSettings(float ev100, CndToneMap curve);
 
@@ -40,16 +41,16 @@ protected:
     void SetUp() override;
     void TearDown() override;
 
-    gpu::Image toDevice(const Picture& picture) const;               // SHADER_READ_ONLY_OPTIMAL
-    gpu::Image createDisplay(uint32_t width, uint32_t height) const; // GENERAL
+    gpu::Image toDevice(const Picture& picture) const;               // in SHADER_READ_ONLY_OPTIMAL
+    gpu::Image createDisplay(uint32_t width, uint32_t height) const; // in GENERAL
     CndExposureFrame frameOf(const gpu::Image& radiance, const CndExposureSettings& settings) const;
     void record(VkCommandBuffer cmd, const CndExposureFrame& frame) const;
-    // Records, submits, waits.
+    // Records the frame, submits it and waits.
     CndExposureStats run(const CndExposureFrame& frame) const;
     CndExposureStats stats(uint32_t slot) const;
-    // A single frame with reset.
+    // Measures a single frame with `reset`.
     CndExposureStats measure(const Picture& picture, const CndExposureSettings& settings) const;
-    // Four bytes per pixel.
+    // Returns the display image, four bytes per pixel.
     std::vector<uint8_t> display(const Picture& picture, const CndExposureSettings& settings,
                                  uint32_t seed = 0) const;
 

@@ -28,7 +28,7 @@ gbuffer::Vertex makeVertex(glm::dvec3 position, glm::dvec3 normal, glm::dvec3 ta
     return v;
 }
 
-// Two triangles over the corners of a face.
+// Adds two triangles over the corners of a face.
 void addFace(RasterScene::MeshData& mesh, const glm::dvec3& normal, const glm::dvec3& right,
              const glm::dvec3& center)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host of the raster pass: scenes made by hand, one frame, and the images read back.
+// A host of the raster pass: builds scenes by hand, renders one frame and reads the images back.
 #pragma once
 
 #include <deque>
@@ -12,13 +12,13 @@
 namespace candelabra::test
 {
 
-// Descriptions and the memory behind them.
+// Scene descriptions, and the memory that they refer to.
 struct RasterScene {
     struct MeshData {
         std::vector<gbuffer::Vertex> vertices;
         std::vector<uint32_t> indices;
     };
-    std::deque<MeshData> meshData; // stays in place
+    std::deque<MeshData> meshData; // a deque, because elements must stay in place
     std::deque<std::vector<uint8_t>> texels;
     std::vector<gbuffer::Mesh> meshes;
     std::vector<gbuffer::Material> materials;
@@ -33,14 +33,14 @@ struct RasterScene {
     gbuffer::GeometryDesc desc() const;
 };
 
-// Unit quad in z = 0, x and y in -1..1, facing +z; uv (0, 0) is the top left corner.
+// A quad in z = 0 with x and y in -1..1, facing +z; uv (0, 0) is at the top left corner.
 RasterScene::MeshData quadMesh();
-// Cube with faces at +-1.
+// A cube with faces at +-1.
 RasterScene::MeshData cubeMesh();
-// Sphere of radius 1 of 2 * rings^2 triangles or so.
+// A sphere of radius 1 with about 2 * rings^2 triangles.
 RasterScene::MeshData sphereMesh(uint32_t rings);
 
-// Turns the camera (view: x right, y up, looking down -z).
+// Points the camera at `target` (view space: x right, y up, looking along -z).
 void lookAt(CndCamera& camera, const glm::dvec3& position, const glm::dvec3& target);
 glm::dmat4 viewFromWorld(const CndCamera& camera);
 
@@ -57,7 +57,7 @@ struct RasterOptions {
 
 struct RasterImage : CpuGBuffer {
     std::vector<glm::vec4> radiance;
-    std::vector<glm::u8vec4> compactAlbedo; // COMPACT: instead of albedo and specular
+    std::vector<glm::u8vec4> compactAlbedo; // COMPACT: used instead of albedo and specular
 
     bool covered(size_t pixel) const { return depth[pixel] != clearDepth; }
     size_t coveredCount() const;
@@ -69,14 +69,15 @@ protected:
     gbuffer::Geometry uploadGeometry(const RasterScene& scene);
     RasterImage render(const gbuffer::Geometry& geometry, const RasterOptions& options);
     RasterImage render(const RasterScene& scene, const RasterOptions& options);
-    // Records `options` into slot 0 of an existing pass.
+    // Renders `options` in slot `slot` of an existing pass.
     RasterImage renderWith(gbuffer::GBuffer& pass, const gbuffer::Geometry& geometry,
                            const RasterOptions& options, uint32_t slot = 0);
 };
 
-// 160x120 pixels, 1 radian high, near plane 0.1 m, reversed and infinite; at the origin along -z.
+// 160x120 pixels, 1 radian high, near plane 0.1 m, reversed and infinite depth; at the origin,
+// looking along -z.
 RasterOptions perspectiveOptions();
-// Every field that a test reads back is different.
+// A material in which all fields that a test reads back differ.
 gbuffer::Material testMaterial();
 
 class Random
@@ -91,9 +92,9 @@ private:
     std::mt19937 engine_;
 };
 
-// Angle between two directions, radians; accurate for small ones.
+// Returns the angle between two directions in radians; accurate for small angles.
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b);
-// The same bits in every image.
+// Expects that all images are equal, bit for bit.
 void expectSameImage(const RasterImage& a, const RasterImage& b);
 
 } // namespace candelabra::test

@@ -12,7 +12,7 @@ namespace candelabra::test
 namespace
 {
 
-// Channels lie one behind the other from the lowest bit on, in all of these.
+// A texel format. In all of these the channels follow one another from the lowest bit on.
 struct Texel {
     VkFormat format;
     int bits[4];
@@ -39,7 +39,7 @@ double decodeSrgb(double x)
     return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
 
-// Code and what it stands for.
+// Returns the code that stores a value, and the value that it decodes to.
 std::pair<uint32_t, double> encode(const Texel& t, int channel, double value)
 {
     if (t.numbers == Texel::Float)
@@ -65,7 +65,7 @@ void append(std::vector<std::byte>& out, const T& value)
     out.insert(out.end(), bytes, bytes + sizeof value);
 }
 
-// Cigolle et al. 2014: the lower half is folded over the corners.
+// Octahedral encoding (Cigolle et al. 2014): the lower half is folded over the corners.
 glm::dvec2 toOctahedron(const glm::dvec3& n)
 {
     const glm::dvec3 p = n / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
@@ -113,7 +113,7 @@ double f0OfDielectrics(const CndGBufferDesc& d)
     return d.dielectricF0 > 0 ? double(d.dielectricF0) : 0.04;
 }
 
-// Of the FULL layout.
+// Returns the surface as the FULL layout stores it.
 CpuSurface fullSurface(const CndGBufferDesc& d, const HostSurface& s, double depth)
 {
     const glm::dvec3 f0 = glm::mix(glm::dvec3(f0OfDielectrics(d)), s.baseColour, s.metalness);
@@ -131,7 +131,7 @@ glm::dvec4 appendTexel(std::vector<std::byte>& out, VkFormat format, const glm::
     for (const Texel& t : texels) {
         if (t.format != format)
             continue;
-        glm::dvec4 read(0, 0, 0, 1); // of channels that are not there
+        glm::dvec4 read(0, 0, 0, 1); // channels that do not exist read as these values
         uint64_t packed[2] = {};
         int bit = 0;
         for (int c = 0; c < 4 && t.bits[c]; ++c) {
@@ -203,7 +203,7 @@ void HostPacking::add(const HostSurface& s, double depth)
     const double readDepth = appendDepth(out_.depth, d.depthFormat, depth);
     addPixel(out_.unrounded, fullSurface(d, s, readDepth));
 
-    // What is read, through the same description the other way round.
+    // Decode what was stored, following the same description backwards.
     HostSurface read;
     normal = glm::dvec3(images[0]);
     normal = isUnorm(d) ? 2.0 * normal - 1.0 : normal;

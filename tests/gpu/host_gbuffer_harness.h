@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host with a G-buffer of its own: surfaces packed on the CPU as a CndGBufferDesc says, and the
-// same surfaces, as they come out of that packing, for the FULL layout.
+// A host with its own G-buffer: packs surfaces on the CPU as a CndGBufferDesc describes, and stores
+// the surfaces that result from decoding in the FULL layout.
 #pragma once
 
 #include "gpu/environment_harness.h"
@@ -8,7 +8,7 @@
 namespace candelabra::test
 {
 
-// View space.
+// A surface in view space.
 struct HostSurface {
     glm::dvec3 normal{0, 0, 1};
     double perceptualRoughness = 0.5, metalness = 0;
@@ -20,26 +20,26 @@ struct HostPixels {
     uint32_t width = 0, height = 0;
     std::vector<std::byte> images[3]; // normalRoughness, albedo, specular
     std::vector<std::byte> depth;
-    CpuGBuffer asFull;    // of what shaders read
-    CpuGBuffer unrounded; // of what went in, but for depth
+    CpuGBuffer asFull;    // the surfaces that shaders decode
+    CpuGBuffer unrounded; // the surfaces before packing, except for depth
 };
 
-// Formats of `desc` are given. No more than one of the surfaces is built at a time.
+// Packs surfaces as `desc` describes, which must specify its formats.
 class HostPacking
 {
 public:
     HostPacking(const CndGBufferDesc& desc, uint32_t width, uint32_t height,
                 const CndCamera& camera, float clearDepth);
-    // The next pixel, in rows from the top.
+    // Packs the next pixel, in rows from the top.
     void add(const HostSurface& surface, double depth);
     const HostPixels& pixels() const { return out_; }
 
 private:
     HostPixels out_;
-    glm::dmat3 storedFromView_; // of normals
+    glm::dmat3 storedFromView_; // rotation of normals from view space to the stored space
 };
 
-// One texel of a colour format; returns what a shader reads of it.
+// Appends one texel of a colour format; returns what a shader reads from it.
 glm::dvec4 appendTexel(std::vector<std::byte>& out, VkFormat format, const glm::dvec4& value);
 double appendDepth(std::vector<std::byte>& out, VkFormat format, double depth);
 
@@ -50,7 +50,7 @@ protected:
         gpu::Image colour[3], depth;
     };
     HostImages uploadHost(const HostPixels& pixels);
-    // The frame of `full` with the images of the host.
+    // Returns the frame `frame` with the images of the host.
     template <typename Frame>
     static Frame withHost(Frame frame, const HostImages& images)
     {

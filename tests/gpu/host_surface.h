@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host that reads our FULL layout by a function of its own (CND_GBUFFER_CUSTOM), through images
-// of its descriptor set.
+// A host that reads the FULL layout with a function of its own (CND_GBUFFER_CUSTOM), through images
+// in its descriptor set.
 #pragma once
 
 #include "gpu/kernel.h"
@@ -19,7 +19,7 @@ Surface candelabraReadSurface(ivec2 pixel)
 }
 )";
 
-// One set, of LightingTest::Images.
+// Creates one descriptor set with LightingTest::Images.
 template <typename Images>
 gpu::Bindings surfaceSet(const gpu::Device& device, const Images& images)
 {

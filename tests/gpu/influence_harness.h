@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tests of radii from an error share: a view that draws frame after frame, and the display.
+// Shared by the tests of CND_INFLUENCE_BY_ERROR: a view that renders frame after frame, and its
+// display.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +36,7 @@ inline double displayError(const std::vector<glm::vec4>& a, const std::vector<gl
     return largest;
 }
 
-// With which the mean luminance of the lit pixels is middle grey.
+// Returns the exposure that displays the mean luminance of the lit pixels as middle grey.
 inline float exposureFor(const std::vector<glm::vec4>& radiance)
 {
     double sum = 0, lit = 0;
@@ -57,7 +58,7 @@ inline CpuGBuffer surfaces(bool perspective = true)
     return randomGBuffer(96, 64, camera, 0, 11);
 }
 
-// Few bright lights and many dim ones.
+// Returns a few bright lights and many dim ones.
 inline std::vector<CndLight> brightAndDim(const CpuGBuffer& g)
 {
     std::vector<CndLight> lights = randomSpheres(g, 120, 12);
@@ -69,7 +70,7 @@ inline std::vector<CndLight> brightAndDim(const CpuGBuffer& g)
     return lights;
 }
 
-// Why a frame did without a pass; "" when it did not.
+// Returns why a frame skipped a pass; "" if it ran.
 inline std::string skipped(const CndLightingStats& stats, const char* pass)
 {
     const CndPassPlan* end = stats.passes + stats.passCount;
@@ -145,7 +146,7 @@ protected:
     CndLightingView view_{};
     Images images_;
     CndLightingFrame frame_{};
-    float base_ = 0; // luminance that is there already
+    float base_ = 0; // luminance that each pixel has already
 };
 
 } // namespace candelabra::test

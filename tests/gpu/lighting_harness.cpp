@@ -18,7 +18,7 @@ void setIdentityView(CndCamera& camera)
         camera.viewFromWorld[i] = i % 5 == 0;
 }
 
-// Octahedral, 24 bits a side: independent of the shader's packing.
+// Octahedral encoding with 24 bits per component, independent of the shader's packing.
 glm::uvec2 packNormal(glm::dvec3 n, double roughness)
 {
     n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
@@ -54,7 +54,7 @@ void setPerspective(CndCamera& camera, double verticalFov, double aspect, double
     m[0] = float(f / aspect);
     m[5] = float(-f);
     m[11] = -1;
-    // depth = (m[10] z + m[14]) / -z with z = -near, -far at the ends.
+    // depth = (m[10] z + m[14]) / -z, with z = -near and -far at the ends.
     const double near = reversed ? 1 : 0, far = reversed ? 0 : 1;
     if (farPlane == 0) {
         m[10] = float(-far);
@@ -138,7 +138,7 @@ CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camer
     CpuGBuffer g{.width = width, .height = height, .camera = camera, .clearDepth = clearDepth};
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x) {
-            // Vertical walls 11 pixels wide at 3..33 m, with bumps of a few centimetres.
+            // Vertical walls, 11 pixels wide, at 3..33 m, with bumps of a few centimetres.
             const uint32_t wall = (x / 11 * 7 + seed) % 5;
             const double distance = 3 + 6 * wall + y * 0.01 + 0.05 * uniform(random);
             const bool hole = (x / 5 + y / 7) % 9 == 0;
@@ -189,7 +189,7 @@ std::vector<CndLight> lightsOf(CndLightType type, const CpuGBuffer& g, uint32_t 
     for (uint32_t i = 0; i < count; ++i) {
         CndLight& light = lights[i];
         light.type = type;
-        const double angle = 2.4 * (i + seed); // the golden angle, about
+        const double angle = 2.4 * (i + seed); // about the golden angle
         const glm::dvec3 d(0.8 * std::cos(angle), 0.8 * std::sin(angle), -0.6);
         const glm::dvec3 u = glm::normalize(glm::cross(d, glm::dvec3(0.3, 1, 0.2)));
         const glm::dvec3 v = glm::cross(d, u);
@@ -381,7 +381,7 @@ double maxRelativeDifference(const std::vector<glm::vec4>& a, const std::vector<
     for (size_t i = 0; i < a.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             const double difference = std::abs(double(a[i][c]) - b[i][c]);
-            // Written so that a NaN is the largest difference there is.
+            // Written so that a NaN counts as the largest difference.
             largest = !(difference <= largest) ? difference : largest;
             peak = std::max(peak, double(b[i][c]));
         }

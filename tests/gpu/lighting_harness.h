@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hand-made host of the lighting module: G-buffers filled on the CPU, lights in, radiance out.
+// A hand-made host of the lighting module: fills G-buffers on the CPU, takes lights and returns
+// radiance.
 #pragma once
 
 #include <cstdint>
@@ -15,33 +16,34 @@
 namespace candelabra::test
 {
 
-// A FULL layout G-buffer on the CPU, rows from the top, and the camera it belongs to.
+// A G-buffer of the FULL layout on the CPU, rows from the top, with its camera.
 struct CpuGBuffer {
     uint32_t width = 0, height = 0;
     CndCamera camera{};
     float clearDepth = 0;
     std::vector<glm::uvec2> normalRoughness;
-    std::vector<glm::uvec2> albedo, specular; // 4 x half
-    std::vector<float> depth;                 // clearDepth: no surface
+    std::vector<glm::uvec2> albedo, specular; // four half floats
+    std::vector<float> depth;                 // clearDepth where there is no surface
 };
 
-// Perspective with reversed depth; infinite when farPlane is 0. View looks down -z, y up.
+// Sets a perspective projection, reversed by default; infinite if farPlane is 0. View space looks
+// along -z, y is up.
 void setPerspective(CndCamera& camera, double verticalFov, double aspect, double nearPlane,
                     double farPlane = 0, bool reversed = true);
 void setOrthographic(CndCamera& camera, double height, double aspect, double nearPlane,
                      double farPlane, bool reversed = true);
 
-// Depth of a point `distance` metres along -z under the camera's projection.
+// Returns the depth of a point `distance` metres along -z under the camera's projection.
 float depthAt(const CndCamera& camera, double distance);
-// The view-space position that a pixel and its depth stand for, in double.
+// Returns the view-space position of a pixel from its depth, in double precision.
 glm::dvec3 viewPosition(const CpuGBuffer& g, uint32_t x, uint32_t y);
-// The surface normal and roughness as stored.
+// Return the surface's normal and roughness as stored.
 glm::dvec3 storedNormal(const CpuGBuffer& g, size_t pixel);
 double storedRoughness(const CpuGBuffer& g, size_t pixel);
 glm::vec4 storedHalf4(glm::uvec2 packed);
 
-// One more pixel of a G-buffer, in rows from the top. `normal` need not be unit; F0F90: rgb F0, a
-// F90.
+// The next pixel of a G-buffer, in rows from the top. `normal` need not be a unit vector. F0F90: F0
+// in rgb, F90 in a.
 struct CpuSurface {
     float depth = 0;
     glm::dvec3 normal{0, 0, 1};
@@ -51,16 +53,18 @@ struct CpuSurface {
 };
 void addPixel(CpuGBuffer& g, const CpuSurface& surface);
 
-// Bumpy walls at several depths with random materials, holes to the background among them.
+// Returns bumpy walls at several depths with random materials, and holes through which the
+// background shows.
 CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camera, float clearDepth,
                          uint32_t seed);
-// The same in perspective, 1 radian high, of square pixels, with reversed and infinite depth.
+// The same with a perspective camera, 1 radian high, square pixels, reversed and infinite depth.
 CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, uint32_t seed);
 
-// Lights near the surfaces of `g` (world = view when viewFromWorld is the identity).
+// Returns lights near the surfaces of `g` (world space is view space if viewFromWorld is the
+// identity).
 std::vector<CndLight> randomSpheres(const CpuGBuffer& g, uint32_t count, uint32_t seed);
 
-// Random spheres turned into another type, some uncut, some two-sided.
+// Returns random lights of any type, made from randomSpheres(); some uncut, some two-sided.
 std::vector<CndLight> lightsOf(CndLightType type, const CpuGBuffer& g, uint32_t count,
                                uint32_t seed);
 
@@ -74,8 +78,10 @@ struct RunOptions {
     CndCulling culling = CND_CULLING_CLUSTERED;
     VkDeviceSize listBudget = 0;
     bool countPairs = false;
-    const CndDeviceDesc* host = nullptr; // instead of the fixture's, for interposed functions
-    CndLighting lighting = nullptr; // of two frames in flight, instead of one for this run alone
+    const CndDeviceDesc* host = nullptr; // instead of the fixture's device, for interposed
+                                         // functions
+    CndLighting lighting = nullptr; // an existing one with two frames in flight, instead of one for
+                                    // this run alone
     double lightOrigin[3] = {0, 0, 0};
     const CndDeviceLights* deviceLights = nullptr;
     uint32_t sampleCount = 0;
@@ -83,13 +89,13 @@ struct RunOptions {
     CndLobeJoining lobes = CND_LOBES_SUM;
     bool energyCompensation = false;
     CndInfluence influence{};
-    int frames = 1; // record this many times; the last one is read back
+    int frames = 1; // number of recordings; the last one is read back
     uint32_t layers = 0;
     CndGBufferLayout layout = CND_GBUFFER_FULL;
-    CndGBufferDesc gbuffer{}; // of CND_GBUFFER_HOST, whose images withFrame puts in
+    CndGBufferDesc gbuffer{}; // with CND_GBUFFER_HOST; withFrame sets the images
     CndHostKernels hostKernels{};
     VkDescriptorSet hostSet = VK_NULL_HANDLE;
-    bool unchanged = false; // frames after the first promise unchanged surfaces
+    bool unchanged = false; // all frames but the first promise unchanged surfaces
     uint32_t materialClasses = 0;
     std::function<void()> beforeFrame = [] {};
     std::function<void(CndLightingFrame&)> withFrame = [](CndLightingFrame&) {};
@@ -101,10 +107,10 @@ protected:
     LightingResult run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
                        const RunOptions& options = {});
 
-    // A lighting and a view for `g`; to be destroyed by the caller.
+    // Creates a lighting and a view for `g`, which the caller must destroy.
     std::pair<CndLighting, CndLightingView> createLighting(const CpuGBuffer& g,
                                                            CndLightingDesc desc);
-    // With the method of RunOptions.
+    // Creates them for the specular method of RunOptions.
     std::pair<CndLighting, CndLightingView> createLighting(const CpuGBuffer& g,
                                                            uint32_t framesInFlight);
     static void setLights(CndLighting lighting, const std::vector<CndLight>& lights);
@@ -114,7 +120,7 @@ protected:
         gpu::Image normalRoughness, albedo, specular, depth, radiance;
     };
     Images uploadImages(const CpuGBuffer& g);
-    // What the frames of all modules that shade surfaces have in common.
+    // Fills in what the frames of all modules that shade surfaces have in common.
     template <typename Frame>
     static Frame surfaceFrame(const CpuGBuffer& g, const Images& images)
     {
@@ -140,7 +146,7 @@ inline bool sameBits(const LightingResult& a, const LightingResult& b)
     return sameBits(a.radiance, b.radiance);
 }
 
-// Largest |a - b| over all channels, divided by the largest value of b.
+// Returns the largest |a - b| over all channels, divided by the largest value of b.
 double maxRelativeDifference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b);
 
 } // namespace candelabra::test

@@ -21,7 +21,7 @@ struct Name {
     constexpr Name(const char (&from)[n]) { std::copy_n(from, n, text); } // NOLINT
 };
 
-// A function that is booked and passed on.
+// Wraps a device function: records the call, then passes it on.
 template <Name N, typename F>
 struct Booked;
 
@@ -117,7 +117,7 @@ bool isTransfer(uint32_t from, uint32_t to)
     return from != to && from != VK_QUEUE_FAMILY_IGNORED && to != VK_QUEUE_FAMILY_IGNORED;
 }
 
-// What a queue that computes and cannot draw knows.
+// The stages that a queue supports which computes but cannot draw.
 constexpr VkPipelineStageFlags2 computeStages =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_HOST_BIT |
@@ -192,7 +192,7 @@ void Ownership::onDispatch(VkCommandBuffer cmd)
     for (const auto& [binding, use] : sets_[bound_[cmd]]) {
         const auto view = views_.find(use.view);
         if (view == views_.end())
-            continue; // the module's own
+            continue; // an image of the module itself
         touched.insert(view->second);
         if (!isOwner(view->second, family->second))
             fault("binding " + std::to_string(binding) + " is an image that family " +
@@ -237,7 +237,7 @@ void Ownership::barrier(VkCommandBuffer cmd, std::span<const VkImageMemoryBarrie
         apply(b, family);
         if (real_ || !isTransfer(b.srcQueueFamilyIndex, b.dstQueueFamilyIndex))
             continue;
-        if (b.dstQueueFamilyIndex == family) // the release has changed the layout
+        if (b.dstQueueFamilyIndex == family) // the release has changed the layout already
             b.oldLayout = b.newLayout;
         b.srcQueueFamilyIndex = b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     }

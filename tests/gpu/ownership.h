@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which queue family owns which image of the host's, as barriers and dispatches are recorded: a
-// function table between the modules and the driver books what the modules do. Families need only
-// be declared: where the device has one family, what it gets is without transfers.
+// Tracks which queue family owns which of the host's images, as barriers and dispatches are
+// recorded: a function table between the modules and the driver notes what the modules do. Queue
+// families may be fictitious: if the device has only one, the driver gets the barriers without
+// ownership transfers.
 #pragma once
 
 #include <cstdint>
@@ -20,24 +21,25 @@ namespace candelabra::test
 class Ownership
 {
 public:
-    // One at a time: Vulkan's function pointers carry no context. `real`: the device has the
-    // families that command buffers and barriers name.
+    // Only one may exist at a time, because Vulkan's function pointers carry no context. `real`:
+    // the device has the families that command buffers and barriers name.
     Ownership(const CndDeviceDesc& host, bool real);
     ~Ownership();
     Ownership(const Ownership&) = delete;
     Ownership& operator=(const Ownership&) = delete;
 
-    // For modules.
+    // The device description to create modules from.
     const CndDeviceDesc& desc() const { return desc_; }
 
-    // An image that nothing was recorded for.
+    // Adds an image that no recording has used yet.
     void add(VkImage image, VkImageView view) { views_[view] = image; }
-    // What is recorded here goes to a queue of this family.
+    // States the queue family to which `cmd` will be submitted.
     void begin(VkCommandBuffer cmd, uint32_t family) { families_[cmd] = family; }
-    // Barriers of the host's, recorded. Two families that differ: released by the first of these,
-    // then acquired by the second. From VK_IMAGE_LAYOUT_UNDEFINED: whoever had it, it is taken.
+    // Records barriers of the host. With two different families, the first use of a barrier
+    // releases the image and the second acquires it. A barrier from VK_IMAGE_LAYOUT_UNDEFINED takes
+    // the image from whoever owned it.
     void barrier(VkCommandBuffer cmd, std::span<const VkImageMemoryBarrier2> barriers);
-    // Recording of modules: by other rules than the host's.
+    // Runs code that records modules, to which other rules apply than to the host.
     template <typename Record>
     void module(Record&& record)
     {
@@ -47,11 +49,11 @@ public:
     }
     bool isOwner(VkImage image, uint32_t family) const;
 
-    std::set<VkImage> touched;       // by dispatches of modules
-    std::set<std::string> called;    // by modules while recording
-    std::vector<std::string> faults; // of modules and of the host
+    std::set<VkImage> touched;       // images used by dispatches of modules
+    std::set<std::string> called;    // functions called by modules while recording
+    std::vector<std::string> faults; // rule violations of modules and of the host
 
-    // Of the function table.
+    // Called by the function table.
     void onCall(const char* function);
     void onModuleBarrier(const VkDependencyInfo& info);
     void onWrite(const VkWriteDescriptorSet& write);
@@ -62,7 +64,7 @@ private:
     struct Image {
         uint32_t owner = VK_QUEUE_FAMILY_IGNORED;
         VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-        bool released = false; // and not yet acquired
+        bool released = false; // released and not yet acquired
         VkImageMemoryBarrier2 release{};
     };
     struct Use {
@@ -75,7 +77,7 @@ private:
     CndDeviceDesc desc_;
     bool real_;
     bool inModule_ = false;
-    std::map<VkImageView, VkImage> views_; // of the host's
+    std::map<VkImageView, VkImage> views_; // views of the host's images
     std::map<VkImage, Image> images_;
     std::map<VkCommandBuffer, uint32_t> families_;
     std::map<VkCommandBuffer, VkDescriptorSet> bound_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far two images are apart where they are dark, too.
+// A measure of the difference of two images that also judges their dark parts.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 namespace candelabra::test
 {
 
-// Largest difference of a pixel, of its brightest channel or a hundred thousandth of the image's.
+// Returns the largest difference of a pixel, relative to its brightest channel or to 1e-5 of the
+// image's brightest value, whichever is larger.
 inline double maxPixelDifference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
 {
     const auto brightest = [](const glm::vec4& v) { return double(std::max({v.x, v.y, v.z})); };
@@ -22,7 +23,8 @@ inline double maxPixelDifference(const std::vector<glm::vec4>& a, const std::vec
         for (int c = 0; c < 3; ++c) {
             const double difference =
                 std::abs(double(a[i][c]) - b[i][c]) / std::max(brightest(b[i]), 1e-5 * peak);
-            largest = !(difference <= largest) ? difference : largest; // NaN is the largest
+            largest = !(difference <= largest) ? difference : largest; // NaN counts as the largest
+                                                                       // difference
         }
     return a.size() == b.size() && peak > 0 ? largest : INFINITY;
 }

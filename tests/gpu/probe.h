@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a probe kernel (shaders/probes): shipping shader functions on an array of inputs.
+// Runs a probe kernel (shaders/probes), which applies shipping shader functions to an array of
+// inputs.
 #pragma once
 
 #include "gpu/kernel.h"
@@ -12,7 +13,7 @@ namespace candelabra::test
 class ProbeTest : public GpuTest
 {
 protected:
-    // One output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT, and `other` where it is
+    // Returns one output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT, and `other` if
     // given, and takes ProbeParams.
     template <typename Output, typename Input>
     std::vector<Output> runProbe(const gpu::Spirv& probe, const std::vector<Input>& inputs,

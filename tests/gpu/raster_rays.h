@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of the raster pass in double, and what they hit: what ray-cast pixels are compared with.
+// Rays of the raster pass and their intersections in double precision, to compare ray-cast pixels
+// with.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,8 @@ struct Ray {
     glm::dvec3 at(double t) const { return origin + t * direction; }
 };
 
-// Through the pixel centre, from the float projection in double.
+// Returns the ray through the pixel centre, from the float projection but computed in double
+// precision.
 inline Ray pixelRay(const RasterOptions& o, uint32_t x, uint32_t y)
 {
     const float* m = o.camera.clipFromView;
@@ -43,7 +45,7 @@ inline double hitPlane(const Ray& ray, const glm::dvec3& point, const glm::dvec3
 
 struct SphereHit {
     double near = infinity, far = infinity;
-    double axisDistance; // of the ray from the centre
+    double axisDistance; // distance of the ray from the centre
 };
 
 inline SphereHit hitSphere(const Ray& ray, const glm::dvec3& center, double radius)
@@ -62,7 +64,7 @@ inline SphereHit hitSphere(const Ray& ray, const glm::dvec3& center, double radi
 
 constexpr double nearPlane = 0.1, farPlane = 1e4, orthographicRange = 200;
 
-// What two roundings of depth move a point at distance `distance`, relative to the distance.
+// Returns by how much two roundings of depth move a point at `distance`, relative to the distance.
 inline double depthStep(int kind, double distance)
 {
     constexpr double step = 2.0 / (1 << 24);
@@ -71,7 +73,7 @@ inline double depthStep(int kind, double distance)
     return kind == 3 ? orthographicRange / distance * step : step;
 }
 
-// Between the near and far planes for certain: the pictures end there.
+// Returns true if the point is safely between the near and far planes, at which the images end.
 inline bool insideDepthRange(const RasterOptions& o, const glm::dvec3& p)
 {
     const double distance = -(viewFromWorld(o.camera) * glm::dvec4(p, 1)).z;
@@ -79,7 +81,8 @@ inline bool insideDepthRange(const RasterOptions& o, const glm::dvec3& p)
     return distance > 1.01 * nearPlane && distance < 0.95 * end;
 }
 
-// Perspective infinite and finite, not reversed, and orthographic.
+// Sets the projection `kind`: infinite perspective, finite perspective, not reversed, or
+// orthographic.
 inline void setProjection(RasterOptions& o, int kind)
 {
     const double aspect = double(o.width) / o.height;
@@ -90,7 +93,7 @@ inline void setProjection(RasterOptions& o, int kind)
         setPerspective(o.camera, 0.9, aspect, nearPlane, kind == 0 ? 0 : farPlane, kind != 2);
 }
 
-// The shader's positions in the world.
+// Returns the world-space position that a shader reconstructs.
 inline glm::dvec3 worldPosition(const RasterImage& image, uint32_t x, uint32_t y)
 {
     return glm::dvec3(glm::inverse(viewFromWorld(image.camera)) *

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything placed by a host's allocator, in shared blocks that hold garbage: the same bits.
+// A host's allocator places everything in shared blocks that hold garbage: results must have the
+// same bits.
 #include "candelabra/candelabra.hpp"
 #include "gpu/exposure_harness.h"
 #include "gpu/lighting_harness.h"
@@ -12,7 +13,7 @@ namespace
 
 constexpr VkDeviceSize blockBytes = 1 << 22;
 
-// Some with lists and some without.
+// One type with lists and one without.
 constexpr CndLightType types[] = {CND_LIGHT_SPHERE, CND_LIGHT_DIRECTIONAL};
 
 std::vector<CndLight> someLights(const CpuGBuffer& g)
@@ -38,8 +39,9 @@ TEST_F(LightingTest, HostsMemoryChangesNothing)
                            .frames = 3};
         const LightingResult own = run(g, lights, options);
         options.host = &host;
-        // Neither what memory held before nor what a recording left in scratch memory is read.
-        int byte = 0xFF; // NaN
+        // Neither earlier contents of memory nor what a recording left in scratch memory may be
+        // read.
+        int byte = 0xFF; // 0xFF bytes are NaN
         options.beforeFrame = [&] { allocator.fill(CND_MEMORY_SCRATCH, byte--); };
         const LightingResult placed = run(g, lights, options);
         EXPECT_TRUE(sameBits(placed, own)) << rule;
@@ -76,7 +78,7 @@ TEST_F(ExposureTest, HostsMemoryChangesNothing)
     EXPECT_TRUE(allocator.live.empty());
 }
 
-// Planned, then placed in one block of each kind, which is just large enough.
+// After planning, one block of each kind must be just large enough.
 TEST_F(LightingTest, PlannedMemoryIsEnough)
 {
     const CpuGBuffer g = randomGBuffer(72, 48, 31);
@@ -126,7 +128,7 @@ TEST_F(GpuTest, PlannedMemoryHoldsImages)
         size_t images = 0;
         for (const auto& [number, placed] : allocator.live)
             images += placed.kind == CND_MEMORY_IMAGE;
-        EXPECT_EQ(images, 4u); // three cubes and what stands in for packed normals
+        EXPECT_EQ(images, 4u); // three cubes and the placeholder for packed normals
         EXPECT_EQ(environment.value().memory().value().bytes[CND_MEMORY_IMAGE],
                   planned.value().bytes[CND_MEMORY_IMAGE]);
     }

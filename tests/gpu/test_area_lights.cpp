@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tubes, rectangles and discs, and spheres by linearly transformed cosines: the shipping float32
+// Tubes, rectangles and discs, and spheres with linearly transformed cosines: the shipping float32
 // shader functions against double-precision quadrature.
 #include <algorithm>
 #include <cmath>
@@ -67,7 +67,8 @@ protected:
         return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
     }
 
-    // A light at distance 1 in direction l, turned with it: `u` and `w` are its axes where l is +z.
+    // Places a light at distance 1 in direction l and turns it with it; `u` and `w` are its axes
+    // where l is +z.
     static gpu::AreaProbeInput placed(gpu::AreaProbeInput light, const glm::dvec3& l,
                                       const glm::dvec3& u, const glm::dvec3& w)
     {
@@ -81,10 +82,11 @@ protected:
     }
 
     struct Group {
-        size_t first, count; // of the inputs
+        size_t first, count; // range of inputs
     };
 
-    // Lights of one type in groups of one roughness, view and shape, each in several directions.
+    // Makes lights of one type in groups of one roughness, view and shape, each in several
+    // directions.
     std::vector<gpu::AreaProbeInput> lights(uint32_t type, int groups, int directions,
                                             std::vector<Group>& out)
     {
@@ -114,15 +116,16 @@ protected:
                 u = up * size;
                 light.radius = float(std::min(size2, 0.6));
                 if (std::abs(glm::dot(u, glm::dvec3(0, 0, 1))) > 0.3)
-                    u *= 0.3 / std::abs(u.z); // keeps the tube off the receiver
+                    u *= 0.3 / std::abs(u.z); // keeps the tube away from the receiver
             }
             const glm::dvec3 mirror(-std::sin(viewAngle), 0, std::cos(viewAngle));
             const double halfAngle =
                 type == gpu::LIGHT_SPHERE ? std::asin(double(light.radius)) : std::atan(size);
             const size_t first = inputs.size();
             for (int i = 0; i < directions; ++i) {
-                // Of seven: two around the mirror direction with a heavy tail, one anywhere above
-                // or somewhat below the horizon, four in the plane of incidence.
+                // Of every seven directions, two are around the mirror direction with a heavy tail,
+                // one is anywhere above or somewhat below the horizon, and four are in the plane of
+                // incidence.
                 glm::dvec3 l = mirror;
                 if (i > 0 && i % 7 < 2) {
                     const double reach = (halfAngle + 2 * alpha) * std::tan(uniform(0, 1.4));
@@ -186,7 +189,7 @@ TEST_F(AreaLights, SpecularErrorRelativeToThePeak)
     struct Case {
         uint32_t type;
         const char* name;
-        double ltcMean, representativeMean; // bars, percent
+        double ltcMean, representativeMean; // upper bounds, percent
     };
     const int groups = fullTests() ? 500 : 150;
     const int directions = fullTests() ? 49 : 14;
@@ -235,15 +238,15 @@ TEST_F(AreaLights, SpecularErrorRelativeToThePeak)
     }
 }
 
-// Any size from 1e-4 to 1e3 times the distance, any attitude, most of them cut by the horizon or
-// near it. The scale of an error is the form factor, or that of the same light seen face on, up
-// to 1.
+// Lights of any size from 1e-4 to 1e3 times the distance and any orientation, most of them cut by
+// the horizon or near it. Errors are relative to the form factor, or to that of the same light seen
+// face on, at most 1.
 TEST_F(AreaLights, FormFactorsAreExact)
 {
     struct Case {
         uint32_t type;
         const char* name;
-        double largest; // bar
+        double largest; // upper bound
     };
     const int count = fullTests() ? 20000 : 1500;
     for (const Case& c :
@@ -275,11 +278,11 @@ TEST_F(AreaLights, FormFactorsAreExact)
                 light.radius = float(size);
                 area = pi * size * size;
             } else if (c.type == gpu::LIGHT_TUBE) {
-                // Outside the tube: inside it only the continuation matters (tested below).
+                // Only outside the tube; inside it only continuity matters, which is tested below.
                 const double along = std::clamp(glm::dot(l * distance, axis), -size, size);
                 const double gap = glm::length(l * distance - along * axis);
                 if (gap < 0.05 * distance)
-                    continue; // what the float32 input says is no longer precise
+                    continue; // the float32 input would not be precise enough
                 light.radius = float(std::min(size2, 0.9 * gap));
                 area = 4 * size * light.radius + pi * light.radius * light.radius;
             }
@@ -311,7 +314,7 @@ TEST_F(AreaLights, FormFactorsAreExact)
 }
 
 // Degenerate geometry: receivers in the plane of a light, on it, inside it, at its edge and on its
-// axis; views and lights at grazing and below; sizes from 1e-18 to 1e12.
+// axis; grazing views and lights and those below the horizon; sizes from 1e-18 to 1e12.
 TEST_F(AreaLights, NeverNanNegativeInfiniteOrFromBelow)
 {
     std::vector<gpu::AreaProbeInput> inputs;

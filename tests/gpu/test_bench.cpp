@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The benchmarks at a small size: their kernels run clean, and what they say holds together.
+// The benchmarks at a small size: their kernels run without validation messages, and their results
+// are consistent.
 #include <cmath>
 
 #include "bench/image_level.h"
@@ -38,7 +39,7 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
     Progress progress(1, false);
     const KernelLevel level = measureKernelLevel(context(), settings, progress);
     EXPECT_EQ(level.unconvergedTruths, 0u);
-    ASSERT_EQ(level.points.size(), 3u); // karis, ltc, sampled
+    ASSERT_EQ(level.points.size(), 3u); // karis, ltc and sampled
     for (const KernelPoint& p : level.points) {
         const std::string name = methodName(p.method);
         const ErrorStatistics& all = p.error.mirror.all;
@@ -82,7 +83,7 @@ TEST_F(Bench, SweepsAreReproducibleAndValid)
     EXPECT_GT(largest, 0);
 }
 
-// The representative point is continuous; a jump would show a wrong classification.
+// The representative point is continuous; a jump would reveal a wrong classification.
 TEST_F(Bench, RepresentativePointHasNoJumps)
 {
     const auto checks = checkContinuity(
@@ -94,7 +95,8 @@ TEST_F(Bench, RepresentativePointHasNoJumps)
     }
 }
 
-// Whole frames beside their truth. The closed form is for spheres; the last scene has other shapes.
+// Whole frames compared with their truth. The closed form is for spheres; the last scene has other
+// shapes.
 TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
 {
     ImageLevelSettings settings{
@@ -127,9 +129,8 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
     }
 }
 
-// float32 loses the peak of a lobe this narrow in the usual way to write it: the mirrored light is
-// full of holes. That is what minimum roughnesses of 0.1 are against; the methods here have no need
-// of one.
+// With the usual formula float32 loses the peak of such a narrow lobe, and the mirrored light is
+// full of holes. Elsewhere a minimum roughness of 0.1 avoids that; the methods here need none.
 TEST_F(Bench, LowRoughnessBreaksTheNaiveRepresentativePointAlone)
 {
     const auto images = measureLowRoughness(context(), 256);
@@ -142,7 +143,7 @@ TEST_F(Bench, LowRoughnessBreaksTheNaiveRepresentativePointAlone)
         for (size_t i = 0; i < conic.size(); ++i) {
             const float a = image.response[i];
             invalid += !std::isfinite(a);
-            if (conic[i] < 0.9f) // the mirrored light without its edge
+            if (conic[i] < 0.9f) // skips the edge of the mirrored light and everything outside it
                 continue;
             ++mirrored;
             broken += !(a > 0.1f && a < 10);
@@ -160,7 +161,8 @@ TEST_F(Bench, LowRoughnessBreaksTheNaiveRepresentativePointAlone)
     }
 }
 
-// Spheres below the horizon, by a hair and more: nothing, by every method.
+// Spheres that are below the horizon, by a hair or more, contribute exactly nothing with every
+// method.
 TEST_F(Bench, SpheresBelowTheHorizonGiveExactlyNothing)
 {
     Random random(1, 7);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The benchmark of culling at a small size: every way to cull gives the image of brute force, or
-// comparing their times would mean nothing.
+// The benchmark of culling at a small size. Every way to cull must give the image of brute force,
+// otherwise comparing their times would be meaningless.
 #include "bench/culling.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
@@ -36,7 +36,7 @@ TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
             EXPECT_EQ(c.times.frames(), 1u) << name;
             if (name == bruteName)
                 continue;
-            // All find the same lights, in lists that hold more.
+            // All ways find the same contributing lights, even if their lists hold more lights.
             EXPECT_EQ(c.contributingPairs, engine.contributingPairs) << p.scene << " " << name;
             EXPECT_EQ(c.insidePairs >= c.contributingPairs, true) << name;
             EXPECT_GE(c.listedPairs, c.insidePairs) << name;
@@ -55,7 +55,7 @@ TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
     EXPECT_NE(cullingTables(points).find("200x120"), std::string::npos);
 }
 
-// More than a loop may test on llvmpipe; on other devices it takes no batches.
+// More lights than one loop may test on llvmpipe; other devices need no batches.
 TEST_F(BenchCulling, EveryWayFindsAllOfManyLights)
 {
     const CullingSettings settings{.scenes = {"hall"},
@@ -75,7 +75,7 @@ TEST_F(BenchCulling, EveryWayFindsAllOfManyLights)
         EXPECT_EQ(c.contributingPairs, engine.contributingPairs) << name;
     }
 
-    // What draws another image is no rival.
+    // A baseline that draws another image does not count.
     CullingPoint point = points[0];
     const std::string best = point.bestBaseline().name;
     for (Contender& c : point.contenders)
@@ -83,7 +83,7 @@ TEST_F(BenchCulling, EveryWayFindsAllOfManyLights)
             c.difference = 0.1;
     EXPECT_NE(point.bestBaseline().name, best);
     EXPECT_EQ(cullingFailures({point}).size(), 1u);
-    // Brute force sums as the engine does.
+    // Brute force sums in the engine's order, so its bound is tighter.
     Contender brute{.name = bruteName, .difference = 2e-6};
     EXPECT_FALSE(brute.hasRightImage());
 }
@@ -98,7 +98,7 @@ TEST_F(BenchCulling, BruteForceOverTheLimitIsListedWithItsEstimate)
                                    .bruteLimit = 0};
     Progress progress(1, false);
     const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
-    ASSERT_EQ(points.size(), 1u); // so many overlaps cannot be
+    ASSERT_EQ(points.size(), 1u); // this many overlaps are impossible
     EXPECT_GT(points[0].of(bruteName).skippedMs.value_or(0), 0);
     EXPECT_NE(cullingTables(points).find("skipped"), std::string::npos);
     const auto json = nlohmann::json::parse(cullingJson(settings, points).dump());

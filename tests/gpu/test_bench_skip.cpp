@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every skip leaves the image as it is, in small frames of the benchmark.
+// Checks in small frames of the benchmark that no skipped pass changes the image.
 #include "bench/skip.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
@@ -27,7 +27,7 @@ TEST_F(BenchSkip, ImagesAreThoseOfFramesThatSkipNothing)
         EXPECT_EQ(row.with.frames(), row.without.frames()) << row.name;
         EXPECT_GT(row.without.total().medianMs, 0) << row.name;
     }
-    EXPECT_EQ(rows[0].with.total().medianMs, 0); // no lights
+    EXPECT_EQ(rows[0].with.total().medianMs, 0); // the row without lights
     EXPECT_TRUE(skipFailures(rows).empty());
     const auto json = nlohmann::json::parse(skipJson(settings, rows).dump());
     EXPECT_EQ(json["skips"].size(), rows.size());

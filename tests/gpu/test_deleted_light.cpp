@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows that the comparison with brute force can fail: one light is taken out of one tile's list,
-// between culling and shading, and the difference must be noticed. The list lives inside the
-// module, so the test interposes functions of the host's Vulkan to find and change it.
+// Shows that the comparison with brute force is able to fail: one light is removed from the list of
+// one tile, between culling and shading, and the difference must be noticed. The list is inside the
+// module, so the test interposes the host's Vulkan functions to find and change it.
 #include "gpu/lighting_harness.h"
 
 #include <limits>
@@ -13,7 +13,7 @@ namespace candelabra::test
 namespace
 {
 
-// State of the one interposed device; Vulkan's function pointers carry no context.
+// State of the interposed device, global because Vulkan's function pointers carry no context.
 struct Interposer {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
@@ -103,11 +103,12 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
     std::vector<CndLight> lights = randomSpheres(g, 50, 5);
     for (CndLight& light : lights) {
         light.influenceRadius = 40; // every tile lists every light ...
-        light.position[2] = -1.5f;  // ... and faces it: the nearest wall is 3 m away
+        light.position[2] = -1.5f;  // ... and faces them: the nearest wall is 3 m away
     }
     CndLight dark = lights[0];
     dark.emission[0] = dark.emission[1] = dark.emission[2] = 0;
-    // Largest influence and farthest along every axis: the last in the order of the lights.
+    // With the largest influence and the largest coordinates, this light is the last in the order
+    // of lights.
     dark.influenceRadius = std::numeric_limits<float>::infinity();
     dark.position[0] = dark.position[1] = dark.position[2] = 1e6f;
     lights.push_back(dark);
@@ -118,8 +119,9 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
     const LightingResult intact = run(g, lights, {.host = &host});
     EXPECT_LE(maxRelativeDifference(intact.radiance, brute.radiance), 1e-6);
 
-    // Lists are made block by block, then tile by tile, a page each. Of blocks there are at most 4
-    // of 32x32 and one of 128x128 pixels with 8 slices each; so this page is a tile's.
+    // Lists are made block by block, then tile by tile, one page each. There are at most 4 blocks
+    // of 32x32 pixels and one of 128x128 pixels, with 8 slices each, so this page belongs to a
+    // tile.
     constexpr uint32_t tilePage = 5 * 8 + 3;
     interposer.armed = true;
     interposer.replacement = uint32_t(lights.size()) - 1;

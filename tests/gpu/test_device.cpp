@@ -8,7 +8,7 @@ namespace candelabra::test
 namespace
 {
 
-// Vulkan's function pointers carry no context.
+// Global because Vulkan's function pointers carry no context.
 PFN_vkGetInstanceProcAddr realGetInstanceProcAddr = nullptr;
 PFN_vkGetPhysicalDeviceFeatures2 realGetFeatures = nullptr;
 PFN_vkGetPhysicalDeviceProperties2 realGetProperties = nullptr;
@@ -78,7 +78,7 @@ TEST_F(LightingTest, MissingFeatureIsNamed)
     EXPECT_STREQ(result.error().message, "the device lacks: feature scalarBlockLayout");
 }
 
-// "Not yet" and "never" are two answers.
+// "Not yet" and "never" are different answers.
 TEST_F(LightingTest, StatsOfFramesThatNeverWereAreAnError)
 {
     auto lighting = Lighting::create(deviceDesc(), {.framesInFlight = 2});
@@ -87,13 +87,13 @@ TEST_F(LightingTest, StatsOfFramesThatNeverWereAreAnError)
     ASSERT_TRUE(view) << view.error().message;
     auto exposure = Exposure::create(deviceDesc(), {.framesInFlight = 2});
     ASSERT_TRUE(exposure) << exposure.error().message;
-    for (const uint32_t slot : {0u, 2u}) { // not recorded; not there
+    for (const uint32_t slot : {0u, 2u}) { // never recorded, and not existing
         EXPECT_EQ(view.value().stats(slot).error().code, CND_ERROR_INVALID_ARGUMENT) << slot;
         EXPECT_EQ(exposure.value().stats(slot).error().code, CND_ERROR_INVALID_ARGUMENT) << slot;
     }
 }
 
-// Devices with small texel buffers read lights as storage: another way to the same bits.
+// Devices with small texel buffers read lights from storage buffers, which must give the same bits.
 TEST_F(LightingTest, SmallTexelBuffersChangeNothing)
 {
     const CpuGBuffer g = randomGBuffer(96, 64, 12);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that are written on the device give the same image as from the host, none of them is lost,
-// and what is no light is counted and shows nothing.
+// Lights that are written on the device give the same image as lights from the host and none is
+// lost. Invalid ones are counted and show nothing.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -26,7 +26,7 @@ CndDeviceLight onDevice(const CndLight& light)
 class DeviceLightsTest : public LightingTest
 {
 protected:
-    // A buffer of the host's, as a simulation would leave it.
+    // Creates a buffer of the host, as a simulation would leave it.
     gpu::Buffer buffer(size_t bytes)
     {
         return gpu::createBuffer(device(), "particles", bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -68,7 +68,7 @@ TEST_F(DeviceLightsTest, GiveTheSameImageAsFromTheHost)
     for (const CndLightType type : {CND_LIGHT_SPHERE, CND_LIGHT_POINT}) {
         for (CndLight& light : spheres)
             light.type = type;
-        std::vector<CndLight> more = spheres; // beyond the count
+        std::vector<CndLight> more = spheres; // more than the count says
         more.resize(700, spheres[0]);
         fill(more);
         std::vector<CndLight> others = randomSpheres(g_, 40, 8);
@@ -84,7 +84,7 @@ TEST_F(DeviceLightsTest, GiveTheSameImageAsFromTheHost)
             EXPECT_EQ(mixed.stats.lightCount, 740u);
             EXPECT_EQ(mixed.stats.deviceLights, 500u);
             EXPECT_EQ(mixed.stats.rejectedLights, 0u);
-            // The order of lights is not the same: it follows boundsMin and boundsMax.
+            // The order of lights differs, because it follows boundsMin and boundsMax.
             EXPECT_LE(maxRelativeDifference(mixed.radiance, fromHost.radiance), 1e-6);
         }
         EXPECT_TRUE(sameBits(run(g_, others, {.deviceLights = &device}).radiance,
@@ -99,7 +99,7 @@ TEST_F(DeviceLightsTest, AreCutByAnErrorLikeThoseOfTheHost)
 {
     std::vector<CndLight> spheres = randomSpheres(g_, 150, 17);
     for (size_t i = 10; i < spheres.size(); ++i)
-        spheres[i].radius = 0.01f; // dim
+        spheres[i].radius = 0.01f; // makes the light dim
     fill(spheres);
     const CndDeviceLights device = desc(CND_LIGHT_SPHERE, 150, 150);
     const CndInfluence influence{
@@ -132,11 +132,11 @@ TEST_F(DeviceLightsTest, WhatIsNoLightShowsNothingAndIsCounted)
     bad([](CndLight& l) { l.influenceRadius = l.radius; });
     bad([](CndLight& l) { l.influenceRadius = notANumber; });
     const uint32_t badCount = uint32_t(all.size() - good.size());
-    std::swap(all.front(), all.back()); // not only behind the good ones
+    std::swap(all.front(), all.back()); // puts an invalid light before the valid ones too
     fill(all);
     const LightingResult expected = run(g_, good);
     for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
-        // 5 more than there is room for.
+        // The count is 5 higher than the capacity.
         const CndDeviceLights device =
             desc(CND_LIGHT_SPHERE, uint32_t(all.size()), uint32_t(all.size()) + 5);
         const LightingResult result = run(g_, {}, {.culling = culling, .deviceLights = &device});
@@ -191,7 +191,7 @@ TEST_F(DeviceLightsTest, StayWhenLightsAreAddedBesideThem)
     CndError error{};
     std::vector<CndLight> all = spheres;
     CndLightingFrame f = frameOf(g_, images, {});
-    const auto addAndCompare = [&](uint32_t count) { // of them: to larger buffers
+    const auto addAndCompare = [&](uint32_t count) { // adds lights, which need larger buffers
         const std::vector<CndLight> more = randomSpheres(g_, count, count);
         std::vector<CndLightId> ids(count);
         EXPECT_EQ(cndAddLights(lighting, count, more.data(), ids.data(), &error), CND_SUCCESS);
@@ -205,10 +205,10 @@ TEST_F(DeviceLightsTest, StayWhenLightsAreAddedBesideThem)
     };
     const CndLightSet set{.structSize = sizeof set, .deviceLights = &device};
     EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
-    addAndCompare(1100); // before the device's were read
+    addAndCompare(1100); // before the lights of the device have been read
     addAndCompare(30);
     addAndCompare(1200);
-    const CndLightSet none{.structSize = sizeof none}; // the same buffers, other records
+    const CndLightSet none{.structSize = sizeof none}; // the same buffers with other records
     EXPECT_EQ(cndSetLights(lighting, &none, &error), CND_SUCCESS) << error.message;
     all.clear();
     addAndCompare(4000);

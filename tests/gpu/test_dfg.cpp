@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The directional albedo table against double quadrature, and the lobes joined with it in a white
-// surrounding.
+// Tests the directional albedo table against double-precision quadrature, and the lobes joined with
+// it in uniform surroundings.
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -19,7 +19,7 @@ namespace
 class Dfg : public ProbeTest
 {
 protected:
-    // Fills a table and looks all inputs up.
+    // Fills a table and looks up all inputs.
     std::vector<gpu::DfgProbeOutput> lookUp(const std::vector<gpu::DfgProbeInput>& inputs)
     {
         const uint32_t count = uint32_t(inputs.size());
@@ -46,8 +46,8 @@ protected:
     }
 };
 
-// Share of a white surrounding that the joined lobes reflect, the table's own albedo taken as
-// exact: what is added up is what shading adds up.
+// Returns the share of uniform surroundings that the joined lobes reflect, summed as shading sums
+// them; the table's own albedo is taken as exact.
 double furnace(const gpu::DfgProbeOutput& o)
 {
     const glm::vec2 s = o.directionalAlbedo;
@@ -63,7 +63,7 @@ TEST_F(Dfg, MatchesDoubleQuadrature)
     std::vector<gpu::DfgProbeInput> inputs;
     for (int i = 0; i < 600; ++i) {
         const double alpha = std::pow(10.0, std::log10(0.002) * uniform());
-        // A third anywhere, a third crowded to grazing, a third around NoV = alpha.
+        // A third anywhere, a third concentrated at grazing angles, a third around NoV = alpha.
         const double NoV = i % 3 == 0   ? uniform()
                            : i % 3 == 1 ? std::pow(uniform(), 4)
                                         : alpha * std::pow(4.0, 2 * uniform() - 1);
@@ -113,7 +113,7 @@ TEST_F(Dfg, JoinedLobesAreAWhiteFurnace)
         }
     std::cout << "white furnace of the joined lobes: largest difference to 1 is " << worst << "\n";
     EXPECT_LE(worst, 1e-5);
-    // Summed lobes take nothing from the diffuse one, and say so.
+    // Summed lobes leave the diffuse lobe unchanged.
     const auto summed = lookUp(sums);
     for (const gpu::DfgProbeOutput& o : summed) {
         EXPECT_EQ(o.albedo, 1);
@@ -123,7 +123,8 @@ TEST_F(Dfg, JoinedLobesAreAWhiteFurnace)
     }
 }
 
-// Any material in [0, 1], any view: never above the furnace, never negative, no lobe from nothing.
+// For any material in [0, 1] and any view the reflected share is never above 1 and never negative,
+// and without a lobe nothing is reflected.
 TEST_F(Dfg, NoMaterialReflectsMoreThanThereIs)
 {
     std::vector<gpu::DfgProbeInput> inputs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visible area lights of every shape against double precision: silhouette, depth, luminance.
+// Tests visible area lights of every shape against double precision: silhouette, depth, luminance.
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -23,13 +23,13 @@ void set(float (&out)[3], const glm::dvec3& v)
         out[i] = float(v[i]);
 }
 
-// Where along the ray the light is first met in front of the eye, or infinity. The light is made
-// larger by `grow` metres on all sides.
+// Returns where the ray first meets the light in front of the eye, or infinity. The light is
+// enlarged by `grow` metres on all sides.
 double hitTube(const Ray& ray, const glm::dvec3& center, const CndLight& l, double grow)
 {
     const glm::dvec3 half = vec(l.axisU);
     const double radius = double(l.radius) + grow;
-    // Distance from the segment: convex along the ray, so bisection finds everything.
+    // The distance from the segment is convex along the ray, so bisection finds the hit.
     const auto outside = [&](double t) {
         const glm::dvec3 p = ray.at(t) - center;
         const double along = glm::clamp(glm::dot(p, half) / glm::dot(half, half), -1.0, 1.0);
@@ -73,7 +73,7 @@ double hitFlat(const Ray& ray, const glm::dvec3& center, const CndLight& l, doub
 double hitLight(const Ray& ray, const glm::dvec3& origin, const CndLight& l, double grow)
 {
     const glm::dvec3 center = origin + vec(l.position);
-    // Nothing to search for where the ray misses a sphere around all of it.
+    // There is nothing to search for if the ray misses a bounding sphere.
     const double reach =
         glm::length(vec(l.axisU)) + glm::length(vec(l.axisV)) + double(l.radius) + 1;
     if (hitSphere(ray, center, reach).near == infinity)
@@ -103,7 +103,7 @@ class GBufferEmitterShapes : public RasterTest
 {
 protected:
     // Compares every pixel that is clearly inside or outside of every silhouette. `grazing` counts
-    // the others.
+    // the other pixels.
     void expectRayCast(const RasterImage& image, const RasterOptions& o, size_t& grazing)
     {
         size_t shown = 0;
@@ -144,7 +144,7 @@ protected:
                 const glm::dvec3 p = ray.at(nearest);
                 if (!insideDepthRange(o, p))
                     continue;
-                // A grazing ray moves far along the surface for a small error across it.
+                // For a grazing ray a small error across the surface is a large one along it.
                 const double tolerance = winner->type == CND_LIGHT_TUBE ? 1e-3 : 2e-4;
                 ASSERT_LE(glm::length(worldPosition(image, x, y) - p),
                           tolerance * glm::length(p - ray.origin))
@@ -167,7 +167,7 @@ TEST_F(GBufferEmitterShapes, SilhouettesAreThoseOfTheRayCast)
             for (const CndLightType type :
                  {CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC, CND_LIGHT_TYPE_COUNT}) {
                 if (layout == CND_GBUFFER_COMPACT && type != CND_LIGHT_TYPE_COUNT)
-                    continue; // the shapes are the same, what is written is not
+                    continue; // the shapes are the same as with FULL; only what is written differs
                 SCOPED_TRACE(::testing::Message()
                              << layout << " projection " << kind << " type " << type);
                 RasterOptions options = perspectiveOptions();
@@ -176,7 +176,7 @@ TEST_F(GBufferEmitterShapes, SilhouettesAreThoseOfTheRayCast)
                 Random random(uint32_t(kind) + 7);
                 constexpr CndLightType all[] = {CND_LIGHT_SPHERE, CND_LIGHT_TUBE,
                                                 CND_LIGHT_RECTANGLE, CND_LIGHT_DISC};
-                for (uint32_t i = 0; i < 40; ++i) // of one type, or of all in turn
+                for (uint32_t i = 0; i < 40; ++i) // of one type, or of all types in turn
                     options.emitters.push_back(randomLight(
                         type == CND_LIGHT_TYPE_COUNT ? all[i % 4] : type, random, 6, float(i)));
                 setProjection(options, kind);
@@ -191,7 +191,7 @@ TEST_F(GBufferEmitterShapes, SilhouettesAreThoseOfTheRayCast)
             }
 }
 
-// Around the camera, at arm's length and filling the picture.
+// Lights around the camera, at arm's length, and filling the image.
 TEST_F(GBufferEmitterShapes, CloseToTheCamera)
 {
     for (const CndLightType type : {CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC})
@@ -216,7 +216,7 @@ TEST_F(GBufferEmitterShapes, CloseToTheCamera)
             }
 }
 
-// The Sun, a wide one that lies over it, and a floor and a lamp in front of them.
+// The Sun, a wider sun that covers it, and a floor and a lamp in front of both.
 TEST_F(GBufferEmitterShapes, DistantSpheresShowWhereNothingElseIs)
 {
     for (int kind = 0; kind < 4; ++kind) {
@@ -247,7 +247,7 @@ TEST_F(GBufferEmitterShapes, DistantSpheresShowWhereNothingElseIs)
             for (uint32_t x = 0; x < image.width; ++x) {
                 const size_t i = size_t(y) * image.width + x;
                 const Ray ray = pixelRay(options, x, y);
-                if (image.covered(i)) { // floor or lamp
+                if (image.covered(i)) { // shows the floor or the lamp
                     ASSERT_LE(image.radiance[i].r, 100);
                     continue;
                 }
@@ -270,8 +270,8 @@ TEST_F(GBufferEmitterShapes, DistantSpheresShowWhereNothingElseIs)
                               winner ? winner->emission[c] : options.background[c])
                         << x << " " << y;
             }
-        // The wide one shows some 36 x 36 pixels less what the lamp hides; parallel rays see the
-        // whole sky in one direction.
+        // The wide sun shows about 36 x 36 pixels minus those that the lamp hides. Parallel rays
+        // see only one direction of the sky.
         std::printf("projection %d: pixels of the wide sun %zu, of the Sun %zu\n", kind, suns[0],
                     suns[1]);
         if (kind != 3) {

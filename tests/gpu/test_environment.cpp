@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as a light: white furnace, prefiltered and diffuse light against double
-// integration, directions, background, what is refused.
+// Tests the environment as a light: white furnace, prefiltered and diffuse light against
+// double-precision integration, directions, background, refused arguments.
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -21,7 +21,7 @@ constexpr double pi = std::numbers::pi;
 constexpr float surfaceDepth = 0.5f;
 const glm::vec4 white(1), noSpecular(0);
 
-// Orthographic: every pixel is seen along +z of view space.
+// An orthographic camera: every pixel is seen along +z of view space.
 CpuGBuffer orthographic(uint32_t width, uint32_t height)
 {
     CpuGBuffer g{.width = width, .height = height};
@@ -35,14 +35,14 @@ void rotateView(CpuGBuffer& g, const glm::dmat3& viewFromWorld)
         g.camera.viewFromWorld[4 * (i / 3) + i % 3] = viewFromWorld[i / 3][i % 3];
 }
 
-// Rotations whose axes and angles have nothing to do with the axes of a cube.
+// Returns rotations whose axes and angles are unrelated to the axes of a cube.
 glm::dmat3 someRotation(int i)
 {
     const glm::dvec3 axis = glm::normalize(glm::dvec3(std::sin(i * 1.3), std::cos(i * 2.1), 0.4));
     return glm::dmat3(glm::rotate(glm::dmat4(1), 0.7 + 1.9 * i, axis));
 }
 
-// Smooth sky, a bright and a faint patch, darker below.
+// A smooth sky with a bright and a faint patch, darker below.
 double cloudySky(const glm::dvec3& d)
 {
     const auto patch = [&](const glm::dvec3& centre, double width, double peak) {
@@ -51,14 +51,14 @@ double cloudySky(const glm::dvec3& d)
     return 1 + 0.6 * d.y + patch({1, 0.5, -0.4}, 0.25, 8) + patch({-0.3, -0.2, 1}, 0.5, 2);
 }
 
-// A sun of 3 degrees radius, a million times brighter than the rest.
+// A sun with a radius of 3 degrees, a million times brighter than the rest.
 double sunnySky(const glm::dvec3& d)
 {
     const double cosine = glm::dot(d, glm::normalize(glm::dvec3(0.4, 0.7, 0.3)));
     return 1 + 1e6 * std::clamp((cosine - std::cos(0.0525)) / 1e-5 + 0.5, 0.0, 1.0);
 }
 
-// Integral over the hemisphere around n, in rings and spokes around n.
+// Integrates over the hemisphere around n, in rings and spokes around n.
 double overHemisphere(const glm::dvec3& n, int rings,
                       const std::function<double(const glm::dvec3&, double)>& f)
 {
@@ -67,7 +67,7 @@ double overHemisphere(const glm::dvec3& n, int rings,
     double sum = 0;
     const int spokes = 2 * rings;
     for (int i = 0; i < rings; ++i) {
-        const double u = (i + 0.5) / rings, angle = pi / 2 * u * u; // crowds around n
+        const double u = (i + 0.5) / rings, angle = pi / 2 * u * u; // concentrates rings near n
         const double area = std::sin(angle) * pi * u / rings * (2 * pi / spokes);
         for (int j = 0; j < spokes; ++j) {
             const double phi = 2 * pi * (j + 0.5) / spokes;
@@ -117,17 +117,17 @@ TEST_F(EnvironmentTest, WhiteFurnace)
     EXPECT_GE(std::min({metalLeast, least, givenLeast}), 0.99);
     EXPECT_LE(std::max({metalMost, most, givenMost}), 1 + 1e-3);
 
-    // Without compensation, a white metal reflects its directional albedo.
+    // Without energy compensation a white metal reflects its directional albedo.
     const auto plain = shade(metal);
     for (size_t i = 0; i < plain.size(); ++i) {
         const double NoV = cosines[i % cosines.size()], alpha = alphas[i / cosines.size()];
         EXPECT_NEAR(plain[i].x, reference::specularAlbedo(NoV, alpha, 1e-5).a, 2e-3);
     }
-    // Summed lobes reflect more than there is: the furnace can fail.
+    // Summed lobes reflect more light than arrives, which shows that the furnace test can fail.
     EXPECT_GT(extremes(shade(dielectric, {.lobes = CND_LOBES_SUM})).second, 1.03);
 }
 
-// Seen along the normal, where split sum is the whole integral but for shadowing.
+// Views along the normal, where the split sum equals the whole integral except for shadowing.
 TEST_F(EnvironmentTest, PrefilteredLightMatchesDoubleIntegration)
 {
     setImage(imageOf(cloudySky, 1024), 256);
@@ -144,7 +144,8 @@ TEST_F(EnvironmentTest, PrefilteredLightMatchesDoubleIntegration)
         const glm::dvec3 n = glm::transpose(viewFromWorld) * glm::dvec3(0, 0, 1);
         for (size_t i = 0; i < roughnesses.size(); ++i) {
             const double alpha = std::max(roughnesses[i] * roughnesses[i], 0.002);
-            // The mirror image is checked as such; its lobe is narrower than the rings below.
+            // The mirror image is compared with the sky itself, because its lobe is narrower than
+            // the rings below.
             const double expected =
                 alpha < 0.005
                     ? cloudySky(n)
@@ -171,7 +172,7 @@ TEST_F(EnvironmentTest, DiffuseLightMatchesDoubleIntegration)
     const struct {
         const char* name;
         Sky sky;
-        double bound; // of the largest radiance over all normals
+        double bound; // relative to the largest radiance over all normals
     } skies[] = {{"cloudy", cloudySky, 1e-3}, {"sunny", sunnySky, 4e-3}};
     for (const auto& [name, sky, bound] : skies) {
         setImage(imageOf(sky, 2048), 256);
@@ -197,8 +198,8 @@ TEST_F(EnvironmentTest, DiffuseLightMatchesDoubleIntegration)
     }
 }
 
-// Mirrors and background of a turned camera in a turned environment show the sky of the right
-// direction, at the right scale, perspective.
+// For a rotated perspective camera in a rotated environment, mirrors and background show the sky of
+// the right direction at the right scale.
 TEST_F(EnvironmentTest, DirectionsScaleAndBackground)
 {
     setImage(imageOf(cloudySky, 1024), 256);
@@ -231,13 +232,13 @@ TEST_F(EnvironmentTest, DirectionsScaleAndBackground)
     std::cout << "mirror and background: largest relative error " << worst << "\n";
     EXPECT_LE(worst, 0.01);
 
-    // Without the flag, pixels without a surface are left alone.
+    // Without `background`, pixels without a surface are left alone.
     const auto left = shade(g, {.radianceBefore = 3});
     for (size_t i = 1; i < left.size(); i += 2)
         EXPECT_EQ(left[i], glm::vec4(3));
 }
 
-// What a file may hold besides light.
+// Values that an image file may hold besides light.
 TEST_F(EnvironmentTest, BrokenPixelsStayFinite)
 {
     EnvironmentImage image = imageOf([](const glm::dvec3&) { return 1; }, 32);

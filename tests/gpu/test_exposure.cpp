@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histogram, adaptation and the contract of the exposure module, against the double reference.
+// Tests histogram, adaptation and the contract of the exposure module against the double-precision
+// reference.
 #include "gpu/exposure_harness.h"
 
 #include <algorithm>
@@ -18,8 +19,9 @@ namespace
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-// Of EV100, to the double reference: float32 sums of 256 products relative to the total (256 *
-// 6e-8) of values up to 20. A hundredth of what could be seen (0.01 EV).
+// Tolerance of EV100 against the double-precision reference: float32 sums of 256 products have a
+// relative error of 256 * 6e-8, for values up to 20. This is a hundredth of what could be visible
+// (0.01 EV).
 constexpr double evTolerance = 1e-4;
 
 void expectSameHistogram(const CndExposureStats& stats, const reference::Histogram& expected,
@@ -56,7 +58,7 @@ std::vector<std::string> kernelNames(const CndExposureStats& stats)
     return names;
 }
 
-// 64 x 64 greys over four stops from 2^stops up.
+// 64 x 64 grey pixels over four stops from 2^stops upwards.
 Picture spreadPicture(double stops)
 {
     std::vector<float> values;
@@ -67,8 +69,8 @@ Picture spreadPicture(double stops)
 
 } // namespace
 
-// Twenty random images, three metering modes: every count equals the reference, and so does what
-// follows from them.
+// For twenty random images and three metering modes every count, and everything computed from the
+// counts, equals the reference.
 TEST_F(ExposureTest, countsAreExact)
 {
     std::mt19937 random(1);
@@ -105,7 +107,7 @@ TEST_F(ExposureTest, countsAreExact)
     EXPECT_GT(bins, 20u * 3 * 64); // the images do reach the bins
 }
 
-// Luminances on the edge of every bin and the floats beside it.
+// Luminances at the edge of every bin, and the neighbouring floats.
 TEST_F(ExposureTest, edgesAreExact)
 {
     Picture picture{0, 1, {}};
@@ -125,7 +127,7 @@ TEST_F(ExposureTest, edgesAreExact)
     expectSameHistogram(measure(picture, plainSettings()), histogramOf(picture), "edges");
 }
 
-// Counts beyond 2^24 and windows of every width, down to the narrowest.
+// Counts beyond 2^24, and percentile windows of every width down to the narrowest.
 TEST_F(ExposureTest, percentilesAreExactForLargeCounts)
 {
     Picture picture{2048, 1536, {}};
@@ -165,18 +167,18 @@ TEST_F(ExposureTest, rampGivesMonotoneContinuousEv)
             largest = std::max(largest, ev - previous);
         }
         previous = ev;
-        // The mean of the spread is 2 stops, K adds 3.
+        // The mean of the spread is 2 stops, and K adds 3.
         ASSERT_NEAR(ev, stops + 5, 0.02);
     }
     EXPECT_LT(largest, 2 * step);
 }
 
-// 0.4 s towards bright, then 1.2 s towards dark.
+// 0.4 s of adaptation to a bright image, then 1.2 s to a dark one.
 TEST_F(ExposureTest, sameCurveAtAnyFrameRate)
 {
     const gpu::Image bright = toDevice(flatPicture(8, 8, 3000));
     const gpu::Image dark = toDevice(flatPicture(8, 8, 0.2f));
-    std::vector<std::vector<double>> curves; // at 15 Hz
+    std::vector<std::vector<double>> curves; // sampled at 15 Hz
     for (const int rate : {15, 60, 240}) {
         std::vector<double> curve;
         CndExposureFrame frame = frameOf(bright, plainSettings());
@@ -242,7 +244,7 @@ TEST_F(ExposureTest, compensationAndRange)
     EXPECT_EQ(measure(picture, settings).adaptedEv100, 12);
     settings.minEv100 = settings.maxEv100 = -2.5f;
     EXPECT_EQ(measure(picture, settings).targetEv100, -2.5f);
-    // A range that moved away from the history takes it along at once.
+    // If the range moves away from the history, the history follows at once.
     settings = plainSettings();
     settings.minEv100 = 3;
     const gpu::Image black = toDevice(flatPicture(2, 2, 0));
@@ -290,7 +292,7 @@ TEST_F(ExposureTest, manualBuildsNoHistogram)
     EXPECT_STREQ(adapted.passes[2].skipped, "no display image");
 }
 
-// Frames submitted without waiting adapt as the same frames one by one.
+// Frames that are submitted without waiting adapt like the same frames submitted one by one.
 TEST_F(ExposureTest, framesInFlightFollowOneAnother)
 {
     const gpu::Image images[] = {toDevice(wildPicture(97, 61, 5)), toDevice(spreadPicture(9)),
@@ -317,7 +319,7 @@ TEST_F(ExposureTest, framesInFlightFollowOneAnother)
     }
 }
 
-// The first frame that runs is a reset, even after one that was recorded and thrown away.
+// The first frame that is executed is a reset, even if an earlier one was recorded and discarded.
 TEST_F(ExposureTest, unsubmittedFramesLeaveNoTrace)
 {
     CndExposureStats stats{.structSize = sizeof stats};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the exposure module writes to the display, and the arguments it refuses.
+// Tests what the exposure module writes to the display, and the arguments that it refuses.
 #include "gpu/exposure_harness.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-// Colours from far below black to far beyond white, saturated ones among them.
+// Colours from far below black to far beyond white, including saturated ones.
 Picture colours(uint32_t width, uint32_t height)
 {
     std::mt19937 random(3);
@@ -47,7 +47,7 @@ struct Moments {
     double mean, variance;
 };
 
-// Of all channels of a flat picture whose encoded value is `steps` / 255.
+// Returns mean and variance over all channels of an image, in steps of 1/255.
 Moments ditheredMoments(const std::vector<uint8_t>& rgba)
 {
     double sum = 0, squares = 0, count = 0;
@@ -88,16 +88,16 @@ TEST_F(ExposureTest, everyCurveMatchesTheReference)
             }
             ASSERT_EQ(rgba[p + 3], 255);
         }
-        // Rounding to whole steps is worth half of one; the rest is float32.
+        // Rounding to whole steps costs up to half a step; the rest is float32.
         EXPECT_LE(worst, 0.52) << "curve " << i << ", pixel " << where;
-        EXPECT_GT(levels, 200u) << "curve " << i; // the picture shows the whole range
+        EXPECT_GT(levels, 200u) << "curve " << i; // the image covers the whole range
     }
 }
 
 TEST_F(ExposureTest, displayIsDefinedForAnyRadiance)
 {
     const float values[] = {nan, -nan, -1, -infinity, -0.0f, 1e-42f, infinity, 3e38f};
-    constexpr size_t dark = 6; // the first six
+    constexpr size_t dark = 6; // the first six values are displayed as black
     for (uint32_t i = 0; i < CND_TONEMAP_COUNT; ++i)
         for (const float ev : {-64.0f, 0.0f, 64.0f}) {
             CndExposureSettings settings = manualSettings(ev, CndToneMap(i));
@@ -115,13 +115,14 @@ TEST_F(ExposureTest, displayIsDefinedForAnyRadiance)
                     }
                 }
         }
-    // A channel that is NaN does not take the others with it.
+    // A NaN in one channel does not affect the other channels.
     const std::vector<uint8_t> mixed =
         display({1, 1, {nan, 1.2f, infinity, 0}}, manualSettings(0, CND_TONEMAP_NONE));
     EXPECT_EQ(mixed, (std::vector<uint8_t>{0, 255, 255, 255}));
 }
 
-// Mean at every value, variance away from the ends: 1/4 = triangular 1/6 + rounding 1/12.
+// The mean is kept at every value. Away from the ends the variance is 1/4: triangular noise 1/6
+// plus rounding 1/12.
 TEST_F(ExposureTest, ditherKeepsTheMean)
 {
     constexpr uint32_t side = 256;
@@ -132,7 +133,7 @@ TEST_F(ExposureTest, ditherKeepsTheMean)
         const float value = float(decodeSrgb(steps / 255));
         const std::vector<uint8_t> rgba = display(flatPicture(side, side, value), settings, 11);
         const Moments m = ditheredMoments(rgba);
-        // Standard error 0.5 / sqrt(3 * 65536) = 0.0011; value and exposure are float32.
+        // The standard error is 0.5 / sqrt(3 * 65536) = 0.0011; value and exposure are float32.
         EXPECT_NEAR(m.mean, steps, 0.006) << steps;
         if (steps > 1 && steps < 254) {
             EXPECT_NEAR(m.variance, 0.25, 0.01) << steps;
@@ -155,7 +156,7 @@ TEST_F(ExposureTest, sameSeedSameDisplay)
     EXPECT_EQ(display(picture, settings, 5), display(picture, settings, 6));
 }
 
-// Automatic exposure reaches the display: a flat grey lands where the reference says.
+// Automatic exposure reaches the display: a uniform grey is displayed as the reference predicts.
 TEST_F(ExposureTest, automaticExposureReachesTheDisplay)
 {
     const Picture picture = flatPicture(31, 17, 700);
@@ -175,7 +176,7 @@ TEST_F(ExposureTest, badArgumentsAreRefusedWithASentence)
 {
     const gpu::Image radiance = toDevice(flatPicture(4, 4, 1));
     struct Case {
-        const char* word; // in the sentence
+        const char* word; // must occur in the error message
         std::function<void(CndExposureFrame&)> spoil;
     };
     const Case cases[] = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces lit through the GLSL of hosts (lib/forward.glsl) have the luminance that the module's
-// own pass gives them, on the opaque surfaces of the view and anywhere before, behind and beside
-// them.
+// Surfaces lit through the GLSL for hosts (lib/forward.glsl) must have the luminance that the
+// module's own pass gives them: on the opaque surfaces of the view, and anywhere in front of,
+// behind and beside them.
 #include <cmath>
 #include <iostream>
 #include <tuple>
@@ -17,9 +17,9 @@ namespace candelabra::test
 namespace
 {
 
-constexpr double tolerance = 1e-5; // issue 5, acceptance line 7
+constexpr double tolerance = 1e-5; // relative difference of a pixel
 
-// A host with a pipeline of its own beside the module.
+// A host with a pipeline of its own in addition to the module.
 class ForwardTest : public LightingTest
 {
 protected:
@@ -78,8 +78,8 @@ protected:
     }
 
     struct Lit {
-        std::vector<glm::vec4> deferred;              // of the view
-        std::vector<gpu::ForwardProbeOutput> forward; // of the surfaces of `at`
+        std::vector<glm::vec4> deferred;              // radiance of the view
+        std::vector<gpu::ForwardProbeOutput> forward; // luminance of the surfaces of `at`
         std::vector<glm::vec4> lit() const
         {
             std::vector<glm::vec4> out;
@@ -95,7 +95,8 @@ protected:
             return out;
         }
     };
-    // Records the view with the surfaces of `seen`; then lights those of `at`, of the same camera.
+    // Records the view with the surfaces of `seen`, then lights the surfaces of `at`, which have
+    // the same camera.
     Lit frame(const CpuGBuffer& seen, const CpuGBuffer& at, const RunOptions& options,
               uint32_t shadowed = 0)
     {
@@ -131,7 +132,7 @@ protected:
             d.CmdPushConstants(cmd, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof params,
                                &params);
             d.CmdDispatch(cmd, gpu::divideUp(count, gpu::FORWARD_PROBE_GROUP), 1, 1);
-            // The next frame may be recorded at once: the module waits for the shader above.
+            // The next frame may be recorded immediately: the module waits for the shader above.
             f.frameSlot = slot_ = 1 - slot_;
             EXPECT_EQ(cndRecordLighting(view_, cmd, &f, &error), CND_SUCCESS) << error.message;
             fullBarrier(cmd);
@@ -170,8 +171,8 @@ CpuGBuffer gbuffer(uint32_t seed, bool perspective = true)
     return randomGBuffer(64, 48, camera, 0, seed);
 }
 
-// Also without any opaque surface, and when the module itself culls nothing. Lights of other layers
-// are left out; a shadow term scales lights by their ids.
+// Also without any opaque surface, and when the module itself does not cull. Lights of other layers
+// are left out, and a shadow term scales lights by their ids.
 TEST_F(ForwardTest, EqualsTheDeferredResultForTheSameSurface)
 {
     const CpuGBuffer seen = gbuffer(3), elsewhere = gbuffer(4);
@@ -192,7 +193,7 @@ TEST_F(ForwardTest, EqualsTheDeferredResultForTheSameSurface)
     const double onSurface = maxPixelDifference(twice, same.deferred);
     EXPECT_LE(onSurface, tolerance);
     EXPECT_LE(maxPixelDifference(same.stepped(), same.lit()), tolerance);
-    constexpr uint32_t shadowed = 9; // bits of ids
+    constexpr uint32_t shadowed = 9; // a bit mask of ids
     for (size_t id = 0; id < lights.size(); ++id)
         for (float& e : lights[id].emission)
             e *= id & shadowed ? 0.5f : 1.0f;
@@ -228,13 +229,13 @@ TEST_F(ForwardTest, OfEachTypeAloneEqualsTheDeferredResult)
     }
 }
 
-// Lights that the display decides about are cut for both alike.
+// Lights cut with CND_INFLUENCE_BY_ERROR are cut alike for both.
 TEST_F(ForwardTest, UnderLightsThatAreCutByAnError)
 {
     const CpuGBuffer seen = gbuffer(12);
     std::vector<CndLight> lights = randomSpheres(seen, 100, 62);
     for (size_t i = 10; i < lights.size(); ++i)
-        lights[i].radius = 0.01f; // dim
+        lights[i].radius = 0.01f; // makes the light dim
     create(seen, lights, true);
     const RunOptions options{
         .specular = CND_SPECULAR_CONIC,
@@ -258,7 +259,7 @@ TEST_F(ForwardTest, UnderAnOrthographicCameraAndManyLights)
 {
     const CpuGBuffer seen = gbuffer(7, false), elsewhere = gbuffer(8, false);
     std::vector<CndLight> lights = randomSpheres(elsewhere, 3000, 60);
-    for (CndLight& light : lights) // so that no loop of llvmpipe ends early
+    for (CndLight& light : lights) // so that no loop exceeds llvmpipe's limit
         light.influenceRadius = 0.3f + 1.01f * light.radius;
     create(seen, lights);
     const RunOptions options{.specular = CND_SPECULAR_CONIC};
@@ -267,7 +268,7 @@ TEST_F(ForwardTest, UnderAnOrthographicCameraAndManyLights)
               tolerance);
 }
 
-// Of points and spheres, whose illuminance has a closed form.
+// The illuminance of points and spheres has a closed form.
 TEST_F(ForwardTest, IlluminanceForVolumes)
 {
     const CpuGBuffer g = gbuffer(9);
@@ -307,7 +308,7 @@ TEST_F(ForwardTest, IlluminanceForVolumes)
     }
     EXPECT_GT(peak, 0);
     EXPECT_LE(largest,
-              2e-4); // of a point a few centimetres away, whose position is single precision
+              2e-4); // for a point a few centimetres away, whose position is single precision
 }
 
 TEST_F(ForwardTest, SetsThatAreNotThereAreNamed)

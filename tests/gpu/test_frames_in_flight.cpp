@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames that really overlap: three slots, two views on one light set, sets that grow and shrink
-// while earlier frames are still on the GPU. Every image must be that of a fresh, lone frame.
+// Frames that really overlap: three slots, two views of one light set, and sets that grow and
+// shrink while earlier frames are still on the GPU. Every image must equal that of a single frame
+// rendered alone.
 #include "gpu/lighting_harness.h"
 #include "harness/full_tests.h"
 
@@ -16,12 +17,12 @@ namespace
 
 constexpr uint32_t slotCount = 3;
 
-// Command buffer, fence and read-back buffers of a frame in flight.
+// Command buffer, fence and readback buffers of a frame in flight.
 struct Slot {
     VkCommandBuffer cmd{};
     VkFence fence{};
     gpu::Buffer images[2];
-    uint32_t set = 0; // which light set it drew
+    uint32_t set = 0; // index of the light set that it drew
     bool used = false;
 };
 
@@ -161,9 +162,9 @@ TEST_F(FramesInFlight, ViewsAndGrowingSetsStayRight)
     cndDestroyLighting(lighting);
 }
 
-// Two views, three frames in flight, another size with every frame, views made anew while lights
-// come, go and move: every image is that of brute force recorded beside it. (What is allocated and
-// freed meanwhile is counted on the mock driver: tests/mock/test_lifetimes.cpp.)
+// Two views with three frames in flight, another size in every frame, and views that are recreated
+// while lights are added, removed and moved: every image must equal brute force recorded beside it.
+// (tests/mock/test_lifetimes.cpp checks what is allocated and freed meanwhile.)
 TEST_F(FramesInFlight, StormOfSizesAndLightsEqualsBrute)
 {
     const int frames = fullTests() ? 500 : 60;
@@ -247,7 +248,7 @@ TEST_F(FramesInFlight, StormOfSizesAndLightsEqualsBrute)
                 ASSERT_EQ(cndUpdateLights(lighting, count, &ids[first], &lights[first], &error),
                           CND_SUCCESS)
                     << error.message;
-            } else { // the same by other lights
+            } else { // achieves the same by removing and adding lights
                 ASSERT_EQ(cndRemoveLights(lighting, count, &ids[first], &error), CND_SUCCESS)
                     << error.message;
                 ASSERT_EQ(cndAddLights(lighting, count, &lights[first], &ids[first], &error),

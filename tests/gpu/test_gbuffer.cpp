@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The G-buffer: packing bounds, depth and material factors of meshes, transforms.
+// Tests the G-buffer: packing bounds, depth and material factors of meshes, transforms.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -25,7 +25,7 @@ class GBufferPacking : public ProbeTest
 {
 };
 
-// The declared bounds hold, and are not slack: the worst case found is at least a third of them.
+// The declared bounds hold and are not loose: the worst error found is at least a third of them.
 TEST_F(GBufferPacking, ErrorsStayWithinDeclaredBounds)
 {
     Random random(1);
@@ -37,9 +37,9 @@ TEST_F(GBufferPacking, ErrorsStayWithinDeclaredBounds)
                     inputs.push_back({glm::normalize(glm::vec3(x, y, z)), 0.5f * (x + 1)});
     for (int i = 0; i < 400000; ++i) {
         glm::dvec3 n = random.direction();
-        if (i % 4 == 1) // around the fold of the octahedron
+        if (i % 4 == 1) // near the fold of the octahedron
             n = glm::normalize(n * glm::dvec3(1, 1, 1e-6));
-        else if (i % 4 == 2) // and the poles
+        else if (i % 4 == 2) // near the poles
             n = glm::normalize(n * glm::dvec3(1e-4, 1e-4, 1));
         inputs.push_back({glm::vec3(n), float(random.uniform(0, 1))});
     }
@@ -71,7 +71,7 @@ TEST_F(GBufferPacking, ErrorsStayWithinDeclaredBounds)
 class GBufferMesh : public RasterTest
 {
 protected:
-    // A tilted quad that fills the middle of the view, non-uniformly scaled.
+    // A tilted, non-uniformly scaled quad that fills the middle of the view.
     static glm::dmat4 tilted()
     {
         glm::dmat4 m = glm::translate(glm::dmat4(1), glm::dvec3(0.3, -0.2, -7));
@@ -87,7 +87,8 @@ protected:
 };
 
 // Relative distance of reconstructed positions from the quad's plane. The rasteriser interpolates
-// depth: worst cases measured on lavapipe 1.3e-7 reversed, 4e-7 orthographic, 1.1e-6 not reversed.
+// depth; the worst values measured on lavapipe are 1.3e-7 reversed, 4e-7 orthographic, 1.1e-6 not
+// reversed.
 TEST_F(GBufferMesh, DepthGivesThePositionBack)
 {
     RasterOptions options = perspectiveOptions();
@@ -115,7 +116,8 @@ TEST_F(GBufferMesh, DepthGivesThePositionBack)
             }
         std::printf("projection %d: worst relative distance from the plane %.3g\n", projection,
                     worst);
-        // Depth that is not reversed has steps of 2^-24 near 1: z^2 / near * 2^-24 metres.
+        // Depth that is not reversed has steps of 2^-24 near 1, which are z^2 / near * 2^-24
+        // metres.
         EXPECT_LE(worst, reversed ? 1e-6 : 1e-5);
     }
 }
@@ -134,13 +136,13 @@ TEST_F(GBufferMesh, FullLayoutHoldsTheMaterial)
             ASSERT_EQ(image.radiance[i], glm::vec4(7, 8, 9, 1));
             continue;
         }
-        // 1e-6: rounding of the normal on its way through the vertex shader.
+        // 1e-6 allows for rounding of the normal in the vertex shader.
         ASSERT_LE(angleBetween(storedNormal(image, i), normal), gpu::NORMAL_ERROR_FULL + 1e-6);
         ASSERT_NEAR(storedRoughness(image, i), m.perceptualRoughness, gpu::ROUGHNESS_ERROR_FULL);
         const glm::vec4 albedo = storedHalf4(image.albedo[i]);
         const glm::vec4 specular = storedHalf4(image.specular[i]);
         for (int c = 0; c < 3; ++c) {
-            // Half precision, whichever way it is rounded.
+            // Half precision, rounded either way.
             const float base = m.baseColor[c];
             ASSERT_NEAR(albedo[c], base * 0.75f, base * 0.75f / 1024);
             const float F0 = 0.04f * 0.75f + base * 0.25f;
@@ -168,14 +170,14 @@ TEST_F(GBufferMesh, CompactLayoutHoldsTheMaterial)
         const glm::u8vec4 albedo = image.compactAlbedo[i];
         for (int c = 0; c < 3; ++c) {
             const double encoded = 1.055 * std::pow(double(m.baseColor[c]), 1 / 2.4) - 0.055;
-            // Vulkan lets the implementation be off by 0.6 of a step when it encodes sRGB.
+            // Vulkan allows an error of 0.6 steps when sRGB is encoded.
             ASSERT_NEAR(albedo[c], encoded * 255, 0.6 + 0.5);
         }
         ASSERT_NEAR(albedo.a / 255.0, m.metalness, 0.51 / 255);
     }
 }
 
-// A thousand kilometres from the origin in every axis the picture is that of the origin.
+// A thousand kilometres from the origin along every axis the image equals that at the origin.
 TEST_F(GBufferMesh, FarFromTheOriginLooksTheSame)
 {
     Random random(3);
@@ -206,13 +208,14 @@ TEST_F(GBufferMesh, FarFromTheOriginLooksTheSame)
     EXPECT_LE(different, 4u); // pixel centres on an edge
 }
 
-// A mirrored instance shows its outside: same silhouette, normals of the mirrored shape.
+// A mirrored instance shows its outside: the silhouette is mirrored, and the normals are those of
+// the mirrored shape.
 TEST_F(GBufferMesh, MirroredInstancesKeepTheirOutside)
 {
     for (const bool flipCamera : {false, true}) {
         SCOPED_TRACE(flipCamera);
         RasterOptions options = perspectiveOptions();
-        if (flipCamera) // an image upside down
+        if (flipCamera) // an upside-down image
             options.camera.clipFromView[5] *= -1;
         const glm::dmat4 place = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4));
         const glm::dmat4 mirror = glm::scale(place, glm::dvec3(-1, 1, 1));
@@ -230,7 +233,7 @@ TEST_F(GBufferMesh, MirroredInstancesKeepTheirOutside)
                 if (!a.covered(i))
                     continue;
                 const glm::dvec3 n = storedNormal(a, i), m = storedNormal(b, j);
-                // Facets at grazing angles may turn a little away from the viewer.
+                // Facets at grazing angles may face slightly away from the viewer.
                 ASSERT_GT(glm::dot(n, viewPosition(a, x, y)), -4.0);
                 ASSERT_LT(glm::dot(n, glm::normalize(viewPosition(a, x, y))), 0.1);
                 ASSERT_LT(angleBetween(n, m * glm::dvec3(-1, 1, 1)), 1e-5);

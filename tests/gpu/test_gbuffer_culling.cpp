@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GPU culling and batching of instances, through the images and the draw commands it leaves behind.
+// Tests culling and batching of instances on the GPU, through images and the draw commands that
+// result.
 #include <algorithm>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -17,8 +18,8 @@ class GBufferCulling : public RasterTest
 protected:
     static constexpr uint32_t instanceCount = 3000;
 
-    // Boxes and spheres of very different sizes, mirrored ones among them; one batch is longer than
-    // a chunk by far.
+    // Boxes and spheres of very different sizes, some mirrored; one batch is much longer than a
+    // chunk.
     static RasterScene crowd()
     {
         Random random(5);
@@ -73,8 +74,8 @@ protected:
         return sum;
     }
 
-    // Instances whose bounds reach into the view by at least `margin` (share of their size and
-    // distance), in double.
+    // Counts, in double precision, the instances whose bounds reach into the view by at least
+    // `margin` (a share of their size and distance).
     static uint32_t boundsInView(const RasterScene& scene, const RasterOptions& options,
                                  double margin)
     {
@@ -98,7 +99,7 @@ protected:
     }
 };
 
-// The picture does not change, and what is outside the view is not drawn.
+// Culling must not change the image, and must not draw what is outside the view.
 TEST_F(GBufferCulling, ChangesNothingButTheWork)
 {
     Random random(6);
@@ -117,7 +118,7 @@ TEST_F(GBufferCulling, ChangesNothingButTheWork)
         EXPECT_EQ(drawnInstances(geometry), instanceCount);
         expectSameImage(culled, all);
         EXPECT_GE(drawn, boundsInView(scene, options, 0));
-        // The kernel's slack is 1e-5 of the sum of the coordinates.
+        // The slack of the kernel's test is 1e-5 of the sum of the coordinates.
         EXPECT_LE(drawn, boundsInView(scene, options, -4e-5));
         fewest = std::min(fewest, drawn);
         most = std::max(most, drawn);
@@ -126,7 +127,7 @@ TEST_F(GBufferCulling, ChangesNothingButTheWork)
     EXPECT_GT(most, instanceCount / 4);
 }
 
-// Coplanar quads fight for every pixel; the winner is the same in each run.
+// Coplanar quads compete for every pixel; the same one must win in each run.
 TEST_F(GBufferCulling, TwoRunsAreBitIdentical)
 {
     RasterScene scene;
@@ -141,13 +142,13 @@ TEST_F(GBufferCulling, TwoRunsAreBitIdentical)
     const gbuffer::Geometry geometry = uploadGeometry(scene);
     EXPECT_EQ(geometry.counts().draws, 1u);
     const RasterImage first = render(geometry, options);
-    // Equal depth: the first one drawn stays.
+    // With equal depth the quad drawn first stays.
     EXPECT_NEAR(storedHalf4(first.albedo[60 * 160 + 80]).r, 0, 1e-6);
     expectSameImage(first, render(geometry, options));
     expectSameImage(first, render(scene, options));
 }
 
-// 40000 instances of one mesh are split over three draws, all in the same run.
+// 40000 instances of one mesh are split into three draws within one run.
 TEST_F(GBufferCulling, LongBatchesAreSplit)
 {
     RasterScene scene;
@@ -163,7 +164,7 @@ TEST_F(GBufferCulling, LongBatchesAreSplit)
     RasterOptions options = perspectiveOptions();
     const RasterImage tiles = render(geometry, options);
     EXPECT_EQ(drawnInstances(geometry), 40000u);
-    // Together they are one quad of half size 1; adjacent edges round to the same subpixel.
+    // Together they form a quad of half size 1; adjacent edges round to the same subpixel.
     RasterScene one;
     one.addInstance(one.addMesh(quadMesh()), one.addMaterial(testMaterial()),
                     glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -2)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray-cast surfaces against double precision: planes, balls and visible sphere lights.
+// Tests ray-cast surfaces against double precision: planes, balls and visible sphere lights.
 #include <cmath>
 #include <cstdio>
 
@@ -34,8 +34,8 @@ class GBufferRays : public RasterTest
 {
 };
 
-// Relative error 4e-7 and a step of the depth format, also 1e6 m from the origin. Near the horizon
-// the error along the ray grows with the inverse of the slope.
+// The relative error is at most 4e-7 plus a step of the depth format, also 1e6 m from the origin.
+// Near the horizon the error along the ray grows with the inverse of the slope.
 TEST_F(GBufferRays, PlaneReconstructsToTheExactPoint)
 {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.1, 1, -0.05));
@@ -89,18 +89,18 @@ TEST_F(GBufferRays, OnlyTheUpperSideOfAPlaneIsSeen)
     EXPECT_EQ(render(scene, options).coveredCount(), 0u);
 }
 
-// Small and far, large and near (a planet under the feet), and at the rim.
+// Balls that are small and far, large and near (a planet under the feet), and their rims.
 TEST_F(GBufferRays, BallReconstructsToTheExactPoint)
 {
     struct Case {
-        double radius, distance; // from the surface
+        double radius, distance; // distance from the surface
     };
     for (const Case& c : {Case{1, 3}, {0.02, 5}, {6.4e6, 2}, {1e3, 0.5}})
         for (int kind = 0; kind < 4; ++kind) {
             SCOPED_TRACE(::testing::Message() << "radius " << c.radius << ", projection " << kind);
             RasterOptions options = perspectiveOptions();
             setProjection(options, kind);
-            if (c.radius < 0.1) // zoom in
+            if (c.radius < 0.1) // needs a zoom
                 options.camera.clipFromView[0] *= 100, options.camera.clipFromView[5] *= 100;
             const glm::dvec3 center(0, -c.radius, 0);
             lookAt(options.camera, {0, c.distance, 0.3 * std::min(c.radius, 1.0)},
@@ -146,7 +146,8 @@ TEST_F(GBufferRays, BallReconstructsToTheExactPoint)
 class GBufferEmitters : public RasterTest
 {
 protected:
-    // Per pixel the nearest light, in double; compares coverage, luminance, depth.
+    // Finds the nearest light of each pixel in double precision; compares coverage, luminance and
+    // depth.
     void expectRayCast(const RasterImage& image, const RasterOptions& options)
     {
         size_t onRim = 0, shown = 0;
@@ -178,11 +179,11 @@ protected:
                 for (int c = 0; c < 3; ++c)
                     ASSERT_EQ(image.radiance[i][c], winner->emission[c]) << x << " " << y;
                 const glm::dvec3 p = ray.at(nearest);
-                if (insideDepthRange(options, p)) { // closer ones are drawn at the near plane
+                if (insideDepthRange(options, p)) { // closer lights are drawn at the near plane
                     ASSERT_LE(glm::length(worldPosition(image, x, y) - p),
                               1e-4 * glm::length(p - ray.origin));
                 }
-                // Lighting finds nothing to light.
+                // The surface that is written reflects nothing, so lighting adds nothing.
                 if (options.layout == CND_GBUFFER_COMPACT) {
                     ASSERT_EQ(image.normalRoughness[i].x, gpu::NORMAL_ROUGHNESS_UNLIT_COMPACT);
                 } else {
@@ -221,7 +222,7 @@ TEST_F(GBufferEmitters, SilhouettesAreThoseOfTheRayCast)
         }
 }
 
-// Wide lenses, lights that touch the near plane, that almost touch the eye, and that hold it.
+// Wide lenses with lights that touch the near plane, almost touch the eye, or contain it.
 TEST_F(GBufferEmitters, CloseAndAroundTheCamera)
 {
     gbuffer::GBuffer pass(device(), {.framesInFlight = 1});
@@ -266,7 +267,7 @@ TEST_F(GBufferEmitters, HideAndAreHidden)
         }
 }
 
-// Other types are not drawn, sets grow and shrink between frames of two slots.
+// Lights of other types are not drawn, and sets may grow and shrink between frames of two slots.
 TEST_F(GBufferEmitters, SetsFollowTheFrames)
 {
     gbuffer::GBuffer pass(device(), {.framesInFlight = 2});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures, vertex colours, normal maps and alpha masks in the G-buffer.
+// Tests textures, vertex colours, normal maps and alpha masks in the G-buffer.
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -18,7 +18,8 @@ double linearFromSrgb(double code)
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-// Samplers decode with limited accuracy: lavapipe 22.3 is off by up to 0.3 codes (0.7% of 0.1).
+// Samplers decode with limited accuracy: lavapipe 22.3 is off by up to 0.3 codes (0.7% for a value
+// of 0.1).
 void expectDecoded(double value, uint8_t code, double factor)
 {
     EXPECT_GE(value, factor * linearFromSrgb(code - 0.5));
@@ -36,7 +37,7 @@ std::vector<uint8_t> texels(std::initializer_list<Texel> list)
     return rgba;
 }
 
-// Top left, top right, bottom left, bottom right.
+// Texels top left, top right, bottom left, bottom right.
 constexpr Texel quadrants[4] = {
     {10, 200, 90, 255}, {250, 128, 0, 200}, {0, 60, 255, 20}, {180, 30, 130, 100}};
 
@@ -56,7 +57,7 @@ protected:
         material.perceptualRoughness = 1;
     }
 
-    // A quad that fills the view exactly, straight ahead.
+    // Renders a quad, seen straight on, that fills the view exactly.
     RasterImage renderQuad(RasterScene::MeshData mesh = quadMesh(),
                            const glm::dmat4& shape = glm::dmat4(1))
     {
@@ -67,7 +68,7 @@ protected:
         return image;
     }
 
-    // The pixel in the middle of quadrant x, y.
+    // Returns the index of the pixel in the middle of quadrant x, y.
     static size_t pixel(int x, int y) { return size_t(16 + 32 * y) * 64 + size_t(16 + 32 * x); }
 
     RasterScene scene;
@@ -93,7 +94,8 @@ TEST_F(GBufferTexture, BaseColorIsDecodedAndMultiplied)
     }
 }
 
-// u' = 1 - v, v' = u: a quarter turn; and the second set, whose u runs the other way.
+// A quarter turn, u' = 1 - v and v' = u; and the second uv set, whose u runs in the opposite
+// direction.
 TEST_F(GBufferTexture, UvTransformAndSecondSet)
 {
     RasterScene::MeshData mesh = quadMesh();
@@ -162,8 +164,8 @@ TEST_F(GBufferTexture, VertexColorsAreInterpolated)
     }
 }
 
-// The texel's direction in the frame (tangent, bitangent, normal), for both handednesses, under
-// mirrored and squeezed instances, with and without scale.
+// The texel is a direction in the frame (tangent, bitangent, normal). Tested with both
+// handednesses, with mirrored and squeezed instances, with and without normal scale.
 TEST_F(GBufferTexture, NormalMapsTurnTheNormal)
 {
     constexpr Texel texel{200, 90, 220, 255};
@@ -195,7 +197,7 @@ TEST_F(GBufferTexture, MaskShowsWhatIsBehind)
     material.masked = true;
     material.alpha = 0.9f;
     material.alphaCutoff = 0.5f;
-    // Coverages 0.9, 0.71, 0.07, 0.35.
+    // The coverages are 0.9, 0.71, 0.07 and 0.35.
     material.baseColorTexture.texture = int32_t(scene.addTexture(
         nearest2x2, texels({quadrants[0], quadrants[1], quadrants[2], quadrants[3]})));
     gbuffer::Material behind;
@@ -213,7 +215,8 @@ TEST_F(GBufferTexture, MaskShowsWhatIsBehind)
     }
 }
 
-// Eight repeats of a checkerboard per pixel: the linear average, not that of the codes.
+// With eight repeats of a checkerboard per pixel the result is the average of linear values, not of
+// codes.
 TEST_F(GBufferTexture, MinifiedTexturesAreAveragedInLinearSpace)
 {
     std::vector<uint8_t> checker;
@@ -227,7 +230,8 @@ TEST_F(GBufferTexture, MinifiedTexturesAreAveragedInLinearSpace)
     ref.uRow[0] = ref.vRow[1] = 64;
     const RasterImage image = renderQuad();
     for (size_t i = 0; i < image.albedo.size(); i += 37)
-        EXPECT_NEAR(storedHalf4(image.albedo[i]).r, 0.5, 0.004); // one 8-bit step near code 188
+        EXPECT_NEAR(storedHalf4(image.albedo[i]).r, 0.5, 0.004); // tolerance: one 8-bit step near
+                                                                 // code 188
 }
 
 } // namespace candelabra::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device's timestamps on the CPU's clock.
+// Tests the mapping of the device's timestamps to the CPU's clock.
 #include "harness/gpu_fixture.h"
 #include "render/gpu_clock.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of a host in the kernels (candelabra/compiler.h): its shadow term multiplies each light
-// by its id, and a G-buffer that it reads itself is lit like the same surfaces in a layout of ours.
+// Tests functions of a host in the kernels (candelabra/compiler.h): its shadow term multiplies each
+// light by id, and a G-buffer that it reads itself is lit like the same surfaces in a built-in
+// layout.
 #include <cstdlib>
 #include <string>
 
@@ -13,15 +14,15 @@ namespace candelabra::test
 namespace
 {
 
-// What a light is, and how much of it is seen.
+// A light as the shadow term expects it, and how much of it is visible.
 struct Shadow {
-    glm::vec3 centre; // distant lights: unit, towards it
+    glm::vec3 centre; // for distant lights the unit vector towards the light
     float visible;
     uint32_t type;
 };
 
-// A shadow term that also checks what it is asked: of a light that is not the one it should be, too
-// much is seen.
+// A shadow term that also checks its query: if the light is not the expected one, it returns too
+// much light.
 constexpr const char* shadowSource = R"(
 struct Shadow { vec3 centre; float visible; uint type; };
 layout(scalar, set = 1, binding = 0) readonly buffer Shadows { Shadow shadows[]; };
@@ -65,10 +66,10 @@ protected:
         images_ = {};
         EnvironmentTest::TearDown();
     }
-    // Of the light with this id; returns the light as it shows then.
+    // Sets the visibility of the light with this id; returns the light as it then appears.
     CndLight shadowed(CndLightId id, CndLight light)
     {
-        constexpr float parts[] = {0, 0.25f, 0.5f, 1}; // that multiply without rounding
+        constexpr float parts[] = {0, 0.25f, 0.5f, 1}; // factors that multiply without rounding
         const float visible = parts[(id * 7 + light.type) % 4];
         const bool distant =
             light.type == CND_LIGHT_DIRECTIONAL || light.type == CND_LIGHT_DISTANT_SPHERE;
@@ -86,7 +87,7 @@ protected:
         return options;
     }
 
-    // To be destroyed by the caller.
+    // Creates a lighting and a view, which the caller must destroy.
     std::pair<CndLighting, CndLightingView> create(const RunOptions& options)
     {
         images_ = uploadImages(g_);
@@ -120,7 +121,7 @@ protected:
         return readRadiance(images_);
     }
 
-    // What is read, as a picture.
+    // Returns the picture of what is read from the G-buffer.
     std::vector<std::byte> overlay(CndLightingView view, const RunOptions& options)
     {
         const gpu::Image picture =
@@ -145,7 +146,7 @@ protected:
     gpu::Buffer shadows_;
 };
 
-// Lists, no room for lists, and every light at every pixel.
+// With lists, with no room for lists, and with every light at every pixel.
 TEST_F(HostFunctions, AShadowTermScalesEachLightById)
 {
     const CompiledKernels kernels =
@@ -177,8 +178,8 @@ TEST_F(HostFunctions, AShadowTermScalesEachLightById)
     destroy(lighting, view);
 }
 
-// Of lights that come and go, and of those on the device: beside kernels without a shadow term, and
-// lights that are scaled.
+// Ids of lights that are added and removed, and of lights on the device. Compares with kernels
+// without a shadow term and lights that are scaled instead.
 TEST_F(HostFunctions, IdsStayThroughEdits)
 {
     const CompiledKernels kernels = compiled({.functions = CND_HOST_VISIBILITY_BIT,
@@ -209,8 +210,8 @@ TEST_F(HostFunctions, IdsStayThroughEdits)
     EXPECT_TRUE(sameBits(frame(view, options), before));
     for (const CndLighting each : {lighting, plain})
         EXPECT_EQ(cndRemoveLights(each, 20, &ids[5], &error), CND_SUCCESS) << error.message;
-    add(60, 30);                        // some in the places of those
-    std::swap(lights[40], lights[100]); // another light by the same id
+    add(60, 30);                        // some reuse the places of removed lights
+    std::swap(lights[40], lights[100]); // another light under the same id
     const CndLight scaled = shadowed(ids[40], lights[40]);
     EXPECT_EQ(cndUpdateLights(lighting, 1, &ids[40], &lights[40], &error), CND_SUCCESS);
     EXPECT_EQ(cndUpdateLights(plain, 1, &ids[40], &scaled, &error), CND_SUCCESS);
@@ -265,7 +266,7 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
     setLights(plain, lights);
     const std::vector<glm::vec4> expected = frame(plainView, {.countPairs = true});
     const std::vector<std::byte> ours = overlay(plainView, {});
-    images_.normalRoughness.view = {}; // only depth is looked at
+    images_.normalRoughness.view = {}; // only the depth image may be used
     images_.albedo.view = {};
     images_.specular.view = {};
     options.countPairs = true;
@@ -273,7 +274,7 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
     CndLightingStats stats[2]{{.structSize = sizeof stats[0]}, {.structSize = sizeof stats[0]}};
     EXPECT_EQ(cndGetLightingStats(view, 0, &stats[0]), CND_SUCCESS);
     EXPECT_EQ(cndGetLightingStats(plainView, 0, &stats[1]), CND_SUCCESS);
-    // Normals are made unit once more, so a light at the horizon may count here and not there.
+    // Normals are normalised once more, so a light at the horizon may count in only one of the two.
     EXPECT_LE(maxRelativeDifference(clustered, expected), 1e-4);
     EXPECT_NEAR(double(stats[0].contributingPairs), double(stats[1].contributingPairs), 5);
     EXPECT_GT(stats[0].contributingPairs, 100u);
@@ -307,7 +308,8 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
     EXPECT_LE(maxRelativeDifference(readRadiance(images_), underSky), 1e-4);
 }
 
-// A layout alone asks for none: a shadow term is no part of the environment, and may do without.
+// A set layout alone requires no set. A shadow term does not affect the environment, which needs no
+// set for it.
 TEST_F(HostFunctions, ASetIsNeededWhereAKernelUsesIt)
 {
     CndCompileDesc desc{.functions = CND_HOST_VISIBILITY_BIT,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Classes of materials in kernels with functions of a host: a surface that it reads itself, and a
-// shadow term.
+// Tests classes of materials with kernels that contain functions of a host: one that reads
+// surfaces, and a shadow term.
 #include <string>
 
 #include "candelabra/compiler.hpp"
@@ -44,7 +44,8 @@ TEST_F(LightingTest, ClassesOfSurfacesThatTheHostReadsLookTheSame)
     EXPECT_LE(maxPixelDifference(apart.radiance, together.radiance), 1e-5);
     EXPECT_GT(apart.stats.diffuseTileCount, 8u);
     EXPECT_GT(apart.stats.specularTileCount, 8u);
-    // Every second light is dimmed in all classes: the same as dimmed lights without functions.
+    // Every second light is dimmed in all classes, which must equal dimmed lights without host
+    // functions.
     std::vector<CndLight> dimmed = lights;
     for (size_t i = 1; i < dimmed.size(); i += 2)
         for (float& e : dimmed[i].emission)

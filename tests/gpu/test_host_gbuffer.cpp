@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// G-buffers of hosts: any layout that CndGBufferDesc can say is lit like the FULL layout of the
-// same surfaces. What a layout rounds differs from what another rounds, so both get what is left
-// after the host's rounding; how much that rounding costs is said beside it.
+// Tests G-buffers of hosts: every layout that CndGBufferDesc can describe is lit like the FULL
+// layout of the same surfaces. Because layouts round differently, both get the surfaces as they are
+// after the host's rounding; what that rounding costs is printed.
 #include "gpu/host_gbuffer_harness.h"
 
 #include <array>
@@ -18,22 +18,22 @@ namespace
 {
 
 constexpr uint32_t width = 72, height = 48;
-// m. With nearer planes depth that is not reversed shows how a device rounds 24 bits to a float: at
-// 0.1 m the last bit is 0.7 mm of the farthest wall.
+// Metres. With a nearer plane, depth that is not reversed would show how a device rounds 24 bits to
+// a float: at 0.1 m the last bit is 0.7 mm of the farthest wall.
 constexpr double nearPlane = 0.5;
 
 struct Layout {
     const char* name;
     CndGBufferDesc desc;
-    bool reversed; // depth, and then infinitely far
-    // Devices may decode sRGB as they like within half a step of 8 bits; llvmpipe's curve is off
-    // by 1.3e-3.
+    bool reversed; // depth is reversed, and then the far plane is infinite
+    // Devices may decode sRGB as they like within half a step of 8 bits; llvmpipe's curve is off by
+    // 1.3e-3.
     double tolerance = 1e-3;
     CndSpecularMethod method = CND_SPECULAR_KARIS;
 };
 
 const Layout layouts[] = {
-    // What the acceptance of the module names.
+    // The layouts that the module must support at least.
     {"WorldRgb10",
      {.normalEncoding = CND_NORMAL_UNORM,
       .normalSpace = CND_NORMALS_WORLD,
@@ -105,7 +105,7 @@ CndCamera camera(bool reversed)
     return out;
 }
 
-// Walls at several depths, holes among them, bumps and materials of their own at every pixel.
+// Walls at several depths with holes between them; every pixel has its own bump and material.
 HostPixels randomSurfaces(const Layout& layout)
 {
     const CndCamera c = camera(layout.reversed);
@@ -124,7 +124,7 @@ HostPixels randomSurfaces(const Layout& layout)
     return packing.pixels();
 }
 
-// Near the surfaces, in world space.
+// Returns lights near the surfaces, in world space.
 std::vector<CndLight> lightsOf(const CpuGBuffer& g)
 {
     std::vector<CndLight> lights = randomSpheres(g, 60, 3);
@@ -152,7 +152,7 @@ protected:
         if (!(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
             GTEST_SKIP() << "the device has no depth of this format";
     }
-    // With lists and by brute force.
+    // Shades with lists and by brute force.
     std::array<std::vector<glm::vec4>, 2> light(const HostPixels& pixels,
                                                 const std::vector<CndLight>& lights)
     {
@@ -220,7 +220,7 @@ TEST_P(Layouts, AreLitByTheEnvironmentLikeOurOwn)
 INSTANTIATE_TEST_SUITE_P(HostGBuffer, Layouts, ::testing::ValuesIn(layouts),
                          [](const auto& test) { return test.param.name; });
 
-// --- The overlay.
+// --- the overlay
 
 const CndGBufferDesc floats{.normalEncoding = CND_NORMAL_SNORM,
                             .normalSpace = CND_NORMALS_WORLD,
@@ -243,7 +243,7 @@ class SurfaceOverlay : public HostGBufferTest
 {
 protected:
     using Picture = std::vector<glm::u8vec4>;
-    // By CndSurfaceQuantity.
+    // Returns one picture per CndSurfaceQuantity.
     std::vector<Picture> show(const HostPixels& pixels)
     {
         const HostImages host = uploadHost(pixels);
@@ -327,11 +327,11 @@ TEST_F(SurfaceOverlay, MarksPlantedMistakes)
     }
     const Picture shown = show(p)[CND_SURFACE_FAULTS];
     for (size_t i = 0; i < std::size(pixels); ++i)
-        for (int k = 0; k < 3; ++k) // NoV of the first is almost 1
+        for (int k = 0; k < 3; ++k) // NoV of the first pixel is almost 1
             EXPECT_NEAR(shown[i][k], pixels[i].colour[k], 2) << pixels[i].what << ' ' << k;
 }
 
-// Every quantity, and the six of them small.
+// Checks every quantity, and the six small pictures of CND_SURFACE_ALL.
 TEST_F(SurfaceOverlay, ShowsWhatIsRead)
 {
     const HostPixels p = randomSurfaces({"", floats, true});
@@ -371,8 +371,8 @@ TEST_F(SurfaceOverlay, ShowsWhatIsRead)
     }
 }
 
-// FULL surfaces that face the eye, under every kind of camera: nothing is marked, and positions
-// are where they are.
+// FULL surfaces that face the eye, under every kind of camera: no fault is marked, and positions
+// are right.
 TEST_F(SurfaceOverlay, MarksNothingThatIsRight)
 {
     for (const bool reversed : {false, true})

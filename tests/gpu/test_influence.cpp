@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that are cut by an error change no pixel of the display by more, against all light by
-// brute force; what is not to be measured is not; and without it nothing changes.
+// Tests of CND_INFLUENCE_BY_ERROR: cut lights change no pixel of the display by more than the
+// error, compared with brute force under all light. Nothing is measured that should not be, and
+// other rules are unaffected.
 #include "commands/influence_check.h"
 #include "gpu/influence_harness.h"
 #include "harness/paths.h"
@@ -40,7 +41,7 @@ TEST_F(InfluenceTest, ScenesStayWithinTheError)
                 const InfluenceCheck check =
                     checkInfluence(context(), renderer, options, last, scene.lights.size());
                 EXPECT_LE(check.largest, check.bound) << name << " " << influenceText(check);
-                // Something is cut, and it shows.
+                // Some light is cut, and the cut has an effect.
                 EXPECT_GT(check.cutBelow, 0) << name << " " << levels;
                 EXPECT_GT(check.largest, 0) << name << " " << levels;
                 RecordProperty(std::string(name) + (manual ? "_manual_" : "_auto_") +
@@ -50,7 +51,7 @@ TEST_F(InfluenceTest, ScenesStayWithinTheError)
     }
 }
 
-// Where lamps add little to what there is, lists are short.
+// Where lamps add little to the existing light, their lists are short.
 TEST_F(InfluenceTest, LampsByDayEndWhereTheDisplayDoesNotTell)
 {
     using namespace app;
@@ -76,7 +77,7 @@ TEST_F(InfluenceTest, LampsByDayEndWhereTheDisplayDoesNotTell)
     EXPECT_LE(check.largest, check.bound) << influenceText(check);
 }
 
-// Every type, under both projections.
+// Lights of every type, with both kinds of projection.
 TEST_F(InfluenceTest, EveryTypeStaysWithinTheError)
 {
     const CpuGBuffer first = surfaces();
@@ -96,7 +97,7 @@ TEST_F(InfluenceTest, EveryTypeStaysWithinTheError)
         frame_.culling = CND_CULLING_BRUTE;
         const std::vector<glm::vec4> truth = uncut();
         frame_.culling = CND_CULLING_CLUSTERED;
-        // Another error: a history of its own.
+        // Another maxError starts a history of its own.
         const CndInfluence influence{.rule = CND_INFLUENCE_BY_ERROR,
                                      .maxError = (perspective ? 8.0f : 9.0f) / 255,
                                      .exposure = exposureFor(truth),
@@ -118,7 +119,7 @@ TEST_F(InfluenceTest, WhatIsNotAskedForChangesNothing)
     EXPECT_EQ(given.cutBelow, 0);
     EXPECT_TRUE(sameBits(readRadiance(images_), run(g, lights).radiance));
 
-    // Uncut lights are those with an infinite radius, by brute force as well; and so are lights of
+    // Uncut lights equal lights with an infinite radius, also by brute force. So do lights of
     // frames whose exposure is not known.
     const std::vector<glm::vec4> everywhere = uncut();
     for (CndLight& light : lights)
@@ -131,7 +132,7 @@ TEST_F(InfluenceTest, WhatIsNotAskedForChangesNothing)
     EXPECT_LE(maxRelativeDifference(readRadiance(images_), everywhere), 1e-5);
 }
 
-// Lights of other layers are not measured, and a frame whose layers have no light does nothing.
+// Lights of other layers are not measured, and a frame whose layers contain no light does nothing.
 TEST_F(InfluenceTest, LayersAreMeasuredAlone)
 {
     const CpuGBuffer g = surfaces();
@@ -144,7 +145,8 @@ TEST_F(InfluenceTest, LayersAreMeasuredAlone)
     const CndLightingStats alone = draw(influence);
     EXPECT_GT(alone.cutBelow, 0);
     const std::vector<glm::vec4> expected = readRadiance(images_);
-    // In the same places, which keeps the order; so many that lanes take their lights in blocks.
+    // The copies are at the same places, which keeps the order, and so many that lanes take their
+    // lights in blocks.
     std::vector<CndLight> all;
     for (const CndLight& light : shown) {
         all.insert(all.end(), 14, light);
@@ -160,7 +162,7 @@ TEST_F(InfluenceTest, LayersAreMeasuredAlone)
     frame_.layers = 1;
     CndInfluence other = influence;
     other.maxError *= 2;
-    draw(other); // what follows is a history of its own
+    draw(other); // starts a history of its own for what follows
     EXPECT_EQ(draw(influence).cutBelow, alone.cutBelow);
     EXPECT_TRUE(sameBits(readRadiance(images_), expected));
     for (const CndInfluenceRule rule : {CND_INFLUENCE_UNCUT, CND_INFLUENCE_BY_ERROR}) {
@@ -172,7 +174,7 @@ TEST_F(InfluenceTest, LayersAreMeasuredAlone)
     }
 }
 
-// Radii that lights are given say nothing where these do not hold: not where tiles are split.
+// Given radii must have no effect where they do not apply, not even on which tiles are split.
 TEST_F(InfluenceTest, GivenRadiiChangeNothing)
 {
     const CpuGBuffer g = surfaces();
@@ -238,7 +240,7 @@ TEST_F(InfluenceTest, WhatCannotBeMeasuredIsRefused)
     cndDestroyLightingView(view);
     cndDestroyLighting(lighting);
 
-    // Kernels of hosts hold none that measures.
+    // Host kernels contain no kernel that measures.
     const CndKernelCode kernel{};
     const CndLightingDesc desc{.structSize = sizeof desc,
                                .framesInFlight = 1,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cuts from frame to frame: they repeat, neither jump nor flicker, and rise no sooner than all
-// pixels have been seen, in images of any size.
+// Cuts over several frames: they repeat, do not jump or flicker, and rise only after all pixels
+// have been seen, in images of any size.
 #include "gpu/influence_harness.h"
 #include "harness/full_tests.h"
 
@@ -9,7 +9,7 @@ namespace candelabra::test
 namespace
 {
 
-// A square of this many pixels is seen once in as many frames.
+// Returns the number of frames in which every pixel of a square is seen once.
 constexpr uint32_t period(uint32_t spacing)
 {
     return spacing * spacing;
@@ -21,19 +21,19 @@ TEST_F(InfluenceTest, HistoriesRepeatAndNeitherJumpNorFlicker)
     create(g, brightAndDim(g));
     CndInfluence influence{
         .rule = CND_INFLUENCE_BY_ERROR, .maxError = 8.0f / 255, .exposure = exposureFor(uncut())};
-    std::vector<float> cuts; // exposed illuminance
+    std::vector<float> cuts; // illuminance after exposure
     const auto frames = [&](bool white, uint32_t count) {
         base_ = white ? 2 / influence.exposure : 0;
         for (uint32_t i = 0; i < count; ++i)
             cuts.push_back(draw(influence).cutBelow * influence.exposure);
     };
     constexpr uint32_t all = period(gpu::INFLUENCE_MIN_SPACING);
-    frames(true, all); // where no light can be seen
+    frames(true, all); // in these frames no light can be seen
     for (size_t i = 1; i < cuts.size(); ++i)
         EXPECT_LE(cuts[i], cuts[i - 1]) << i;
     const float settled = cuts.back();
     EXPECT_GT(settled, 0);
-    // A moment in which less may be missing: cut less at once, and for a whole period.
+    // One frame in which less may be missing: cuts fall at once, and stay for a whole period.
     const std::vector<glm::vec4> before = readRadiance(images_);
     frames(false, 1);
     const float fallen = cuts.back();
@@ -46,7 +46,8 @@ TEST_F(InfluenceTest, HistoriesRepeatAndNeitherJumpNorFlicker)
         EXPECT_LE(cuts[i], cuts[i - 1] * 1.415f) << i;
     EXPECT_TRUE(sameBits(readRadiance(images_), before));
 
-    // Another error begins anew, and so does the first: the same bits.
+    // Another error starts a new history, and so does going back to the first: the bits are the
+    // same.
     base_ = 0;
     influence.maxError *= 2;
     draw(influence);
@@ -56,7 +57,8 @@ TEST_F(InfluenceTest, HistoriesRepeatAndNeitherJumpNorFlicker)
     EXPECT_TRUE(sameBits(run(g, brightAndDim(g), {.influence = influence}).radiance, first));
 }
 
-// An image with so many squares of 8x8 that they are of 16x16: cuts rise after 256 frames, not 64.
+// An image with so many 8x8 squares that 16x16 squares are used: cuts rise after 256 frames instead
+// of 64.
 TEST_F(InfluenceTest, CutsOfLargeImagesRiseOnceAllPixelsWereSeen)
 {
     CndCamera camera;
@@ -78,7 +80,7 @@ TEST_F(InfluenceTest, CutsOfLargeImagesRiseOnceAllPixelsWereSeen)
     const float fallen = draw(influence).cutBelow;
     EXPECT_LT(fallen, settled);
     base_ = white;
-    // The first period saw a frame that cut less, the second sees none.
+    // The first period contains a frame that cut less, the second contains none.
     constexpr uint32_t rises = 2 * period(16);
     const uint32_t frames = fullTests() ? rises : 2 * period(8) + 20;
     for (uint32_t i = 2; i < frames; ++i)
@@ -88,7 +90,7 @@ TEST_F(InfluenceTest, CutsOfLargeImagesRiseOnceAllPixelsWereSeen)
     }
 }
 
-// More than a history begins with: the frames behind it go on where it ended.
+// More pixels than a history starts with: the following frames continue where it ended.
 TEST_F(InfluenceTest, HistoriesOfHugeImagesBeginWithAPart)
 {
     CpuGBuffer g = surfaces();
@@ -99,7 +101,7 @@ TEST_F(InfluenceTest, HistoriesOfHugeImagesBeginWithAPart)
     huge.normalRoughness.resize(pixels);
     huge.albedo.resize(pixels);
     huge.specular.resize(pixels);
-    // The one surface: of the first square of 32x32, pixel (0, 1) is the 257th that is seen.
+    // The only surface: in the first 32x32 square, pixel (0, 1) is the 257th that is seen.
     static_assert(gpu::INFLUENCE_MAX_ROUNDS == 256);
     CpuGBuffer one{.camera = g.camera};
     addPixel(one, {.depth = depthAt(g.camera, 5), .albedo = glm::vec3(0.5f)});
@@ -131,7 +133,7 @@ TEST_F(InfluenceTest, ListsAreKeptWithTheirRadii)
     const CndLightingStats made = draw(influence);
     const std::vector<glm::vec4> image = readRadiance(images_);
     EXPECT_EQ(skipped(made, "measure_influence"), "");
-    // The measurement goes on.
+    // Measuring continues.
     const CndLightingStats again = draw(influence, true);
     EXPECT_EQ(skipped(again, "measure_influence"), "");
     EXPECT_EQ(skipped(again, "cluster_lists"), "");

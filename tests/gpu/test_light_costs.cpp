@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lights cost what, and what each gives to a pixel: against the engine's own counts, its
-// image, and the truth.
+// Tests which lights cost what, and what each contributes to a pixel, against the engine's own
+// counts, its image, and the truth.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -48,11 +48,11 @@ TEST_F(LightCostsTest, AddUpToWhatTheEngineCounts)
         sum += light.pairs;
     }
     EXPECT_EQ(covered, costs.coveredPairs);
-    // Two ways to the same pairs: the device's lists, and every light against the G-buffer.
+    // Two ways to count the same pairs: the device's lists, and every light against the G-buffer.
     EXPECT_NEAR(double(covered), double(stats.contributingPairs),
                 0.002 * double(stats.contributingPairs));
     EXPECT_NEAR(sum + costs.others, costs.pairs, 1e-6 * costs.pairs);
-    EXPECT_GE(sum, 0.95 * costs.pairs); // hardly a tile waits for nothing
+    EXPECT_GE(sum, 0.95 * costs.pairs); // hardly any tile waits without a contributing light
     ASSERT_GE(costs.lights.size(), 100u);
     EXPECT_GE(costs.lights[0].pairs, costs.lights[1].pairs);
 
@@ -64,7 +64,7 @@ TEST_F(LightCostsTest, AddUpToWhatTheEngineCounts)
     EXPECT_NEAR(ms, 100, 5);
     EXPECT_EQ(json["lights"].size(), 20u);
 
-    // Without the costliest, about its pairs are not evaluated.
+    // Without the most expensive light, about its number of pairs fewer are evaluated.
     Scene without = scene;
     without.lights.erase(without.lights.begin() + costs.lights[0].light);
     Renderer other(context(), without,
@@ -84,7 +84,7 @@ TEST_F(LightCostsTest, LightsOfAPixelAddUpToIt)
         std::optional<uint32_t> lights;
         CndGBufferLayout layout;
     };
-    // COMPACT stores the surface coarsely, and both ways start from that.
+    // COMPACT stores surfaces coarsely; both sides of the comparison use what it stores.
     for (const Case& c : {Case{"hall", 200, CND_GBUFFER_FULL},
                           {"showcase", std::nullopt, CND_GBUFFER_FULL},
                           {"hall", 200, CND_GBUFFER_COMPACT}}) {
@@ -104,8 +104,8 @@ TEST_F(LightCostsTest, LightsOfAPixelAddUpToIt)
                     << c.scene << " " << pixel.x << "," << pixel.y;
             lights += pick.lights.size();
             for (const PickedLight& light : pick.lights)
-                // Tubes, rectangles and discs are left out: their fitted lobe can be far from the
-                // truth (tools/bench/RESULTS.md, accuracy of one light).
+                // Tubes, rectangles and discs have a fitted lobe, whose error is large in places
+                // (see the limits in README).
                 if (light.radiance.y > 0.01 * pick.radiance.y &&
                     scene.lights[light.light].type < CND_LIGHT_TUBE)
                     worst = std::max(worst, std::abs(light.radiance.y / light.truth.y - 1));
@@ -113,6 +113,6 @@ TEST_F(LightCostsTest, LightsOfAPixelAddUpToIt)
         std::cout << c.scene << ": " << lights << " lights at four pixels, error to truth up to "
                   << 100 * worst << "%\n";
         EXPECT_GE(lights, 4u) << c.scene;
-        EXPECT_LT(worst, 0.05) << c.scene; // of lights that give a hundredth or more
+        EXPECT_LT(worst, 0.05) << c.scene; // for lights that contribute at least a hundredth
     }
 }

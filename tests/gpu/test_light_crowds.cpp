@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights where they hurt most: a crowd within one pixel, all of them over the whole screen, lists
-// in a megabyte.
+// Lights where they hurt most: a crowd within one pixel, all of them over the whole screen, and
+// lists in one megabyte.
 #include "gpu/lighting_harness.h"
 
 #include <limits>

@@ -21,7 +21,7 @@ protected:
             return;
         g_ = randomGBuffer(64, 48, 3);
     }
-    // Of every type, in layers 0 and 2.
+    // Returns lights of every type, in layers 0 and 2.
     std::vector<CndLight> shown() const
     {
         std::vector<CndLight> all;
@@ -32,7 +32,8 @@ protected:
             }
         return all;
     }
-    // Each followed by one of layer 1 in the same place: the sorted order of the others stays.
+    // Adds to each light one of layer 1 at the same place, so that the sorted order of the others
+    // stays.
     static std::vector<CndLight> withHidden(const std::vector<CndLight>& lights)
     {
         std::vector<CndLight> all;
@@ -47,14 +48,14 @@ protected:
     CpuGBuffer g_;
 };
 
-// Lists, no room for lists, and every light at every pixel.
+// With lists, with no room for lists, and with every light at every pixel.
 TEST_F(LightLayers, LeaveTheSameBitsAsASetWithoutTheOthers)
 {
     CndError error{};
     const CndLightingDesc desc{.structSize = sizeof desc, .framesInFlight = 1};
     CndLighting lighting{};
     ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS);
-    CndLightingView views[2]{}; // the second has no room
+    CndLightingView views[2]{}; // the second has no room for lists
     for (int i = 0; i < 2; ++i) {
         const CndLightingViewDesc viewDesc{sizeof viewDesc, g_.width, g_.height, i ? 4096u : 0};
         ASSERT_EQ(cndCreateLightingView(lighting, &viewDesc, &views[i], &error), CND_SUCCESS);
@@ -111,7 +112,7 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
     setLights(lighting, all);
     const auto frame = [&](uint32_t layers) {
         CndLightingFrame f = frameOf(g_, images, {.layers = layers});
-        f.surfacesUnchanged = VK_TRUE; // lists are kept while layers stay
+        f.surfacesUnchanged = VK_TRUE; // lists are kept while the layers stay the same
         context().submitAndWait([&](VkCommandBuffer cmd) {
             clearRadiance(cmd, images);
             EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
@@ -126,7 +127,7 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
     EXPECT_TRUE(sameBits(frame(1), first));
     EXPECT_TRUE(sameBits(frame(2), run(g_, others).radiance));
     EXPECT_TRUE(sameBits(frame(1), first));
-    // No type has a light in this layer: nothing runs.
+    // No light is in this layer: nothing runs.
     EXPECT_TRUE(sameBits(frame(8), std::vector<glm::vec4>(first.size(), glm::vec4(0))));
     CndLightingStats stats{.structSize = sizeof stats};
     ASSERT_EQ(cndGetLightingStats(view, 0, &stats), CND_SUCCESS);
@@ -137,14 +138,14 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
             found = true;
         }
     EXPECT_TRUE(found);
-    // Layers of lights change places.
+    // The lights swap their layers.
     for (size_t i = 0; i < all.size(); ++i) {
         all[i].layers = 3 & ~all[i].layers;
         const CndLightId id = i;
         ASSERT_EQ(cndUpdateLights(lighting, 1, &id, &all[i], &error), CND_SUCCESS) << error.message;
     }
     EXPECT_TRUE(sameBits(frame(2), first));
-    // More of them in a layer that had none.
+    // More of these lights, in a layer that had none.
     const std::vector<glm::vec4> expected = run(g_, others).radiance;
     for (CndLight& light : others)
         light.layers = 4;
@@ -188,7 +189,7 @@ TEST_F(LightLayers, OfLightsOnTheDevice)
         EXPECT_TRUE(sameBits(none.radiance, black));
         EXPECT_EQ(none.stats.deviceLights, lights.size());
     }
-    // Beside the host's of the same type. The order of a sum is that of all of them.
+    // Beside lights of the host of the same type. Sums are formed in the order of all lights.
     std::vector<CndLight> hosts = randomSpheres(g_, 60, 10);
     const LightingResult hostsAlone = run(g_, hosts);
     for (CndLight& light : hosts)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws that the shading of spheres must keep, whatever its accuracy: the point limit, reciprocity,
-// nothing from below the horizon, a sun as far as the Sun.
+// Laws that the shading of spheres must obey, whatever its accuracy: the limit of a point,
+// reciprocity, no light from below the horizon, a sun as far away as the Sun.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -39,7 +39,8 @@ private:
 
 } // namespace
 
-// A point light of the same intensity shows pi s^2 f NoL; the difference is of order (s / alpha)^2.
+// The luminance is pi s^2 f NoL, as for a point light of the same intensity; the difference is of
+// order (s / alpha)^2.
 TEST_F(LightLimits, SmallSpheresBecomePoints)
 {
     for (const double s : {1e-1, 1e-2, 1e-3}) {
@@ -62,7 +63,7 @@ TEST_F(LightLimits, SmallSpheresBecomePoints)
     }
 }
 
-// f(v, l) = f(l, v) for a light so small that it has one direction.
+// f(v, l) = f(l, v), tested with a light so small that it has only one direction.
 TEST_F(LightLimits, EyeAndLightAreExchangeable)
 {
     constexpr double s = 1e-3;
@@ -87,7 +88,7 @@ TEST_F(LightLimits, EyeAndLightAreExchangeable)
 class LightLaws : public LightingTest
 {
 protected:
-    // A plane seen from above, facing the camera.
+    // Returns a plane seen from above that faces the camera.
     CpuGBuffer plane(uint32_t size, double distance)
     {
         CndCamera camera{};
@@ -110,11 +111,12 @@ TEST_F(LightLaws, NothingComesFromBelowTheHorizon)
                        .radius = 0.1f + 0.02f * float(i),
                        .emission = {1000, 1000, 1000},
                        .influenceRadius = 1000};
-        // Behind every plane through a surface sample: those are within 5 m of (0, 0, -5).
+        // The light is behind every plane through a surface sample, because samples are within 5 m
+        // of (0, 0, -5).
         const glm::dvec3 centre = glm::dvec3(0, 0, -5) - n * (5.0 + light.radius + 0.01);
         for (int k = 0; k < 3; ++k) {
             light.position[k] = float(centre[k]);
-            light.direction[k] = float(n[k]); // the way it travels
+            light.direction[k] = float(n[k]); // the direction in which it travels
         }
         if (light.type == CND_LIGHT_DISTANT_SPHERE)
             light.radius = 0.9f;
@@ -128,8 +130,8 @@ TEST_F(LightLaws, NothingComesFromBelowTheHorizon)
                 ASSERT_EQ(pixel, glm::vec4(0)) << "method " << method;
 }
 
-// The Sun as a sphere 149.6 million km away and 696,000 km large, and as a distant sphere; then
-// both with camera and scene 1,000 km from the origin.
+// The Sun as a sphere at a distance of 149.6 million km with a radius of 696,000 km, and as a
+// distant sphere. Then both with camera and scene 1,000 km from the origin.
 TEST_F(LightLaws, SunIsTheSameFromAfar)
 {
     CpuGBuffer g = randomGBuffer(64, 48, plane(8, 5).camera, 0, 3);

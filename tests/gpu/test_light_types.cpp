@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every light type with every specular method: clustered against brute force, and against the truth
-// integrated in double.
+// Tests every light type with every specular method: clustered against brute force, and against the
+// truth integrated in double precision.
 #include "gpu/lighting_harness.h"
 
 #include <cmath>
@@ -28,7 +28,8 @@ CndCamera camera()
     return out;
 }
 
-// Of unit luminance reflected: mean and largest |image - truth|, over the mean and largest truth.
+// Errors relative to reflected luminance: mean and largest |image - truth|, divided by the mean and
+// the largest truth.
 struct Errors {
     double mean = 0, max = 0;
 };
@@ -38,7 +39,8 @@ struct Errors {
 class LightTypes : public LightingTest
 {
 protected:
-    // Not at a grazing angle or from behind: below NoV 0.02 the closed form tilts the view.
+    // Returns false for surfaces at a grazing angle or seen from behind: below a NoV of 0.02 the
+    // closed form tilts the view.
     static bool isSeen(const CpuGBuffer& g, size_t pixel)
     {
         const glm::dvec3 position =
@@ -102,10 +104,11 @@ TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
         const auto lights = lightsOf(type, g, 40, 9);
         const bool sphere = type == CND_LIGHT_SPHERE || type == CND_LIGHT_DISTANT_SPHERE;
         for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method) {
-            // The other types have fewer methods behind the same names.
+            // The other types have fewer methods, some of which stand for several names.
             const bool stands = method == CND_SPECULAR_KX || method == CND_SPECULAR_POINT ||
                                 method == CND_SPECULAR_LTC || method == CND_SPECULAR_CONIC_FULL;
-            // Kernels take long to make: of the other types two, all with --full.
+            // Kernels take long to create: for the other types only two methods are tested, all
+            // with --full.
             const bool later = method == CND_SPECULAR_NONE || method == CND_SPECULAR_SAMPLED;
             if (!sphere && (stands || (later && !fullTests())))
                 continue;
@@ -119,7 +122,7 @@ TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
     }
 }
 
-// All types in one set, in an order that sorting has to change.
+// All types in one set, in an order that sorting must change.
 TEST_F(LightTypes, TypesMixInOneSet)
 {
     const CpuGBuffer g = randomGBuffer(72, 48, camera(), 0, 6);
@@ -140,7 +143,7 @@ TEST_F(LightTypes, TypesMixInOneSet)
     EXPECT_LE(maxRelativeDifference(image, sum), 1e-6);
 }
 
-// Diffuse alone is in closed form for every type; tubes have arcs of six edges.
+// The diffuse term alone is a closed form for every type; the arcs of tubes have six edges.
 TEST_F(LightTypes, DiffuseEqualsTruth)
 {
     const CpuGBuffer g = randomGBuffer(48, 32, camera(), 0, 7);
@@ -153,7 +156,7 @@ TEST_F(LightTypes, DiffuseEqualsTruth)
     }
 }
 
-// Of the whole image: roughness 0.1 to 1, grazing normals, lights across the horizon.
+// Errors of the whole image: roughness 0.1 to 1, grazing normals, lights that cross the horizon.
 TEST_F(LightTypes, DefaultMethodIsCloseToTruth)
 {
     const CpuGBuffer g = randomGBuffer(36, 24, camera(), 0, 8);
@@ -167,9 +170,10 @@ TEST_F(LightTypes, DefaultMethodIsCloseToTruth)
                   << ", " << sampled.max << "\n";
         const bool area =
             type == CND_LIGHT_TUBE || type == CND_LIGHT_RECTANGLE || type == CND_LIGHT_DISC;
-        // Of the luminance, not of the peak; few lights, so single ones show.
+        // Relative to the luminance, not to the peak; with few lights single ones show.
         EXPECT_LE(conic.mean, area ? 0.1 : 8e-3) << names[type];
-        // Half of a tube's samples lie on its far side, the others crowd at its near end.
+        // Half of a tube's samples are on its far side, the others are concentrated at its near
+        // end.
         EXPECT_LE(sampled.mean, type == CND_LIGHT_TUBE ? 0.15 : 0.02) << names[type];
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adding, replacing and removing some lights of a set: the image is that of the set given anew, and
-// only they are uploaded.
+// Adds, replaces and removes some lights of a set: the image must equal that of the whole set given
+// again, and only these lights may be uploaded.
 #include <ctime>
 #include <iostream>
 #include <numeric>
@@ -13,7 +13,8 @@ namespace candelabra::test
 namespace
 {
 
-// Bytes copied between buffers, and within one; Vulkan's function pointers carry no context.
+// Counts bytes copied between buffers and within one. Global because Vulkan's function pointers
+// carry no context.
 struct Interposer {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
@@ -124,7 +125,7 @@ protected:
         EXPECT_EQ(cndRemoveLights(lighting_, uint32_t(ids.size()), ids.data(), &error), CND_SUCCESS)
             << error.message;
     }
-    // Lights of a set from `first` on; both in the set and in the module.
+    // Replaces lights from index `first` on, both in the set and in the module.
     void updateSet(std::vector<CndLight>& lights, uint32_t first, const std::vector<CndLight>& with)
     {
         std::copy(with.begin(), with.end(), lights.begin() + first);
@@ -144,7 +145,7 @@ protected:
     uint32_t slot_ = 0;
 };
 
-// Points, spheres and discs.
+// Returns points, spheres and discs.
 std::vector<CndLight> someLights(const CpuGBuffer& g, uint32_t count, uint32_t seed)
 {
     std::vector<CndLight> lights = randomSpheres(g, count, seed);
@@ -156,7 +157,7 @@ std::vector<CndLight> someLights(const CpuGBuffer& g, uint32_t count, uint32_t s
     return lights;
 }
 
-// Lights that come and go, ids beside them.
+// A set of lights that are added and removed, with their ids.
 struct Population {
     std::vector<CndLight> lights;
     std::vector<CndLightId> ids;
@@ -172,7 +173,7 @@ double cpuSeconds()
     return double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-constexpr double tolerance = 1e-6; // the order of lights follows where the first set was
+constexpr double tolerance = 1e-6; // the order of lights depends on where the first set was
 
 TEST_F(LightUpdates, ShowTheSetGivenAnewAndUploadTheirOwnBytes)
 {
@@ -184,9 +185,9 @@ TEST_F(LightUpdates, ShowTheSetGivenAnewAndUploadTheirOwnBytes)
     updateSet(lights, 7000, fresh);
     const std::vector<glm::vec4> image = frame();
     EXPECT_GE(interposer.copied, 1000u * 64);
-    EXPECT_LE(interposer.copied, 1000u * 64 + 1024); // and statistics
+    EXPECT_LE(interposer.copied, 1000u * 64 + 1024); // plus statistics
     EXPECT_LE(maxRelativeDifference(image, expected(lights)), tolerance);
-    const std::vector<glm::vec4> again = frame(); // nothing new
+    const std::vector<glm::vec4> again = frame(); // nothing has changed
     EXPECT_LE(interposer.copied, 1024u);
     EXPECT_EQ(maxRelativeDifference(again, image), 0);
 }
@@ -195,10 +196,11 @@ TEST_F(LightUpdates, OfMixedTypesAddUpUntilTheyAreRecorded)
 {
     std::vector<CndLight> lights = someLights(g_, 300, 6);
     set(lights);
-    updateSet(lights, 10, someLights(g_, 40, 7)); // before the set was recorded; of other types
+    updateSet(lights, 10, someLights(g_, 40, 7)); // before the set was recorded, and with other
+                                                  // types
     EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), tolerance);
     updateSet(lights, 0, someLights(g_, 100, 8));
-    updateSet(lights, 50, someLights(g_, 250, 9)); // over some of those before
+    updateSet(lights, 50, someLights(g_, 250, 9)); // overlaps the previous ones
     updateSet(lights, 299, someLights(g_, 1, 10));
     EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), tolerance);
     updateSet(lights, 0, someLights(g_, 300, 11)); // all
@@ -206,7 +208,7 @@ TEST_F(LightUpdates, OfMixedTypesAddUpUntilTheyAreRecorded)
     EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), tolerance);
 }
 
-// Everything that may happen between two recordings, from no light to more than buffers hold.
+// Everything that may happen between two recordings, from no light to more than the buffers hold.
 TEST_F(LightUpdates, OfAPopulationThatComesAndGoes)
 {
     std::mt19937 random(20);
@@ -244,7 +246,7 @@ TEST_F(LightUpdates, OfAPopulationThatComesAndGoes)
                 now.ids.erase(now.ids.begin() + std::ptrdiff_t(some[i]));
             }
         }
-        if (step == 25) { // larger buffers, with edits that were never recorded
+        if (step == 25) { // larger buffers, while some edits have not been recorded
             const std::vector<CndLight> more = someLights(g_, 1200, step);
             now.add(more, add(more));
         }
@@ -261,7 +263,7 @@ TEST_F(LightUpdates, OfAPopulationThatComesAndGoes)
 TEST_F(LightUpdates, GiveTheSameBitsForTheSameCalls)
 {
     const std::vector<CndLight> lights = someLights(g_, 500, 21);
-    add(lights); // to no set
+    add(lights); // without a previous set
     const std::vector<glm::vec4> added = frame();
     set(lights);
     EXPECT_TRUE(sameBits(frame(), added));
@@ -279,7 +281,7 @@ TEST_F(LightUpdates, GiveTheSameBitsForTheSameCalls)
     EXPECT_TRUE(sameBits(images[0], images[1]));
 }
 
-// Acceptance: 1,000 of a million lights.
+// The acceptance case: edits of 1,000 lights out of a million.
 TEST_F(LightUpdates, OfAMillionCostTheirOwnBytes)
 {
     constexpr uint32_t all = 1000000, some = 1000;
@@ -298,7 +300,7 @@ TEST_F(LightUpdates, OfAMillionCostTheirOwnBytes)
     frame();
     EXPECT_GE(interposer.copied, VkDeviceSize(all) * 64);
 
-    std::vector<CndLightId> ids(some); // spread over the set
+    std::vector<CndLightId> ids(some); // spread over the whole set
     for (uint32_t i = 0; i < some; ++i)
         ids[i] = i * (all / some);
     const auto edit = [&](const char* name, auto&& call) {
@@ -308,14 +310,14 @@ TEST_F(LightUpdates, OfAMillionCostTheirOwnBytes)
         std::cout << name << " 1,000 of 1,000,000: " << 1e3 * seconds << " ms of CPU time, the set "
                   << 1e3 * whole << " ms\n";
         const std::vector<glm::vec4> image = frame();
-        EXPECT_LE(interposer.copied, some * 64u + 1024); // and statistics
+        EXPECT_LE(interposer.copied, some * 64u + 1024); // plus statistics
         EXPECT_LE(interposer.moved, some * 64u);
         return image;
     };
     const std::vector<CndLight> fresh = small(some, 26), more = small(some, 27);
     edit("update", [&] { update(ids, fresh); });
     edit("remove", [&] { remove(ids); });
-    EXPECT_GE(interposer.moved, (some - 1) * 64u); // the last of them may be the last of all
+    EXPECT_GE(interposer.moved, (some - 1) * 64u); // the last of these may also be the last of all
     EXPECT_LE(interposer.copied, 1024u);
     std::vector<CndLightId> added;
     const std::vector<glm::vec4> image = edit("add", [&] { added = add(more); });
@@ -347,7 +349,8 @@ TEST_F(LightUpdates, ThatAreWrongChangeNothing)
     refused("no light of the set has the id 4294967295 (generation 4294967295)", {UINT64_MAX});
     refused("no light of the set has the id 7 (generation 0)", {7});
     refused("no light of the set has the id 51", {added[1]});
-    refused("no light of the set has the id 50 (generation 0)", {50}); // of an older set, perhaps
+    refused("no light of the set has the id 50 (generation 0)", {50}); // perhaps the id of an older
+                                                                       // set
     refused("the id 3 (generation 0) is given twice", {3, added[0], 3});
     with[9].radius = -1;
     CndError error{};
@@ -358,7 +361,7 @@ TEST_F(LightUpdates, ThatAreWrongChangeNothing)
     EXPECT_NE(std::string(error.message).find("lights[9]: radius"), std::string::npos);
     EXPECT_EQ(cndAddLights(lighting_, 10, with.data(), ids.data(), &error),
               CND_ERROR_INVALID_ARGUMENT);
-    EXPECT_EQ(ids[0], 20u); // not written
+    EXPECT_EQ(ids[0], 20u); // ids were not written
     EXPECT_EQ(cndUpdateLights(lighting_, 1, ids.data(), nullptr, &error),
               CND_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(cndAddLights(lighting_, 1, with.data(), nullptr, &error), CND_ERROR_INVALID_ARGUMENT);
@@ -369,7 +372,7 @@ TEST_F(LightUpdates, ThatAreWrongChangeNothing)
     EXPECT_EQ(maxRelativeDifference(frame(), before), 0);
     EXPECT_LE(interposer.copied, 1024u);
     set(lights);
-    refused("no light of the set has the id 50", {added[0]}); // of the set before
+    refused("no light of the set has the id 50", {added[0]}); // an id of the previous set
 }
 
 } // namespace

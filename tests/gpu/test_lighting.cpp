@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lighting module through its C ABI: clustered against brute force and against the double
-// reference, overflow, growth, bad input.
+// The lighting module through its C ABI: clustered against brute force and against the
+// double-precision reference, lists without room, growth, invalid input.
 #include "gpu/lighting_harness.h"
 
 #include <cmath>
@@ -23,7 +23,7 @@ CndCamera defaultCamera(uint32_t width, uint32_t height)
     return camera;
 }
 
-// Largest allowed difference to brute force, relative to the largest radiance.
+// The accepted difference to brute force, relative to the largest radiance.
 constexpr double equalToBrute = 1e-6;
 
 double peak(const std::vector<glm::vec4>& image)
@@ -34,7 +34,7 @@ double peak(const std::vector<glm::vec4>& image)
     return p;
 }
 
-// Every type, uncut lights among them.
+// Returns lights of every type, some of them uncut.
 std::vector<CndLight> mixedLights(const CpuGBuffer& g, uint32_t count, uint32_t seed)
 {
     std::vector<CndLight> lights = randomSpheres(g, count, seed);
@@ -53,7 +53,7 @@ std::vector<CndLight> mixedLights(const CpuGBuffer& g, uint32_t count, uint32_t 
     return lights;
 }
 
-// `light` as a tube, rectangle or disc of about its size.
+// Returns `light` as a tube, rectangle or disc of about its size.
 CndLight everyAreaLight(CndLight light, size_t which)
 {
     light.type = which % 3 == 0   ? uint32_t{CND_LIGHT_TUBE}
@@ -153,7 +153,8 @@ TEST_F(LightingTest, EqualsDoublePrecisionReference)
                 expected +=
                     reference::outgoingLuminance(surface, material, light, glm::dvec3(0), method);
             for (int c = 0; c < 3; ++c) {
-                const double scale = expected[c] + 1e-3; // cd/m^2; the lights are 0..1000
+                const double scale = expected[c] + 1e-3; // cd/m^2; the luminance of the lights is
+                                                         // 0..1000
                 const double error = std::abs(gpu.radiance[i][c] - expected[c]) / scale;
                 if (!(error <= worst)) {
                     worst = error;
@@ -161,7 +162,8 @@ TEST_F(LightingTest, EqualsDoublePrecisionReference)
                 }
             }
         }
-        // alpha >= 0.01 here: the float32 position error (1e-7 d) over the narrowest lobe.
+        // alpha >= 0.01 here: the bound is the float32 error of positions (1e-7 d) relative to the
+        // narrowest lobe.
         EXPECT_LE(worst, 1e-3) << "method " << method << ", pixel " << worstPixel;
         std::cout << "largest relative error to double, method " << method << ": " << worst << "\n";
     }
@@ -172,7 +174,7 @@ TEST_F(LightingTest, ListsOverBudgetLoseNothing)
     const CpuGBuffer g = randomGBuffer(160, 96, defaultCamera(160, 96), 0, 2);
     const auto spheres = randomSpheres(g, 2000, 9);
     std::vector<CndLight> mixed = mixedLights(g, 600, 4);
-    for (size_t i = 0; i < mixed.size(); i += 6) // area lights too
+    for (size_t i = 0; i < mixed.size(); i += 6) // include area lights
         mixed[i] = everyAreaLight(mixed[i], i / 6);
     for (const auto& [lights, method] :
          {std::pair(spheres, CND_SPECULAR_KARIS), std::pair(spheres, CND_SPECULAR_CONIC),
@@ -193,7 +195,7 @@ TEST_F(LightingTest, RunsAreBitIdentical)
     const LightingResult first = run(g, lights);
     for (int i = 0; i < 20; ++i)
         EXPECT_TRUE(sameBits(first.radiance, run(g, lights, {.frames = i % 4 + 1}).radiance));
-    // Which lists find a page depends on the schedule, the image does not.
+    // Which lists find a page depends on the schedule, but the image must not.
     for (int i = 0; i < 5; ++i)
         EXPECT_TRUE(sameBits(first.radiance, run(g, lights, {.listBudget = 100000}).radiance));
 }
@@ -209,7 +211,7 @@ TEST_F(LightingTest, FarFromTheOriginLooksTheSame)
         far.lightOrigin[i] = place[i];
         g.camera.viewFromWorld[12 + i] = -place[i];
     }
-    // Origin and camera cancel exactly in double, so nothing at all may change.
+    // Origin and camera cancel exactly in double precision, so the image must not change at all.
     EXPECT_TRUE(sameBits(near.radiance, run(g, lights, far).radiance));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// More lights than a driver's loops survive: llvmpipe ends every loop of a shader invocation after
-// 65535 iterations in all (LP_MAX_TGSI_LOOP_ITERATIONS), without a word. Only the last light
-// shines, so losing the end of any walk leaves a black image; the expected one has that light
-// alone.
+// More lights than the loops of some drivers survive: llvmpipe silently ends every loop of a shader
+// invocation after 65535 iterations in total (LP_MAX_TGSI_LOOP_ITERATIONS). Only the last light
+// shines, so a walk that loses its end leaves a black image; the expected image has only that
+// light.
 #include "gpu/lighting_harness.h"
 
 #include <limits>
@@ -17,7 +17,7 @@ TEST_F(LightingTest, TheLastOfManyLightsIsNotLost)
     const CpuGBuffer g = randomGBuffer(24, 16, camera, 0, 5);
     for (const uint32_t count : {20000u, 40000u, 70000u, 300000u}) {
         std::vector<CndLight> lights = randomSpheres(g, 1, 5);
-        // Uncut: every light is in every list.
+        // Without a cut, every light is in every list.
         lights[0].influenceRadius = std::numeric_limits<float>::infinity();
         const CndLight bright = lights[0];
         CndLight dark = bright;
@@ -30,11 +30,12 @@ TEST_F(LightingTest, TheLastOfManyLightsIsNotLost)
             EXPECT_LE(maxRelativeDifference(all.radiance, expected.radiance), 1e-6)
                 << count << " lights, culling " << culling;
         }
-        // Lists that do not fit are walked as a whole.
+        // Clusters whose lists do not fit walk the whole light tree.
         const LightingResult unlisted = run(g, lights, {.listBudget = 4096});
         EXPECT_LE(maxRelativeDifference(unlisted.radiance, expected.radiance), 1e-6) << count;
     }
-    // Influence so short that no tile lists more than the last light: long masks, short lists.
+    // The other lights reach so little that no tile lists more than the last light: long masks,
+    // short lists.
     const uint32_t count = 1200000;
     std::vector<CndLight> lights = randomSpheres(g, 1, 5);
     lights[0].influenceRadius = std::numeric_limits<float>::infinity();

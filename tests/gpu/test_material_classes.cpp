@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles whose surfaces all lack a lobe are shaded without it, and look the same.
+// Tiles whose surfaces all lack a lobe are shaded without it, and must look the same.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -14,11 +14,12 @@ namespace candelabra::test
 namespace
 {
 
-// Of a pixel: the same formulas, in another order.
+// Tolerance per pixel: the formulas are the same, but in another order.
 constexpr double tolerance = 1e-5;
 constexpr uint32_t bothClasses = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
 
-// As COMPACT stores them: base colour and metalness, normals of 12 bits a side.
+// Converts surfaces to the COMPACT layout: base colour and metalness, normals with 12 bits per
+// component.
 CpuGBuffer compact(CpuGBuffer g)
 {
     const auto coordinate = [](uint32_t code) {
@@ -36,7 +37,7 @@ CpuGBuffer compact(CpuGBuffer g)
     return g;
 }
 
-// As a host stores them that tells diffuse from specular colour.
+// Converts surfaces to the layout of a host that stores diffuse and specular colour separately.
 HostPixels hostPixels(const CpuGBuffer& g, const CndGBufferDesc& desc)
 {
     HostPixels out{.desc = desc, .width = g.width, .height = g.height};
@@ -74,7 +75,7 @@ struct Case {
     const char* name;
     RunOptions options;
     CndLightType lights = CND_LIGHT_SPHERE;
-    bool diffuseClass = true; // the layout can store it
+    bool diffuseClass = true; // whether the layout can store it
 };
 
 const Case cases[] = {
@@ -115,7 +116,8 @@ TEST_P(MaterialClasses, LookTheSame)
     std::cout << GetParam().name << ": largest difference of a pixel " << difference << '\n';
     EXPECT_LE(difference, tolerance);
     EXPECT_GT(apart.stats.contributingPairs, 0u);
-    // Three columns of six tiles each, but for the row with others; fewer without surfaces.
+    // Three columns of six tiles each, without the row that has other pixels; fewer if a tile has
+    // no surface.
     EXPECT_EQ(apart.stats.diffuseTileCount > 8, GetParam().diffuseClass);
     EXPECT_LE(apart.stats.diffuseTileCount, GetParam().diffuseClass ? 15u : 0u);
     EXPECT_GT(apart.stats.specularTileCount, 8u);
@@ -157,7 +159,7 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
         EXPECT_EQ(together.stats.diffuseTileCount, 0u);
         EXPECT_EQ(together.stats.specularTileCount, 0u);
         EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);
-        // 6 columns each in 12 rows, but for the second; fewer where a tile has no surface.
+        // Six columns each in 12 rows, without the second row; fewer if a tile has no surface.
         EXPECT_GT(apart.stats.diffuseTileCount, 50u);
         EXPECT_LE(apart.stats.diffuseTileCount, 66u);
         EXPECT_GT(apart.stats.specularTileCount, 50u);
@@ -182,8 +184,8 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
     cndDestroyLighting(classed);
 }
 
-// Which cluster finds room for its list depends on the schedule, so a class is shaded alike with
-// and without lists.
+// Which cluster finds room for its list depends on the schedule, so a class must be shaded alike
+// with and without lists.
 TEST_F(LightingTest, ClassesAreAlikeWithoutRoomForLists)
 {
     const CpuGBuffer g = threeClasses(144, 96);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What statistics have the module tell the host, once.
+// Tests which messages reading the statistics sends to the host, once each.
 #include "candelabra/candelabra.hpp"
 #include "gpu/lighting_harness.h"
 #include "harness/host_log.h"
@@ -11,7 +11,8 @@ TEST_F(LightingTest, ListsWithoutRoomAndRejectedLightsAreToldOnce)
 {
     const CpuGBuffer g = randomGBuffer(48, 32, 12);
     const std::vector<CndLight> lights = randomSpheres(g, 200, 12);
-    const gpu::Buffer particles = upload("particles", std::vector<CndDeviceLight>(3)); // no radius
+    // without a radius they are invalid
+    const gpu::Buffer particles = upload("particles", std::vector<CndDeviceLight>(3));
     const CndDeviceLights device{
         .type = CND_LIGHT_SPHERE, .maxCount = 3, .buffer = particles.get(), .influenceRadius = 1};
     HostLog log;
@@ -37,7 +38,7 @@ TEST_F(LightingTest, ListsWithoutRoomAndRejectedLightsAreToldOnce)
     log.expect(CND_MESSAGE_WARNING, "clusters have no list");
     draw();
     log.expectNone();
-    for (int i = 0; i < 2; ++i) { // for each set
+    for (int i = 0; i < 2; ++i) { // once for each set
         CndLightSet set{.count = 200, .lights = lights.data(), .deviceLights = &device};
         ASSERT_TRUE(lighting.value().setLights(set));
         draw();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pair image holds, pixel by pixel, what the statistics sum.
+// The pair image must hold, pixel by pixel, what the statistics sum up.
 #include "gpu/lighting_harness.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@ TEST_F(LightingTest, PairImageSumsToTheStatistics)
     const CpuGBuffer g = randomGBuffer(120, 80, 8);
     std::vector<CndLight> lights = randomSpheres(g, 400, 5);
     for (size_t i = 0; i < lights.size(); i += 3)
-        lights[i].type = CND_LIGHT_POINT; // two types are added up
+        lights[i].type = CND_LIGHT_POINT; // the counts of two types are added
     const Images images = uploadImages(g), pairs = uploadImages(g);
     CndError error{};
     const auto [lighting, view] = createLighting(g, 1);
@@ -35,11 +35,11 @@ TEST_F(LightingTest, PairImageSumsToTheStatistics)
         sum += glm::dvec3(counted[i]);
         const bool surface = g.depth[i] != g.clearDepth;
         ASSERT_EQ(counted[i].w > 0, surface) << i;
-        ASSERT_LE(counted[i].z, counted[i].x) << i; // of the listed ones
+        ASSERT_LE(counted[i].z, counted[i].x) << i; // contributing lights are among the listed ones
         ++ofClass[size_t(counted[i].w)];
     }
     EXPECT_EQ(uint64_t(sum.x), stats.listedPairs);
-    // Statistics also count the lanes without a surface that wait in a tile.
+    // The statistics also count lanes without a surface that wait for others of their tile.
     EXPECT_LE(uint64_t(sum.y), stats.evaluatedPairs);
     EXPECT_GE(sum.y, sum.z);
     EXPECT_EQ(uint64_t(sum.z), stats.contributingPairs);

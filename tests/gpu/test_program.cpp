@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built program, as a user runs it: files, exit codes, the window under Xvfb.
+// Tests the built program as a user runs it: files, exit codes, the window under Xvfb.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -52,7 +52,7 @@ protected:
         content << file.rdbuf();
         return content.str();
     }
-    // Through a shell, as typed; `before` stands in front of the program.
+    // Runs a command line through a shell; `before` is put in front of the program.
     Outcome run(const std::string& arguments, const std::string& before = "") const
     {
         const char* device = std::getenv("CANDELABRA_TEST_DEVICE");
@@ -72,7 +72,7 @@ protected:
 struct Png {
     int width = 0, height = 0;
     double mean = 0;
-    int distinct = 0; // different values of the red channel
+    int distinct = 0; // number of different values of the red channel
 };
 
 Png readPng(const std::string& path)
@@ -159,7 +159,8 @@ TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
         most = std::max(most, double(bright[i]) - dark[i]);
         gained += (bright[i] - dark[i]) / double(dark.size());
     }
-    // A white surrounding: the background shows it, nothing reflects more than it.
+    // In uniform surroundings the background shows their luminance, and nothing reflects more than
+    // that.
     EXPECT_NEAR(most, 100, 0.5);
     EXPECT_GT(gained, 5);
 
@@ -223,7 +224,7 @@ TEST_F(ProgramTest, ProfileTimesEveryPass)
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 8);
 }
 
-// Chrome's trace event format, as Perfetto reads it: slices of a track nest, and are in order.
+// Chrome's trace event format, as Perfetto reads it: the slices of a track nest and are in order.
 TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
 {
     const Outcome outcome = run("profile hall --lights 100 --size 64x36 --frames 6 --moving -q "
@@ -235,8 +236,8 @@ TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
         EXPECT_EQ(trace["otherData"]["clocksAlignedBy"], context().calibratedTimestampsExtension());
     }
     std::map<int, std::string> tracks;
-    std::map<std::string, double> endOf; // by track, of the last slice that is not around others
-    std::map<int, std::map<std::string, double>> frames; // by frame: when what happened, us
+    std::map<std::string, double> endOf; // by track: end of the last slice that contains no others
+    std::map<int, std::map<std::string, double>> frames; // by frame: the time (us) of each event
     std::set<std::string> passes;
     for (const auto& event : trace["traceEvents"]) {
         const std::string phase = event["ph"], name = event["name"];
@@ -257,7 +258,7 @@ TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
             frame[track + " " + name] = ts;
             frame[track + " " + name + " end"] = ts + duration;
             if (name != "frame") {
-                EXPECT_GE(ts, endOf[track] - 1e-6) << event; // rounding of sums
+                EXPECT_GE(ts, endOf[track] - 1e-6) << event; // tolerance: rounding of sums
                 endOf[track] = ts + duration;
             }
         } else {
@@ -277,7 +278,7 @@ TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
     EXPECT_GT(variant["time"]["upload"]["medianMs"], 0);
     EXPECT_GT(variant["overhead"]["stampMs"], 0);
     EXPECT_GE(variant["overhead"]["stamps"], passes.size());
-    // Between the modules hardly anything happens; a stamp's cost is an estimate.
+    // Hardly anything happens between the modules, and the cost of a timestamp is an estimate.
     EXPECT_GT(variant["overhead"]["passesOverGpuSpan"], 0.5);
     EXPECT_LT(variant["overhead"]["passesOverGpuSpan"], 1.05);
 }
@@ -310,7 +311,7 @@ TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
                       .exitCode,
                   0);
     ASSERT_EQ(nlohmann::json::parse(text("r.json")).size(), 2u);
-    // Not run(): compare takes no device.
+    // Not run(), because compare does not take a device.
     const std::string compare = "cd '" + dir_.string() + "' && " + test::programWord() +
                                 " compare r.json r.json >out.txt 2>err.txt";
     ASSERT_EQ(WEXITSTATUS(std::system(compare.c_str())), 0) << text("err.txt");
@@ -335,7 +336,7 @@ TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
     EXPECT_EQ(run("report --parts profile,colour --out r").exitCode, 2);
 }
 
-// Ended at any time, the program leaves whole files or none, and nothing temporary.
+// Whenever the program is terminated, it leaves complete files or none, and no temporary file.
 TEST_F(ProgramTest, SignalsLeaveNoPartsOfFiles)
 {
     int ended = 0;
@@ -378,7 +379,8 @@ TEST_F(ProgramTest, DevicesListsTheOneUnderTest)
 TEST_F(ProgramTest, MoreLightsThanTheDeviceHasRoomForAreRefused)
 {
     const uint64_t most = app::maxLightsOf(context().info());
-    ASSERT_GE(most, (1u << 27) / 64); // Vulkan's least storage buffer, a light's record
+    ASSERT_GE(most, (1u << 27) / 64); // the smallest storage buffer that Vulkan allows, divided by
+                                      // the size of a light's record
     if (most >= app::maxLights)
         return; // every count that --lights accepts fits
     for (const char* command : {"render hall -o a.png", "stress --out o"}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host that draws on one queue family and lights on another (async compute): the G-buffer goes
-// over to the modules and the picture comes back, by ownership transfers of the host's. Where the
-// device has no second family for compute, two are declared and booked.
+// A host that draws on one queue family and lights on another (async compute): the host hands the
+// G-buffer to the modules and takes the picture back by ownership transfers. If the device has no
+// second family for compute, two fictitious families are used and tracked.
 #include "candelabra/candelabra.hpp"
 #include "gpu/exposure_harness.h"
 #include "gpu/lighting_harness.h"
@@ -14,12 +14,18 @@ namespace
 {
 
 enum Family : uint32_t { Graphics, Compute, FamilyCount };
-enum Part : uint32_t { Before, Modules, After, PartCount }; // of a frame, a submission each
+enum Part : uint32_t {
+    Before,
+    Modules,
+    After,
+    PartCount
+}; // parts of a frame, each a submission
+   // of its own
 
 constexpr VkPipelineStageFlags2 transferStage = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 constexpr VkPipelineStageFlags2 computeStage = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 
-// Device, queues and what goes with them.
+// The device, its queues and their command buffers.
 class TwoQueues
 {
 public:
@@ -70,7 +76,7 @@ public:
     TwoQueues& operator=(const TwoQueues&) = delete;
 
     static Family familyOf(uint32_t part) { return part == Modules ? Compute : Graphics; }
-    // As barriers name it.
+    // Returns the family index that barriers use.
     uint32_t family(Family f) const { return real_ ? index_[f] : f; }
     bool real() const { return real_; }
     const CndDeviceDesc& desc() const { return desc_; }
@@ -83,7 +89,7 @@ public:
         ownership.begin(cmds_[part], family(familyOf(part)));
         return cmds_[part];
     }
-    // Behind the part before it, whose semaphore `stage` waits for.
+    // Submits a part; `stage` waits for the semaphore of the previous part.
     void submit(Part part, VkPipelineStageFlags2 stage) const
     {
         EXPECT_EQ(vkEndCommandBuffer(cmds_[part]), VK_SUCCESS);
@@ -180,7 +186,7 @@ protected:
         LightingTest::TearDown();
     }
 
-    // normalRoughness, albedo, specular, depth, radiance, display.
+    // The images: normalRoughness, albedo, specular, depth, radiance, display.
     enum : size_t { Depth = 3, Radiance = 4, Display = 5, ImageCount = 6 };
     std::vector<gpu::Image> createImages()
     {
@@ -222,13 +228,14 @@ protected:
         return i == Depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     }
 
-    // On one family.
+    // Returns a barrier within one family.
     VkImageMemoryBarrier2 change(size_t i, const app::ImageAccess& from,
                                  const app::ImageAccess& to) const
     {
         return app::imageBarrier(images_[i].image.get(), aspectOf(i), from, to);
     }
-    // The two halves of a transfer: what happened before it, and what will after it.
+    // The two halves of an ownership transfer: what happened before it, and what will happen after
+    // it.
     VkImageMemoryBarrier2 release(size_t i, Family to, const app::ImageAccess& before,
                                   VkImageLayout layout) const
     {
@@ -240,7 +247,7 @@ protected:
     VkImageMemoryBarrier2 acquire(size_t i, Family to, VkImageLayout from,
                                   const app::ImageAccess& after) const
     {
-        // From the stage that the semaphore holds up.
+        // Starts at the stage that waits for the semaphore.
         VkImageMemoryBarrier2 b = change(i, {after.stage, 0, from}, after);
         b.srcQueueFamilyIndex = queues_->family(to == Compute ? Graphics : Compute);
         b.dstQueueFamilyIndex = queues_->family(to);
@@ -254,11 +261,12 @@ protected:
         VK_IMAGE_LAYOUT_GENERAL};
     static app::ImageAccess lit(size_t i) { return i == Radiance ? stored : sampled; }
 
-    // Graphics: the G-buffer is drawn, here copied, and goes over.
+    // Graphics family: draws the G-buffer (copies it, in this test) and releases it.
     void recordBefore(VkCommandBuffer cmd)
     {
         std::vector<VkImageMemoryBarrier2> barriers;
-        for (size_t i = 0; i < Display; ++i) // what they held is not wanted: no transfer back
+        for (size_t i = 0; i < Display; ++i) // old contents are discarded, so no transfer back is
+                                             // needed
             barriers.push_back(change(i, app::discarded, filled));
         ownership_->barrier(cmd, barriers);
         for (size_t i = 0; i < Radiance; ++i) {
@@ -275,7 +283,8 @@ protected:
             barriers.push_back(release(i, Compute, filled, lit(i).layout));
         ownership_->barrier(cmd, barriers);
     }
-    // Compute: the modules, between acquiring and releasing. `forgotten`: is not acquired.
+    // Compute family: the modules, between acquire and release. The image `forgotten` is not
+    // acquired.
     void recordModules(VkCommandBuffer cmd, size_t forgotten)
     {
         std::vector<VkImageMemoryBarrier2> barriers;
@@ -310,7 +319,7 @@ protected:
                     release(Display, Graphics, stored, copied.layout)};
         ownership_->barrier(cmd, barriers);
     }
-    // Graphics: the picture is shown, here copied.
+    // Graphics family: shows the picture (copies it, in this test).
     void recordAfter(VkCommandBuffer cmd)
     {
         const VkImageMemoryBarrier2 barriers[] = {
@@ -358,7 +367,8 @@ TEST_F(QueueFamilies, ModulesTouchWhatTheirFamilyOwns)
     }
     for (const std::string& fault : ownership_->faults)
         ADD_FAILURE() << fault;
-    // Nothing but what computes and copies, on buffers of its own; no submission, wait or memory.
+    // The modules may only compute and copy, on buffers of their own: no submission, wait or
+    // memory.
     const std::set<std::string> allowed{"CmdBindDescriptorSets",
                                         "CmdBindPipeline",
                                         "CmdCopyBuffer",
@@ -378,7 +388,7 @@ TEST_F(QueueFamilies, ModulesTouchWhatTheirFamilyOwns)
     EXPECT_TRUE(ownership_->called.contains("CmdDispatchIndirect"));
 }
 
-// The book is no rubber stamp. Recorded, and not submitted.
+// Shows that the tracking can detect a fault. The commands are recorded but not submitted.
 TEST_F(QueueFamilies, AnImageThatIsNotAcquiredIsNoticed)
 {
     for (const size_t forgotten : {size_t(0), size_t(Depth)}) {

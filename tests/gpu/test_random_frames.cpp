@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random frames: any camera, size, depth convention and lights, clustered against brute force.
-// Sixty by default, 1,000 with tools/test --full.
+// Random frames with any camera, size, depth convention and lights: clustered against brute force.
+// Sixty frames by default, 1,000 with tools/test --full.
 #include "gpu/lighting_harness.h"
 #include "harness/full_tests.h"
 
@@ -36,7 +36,7 @@ public:
     {
         auto lights = randomSpheres(g, uint32_t(std::pow(10, uniform(0, 3.3))), seed_);
         for (CndLight& light : lights) {
-            // Tiny, huge, on the camera, uncut.
+            // Some lights are tiny or huge, around the camera, or uncut.
             if (chance(0.1))
                 light.radius *= float(std::pow(10, uniform(-4, 1)));
             light.influenceRadius = float(light.radius * std::pow(10, uniform(0.01, 2)));
@@ -89,7 +89,7 @@ TEST_F(LightingTest, RandomFramesEqualBrute)
             }
     }
     cndDestroyLighting(lighting);
-    EXPECT_GE(lit, frames / 2); // most frames have something to compare
+    EXPECT_GE(lit, frames / 2); // most frames have lit pixels to compare
 }
 
 } // namespace candelabra::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole frames of the program's renderer: clustered against brute force, repeatability, resizing,
-// moving lights. Validation must stay silent (fixture).
+// Tests whole frames of the program's renderer: clustered against brute force, repeatability,
+// resizing, moving lights. The fixture requires that validation reports nothing.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -47,7 +47,7 @@ protected:
     }
 };
 
-// Index of the first value whose bits differ, or -1.
+// Returns the index of the first value whose bits differ, or -1.
 long firstDifference(const Image& a, const Image& b)
 {
     if (a.pixels.size() != b.pixels.size())
@@ -107,12 +107,12 @@ TEST_F(RendererTest, TwoRenderersGiveTheSameBits)
     frame.lightsVisible = true;
     Renderer first(context(), scene, {.size = {160, 90}});
     Renderer second(context(), scene, {.size = {160, 90}});
-    draw(second, frameOf(scene)); // another time before: no trace of it may stay
+    draw(second, frameOf(scene)); // an earlier frame at another time must leave no trace
     EXPECT_EQ(firstDifference(radiance(first, frame), radiance(second, frame)), -1);
     EXPECT_EQ(readDisplay(context(), first), readDisplay(context(), second));
 }
 
-// Neither animation nor adaptation starts before the first measured frame.
+// Neither animation nor adaptation may start before the first measured frame.
 TEST_F(RendererTest, WarmUpFramesLeaveNoTrace)
 {
     const Scene scene = hall(200, true);
@@ -150,7 +150,8 @@ TEST_F(RendererTest, ResizeGivesTheFrameOfThatSizeAndKeepsExposure)
     Renderer renderer(context(), scene, {.size = {200, 120}});
     const float converged = draw(renderer, frame).exposure.adaptedEv100;
     renderer.resize({96, 64});
-    frame.camera.forward = -frame.camera.forward; // another view would have another exposure
+    frame.camera.forward = -frame.camera.forward; // a new measurement of this view would give
+                                                  // another exposure
     frame.resetExposure = false;
     frame.deltaTime = 0;
     EXPECT_EQ(draw(renderer, frame).exposure.adaptedEv100, converged);
@@ -161,7 +162,8 @@ TEST_F(RendererTest, ResizeGivesTheFrameOfThatSizeAndKeepsExposure)
     EXPECT_EQ(readDisplay(context(), renderer), readDisplay(context(), fresh));
 }
 
-// The environment is part of both paths, lights what no lamp reaches and is seen through windows.
+// The environment is part of both paths, lights places that no lamp reaches, and is visible through
+// windows.
 TEST_F(RendererTest, EnvironmentLightsTheSceneAndItsBackground)
 {
     const Scene dark = generateField({.lights = 100});
@@ -184,7 +186,7 @@ TEST_F(RendererTest, EnvironmentLightsTheSceneAndItsBackground)
         context(), day, frame, lit, checkRects(size, scene.lights.size(), CheckExtent::Full),
         scene.lights.size(), [](double) {});
     EXPECT_LE(check.relative(), BruteCheck::bound);
-    // The view's upper edge is sky: half its luminance.
+    // The upper edge of the image shows the sky, with half its luminance.
     EXPECT_NEAR(lit.pixels[0], 100, 1);
     EXPECT_NEAR(lit.pixels[1], 150, 1);
     EXPECT_NEAR(lit.pixels[2], 250, 1);
@@ -197,7 +199,7 @@ TEST_F(RendererTest, EnvironmentLightsTheSceneAndItsBackground)
                              [](const PassTime& p) { return p.name == "shade_environment"; }));
 }
 
-// A sun is seen in front of the environment, which it lights the scene together with.
+// A sun is visible in front of the environment, and both light the scene.
 TEST_F(RendererTest, EnvironmentDoesNotCoverSuns)
 {
     Scene scene = generateField({.lights = 10});
@@ -224,7 +226,7 @@ TEST_F(RendererTest, EnvironmentDoesNotCoverSuns)
     EXPECT_GT(pixels, 5u);
 }
 
-// Lights that do not light what the camera sees are not seen either.
+// Lights that share no layer with the camera are invisible too.
 TEST_F(RendererTest, EmittersAreSeenInTheirLayers)
 {
     Scene scene = hall(200);
@@ -236,7 +238,7 @@ TEST_F(RendererTest, EmittersAreSeenInTheirLayers)
             odd.lights.push_back(scene.lights[i]);
     }
     FrameOptions frame = frameOf(scene);
-    // What visible lights change; they reflect nothing.
+    // Returns what visible lights change; they reflect nothing.
     const auto emitters = [&](Renderer& renderer, uint32_t layers) {
         frame.camera.layers = layers;
         frame.lightsVisible = false;
@@ -289,7 +291,7 @@ struct ErrorSummary {
     size_t pixels = 0;
 };
 
-// Relative, of each lit pixel's luminance.
+// Summarises the relative error of each lit pixel's luminance.
 ErrorSummary relativeError(const Image& image, const Image& truth)
 {
     std::vector<double> errors;
@@ -322,10 +324,11 @@ TEST_F(RendererTest, CompactGBufferIsCloseToFull)
         std::cout << "method " << method << ": mean " << error.mean << ", p99 " << error.p99
                   << " over " << error.pixels << " pixels\n";
         EXPECT_GT(error.pixels, 160u * 90 / 2) << method;
-        // 8-bit colours, F0 and roughness: measured 0.6% and 3.0% (karis), 0.7% and 2.8% (conic).
+        // 8-bit colours, F0 and roughness; measured errors are 0.6% and 3.0% (karis), 0.7% and 2.8%
+        // (conic).
         EXPECT_LT(error.mean, 0.01) << method;
         EXPECT_LT(error.p99, 0.04) << method;
-        EXPECT_GT(error.mean, 1e-4) << method; // another layout it is
+        EXPECT_GT(error.mean, 1e-4) << method; // shows that it is another layout
     }
 }
 
@@ -353,7 +356,7 @@ TEST_F(RendererTest, FramesInFlightAreTimedAndCounted)
     EXPECT_GE(stats.maxListLength, stats.listEntries / std::max(stats.tileCount, 1u));
 }
 
-// Frames that keep lists or the lit image have the bits of frames that keep nothing, whatever
+// Frames that keep lists or the lit image have the same bits as frames that keep nothing, whatever
 // changes in between.
 TEST_F(RendererTest, KeptFramesHaveTheSameBits)
 {
@@ -410,13 +413,14 @@ TEST_F(RendererTest, KeptFramesHaveTheSameBits)
 TEST_F(RendererTest, HeatMapsShowWhatWasCounted)
 {
     const Scene scene = hall(400);
-    Renderer renderer(context(), scene, {.size = {320, 400}}); // room beside the legend
+    Renderer renderer(context(), scene, {.size = {320, 400}}); // leaves room beside the legend
     FrameOptions frame = frameOf(scene);
     const Image plain = radiance(renderer, frame);
     std::vector<std::vector<uint8_t>> pictures{readDisplay(context(), renderer)};
     for (int i = 1; i < heatMapCount; ++i) {
         frame.heatMap = HeatMap(i);
-        EXPECT_EQ(firstDifference(radiance(renderer, frame), plain), -1); // the light is the same
+        // the radiance is the same
+        EXPECT_EQ(firstDifference(radiance(renderer, frame), plain), -1);
         pictures.push_back(readDisplay(context(), renderer));
         for (int k = 0; k < i; ++k)
             EXPECT_NE(pictures[size_t(i)], pictures[size_t(k)]) << i << " " << k;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame does not need is not done, and leaves the image as it was.
+// Work that a frame does not need is skipped, and the image is unaffected.
 #include "gpu/lighting_harness.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ bool ran(const CndLightingStats& stats, const char* kernel)
                        [&](const CndKernelTime& t) { return std::string(t.name) == kernel; });
 }
 
-// Why the frame did without a pass; empty: it ran.
+// Returns why the frame skipped a pass; empty if it ran.
 std::string skipped(const CndLightingStats& stats, const char* pass)
 {
     const CndPassPlan* end = stats.passes + stats.passCount;
@@ -27,7 +27,7 @@ std::string skipped(const CndLightingStats& stats, const char* pass)
     return p->skipped ? p->skipped : "";
 }
 
-// A pass that is said to have run has a time, and what has a time is planned.
+// A pass that ran according to the plan has a time, and every pass with a time is in the plan.
 void expectPlanOfWhatRan(const CndLightingStats& stats)
 {
     for (uint32_t i = 0; i < stats.passCount; ++i)
@@ -51,7 +51,7 @@ TEST_F(LightingTest, UnchangedFramesKeepTheirLists)
     std::vector<CndLight> lights = randomSpheres(g, 400, 5);
     for (size_t i = 0; i < lights.size(); i += 3)
         lights[i].type = CND_LIGHT_POINT; // lists of more than one type
-    // The small budget has clusters without lists as well.
+    // With the small budget some clusters have no lists.
     for (const VkDeviceSize budget : {VkDeviceSize(0), VkDeviceSize(20000)}) {
         const LightingResult fresh = run(g, lights, {.listBudget = budget, .countPairs = true});
         const LightingResult kept = run(
@@ -122,7 +122,7 @@ TEST_F(LightingTest, FramesWithoutSurfacesOrLightsShadeNothing)
     for (uint32_t i = 0; i < dark.stats.passCount; ++i)
         EXPECT_STREQ(dark.stats.passes[i].skipped, "no lights") << dark.stats.passes[i].name;
 
-    // Lights that reach everything need no clusters' lists.
+    // Lights that reach everything need no lists.
     CndLight sun{.type = CND_LIGHT_DIRECTIONAL, .direction = {0, 0, -1}, .emission = {1, 1, 1}};
     const LightingResult sunny = run(surfaces(5), {sun});
     EXPECT_TRUE(ran(sunny.stats, "shade_tiles"));
@@ -138,22 +138,23 @@ TEST_F(LightingTest, FramesWithoutSurfacesOrLightsShadeNothing)
     expectPlanOfWhatRan(brute.stats);
 }
 
-// Types of which no light reaches the view take no part, and tiles without lights are not shaded.
+// Light types of which no light reaches the view are skipped, and tiles without lights are not
+// shaded.
 TEST_F(LightingTest, WhatIsLitIsAllThatIsShaded)
 {
     const CpuGBuffer g = surfaces(6);
     std::vector<CndLight> lights = randomSpheres(g, 60, 7);
     std::vector<CndLight> behind = lights;
     for (CndLight& light : behind)
-        light.position[2] = 1000; // m; the view looks down -z
+        light.position[2] = 1000; // metres; the view looks along -z
     const LightingResult none = run(g, behind, {.countPairs = true});
     for (const char* pass : {"prepare_lights", "tile_clusters", "cluster_lists", "shade_tiles"})
         EXPECT_EQ(skipped(none.stats, pass), "no light reaches the view") << pass;
-    EXPECT_EQ(skipped(none.stats, "light_order"), ""); // once per set, whatever is in view
+    EXPECT_EQ(skipped(none.stats, "light_order"), ""); // runs once per set, whatever is in view
     EXPECT_EQ(none.stats.kernelTimeCount, 1u);
     EXPECT_TRUE(sameBits(none, run(g, behind, {.culling = CND_CULLING_BRUTE})));
 
-    // One type in view, one behind; the same image as without the one behind.
+    // One type is in view, one is behind it: the image is the same as without the lights behind.
     std::vector<CndLight> both = lights;
     for (CndLight light : behind) {
         light.type = CND_LIGHT_POINT;
@@ -163,7 +164,7 @@ TEST_F(LightingTest, WhatIsLitIsAllThatIsShaded)
     EXPECT_LE(maxRelativeDifference(half.radiance, alone.radiance), 1e-6); // the order may differ
     EXPECT_EQ(half.stats.lightTypeCounts[CND_LIGHT_POINT], 60u);
 
-    // In the view, but short of every surface: lists are made and are empty.
+    // The light is in the view but reaches no surface: lists are made, and are empty.
     std::vector<CndLight> inTheAir = randomSpheres(g, 1, 3);
     inTheAir[0].position[0] = inTheAir[0].position[1] = 0;
     inTheAir[0].position[2] = -0.2f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shipping float32 shader functions of a sphere light against double precision.
+// Tests the shipping float32 shader functions of sphere lights against double precision.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -43,14 +43,14 @@ reference::SurfacePoint surfaceOf(const gpu::SphereProbeInput& in)
 
 } // namespace
 
-// Where the sphere crosses the horizon, F is at most about s^3, the natural scale of its error;
-// elsewhere it is the product c s^2, exact but for rounding.
+// Where the sphere crosses the horizon, F is at most about s^3, which is the natural scale of its
+// error. Elsewhere F is the product c s^2, exact but for rounding.
 TEST_F(SphereLight, FormFactorIsExactToThreeTenMillionths)
 {
     std::vector<gpu::SphereProbeInput> inputs;
     for (int i = 0; i < 400000; ++i) {
         const double s = std::pow(10.0, uniform(-5, 0));
-        // Two thirds around the horizon, tangency included, the rest anywhere.
+        // Two thirds are near the horizon, including tangency, the rest anywhere.
         const double c = i % 3 ? std::clamp(uniform(-1.02, 1.02) * s, -1.0, 1.0) : uniform(-1, 1);
         inputs.push_back({.n = {0, 0, 1},
                           .v = {0, 0, 1},
@@ -110,13 +110,13 @@ TEST_F(SphereLight, KarisMatchesDouble)
     size_t worstAt = 0;
     for (size_t i = 0; i < inputs.size(); ++i) {
         const gpu::SphereProbeInput& in = inputs[i];
-        // What the shader evaluates is sqrt(alpha)^2 in float32.
+        // The shader evaluates sqrt(alpha)^2 in float32.
         const float roughness = std::sqrt(in.alpha);
         const double alpha = double(roughness * roughness);
         const reference::SpecularResponse expected =
             reference::karisSphereSpecular(surfaceOf(in), alpha, glm::dvec3(in.centre), in.radius);
         ASSERT_TRUE(std::isfinite(outputs[i].a) && outputs[i].a >= 0) << i;
-        // Rounding of the directions (6e-8) moves the lobe by that over alpha.
+        // Rounding of the directions (6e-8) moves the lobe by that amount relative to alpha.
         const double scale = expected.a * (1 + 0.01 / alpha) + 1e-4;
         const double error =
             std::max(std::abs(outputs[i].a - expected.a), std::abs(outputs[i].b - expected.b)) /
@@ -133,7 +133,8 @@ TEST_F(SphereLight, KarisMatchesDouble)
                            << in.v.x << " " << in.v.y << " " << in.v.z;
 }
 
-// Degenerate geometry: V = N, L = N, L on the mirror ray, grazing, inside, tiny and huge scales.
+// Degenerate geometry: V = N, L = N, L on the mirror ray, grazing views, receivers inside, tiny and
+// huge scales.
 TEST_F(SphereLight, NeverNanNegativeOrInfinite)
 {
     const std::vector<glm::vec3> directions = {{0, 0, 1},      {0, 0, -1},      {1, 0, 0},

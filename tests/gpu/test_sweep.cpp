@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaders' sphere lights in float32 against the same formulas in double, on the inputs of
-// `candelabra bench stability`.
+// Compares the shaders' sphere lights in float32 with the same formulas in double precision, on the
+// inputs of `candelabra bench stability`.
 #include <array>
 #include <cmath>
 
@@ -22,7 +22,7 @@ class SweepInDouble : public test::GpuTest
 };
 
 struct InDouble {
-    double scale; // response on the mirror axis, what errors are relative to
+    double scale; // response on the mirror axis, to which errors are relative
     double f, a, b, s2;
 };
 
@@ -69,10 +69,10 @@ double distanceOf(const gpu::SweepRecord& r)
 
 } // namespace
 
-// A million configurations, the first 13,000 of every slice, type and method. Rounding of the
-// inputs alone moves a narrow lobe by 6e-8 / alpha, a light across the border of a form and, by its
-// root, the edge of the cap seen from a sphere's surface. The very centre, which has no direction,
-// is left out: a few percent of three slices.
+// A million configurations: the first 13,000 of every slice, type and method. Rounding of the
+// inputs alone moves a narrow lobe by 6e-8 / alpha, a light across the border between two forms,
+// and, by its square root, the edge of the cap seen from a sphere's surface. Receivers at the very
+// centre, which have no direction, are left out: a few percent of three slices.
 TEST_F(SweepInDouble, EveryInputOfTheSweepIsTheFormulaInDouble)
 {
     constexpr uint32_t each = 13'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewer under Xvfb, driven by the keys and the mouse of xdotool.
+// Tests the viewer under Xvfb, with keys and mouse driven by xdotool.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -18,7 +18,7 @@ namespace
 
 struct Shot {
     int width = 0, height = 0;
-    double left = 0, right = 0; // means of the halves, 0..255
+    double left = 0, right = 0; // means of the halves of the image, 0..255
 
     double mean() const { return (left + right) / 2; }
 };
@@ -61,7 +61,7 @@ TEST(Viewer, IsDrivenByKeysAndMouse)
                                 " >out.txt 2>err.txt";
     const int status = std::system(command.c_str());
     const std::string err = textOf(dir / "err.txt");
-    // A validation message, of objects left behind too, makes it 1.
+    // A validation message, also one about leaked objects, makes the exit code 1.
     EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0) << err;
 
     Shot shots[9];
@@ -70,15 +70,16 @@ TEST(Viewer, IsDrivenByKeysAndMouse)
     EXPECT_EQ(shots[1].width, 320);
     EXPECT_EQ(shots[1].height, 200);
     EXPECT_GT(shots[1].mean(), 5);
-    EXPECT_GT(shots[2].mean(), shots[1].mean() + 1); // fixed exposure: a light more is brighter
+    EXPECT_GT(shots[2].mean(), shots[1].mean() + 1); // with fixed exposure one more light is
+                                                     // brighter
     EXPECT_NEAR(shots[3].mean(), shots[1].mean(), 0.1);
     EXPECT_GT(std::abs(shots[4].left - shots[1].left) + std::abs(shots[4].right - shots[1].right),
               0.1);
-    EXPECT_NEAR(shots[6].mean(), shots[5].mean(), 0.5); // brute force is what clusters show
+    EXPECT_NEAR(shots[6].mean(), shots[5].mean(), 0.5); // brute force shows the same as clusters
     EXPECT_EQ(shots[8].width, 260);
     EXPECT_EQ(shots[8].height, 180);
 
-    // Picked: a surface, and the sum of its lights is the pixel.
+    // A pixel was picked: it shows a surface, and the sum of its lights is the pixel.
     const size_t at = err.find("pixel 130,150 at (");
     ASSERT_NE(at, std::string::npos) << err;
     const size_t differs = err.find("the sum differs by ", at);
@@ -86,7 +87,8 @@ TEST(Viewer, IsDrivenByKeysAndMouse)
     const std::string pixel = err.substr(err.find("the pixel: ", at) + 11);
     EXPECT_LE(std::stod(err.substr(differs + 19)), 1e-5 * std::stod(pixel)) << err;
 
-    // Saved: the hall under its lights as they are now, which loads and draws.
+    // A scene was saved: the hall with its lights as they are now, which can be loaded and
+    // rendered.
     using namespace candelabra;
     const std::string saved = (dir / "candelabra-010.json").string();
     const app::Scene scene = app::loadScene(saved, {}),

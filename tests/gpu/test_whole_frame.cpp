@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole frames of the program, from scene description to radiance: against an independent path
-// tracer (Lambert) and against the double-precision reference of the same model (every material).
+// Tests whole frames of the program, from the scene description to radiance, against an independent
+// path tracer (Lambertian surfaces) and against the double-precision reference of the same model
+// (every material).
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -39,7 +40,7 @@ constexpr ColourPixel dielectricGrazing[] = {
 #include "../data/s17_dielectric_grazing.inc"
 };
 
-// A scene in the small JSON description; `object` and `lights` are JSON fragments.
+// Returns a scene description in JSON; `object` and `lights` are JSON fragments.
 std::string sceneJson(const std::string& camera, const std::string& object,
                       const std::string& material, const std::string& lights)
 {
@@ -101,12 +102,12 @@ TEST_F(WholeFrame, LambertPlaneMatchesThePathTracer)
         meanRelativeError(draw(cut, {256, 256}, CND_SPECULAR_KARIS), planeCrossing);
     std::cout << "mean relative error to the path tracer: above " << aboveError << ", cut by the "
               << "plane " << cutError << "\n";
-    // 0.3% plus 0.8 of the reference's own rms noise (0.0278% and 0.446%).
+    // The bound is 0.3% plus 0.8 times the reference's own rms noise (0.0278% and 0.446%).
     EXPECT_LE(aboveError, 0.003 + 0.8 * 0.000278);
     EXPECT_LE(cutError, 0.003 + 0.8 * 0.00446);
 }
 
-// The closed form, without a look at the reference's own formulas: light at grazing angles.
+// The closed form at grazing angles, compared without using the formulas of our reference.
 TEST_F(WholeFrame, ConicMatchesThePathTracer)
 {
     const Scene scene = load(sceneJson(
@@ -137,13 +138,13 @@ namespace
 
 constexpr const char* materialCamera = R"({"position": [0.3, 1.6, 3.2], "look_at": [0, 0, 0],
     "up": [0, 1, 0], "vertical_fov_degrees": 40, "aspect": 1})";
-// Above, crossing and below the ground's horizon.
+// Lights above, crossing and below the horizon of the ground.
 constexpr const char* materialLights = R"([
     {"position": [1.5, 2, 1], "radius": 0.4, "radiance": [20, 10, 5]},
     {"position": [-2, 0.3, -1], "radius": 0.6, "radiance": [3, 12, 30]},
     {"position": [2.5, -1.2, 0], "radius": 0.7, "radiance": [10, 10, 10]}])";
-// Rough to smooth, metal to dielectric; values that half floats hold exactly, so that G-buffer
-// rounding is not judged here.
+// From rough to smooth and from metal to dielectric. The values are exact in half floats, so that
+// G-buffer rounding does not matter here.
 constexpr const char* materials[] = {
     R"({"albedo": [0.75, 0.5, 0.25], "diffuse": true, "specular": true,
         "F0": [0.0625, 0.0625, 0.0625], "alpha": 0.25, "metalness": 0})",
@@ -154,8 +155,8 @@ constexpr const char* materials[] = {
 
 } // namespace
 
-// The closed form in whole frames, every material on plane and ball, against integration in double:
-// what a user of the default gets.
+// The closed form in whole frames, which users get by default, against integration in double
+// precision; every material on plane and ball.
 TEST_F(WholeFrame, ConicIsCloseToTheTruth)
 {
     constexpr uint32_t side = 48;
@@ -182,14 +183,14 @@ TEST_F(WholeFrame, ConicIsCloseToTheTruth)
             ASSERT_GT(peak, 0);
             std::cout << "conic to the truth: error " << sum / total << " of the light, largest "
                       << worst / peak << " of the peak\n";
-            // Measured 0.0003..0.0041 and 0.0005..0.034; both largest for the rough dielectric
+            // Measured 0.0003..0.0041 and 0.0005..0.034; both are largest for the rough dielectric
             // ball.
             EXPECT_LE(sum / total, 0.005) << object << material;
             EXPECT_LE(worst / peak, 0.04) << object << material;
         }
 }
 
-// Lobes that share the light, and light that comes back between microfacets, as truth has them.
+// Joined lobes and energy compensation must equal the double-precision reference.
 TEST_F(WholeFrame, JoinedLobesMatchTheDoubleReference)
 {
     constexpr uint32_t side = 24;
@@ -212,7 +213,8 @@ TEST_F(WholeFrame, JoinedLobesMatchTheDoubleReference)
                 }
             ASSERT_GT(peak, 0);
             std::cout << "joined lobes, largest relative error to double: " << worst << "\n";
-            // Roughness in 16 bits, and the table of directional albedos: measured 5e-4.
+            // The error comes from roughness in 16 bits and the table of directional albedos;
+            // measured 5e-4.
             EXPECT_LE(worst, 1.2e-3) << material << compensated;
         }
 }
@@ -233,7 +235,7 @@ TEST_F(WholeFrame, EveryMaterialMatchesTheDoubleReference)
                 for (int c = 0; c < 3; ++c) {
                     const double value = image.pixels[3 * i + size_t(c)];
                     const double truth = expected.pixels[i][c];
-                    // Relative where lit; a thousandth of the peak where dark.
+                    // Relative where lit; relative to a thousandth of the peak where dark.
                     const double error = std::abs(value - truth) / (truth + 1e-3 * peak);
                     if (!(error <= worst)) {
                         worst = error;
@@ -242,7 +244,8 @@ TEST_F(WholeFrame, EveryMaterialMatchesTheDoubleReference)
                 }
             ASSERT_GT(peak, 0);
             std::cout << "largest relative error to double: " << worst << "\n";
-            // Roughness is stored in 16 bits: 1.5e-5 / roughness twice; positions 2e-7 / alpha.
+            // Roughness is stored in 16 bits: 1.5e-5 / roughness, twice; positions contribute 2e-7
+            // / alpha.
             EXPECT_LE(worst, 2e-3)
                 << object << material << " pixel " << worstPixel % 128 << "," << worstPixel / 128;
         }
