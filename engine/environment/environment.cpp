@@ -255,7 +255,7 @@ void Environment::validate(const CndEnvironmentFrame& frame) const
         gpu::failArgument("CndEnvironmentFrame: structSize is " + std::to_string(frame.structSize) +
                           ", this library expects " + std::to_string(sizeof frame));
     if (!mapped_)
-        gpu::failArgument("cndRecordEnvironment: cndRecordEnvironmentMap comes first");
+        gpu::failArgument("cndRecordEnvironment: cndRecordEnvironmentMap must be recorded first");
     if (frame.frameSlot >= recorded_.size())
         gpu::failArgument("CndEnvironmentFrame: frameSlot is " + std::to_string(frame.frameSlot) +
                           ", framesInFlight is " + std::to_string(recorded_.size()));

@@ -99,7 +99,7 @@ PackedMeshes packMeshes(std::span<const Mesh> meshes)
     }
     if (vertices > INT32_MAX || indices > UINT32_MAX)
         gpu::failUnsupported(
-            "the meshes together have more vertices or indices than 32 bits count");
+            "the meshes together have more vertices or indices than 32-bit indices can address");
     all.core.reserve(vertices);
     all.detail.reserve(vertices);
     all.indices.reserve(indices);

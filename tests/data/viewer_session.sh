@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Drives `candelabra view` ($PROGRAM) with keys and mouse, in an empty folder (tests/gpu/test_viewer.cpp).
-# Every image is waited for: when it is there, all keys before it have been taken.
+# It waits for every image that it saves: once the image exists, all earlier keys have been processed.
 fail() {
     echo "$1" >&2
     kill $viewer
@@ -26,29 +26,29 @@ save # 1
 xdotool key n period period period Up
 save # 2: a light in front of the camera
 xdotool key Delete
-save # 3: and without it again
+save # 3: the light removed again
 xdotool keydown w
 sleep 0.5
 xdotool keyup w
-save # 4: flown
+save # 4: after moving the camera
 xdotool key o mousemove 200 100 mousedown 1 mousemove 230 110 mouseup 1 key o
-for method in 1 2 3 4 5 6 7 8; do xdotool key m; done # once around
+for method in 1 2 3 4 5 6 7 8; do xdotool key m; done # through all methods, back to the first
 xdotool key c
 save # 5: brute force
 xdotool key c h h h h h F1 F2
-save # 6: heat maps once around, panel, help
+save # 6: through all heat maps, panel and help
 xdotool key b bracketright
-save # 7: wipe, twice the lights
+save # 7: comparison wipe, twice the lights
 for i in $(seq 20); do
     xdotool windowsize $window $((200 + i * 13 % 170)) $((150 + i * 29 % 110))
 done
 xdotool windowsize --sync $window 260 180
 save # 8
 xdotool key F1 F2 b mousemove --window $window 130 150
-save # 9: without the panel, which takes the mouse where it is
+save # 9: without the panel, which would take mouse clicks over it
 xdotool key k
-save F5 json # 10: the pixel's lights, then the scene
+save F5 json # 10: prints the lights of the pixel, then saves the scene
 xdotool key F1
-save # 11: the pixel and the metering in the panel
+save # 11: the panel shows the pixel and the metering
 xdotool key Escape
 wait $viewer

@@ -123,7 +123,7 @@ protected:
                 type == gpu::LIGHT_SPHERE ? std::asin(double(light.radius)) : std::atan(size);
             const size_t first = inputs.size();
             for (int i = 0; i < directions; ++i) {
-                // Of every seven directions, two are around the mirror direction with a heavy tail,
+                // Seven directions repeat: two are around the mirror direction with a heavy tail,
                 // one is anywhere above or somewhat below the horizon, and four are in the plane of
                 // incidence.
                 glm::dvec3 l = mirror;

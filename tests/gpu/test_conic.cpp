@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The specular methods of sphere lights on the GPU in float32 against the same formulas in double.
+// Compares the specular methods of sphere lights on the GPU in float32 with the same formulas in
+// double precision.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -36,7 +37,7 @@ protected:
         return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
     }
 
-    // Half of the lights about the mirror direction, half about the horizon.
+    // Places half of the lights near the mirror direction and half near the horizon.
     gpu::ConicProbeInput randomInput(double minNoV)
     {
         const double perceptualRoughness = uniform(0.0448, 1);
@@ -62,13 +63,13 @@ private:
 struct Expected {
     unsigned lightClass;
     glm::dvec2 conic, full, kx, point;
-    double peak; // conic response to the same cap about the mirror direction
+    double peak; // conic response to the same cap in the mirror direction
 };
 
 Expected inDouble(const gpu::ConicProbeInput& in)
 {
     const glm::dvec3 n(0, 0, 1);
-    const float roughness = std::sqrt(in.alpha); // what the shader squares again
+    const float roughness = std::sqrt(in.alpha); // the shader squares this value again
     const tr::ShadingPoint p =
         tr::makeShadingPoint(n, glm::dvec3(in.v), double(roughness * roughness));
     const tr::ConicPoint conic = tr::makeConicPoint(p);
@@ -105,8 +106,8 @@ double largest(glm::dvec2 a, glm::vec2 b)
 
 } // namespace
 
-// float32's own share of the error, relative to the response to the same light about the mirror
-// direction. Rounding of the inputs (6e-8) alone moves a narrow lobe by that over alpha.
+// The error that float32 adds, relative to the response to the same light in the mirror direction.
+// Rounding of the inputs (6e-8) alone moves a narrow lobe by that amount relative to alpha.
 TEST_F(Conic, MatchesDouble)
 {
     std::vector<gpu::ConicProbeInput> inputs;
@@ -119,11 +120,12 @@ TEST_F(Conic, MatchesDouble)
         double sum = 0, worst = 0;
         size_t count = 0, worstAt = 0;
     };
-    // By class; below is 0 in both. Measured: largest 4e-4, 3e-4, 2e-3.
+    // Bounds by class; below the horizon both are 0. The largest measured errors are 4e-4, 3e-4 and
+    // 2e-3.
     std::array<Slice, 4> slices = {
         {{"below", 0, 0}, {"above", 1e-6, 2e-3}, {"near", 1e-6, 2e-3}, {"clipped", 3e-6, 1e-2}}};
     double worstKx = 0;
-    size_t moved = 0; // rounding takes a light across a border between classes
+    size_t moved = 0; // number of lights that rounding moves across a border between classes
     for (size_t i = 0; i < inputs.size(); ++i) {
         const Expected expected = inDouble(inputs[i]);
         moved += outputs[i].lightClass != expected.lightClass;
@@ -153,7 +155,8 @@ TEST_F(Conic, MatchesDouble)
     EXPECT_LE(moved, inputs.size() / 10000);
 }
 
-// Random, grazing and degenerate inputs: v = n, l = n, l = mirror, tangent, inside, tiny and huge.
+// Random, grazing and degenerate inputs: v = n, l = n, l = mirror, tangent lights, receivers
+// inside, tiny and huge lights.
 TEST_F(Conic, NeverNanNegativeOrAboveOne)
 {
     std::vector<gpu::ConicProbeInput> inputs;
@@ -174,7 +177,7 @@ TEST_F(Conic, NeverNanNegativeOrAboveOne)
                                           .toLight = l * distance,
                                           .radius = s * std::max(distance, 1e-6f),
                                           .alpha = alpha});
-    // Lights that touch the horizon, its edges and twice its radius, to the last bit.
+    // Lights whose centre or edge touches the horizon, or twice their radius, to the last bit.
     for (int i = 0; i < 300000; ++i) {
         gpu::ConicProbeInput in = randomInput(0);
         const float edges[] = {-1, 0, 1, 2, -0.999999f, 1e-7f, 0.9999999f, 1.0000001f};
@@ -192,7 +195,8 @@ TEST_F(Conic, NeverNanNegativeOrAboveOne)
     std::cout << inputs.size() << " configurations: none NaN, infinite, negative or above 1\n";
 }
 
-// The smaller the light, the nearer to a point: its area has no lower bound but float32's.
+// The smaller the light, the closer it is to a point light; only float32 limits its size from
+// below.
 TEST_F(Conic, SmallSpheresArePointLights)
 {
     constexpr int perSize = 20000;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error of the slope-conic specular on the GPU, float32, against quadrature: percent of the
-// largest true response among the light directions of a group (one roughness, view and light size).
+// The error of the slope-conic specular term on the GPU, in float32, against quadrature: percent of
+// the largest true response among the light directions of a group (one roughness, view and light
+// size).
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -23,11 +24,11 @@ struct Record {
     gpu::ConicProbeInput input;
     int group;
     bool above;
-    double a, b; // truth
+    double a, b; // the true response
 };
 
-// Per group 26 directions about the mirror direction with a heavy tail of scale s + 2 alpha, 14
-// over all that is visible and 49 along the plane of incidence.
+// Each group has 26 directions around the mirror direction with a heavy tail of scale s + 2 alpha,
+// 14 directions over everything visible, and 49 along the plane of incidence.
 std::vector<Record> drawRecords(int groups)
 {
     std::mt19937 random(2024);
@@ -112,7 +113,7 @@ TEST_F(ConicAccuracy, AgainstQuadrature)
     std::vector<double> peak(size_t(groups), 0), dielectricPeak(size_t(groups), 0);
     const auto dielectric = [](double a, double b) { return 0.04 * (a - b) + b; };
     for (Record& r : records) {
-        const float roughness = std::sqrt(r.input.alpha); // what the shader squares again
+        const float roughness = std::sqrt(r.input.alpha); // the shader squares this value again
         const reference::LightResponse truth = reference::truthOfCap(
             {glm::dvec3(0), glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(r.input.v))},
             double(roughness * roughness),

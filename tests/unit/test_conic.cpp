@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Properties of the slope-conic formulas that need no truth: continuity and limits. In double, on
-// the transcription; that the shaders compute the same is tests/gpu/test_conic.cpp.
+// Properties of the slope-conic formulas that need no truth: continuity and limits. Tested on the
+// transcription in double precision; tests/gpu/test_conic.cpp tests that the shaders compute the
+// same.
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -19,7 +20,8 @@ namespace
 namespace tr = transcription;
 
 struct Configuration {
-    double alpha, NoV, s, elevation, azimuth; // of the light's centre, radians, from the horizon
+    double alpha, NoV, s, elevation, azimuth; // elevation and azimuth of the light's centre,
+                                              // radians, elevation measured from the horizon
 };
 
 glm::dvec2 respond(const Configuration& c)
@@ -60,8 +62,8 @@ private:
     std::mt19937 random_{99};
 };
 
-// The largest true jump of `at` over [0, 1]: the steepest of `steps` intervals is halved until a
-// slope would have vanished.
+// Returns the largest true jump of `at` over [0, 1]: the steepest of `steps` intervals is halved
+// until the difference of a continuous function would have vanished.
 double largestJump(const std::function<double(double)>& at, int steps)
 {
     double low = 0, size = 0;
@@ -85,8 +87,8 @@ double largestJump(const std::function<double(double)>& at, int steps)
 
 } // namespace
 
-// A light that rises through the horizon: its lower edge, centre, upper edge and twice its radius
-// are borders between forms, which must agree there.
+// A light rises through the horizon. Its forms change where its lower edge, its centre, its upper
+// edge and twice its radius pass the horizon; neighbouring forms must agree there.
 TEST(ConicFormula, NoJumpWhereTheLightRises)
 {
     Random random;
@@ -139,12 +141,12 @@ TEST(ConicFormula, NoJumpAlongAzimuthSizeViewAndRoughness)
             worst = std::max(worst, largestJump(at, 64));
         }
         std::cout << name << ": largest jump over the peak " << worst << "\n";
-        EXPECT_LE(worst, 2e-3) << name; // alpha: where small caps stop being clipped exactly
+        EXPECT_LE(worst, 2e-3) << name; // alpha: small caps are no longer clipped exactly
     }
 }
 
-// Below the horizon exactly nothing, and a small light is the point light: the error falls with
-// s^2, down to what double resolves.
+// Below the horizon the response is exactly 0, and a small light becomes the point light: the error
+// falls with s^2 down to the resolution of double.
 TEST(ConicFormula, LimitsAreTheHorizonAndThePointLight)
 {
     Random random;
@@ -168,7 +170,7 @@ TEST(ConicFormula, LimitsAreTheHorizonAndThePointLight)
         }
         std::cout << "s " << s << ": largest relative difference to the point light " << worst
                   << "\n";
-        EXPECT_LE(worst, 1000 * s * s + 1e-7); // in the far tail of alpha = 0.1
+        EXPECT_LE(worst, 1000 * s * s + 1e-7); // measured in the far tail of alpha = 0.1
     }
 }
 

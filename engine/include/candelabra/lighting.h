@@ -340,9 +340,10 @@ CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
                                     const CndLightingFrame* frame, CndError* error);
 
 // Records a picture of what the module reads from the G-buffer, to find mistakes in an integration.
-// Of `frame` it uses frameSlot, size, camera, clearDepth, hostSet and the G-buffer images. Record
-// at most one overlay per frame: each frame slot has one descriptor set for it. It changes the same
-// state as cndRecordLighting and has the same requirements; cndRecordLighting need not be recorded.
+// It uses these members of `frame`: frameSlot, size, camera, clearDepth, hostSet and the G-buffer
+// images. Record at most one overlay per frame: each frame slot has one descriptor set for it. It
+// changes the same state as cndRecordLighting and has the same requirements; cndRecordLighting need
+// not be recorded.
 CND_API CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer cmd,
                                           const CndLightingFrame* frame,
                                           const CndSurfaceOverlay* overlay, CndError* error);
