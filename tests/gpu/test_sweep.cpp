@@ -15,7 +15,7 @@ using namespace candelabra::app;
 namespace
 {
 
-namespace tr = candelabra::test::transcription;
+namespace tr = candelabra::transcription;
 
 class SweepInDouble : public test::GpuTest
 {

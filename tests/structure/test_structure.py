@@ -50,6 +50,7 @@ ALLOWED = [
     # Written as if in a project of their own.
     ("samples/embed_window", ["host.h", "boxes.", "panel.h", "window.h"]),
     ("samples", ["host.h", "ball", "lib/forward.glsl"]),
+    ("tools/transcription", ["transcription/", "shared/conic_constants.h"]),
     ("tools/fit", ["fit/", "reference/", "shared/ltc.h"]),
     ("shaders/shared", ["shared/"]),
     # The name by which hosts' shaders include what shading/forward.glsl holds.

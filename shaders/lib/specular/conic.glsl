@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slope-conic specular of sphere lights, near and distant: the lobe over the light is exact
 // (conic_region.glsl, conic_clip.glsl), shadowing and Fresnel are taken at one or two nodes
-// (conic_shading.glsl). Responses are vec2(F = 1, F = (1 - VoH)^5) to luminance 1, in [0, 1].
+// (conic_shading.glsl). Each of these files derives its part. Responses are
+// vec2(F = 1, F = (1 - VoH)^5) to a light of luminance 1, in [0, 1].
 //
-// Four classes of lights, so that a caller can loop over each apart: a masked branch is always paid on
-// llvmpipe. A class says which function is meant for the light; conicResponse picks by itself.
+// Lights come in four classes (CONIC_BELOW .. CONIC_CLIPPED, shared/conic_constants.h), so that a
+// caller can loop over each apart: on llvmpipe a masked branch is always paid. conicResponse picks the
+// function by itself.
 #ifndef CND_LIB_SPECULAR_CONIC
 #define CND_LIB_SPECULAR_CONIC
 
 #include "lib/specular/conic_clip.glsl"
 
-const uint CONIC_BELOW = 0u;   // wholly below the horizon: no response
-const uint CONIC_ABOVE = 1u;   // at least one of its half angles above it: conicAbove
-const uint CONIC_NEAR = 2u;    // nearer, or crossing and small: conicNear
-const uint CONIC_CLIPPED = 3u; // crossing: conicClipped
-
-// heightAbove = n . toLight; d2 = |toLight|^2. No division: for loops that only sort.
+// heightAbove = n . toLight; d2 = |toLight|^2. There is no division, for loops that only sort lights.
 uint conicClass(float heightAbove, float radius, float d2, float a2)
 {
     const float r2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
@@ -27,13 +24,14 @@ uint conicClass(float heightAbove, float radius, float d2, float a2)
     return signed2 >= r2 || r2 <= SMALL_CAP * a2 * d2 ? CONIC_NEAR : CONIC_CLIPPED;
 }
 
-// n . c >= 2 s: one node.
+// For n . c >= 2 s: one node.
 vec2 conicAbove(ConicPoint p, SphereCap cap)
 {
     return shadeOneNode(p, wholeCap(p, cap.c, cap.NoC, cap.s * cap.s, cap.omc));
 }
 
-// Share of the two nodes: 1 where the cap touches the horizon, 0 from n . c = 2 s on.
+// Share of the response with two nodes in that with both: 1 where the cap touches the horizon, 0 from
+// n . c = 2 s on.
 float nearness(SphereCap cap)
 {
     return saturate(2.0 - cap.NoC / cap.s);
@@ -54,7 +52,7 @@ vec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed)
     return mixed ? mix(shadeOneNode(p, o), two, nearness(cap)) : two;
 }
 
-// s <= n . c < 2 s, and any n . c > -s with s^2 <= SMALL_CAP a2: one and two nodes, mixed.
+// For s <= n . c < 2 s, and any n . c > -s with s^2 <= SMALL_CAP a2: one and two nodes, mixed.
 vec2 conicNear(ConicPoint p, SphereCap cap)
 {
     return conicUnclipped(p, cap, true);
@@ -66,7 +64,7 @@ vec2 conicFullUnclipped(ConicPoint p, SphereCap cap)
     return conicUnclipped(p, cap, false);
 }
 
-// |n . c| < s: the exact clip, two nodes.
+// For |n . c| < s: the exact clip, two nodes.
 vec2 conicClipped(ConicPoint p, SphereCap cap)
 {
     const CapFrame f = makeCapFrame(p, cap.c, cap.NoC);
@@ -92,7 +90,7 @@ vec2 conicResponse(ConicPoint p, SphereCap cap)
     return vec2(0.0);
 }
 
-// Two nodes everywhere.
+// Two nodes for every light, whatever its class.
 vec2 conicFullResponse(ConicPoint p, SphereCap cap)
 {
     switch (conicClassOf(p, cap)) {

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// The conic region of a sphere cut by the horizon.
+// The lobe over the part of a sphere light above the horizon (conic_region.glsl has the whole one).
+//
+// By Stokes' theorem the vector irradiance of a region of directions is an integral along its border,
+//   Phi = (1 / 2 pi) closed integral of (w x dw) / |w|^2,
+// which for a polygon is Lambert's sum over its edges. Here w = (m_x, m_y, alpha m_z), with the half
+// vector m = l + v of any length, and the border is two arcs: one of the cap's rim, which is a part of
+// an ellipse in w, and one of the horizon, l_z = 0. Both integrals have closed forms.
 #ifndef CND_LIB_SPECULAR_CONIC_CLIP
 #define CND_LIB_SPECULAR_CONIC_CLIP
 
 #include "lib/specular/conic_region.glsl"
 #include "lib/specular/conic_shading.glsl"
 
-// (atan(t) - t) / t^3 as a polynomial in t^2, t in [0, 1]; minimax, 4.9e-8 absolute in atan. The term
-// t itself is exact: the arcs of small caps cancel.
+// (atan(t) - t) / t^3 as a polynomial in t^2, t in [0, 1]. The term t itself is exact.
 vec2 atanTail(vec2 t2)
 {
-    vec2 k = -0.00435541 * t2 + 0.02304016;
-    k = k * t2 - 0.05777362;
-    k = k * t2 + 0.09794236;
-    k = k * t2 - 0.13976583;
-    k = k * t2 + 0.19962704;
-    return k * t2 - 0.33331659;
+    vec2 k = -CONIC_ATAN_T15 * t2 + CONIC_ATAN_T13;
+    k = k * t2 - CONIC_ATAN_T11;
+    k = k * t2 + CONIC_ATAN_T9;
+    k = k * t2 - CONIC_ATAN_T7;
+    k = k * t2 + CONIC_ATAN_T5;
+    return k * t2 - CONIC_ATAN_T3;
 }
 
-// atan(y, x) of two pairs with one division, and 0 for x = y = 0.
+// atan(y, x) of two pairs at the price of one division, and 0 for x = y = 0.
 vec2 atan2Pair(vec2 y, vec2 x)
 {
     const vec2 ax = abs(x);
@@ -38,13 +43,17 @@ float atanhRatio(float y, float x)
     return 0.5 * log(max(x + y, 1e-30) / max(x - y, 1e-30));
 }
 
-// Largest root of p(t) = t^3 + tr t^2 + m2 t - D0 from the smaller of two upper bounds, which hold for
-// every sign of tr and m2 (the start of wholeCap does not, for centres below the horizon).
+// Largest root of p(t) = t^3 + tr t^2 + m2 t - D0, D0 > 0. Halley's iteration starts from an upper
+// bound, the smaller of two (the start of wholeCap is no bound for centres below the horizon):
+//   A, for tr > 0: the root without the cubic term, of tr t^2 + m2 t = D0.
+//   B, for m2 < 0: t (t^2 + tr t + m2) = D0 shows that the positive root tq of the bracket is a lower
+//      bound, so the root of t^2 + tr t + m2 = D0 / tq is an upper one.
+// One of them always exists: with one positive and two negative roots, m2 >= 0 implies tr > 0.
 float conicRoot(float tr, float m2, float D0)
 {
     const float boundA = 2.0 * D0 / max(m2 + sqrt(max(m2 * m2 + 4.0 * tr * D0, 0.0)), 1e-30);
     const float qd = sqrt(max(tr * tr - 4.0 * m2, 0.0));
-    const float tq = tr > 0.0 ? -2.0 * m2 / (tr + qd) : 0.5 * (qd - tr); // lower bound for m2 < 0
+    const float tq = tr > 0.0 ? -2.0 * m2 / (tr + qd) : 0.5 * (qd - tr);
     const float mb = m2 - D0 / max(tq, 1e-30);
     const float qb = sqrt(max(tr * tr - 4.0 * mb, 0.0));
     const float boundB = tr > 0.0 ? -2.0 * mb / (tr + qb) : 0.5 * (qb - tr);
@@ -54,10 +63,10 @@ float conicRoot(float tr, float m2, float D0)
     return halley(lam, tr, m2, D0);
 }
 
-// What clippedCap and shadeTwoNodes share: c's elevation and the parts of v along and across c_t.
+// The frame of a cap: x = c_t / |c_t|, y = n x x, z = n. clippedCap and lightHeights share it.
 struct CapFrame {
     float sinC;   // |n x c|
-    float v1, v2; // v . x, v . y with x = c_t / |c_t|, y = n x x
+    float v1, v2; // v . x, v . y
 };
 
 CapFrame makeCapFrame(ConicPoint p, vec3 c, float NoC)
@@ -70,7 +79,8 @@ CapFrame makeCapFrame(ConicPoint p, vec3 c, float NoC)
     return f;
 }
 
-// Where a cap meets the horizon: l = (cp, +-sp, 0).
+// The two directions in which a cap's rim meets the horizon, (cp, +-sp, 0) in the frame of the cap:
+// l . c = cos S with l_z = 0 gives cp = cos S / |c_t|.
 struct Chord {
     float cp, sp, cm; // cm = 1 - cp
 };
@@ -86,7 +96,10 @@ Chord makeChord(SphereCap cap, float sinC)
     return o;
 }
 
-// 2 pi times the horizon arc's share of Phi: along it |w|^2 = A0 + 2 v_t . l is linear in l.
+// The horizon's share of 2 pi Phi. Along it l is on the unit circle, w = (l + v_t, alpha NoV), so that
+// |w|^2 = A0 + 2 v_t . l and w x dw = (-alpha NoV l, 1 + v_t . l) times the angle. All that remains is
+// integrals of 1, v_t . l and v_t x l over A0 + 2 v_t . l from -pc to pc: the first, J0, is an arc
+// tangent, the second is pc - A0 J0 / 2 over 2, the third a logarithm of |w|^2 at the ends.
 vec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
 {
     const float hz = p.alpha * p.NoV;
@@ -106,13 +119,15 @@ vec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
     return vec3(across, pc + 0.5 * NoV2 * p.oneMinusA2 * J0);
 }
 
-// The region of the part of the cap above the horizon, exact. By Stokes' theorem its vector
-// irradiance is that of its boundary, Phi = (1 / 2 pi) closed integral (w x dw) / |w|^2 with
-// w = (m_x, m_y, alpha m_z), m = l + v: an arc of the cap, an ellipse in w, and an arc of the horizon,
-// each in closed form. Frame: (x, y, n) of CapFrame. |NoC| < s.
+// The region of the part of a cap above the horizon, for caps that cross it, |NoC| < s. On the rim,
+// w^T q w = 0 with the q of conic_region.glsl. In the principal axes e1, e2, e of q (e: the axis of the
+// cone; a, b: the tangents of its half angles along e1 and e2) the rim is w = (a cos t, b sin t, 1), so
+// |w|^2 = 1 + a^2 cos^2 t + b^2 sin^2 t and w x dw = (-b cos t, -a sin t, a b) dt. The integrals are an
+// arc tangent, an inverse hyperbolic tangent and an arc tangent of the ends.
 ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
 {
-    // First, because it does not need the root below: the two long chains of operations overlap.
+    // The horizon comes first because it does not need the root below: so the two long chains of
+    // operations overlap.
     const Chord chord = makeChord(cap, f.sinC);
     const vec3 horizon = horizonArc(p, f, chord);
     const float cx = f.sinC;
@@ -127,7 +142,8 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const float t = v1 * cx;
     const float w2 = v2 * v2 * cx * cx;
     const float hh = 0.5 * ((v1 + cx) * (v1 + cx) + v2 * v2 + (vz + cz) * (vz + cz)); // 1 + v . c
-    // k < 0: the cap holds -v (grazing view ahead). The same cone then has the other sign.
+    // k < 0: the cap holds -v, as lights ahead of a grazing view can. The quadratic form of the same
+    // cone then has the other sign, sg.
     const float signedK = hh - cap.omc;
     const float sg = signedK < 0.0 ? -1.0 : 1.0;
     const float ak = max(abs(signedK), 1e-4 * hh);
@@ -147,10 +163,11 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const float yy = ak;
     const float yz = -sg * v2 * cz * invAlpha;
     const float zz = sg * Z;
-    // The chord's midpoint lies inside the cone.
+    // w at the middle of the chord between the ends of the arcs: it lies inside the cone.
     const float sp = chord.sp;
     const vec3 wc = vec3(1.0 + v1 - chord.cm, v2, p.alpha * vz);
-    // Axis e of the cone: adj(q + lam) maps anything to it.
+    // The axis e of the cone: the adjugate of q + lam I is a multiple of e e^T, so it maps wc to the
+    // axis, on the cone's side.
     const float X = xx + lam;
     const float Y = yy + lam;
     const float W = zz + lam;
@@ -160,7 +177,8 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const vec3 E = vec3((Y * W - yz * yz) * wc.x + adjXY * wc.y + adjXZ * wc.z,
                         adjXY * wc.x + (X * W - xz * xz) * wc.y + adjYZ * wc.z,
                         adjXZ * wc.x + adjYZ * wc.y + (X * Y - xy * xy) * wc.z);
-    // f1, f2 across it, right-handed (Duff et al. 2017), then turned to the principal axes of q.
+    // f1, f2, e: a right-handed frame (Duff et al. 2017, "Building an Orthonormal Basis, Revisited"). A
+    // turn about e by half the angle of (de, be) takes f1, f2 to the principal axes e1, e2 of q.
     const float se = E.z < 0.0 ? -1.0 : 1.0;
     const float reach = sqrt(max(length2(E), 1e-36));
     const float stretch = se * reach + E.z;
@@ -189,7 +207,7 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const vec3 e2 = cosT * f2 - sinT * f1;
     const float a = sqrt(A2);
     const float b = sqrt(B2);
-    // The ends of the cap's arc on its circle, of lengths lp and lm.
+    // (cos t, sin t) at the ends of the rim's arc, each times a b and a length, lp or lm.
     const float w1 = dot(wc, e1);
     const float w2e = dot(wc, e2);
     const vec2 plus = vec2((w1 + sp * e1.y) * b, (w2e + sp * e2.y) * a);
@@ -212,7 +230,9 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const vec2 angles = atan2Pair(vec2(si, g * (minus.y * lp - plus.y * lm)),
                                   vec2(co, lpm + g2 * plus.y * minus.y));
     const float angle = angles.x;
-    // An arc nearly empty or nearly full: the side of the horizon decides, not rounding.
+    // The arc runs from one end to the other by `angle` or by the rest of the full turn. Where it is
+    // nearly empty or nearly full (within atan(1 / 7) = 8 degrees) rounding could take either for the
+    // other, and the side of the horizon on which the centre lies decides.
     const bool full = co > 7.0 * abs(si) ? cz > 0.0 : angle < 0.0;
     const float dt = full ? angle + 2.0 * PI : angle;
     const vec3 arc =
@@ -230,16 +250,13 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     return o;
 }
 
-// Caps below this share of the lobe, s2 <= SMALL_CAP a2, are not clipped exactly: the arcs of a tiny
-// cone cancel in float32, with an error of about eps (2 alpha / s)^2.
-const float SMALL_CAP = 0.003;
-
-// Instead, a whole cap of the clipped area about the clipped centroid, seen under s2 and omc.
+// A whole cap that stands for the visible part of one too small to be clipped (SMALL_CAP).
 struct SubstituteCap {
     vec3 c;
     float NoC, s2, omc;
 };
 
+// The substitute has the area of the visible part, a segment of a circle, and its centroid.
 SubstituteCap substituteCap(ConicPoint p, SphereCap cap)
 {
     const float sinC = sqrt(max(1.0 - cap.NoC * cap.NoC, 0.0));
@@ -248,9 +265,9 @@ SubstituteCap substituteCap(ConicPoint p, SphereCap cap)
     o.c = cap.c + p.n * (mean - cap.NoC);
     o.c *= inversesqrt(max(length2(o.c), MIN_LENGTH2));
     o.NoC = dot(p.n, o.c);
-    // Area of a circle's segment over the circle's, u: the height of it over the diameter; fitted.
+    // Share of the cap's diameter above the horizon, then of its area (shared/conic_constants.h).
     const float u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
-    o.omc = cap.omc * u * sqrt(u) * (1.698 - u * (0.438 + 0.26 * u));
+    o.omc = cap.omc * u * sqrt(u) * (CONIC_SEGMENT - u * (CONIC_SEGMENT_U + CONIC_SEGMENT_U2 * u));
     o.s2 = o.omc * (2.0 - o.omc);
     return o;
 }

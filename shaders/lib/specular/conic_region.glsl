@@ -1,21 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sphere light under the GGX lobe, without shadowing and Fresnel: exact, no table, no fit.
+// The lobe of a GGX surface over a sphere light, before shadowing and Fresnel: exact, without a table
+// or a fit. The sphere is seen as a cap of directions of half angle S about the unit vector c; n is the
+// surface's unit normal, v the unit vector to the eye.
 //
-// Let m = (x, y, 1) be the slope of the half vector about the normal. The light's cap is one conic in
-// slopes, m^T Q m <= 0 with Q = k I - (v c^T + c v^T), k = cos(half angle) + v . c; and D (n . h) dw_h
-// = p22 dx dy is, stretched by 1 / alpha, the clamped cosine (Heitz, Dupuy, Hill and Neubelt 2016 use
-// the same fact). So the integral of D (n . h) over the cap is the irradiance of an elliptic cone, and
-// the mean slope over it is the direction of that cone's vector irradiance. With q the stretched Q,
-// eigenvalues l1, l2 > 0 > -lam:
-//   |Phi| = lam / sqrt((l1 + lam) (l2 + lam)), along the eigenvector of -lam,
-// and lam is the one positive root of p(t) = t^3 + tr t^2 + m2 t - D0, the characteristic polynomial.
+// 1. Half vectors are written as slopes, m = h / (n . h) = (x, y, 1) in a frame with n as z. Such a
+//    half vector reflects the eye to the light direction l = 2 (v . m) m / (m . m) - v.
+// 2. The cap is l . c >= cos S. With l from step 1, times m . m, it is one conic in slopes:
+//      m^T Q m <= 0,   Q = k I - (v c^T + c v^T),   k = cos S + v . c.
+// 3. The lobe D (n . h) dw_h is, in slopes, alpha^2 / (pi (alpha^2 + x^2 + y^2)^2) dx dy (Trowbridge
+//    and Reitz 1975). As a function of the direction of w = (x / alpha, y / alpha, 1) that is the
+//    clamped cosine, (1 / pi) (n . w / |w|) dw (Heitz, Dupuy, Hill and Neubelt 2016 use the same fact).
+// 4. So the lobe's integral over the cap is the irradiance, over pi, that the surface gets from a cone
+//    of luminance 1, w^T q w <= 0 with q = T Q T / alpha^2, T = diag(alpha, alpha, 1). Irradiance for
+//    all normals at once is a vector, Phi = (1 / pi) integral of the unit vectors in the cone. The
+//    lobe's integral is Phi_z, and the mean slope over lobe and cap is alpha (Phi_x, Phi_y) / Phi_z,
+//    because slopes are alpha (w_x, w_y) / w_z.
+// 5. By symmetry Phi lies along the cone's axis. Let l1, l2 > 0 > -lam be the eigenvalues of q. The
+//    tangents of the cone's half angles are A = sqrt(lam / l1) and B = sqrt(lam / l2), and an ellipse
+//    faced along its axis has the form factor A B / sqrt((1 + A^2) (1 + B^2)), so
+//      |Phi| = lam / sqrt((l1 + lam) (l2 + lam)).
+// 6. lam is the one positive root of p(t) = det(q + t I) = t^3 + tr t^2 + m2 t - D0: tr is the trace of
+//    q, m2 the sum of its principal 2x2 minors, and D0 = -det q = k sin^2 S / alpha^2. P = p'(lam) is
+//    (l1 + lam) (l2 + lam), and the adjugate of q + lam I is P e e^T with the unit vector e along the
+//    axis. So Phi_z = lam sqrt(adj) / P, with the adjugate's last entry adj, and the mean slope follows
+//    from its last column: no eigenvector is computed.
+//
+// All of it is written in dot products, with v_t and c_t for the parts of v and c in the surface, so
+// that no frame is needed either.
 #ifndef CND_LIB_SPECULAR_CONIC_REGION
 #define CND_LIB_SPECULAR_CONIC_REGION
 
 #include "lib/brdf.glsl"
 #include "lib/lights/sphere_cap.glsl"
+#include "shared/conic_constants.h"
 
-// What does not depend on the light.
+// The part of the formulas that does not depend on the light.
 struct ConicPoint {
     vec3 n;
     vec3 v;      // to the eye, tilted up to NoV >= MIN_CONIC_NOV
@@ -26,10 +45,6 @@ struct ConicPoint {
     float alpha, a2, oneMinusA2, invA2;
     float smithV; // sqrt(a2 + (1 - a2) NoV^2)
 };
-
-// Below this the mean slope exceeds what float32 resolves. v is tilted with it: with only the number
-// clamped, v . n and NoV disagree and the conic is none.
-const float MIN_CONIC_NOV = 0.02;
 
 ConicPoint makeConicPoint(ShadingPoint s)
 {
@@ -52,7 +67,7 @@ ConicPoint makeConicPoint(ShadingPoint s)
     return p;
 }
 
-// The lobe over the light.
+// The lobe over a light: its integral, and where in it the light lies on average.
 struct ConicRegion {
     float integral; // of D (n . h) over the half vectors that reflect the eye to the light, 0..1
     float x2;       // squared length of the mean slope there
@@ -60,12 +75,9 @@ struct ConicRegion {
     float mu;       // NoV + av = v . (mean slope, 1) > 0
 };
 
-// Smallest v . mean: rounding can bring it to zero and below.
-const float MIN_CONIC_MU = 1e-6;
-
-// One step of Halley's iteration on p(t): from above the root it converges monotonically, because all
-// roots of p are real. Rounding can take a step below zero; what it is replaced with is relative to t,
-// because the root falls with the light's area, without end.
+// One step of Halley's iteration on p(t), t - p p' / (p'^2 - p p'' / 2). From above the root it
+// converges monotonically, because all roots of p are real. Rounding can take a step below zero; what
+// replaces it then is relative to t, because the root falls with the light's area, without end.
 float halley(float t, float tr, float m2, float D0)
 {
     const float f2 = 3.0 * t + tr;
@@ -76,6 +88,16 @@ float halley(float t, float tr, float m2, float D0)
 
 // The region of a whole cap. c: unit direction to its centre, s2, omc: sin^2 and 1 - cos of its half
 // angle. The cap should not reach below the horizon.
+//
+// q consists of a 2x2 block in the surface, k I - (v_t c_t^T + c_t v_t^T), with the trace AC and the
+// determinant M; of a column -(NoC v_t + NoV c_t) / alpha, with the squared length G / alpha^2; and of
+// the corner Z = (cos S - mirror . c) / alpha^2. Then tr = AC + Z and m2 = M + AC Z - G / alpha^2.
+//
+// The iteration starts above the root. With the block's entries along and across the column (`across`
+// is u / G) and the mixed one, p(t) = 0 reads
+//   (t + ka) (t + Z) = G / alpha^2,   ka = along - mixed^2 / (t + across).
+// The root is at least `inside` = max(0, -Z), and ka grows with t. So with ka taken at t = inside, the
+// root of the quadratic is an upper bound; where `mixed` is 0, it is the root itself.
 ConicRegion wholeCap(ConicPoint p, vec3 c, float NoC, float s2, float omc)
 {
     const vec3 dl = c - p.mirror;
@@ -84,9 +106,9 @@ ConicRegion wholeCap(ConicPoint p, vec3 c, float NoC, float s2, float omc)
     const float ll = 1.0 - NoC * NoC;          // |c_t|^2
     const float w = dot(p.vxn, c);             // v_t x c_t
     const float hh = 0.5 * length2(p.v + c);   // 1 + v . c without cancellation
-    const float k = max(hh - omc, 0.001 * hh); // the cap must not hold -v
+    const float k = max(hh - omc, 0.001 * hh); // positive: the cap must not hold -v
     const float z0 = 0.5 * length2(dl) - omc;  // cos(half angle) - mirror . c, without cancellation
-    // Squared length of NoC v_t + NoV c_t, how far the ellipse lies off the slope origin.
+    // Squared length of NoC v_t + NoV c_t: it is 0 where the ellipse lies about the slope origin.
     const float G = max(length2(p.NoV * dl - dz * p.mirror), 1e-14);
     const float AC = 2.0 * (k - t);
     const float M = k * (k - 2.0 * t) - w * w;
@@ -95,12 +117,11 @@ ConicRegion wholeCap(ConicPoint p, vec3 c, float NoC, float s2, float omc)
     const float D0 = ks * p.invA2;
     const float tr = AC + Z;
     const float m2 = M + AC * Z - G * p.invA2;
-    // Start: the root if the ellipse's axis pointed at the origin; an upper bound otherwise.
     const float u = clamp(M * z0 + ks, 1e-4 * AC * G, AC * G);
     const float inside = max(0.0, -Z);
     const float invU = 1.0 / (u + inside * G);
     const float ka = max(M * G + (AC * G - u) * inside, 0.001 * u * AC) * invU;
-    const float c0 = Z >= 0.0 ? D0 * G * invU : G * p.invA2 - Z * ka;
+    const float c0 = Z >= 0.0 ? D0 * G * invU : G * p.invA2 - Z * ka; // without cancellation
     const float b = 0.5 * (Z + ka);
     const float r = sqrt(b * b + c0);
     float lam = b > 0.0 ? c0 / (b + r) : r - b;
@@ -112,6 +133,7 @@ ConicRegion wholeCap(ConicPoint p, vec3 c, float NoC, float s2, float omc)
     const float kt = kp - t;
     const float adj = max(kt * kt - p.vv * ll, 1e-4 * kp * kp);
     const float invAdj = 1.0 / adj;
+    // The slope at which q + lam I maps to zero, the cone's axis: (block + lam) x = NoC v_t + NoV c_t.
     const float a = (kt * NoC + ll * p.NoV) * invAdj; // mean slope = a v_t + e c_t
     const float e = (kt * p.NoV + p.vv * NoC) * invAdj;
     ConicRegion o;

@@ -8,7 +8,7 @@
 
 #include "transcription/conic.h"
 
-namespace candelabra::test::transcription
+namespace candelabra::transcription
 {
 
 inline constexpr double PI = std::numbers::pi;
@@ -16,11 +16,11 @@ inline constexpr double INV_PI = 1 / PI;
 inline constexpr double HALF_PI = PI / 2;
 inline constexpr double MIN_LENGTH2 = 1e-30;
 inline constexpr double MAX_SPECULAR_S2 = 0.9999;
-inline constexpr double MIN_CONIC_NOV = 0.02;
-inline constexpr double MIN_CONIC_MU = 1e-6;
-inline constexpr double MAX_SLOPE_VARIANCE = 1e6;
-inline constexpr double MIN_VARIANCE = 1e-12;
-inline constexpr double SMALL_CAP = 0.003;
+inline const double MIN_CONIC_NOV = gpu::MIN_CONIC_NOV;
+inline const double MIN_CONIC_MU = gpu::MIN_CONIC_MU;
+inline const double MAX_SLOPE_VARIANCE = gpu::MAX_SLOPE_VARIANCE;
+inline const double MIN_VARIANCE = gpu::MIN_VARIANCE;
+inline const double SMALL_CAP = gpu::SMALL_CAP;
 
 inline double saturate(double x)
 {
@@ -75,10 +75,11 @@ struct SubstituteCap {
 double halley(double t, double tr, double m2, double D0);
 ConicRegion wholeCap(ConicPoint p, glm::dvec3 c, double NoC, double s2, double omc);
 double smith(ConicPoint p, double NoL);
-glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o);
-CapHeights capHeights(SphereCap cap, double sinC);
-LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1);
-glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z);
+glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o, const ConicConstants& k);
+CapHeights capHeights(SphereCap cap, double sinC, const ConicConstants& k);
+LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1,
+                          const ConicConstants& k);
+glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, const ConicConstants& k);
 glm::dvec2 atanTail(glm::dvec2 t2);
 glm::dvec2 atan2Pair(glm::dvec2 y, glm::dvec2 x);
 double atanhRatio(double y, double x);
@@ -87,9 +88,9 @@ CapFrame makeCapFrame(ConicPoint p, glm::dvec3 c, double NoC);
 Chord makeChord(SphereCap cap, double sinC);
 glm::dvec3 horizonArc(ConicPoint p, CapFrame f, Chord chord);
 ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f);
-SubstituteCap substituteCap(ConicPoint p, SphereCap cap);
+SubstituteCap substituteCap(ConicPoint p, SphereCap cap, const ConicConstants& k);
 unsigned conicClass(double heightAbove, double radius, double d2, double a2);
 double nearness(SphereCap cap);
-glm::dvec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed);
+glm::dvec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed, const ConicConstants& k);
 
-} // namespace candelabra::test::transcription
+} // namespace candelabra::transcription

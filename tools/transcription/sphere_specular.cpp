@@ -6,7 +6,7 @@
 
 #include "transcription/conic.h"
 
-namespace candelabra::test::transcription
+namespace candelabra::transcription
 {
 
 ShadingPoint makeShadingPoint(glm::dvec3 n, glm::dvec3 v, double alpha)
@@ -57,4 +57,4 @@ glm::dvec2 kxResponse(ShadingPoint p, SphereCap cap)
     return glm::min(2 * std::numbers::pi * cap.omc * peak * specularResponse(p, l), glm::dvec2(1));
 }
 
-} // namespace candelabra::test::transcription
+} // namespace candelabra::transcription

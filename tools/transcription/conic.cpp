@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transcription/conic_parts.h"
 
-namespace candelabra::test::transcription
+namespace candelabra::transcription
 {
 
 // shaders/lib/specular/conic_clip.glsl
 glm::dvec2 atanTail(glm::dvec2 t2)
 {
-    glm::dvec2 k = -0.00435541 * t2 + 0.02304016;
-    k = k * t2 - 0.05777362;
-    k = k * t2 + 0.09794236;
-    k = k * t2 - 0.13976583;
-    k = k * t2 + 0.19962704;
-    return k * t2 - 0.33331659;
+    glm::dvec2 k = -double(gpu::CONIC_ATAN_T15) * t2 + double(gpu::CONIC_ATAN_T13);
+    k = k * t2 - double(gpu::CONIC_ATAN_T11);
+    k = k * t2 + double(gpu::CONIC_ATAN_T9);
+    k = k * t2 - double(gpu::CONIC_ATAN_T7);
+    k = k * t2 + double(gpu::CONIC_ATAN_T5);
+    return k * t2 - double(gpu::CONIC_ATAN_T3);
 }
 
 glm::dvec2 atan2Pair(glm::dvec2 y, glm::dvec2 x)
@@ -211,17 +211,18 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     return o;
 }
 
-SubstituteCap substituteCap(ConicPoint p, SphereCap cap)
+SubstituteCap substituteCap(ConicPoint p, SphereCap cap, const ConicConstants& k)
 {
     const double sinC = std::sqrt(glm::max(1.0 - cap.NoC * cap.NoC, 0.0));
-    const double mean = capHeights(cap, sinC).mean;
+    const double mean = capHeights(cap, sinC, k).mean;
     SubstituteCap o{};
     o.c = cap.c + p.n * (mean - cap.NoC);
     o.c *= inversesqrt(glm::max(length2(o.c), MIN_LENGTH2));
     o.NoC = glm::dot(p.n, o.c);
 
     const double u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
-    o.omc = cap.omc * u * std::sqrt(u) * (1.698 - u * (0.438 + 0.26 * u));
+    o.omc = cap.omc * u * std::sqrt(u) *
+            (gpu::CONIC_SEGMENT - u * (gpu::CONIC_SEGMENT_U + double(gpu::CONIC_SEGMENT_U2) * u));
     o.s2 = o.omc * (2.0 - o.omc);
     return o;
 }
@@ -233,15 +234,15 @@ unsigned conicClass(double heightAbove, double radius, double d2, double a2)
     const double r2 = glm::min(radius * radius, MAX_SPECULAR_S2 * d2);
     const double signed2 = heightAbove * std::abs(heightAbove);
     if (signed2 <= -r2)
-        return CONIC_BELOW;
+        return gpu::CONIC_BELOW;
     if (signed2 >= 4.0 * r2)
-        return CONIC_ABOVE;
-    return signed2 >= r2 || r2 <= SMALL_CAP * a2 * d2 ? CONIC_NEAR : CONIC_CLIPPED;
+        return gpu::CONIC_ABOVE;
+    return signed2 >= r2 || r2 <= SMALL_CAP * a2 * d2 ? gpu::CONIC_NEAR : gpu::CONIC_CLIPPED;
 }
 
-glm::dvec2 conicAbove(ConicPoint p, SphereCap cap)
+glm::dvec2 conicAbove(ConicPoint p, SphereCap cap, const ConicConstants& k)
 {
-    return shadeOneNode(p, wholeCap(p, cap.c, cap.NoC, cap.s * cap.s, cap.omc));
+    return shadeOneNode(p, wholeCap(p, cap.c, cap.NoC, cap.s * cap.s, cap.omc), k);
 }
 
 double nearness(SphereCap cap)
@@ -249,34 +250,34 @@ double nearness(SphereCap cap)
     return saturate(2.0 - cap.NoC / cap.s);
 }
 
-glm::dvec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed)
+glm::dvec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed, const ConicConstants& k)
 {
     SubstituteCap sub = SubstituteCap(cap.c, cap.NoC, cap.s * cap.s, cap.omc);
-    const SubstituteCap cut = substituteCap(p, cap);
+    const SubstituteCap cut = substituteCap(p, cap, k);
     if (cap.NoC < cap.s)
         sub = cut;
     const double sinC = std::sqrt(glm::max(1.0 - cap.NoC * cap.NoC, 0.0));
-    const LightHeights z = lightHeights(p, cap, sinC, makeCapFrame(p, sub.c, sub.NoC).v1);
+    const LightHeights z = lightHeights(p, cap, sinC, makeCapFrame(p, sub.c, sub.NoC).v1, k);
     const ConicRegion o = wholeCap(p, sub.c, sub.NoC, sub.s2, sub.omc);
-    const glm::dvec2 two = shadeTwoNodes(p, o, z);
-    return mixed ? glm::mix(shadeOneNode(p, o), two, nearness(cap)) : two;
+    const glm::dvec2 two = shadeTwoNodes(p, o, z, k);
+    return mixed ? glm::mix(shadeOneNode(p, o, k), two, nearness(cap)) : two;
 }
 
-glm::dvec2 conicNear(ConicPoint p, SphereCap cap)
+glm::dvec2 conicNear(ConicPoint p, SphereCap cap, const ConicConstants& k)
 {
-    return conicUnclipped(p, cap, true);
+    return conicUnclipped(p, cap, true, k);
 }
 
-glm::dvec2 conicFullUnclipped(ConicPoint p, SphereCap cap)
+glm::dvec2 conicFullUnclipped(ConicPoint p, SphereCap cap, const ConicConstants& k)
 {
-    return conicUnclipped(p, cap, false);
+    return conicUnclipped(p, cap, false, k);
 }
 
-glm::dvec2 conicClipped(ConicPoint p, SphereCap cap)
+glm::dvec2 conicClipped(ConicPoint p, SphereCap cap, const ConicConstants& k)
 {
     const CapFrame f = makeCapFrame(p, cap.c, cap.NoC);
-    const LightHeights z = lightHeights(p, cap, f.sinC, f.v1);
-    return shadeTwoNodes(p, clippedCap(p, cap, f), z);
+    const LightHeights z = lightHeights(p, cap, f.sinC, f.v1, k);
+    return shadeTwoNodes(p, clippedCap(p, cap, f), z, k);
 }
 
 unsigned conicClassOf(ConicPoint p, SphereCap cap)
@@ -284,29 +285,29 @@ unsigned conicClassOf(ConicPoint p, SphereCap cap)
     return conicClass(cap.NoC, cap.s, 1.0, p.a2);
 }
 
-glm::dvec2 conicResponse(ConicPoint p, SphereCap cap)
+glm::dvec2 conicResponse(ConicPoint p, SphereCap cap, const ConicConstants& k)
 {
     switch (conicClassOf(p, cap)) {
-    case CONIC_ABOVE:
-        return conicAbove(p, cap);
-    case CONIC_NEAR:
-        return conicNear(p, cap);
-    case CONIC_CLIPPED:
-        return conicClipped(p, cap);
+    case gpu::CONIC_ABOVE:
+        return conicAbove(p, cap, k);
+    case gpu::CONIC_NEAR:
+        return conicNear(p, cap, k);
+    case gpu::CONIC_CLIPPED:
+        return conicClipped(p, cap, k);
     }
     return glm::dvec2(0.0);
 }
 
-glm::dvec2 conicFullResponse(ConicPoint p, SphereCap cap)
+glm::dvec2 conicFullResponse(ConicPoint p, SphereCap cap, const ConicConstants& k)
 {
     switch (conicClassOf(p, cap)) {
-    case CONIC_ABOVE:
-    case CONIC_NEAR:
-        return conicFullUnclipped(p, cap);
-    case CONIC_CLIPPED:
-        return conicClipped(p, cap);
+    case gpu::CONIC_ABOVE:
+    case gpu::CONIC_NEAR:
+        return conicFullUnclipped(p, cap, k);
+    case gpu::CONIC_CLIPPED:
+        return conicClipped(p, cap, k);
     }
     return glm::dvec2(0.0);
 }
 
-} // namespace candelabra::test::transcription
+} // namespace candelabra::transcription

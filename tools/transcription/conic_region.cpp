@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transcription/conic_parts.h"
 
-namespace candelabra::test::transcription
+namespace candelabra::transcription
 {
 
 // shaders/lib/lights/sphere_cap.glsl
@@ -107,11 +107,11 @@ double smith(ConicPoint p, double NoL)
     return std::sqrt(p.a2 + p.oneMinusA2 * NoL * NoL);
 }
 
-glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o)
+glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o, const ConicConstants& k)
 {
     const double q = 1.0 + o.x2 * p.invA2;
-    const double variance = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
-    const double im2 = 1.0 / (1.0 + o.x2 + 0.75 * variance);
+    const double slopeRadius2 = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
+    const double im2 = 1.0 / (1.0 + o.x2 + k.CONIC_ONE_NODE_LENGTHENING * slopeRadius2);
     const double VoH = saturate(o.mu * std::sqrt(im2));
     const double NoL = glm::clamp(2.0 * o.mu * im2 - p.NoV, 1e-6, 1.0);
     const double a =
@@ -119,7 +119,7 @@ glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o)
     return glm::dvec2(a, a * pow5(1.0 - VoH));
 }
 
-CapHeights capHeights(SphereCap cap, double sinC)
+CapHeights capHeights(SphereCap cap, double sinC, const ConicConstants& k)
 {
     const double cosS = 1.0 - cap.omc;
     CapHeights z{};
@@ -130,17 +130,20 @@ CapHeights capHeights(SphereCap cap, double sinC)
     const double u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
     const double u2 = u * u;
     const double fraction =
-        0.3653 + u * (0.2182 + u * (0.1443 * u2 * u + 0.1923 * cap.omc - 0.1941));
+        k.CONIC_CUT_MEAN +
+        u * (k.CONIC_CUT_MEAN_U + u * (k.CONIC_CUT_MEAN_U5 * u2 * u +
+                                       k.CONIC_CUT_MEAN_U2_SIZE * cap.omc - k.CONIC_CUT_MEAN_U2));
     const double cut = z.high * glm::min(fraction, 0.5 + 0.5 * cosS);
     const double u8 = u2 * u2 * u2 * u2;
     z.mean = cut + u8 * (whole - cut);
     return z;
 }
 
-LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1)
+LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1,
+                          const ConicConstants& k)
 {
-    const CapHeights z = capHeights(cap, sinC);
-    const double spread2 = 0.2212 * (z.mean - z.low) * (z.high - z.mean);
+    const CapHeights z = capHeights(cap, sinC, k);
+    const double spread2 = k.CONIC_LIGHT_SPREAD * (z.mean - z.low) * (z.high - z.mean);
     const double spread = glm::min(std::sqrt(glm::max(spread2, 0.0)), 0.98 * z.mean);
     const double za = z.mean - spread;
     const double zb = glm::min(z.mean + spread, 1.0);
@@ -158,16 +161,17 @@ LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1)
     return LightHeights(z.low, z.high, za + gap * share, gap * gap * share * (1.0 - share));
 }
 
-glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
+glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, const ConicConstants& k)
 {
     const double height = z.high - z.low;
-    const double lobeWidth = p.a2 + 3.684 * o.x2;
+    const double lobeWidth = p.a2 + k.CONIC_WIDTH_FROM_SLOPE * o.x2;
     const double q = 1.0 + o.x2 * p.invA2;
     const double m2 = 1.0 + o.x2;
-    const double partial = 1.0 - 0.8444 * o.integral;
-    const double spread = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
-    const double m2p = m2 * partial + 0.4669 * spread;
-    const double lobeAndLight = lobeWidth + 0.9612 * p.oneMinusA2 * height * height;
+    const double partial = 1.0 - k.CONIC_TAIL * o.integral;
+    const double slopeRadius2 = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
+    const double m2p = m2 * partial + k.CONIC_LENGTHENING * slopeRadius2;
+    const double lobeAndLight =
+        lobeWidth + k.CONIC_WIDTH_FROM_HEIGHT * p.oneMinusA2 * height * height;
     const double invFirst = 1.0 / (lobeAndLight * m2p);
     const double wide = lobeWidth * m2p * invFirst;
     const double invM2p = lobeAndLight * invFirst;
@@ -178,20 +182,22 @@ glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
     const double dd = glm::max(p.vv - tau * (o.av + ds), 1e-8);
     const double lobeHeight = glm::clamp(tau - p.NoV, z.low, z.high);
     const double gdd = gz * dd;
-    const double lobeVariance = 0.8506 * spread * invM2p * gdd;
-    const double room = 0.2621 * (lobeHeight - z.low) * (z.high - lobeHeight);
+    const double lobeVariance = k.CONIC_LOBE_VARIANCE * slopeRadius2 * invM2p * gdd;
+    const double room = k.CONIC_RANGE_VARIANCE * (lobeHeight - z.low) * (z.high - lobeHeight);
     const double sum = lobeVariance + room + MIN_VARIANCE;
     const double invSecond = 1.0 / (sum * gdd * o.mu);
     const double shift2 = lobeVariance * room * gdd * o.mu * invSecond;
     const double shift = std::sqrt(shift2);
     const double meanSlope = shift * sum * o.mu * invSecond;
 
-    const double rel = glm::clamp(meanSlope * dv * sum * gdd * invSecond, -0.4089, 0.4089);
+    const double rel = glm::clamp(meanSlope * dv * sum * gdd * invSecond, -k.CONIC_MAX_MEAN_SHIFT,
+                                  k.CONIC_MAX_MEAN_SHIFT);
     const double fromLobe = glm::clamp(lobeHeight + shift * rel, z.low, z.high);
 
     const double mean = glm::max(fromLobe + wide * (z.mean - fromLobe), 1e-6);
     const double largest = glm::max(0.0, mean - z.low) * glm::max(0.0, z.high - mean);
-    const double blended = glm::mix(1.778 * shift2, 1.128 * z.variance, wide);
+    const double blended =
+        glm::mix(k.CONIC_NARROW_VARIANCE * shift2, k.CONIC_WIDE_VARIANCE * z.variance, wide);
     const double v = glm::min(blended, 0.95 * largest);
 
     const double deviation = std::sqrt(v);
@@ -211,9 +217,9 @@ glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
     const double low = share * (1.0 + weight) * below * shadowAbove;
     const double high = share * (1.0 - weight) * above * shadowBelow;
 
-    const double slopeLow = meanSlope * (rel + 0.7392 * stepLow);
-    const double slopeHigh = meanSlope * (rel + 0.7392 * stepHigh);
-    const double mm = m2 + 0.8924 * spread / partial;
+    const double slopeLow = meanSlope * (rel + k.CONIC_FRESNEL_STEP * stepLow);
+    const double slopeHigh = meanSlope * (rel + k.CONIC_FRESNEL_STEP * stepHigh);
+    const double mm = m2 + k.CONIC_FRESNEL_LENGTHENING * slopeRadius2 / partial;
     const double mmLow = glm::max(mm + slopeLow * (2.0 * ds + slopeLow * dd), 1e-6);
     const double mmHigh = glm::max(mm + slopeHigh * (2.0 * ds + slopeHigh * dd), 1e-6);
     const double invMm = 1.0 / (mmLow * mmHigh);
@@ -223,4 +229,4 @@ glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
                     glm::dvec2(1.0));
 }
 
-} // namespace candelabra::test::transcription
+} // namespace candelabra::transcription
