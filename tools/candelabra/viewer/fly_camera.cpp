@@ -10,10 +10,11 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double radiansPerPixel = 0.0025; // about 800 pixels for a half turn
+constexpr double radiansPerPixel = 0.0025; // about 1260 pixels turn the camera by 180 degrees
 constexpr double fastFactor = 6;
-constexpr double nearest = 0.05;                           // metres from the pivot
-constexpr double pitchLimit = std::numbers::pi / 2 - 0.01; // never parallel to up
+constexpr double nearest = 0.05; // smallest distance to the pivot, metres
+// The camera never looks straight along its up vector.
+constexpr double pitchLimit = std::numbers::pi / 2 - 0.01;
 
 glm::dvec3 direction(double yaw, double pitch)
 {
@@ -27,10 +28,11 @@ FlyCamera::FlyCamera(const Camera& camera, double speed)
 {
     const glm::dvec3 f = glm::normalize(camera.forward);
     pitch_ = std::clamp(std::asin(std::clamp(f.y, -1.0, 1.0)), -pitchLimit, pitchLimit);
-    // Straight up or down, the top of the image says where north is.
+    // A camera that looks straight up or down has no heading of its own: its up vector, which is
+    // the top of the image, gives the yaw.
     const glm::dvec3 level = std::abs(f.y) < 0.9999 ? f : camera.up * (f.y > 0 ? -1.0 : 1.0);
     yaw_ = std::atan2(-level.x, -level.z);
-    lens_.aspect.reset(); // the window's
+    lens_.aspect.reset(); // the window's aspect ratio is used
 }
 
 void FlyCamera::update(const FlyInput& input, double seconds)

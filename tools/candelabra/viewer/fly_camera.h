@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// FlyCamera: first-person camera without gravity, or one that orbits a point. No window here.
+// FlyCamera: a first-person camera that flies freely or orbits a point. It knows no window: the
+// viewer hands it its input.
 #pragma once
 
 #include "scene/scene.h"
@@ -8,23 +9,25 @@ namespace candelabra::app
 {
 
 struct FlyInput {
-    glm::dvec3 move{0}; // right, up, forward; -1, 0 or 1 each
-    glm::dvec2 look{0}; // pixels the mouse moved, right and down
-    bool fast = false;
+    glm::dvec3 move{0}; // direction to move in: right, up, forward; each is -1, 0 or 1
+    glm::dvec2 look{0}; // mouse movement in pixels: right, down
+    bool fast = false;  // move 6 times as fast
 };
 
 class FlyCamera
 {
 public:
     FlyCamera() = default;
-    // Starts at `camera` and keeps its lens. `speed` in m/s.
+    // Starts where `camera` stands and looks, with its projection. `speed` is in m/s.
     FlyCamera(const Camera& camera, double speed);
 
     void update(const FlyInput& input, double seconds);
-    // One notch is a factor of 1.25: of the speed, in orbit of the distance.
+    // Each notch makes the camera 1.25 times as fast. In orbit it divides the distance to the pivot
+    // by 1.25 instead.
     void wheel(double notches);
-    // Around the point `distance` metres ahead, until fly(): looking goes around it, moving takes
-    // it along, but forward is nearer.
+    // Orbits the point `distance` metres ahead, the pivot, until fly() is called. Looking turns the
+    // camera around the pivot; moving sideways or up moves both; moving forward approaches the
+    // pivot.
     void orbit(double distance);
     void fly() { distance_ = 0; }
     bool orbits() const { return distance_ > 0; }
@@ -32,16 +35,16 @@ public:
     double speed() const { return speed_; }
 
 private:
-    Camera lens_;
-    glm::dvec3 position_{0};
-    double yaw_ = 0;   // radians, 0 looks down -z, positive turns left
-    double pitch_ = 0; // radians, positive looks up
-    double speed_ = 1;
-    glm::dvec3 pivot_{0};
-    double distance_ = 0; // to the pivot; 0: flies
+    Camera lens_;            // its projection is used; position and directions are below
+    glm::dvec3 position_{0}; // metres
+    double yaw_ = 0;         // radians; at 0 the camera looks along -z, positive is to the left
+    double pitch_ = 0;       // radians; positive is up
+    double speed_ = 1;       // m/s
+    glm::dvec3 pivot_{0};    // the point that is orbited, metres
+    double distance_ = 0;    // from the camera to the pivot, metres; 0 while flying
 };
 
-// m/s: crossing the scene takes about fifteen seconds.
+// A speed in m/s, 0.2 to 200, at which crossing the scene's diagonal takes about fifteen seconds.
 double cruisingSpeed(const Scene& scene);
 
 } // namespace candelabra::app

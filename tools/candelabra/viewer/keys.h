@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What keys and mouse do in the viewer, for everything that lists them.
+// The table of the viewer's keys and mouse actions, which its help window (F2) and the text of
+// `candelabra view --help` show.
 #pragma once
 
 #include <string>
@@ -13,29 +14,29 @@ struct KeyHelp {
 };
 
 constexpr KeyHelp keyHelp[] = {
-    {"W A S D, Q E", "fly; down and up; Shift: fast"},
-    {"drag, wheel", "look; speed, or distance in orbit"},
-    {"O", "orbit, or fly again"},
-    {"[ ]", "half and double the lights"},
-    {"- =", "exposure compensation"},
-    {"M", "next specular method"},
-    {"C", "culling: clustered, brute force"},
-    {"H", "heat maps"},
-    {"B", "A/B: wipe between two ways of shading"},
-    {"N", "new light in front of the camera"},
-    {"Tab", "select the next light; Shift: the one before"},
+    {"W A S D, Q E", "fly; Q goes down, E goes up; hold Shift to go fast"},
+    {"drag, wheel", "look around; change the speed, or the distance in orbit"},
+    {"O", "orbit the point ahead, or fly again"},
+    {"[ ]", "halve or double the number of lights"},
+    {"- =", "lower or raise the exposure by 0.5 EV"},
+    {"M", "next method of computing specular highlights"},
+    {"C", "switch light culling: clustered or brute force"},
+    {"H", "next heat map, or none (clustered culling only)"},
+    {"B", "compare two ways of shading, left and right of a line"},
+    {"N", "add a light in front of the camera"},
+    {"Tab", "select the next light; with Shift the previous one"},
     {"arrows, Page Up Down", "move the selected light"},
-    {", .", "its radius, at the same power"},
-    {"Delete", "remove it"},
-    {"K", "the lights of the pixel under the mouse, and their errors"},
-    {"P, X", "save the image: PNG as shown, EXR of luminance"},
-    {"F5", "save the scene (.json): lights, camera, materials as edited"},
-    {"F1, F2", "panel, this help"},
+    {", .", "shrink or grow the selected light, keeping its power"},
+    {"Delete", "remove the selected light"},
+    {"K", "list the lights of the pixel under the mouse, with errors"},
+    {"P, X", "save the image: P as shown (PNG), X as radiance (EXR)"},
+    {"F5", "save the edited lights, camera and materials (.json)"},
+    {"F1, F2", "show or hide the panel; this help"},
     {"Esc", "quit"},
-    {"drop a file", "scene (.gltf .glb .json) or environment (.hdr .exr .pfm)"},
+    {"drop a file", "open a scene (.gltf .glb .json) or an environment (.hdr .exr .pfm)"},
 };
 
-// One line each.
+// The table as text, one line per entry.
 inline std::string keyHelpText()
 {
     std::string out;

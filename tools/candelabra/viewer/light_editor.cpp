@@ -12,8 +12,11 @@ namespace candelabra::app
 namespace
 {
 
-constexpr float smallestRadius = 1e-4f, largestRadius = 1e3f; // m, of what is edited
-constexpr float reachMargin = 1.01f; // influence has to be greater than the emitter's reach
+// Limits of a radius that is edited, in metres; that of a distant sphere is a sine of at most 1.
+constexpr float smallestRadius = 1e-4f, largestRadius = 1e3f;
+// The influence radius must be greater than the distance from the light's centre to the farthest
+// point of the emitter (reachOf).
+constexpr float reachMargin = 1.01f;
 constexpr const char* typeNames[CND_LIGHT_TYPE_COUNT] = {
     "point", "sphere", "spot", "directional", "distant sphere", "tube", "rectangle", "disc"};
 
@@ -44,7 +47,7 @@ void assign(float (&out)[3], const glm::vec3& v)
         out[i] = v[i];
 }
 
-// lm per channel; none for lights that are infinitely far away.
+// Luminous power in lm per colour channel. Lights that are infinitely far away have none.
 std::optional<glm::vec3> powerOf(const CndLight& light)
 {
     float power[3];
@@ -89,7 +92,7 @@ CndLight* selectedLight(Scene& scene, const LightEditor& editor)
                : nullptr;
 }
 
-// A unit vector, from two angles: what is dragged stays one.
+// Edits the direction as two angles, so that it stays a unit vector.
 bool directionWidget(CndLight& light)
 {
     const glm::vec3 d = glm::normalize(toVec3(light.direction));
@@ -112,7 +115,8 @@ bool coneWidgets(CndLight& light)
         return false;
     outer = std::max(outer, 1.0f);
     light.outerConeAngle = glm::radians(outer);
-    light.innerConeAngle = glm::radians(std::clamp(inner, 0.0f, outer - 0.5f)); // cosines differ
+    // The cosines of the two angles must differ.
+    light.innerConeAngle = glm::radians(std::clamp(inner, 0.0f, outer - 0.5f));
     return true;
 }
 
@@ -153,7 +157,7 @@ bool shapeWidgets(CndLight& light)
     if (hasRadius(light.type)) {
         const bool sun = light.type == CND_LIGHT_DISTANT_SPHERE;
         float radius = light.radius;
-        if (ImGui::DragFloat(sun ? "sine of radius" : "radius", &radius,
+        if (ImGui::DragFloat(sun ? "sine of angular radius" : "radius", &radius,
                              std::max(radius * 0.01f, smallestRadius), smallestRadius,
                              sun ? 1.0f : largestRadius, sun ? "%.5f" : "%.4f m",
                              ImGuiSliderFlags_AlwaysClamp)) {
@@ -189,7 +193,7 @@ void addLight(Scene& scene, LightEditor& editor, const glm::dvec3& position)
     CndLight light{.type = CND_LIGHT_SPHERE, .radius = 0.1f, .influenceRadius = 12};
     assign(light.position, glm::vec3(position - scene.lightOrigin));
     light.direction[1] = -1;
-    assign(light.emission, glm::vec3(cndSphereLuminanceFromPower(1500, light.radius))); // a bulb
+    assign(light.emission, glm::vec3(cndSphereLuminanceFromPower(1500, light.radius))); // lm
     scene.lights.push_back(light);
     if (!scene.lightMotions.empty())
         scene.lightMotions.emplace_back();
@@ -243,7 +247,7 @@ void changeRadius(CndLight& light, float radius)
     const float old = light.radius;
     light.radius = std::clamp(radius, smallestRadius, distant ? 1.0f : largestRadius);
     setPower(light, power);
-    if (distant) // the same illuminance
+    if (distant) // keeps the illuminance
         assign(light.emission,
                toVec3(light.emission) * (old / light.radius) * (old / light.radius));
     widenInfluence(light);
@@ -260,7 +264,7 @@ void changeType(CndLight& light, CndLightType type)
     if (glm::length(toVec3(light.direction)) < 0.5f)
         assign(light.direction, {0, -1, 0});
     assign(light.axisU, {0.5f, 0, 0});
-    assign(light.axisV, {0, 0, 0.3f}); // faces down: axisU x axisV
+    assign(light.axisV, {0, 0, 0.3f}); // the rectangle faces down, along axisU x axisV
     light.innerConeAngle = 0.3f;
     light.outerConeAngle = 0.6f;
     if (!(light.influenceRadius > 0))
@@ -283,7 +287,7 @@ void drawLightEditor(Scene& scene, LightEditor& editor)
     ImGui::SameLine();
     CndLight* light = selectedLight(scene, editor);
     if (!light) {
-        ImGui::TextUnformatted("no light selected (Tab, N)");
+        ImGui::TextUnformatted("no light selected: Tab selects, N adds one");
         return;
     }
     ImGui::Text("light %u", *editor.selected);

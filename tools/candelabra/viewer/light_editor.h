@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds, changes and removes lights of a scene, always leaving them valid. No window here but for
-// drawLightEditor.
+// Adds, changes and removes lights of a scene. Every edit leaves the lights valid for the lighting
+// module. Only drawLightEditor needs a window.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,28 @@ namespace candelabra::app
 {
 
 struct LightEditor {
-    std::optional<uint32_t> selected;
-    bool changed = false; // since whoever draws the scene was told
+    std::optional<uint32_t> selected; // index of a light of the scene
+    bool changed = false; // set by every edit; the viewer resets it when it has told its renderers
 };
 
-// At a place in the world; selects it. A sphere that lights a room.
+// Adds a sphere light of 1500 lm, enough for a room, at `position` (metres, world space) and
+// selects it.
 void addLight(Scene& scene, LightEditor& editor, const glm::dvec3& position);
 void removeLight(Scene& scene, LightEditor& editor);
-// `step` lights on, around the end.
+// Moves the selection by `step` lights; after the last light comes the first.
 void selectLight(const Scene& scene, LightEditor& editor, int step);
 void moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres);
-// Of the selected light, if it has a radius.
+// Multiplies the radius of the selected light by `factor`, if that light has a radius.
 void scaleLightRadius(Scene& scene, LightEditor& editor, float factor);
 
-// One light. Power is kept where both types, or both sizes, have one.
+// Change one light's type or its radius. The luminous power stays the same where the light has one
+// before and after; a distant sphere keeps its illuminance when its radius changes.
 void changeType(CndLight& light, CndLightType type);
 void changeRadius(CndLight& light, float radius);
 
 const char* lightTypeName(CndLightType type);
 
-// Widgets for the selected light.
+// Draws the widgets that edit the selected light, and applies what the user does with them.
 void drawLightEditor(Scene& scene, LightEditor& editor);
 
 } // namespace candelabra::app

@@ -16,7 +16,7 @@ namespace
 
 VkDescriptorPool createPool(VkDevice device)
 {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1}; // the font
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1}; // for the font
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .flags =
                                               VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
@@ -35,7 +35,7 @@ Overlay::Overlay(const VulkanContext& context, const Window& window, const Swapc
     : context_(context), pool_(createPool(context.desc().device))
 {
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // leaves no file behind
+    ImGui::GetIO().IniFilename = nullptr; // write no settings file
     ImGui::StyleColorsDark();
     ImGui::GetStyle().WindowRounding = 4;
     ImGui_ImplGlfw_InitForVulkan(window.get(), true);
@@ -47,7 +47,8 @@ Overlay::Overlay(const VulkanContext& context, const Window& window, const Swapc
     info.Queue = context.queue();
     info.DescriptorPool = pool_;
     info.MinImageCount = swapchain.minImageCount();
-    // ImGui keeps as many vertex buffers and reuses the oldest: never one the GPU still reads.
+    // ImGui keeps this many vertex buffers and reuses the oldest, which the GPU has finished
+    // reading by then.
     info.ImageCount = std::max(swapchain.imageCount(), swapchain.minImageCount());
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     ImGui_ImplVulkan_Init(&info, swapchain.renderPass());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Overlay: Dear ImGui on top of a window image. The only user of a render pass in the program.
+// Overlay: draws Dear ImGui on top of a window image. Nothing else in the program uses a render
+// pass.
 #pragma once
 
 #include "render/vulkan_context.h"
@@ -17,12 +18,12 @@ public:
     Overlay(const Overlay&) = delete;
     Overlay& operator=(const Overlay&) = delete;
 
-    void begin(); // ImGui calls may follow
-    // Draws what was asked for since begin() onto the target, which is in COLOR_ATTACHMENT_OPTIMAL
-    // and ends in PRESENT_SRC.
+    void begin(); // starts an ImGui frame: widgets may be drawn from here on
+    // Records the drawing of all widgets since begin() onto the target. The target's image must be
+    // in layout COLOR_ATTACHMENT_OPTIMAL and ends in PRESENT_SRC.
     void record(VkCommandBuffer cmd, const Swapchain& swapchain, const Swapchain::Target& target);
 
-    // The overlay wants the input for itself.
+    // True while the mouse or the keyboard is used by a widget: the scene must ignore it then.
     bool takesMouse() const;
     bool takesKeyboard() const;
 

@@ -17,8 +17,8 @@ namespace candelabra::app
 namespace
 {
 
-// EV100 of the lower edge of a histogram bin: 8 bins per octave from 2^-12 cd/m^2, and
-// EV100 = log2(L * 100 / 12.5).
+// EV100 at the lower edge of the histogram's first bin, and width of a bin. The histogram starts at
+// 2^-12 cd/m^2 and has 8 bins per octave; EV100 = log2(L * 100 / 12.5), with L in cd/m^2.
 constexpr float firstBinEv = -12 + 3, evPerBin = 1.0f / 8;
 
 template <typename T>
@@ -32,7 +32,7 @@ void combo(const char* label, T& value, int count, const char* (*name)(T))
     ImGui::EndCombo();
 }
 
-// GPU time of the last frames, newest right.
+// Plots the GPU time of the last frames, the newest at the right.
 void drawTimeLine(const PanelFigures& figures)
 {
     std::vector<float> totals;
@@ -95,7 +95,7 @@ void drawWipe(PanelState& state)
     combo("culling##other", wipe.culling, 2, cullingName);
 }
 
-// The line between the two, and which is which.
+// Draws the line of the wipe and, at its foot, the names of the two ways of shading.
 void drawWipeLine(const PanelState& state)
 {
     const auto name = [](CndSpecularMethod specular, float budget, CndCulling culling) {
@@ -120,7 +120,7 @@ void drawWipeLine(const PanelState& state)
 void drawMaterials(PanelState& state)
 {
     MaterialOverride& m = state.materials;
-    // Applied when the mouse is released: geometry goes to the device again.
+    // A change is applied when the mouse is released, because it uploads the geometry again.
     state.materialsChosen |= ImGui::Checkbox("one material for everything", &m.on);
     if (!m.on)
         return;
@@ -159,7 +159,7 @@ void drawLights(PanelState& state, const PanelFigures& figures)
     if (s.tileCount && state.frame.culling == CND_CULLING_CLUSTERED)
         ImGui::Text("lights per tile: %.1f mean, %u max%s",
                     double(s.listEntries) / double(s.tileCount), s.maxListLength,
-                    s.unlistedClusters ? " (some clusters over budget)" : "");
+                    s.unlistedClusters ? " (some clusters have no list)" : "");
     ImGui::Text("%s", counted(figures.lights, "light").c_str());
     ImGui::SameLine();
     if (ImGui::SmallButton("half"))
@@ -183,7 +183,7 @@ void drawHistogram(const CndExposureStats& stats)
 {
     std::array<float, CND_HISTOGRAM_BINS> heights{};
     for (size_t i = 0; i < heights.size(); ++i)
-        heights[i] = std::sqrt(float(stats.histogram[i])); // small counts stay visible
+        heights[i] = std::sqrt(float(stats.histogram[i])); // keeps small counts visible
     const float width = ImGui::GetContentRegionAvail().x;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float height = 80;
@@ -200,12 +200,12 @@ void drawHistogram(const CndExposureStats& stats)
     mark(stats.adaptedEv100, IM_COL32(255, 160, 60, 255));
     ImGui::Text("luminance, EV100 %.0f to %.0f", double(firstBinEv),
                 double(firstBinEv + evPerBin * CND_HISTOGRAM_BINS));
-    ImGui::Text("target %.2f (blue), in use %.2f (orange)", double(stats.targetEv100),
+    ImGui::Text("EV100: target %.2f (blue), in use %.2f (orange)", double(stats.targetEv100),
                 double(stats.adaptedEv100));
 }
 
-// What every place of the picture counts for, the brighter the more: the mask of centre-weighted
-// metering, in the picture's shape.
+// Draws the weights of centre-weighted metering as a grey image with the aspect ratio of `picture`.
+// Brighter places count more.
 void drawMetering(const PixelSize& picture)
 {
     constexpr uint32_t columns = 48;
@@ -223,14 +223,14 @@ void drawMetering(const PixelSize& picture)
                                                       IM_COL32(grey, grey, grey, 255));
         }
     ImGui::Dummy({width, height});
-    ImGui::TextUnformatted("metering: weight 15 (white) to 1");
+    ImGui::TextUnformatted("metering weights: 15 (white) to 1 (dark)");
 }
 
 void drawPick(PanelState& state, const Pick& pick, const Scene& scene)
 {
     ImGui::Text("pixel %u,%u", pick.pixel.x, pick.pixel.y);
     if (!pick.surface) {
-        ImGui::TextUnformatted("shows no surface");
+        ImGui::TextUnformatted("no surface is visible there");
         return;
     }
     const double all = luminanceOf(pick.radiance);
@@ -246,7 +246,7 @@ void drawPick(PanelState& state, const Pick& pick, const Scene& scene)
         ImGui::TableSetupColumn(title);
     ImGui::TableHeadersRow();
     for (const PickedLight& light : pick.lights) {
-        if (light.light >= scene.lights.size()) // removed meanwhile
+        if (light.light >= scene.lights.size()) // this light was removed after the pick
             continue;
         const double y = luminanceOf(light.radiance), truth = luminanceOf(light.truth);
         ImGui::TableNextRow();
@@ -284,10 +284,10 @@ void drawExposure(PanelState& state, const PanelFigures& figures)
             e.metering = centre ? CND_METERING_CENTRE_WEIGHTED : CND_METERING_AVERAGE;
         if (centre && figures.size.width && figures.size.height)
             drawMetering(figures.size);
-        ImGui::SliderFloat("low share", &e.lowPercentile, 0, 0.45f, "%.2f");
-        ImGui::SliderFloat("high share", &e.highPercentile, 0.55f, 1, "%.2f");
-        ImGui::SliderFloat("speed to bright", &e.speedUp, 0.1f, 20, "%.1f 1/s");
-        ImGui::SliderFloat("speed to dark", &e.speedDown, 0.1f, 20, "%.1f 1/s");
+        ImGui::SliderFloat("low percentile", &e.lowPercentile, 0, 0.45f, "%.2f");
+        ImGui::SliderFloat("high percentile", &e.highPercentile, 0.55f, 1, "%.2f");
+        ImGui::SliderFloat("adapt to brighter", &e.speedUp, 0.1f, 20, "%.1f 1/s");
+        ImGui::SliderFloat("adapt to darker", &e.speedDown, 0.1f, 20, "%.1f 1/s");
     }
     ImGui::SliderFloat("compensation", &e.compensation, -8, 8, "%+.1f EV");
     combo("tone map", e.toneMap, CND_TONEMAP_COUNT, toneMapName);

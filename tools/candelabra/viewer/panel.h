@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel of the viewer: figures of the last frames, and switches.
+// The viewer's panel: shows measurements of the last frames and changes how frames are drawn.
 #pragma once
 
 #include <deque>
@@ -14,46 +14,48 @@
 namespace candelabra::app
 {
 
-// The other way of shading beside which the chosen one is seen, left of the wipe.
+// The A/B comparison ("wipe"): left of a line the image is shaded as PanelState::frame says, right
+// of it with the settings here.
 struct Wipe {
     bool on = false;
-    float at = 0.5f; // share of the window's width that is the chosen one's
+    float at = 0.5f; // place of the line, as a fraction of the window's width
     CndSpecularMethod specular = CND_SPECULAR_KARIS;
     CndCulling culling = CND_CULLING_CLUSTERED;
     float errorBudget = 0;
 };
 
-// What the switches change.
+// The settings that the user changes, with the panel or with keys.
 struct PanelState {
-    FrameOptions frame; // camera, time and deltaTime are the viewer's
+    FrameOptions frame; // the viewer fills in camera, time and deltaTime
     bool visible = true;
-    bool help = false;
+    bool help = false; // the window with keys and mouse is open
     Wipe wipe;
     LightEditor editor;
     MaterialOverride materials;
-    bool materialsChosen = false; // the override is to be applied
+    bool materialsChosen = false; // `materials` was changed and must be applied to the scene
     bool animate = true;          // moving lights move
-    uint32_t wantedLights = 0;    // differs from the scene's: rebuild with as many
+    uint32_t wantedLights = 0;    // the scene is rebuilt if it has another number of lights
 };
 
-// What there is to see.
+// The figures that the panel shows.
 struct PanelFigures {
     std::string scene, device;
-    std::string note;           // what became of the last request, one sentence
-    std::optional<Pick> picked; // the pixel asked for last
+    std::string note;           // result of the user's last request, one sentence
+    std::optional<Pick> picked; // the pixel that was picked last
     uint32_t lights = 0;
-    bool moving = false;
-    double wallMs = 0; // between frames
-    double speed = 0;  // of the camera, m/s
-    PixelSize size;
-    std::deque<std::vector<PassTime>> passes; // of the last frames, newest last
+    bool moving = false;                      // the scene has moving lights
+    double wallMs = 0;                        // time between the starts of two frames
+    double speed = 0;                         // of the camera, m/s
+    PixelSize size;                           // of the rendered image
+    std::deque<std::vector<PassTime>> passes; // one entry per frame, the newest last
     CndLightingStats lighting{};
     CndExposureStats exposure{};
 };
 
-constexpr size_t panelFrames = 60; // frames the times are taken over
+constexpr size_t panelFrames = 60; // number of frames over which pass times are summarised
 
-// `scene`: its lights are edited.
+// Draws the panel, the help window and the line of the wipe. The light editor changes the lights of
+// `scene`.
 void drawPanel(PanelState& state, const PanelFigures& figures, Scene& scene);
 
 } // namespace candelabra::app

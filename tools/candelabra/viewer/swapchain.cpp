@@ -60,10 +60,10 @@ void Swapchain::chooseFormat()
     uint32_t count = 0;
     const VkPhysicalDevice device = context_.info().handle;
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface_, &count, nullptr),
-          "listing the window's formats");
+          "listing the surface formats of the window");
     std::vector<VkSurfaceFormatKHR> formats(count);
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface_, &count, formats.data()),
-          "listing the window's formats");
+          "listing the surface formats of the window");
     for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM})
         for (const VkSurfaceFormatKHR& f : formats)
             if (f.format == wanted && f.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
@@ -88,7 +88,8 @@ void Swapchain::createRenderPass()
     const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        .colorAttachmentCount = 1,
                                        .pColorAttachments = &reference};
-    // What follows the pass (a copy for a screenshot) waits for it and for the final transition.
+    // A copy for a screenshot, which may follow the pass, waits for the pass and for its transition
+    // to the final layout.
     const VkSubpassDependency after{.srcSubpass = 0,
                                     .dstSubpass = VK_SUBPASS_EXTERNAL,
                                     .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -112,12 +113,12 @@ void Swapchain::createImages(VkSwapchainKHR old)
     const VkDevice device = context_.desc().device;
     VkSurfaceCapabilitiesKHR caps{};
     check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context_.info().handle, surface_, &caps),
-          "asking what the window can do");
+          "querying the surface capabilities of the window");
     if (!(caps.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT))
         throw RunError("the window's images cannot be copied into on " + context_.info().name);
     readable_ = caps.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     const PixelSize window = window_.framebufferSize();
-    // Where the surface leaves the size to us it says 0xFFFFFFFF.
+    // A surface that lets the swapchain choose the size reports a width of 0xFFFFFFFF.
     size_ = caps.currentExtent.width != UINT32_MAX
                 ? PixelSize{caps.currentExtent.width, caps.currentExtent.height}
                 : PixelSize{std::clamp(window.width, caps.minImageExtent.width,
@@ -140,8 +141,7 @@ void Swapchain::createImages(VkSwapchainKHR old)
                                         .imageSharingMode = VK_SHARING_MODE_EXCLUSIVE,
                                         .preTransform = caps.currentTransform,
                                         .compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
-                                        .presentMode =
-                                            VK_PRESENT_MODE_FIFO_KHR, // every device has it
+                                        .presentMode = VK_PRESENT_MODE_FIFO_KHR, // always supported
                                         .clipped = VK_TRUE,
                                         .oldSwapchain = old};
     check(vkCreateSwapchainKHR(device, &info, nullptr, &swapchain_), "creating the swapchain");

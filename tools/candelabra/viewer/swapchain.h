@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Swapchain: the images of a window.
+// Swapchain: the images of a window, and what it takes to draw into and present them.
 #pragma once
 
 #include <optional>
@@ -14,34 +14,37 @@ namespace candelabra::app
 class Swapchain
 {
 public:
-    // 8-bit UNORM images that take blits and a render pass; what is written into them is
-    // sRGB-encoded already. Throws RunError or gpu::Failure.
+    // Creates 8-bit UNORM images that can be blitted into and used by renderPass(). What is written
+    // into them must be sRGB-encoded already. Throws RunError or gpu::Failure.
     Swapchain(const VulkanContext& context, const Window& window, uint32_t framesInFlight);
     ~Swapchain();
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    // For the window's new size, which must not be 0x0; waits for the GPU.
+    // Creates the images anew for the window's present size, which must not be 0x0. Waits for the
+    // GPU.
     void recreate();
 
     struct Target {
         uint32_t index;
         VkImage image;
         VkFramebuffer framebuffer;
-        VkSemaphore acquired;  // the image may be written once this is signalled
-        VkSemaphore presented; // signal this when it is written
+        VkSemaphore acquired;  // signalled when the image may be written
+        VkSemaphore presented; // to be signalled by the caller when the image is written
     };
-    // Empty: the window changed, recreate first.
+    // Acquires the next image for the frame in flight `slot`. Empty if the window has changed: call
+    // recreate() first.
     std::optional<Target> acquire(uint32_t slot);
-    // False: recreate before the next frame.
+    // Presents an image. Returns false if recreate() must be called before the next frame.
     bool present(const Target& target);
 
     PixelSize size() const { return size_; }
     VkFormat format() const { return format_; }
     uint32_t imageCount() const { return uint32_t(images_.size()); }
     uint32_t minImageCount() const { return minImageCount_; }
-    bool readable() const { return readable_; } // images can be copied from
-    // One colour attachment that is loaded, from COLOR_ATTACHMENT_OPTIMAL to PRESENT_SRC.
+    bool readable() const { return readable_; } // the images can be copied from
+    // A render pass with one colour attachment, which it loads in layout COLOR_ATTACHMENT_OPTIMAL
+    // and leaves in PRESENT_SRC.
     VkRenderPass renderPass() const { return renderPass_; }
 
 private:

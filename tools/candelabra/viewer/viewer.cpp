@@ -26,14 +26,15 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double fixedFrameTime = 1.0 / 60; // s, with a frame limit
-// A stall (building a scene, a dragged window) must not become a leap.
-constexpr double longestStep = 0.25; // s
+constexpr double fixedFrameTime = 1.0 / 60; // s between frames when their number is limited
+// Longest time in s by which one frame advances camera and lights, so that a stall (a scene is
+// built, the window is dragged) does not become a leap.
+constexpr double longestStep = 0.25;
 
 Swapchain::Target checked(const std::optional<Swapchain::Target>& target)
 {
     if (!target)
-        throw RunError("the window changes faster than images for it can be made");
+        throw RunError("the window's size changes faster than its images can be recreated");
     return *target;
 }
 
@@ -44,8 +45,8 @@ constexpr ImageAccess attachment{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT
 constexpr ImageAccess shown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
                             VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
 
-// Columns of the display image, first .. end - 1, into the window's image; both have the same size.
-// A blit and not a copy: the window may order its channels differently.
+// Blits the columns first .. end - 1 of the display image into the window's image, which has the
+// same size. A copy would not do, because the window's format may have another order of channels.
 void blitColumns(VkCommandBuffer cmd, const Renderer& renderer, VkImage to, int32_t first,
                  int32_t end)
 {
@@ -91,7 +92,8 @@ Viewer::Viewer(const ViewerOptions& options, const ContextOptions& contextOption
     time_ = options.frame.time;
     connectInput();
     if (!options.screenshot.empty() && !swapchain_.readable())
-        throw RunError("--screenshot: images of this window cannot be read back");
+        throw RunError("--screenshot: the window's images cannot be copied from on " +
+                       context_.info().name);
 }
 
 bool Viewer::open(const std::string& scene, const SceneOptions& options)
@@ -100,7 +102,7 @@ bool Viewer::open(const std::string& scene, const SceneOptions& options)
         Scene loaded = loadScene(scene, options);
         source_ = sceneSource(scene, options.seed);
         ring_.wait();
-        renderer_.reset(); // they refer to the scene
+        renderer_.reset(); // both renderers refer to the scene
         other_.reset();
         scene_ = std::move(loaded);
     } catch (const SceneError& error) {
@@ -116,7 +118,7 @@ bool Viewer::open(const std::string& scene, const SceneOptions& options)
     return true;
 }
 
-// Of the scene there is now.
+// Sets everything that depends on the scene to the scene that was just loaded.
 void Viewer::takeScene()
 {
     materials_ = scene_.materials;
@@ -145,7 +147,8 @@ void Viewer::rebuild(uint32_t wanted)
     const uint32_t lights = uint32_t(std::min<uint64_t>(wanted, maxLightsOf(context_.info())));
     spdlog::info("building {} with {}", options_.scene, counted(lights, "light"));
     SceneOptions sceneOptions = options_.sceneOptions;
-    // Files bring lights of their own; the option says how many to add to them.
+    // SceneOptions::lights is the number of lights of a generated scene, but for a file it is the
+    // number to add to the file's own.
     const uint32_t own = uint32_t(ownLights_);
     sceneOptions.lights = isGenerated(options_.scene) ? lights : lights > own ? lights - own : 0;
     if (!open(options_.scene, sceneOptions))
@@ -167,7 +170,7 @@ void Viewer::applyEdits()
     if (!std::exchange(panel_.editor.changed, false))
         return;
     if (panel_.wantedLights != scene_.lights.size())
-        figures_.picked.reset(); // lights have other numbers
+        figures_.picked.reset(); // the indices of the picked lights are no longer valid
     panel_.wantedLights = uint32_t(scene_.lights.size());
     renderer_->lightsChanged();
     if (other_)
@@ -185,7 +188,7 @@ void Viewer::fitWipe()
             context_, scene_, rendererOptions(options_, renderer_->size(), slotCount));
 }
 
-// Makes window images and renderer as large as the window is.
+// Resizes the window's images and the renderers to the window's size.
 void Viewer::fitToWindow()
 {
     const PixelSize window = window_.framebufferSize();
@@ -226,7 +229,6 @@ Swapchain::Target Viewer::acquire(uint32_t slot)
     return checked(swapchain_.acquire(slot));
 }
 
-// Right of it stands the other way of shading.
 int32_t Viewer::wipeColumn() const
 {
     const int32_t width = int32_t(swapchain_.size().width);
@@ -247,7 +249,8 @@ FrameOptions Viewer::optionsAt(int32_t x) const
 
 void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
 {
-    // Chained to the wait for the image (FrameRing::submit).
+    // This transition waits for the semaphore Target::acquired: both have the transfer stage in
+    // common (FrameRing::submit).
     transition(cmd, target.image, discarded, transferWrite);
     const int32_t width = int32_t(swapchain_.size().width), split = wipeColumn();
     blitColumns(cmd, *renderer_, target.image, 0, split);
@@ -289,7 +292,7 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     options.time = time_;
     options.deltaTime = float(seconds);
     options.resetExposure = std::exchange(resetExposure_, false);
-    ++options.ditherSeed; // noise that moves is seen less
+    ++options.ditherSeed; // dither noise that changes every frame is less visible
     overlay_.begin();
     drawPanel(panel_, figures_, scene_);
     renderer_->record(frame.cmd, frame.slot, options);
@@ -310,7 +313,7 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     doRequests();
 }
 
-// What keys asked for that takes longer than a frame.
+// Fulfils requests of keys that take longer than a frame.
 void Viewer::doRequests()
 {
     if (const char* extension = std::exchange(saveAs_, nullptr))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Viewer: a window that flies through a scene.
+// Viewer: a window in which the user flies through a scene and edits its lights.
 #pragma once
 
 #include <array>
@@ -21,32 +21,33 @@ namespace candelabra::app
 {
 
 struct ViewerOptions {
-    std::string scene; // as for loadScene
+    std::string scene; // as loadScene takes it
     SceneOptions sceneOptions;
-    std::string camera; // as for selectCamera
-    PixelSize size;
+    std::string camera; // as selectCamera takes it
+    PixelSize size;     // of the window when it opens
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     FrameOptions frame;
-    std::optional<bool> lightsVisible;
-    bool overlay = true;
-    // Stop after as many frames, 1/60 s apart whatever the clock says; 0: until closed.
+    std::optional<bool> lightsVisible; // empty: as the scene says
+    bool overlay = true;               // the panel is visible at first
+    // Number of frames after which the viewer stops. Their scene times are 1/60 s apart, whatever
+    // the clock says. 0: it runs until the window is closed.
     uint32_t frames = 0;
-    std::string screenshot; // PNG of the window's last frame; needs `frames`
+    std::string screenshot; // file for a PNG of the window's last frame; needs `frames`
 };
 
 class Viewer
 {
 public:
-    // `scene` is what `options` describe, loaded already.
+    // `scene` is the scene that `options` describe, already loaded.
     Viewer(const ViewerOptions& options, const ContextOptions& contextOptions,
            const WindowSystem& system, Scene scene);
     void run();
     const VulkanContext& context() const { return context_; }
 
 private:
-    static constexpr uint32_t slotCount = 2;
+    static constexpr uint32_t slotCount = 2; // frames in flight
 
-    // viewer_input.cpp
+    // Input, defined in viewer_input.cpp.
     void connectInput();
     void moveCamera(double seconds);
     void onKey(int key);
@@ -60,7 +61,8 @@ private:
     std::optional<PixelPosition> pixelUnderMouse() const;
     void pick(PixelPosition pixel);
 
-    // Takes another scene, or the same with other options. Keeps the one there is where that fails.
+    // Loads and shows another scene, or the same with other options. Returns false and keeps the
+    // present scene if loading fails.
     bool open(const std::string& scene, const SceneOptions& options);
     void takeScene();
     void rebuild(uint32_t wanted);
@@ -71,8 +73,10 @@ private:
     void fitToWindow();
     void collectStats(const FrameRing::Frame& frame);
     Swapchain::Target acquire(uint32_t slot);
-    // Of what is seen left of column `x`, or right of it.
+    // How the pixels of column `x` are shaded: the user's settings left of the wipe's line, those
+    // of the wipe from the line on.
     FrameOptions optionsAt(int32_t x) const;
+    // The first column right of the wipe's line; the image's width if there is no wipe.
     int32_t wipeColumn() const;
     void drawFrame(double seconds, bool screenshot);
     void doRequests();
@@ -81,15 +85,16 @@ private:
     void saveScreenshot(const gpu::Buffer& pixels) const;
 
     ViewerOptions options_;
-    // Destroyed in reverse order: everything that uses the device before the context.
+    // Members are destroyed in reverse order: everything that uses the device goes before the
+    // context.
     Window window_;
     VulkanContext context_;
     Scene scene_;
-    SceneSource source_;              // of its surfaces
-    std::vector<Material> materials_; // as the scene has them
-    size_t ownLights_ = 0;            // of a file, without those added
+    SceneSource source_;              // where the scene's surfaces come from
+    std::vector<Material> materials_; // the scene's materials before any override
+    size_t ownLights_ = 0;            // number of lights in the scene's file, without added ones
     std::unique_ptr<Renderer> renderer_;
-    std::unique_ptr<Renderer> other_; // right of the wipe, while there is one
+    std::unique_ptr<Renderer> other_; // draws right of the wipe's line; null without a wipe
     Swapchain swapchain_;
     Overlay overlay_;
     FrameRing ring_;
@@ -97,17 +102,21 @@ private:
     FlyCamera camera_;
     PanelState panel_;
     PanelFigures figures_;
-    std::array<bool, slotCount> recorded_{}; // by the renderer there is now
-    bool staleWindow_ = false;
-    bool resetExposure_ = true;
-    double time_ = 0;
-    double lastX_ = 0, lastY_ = 0;
-    bool looking_ = false;
-    std::string dropped_; // waits for the frame to end
+    // Slots in which the present renderer has recorded a frame at its present size: their
+    // statistics can be read.
+    std::array<bool, slotCount> recorded_{};
+    bool staleWindow_ = false;     // the swapchain must be recreated
+    bool resetExposure_ = true;    // the next frame jumps to the converged exposure
+    double time_ = 0;              // seconds, for moving lights
+    double lastX_ = 0, lastY_ = 0; // place of the mouse in the previous frame
+    bool looking_ = false;         // a drag that began on the scene goes on
+    std::string dropped_;          // path of a dropped file, to be opened before the next frame
     uint32_t savedFiles_ = 0;
-    const char* saveAs_ = nullptr;      // extension of the image to be saved after this frame
-    bool saveScene_ = false;            // after this frame, too
-    std::optional<PixelPosition> pick_; // likewise
+    // Requests that doRequests() fulfils after this frame: the extension of an image to save,
+    // saving the scene, the pixel whose lights are to be listed.
+    const char* saveAs_ = nullptr;
+    bool saveScene_ = false;
+    std::optional<PixelPosition> pick_;
 };
 
 } // namespace candelabra::app

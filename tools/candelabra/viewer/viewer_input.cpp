@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the viewer does with keys, mouse and dropped files.
+// The part of Viewer that handles keys, mouse and dropped files.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -24,8 +24,8 @@ namespace
 {
 
 constexpr double lightDistance = 2.5; // metres from the camera to a new light
-constexpr float lightStep = 0.1f;     // metres
-constexpr float radiusStep = 1.1f;
+constexpr float lightStep = 0.1f;     // metres by which a key moves a light
+constexpr float radiusStep = 1.1f;    // factor by which a key changes a light's radius
 
 } // namespace
 
@@ -105,8 +105,8 @@ void Viewer::onKey(int key)
     }
 }
 
-// Along the world's axes, of which the arrows take those that the camera sees left, right and
-// ahead.
+// Handles the keys that edit lights; returns true if `key` is one of them. Lights move along the
+// world's axes: the arrow keys use the horizontal axes nearest to the camera's forward and right.
 bool Viewer::onLightKey(int key)
 {
     LightEditor& editor = panel_.editor;
@@ -159,7 +159,8 @@ void Viewer::toggleOrbit()
 {
     if (camera_.orbits())
         return camera_.fly();
-    // As far ahead as the scene's middle; where that is behind, a third of the scene.
+    // The pivot is as far ahead as the middle of the scene. If the middle lies behind the camera,
+    // it is a third of the scene's diagonal ahead, at least 1 m.
     const Bounds bounds = sceneBounds(scene_);
     const Camera camera = camera_.camera();
     const double middle =
@@ -185,7 +186,7 @@ void Viewer::onDrop(const std::string& path)
     spdlog::info("{}: {}", scene_.name, counted(scene_.lights.size(), "light"));
 }
 
-// A name that nothing has yet, where the program was started.
+// Returns a file name that is not taken in the current folder.
 std::string Viewer::freeName(const char* extension)
 {
     std::string path;
@@ -195,7 +196,8 @@ std::string Viewer::freeName(const char* extension)
     return path;
 }
 
-// `write` may throw what has a sentence.
+// Calls `write` with a free name and shows the result in the panel. `write` may throw a
+// std::runtime_error, whose message is shown instead.
 void Viewer::save(const char* extension, const std::function<void(const std::string&)>& write)
 {
     const std::string path = freeName(extension);
@@ -231,7 +233,7 @@ std::optional<PixelPosition> Viewer::pixelUnderMouse() const
     int width = 0, height = 0;
     glfwGetCursorPos(window_.get(), &x, &y);
     glfwGetWindowSize(window_.get(), &width, &height);
-    const PixelSize size = renderer_->size(); // of pixels, which may be smaller than the window's
+    const PixelSize size = renderer_->size(); // pixels, of which a window unit may have several
     if (overlay_.takesMouse() || x < 0 || y < 0 || x >= width || y >= height)
         return std::nullopt;
     return PixelPosition{uint32_t(x * size.width / width), uint32_t(y * size.height / height)};
@@ -243,15 +245,15 @@ void Viewer::pick(PixelPosition pixel)
     FrameOptions frame = optionsAt(int32_t(pixel.x));
     if (const std::string refusal = pickRefusal(frame.specular, frame.influence.rule);
         !refusal.empty()) {
-        figures_.note = refusal + ": no pixel picked";
+        figures_.note = "no pixel picked: " + refusal;
         return;
     }
-    if (pixel.x >= size.width || pixel.y >= size.height) // the window became smaller
+    if (pixel.x >= size.width || pixel.y >= size.height) // the window has become smaller
         return;
-    frame.deltaTime = 0; // exposure stays as it is
+    frame.deltaTime = 0; // the exposure does not adapt
     ring_.wait();
     figures_.picked = pickPixel(context_, *renderer_, scene_, frame, pixel);
-    renderer_->lightsChanged(); // it has drawn one at a time
+    renderer_->lightsChanged(); // pickPixel has drawn the lights one at a time
     recorded_ = {};
     spdlog::info("{}", pickText(*figures_.picked, scene_));
 }
@@ -273,7 +275,7 @@ void Viewer::moveCamera(double seconds)
     glfwGetCursorPos(w, &x, &y);
     const bool pressed = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
                          glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
-    // A drag that began on the scene stays a look, wherever it goes.
+    // A drag that began on the scene keeps turning the camera, even over a widget.
     if (pressed && looking_)
         input.look = {x - lastX_, y - lastY_};
     looking_ = pressed && (looking_ || !overlay_.takesMouse());

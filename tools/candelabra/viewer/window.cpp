@@ -28,12 +28,13 @@ Window& windowOf(GLFWwindow* window)
 WindowSystem::WindowSystem()
 {
     if (!glfwInit())
-        throw UsageError("view needs a display, and there is none (" + glfwReason() +
-                         "); candelabra render works without");
+        throw UsageError("view needs a display, but none was found (" + glfwReason() +
+                         "); candelabra render needs none");
     if (!glfwVulkanSupported()) {
         glfwTerminate();
-        throw RunError("view needs Vulkan for this display, and the loader has none (" +
-                       glfwReason() + ")");
+        throw RunError(
+            "view needs a Vulkan driver that presents to this display, but found none (" +
+            glfwReason() + ")");
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A GLFW window.
+// A window and its input, by GLFW.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ struct GLFWwindow;
 namespace candelabra::app
 {
 
-// GLFW itself, which must be up before a Vulkan instance for windows is made. Throws UsageError
-// with one sentence when there is no display.
+// Initialises GLFW, which must happen before a Vulkan instance for windows is created. Throws
+// UsageError if there is no display and RunError if Vulkan cannot present to it.
 class WindowSystem
 {
 public:
@@ -40,12 +40,12 @@ public:
     void close();
     void setTitle(const std::string& title);
 
-    // Called from poll().
+    // Callbacks, called by poll() and wait().
     std::function<void(int key)> onKey;                  // GLFW_KEY_*, presses and repeats
     std::function<void(double notches)> onWheel;         // up is positive
     std::function<void(const std::string& path)> onDrop; // a file dropped on the window
     void poll();
-    // Waits for events; for minimised windows.
+    // Like poll(), but waits until there is an event. Used while the window is minimised.
     void wait();
 
 private:
