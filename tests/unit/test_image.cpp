@@ -265,11 +265,11 @@ TEST(ImageFiles, ErrorsNameTheFile)
     EXPECT_EQ(errorOf([&] { savePfm("/dev/full", image); }),
               "cannot write /dev/full: is not a regular file");
     EXPECT_EQ(errorOf([&] { savePng("x.png", 2, 2, {}); }),
-              "cannot write x.png: the image has 2 x 2 pixels in 0 bytes");
+              "cannot write x.png: the image cannot have 2 x 2 pixels in 0 bytes");
     Image broken = image;
     broken.pixels.pop_back();
     EXPECT_EQ(errorOf([&] { saveExr("x.exr", broken); }),
-              "cannot write x.exr: the image has 4 x 4 pixels of 3 channels in 47 values");
+              "cannot write x.exr: the image cannot have 4 x 4 pixels of 3 channels in 47 values");
 }
 
 TEST(ImageFiles, AFullDiskLeavesTheOldFile)

@@ -206,14 +206,15 @@ INSTANTIATE_TEST_SUITE_P(
         ErrorCase{"/object/type", "\"torus\"",
                   "scene.json: object.type: must be \"plane\" or \"sphere\", is \"torus\""},
         ErrorCase{"/object/radius", "1", "scene.json: object: unknown key \"radius\""},
-        ErrorCase{"/objects", "[]", "scene.json: objects: cannot stand beside \"object\""},
+        ErrorCase{"/objects", "[]", "scene.json: objects: cannot be combined with \"object\""},
         ErrorCase{"/material/albedo/2", "1.5",
                   "scene.json: material.albedo[2]: must be between 0 and 1, is 1.5"},
         ErrorCase{"/material/alpha", "0.1",
                   "scene.json: material.perceptual_roughness: must be the square root of alpha"},
         ErrorCase{"/material/diffuse", "1",
                   "scene.json: material.diffuse: must be true or false, is 1"},
-        ErrorCase{"/material", "", "scene.json: object: has no material and the scene has none"},
+        ErrorCase{"/material", "",
+                  "scene.json: object: has no \"material\", and neither has the scene"},
         ErrorCase{"/resolution", "[256, 0]",
                   "scene.json: resolution[1]: must be an integer between 1 and 16384, is 0"},
         ErrorCase{"/resolution", "[256.5, 1]",
@@ -231,7 +232,8 @@ TEST_F(SceneJson, ErrorsOfTheWholeFile)
     json["material"].erase("alpha");
     EXPECT_EQ(load(json).materials.at(0).perceptualRoughness, 0.3f);
     json["material"].erase("perceptual_roughness");
-    EXPECT_EQ(error(json), "scene.json: material: \"alpha\" is missing");
+    EXPECT_EQ(error(json),
+              "scene.json: material: \"alpha\" or \"perceptual_roughness\" is missing");
 }
 
 } // namespace

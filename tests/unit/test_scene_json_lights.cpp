@@ -156,8 +156,9 @@ TEST_F(SceneJsonLights, ReflectanceIsAnF0)
         load();
         ADD_FAILURE() << "no error";
     } catch (const SceneError& e) {
-        EXPECT_NE(std::string(e.what()).find("material.reflectance: cannot stand beside \"F0\""),
-                  std::string::npos)
+        EXPECT_NE(
+            std::string(e.what()).find("material.reflectance: cannot be combined with \"F0\""),
+            std::string::npos)
             << e.what();
     }
 }
@@ -205,17 +206,18 @@ TEST_F(SceneJsonLights, ErrorsSayWhy)
            ": unknown key \"radiance\"");
     expect(R"({"type": "point", "position": [0, 1, 0], "intensity": [1, 1, 1],
                "luminous_power": [1, 1, 1]})",
-           ".luminous_power: cannot stand beside \"intensity\"");
+           ".luminous_power: cannot be combined with \"intensity\"");
     expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "luminance": [1, 1, 1]})",
-           ".luminance: cannot stand beside \"radiance\"");
+           ".luminance: cannot be combined with \"radiance\"");
     expect(R"({"position": [0, 1, 0], "radius": 1e-21, "luminous_power": [1, 1, 1]})",
-           ".luminous_power: is more than single precision holds for so small a light");
+           ".luminous_power: needs an emission beyond single precision for so small a light");
     expect(R"({"type": "tube", "start": [0, 1, 0], "end": [0, 1, 0], "radius": 1,
                "radiance": [1, 1, 1]})",
-           ".end: must not be the start");
+           ".end: must not be the same point as start");
     expect(R"({"type": "tube", "start": [0, 1, 0], "end": [0, 3, 0], "radius": 1,
                "radiance": [1, 1, 1], "influence_radius": 2})",
-           ".influence_radius: must be greater than the reach of the light from its centre");
+           ".influence_radius: must be greater than the distance from the light's centre to its "
+           "farthest point");
     expect(R"({"type": "rectangle", "position": [0, 1, 0], "axis_u": [1, 0, 0],
                "axis_v": [0.1, 1, 0], "radiance": [1, 1, 1]})",
            ".axis_v: must be perpendicular to axis_u");
@@ -230,7 +232,8 @@ TEST_F(SceneJsonLights, ErrorsSayWhy)
            ".influence_radius: must be greater than radius");
     expect(R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
                "inner_cone_degrees": 30, "outer_cone_degrees": 30, "intensity": [1, 1, 1]})",
-           ".outer_cone_degrees: must be greater than inner_cone_degrees (their cosines by 1e-6)");
+           ".outer_cone_degrees: must be greater than inner_cone_degrees: their cosines must "
+           "differ by 1e-6");
     expect(R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
                "inner_cone_degrees": 30, "outer_cone_degrees": 91, "intensity": [1, 1, 1]})",
            ".outer_cone_degrees: must be > 0 and <= 90, is 91");
@@ -241,7 +244,7 @@ TEST_F(SceneJsonLights, ErrorsSayWhy)
                "illuminance": [1, 1, 1]})",
            ": unknown key \"position\"");
     expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "layers": []})",
-           ".layers: must not be empty (all layers: leave it out)");
+           ".layers: must not be empty: leave it out for all layers");
     expect(R"({"position": [0, 1, 0], "radius": 1, "radiance": [1, 1, 1], "layers": [0, 16]})",
            ".layers[1]: must be an integer between 0 and 15, is 16");
     // The widest possible spot.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hash to tell contents apart that differ by accident; not for anything an enemy chooses.
+// A hash that tells apart contents that differ by accident. It is no protection against contents
+// that someone chose to have the same hash.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@ namespace candelabra::app
 class Hash
 {
 public:
-    // The bytes of values without padding.
+    // Adds the bytes of the values to the hash. Only arithmetic types are allowed: they have no
+    // padding.
     template <typename T>
     void add(std::span<const T> values)
     {

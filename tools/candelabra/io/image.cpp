@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG, PFM and the writing of Radiance HDR. Its reading is in image_hdr.cpp, OpenEXR in
-// image_exr.cpp.
+// Writes PNG and Radiance HDR, reads and writes PFM. Radiance HDR is read in image_hdr.cpp; OpenEXR
+// is in image_exr.cpp.
 #include "io/image.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void appendBytes(void* context, void* data, int size)
     out.insert(out.end(), bytes, bytes + size);
 }
 
-// Next token of a PFM header; exactly one white space byte ends it.
+// Takes the next token of a PFM header and the one byte of white space that ends it.
 std::string_view headerToken(std::string_view& text)
 {
     const size_t end = text.find_first_of(" \t\r\n");
@@ -60,8 +60,9 @@ std::vector<uint8_t> encodePng(const std::string& path, uint32_t width, uint32_t
 {
     if (width < 1 || height < 1 || width > maxImageSize || height > maxImageSize ||
         rgb.size() != size_t{width} * height * 3)
-        failWrite(path, "the image has " + std::to_string(width) + " x " + std::to_string(height) +
-                            " pixels in " + std::to_string(rgb.size()) + " bytes");
+        failWrite(path, "the image cannot have " + std::to_string(width) + " x " +
+                            std::to_string(height) + " pixels in " + std::to_string(rgb.size()) +
+                            " bytes");
     std::vector<uint8_t> bytes;
     if (!stbi_write_png_to_func(appendBytes, &bytes, static_cast<int>(width),
                                 static_cast<int>(height), 3, rgb.data(),
@@ -78,7 +79,7 @@ void savePng(const std::string& path, uint32_t width, uint32_t height, std::span
 void saveHdr(const std::string& path, const Image& image)
 {
     requireImage(path, image);
-    constexpr float largest = 0x1p127f; // the exponent byte ends there
+    constexpr float largest = 0x1p127f; // the exponent of 2^127 does not fit into a byte
     for (size_t i = 0; i < image.pixels.size(); ++i) {
         const float x = image.pixels[i];
         if (x >= 0 && x < largest)
@@ -88,7 +89,7 @@ void saveHdr(const std::string& path, const Image& image)
                             std::to_string(pixel / image.width) + ") is " + std::to_string(x) +
                             ", which .hdr cannot hold; .exr and .pfm can");
     }
-    // stb writes grey images as RGB by itself.
+    // stb_image_write itself expands grey images to RGB.
     std::vector<uint8_t> bytes;
     if (!stbi_write_hdr_to_func(appendBytes, &bytes, static_cast<int>(image.width),
                                 static_cast<int>(image.height), static_cast<int>(image.channels),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image files. Floating-point images keep linear values as they are; no function changes them.
-// Every file is written beside its final name and renamed when complete, so that no half file is
-// ever seen. Errors: ImageError, one sentence naming the file.
+// Reads and writes image files. Floating-point images hold linear values, which no function here
+// changes. Every file is written under a temporary name beside its final one and renamed when it is
+// complete, so that nobody sees an incomplete file. All functions throw ImageError with one
+// sentence that names the file.
 #pragma once
 
 #include <cstdint>
@@ -23,33 +24,40 @@ struct Image {
     std::vector<float> pixels;      // width * height * channels, rows from the top
 };
 
-// The bytes of a PNG file of 8-bit RGB, as savePng writes it; `name` stands for it in errors.
+// The bytes of the PNG file that savePng would write. `name` is its name in error messages.
 std::vector<uint8_t> encodePng(const std::string& name, uint32_t width, uint32_t height,
                                std::span<const uint8_t> rgb);
 
-// 8-bit RGB, `rgb` = width * height * 3 display-referred (sRGB-encoded) values, rows from the top.
+// Writes 8-bit RGB. `rgb` holds width * height * 3 display-referred (sRGB-encoded) values, rows
+// from the top.
 void savePng(const std::string& path, uint32_t width, uint32_t height,
              std::span<const uint8_t> rgb);
 
-// OpenEXR, scanlines, 32-bit float, ZIP compression; channels R, G, B or Y. Any float, also NaN.
+// Writes OpenEXR: scanlines of 32-bit float with ZIP compression; channels R, G and B, or Y. Every
+// float can be stored, NaN too.
 void saveExr(const std::string& path, const Image& image);
 
-// Radiance RGBE: 8-bit mantissas with a common exponent, at most 1.7e38 (2^127). Negative, infinite
-// and NaN values cannot be stored and are errors naming the pixel. Grey images become RGB.
+// Writes Radiance HDR (RGBE): 8-bit mantissas with a common exponent, for values below 2^127
+// (1.7e38). Greater, negative and NaN values cannot be stored: the error names the pixel. Grey
+// images become RGB.
 void saveHdr(const std::string& path, const Image& image);
 
-// PFM: 32-bit little-endian float, "PF" or "Pf", rows from the bottom. Any float, also NaN.
+// Writes PFM: 32-bit little-endian float, "PF" (RGB) or "Pf" (grey), rows from the bottom. Every
+// float can be stored, NaN too.
 void savePfm(const std::string& path, const Image& image);
 
-// .exr, .hdr or .pfm by the extension of `path`, upper or lower case; others are errors.
+// Writes .exr, .hdr or .pfm, depending on the extension of `path` in upper or lower case. Other
+// extensions are errors.
 void saveImageByExtension(const std::string& path, const Image& image);
 
-// Readers. HDR: RGB. EXR: single-part scanline files of half or float channels;
-// those without R, G and B give their first channel as grey, others are dropped.
+// Readers. HDR files give RGB images. EXR files must be single-part scanline files with half or
+// float channels. Their R, G and B are read; if one of the three is missing, the first channel
+// becomes a grey image. Further channels are ignored.
 Image loadPfm(const std::string& path);
 Image loadExr(const std::string& path);
 Image loadHdr(const std::string& path);
-// .exr, .hdr or .pfm by the extension of `path`, upper or lower case; others are errors.
+// Reads .exr, .hdr or .pfm, depending on the extension of `path` in upper or lower case. Other
+// extensions are errors.
 Image loadImageByExtension(const std::string& path);
 
 } // namespace candelabra::app

@@ -17,7 +17,8 @@ namespace candelabra::app
 namespace
 {
 
-// Closes on every path and removes the file unless it was kept.
+// A new file. The destructor closes it, and removes it unless keep() was called. If a signal ends
+// the program meanwhile, the file is removed too.
 class TemporaryFile
 {
 public:
@@ -77,7 +78,7 @@ void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes
     const bool exists = stat(path.c_str(), &info) == 0;
     if (exists && S_ISDIR(info.st_mode))
         failWrite(path, "is a directory");
-    if (exists && !S_ISREG(info.st_mode)) // renaming would replace a device by a file
+    if (exists && !S_ISREG(info.st_mode)) // renaming would replace a device with a file
         failWrite(path, "is not a regular file");
     const std::string temporary = temporaryName(path);
     TemporaryFile file(temporary, exists ? info.st_mode & 0777 : 0666);
@@ -135,7 +136,7 @@ void requireImage(const std::string& path, const Image& image)
     const bool hasChannels = image.channels == 1 || image.channels == 3;
     if (!hasSize || !hasChannels ||
         image.pixels.size() != size_t{image.width} * image.height * image.channels)
-        failWrite(path, "the image has " + std::to_string(image.width) + " x " +
+        failWrite(path, "the image cannot have " + std::to_string(image.width) + " x " +
                             std::to_string(image.height) + " pixels of " +
                             std::to_string(image.channels) + " channels in " +
                             std::to_string(image.pixels.size()) + " values");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files in and out, for the image formats. Errors: ImageError.
+// Reads and writes whole files, for the image formats. All functions throw ImageError.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,21 @@
 namespace candelabra::app
 {
 
-// "cannot write out/x.png: REASON"
+// Throw with a message such as "cannot write out/x.png: REASON".
 [[noreturn]] void failWrite(const std::string& path, const std::string& reason);
 [[noreturn]] void failRead(const std::string& path, const std::string& reason);
 
-// What `path` is called until it is whole.
+// The name under which `path` is written until it is complete.
 std::string temporaryName(const std::string& path);
-// Creates or replaces `path` with these bytes, all or nothing.
+// Creates `path`, or replaces it, with these bytes. If that fails, `path` is as it was before.
 void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes);
 
 std::vector<uint8_t> readImageFile(const std::string& path); // at most 4 GiB
 
-// Sizes 1..16384, channels 1 or 3, as many pixels as that makes.
+// Throws unless both sides of the image are 1..16384, it has 1 or 3 channels, and Image::pixels has
+// the size that follows from them. `path` is the file that is to be written.
 void requireImage(const std::string& path, const Image& image);
 
-constexpr uint32_t maxImageSize = 16384; // pixels a side
+constexpr uint32_t maxImageSize = 16384; // pixels, of width and of height
 
 } // namespace candelabra::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading Radiance HDR (Ward 1991, "Real pixels"). Ours and not stb's, which takes zeros for what
-// is missing at the end of a file: it never ends inside a run, and gives pixels that nobody wrote.
+// Reads Radiance HDR files (Ward 1991, "Real pixels"). stb_image is not used because it reads zeros
+// beyond the end of a file that is cut short: it gives pixels that nobody wrote, and loops for ever
+// if the file ends inside a run.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -24,14 +25,15 @@ public:
     Image read();
 
 private:
-    // Without its end of line; a header without one is broken.
+    // Takes the next line of the header and returns it without its newline. Fails if there is none.
     std::string_view line();
     void readHeader();
     void readRow(float* row);
     void readRuns(float* row);
     std::span<const uint8_t> take(size_t count);
-    // Of a row, in bytes.
+    // The least number of bytes that a row of pixels can take in the file.
     size_t smallestRow() const;
+    // The format has run-length encoding only for rows of 8 to 32767 pixels.
     bool mayHaveRuns() const { return image_.width >= 8 && image_.width < 32768; }
 
     const std::string& path_;
@@ -42,7 +44,7 @@ private:
 
 void decode(uint8_t r, uint8_t g, uint8_t b, uint8_t exponent, float* out)
 {
-    // 8-bit mantissas below 1, exponents from 128; exponent 0 is black.
+    // A mantissa m stands for m / 256 and an exponent e for 2^(e - 128); an exponent of 0 is black.
     const float scale = exponent ? std::ldexp(1.0f, int(exponent) - (128 + 8)) : 0.0f;
     out[0] = r * scale;
     out[1] = g * scale;
@@ -79,11 +81,11 @@ void HdrReader::readHeader()
     for (std::string_view text = line(); !text.empty(); text = line())
         rgbe |= text == "FORMAT=32-bit_rle_rgbe";
     if (!rgbe)
-        failRead(path_, "is not of FORMAT=32-bit_rle_rgbe");
+        failRead(path_, "does not declare FORMAT=32-bit_rle_rgbe");
     const std::string_view size = line(); // "-Y 512 +X 1024"
     const auto number = [&](std::string_view key, const char* from, uint32_t& value) {
         if (!std::string_view(from, size.end()).starts_with(key))
-            failRead(path_, "does not have its rows from the top, or has a broken size");
+            failRead(path_, "does not store its rows from the top, or has a broken size");
         const auto [end, error] = std::from_chars(from + key.size(), size.end(), value);
         if (error == std::errc::invalid_argument || value < 1)
             failRead(path_, "has a broken Radiance HDR header");
@@ -104,8 +106,9 @@ size_t HdrReader::smallestRow() const
     return mayHaveRuns() ? std::min(flat, runs) : flat;
 }
 
-// Each channel for itself: a byte above 128 repeats the next one 1..127 times, one of 1..128 says
-// how many bytes follow.
+// Reads a run-length encoded row, one channel after the other. A code above 128 repeats the next
+// byte code - 128 times, 1 to 127; a code of 1 to 128 is the number of bytes that follow as they
+// are.
 void HdrReader::readRuns(float* row)
 {
     const size_t width = image_.width;
@@ -130,8 +133,9 @@ void HdrReader::readRuns(float* row)
 
 void HdrReader::readRow(float* row)
 {
-    // Rows in runs begin with 2, 2 and their width; in no pixel are red and green 2 and blue below
-    // 128, because one of the three has its top bit set.
+    // A run-length encoded row begins with the bytes 2, 2 and its width in two bytes, the first
+    // below 128. No pixel can begin like that, because one of its three mantissas has the top bit
+    // set.
     const bool runs =
         mayHaveRuns() && rest_.size() >= 4 && rest_[0] == 2 && rest_[1] == 2 && rest_[2] < 128;
     if (!runs) {
@@ -150,7 +154,7 @@ void HdrReader::readRow(float* row)
 Image HdrReader::read()
 {
     readHeader();
-    // Before taking memory for what a few bytes claim to be.
+    // Checked before memory is allocated, because a short file may claim to be a large image.
     if (rest_.size() / image_.height < smallestRow())
         failRead(path_, "is cut short: pixels are missing");
     image_.pixels.resize(size_t{3} * image_.width * image_.height);

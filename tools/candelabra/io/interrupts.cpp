@@ -13,7 +13,8 @@ namespace candelabra::app
 namespace
 {
 
-// What the handler reads: nothing but these, lock-free, for it may run at any instruction.
+// The signal handler reads nothing but these. The flags are lock-free, because the handler may run
+// between any two instructions.
 char removedPath[PATH_MAX];
 std::atomic<bool> taken{false}, ready{false}, progressShown{false};
 
@@ -24,16 +25,16 @@ void cleanUpAndEnd(int signal)
     constexpr char clearLine[] = "\r\x1b[K";
     if (progressShown) {
         const ssize_t ignored = write(STDERR_FILENO, clearLine, sizeof clearLine - 1);
-        static_cast<void>(ignored); // the terminal may be gone: there is nobody to tell
+        static_cast<void>(ignored); // if the terminal is gone, nothing can be done about it
     }
-    raise(signal); // SA_RESETHAND: the default ends the program
+    raise(signal); // SA_RESETHAND has restored the default action, which ends the program
 }
 
 } // namespace
 
 void cleanUpOnSignals()
 {
-    // A limit on the size of files fails the write, which has its own sentence.
+    // Exceeding the limit on file sizes then fails the write, which writeFileAtomically reports.
     std::signal(SIGXFSZ, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction old = {};

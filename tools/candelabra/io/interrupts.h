@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ending early: SIGINT, SIGTERM and SIGHUP end the program as they always do, after the file that
-// is being written is removed and the line of progress is cleared.
+// Cleaning up on signals: SIGINT, SIGTERM and SIGHUP end the program, but first the file that is
+// being written is removed and the line of progress is cleared from the terminal.
 #pragma once
 
 #include <string>
@@ -8,11 +8,13 @@
 namespace candelabra::app
 {
 
-// For the whole process, once. Signals that are ignored stay so (nohup). SIGXFSZ becomes ignored:
-// files that may not grow are errors like full disks.
+// Installs the signal handlers. Call it once per process. Signals that are ignored, by nohup for
+// instance, stay ignored. SIGXFSZ is ignored from then on, so that exceeding the limit on file
+// sizes is a write error, as a full disk is.
 void cleanUpOnSignals();
 
-// While one lives, signals remove the file of its name. One at a time; others do nothing.
+// While an object of this class lives, the signals above remove the file `path`. Only one file at a
+// time is removed: further objects do nothing.
 class RemovedOnSignal
 {
 public:
@@ -25,7 +27,7 @@ private:
     bool mine_ = false;
 };
 
-// Whether there is a line on the terminal to clear.
+// Says whether there is a line of progress on the terminal for the handlers to clear.
 void setProgressShown(bool shown) noexcept;
 
 } // namespace candelabra::app

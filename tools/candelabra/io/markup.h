@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text inside the SVG and HTML that the program writes.
+// Escapes text for the SVG and HTML that the program writes.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace candelabra::app
 {
 
-// With what XML and HTML give a meaning to (& < > ") as entities: for text and quoted attributes.
+// Replaces & < > and " by entities, so that `text` can stand between tags and in quoted attributes.
 std::string escaped(const std::string& text);
 
 } // namespace candelabra::app

@@ -30,7 +30,7 @@ std::optional<uint32_t> parseUnsigned(std::string_view text)
 
 std::optional<double> parseNumber(std::string_view text)
 {
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') // from_chars knows no plus sign
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') // from_chars accepts no plus sign
         text.remove_prefix(1);
     const auto value = whole<double>(text);
     return value && std::isfinite(*value) ? value : std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text to numbers, whole strings only and independent of the locale.
+// Parses numbers. The whole text must be a number, and the locale makes no difference.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 namespace candelabra::app
 {
 
-// Decimal digits only; empty when it is not one or too large.
+// A number of decimal digits. Empty if the text has anything else, or does not fit into 32 bits.
 std::optional<uint32_t> parseUnsigned(std::string_view text);
-// A finite number; "inf" and "nan" are none.
+// A finite number. Empty for everything else, such as "inf" and "nan".
 std::optional<double> parseNumber(std::string_view text);
 // Finite numbers separated by commas, at least one.
 std::optional<std::vector<double>> parseNumbers(std::string_view text);
-// "a,b" -> a, b; as many as there are commas, and one more.
+// Splits "a,b" into "a" and "b". There is always one part more than there are commas.
 std::vector<std::string> splitAtCommas(const std::string& text);
-// "1280x720": both at least 1.
 struct PixelSize {
     uint32_t width = 0, height = 0;
 };
+// A size such as "1280x720"; both numbers must be at least 1.
 std::optional<PixelSize> parseSize(std::string_view text);
 
 } // namespace candelabra::app

@@ -26,7 +26,7 @@ Progress::~Progress()
     if (!visible_)
         return;
     setProgressShown(false);
-    std::fputs("\r\x1b[K", stderr); // leaves no trace
+    std::fputs("\r\x1b[K", stderr); // clears the line
 }
 
 void Progress::doing(const std::string& what)

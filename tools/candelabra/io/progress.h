@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Progress: one line on the terminal (stderr) that says how far a long job is.
+// Progress: a line on the terminal (stderr) that shows how much of a long job is done.
 #pragma once
 
 #include <chrono>
@@ -11,15 +11,16 @@ namespace candelabra::app
 class Progress
 {
 public:
-    // `steps` in all. Writes nothing unless stderr is a terminal and `visible`.
+    // `steps` is the size of the whole job, in any unit. Nothing is written unless stderr is a
+    // terminal and `visible` is true.
     Progress(double steps, bool visible);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // Says what is going on now.
+    // Shows what is being done now.
     void doing(const std::string& what);
-    // `steps` more are done.
+    // Counts `steps` more as done.
     void advance(double steps);
 
 private:

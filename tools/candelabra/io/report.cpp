@@ -70,14 +70,14 @@ void requireWritable(const std::string& option, const std::string& path)
     if (path == "-")
         return;
     std::error_code error;
-    // Not a device either: a file renamed to its name would take its place.
+    // Devices are refused too, because the temporary file that is renamed would replace the device.
     if (path.empty() ||
         (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)))
         throw UsageError(fmt::format("{} \"{}\": is not the name of a file", option, path));
     const std::string directory = directoryOf(path);
     if (!std::filesystem::is_directory(directory, error))
         throw UsageError(fmt::format("{} {}: there is no directory {}", option, path, directory));
-    // With what temporaryName adds to it.
+    // The temporary name is longer than the final one and must be allowed too.
     const size_t length = temporaryName(std::filesystem::path(path).filename().string()).size();
     if (const long most = pathconf(directory.c_str(), _PC_NAME_MAX);
         most > 0 && length > size_t(most))

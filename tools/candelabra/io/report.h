@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command leaves behind for machines: text files that appear whole or not at all, and where
-// its numbers come from.
+// Writes the text and JSON files of the commands, and the provenance of the numbers in them. A file
+// appears complete or not at all.
 #pragma once
 
 #include <string>
@@ -14,19 +14,22 @@ namespace candelabra::app
 
 using Json = nlohmann::ordered_json;
 
-// Writes to a temporary file beside `path`, then renames it; "-" is stdout. Throws RunError.
+// Writes a temporary file beside `path`, then renames it to `path`. A `path` of "-" is standard
+// output. Throws RunError.
 void writeText(const std::string& path, const std::string& text);
-// The same, indented by two. Numbers that are not finite become null.
+// Writes `json` as text, indented by two spaces, as writeText does. Numbers that are not finite
+// become null.
 void writeJson(const std::string& path, const Json& json);
 
-// Throws UsageError when the directory of `path` does not exist, so that a typing mistake is found
-// before the work is done. `option` names it in the sentence.
+// Throws UsageError if no file can be written to `path`, so that a typing mistake is found before
+// the work is done: `path` is not the name of a regular file, the name is too long, or its
+// directory does not exist or is not writable. `option` is the option that the message names.
 void requireWritable(const std::string& option, const std::string& path);
 
 // Program version, commit, device, driver, UTC time and command line.
 Json provenance(const DeviceInfo& device, const std::string& commandLine);
 
-// "candelabra render hall ...", with quotes where a shell needs them.
+// The command line as text, such as "candelabra render hall", with quotes where a shell needs them.
 std::string commandLine(int argc, const char* const* argv);
 
 } // namespace candelabra::app

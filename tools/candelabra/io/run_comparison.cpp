@@ -16,8 +16,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr size_t mostDeals = 20'000;
 
 struct Effect {
-    double mean = 0;  // logarithm of the ratio
-    double error = 0; // its standard error
+    double mean = 0;  // mean logarithm of the ratio of B to A
+    double error = 0; // standard error of `mean`
 
     double t() const
     {
@@ -37,15 +37,15 @@ struct Sums {
         squares += x * x;
     }
     double mean() const { return sum / n; }
-    // Around the mean; rounding leaves no negative rest.
+    // The sum of squared deviations from the mean; rounding does not make it negative.
     double deviations() const { return std::max(squares - sum * sum / n, 0.0); }
 };
 
-// How runs are dealt. Unpaired: whether run i of all goes to B. Paired: whether the two of pair i
-// change sides.
+// One way to deal the runs to A and B. Unpaired, element i says whether run i of all goes to B.
+// Paired, it says whether the two runs of pair i change sides.
 using Deal = std::vector<char>;
 
-// `values`: unpaired the logarithms of all runs, paired those of the ratios of pairs.
+// `values` holds logarithms: unpaired of the values of all runs, paired of the ratios of the pairs.
 Effect effectOf(const std::vector<double>& values, const Deal& deal, bool paired)
 {
     Sums a, b;
@@ -60,7 +60,8 @@ Effect effectOf(const std::vector<double>& values, const Deal& deal, bool paired
     return {b.mean() - a.mean(), std::sqrt(variance * (1 / a.n + 1 / b.n))};
 }
 
-// What there are of deals, capped at mostDeals + 1.
+// The number of different deals, at most mostDeals + 1. Unpaired, `a` and `b` are the numbers of
+// runs; paired, `b` is the number of pairs.
 size_t dealCount(size_t a, size_t b, bool paired)
 {
     double count = 1;
@@ -69,6 +70,7 @@ size_t dealCount(size_t a, size_t b, bool paired)
     return size_t(std::min(count + 0.5, double(mostDeals) + 1));
 }
 
+// Calls `use` with every deal or, if there are too many, with `real` and random ones.
 void forDeals(const Deal& real, bool paired, size_t a, const std::function<void(const Deal&)>& use)
 {
     Deal deal = real;
@@ -83,13 +85,14 @@ void forDeals(const Deal& real, bool paired, size_t a, const std::function<void(
         else
             do
                 use(deal);
-            while (std::next_permutation(deal.begin(), deal.end())); // begins sorted
+            while (
+                std::next_permutation(deal.begin(), deal.end())); // `real` is sorted: the first one
         return;
     }
     std::mt19937_64 random(1);
     use(deal);
     for (size_t k = 1; k < mostDeals; ++k) {
-        // Not std::shuffle: it differs between libraries.
+        // std::shuffle would give different deals with different standard libraries.
         for (size_t i = n; i-- > 1;)
             std::swap(deal[i], deal[size_t(random() % (i + 1))]);
         if (paired)
@@ -128,13 +131,13 @@ std::vector<RunRatio> compareRuns(std::span<const RunQuantity> quantities, bool 
             largest.push_back(most);
         });
     std::sort(largest.begin(), largest.end(), std::greater<>());
-    // Exceeded by at most one deal of twenty.
+    // At most one deal of twenty exceeds this t statistic.
     const double limit = enough ? largest[largest.size() / 20] : infinity;
 
     std::vector<RunRatio> out;
     for (size_t i = 0; i < values.size(); ++i) {
         const Effect effect = effectOf(values[i], real, paired);
-        // The same deal summed in another order must not count as a smaller one.
+        // A deal with the same sums, but added in another order, must not count as less different.
         constexpr double rounding = 1e-9;
         const double t = effect.t() * (1 - rounding);
         const auto asLarge =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether measurements of two sets of runs differ by more than runs of the same thing do.
+// Compares the measurements of two sets of runs, A and B: do they differ by more than repeated runs
+// of the same program do?
 #pragma once
 
 #include <span>
@@ -8,31 +9,38 @@
 namespace candelabra::app
 {
 
-// One quantity, measured once in each run of A and of B; values > 0.
+// One quantity, such as the time of a pass, measured once in each run of A and of B. Values are >
+// 0.
 struct RunQuantity {
     std::vector<double> a, b;
 };
 
-// B over A, of geometric means.
+// The ratio of B to A, of the geometric means over runs, with its confidence interval.
 struct RunRatio {
     double ratio = 1, low = 0, high = 0;
-    double p = 1; // chance of any quantity of this comparison seeming as different if none were
+    // If A and B did not differ: the probability that any quantity of the comparison seems to
+    // differ as much as this one does.
+    double p = 1;
 
     bool isFaster() const { return high < 1; }
     bool isSlower() const { return low > 1; }
 };
 
-// Runs of each side that are needed for an interval: with fewer even runs that do not overlap at
-// all are too likely by chance.
+// The least number of runs of each side for which there is an interval. With fewer, it is too
+// likely by chance that the values of A and B do not overlap at all.
 constexpr size_t minRuns = 4, minPairedRuns = 6;
 
-// All intervals hold together with 95% confidence, so of twenty comparisons of runs that are alike
-// one has an interval without 1, however many quantities it has. A permutation test: runs are dealt
-// to A and B in every possible way (of more than 20,000 in 20,000 random ones, always the same),
-// and the largest t statistic of all quantities tells what chance makes of them (Westfall and Young
-// 1993, single step). Exact for any distribution of noise, as long as it is that of both sides.
-// Every quantity has as many values; too few of them: interval [0, infinity]. `paired`: the n-th
-// run of A was made beside the n-th of B, which takes out what drifts meanwhile; as many of each.
+// Compares every quantity. All intervals hold together with 95% confidence: of twenty comparisons
+// of runs that are alike, one has an interval without 1, however many quantities are compared.
+//
+// The method is a permutation test. The runs are dealt to A and B in every possible way or, if
+// there are more than 20,000, in 20,000 random ways, which are always the same. The distribution of
+// the largest t statistic of all quantities then shows what chance alone can do (Westfall and Young
+// 1993, single step). The test is exact for any distribution of noise that is the same for A and B.
+//
+// All quantities must have the same numbers of values. With fewer runs than needed, the intervals
+// are [0, infinity]. `paired` says that the n-th run of A was made beside the n-th run of B, which
+// removes drift from the comparison; A and B must then have the same number of runs.
 std::vector<RunRatio> compareRuns(std::span<const RunQuantity> quantities, bool paired);
 
 } // namespace candelabra::app

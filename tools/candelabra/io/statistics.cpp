@@ -23,8 +23,8 @@ double rank(const std::vector<double>& sorted, double share)
     return sorted[std::max<size_t>(at, 1) - 1];
 }
 
-// Largest k for which fewer than k of n values fall below the median with a probability of at most
-// 2.5%; 0 when there is none.
+// The largest k such that fewer than k of n values lie below the true median with a probability of
+// at most 2.5%; 0 if there is none.
 size_t intervalRank(size_t n)
 {
     double probability = std::pow(0.5, double(n)), below = 0;
@@ -70,7 +70,8 @@ PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b)
     if (ratios.empty())
         return {1, 0, std::numeric_limits<double>::infinity()};
     std::sort(ratios.begin(), ratios.end());
-    // Powers of a half underflow beyond 1,000 pairs; there the binomial is normal.
+    // For more than 1,000 pairs 0.5^n may underflow; the binomial distribution of the rank is then
+    // close to a normal one.
     const size_t n = ratios.size();
     const size_t k = n <= 1000 ? intervalRank(n)
                                : size_t(double(n) / 2 - 0.98 * std::sqrt(double(n))); // 1.96 / 2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be said of repeated measurements on a machine that does other things too.
+// Statistics of repeated measurements on a machine that does other things as well.
 #pragma once
 
 #include <span>
@@ -10,16 +10,18 @@ namespace candelabra::app
 
 struct Spread {
     double min = 0, median = 0;
-    double p95 = 0, p99 = 0; // nearest rank: the smallest value that so many do not exceed
+    // Percentiles by nearest rank: the smallest value that 95% or 99% of the values do not exceed.
+    double p95 = 0, p99 = 0;
     double cv = 0; // coefficient of variation: standard deviation over mean; 0 for one value
 };
 
-// Of both: `values` may not be empty.
+// `values` must not be empty.
 double medianOf(std::vector<double> values);
 Spread spreadOf(std::vector<double> values);
 
-// Of paired measurements: median of b / a, and an interval that holds the true median with at least
-// 95% confidence, whatever the distribution (order statistics; Conover 1999, section 3.2).
+// The ratio b / a of paired measurements: its median, and an interval that holds the true median
+// with at least 95% confidence, whatever the distribution (order statistics; Conover 1999,
+// section 3.2).
 struct PairedRatio {
     double median = 0, low = 0, high = 0;
 
@@ -27,11 +29,11 @@ struct PairedRatio {
     bool isSlower() const { return low > 1; }
 };
 
-// Pairs that are needed for an interval at all.
+// The least number of pairs for which there is an interval.
 constexpr size_t minPairs = 6;
 
-// As many of each, at least minPairs; pairs with an `a` of 0 say nothing and are left out, and with
-// fewer than minPairs left the interval is [0, infinity].
+// `a` and `b` must have the same number of values. Pairs with an `a` of 0 are left out. With fewer
+// than minPairs left, the interval is [0, infinity].
 PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b);
 
 } // namespace candelabra::app

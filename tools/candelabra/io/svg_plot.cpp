@@ -14,10 +14,11 @@ namespace candelabra::app
 namespace
 {
 
-// Pixels of the drawing and its margins; the right one holds the labels of the lines.
+// Size of the drawing and of its margins in pixels. The right margin holds the labels of the lines.
 constexpr double width = 960, height = 600, left = 84, right = 220, top = 76, bottom = 66;
 
-// Okabe and Ito 2008: told apart with any colour vision; black last.
+// Colours that people with any kind of colour vision can tell apart (Okabe and Ito 2008, with a
+// brown for their yellow); black is the last.
 constexpr std::array<const char*, 8> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#8a6d3b", "#000000"};
 
@@ -35,13 +36,13 @@ struct Axis {
     }
 };
 
-// Largest 1-2-5 step <= value (down) or smallest >= value (up).
+// The largest 1-2-5 step that is <= value (down), or the smallest that is >= value (up).
 double step(double value, bool down)
 {
     const double decade = std::pow(10.0, std::floor(std::log10(value)));
     double best = down ? decade : decade * 10;
     for (const double m : {1.0, 2.0, 5.0, 10.0}) {
-        // Rounding of the decade must not push a value past its own step.
+        // The tolerance lets a value that is a step itself be found in spite of rounding.
         const double s = decade * m;
         if (down ? s <= value * (1 + 1e-9) : s >= value * (1 - 1e-9)) {
             best = s;
@@ -133,7 +134,7 @@ std::string frame(const PlotText& text, const Axis& x, const Axis& y)
 
 constexpr size_t markerShapes = 4;
 
-// Series that share a colour have different ones.
+// The shape of a series' markers. Series that share a colour have different shapes.
 size_t markerOf(size_t series)
 {
     return (series + series / colours.size()) % markerShapes;

@@ -13,15 +13,15 @@ struct PlotSeries {
     std::string name;
     std::vector<std::pair<double, double>> points; // values <= 0 or not finite are left out
     bool emphasised = false;                       // drawn thicker
-    bool connected = true;                         // else markers alone
+    bool connected = true;                         // false: markers without a line
 };
 
 struct PlotText {
-    std::string title, subtitle, xAxis, yAxis; // axes with their unit
+    std::string title, subtitle, xAxis, yAxis; // the axes' names contain the unit
 };
 
 // A complete SVG document. Series are told apart by colour, marker shape and a label at the end of
-// the line. With no drawable point the plot says so.
+// the line. If no point can be drawn, the plot says so.
 std::string logLogPlot(const PlotText& text, const std::vector<PlotSeries>& series);
 
 } // namespace candelabra::app

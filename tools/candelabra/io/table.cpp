@@ -58,7 +58,7 @@ std::string threeDigits(double value)
     const double size = std::abs(value);
     if (!std::isfinite(value) || (size != 0 && (size < 1e-3 || size >= 1e6)))
         return fmt::format("{:.2e}", value);
-    // Digits before the point of the rounded value decide how many follow it.
+    // The number of digits before the point of the rounded value decides how many follow it.
     const int decimals = size < 0.0999995 ? (size < 0.00999995 ? 5 : 4)
                          : size < 0.9995  ? 3
                          : size < 9.995   ? 2

@@ -13,18 +13,20 @@ class Table
 {
 public:
     explicit Table(std::vector<std::string> header);
-    // As many cells as the header has.
+    // Adds a row, which must have as many cells as the header.
     void add(std::vector<std::string> cells);
-    // A line across before the next row.
+    // Draws a line across the table before the next row.
     void rule();
-    // Lines that end in a newline: first column to the left, the others to the right.
+    // The table as lines that each end in a newline. The first column is aligned to the left, the
+    // others to the right.
     std::string text() const;
 
 private:
     std::vector<std::vector<std::string>> rows_; // an empty row is a rule
 };
 
-// "12.3" with three significant digits and no exponent for 0.001 <= value < 1e6, for people.
+// A number for people to read: three significant digits, such as "12.3", or all digits before the
+// point if there are more. Values below 0.001 and from 1e6 on have an exponent.
 std::string threeDigits(double value);
 // 1234567 -> "1,234,567".
 std::string grouped(unsigned long long value);

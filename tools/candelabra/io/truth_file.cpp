@@ -31,7 +31,7 @@ uint64_t fromHex(const std::string& text)
     return std::stoull(text, nullptr, 16);
 }
 
-// Throws nlohmann's or the library's exceptions for what is not there.
+// Throws exceptions of nlohmann::json or of std::stoull for members that are missing or malformed.
 TruthShard parseHeader(const nlohmann::json& header, const std::string& path)
 {
     if (header.at("format") != format)
@@ -99,10 +99,10 @@ TruthShard loadTruthShard(const std::string& path)
                        shard.height <= maxImageSize && shard.index >= 1 &&
                        shard.index <= shard.count && shard.count <= maxImageSize;
     if (!sizes)
-        failRead(path, "its header makes no sense");
+        failRead(path, "its header has a size or a number of shards that is out of range");
     const size_t count = 3 * shard.rows().size() * shard.width;
     if (size_t(bytes.end() - end) != 1 + count * sizeof(float))
-        failRead(path, "is cut short, or has more than its header says");
+        failRead(path, "is cut short, or is longer than its header says");
     shard.pixels.resize(count);
     if (count)
         std::memcpy(shard.pixels.data(), &*end + 1, count * sizeof(float));
@@ -123,10 +123,10 @@ Image mergeTruthShards(std::span<const std::string> paths, std::span<const Truth
             throw ImageError(paths[i] + ": cannot be merged: " + reason);
         };
         if (shard.scene != first.scene)
-            refuse("it is of another scene or camera than " + paths[0]);
+            refuse("it belongs to another scene or camera than " + paths[0]);
         if (shard.width != first.width || shard.height != first.height)
-            refuse(fmt::format("its image is {}x{}, that of {} is {}x{}", shard.width, shard.height,
-                               paths[0], first.width, first.height));
+            refuse(fmt::format("its image has {}x{} pixels, that of {} has {}x{}", shard.width,
+                               shard.height, paths[0], first.width, first.height));
         if (shard.tolerance != first.tolerance)
             refuse(fmt::format("its tolerance is {:g}, that of {} is {:g}", shard.tolerance,
                                paths[0], first.tolerance));

@@ -29,7 +29,8 @@ glm::dvec3 toVec3(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-// Numbers of the bits, as the loader has them; nothing for all layers.
+// Adds the numbers of the layers as the loader reads them. Nothing is added for a mask of 0, which
+// stands for all layers.
 void addLayers(Json& json, uint32_t layers)
 {
     for (uint32_t i = 0; i < CND_LAYER_COUNT; ++i)
@@ -41,7 +42,7 @@ Json cameraJson(const Camera& camera)
 {
     if (camera.orthographic)
         throw SceneError(
-            "scene descriptions have no orthographic cameras: this scene is not saved");
+            "the scene cannot be saved: scene descriptions have no orthographic cameras");
     Json out{{"position", toJson(camera.position)},
              {"look_at", toJson(camera.position + camera.forward)},
              {"up", toJson(camera.up)},
@@ -55,9 +56,10 @@ Json cameraJson(const Camera& camera)
 Json materialJson(const Material& m)
 {
     if (!(m.perceptualRoughness > 0))
-        throw SceneError(
-            "scene descriptions have no roughness of 0: choose another, this scene is not saved");
-    // A material of the format is a dielectric whose F0 is final.
+        throw SceneError("the scene cannot be saved: scene descriptions have no roughness of 0; "
+                         "choose a greater one");
+    // In the format every material is a dielectric and its F0 is used as it is, so metalness is
+    // mixed into F0 and albedo here.
     const glm::dvec3 base(m.baseColor), f0(m.dielectricF0);
     const double metalness = m.metalness;
     return {{"name", m.name},
@@ -139,7 +141,8 @@ Json lightJson(const CndLight& light, const glm::dvec3& origin)
     return out;
 }
 
-// Relative, so that both may be moved together; absolute where no way leads there.
+// The path of `file` relative to `folder`, so that both can be moved together; the absolute path if
+// there is no relative one.
 std::string fileSeenFrom(const std::string& folder, const std::string& file)
 {
     namespace fs = std::filesystem;

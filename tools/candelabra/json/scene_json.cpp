@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The small scene description that reference images are published with: one camera, exact planes
-// and balls, lights (scene_json_lights.h). Angles in degrees, lengths in any unit, radiance taken
-// as is. Instead of objects "source" may name another scene, of which all but lights and camera is
-// taken: {"scene": "hall", or the path of a glTF file from where the description is,
-// "seed": 1, "material": {"perceptual_roughness": 0.4, "metalness": 0}, for all its materials}.
+// Reads scene descriptions, the small format in which reference images are published: one camera,
+// exact planes and balls, and lights (scene_json_lights.h). Angles are in degrees, lengths in any
+// unit, and radiance is taken as it is. Instead of objects, a description may name a source,
+// another scene from which everything but lights and cameras is taken:
+//
+//   "source": {"scene": "hall", "seed": 1,
+//              "material": {"perceptual_roughness": 0.4, "metalness": 0}}
+//
+// "scene" may also be the path of a glTF file, relative to the folder of the description.
+// "material", if given, is used for the roughness and metalness of all materials.
 #include <cmath>
 #include <filesystem>
 
@@ -29,7 +34,7 @@ glm::vec3 color(const JsonValue& value, const NumberRange& range)
     return glm::vec3(value.vector3(range));
 }
 
-// A unit vector; lengths below 1e-6 have no direction worth the name.
+// Reads a vector and gives it unit length. Vectors not longer than 1e-6 count as zero.
 glm::dvec3 direction(const JsonValue& value)
 {
     const glm::dvec3 v = value.vector3(coordinate);
@@ -59,7 +64,8 @@ Camera readCamera(const JsonValue& json)
         camera.aspect = aspect->number({1e-3, 1e3});
     if (const auto layers = json.find("layers"))
         camera.layers = readLayers(*layers);
-    // The reference cameras see everything in front of them; nearer than this nothing is resolved.
+    // The cameras of the format see everything in front of them. The renderer needs a near plane:
+    // what is nearer than this is not shown.
     camera.nearPlane = 1e-3;
     return camera;
 }
@@ -69,7 +75,7 @@ float readPerceptualRoughness(const JsonValue& json)
     const auto alphaJson = json.find("alpha");
     const auto roughnessJson = json.find("perceptual_roughness");
     if (!alphaJson && !roughnessJson)
-        json.fail("\"alpha\" is missing");
+        json.fail("\"alpha\" or \"perceptual_roughness\" is missing");
     if (!alphaJson)
         return static_cast<float>(roughnessJson->number(NumberRange::positive(1)));
     const double fromAlpha = std::sqrt(alphaJson->number(NumberRange::positive(1)));
@@ -81,8 +87,9 @@ float readPerceptualRoughness(const JsonValue& json)
     return static_cast<float>(fromAlpha);
 }
 
-// F0 in the file is final while Material mixes it with the base colour by metalness, so metalness
-// goes into the base colour and the material itself is a dielectric.
+// The F0 of the file is used as it is, while a Material mixes its F0 with its base colour according
+// to its metalness. So the Material is always a dielectric, and the metalness of the file only
+// scales its base colour.
 Material readMaterial(const JsonValue& json)
 {
     json.refuseOtherKeys({"name", "albedo", "diffuse", "specular", "F0", "reflectance", "alpha",
@@ -100,8 +107,9 @@ Material readMaterial(const JsonValue& json)
         material.dielectricF0 = color(*f0, unitInterval);
     if (const auto reflectance = json.find("reflectance")) {
         if (json.find("F0"))
-            reflectance->fail("cannot stand beside \"F0\"");
-        // Lagarde and de Rousiers 2014, eq. 25: 0.5 is a common dielectric, F0 = 0.04.
+            reflectance->fail("cannot be combined with \"F0\"");
+        // Lagarde and de Rousiers 2014, eq. 25. A common dielectric has a reflectance of 0.5, which
+        // is an F0 of 0.04.
         const double r = reflectance->number(unitInterval);
         material.dielectricF0 = glm::vec3(static_cast<float>(0.16 * r * r));
     }
@@ -110,7 +118,7 @@ Material readMaterial(const JsonValue& json)
     material.diffuseWeight = diffuse && !diffuse->boolean() ? 0.0f : 1.0f;
     if (specular && !specular->boolean()) {
         material.specularWeight = 0;
-        material.dielectricF0 = glm::vec3(0); // F90 = 0 alone leaves F0 (1 - (1 - VoH)^5)
+        material.dielectricF0 = glm::vec3(0); // a weight of 0 alone leaves F0 (1 - (1 - VoH)^5)
     }
     return material;
 }
@@ -135,8 +143,8 @@ AnalyticObject readObject(const JsonValue& json)
     return object;
 }
 
-// "object" with the one "material", or our extension: "objects", each with its own or the common
-// material.
+// Reads "object", or our extension "objects". An object has its own "material" or uses the one of
+// the scene.
 void readObjects(const JsonValue& root, Scene& scene)
 {
     const auto common = root.find("material");
@@ -148,7 +156,7 @@ void readObjects(const JsonValue& root, Scene& scene)
             object.material = static_cast<uint32_t>(scene.materials.size());
             scene.materials.push_back(readMaterial(*own));
         } else if (!common) {
-            json.fail("has no material and the scene has none");
+            json.fail("has no \"material\", and neither has the scene");
         }
         scene.analyticObjects.push_back(object);
     };
@@ -158,7 +166,7 @@ void readObjects(const JsonValue& root, Scene& scene)
         return;
     }
     if (root.find("object"))
-        list->fail("cannot stand beside \"object\"");
+        list->fail("cannot be combined with \"object\"");
     list->requireArray();
     if (list->size() == 0)
         list->fail("must not be empty");
@@ -171,7 +179,7 @@ float readShare(const JsonValue& json, const char* key)
     return float(json.member(key).number(unitInterval));
 }
 
-// What "source" names; paths are from where the description is.
+// Reads "source". A path in it is relative to the folder of the description at `path`.
 SceneSource readSource(const JsonValue& json, const std::string& path)
 {
     json.refuseOtherKeys({"scene", "seed", "material"});
@@ -193,11 +201,11 @@ SceneSource readSource(const JsonValue& json, const std::string& path)
     return out;
 }
 
-// The scene without its lights and cameras.
+// Loads or generates the source and removes its lights and cameras.
 Scene loadSource(const SceneSource& source)
 {
     SceneOptions options{.seed = source.seed};
-    if (isGenerated(source.scene)) // of a file the option adds lights
+    if (isGenerated(source.scene)) // for a file, the option is the number of lights to add
         options.lights = 0;
     Scene out = isBuiltIn(source.scene) ? generateScene(source.scene, options)
                                         : loadGltf(source.scene, options);
@@ -242,17 +250,17 @@ Scene loadSceneJson(const std::string& path)
     const JsonValue root(path, document);
     root.refuseOtherKeys({"camera", "object", "objects", "material", "source", "lights",
                           "resolution", "background", "lights_visible_to_camera", "lights_occlude",
-                          // informative:
+                          // for people who read the file, not used:
                           "name", "about", "channels", "references", "rendered_terms"});
     Scene scene;
     const auto source = root.find("source");
     if (source) {
         for (const char* key : {"object", "objects", "material"})
             if (root.find(key))
-                source->fail(std::string("cannot stand beside \"") + key + "\"");
+                source->fail(std::string("cannot be combined with \"") + key + "\"");
         scene = loadSource(readSource(*source, path));
     } else {
-        scene.lobes = CND_LOBES_SUM; // what the format means: two-lobe materials of path tracers
+        scene.lobes = CND_LOBES_SUM; // the format has the two-lobe materials of path tracers
     }
     const auto name = root.find("name");
     scene.name = name && name->json().is_string() ? name->string()
@@ -269,7 +277,8 @@ Scene loadSceneJson(const std::string& path)
     scene.lightsVisible = visible && visible->boolean();
     const auto occlude = root.find("lights_occlude");
     if (occlude && occlude->boolean())
-        scene.warnings.push_back(path + ": lights_occlude: lights do not block light here");
+        scene.warnings.push_back(path +
+                                 ": lights_occlude is ignored: lights never block light here");
     return scene;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene descriptions (.json) as scenes; scene_json.cpp says what they hold.
+// Loads scene descriptions (.json). Their format is described in scene_json.cpp.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace candelabra::app
 {
 
-// Throws SceneError.
+// Throws SceneError with one sentence that names the file and the member.
 Scene loadSceneJson(const std::string& path);
 
 } // namespace candelabra::app

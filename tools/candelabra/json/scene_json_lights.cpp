@@ -17,10 +17,11 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
-// Shorter vectors have no direction worth the name.
+// Vectors that are not longer than this count as zero.
 constexpr double minLength = 1e-6;
 
-// What `type` may say, and the keys it brings.
+// A value of "type", and the keys of such lights: those that place it, which are required, those
+// that are optional, and those of which exactly one gives the emission.
 struct LightKind {
     const char* name;
     CndLightType type;
@@ -105,13 +106,13 @@ float readRadius(const JsonValue& json, double max)
     return radius;
 }
 
-// Both ends become the centre and half of what lies between them.
+// Reads the ends of a tube. Returns its centre and sets axisU to half the vector from start to end.
 glm::dvec3 readSegment(const JsonValue& json, CndLight& light)
 {
     const glm::dvec3 start = json.member("start").vector3(coordinate);
     const glm::dvec3 end = json.member("end").vector3(coordinate);
     if (!(glm::length(end - start) > minLength))
-        json.member("end").fail("must not be the start");
+        json.member("end").fail("must not be the same point as start");
     setVector(light.axisU, 0.5 * (end - start));
     return 0.5 * (start + end);
 }
@@ -124,7 +125,7 @@ void readSides(const JsonValue& json, CndLight& light)
         jsonU.fail("must not be zero");
     if (!(glm::length(v) > minLength))
         jsonV.fail("must not be zero");
-    // CndLight wants 1e-3 in single precision.
+    // CndLight requires a cosine of at most 1e-3, in single precision.
     if (!(std::abs(glm::dot(glm::normalize(u), glm::normalize(v))) <= 0.99e-3))
         jsonV.fail("must be perpendicular to axis_u");
     setVector(light.axisU, u);
@@ -140,14 +141,15 @@ void readCone(const JsonValue& json, CndLight& light)
     light.innerConeAngle = static_cast<float>(innerAngle);
     light.outerConeAngle =
         std::min(static_cast<float>(outerAngle), std::nextafter(static_cast<float>(pi / 2), 0.0f));
-    // As the lighting module: what float cosines can resolve.
+    // The lighting module requires the same, because float cosines cannot resolve smaller
+    // differences.
     const double apart = std::cos(static_cast<double>(light.innerConeAngle)) -
                          std::cos(static_cast<double>(light.outerConeAngle));
     if (!(apart >= 1e-6))
-        outer.fail("must be greater than inner_cone_degrees (their cosines by 1e-6)");
+        outer.fail("must be greater than inner_cone_degrees: their cosines must differ by 1e-6");
 }
 
-// From the centre to the farthest point of the emitter.
+// The distance from the centre of a light to the farthest point of its emitter.
 double reachOf(const CndLight& light)
 {
     const auto length = [](const float(&v)[3]) {
@@ -176,21 +178,23 @@ void readInfluence(const JsonValue& json, CndLight& light)
     if (static_cast<double>(light.influenceRadius) > reachOf(light) * (1 + 1e-6))
         return;
     const bool round = light.type == CND_LIGHT_SPHERE || light.type == CND_LIGHT_DISC;
-    influence->fail(round ? "must be greater than radius"
-                          : "must be greater than the reach of the light from its centre");
+    influence->fail(
+        round ? "must be greater than radius"
+              : "must be greater than the distance from the light's centre to its farthest point");
 }
 
-// Emission of one unit of what `key` is about, in the unit of the light's type (CndLightType).
+// The value of CndLight::emission, in the unit of the light's type (CndLightType), of a light that
+// has one unit of the quantity that `key` names.
 double emissionPerUnit(const std::string& key, CndLight light)
 {
     if (key == "radiance" || key == "luminance")
         return 1;
     const double radius = static_cast<double>(light.radius);
-    if (key == "intensity") // a sphere's far field: I = pi R^2 L
+    if (key == "intensity") // in the far field of a sphere I = pi R^2 L
         return light.type == CND_LIGHT_SPHERE ? 1 / (pi * radius * radius) : 1;
-    if (key == "illuminance") // of a distant sphere: E = pi s^2 L
+    if (key == "illuminance") // below a distant sphere E = pi s^2 L
         return light.type == CND_LIGHT_DISTANT_SPHERE ? 1 / (pi * radius * radius) : 1;
-    // Luminous power of a light that emits 1.
+    // The power is proportional to the emission: it is computed for an emission of 1.
     for (float& emission : light.emission)
         emission = 1;
     float power[3] = {};
@@ -205,7 +209,7 @@ void readEmission(const JsonValue& json, const LightKind& kind, CndLight& light)
         if (!json.find(key))
             continue;
         if (given)
-            json.member(key).fail("cannot stand beside \"" + *given + "\"");
+            json.member(key).fail("cannot be combined with \"" + *given + "\"");
         given = &key;
     }
     if (!given)
@@ -215,7 +219,7 @@ void readEmission(const JsonValue& json, const LightKind& kind, CndLight& light)
     setVector(light.emission, emission);
     for (const float e : light.emission)
         if (!std::isfinite(e))
-            value.fail("is more than single precision holds for so small a light");
+            value.fail("needs an emission beyond single precision for so small a light");
 }
 
 CndLight readLight(const JsonValue& json, glm::dvec3& position)
@@ -256,7 +260,7 @@ uint32_t readLayers(const JsonValue& json)
 {
     json.requireArray();
     if (json.size() == 0)
-        json.fail("must not be empty (all layers: leave it out)");
+        json.fail("must not be empty: leave it out for all layers");
     uint32_t layers = 0;
     for (size_t i = 0; i < json.size(); ++i)
         layers |= 1u << json.item(i).integer(0, CND_LAYER_COUNT - 1);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lights of the small scene description. Internal to its loader.
 //
-// A light is an object with a "type" ("sphere" when left out), what places it, exactly one key for
-// its emission, per Rec.709 channel [r, g, b], and, unless it is infinitely far away,
-// "influence_radius" (default: unlimited). "direction" is the way the light travels.
+// The lights of scene descriptions. A light is an object with a "type" (default: "sphere"), the
+// keys that place it, and exactly one key for its emission, an array [r, g, b] for the Rec.709
+// channels. Unless it is infinitely far away it may have an "influence_radius" (default:
+// unlimited). "direction" is the direction in which the light travels.
 //
 //   type            placed by                                   emission
 //   sphere          position, radius                            radiance, luminous_power, intensity
@@ -16,10 +17,11 @@
 //                   outer_cone_degrees (half angles)
 //   directional     direction                                   illuminance
 //
-// radiance may be called luminance: cd/m^2. luminous_power: lm. intensity: cd; a sphere's in the
-// far field, a spot's on its axis. illuminance: lx, on a surface that faces the light. axis_u and
-// axis_v go from the centre to the middle of an edge and of the next; the front is axis_u x axis_v.
-// "layers" of any light: its layers by number, [0, 3] for instance (default: all).
+// "radiance" may also be called "luminance"; it is in cd/m^2. "luminous_power" is in lm.
+// "intensity" is in cd: for a sphere in the far field, for a spot on its axis. "illuminance" is in
+// lx, on a surface that faces the light. axis_u and axis_v lead from the centre of a rectangle to
+// the middles of two adjacent edges; its front faces along axis_u x axis_v. Any light may have
+// "layers", the numbers of its layers, such as [0, 3] (default: all).
 #pragma once
 
 #include "scene/json_value.h"
@@ -28,10 +30,11 @@
 namespace candelabra::app
 {
 
-// [0, 3] as CndLight::layers. Throws SceneError.
+// Reads layer numbers such as [0, 3] as the mask CndLight::layers. Throws SceneError.
 uint32_t readLayers(const JsonValue& json);
 
-// Appends the lights of the array `list` and places them (light_placement.h). Throws SceneError.
+// Appends the lights of the array `list` to the scene's and places them (light_placement.h). Throws
+// SceneError.
 void readSceneLights(const JsonValue& list, Scene& scene);
 
 } // namespace candelabra::app

@@ -59,7 +59,8 @@ SceneEnvironment loadEnvironment(const SceneOptions& options)
 
 Scene loadScene(const std::string& scene, const SceneOptions& options)
 {
-    // The small file first: a typing error in its name should not cost the making of a scene.
+    // The environment is loaded before the scene, which may take long to make: a typing error in
+    // the environment's name is found at once.
     std::optional<SceneEnvironment> environment;
     if (!options.environment.empty())
         environment = loadEnvironment(options);
