@@ -20,7 +20,7 @@ std::string numberText(double x)
     return s.str();
 }
 
-// The value as it stands in the file, short enough for a sentence.
+// The value as it is written in the file, cut to a length that fits into a sentence.
 std::string describe(const nlohmann::json& value)
 {
     if (value.is_object())
@@ -35,7 +35,7 @@ std::string describe(const nlohmann::json& value)
 
 std::string NumberRange::text(double x) const
 {
-    // Bounds far outside what anyone writes only distract from the one that was missed.
+    // Only the bound that was missed is named if the other is so large that nobody would exceed it.
     constexpr double distracting = 1e9;
     const bool isLow = minExcluded ? x <= min : x < min;
     if (isLow && max >= distracting)

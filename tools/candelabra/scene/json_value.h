@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A JSON value that knows where it came from, so that every complaint names file and element:
-// "scene.json: lights[3].radius: must be > 0, is -1". Everything throws SceneError.
+// A JSON value that knows its file and its place in it, so that every error message names them:
+// "scene.json: lights[3].radius: must be > 0, is -1". All functions throw SceneError.
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@
 namespace candelabra::app
 {
 
-// Closed range, or half open at `min`.
+// The range from `min` to `max`. Both ends belong to it, but `min` does not if minExcluded is true.
 struct NumberRange {
     double min = -static_cast<double>(std::numeric_limits<float>::max());
     double max = static_cast<double>(std::numeric_limits<float>::max());
@@ -28,11 +28,11 @@ struct NumberRange {
     {
         return (minExcluded ? x > min : x >= min) && x <= max;
     }
-    // What x should have been: "> 0", "between 0 and 1", ...
+    // Says what x, which is not in the range, should have been: "> 0", "between 0 and 1", ...
     std::string text(double x) const;
 };
 
-// Borrows the document and the file name; both must outlive it.
+// Refers to the document and the file name that it is constructed with; both must outlive it.
 class JsonValue
 {
 public:
@@ -42,17 +42,18 @@ public:
     const std::string& path() const { return path_; }
     [[noreturn]] void fail(const std::string& reason) const;
 
-    // Objects. member() fails when the key is missing.
+    // For objects. find() is empty if the key is missing; member() fails.
     void requireObject() const;
     JsonValue member(const std::string& key) const;
     std::optional<JsonValue> find(const std::string& key) const;
     void refuseOtherKeys(const std::vector<std::string>& known) const;
 
-    // Arrays.
+    // For arrays.
     void requireArray() const;
     size_t size() const { return value_->size(); }
     JsonValue item(size_t i) const;
 
+    // The value as a type. They fail if it has another type or, for numbers, is out of range.
     double number(const NumberRange& range = {}) const;
     int64_t integer(int64_t min, int64_t max) const;
     bool boolean() const;

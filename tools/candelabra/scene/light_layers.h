@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lights a camera is for.
+// Selects the lights that a camera sees by its layers.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 namespace candelabra::app
 {
 
-// Whether the light has a layer in common with the camera.
+// True if the light has a layer in common with the camera. A mask of 0 stands for all layers.
 bool isShown(const CndLight& light, const Camera& camera);
 
-// Those that have a layer in common with the camera, in their order.
+// The lights that have a layer in common with the camera, in the same order.
 std::vector<CndLight> lightsShown(const std::vector<CndLight>& lights, const Camera& camera);
 
 } // namespace candelabra::app

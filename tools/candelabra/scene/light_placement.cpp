@@ -9,7 +9,7 @@ namespace candelabra::app
 namespace
 {
 
-// Infinitely far away: its position means nothing.
+// True if the light is infinitely far away, so that its position means nothing.
 bool isDistant(const CndLight& light)
 {
     return light.type == CND_LIGHT_DIRECTIONAL || light.type == CND_LIGHT_DISTANT_SPHERE;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light positions in files are double; CndLight stores floats relative to Scene::lightOrigin.
+// Places lights. Their positions in files are in double precision, while CndLight has floats
+// relative to Scene::lightOrigin.
 #pragma once
 
 #include <vector>
@@ -11,10 +12,10 @@
 namespace candelabra::app
 {
 
-// Chooses scene.lightOrigin and writes scene.lights[i].position for world positions in metres, one
-// per light. The origin stays at 0 while every light is within 1024 m of it (float step there:
-// 0.06 mm), else it is the centre of the positions' bounds. Lights infinitely far away have no
-// position.
+// Chooses scene.lightOrigin and sets the positions of scene.lights to `worldPositions`, which has
+// one position per light in metres. The origin is 0 if no coordinate of a light exceeds 1024 m,
+// where floats are 0.06 mm apart, else the centre of the positions' bounds. Lights that are
+// infinitely far away have no position and are left alone.
 void placeLights(Scene& scene, const std::vector<glm::dvec3>& worldPositions);
 
 } // namespace candelabra::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Axis-aligned boxes around meshes.
+// Axis-aligned bounding boxes of meshes.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,10 +7,10 @@
 namespace candelabra::app
 {
 
-// In object space; {0,0} for a mesh without vertices.
+// The bounds in object space; {0,0} for a mesh without vertices.
 Bounds meshBounds(const Mesh& mesh);
 
-// The smallest box around the transformed box; never smaller than the box around its content.
+// The bounds in world space of a box that is in object space. They contain everything in the box.
 Bounds transformBounds(const Bounds& bounds, const glm::dmat4& worldFromObject);
 
 } // namespace candelabra::app

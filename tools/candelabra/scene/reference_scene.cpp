@@ -20,8 +20,8 @@ reference::Material toReference(const Material& m)
             .f0 =
                 glm::mix(glm::dvec3(m.dielectricF0), glm::dvec3(m.baseColor), double(m.metalness)),
             .specularWeight = m.specularWeight,
-            // The lobe of alpha 0 is no function; this one is a mirror to every eye, and the
-            // narrowest that reference/direction_domain.h integrates.
+            // The lobe of alpha 0 is not a function. A lobe of alpha 1e-4 looks like a mirror and
+            // is the narrowest that reference/direction_domain.h integrates.
             .alpha = std::max(roughness * roughness, 1e-4),
             .emission = m.emission};
 }
@@ -50,12 +50,15 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
                              bool lightsVisible)
 {
     if (!scene.instances.empty())
-        throw SceneError(scene.name + ": has meshes, and only planes and balls have a truth");
+        throw SceneError(scene.name +
+                         ": has meshes; the exact image can be computed for planes and balls only");
     if (scene.environment)
-        throw SceneError(scene.name + ": has an environment, and only lights have a truth");
+        throw SceneError(scene.name +
+                         ": has an environment; the exact image can be computed for lights only");
     if (camera.orthographic)
-        throw SceneError(scene.name + ": camera " + camera.name +
-                         " is orthographic, and only pinhole cameras have a truth");
+        throw SceneError(
+            scene.name + ": camera " + camera.name +
+            " is orthographic; the exact image can be computed for pinhole cameras only");
     reference::Scene out;
     out.camera = {camera.position, camera.forward, camera.up, camera.verticalFov,
                   camera.aspect.value_or(imageAspect)};

@@ -43,7 +43,8 @@ uint32_t materialClasses(const Scene& scene)
         const Material& m = scene.materials[i];
         if (!used[i])
             continue;
-        // Textures only lower metalness and the base colour; they may leave them as they are.
+        // Textures can only lower metalness and base colour. Some texel may leave them as they are,
+        // so the factors alone decide.
         if (m.metalness == 1 || m.diffuseWeight == 0 || m.baseColor == glm::vec3(0))
             out |= CND_MATERIAL_SPECULAR_ONLY;
         if (m.specularWeight == 0 && m.dielectricF0 == glm::vec3(0) && m.metalness == 0)
@@ -75,9 +76,10 @@ void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out)
     out = scene.lights;
     for (size_t i = 0; i < scene.lightMotions.size() && i < out.size(); ++i) {
         if (out[i].type == CND_LIGHT_DIRECTIONAL || out[i].type == CND_LIGHT_DISTANT_SPHERE)
-            continue; // no position to move
+            continue; // these lights have no position
         const LightMotion& motion = scene.lightMotions[i];
-        // In double, and reduced before it becomes a float: the circles stay circles after hours.
+        // The angle is a double until its sine and cosine are taken, so that the motion stays
+        // smooth after hours.
         const double angle = motion.phase + static_cast<double>(motion.angularSpeed) * time;
         const float c = static_cast<float>(std::cos(angle));
         const float s = static_cast<float>(std::sin(angle));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene in memory: what loaders and generators produce and the renderer draws. No Vulkan here.
-// Metres, radians, photometric units; world space is right-handed with y up.
+// A scene in memory, which loaders and generators produce and the renderer draws. It has nothing of
+// Vulkan. Units are metres, radians and photometric units; world space is right-handed with y up.
 #pragma once
 
 #include <array>
@@ -38,9 +38,11 @@ struct Texture {
 };
 
 struct TextureRef {
-    int32_t texture = -1; // index into Scene::textures, -1: none (reads as 1, normals as +z)
-    uint32_t uvSet = 0;   // 0 or 1
-    // Rows of the affine map applied to uv (KHR_texture_transform): u' = dot(u_, vec3(uv, 1)).
+    // Index into Scene::textures. -1 is no texture, which reads as 1, as a normal map as +z.
+    int32_t texture = -1;
+    uint32_t uvSet = 0; // 0 or 1
+    // Rows of the affine map applied to uv (KHR_texture_transform):
+    // u' = dot(uRow, vec3(uv, 1)), v' = dot(vRow, vec3(uv, 1)).
     glm::vec3 uRow{1, 0, 0}, vRow{0, 1, 0};
 };
 
@@ -51,12 +53,12 @@ enum class AlphaMode { Opaque, Mask };
 struct Material {
     std::string name;
     glm::vec3 baseColor{1};
-    float alpha = 1; // coverage, with AlphaMode::Mask
+    float alpha = 1; // coverage, used with AlphaMode::Mask
     float metalness = 0;
     float perceptualRoughness = 1;
     glm::vec3 dielectricF0{0.04f};
     float diffuseWeight = 1;
-    float specularWeight = 1; // Schlick F90; 0 removes the specular lobe
+    float specularWeight = 1; // Schlick F90; with an F0 of 0 too, 0 removes the specular lobe
     glm::vec3 emission{0};    // cd/m^2
     float normalScale = 1;
     AlphaMode alphaMode = AlphaMode::Opaque;
@@ -74,45 +76,48 @@ struct Instance {
     glm::dmat4 worldFromObject{1};
 };
 
-// Exact plane or ball, ray-cast per pixel. Only the plane's upper side is seen.
+// A plane or a ball, exact and ray-cast per pixel. A plane is visible only from the side to which
+// its normal points.
 struct AnalyticObject {
     enum class Type { Plane, Ball } type = Type::Plane;
     glm::dvec3 point{0};        // plane: a point on it; ball: centre
-    glm::dvec3 normal{0, 1, 0}; // plane: unit
-    double radius = 1;          // ball
+    glm::dvec3 normal{0, 1, 0}; // plane: unit vector; not used for a ball
+    double radius = 1;          // ball: metres; not used for a plane
     uint32_t material = 0;
 };
 
 struct Camera {
     std::string name;
     glm::dvec3 position{0};
-    glm::dvec3 forward{0, 0, -1}; // unit
-    glm::dvec3 up{0, 1, 0};       // unit, not parallel to forward
+    glm::dvec3 forward{0, 0, -1}; // unit vector
+    glm::dvec3 up{0, 1, 0};       // unit vector, not parallel to forward
     bool orthographic = false;
-    double verticalFov = 0.9;      // radians, perspective
-    double orthographicHeight = 1; // full height in metres, orthographic
-    std::optional<double> aspect;  // width / height; empty: that of the image
+    double verticalFov = 0.9;      // radians, for perspective cameras
+    double orthographicHeight = 1; // full height in metres, for orthographic cameras
+    std::optional<double> aspect;  // width / height; empty: the image's aspect is used
     double nearPlane = 0.05;       // metres
-    double farPlane = 0;           // metres; 0: infinite (perspective only)
+    double farPlane = 0;           // metres; 0: infinite (perspective cameras only)
     uint32_t layers = 0;           // as CndLightingFrame::layers
 
     bool operator==(const Camera&) const = default;
 };
 
-// How a light moves, as a function of time alone: position + offset on a circle.
+// The motion of a light, which depends on the time t alone. At t the light is at its position plus
+// axisU cos(phase + angularSpeed t) + axisV sin(phase + angularSpeed t), which is a circle if both
+// axes are perpendicular and equally long.
 struct LightMotion {
-    glm::vec3 axisU{0},
-        axisV{0};           // metres; offset = axisU cos(phase + w t) + axisV sin(phase + w t)
-    float angularSpeed = 0; // w, rad/s
-    float phase = 0;
+    glm::vec3 axisU{0}, axisV{0}; // metres
+    float angularSpeed = 0;       // rad/s
+    float phase = 0;              // radians
 };
 
-// An equirectangular image around the scene: up at the top row, -z in the middle, +x to the right.
+// An equirectangular image around the scene: its top row is straight up, its middle is the
+// direction -z, and +x is to the right of that.
 struct SceneEnvironment {
-    std::string file;    // where it is from
+    std::string file;    // the file that it was loaded from
     Image radiance;      // cd/m^2
-    double rotation = 0; // radians about y, counter-clockwise seen from above
-    double scale = 1;    // factor on the radiance
+    double rotation = 0; // radians about the y axis, counter-clockwise seen from above
+    double scale = 1;    // factor that multiplies the radiance
 };
 
 struct Scene {
@@ -122,29 +127,31 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Instance> instances;
     std::vector<AnalyticObject> analyticObjects;
-    glm::dvec3 lightOrigin{0}; // light positions are relative to it
+    glm::dvec3 lightOrigin{0}; // light positions are relative to this point
     std::vector<CndLight> lights;
-    std::vector<LightMotion> lightMotions; // empty or one per light
+    std::vector<LightMotion> lightMotions; // empty, or one per light
     std::vector<Camera> cameras;           // at least one after loading; [0] is the default
     glm::vec3 background{0};               // luminance of pixels without a surface, cd/m^2
     std::optional<SceneEnvironment> environment;
     CndLobeJoining lobes = CND_LOBES_CONSERVING;
-    bool energyCompensation = false;      // give back light that bounces between microfacets
+    bool energyCompensation = false;      // add the light that bounces between microfacets
     std::optional<glm::uvec2> resolution; // default image size
     bool lightsVisible = true;            // draw area lights as emitters
-    std::vector<std::string> warnings;    // what was understood but not used, one sentence each
+    // What the file contains but the program does not use, one sentence each.
+    std::vector<std::string> warnings;
 };
 
-// Axis-aligned bounds of all instances (analytic objects excluded); empty scenes give {0,0}.
 struct Bounds {
     glm::dvec3 min{0}, max{0};
 };
+// Axis-aligned bounds of all instances, without analytic objects. {0,0} if there are no instances.
 Bounds sceneBounds(const Scene& scene);
 
-// Mask of CndMaterialClass: lobes that some surface may be without.
+// The mask of CndMaterialClass for all materials in use: which of the two lobes some surface may
+// lack.
 uint32_t materialClasses(const Scene& scene);
 
-// Positions of the moving lights at `time` seconds; lights without motion keep theirs.
+// Sets `out` to the scene's lights, the moving ones at the places where they are at `time` seconds.
 void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out);
 
 } // namespace candelabra::app

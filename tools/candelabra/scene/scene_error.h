@@ -6,8 +6,8 @@
 namespace candelabra::app
 {
 
-// A scene that cannot be used. what() is one sentence that names the file, the element and the
-// reason. The program ends with exit code 2.
+// Thrown for a scene that cannot be used. what() is one sentence that names the file, the element
+// and the reason. The program then ends with exit code 2.
 struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -21,9 +21,10 @@ namespace candelabra::app
 namespace
 {
 
-// nlohmann::json needs up to 16 bytes per two bytes of text: 2 GiB for the largest accepted file.
+// nlohmann::json needs up to 16 bytes for two bytes of text, which is 2 GiB for the largest file
+// that is accepted.
 constexpr size_t maxJsonBytes = size_t{256} << 20;
-// glTF and scene files nest about 8 deep; extras may add a few levels.
+// The nesting of glTF and scene files is about 8 levels deep; "extras" may add a few.
 constexpr int maxJsonDepth = 64;
 
 class FileDescriptor
@@ -43,7 +44,7 @@ private:
     int fd_;
 };
 
-// Greatest nesting of arrays and objects, ignoring brackets inside strings.
+// The deepest nesting of arrays and objects. Brackets inside strings are ignored.
 int jsonDepth(std::string_view text)
 {
     int depth = 0, deepest = 0;
@@ -66,7 +67,7 @@ int jsonDepth(std::string_view text)
     return deepest;
 }
 
-// "[json.exception.parse_error.101] parse error at line 1, ..." -> "line 1, ..."
+// Shortens "[json.exception.parse_error.101] parse error at line 1, ..." to "line 1, ...".
 std::string jsonErrorText(const char* what)
 {
     std::string_view text = what;
@@ -116,7 +117,7 @@ std::vector<uint8_t> readSceneFile(const std::string& path, const std::string& f
 {
     if (path.empty() || path.find('\0') != std::string::npos)
         failScene(file, element, "not a file name");
-    // O_NONBLOCK: opening a pipe must not wait for its writer.
+    // With O_NONBLOCK, opening a pipe does not wait for somebody who writes to it.
     const FileDescriptor input(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     struct stat info = {};
     if (input.get() < 0 || fstat(input.get(), &info) != 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user can ask of a scene besides its name.
+// The options of a scene that a user can set.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,23 @@ namespace candelabra::app
 {
 
 struct SceneOptions {
-    std::optional<uint32_t> lights; // hall/field/fence: number of sphere lights (default 4000);
-                                    // files: extra random sphere lights inside the bounds
-    uint32_t seed = 1;
-    std::optional<double> overlaps; // mean lights that contribute to a pixel that shows a surface:
-                                    // inside their influence, not wholly below its horizon
-                                    // (default 8, with few lights half of what is possible)
-    bool moving = false;            // lights get a LightMotion
-    std::optional<double> punctualRadius; // metres: point lights without a radius become spheres
-    std::optional<double> sunRadius;      // sine of an angular radius: directional lights become
-                                          // distant spheres
-    std::string environment;              // .hdr, .exr or .pfm file; empty: none
-    double environmentRotation = 0;       // radians
-    double environmentScale = 1;
-    std::optional<CndLobeJoining> lobes; // default: sum for .json, else conserving
+    // For hall, field and fence the number of sphere lights (default 4000). For files the number of
+    // random sphere lights that are added inside the scene's bounds.
+    std::optional<uint32_t> lights;
+    uint32_t seed = 1; // of everything random in the scene
+    // The mean number of lights that contribute to a pixel with a surface: the pixel lies within
+    // their influence, and they are not wholly below its horizon. Default: 8, or half of what is
+    // possible if there are few lights.
+    std::optional<double> overlaps;
+    bool moving = false; // lights get a LightMotion
+    // Point lights without a radius become spheres of this radius, in metres.
+    std::optional<double> punctualRadius;
+    // Directional lights become distant spheres whose angular radius has this sine.
+    std::optional<double> sunRadius;
+    std::string environment;             // an .hdr, .exr or .pfm file; empty: no environment
+    double environmentRotation = 0;      // as SceneEnvironment::rotation
+    double environmentScale = 1;         // as SceneEnvironment::scale
+    std::optional<CndLobeJoining> lobes; // default: sum for .json files, else conserving
     bool energyCompensation = false;
 };
 
