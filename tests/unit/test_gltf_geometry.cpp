@@ -158,8 +158,8 @@ TEST_F(GltfGeometry, BrokenNormalsAndTangentsAreReplacedAndReported)
         EXPECT_EQ(v.normal, glm::vec3(0, 0, 1));
     // made perpendicular to the normal
     EXPECT_EQ(scene.meshes[0].vertices[2].tangent, glm::vec4(1, 0, 0, -1));
-    EXPECT_TRUE(warns(scene, "2 normals have no length"));
-    EXPECT_TRUE(warns(scene, "2 tangents have no direction"));
+    EXPECT_TRUE(warns(scene, "2 normals have zero length"));
+    EXPECT_TRUE(warns(scene, "2 tangents have no usable direction"));
 }
 
 TEST_F(GltfGeometry, VertexColoursOfEveryType)

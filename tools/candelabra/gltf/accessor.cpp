@@ -11,18 +11,20 @@ namespace candelabra::app
 namespace
 {
 
-// Accessors without a buffer view are all zeros and have no bytes to bound their count.
+// The largest number of elements of an accessor without a buffer view. Its elements are all zero,
+// so the size of the file does not limit their number.
 constexpr uint64_t maxZeroCount = uint64_t{1} << 24;
 
 template <typename T>
-T load(const uint8_t* p) // buffers need not be aligned
+T load(const uint8_t* p) // p need not be aligned
 {
     T value;
     std::memcpy(&value, p, sizeof(T));
     return value;
 }
 
-// glTF 2.0, section 3.6.2.2: signed values map to [-1, 1], the most negative one is clamped.
+// One component as a float. Normalised signed values map to [-1, 1], where the most negative one is
+// clamped (glTF 2.0, section 3.6.2.2).
 float component(const uint8_t* p, int type, bool normalized)
 {
     switch (type) {
@@ -91,7 +93,7 @@ GltfAccessor::Elements GltfAccessor::locate(int view, uint64_t byteOffset, uint6
         document_.fail(element_, "has elements of " + std::to_string(elementSize) +
                                      " bytes, more than the byteStride of bufferViews[" +
                                      std::to_string(view) + "]");
-    // count <= bytes.size() first, so that the product cannot overflow
+    // count is compared first, so that the product below cannot overflow.
     if (byteOffset > bytes.size() || count > bytes.size() ||
         stride * (count - 1) + elementSize > bytes.size() - byteOffset)
         document_.fail(element_, std::to_string(count) + " elements do not fit into the " +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads elements of glTF accessors of any component type, strided, normalised and sparse.
-// Internal to the glTF loader. Everything throws SceneError.
+// Reads the elements of glTF accessors, which may have any component type and may be strided,
+// normalised or sparse. Internal to the glTF loader. All functions throw SceneError.
 #pragma once
 
 #include <string>
@@ -20,21 +20,22 @@ public:
     GltfAccessor(const GltfDocument& document, int index);
 
     size_t count() const { return count_; }
-    int components() const { return components_; } // 1..4, 0 for matrices
+    int components() const { return components_; } // 1..4; 0 for matrices
     int componentType() const { return componentType_; }
     bool isFloat() const { return componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT; }
     bool isNormalized() const { return normalized_; }
     const std::string& element() const { return element_; } // "accessors[3]"
 
-    // Element i, missing components 0; fails when a component is not finite.
+    // Element i; components that the accessor does not have are 0. Fails if a component is not
+    // finite.
     glm::vec4 read(size_t i) const;
-    // Component 0 of element i of an unsigned accessor.
+    // The first component of element i of an accessor of unsigned integers.
     uint32_t readUnsigned(size_t i) const;
 
 private:
     struct Elements {
-        const uint8_t* data = nullptr; // NULL: all zero
-        size_t stride = 0;
+        const uint8_t* data = nullptr; // nullptr: all elements are zero
+        size_t stride = 0;             // bytes
     };
     Elements locate(int view, uint64_t byteOffset, uint64_t count, size_t elementSize,
                     bool mayBeStrided) const;
@@ -49,7 +50,7 @@ private:
     size_t componentSize_ = 0;
     bool normalized_ = false;
     Elements elements_;
-    std::vector<uint32_t> sparseIndices_; // increasing
+    std::vector<uint32_t> sparseIndices_; // strictly increasing
     Elements sparseValues_;
 };
 

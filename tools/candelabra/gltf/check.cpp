@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tinygltf ignores properties of the wrong type and casts large integers, so nothing reaches it
-// unchecked.
+// Checks the JSON of a glTF file before tinygltf reads it, because tinygltf ignores properties of
+// the wrong type and truncates large integers.
 #include <array>
 #include <initializer_list>
 #include <string_view>
@@ -89,7 +89,7 @@ void checkObject(const nlohmann::json& document, const JsonValue& value,
     }
 }
 
-// --- what no table can say
+// --- Rules that the tables of schema.h cannot express
 
 void checkOneOf(const JsonValue& value, std::initializer_list<const char*> allowed)
 {
@@ -129,7 +129,7 @@ void checkAccessor(const JsonValue& accessor)
 {
     checkOneOf(accessor.member("type"), {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
     if (accessor.member("componentType").json() == 5124)
-        accessor.member("componentType").fail("is 5124, which glTF 2.0 does not have");
+        accessor.member("componentType").fail("is 5124, which is not a component type of glTF 2.0");
 }
 
 void checkBufferView(const JsonValue& view)
@@ -215,7 +215,7 @@ void checkGltfJson(const std::string& file, const nlohmann::json& json,
     for (const char* unused : {"animations", "skins"})
         if (const auto items = document.find(unused); items && items->size() > 0)
             warnings.push_back(printable(file, 4096) + ": " + unused +
-                               " are ignored; everything stands as at rest");
+                               " are ignored; meshes are drawn in their rest pose");
 }
 
 } // namespace candelabra::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From file to GltfDocument: .glb chunks, URIs, buffers, and the call to tinygltf.
+// Opens a glTF file: takes .glb chunks apart, resolves URIs, loads buffers and calls tinygltf.
 #include "gltf/document.h"
 
 #include <array>
@@ -19,7 +19,8 @@ uint32_t readLittleEndian32(const uint8_t* p)
     return uint32_t{p[0]} | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
 }
 
-// Binary layout: 12-byte header, then chunks of { length, type, data } (glTF 2.0, section 4.4).
+// Takes the chunks of a binary glTF file apart: a header of 12 bytes is followed by chunks of {
+// length, type, data } (glTF 2.0, section 4.4).
 GltfContainer splitBinary(const std::string& path, const std::vector<uint8_t>& bytes)
 {
     constexpr uint32_t jsonChunk = 0x4E4F534A, binaryChunk = 0x004E4942;
@@ -55,14 +56,15 @@ GltfContainer splitBinary(const std::string& path, const std::vector<uint8_t>& b
             container.json.assign(begin, end);
         else if (index == 1 && type == binaryChunk)
             container.binary.assign(begin, end);
-        at += size; // other chunks are for extensions and are skipped
+        at += size; // further chunks belong to extensions and are skipped
     }
     if (index == 0)
         failScene(path, "", "has no JSON chunk");
     return container;
 }
 
-// Strict base64 (RFC 4648, section 4); padding may be left out.
+// Decodes base64 (RFC 4648, section 4). Returns false for any other character; the padding may be
+// missing.
 bool decodeBase64(std::string_view text, std::vector<uint8_t>& out)
 {
     static const std::array<int8_t, 256> values = [] {
@@ -91,7 +93,7 @@ bool decodeBase64(std::string_view text, std::vector<uint8_t>& out)
             out.push_back(static_cast<uint8_t>(bits >> bitCount));
         }
     }
-    return bitCount < 6; // a lone last digit stands for no byte
+    return bitCount < 6; // a single digit at the end would be no byte
 }
 
 int hexDigit(char c)
@@ -123,14 +125,15 @@ bool decodePercent(const std::string& uri, std::string& out)
     return true;
 }
 
-// RFC 3986: a scheme is letters, digits, '+', '-', '.' before the first ':' of the first segment.
+// True if a URI begins with a scheme, which is what stands before a ':' in the first segment
+// (RFC 3986).
 bool hasScheme(const std::string& uri)
 {
     const size_t end = uri.find_first_of(":/?#");
     return end != std::string::npos && uri[end] == ':';
 }
 
-// The file name that a relative URI means, refused when it could leave the scene's folder.
+// The path of a relative URI. Fails if it could lead out of the scene's folder.
 std::string relativePath(const GltfDocument& document, const std::string& uri,
                          const std::string& element)
 {
@@ -172,9 +175,9 @@ void loadBuffers(GltfDocument& document, GltfContainer& container)
     }
 }
 
-// tinygltf gets the checked JSON without what it must not touch: it would read buffers and images
-// from anywhere (also relative to the working directory), demand that files have exactly the
-// declared size, and decode images that nothing uses.
+// Gives tinygltf the checked JSON without buffers and images. It would read them from anywhere,
+// also relative to the working directory, require that files have exactly the declared size, and
+// decode images that nothing uses.
 void parseWithTinyGltf(GltfDocument& document)
 {
     nlohmann::json reduced;
@@ -222,7 +225,7 @@ std::span<const uint8_t> GltfDocument::bufferView(int index, const std::string& 
     const tinygltf::BufferView& view = model.bufferViews[static_cast<size_t>(index)];
     const std::vector<uint8_t>& buffer = buffers[static_cast<size_t>(view.buffer)];
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
-        fail(element, "bufferViews[" + std::to_string(index) + "] leaves its buffer of " +
+        fail(element, "bufferViews[" + std::to_string(index) + "] extends beyond its buffer of " +
                           std::to_string(buffer.size()) + " bytes");
     return std::span(buffer).subspan(view.byteOffset, view.byteLength);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An opened glTF 2.0 file: container taken apart, JSON checked, parsed by tinygltf, buffers in
-// memory. Internal to the glTF loader. Everything throws SceneError.
+// An opened glTF 2.0 file: its container is taken apart, its JSON is checked and parsed by
+// tinygltf, and its buffers are in memory. Internal to the glTF loader. All functions throw
+// SceneError.
 #pragma once
 
 #include <cstdint>
@@ -14,43 +15,46 @@
 namespace candelabra::app
 {
 
-// The two chunks of a .glb, or the text of a .gltf and no binary chunk.
+// The two chunks of a .glb file, or the text of a .gltf file, which has no binary chunk.
 struct GltfContainer {
     std::string json;
     std::vector<uint8_t> binary;
-    bool isBinary = false; // .glb
+    bool isBinary = false; // true for a .glb file
 };
 
 struct GltfDocument {
-    std::string file;    // as given, for messages
-    nlohmann::json json; // every property we read has the right type, range and index
-    // Everything but buffers and images, which are ours: see openGltf. Extensions and extras are
-    // read from `json`, since tinygltf::Value cuts integers to 32 bits.
+    std::string file; // the path as the user gave it; messages name it
+    // The JSON. Every property that the loader reads is known to have the right type, range and
+    // index.
+    nlohmann::json json;
+    // What tinygltf made of it, without buffers and images, which the loader reads itself.
+    // Extensions and extras are read from `json`, because tinygltf::Value cuts integers to 32 bits.
     tinygltf::Model model;
-    std::vector<std::vector<uint8_t>> buffers; // each at least the byteLength declared for it
+    std::vector<std::vector<uint8_t>> buffers; // each has the byteLength that was declared for it
     mutable std::vector<std::string> warnings;
 
     [[noreturn]] void fail(const std::string& element, const std::string& reason) const;
     void warn(const std::string& element, const std::string& reason) const;
-    // The bytes of a buffer view; fails when it leaves its buffer.
+    // The bytes of a buffer view. Fails if it extends beyond its buffer.
     std::span<const uint8_t> bufferView(int index, const std::string& element) const;
-    // json[element]["extensions"][name], or NULL. `object` is any JSON object of the document.
+    // Returns object["extensions"][name], or nullptr if there is none. `object` may be any JSON
+    // object of the document.
     static const nlohmann::json* extension(const nlohmann::json& object, const char* name);
 };
 
-// "meshes", 3 -> "meshes[3]".
+// The name of an element in messages, such as "meshes[3]".
 std::string gltfElement(const char* array, size_t index);
 
 GltfContainer readGltfContainer(const std::string& path);
 
-// Types, ranges, array lengths and indices of every property that the loader or tinygltf reads,
-// glTF version and required extensions. Unknown optional extensions and things left out become
-// warnings.
+// Checks types, ranges, array lengths and indices of every property that the loader or tinygltf
+// reads, the glTF version, and the required extensions. Warns of unknown optional extensions and of
+// content that is not used.
 void checkGltfJson(const std::string& file, const nlohmann::json& json,
                    std::vector<std::string>& warnings);
 
-// The bytes that a "uri" stands for: base64 data, or a file in the folder of document.file or below
-// it. Absolute paths, "..", and schemes other than data: are errors.
+// Reads what a "uri" stands for: base64 data, or a file in the folder of document.file or below
+// that folder. Absolute paths, "..", and schemes other than data: are errors.
 std::vector<uint8_t> readGltfUri(const GltfDocument& document, const std::string& uri,
                                  const std::string& element);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normals and tangents that a glTF file leaves out.
+// Computes normals and tangents that a glTF file does not contain.
 #include <cmath>
 
 #include "gltf/mesh.h"
@@ -10,8 +10,8 @@ namespace candelabra::app
 namespace
 {
 
-// Twice the area times the unit normal. In double: products of float differences neither overflow
-// nor vanish, whatever unit the file is in.
+// The unit normal of a triangle times twice its area. It is computed in double precision, so that
+// the products neither overflow nor vanish, whatever the unit of the file.
 glm::dvec3 areaNormal(const Mesh& mesh, size_t triangle)
 {
     const auto corner = [&](size_t k) {
@@ -27,8 +27,8 @@ glm::vec3 normalizedOr(const glm::dvec3& v, const glm::vec3& otherwise)
 }
 
 struct UvGradient {
-    glm::dvec3 tangent{0}; // direction of growing u, length proportional to area
-    bool mirrored = false; // the image is seen from behind
+    glm::dvec3 tangent{0}; // points to where u grows; its length is proportional to the area
+    bool mirrored = false; // the texture is seen from its back
 };
 
 UvGradient uvGradient(const Mesh& mesh, size_t triangle, const TextureRef& ref)
@@ -45,8 +45,9 @@ UvGradient uvGradient(const Mesh& mesh, size_t triangle, const TextureRef& ref)
     const glm::dvec2 d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
     const double determinant = d1.x * d2.y - d1.y * d2.x;
     UvGradient gradient;
-    // v points down and normal maps up: the bitangent cross(normal, tangent) points against v, so
-    // an image seen from the front turns its triangle's winding around.
+    // In an image v points down, but the y of a normal map points up. So the bitangent
+    // cross(normal, tangent) points against v, and a triangle that shows the image from the front
+    // has the opposite winding in uv space.
     gradient.mirrored = determinant > 0;
     const glm::dvec3 t = (d2.y * e1 - d1.y * e2) * (determinant < 0 ? -1.0 : 1.0);
     const double length = glm::length(t), area = glm::length(glm::cross(e1, e2));
@@ -59,7 +60,7 @@ UvGradient uvGradient(const Mesh& mesh, size_t triangle, const TextureRef& ref)
 
 glm::vec4 anyTangent(const glm::vec3& normal)
 {
-    // The axis least aligned with the normal keeps the cross product away from zero.
+    // With the axis that is least aligned with the normal, the cross product is far from zero.
     const glm::vec3 a = glm::abs(normal);
     const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
                            : a.y <= a.z             ? glm::vec3(0, 1, 0)
@@ -85,7 +86,8 @@ void makeFlatNormals(Mesh& mesh)
 
 size_t repairNormals(Mesh& mesh)
 {
-    // Unit vectors quantised to 8 bits are off by up to 1%; below 1e-3 it is no unit vector at all.
+    // The length of a unit vector that is quantised to 8 bits is wrong by up to 1%. A vector
+    // shorter than 1e-3 was never meant to be a unit vector.
     const auto isBroken = [](const Vertex& v) { return !(glm::length(v.normal) > 1e-3f); };
     size_t broken = 0;
     for (const Vertex& v : mesh.vertices)
@@ -124,7 +126,7 @@ void makeTangents(Mesh& mesh, const TextureRef& ref)
         const glm::dvec3 n(v.normal);
         const glm::vec3 any(anyTangent(v.normal));
         const glm::dvec3 t = sum.tangent - n * glm::dot(n, sum.tangent);
-        // What is left of a tangent along the normal is rounding, not a direction.
+        // If the tangent is parallel to the normal, the remainder is rounding and not a direction.
         const bool clear = glm::length(t) > 1e-6 * glm::length(sum.tangent);
         return glm::vec4(clear ? normalizedOr(t, any) : any, handedness);
     };

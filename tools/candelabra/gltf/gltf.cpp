@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF 2.0 -> Scene. The steps are in the other files of this folder; this file walks the nodes.
+// Converts a glTF 2.0 file to a Scene. This file walks the nodes and adds their instances and
+// cameras; the other files of the folder read meshes, materials and lights.
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -21,7 +22,8 @@ namespace candelabra::app
 namespace
 {
 
-// 0.5 GB of instances; nodes times primitives can be far more than a file's size.
+// The limit is 0.5 GB of instances. A small file can ask for far more, because every node may have
+// all primitives of a mesh.
 constexpr size_t maxInstances = size_t{1} << 22;
 
 class SceneBuilder
@@ -43,7 +45,8 @@ private:
 
     void addMesh(const GltfPlacedNode& placed);
     void addCamera(const GltfPlacedNode& placed);
-    // Index into scene.meshes, read on first use; noMesh for what cannot be drawn.
+    // The index of a primitive's mesh in scene.meshes. The mesh is read when it is first asked for.
+    // noMesh if the primitive cannot be drawn.
     int64_t mesh(size_t gltfMesh, size_t primitive, bool mirrored);
     uint32_t material(const tinygltf::Primitive& primitive) const
     {
@@ -104,11 +107,12 @@ void SceneBuilder::addMesh(const GltfPlacedNode& placed)
     const std::string element = gltfElement("nodes", placed.node);
     const double determinant = glm::determinant(glm::dmat3(placed.worldFromNode));
     if (determinant == 0 || !std::isfinite(1 / determinant)) {
-        document_.warn(element, "flattens its mesh to nothing; the mesh is left out");
+        document_.warn(element, "has a transform that flattens its mesh; the mesh is left out");
         return;
     }
-    // Every instance gets a transform that keeps orientation, so that front faces stay
-    // counter-clockwise: a mirroring one is M = (M S) S with S = diag(-1, 1, 1), S in the mesh.
+    // The transform of an instance must not mirror, so that front faces stay counter-clockwise. A
+    // mirroring transform M is split into (M S) S with S = diag(-1, 1, 1): the right S goes into a
+    // mirrored mesh, and M S is the transform of the instance.
     const bool mirrored = determinant < 0;
     glm::dmat4 world = placed.worldFromNode;
     if (mirrored)
@@ -125,7 +129,8 @@ void SceneBuilder::addMesh(const GltfPlacedNode& placed)
     }
 }
 
-// glTF cameras look along -z of their node with +y up; scale does not matter.
+// Adds the camera of a node. glTF cameras look along the node's -z axis, and +y is up; the node's
+// scale makes no difference.
 void SceneBuilder::addCamera(const GltfPlacedNode& placed)
 {
     const tinygltf::Node& node = document_.model.nodes[placed.node];
@@ -137,7 +142,7 @@ void SceneBuilder::addCamera(const GltfPlacedNode& placed)
     const glm::dmat4& m = placed.worldFromNode;
     const glm::dvec3 y(m[1]), z(m[2]);
     if (!(glm::length(glm::cross(y, z)) > 1e-12 * glm::length(y) * glm::length(z))) {
-        document_.warn(element, "is scaled to nothing by its node and is left out");
+        document_.warn(element, "is scaled to zero size by its node and is left out");
         return;
     }
     camera.position = glm::dvec3(m[3]);
@@ -165,7 +170,8 @@ void SceneBuilder::addCamera(const GltfPlacedNode& placed)
     scene_.cameras.push_back(camera);
 }
 
-// Looks at the middle of what there is, slightly from above, far enough to see all of it.
+// A camera that looks at the middle of the scene, slightly from above, from a distance at which it
+// sees the whole scene.
 Camera framingCamera(const Scene& scene)
 {
     const Bounds bounds = sceneBounds(scene);
@@ -192,8 +198,8 @@ void SceneBuilder::finish()
         scene_.cameras.push_back(framingCamera(scene_));
 }
 
-// For a file whose name says nothing: binary glTF begins with its magic, and the JSON of every
-// other glTF file has an "asset" object.
+// Returns true if the content of a file is glTF: binary glTF begins with "glTF", and the JSON of
+// every other glTF file has an "asset" object.
 bool hasGltfContent(const std::string& path)
 {
     const std::vector<uint8_t> bytes = readSceneFile(path);

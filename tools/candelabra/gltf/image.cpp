@@ -15,11 +15,12 @@ namespace candelabra::app
 namespace
 {
 
-constexpr int maxImageSide = 16384; // what Vulkan devices of the day can sample
-// A few kilobytes of PNG can unpack to a gigabyte: all textures of a scene together get 2 GiB.
+constexpr int maxImageSide = 16384; // pixels; common Vulkan devices can sample that
+// All textures of a scene together may have 2 GiB: a few kilobytes of PNG can unpack to a gigabyte.
 constexpr uint64_t maxTexels = uint64_t{1} << 29;
 
-// The two formats of glTF 2.0. stb reads more, but those decoders have a record of memory errors.
+// True for the two image formats of glTF 2.0. stb_image reads more formats, but its other decoders
+// have a history of memory errors.
 bool isPngOrJpeg(std::span<const uint8_t> bytes)
 {
     constexpr uint8_t png[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -65,7 +66,7 @@ Texture decodeImage(const GltfDocument& document, const std::string& element,
     return texture;
 }
 
-// OpenGL's enumerants, as glTF uses them.
+// Sets wrapping and filtering. glTF uses the enumerants of OpenGL.
 void applySampler(const tinygltf::Sampler& sampler, Texture& texture)
 {
     texture.repeatU = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;

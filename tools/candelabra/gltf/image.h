@@ -12,14 +12,14 @@
 namespace candelabra::app
 {
 
-// Turns (glTF texture, colour space) into an index into scene.textures, decoding each image once
-// per colour space and sampler. Throws SceneError naming the image.
+// Finds the index in scene.textures for a glTF texture and a colour space. Each image is decoded
+// once per colour space and sampler. Throws SceneError that names the image.
 class GltfTextures
 {
 public:
     GltfTextures(const GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
-    // -1, with a warning, when the texture has no image that we can read.
+    // Returns -1, with a warning, if the texture has no PNG or JPEG image.
     int32_t find(int gltfTexture, bool srgb);
 
 private:
@@ -28,7 +28,7 @@ private:
     const GltfDocument& document_;
     Scene& scene_;
     std::map<std::tuple<int, int, bool>, int32_t> known_; // (image, sampler, srgb) -> texture
-    uint64_t texels_ = 0;
+    uint64_t texels_ = 0;                                 // decoded so far
 };
 
 } // namespace candelabra::app

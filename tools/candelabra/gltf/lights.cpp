@@ -20,7 +20,8 @@ struct Emission {
     double intensity = 1;
 };
 
-// glTF lets colours exceed 1; what counts is that the product fits into single precision.
+// Sets the light's emission. glTF allows colours above 1, so only their product with the intensity
+// is checked: it must fit into single precision.
 void setEmission(const GltfDocument& document, const std::string& element, const Emission& e,
                  CndLight& light)
 {
@@ -61,7 +62,8 @@ void setRadius(const GltfDocument& document, const std::string& element, double 
         document.fail(element, "radius must be > 0 and at most 1e12, is " + std::to_string(radius));
 }
 
-// extras are free-form: only an object with a "radius" means us.
+// Reads extras.radius. "extras" may hold anything: it is used only if it is an object with a
+// "radius".
 std::optional<double> extrasRadius(const GltfDocument& document, const nlohmann::json& light,
                                    const std::string& element)
 {
@@ -72,7 +74,7 @@ std::optional<double> extrasRadius(const GltfDocument& document, const nlohmann:
     return value.member("radius").number(NumberRange::positive(maxCoordinate));
 }
 
-// Unit vector along the node's -z axis.
+// Sets the light's direction to the node's -z axis. Returns false if that axis has length 0.
 bool direction(const glm::dmat4& worldFromNode, CndLight& light)
 {
     const glm::dvec3 z(worldFromNode[2]);
@@ -80,7 +82,7 @@ bool direction(const glm::dmat4& worldFromNode, CndLight& light)
     if (!(length > 0))
         return false;
     for (int i = 0; i < 3; ++i)
-        light.direction[i] = static_cast<float>(0 - z[i] / length); // no negative zeros
+        light.direction[i] = static_cast<float>(0 - z[i] / length); // avoids negative zeros
     return true;
 }
 
@@ -88,7 +90,7 @@ void setCone(const GltfDocument& document, const std::string& element,
              const tinygltf::SpotLight& spot, CndLight& light)
 {
     const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
-    // Exporters round pi/2 up; the largest float below pi/2 is what we use then.
+    // Exporters may round pi/2 up. The largest float below pi/2 is used then.
     if (!(inner >= 0) || !(outer > inner) || !(outer <= 1.5708))
         document.fail(element + ".spot",
                       "angles must satisfy 0 <= innerConeAngle < outerConeAngle <= pi/2, are " +
@@ -128,7 +130,7 @@ void addPunctual(const GltfDocument& document, size_t index, const glm::dmat4& w
         emission.intensity /= pi * *radius * *radius; // I = pi R^2 L
     }
     if (!isPoint && !direction(worldFromNode, light)) {
-        document.warn(element, "is scaled to nothing by its node and is left out");
+        document.warn(element, "is scaled to zero size by its node and is left out");
         return;
     }
     if (light.type == CND_LIGHT_SPOT)
@@ -144,9 +146,9 @@ void addPunctual(const GltfDocument& document, size_t index, const glm::dmat4& w
     out.positions.push_back(glm::dvec3(worldFromNode[3]));
 }
 
-// Where the -z side of a node's xy plane faces: perpendicular to the plane whatever the node does,
-// on the other side when it mirrors. With z scaled to nothing that side is lost and taken to be
-// that of a node that does not mirror.
+// The direction in which the -z side of a node's xy plane faces. It is perpendicular to the plane
+// whatever the node's transform, and points to the other side if the transform mirrors. If z is
+// scaled to 0, it is unknown whether the transform mirrors; it is then taken not to.
 glm::dvec3 facing(const glm::dmat4& worldFromNode)
 {
     const glm::dvec3 x(worldFromNode[0]), y(worldFromNode[1]), z(worldFromNode[2]);
@@ -154,7 +156,7 @@ glm::dvec3 facing(const glm::dmat4& worldFromNode)
     return glm::dot(normal, z) < 0 ? normal : -normal;
 }
 
-// A rect faces -z; `width` lies along x, `height` along y.
+// Reads the sides of a rect, which faces -z: its width lies along x, its height along y.
 void setSides(const JsonValue& source, const glm::dmat4& worldFromNode, CndLight& light)
 {
     light.type = CND_LIGHT_RECTANGLE;
@@ -167,7 +169,7 @@ void setSides(const JsonValue& source, const glm::dmat4& worldFromNode, CndLight
             source.fail(std::string(key) + " is too small for single precision");
     };
     const glm::dvec3 x(worldFromNode[0]), y(worldFromNode[1]);
-    // It faces axisU x axisV.
+    // The rectangle faces along axisU x axisV: axisV is turned around if necessary.
     const bool alongY = glm::dot(glm::cross(x, y), facing(worldFromNode)) > 0;
     side("width", worldFromNode[0], light.axisU);
     side("height", alongY ? worldFromNode[1] : -worldFromNode[1], light.axisV);
@@ -191,11 +193,11 @@ void addArea(const GltfDocument& document, size_t index, const glm::dmat4& world
     const double scales[3] = {glm::length(glm::dvec3(worldFromNode[0])),
                               glm::length(glm::dvec3(worldFromNode[1])),
                               glm::length(glm::dvec3(worldFromNode[2]))};
-    // Rects and disks lie across z, so that its scale means nothing to them.
+    // Rects and disks lie in the xy plane, so the scale of z makes no difference to them.
     const double scale = name == "sphere" ? std::cbrt(scales[0] * scales[1] * scales[2])
                                           : std::sqrt(scales[0] * scales[1]);
     if (!(scale > 0)) {
-        document.warn(element, "is scaled to nothing by its node and is left out");
+        document.warn(element, "is scaled to zero size by its node and is left out");
         return;
     }
     CndLight light = {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_lights_punctual and KHR_lights_area -> CndLight. Internal to the glTF loader.
+// Converts lights of KHR_lights_punctual and KHR_lights_area to CndLight. Internal to the glTF
+// loader.
 #pragma once
 
 #include <optional>
@@ -14,21 +15,25 @@
 namespace candelabra::app
 {
 
-// Lights found while walking the nodes; positions in world space, to be placed by placeLights.
+// The lights found while walking the nodes, and their positions in world space, which placeLights
+// takes.
 struct GltfLights {
     std::vector<CndLight> lights;
     std::vector<glm::dvec3> positions;
 };
 
-// Adds the light of node `node` under its world transform, if it has one.
-//   KHR_lights_punctual: point and spot in cd, directional in lx, `range` is the influence radius
-//   (without it: INFINITY). A point light with extras.radius (metres, > 0), else with
-//   options.punctualRadius, becomes a sphere of that radius and the same intensity, L = I / (pi
-//   R^2). With options.sunRadius a directional light becomes a distant sphere of the same
-//   illuminance. Scale does not change any of these. KHR_lights_area (glTF pull request 1948, never
-//   ratified; ours): shape "sphere", "disk" or "rect", intensity in cd/m^2, radius, width and
-//   height in metres (default 1) times the node's scale, and, as an addition, `range`. Disks and
-//   rects face -z and are one-sided.
+// Adds the light of node `node`, placed by the node's world transform, if the node has a light.
+//
+// KHR_lights_punctual: point and spot lights have their intensity in cd, directional lights in lx.
+// `range` is the influence radius; without it the radius is INFINITY. A point light with
+// extras.radius (metres, > 0), or otherwise with options.punctualRadius, becomes a sphere of that
+// radius and the same intensity, with L = I / (pi R^2). With options.sunRadius, a directional light
+// becomes a distant sphere of the same illuminance. The node's scale changes none of these.
+//
+// KHR_lights_area (glTF pull request 1948, which was never ratified; this is our reading of it):
+// the shape is "sphere", "disk" or "rect". The intensity is in cd/m^2; radius, width and height are
+// in metres (default 1) and are multiplied by the node's scale. `range` is our addition. Disks and
+// rects face -z and are one-sided.
 void addGltfLights(const GltfDocument& document, size_t node, const glm::dmat4& worldFromNode,
                    const SceneOptions& options, GltfLights& out);
 

@@ -13,7 +13,8 @@ namespace candelabra::app
 namespace
 {
 
-// Factors may leave [0, 1] by 1e-4 (checked on opening): rounding by exporters.
+// Clamps a factor to [0, 1]. Rounding by exporters may have moved it out by up to 1e-4; larger
+// errors were refused when the file was opened.
 float unit(double x)
 {
     return static_cast<float>(glm::clamp(x, 0.0, 1.0));
@@ -48,7 +49,7 @@ public:
     Material read(size_t index);
 
 private:
-    // `slot` is the JSON of a textureInfo; absent slots give an empty reference.
+    // Reads owner[slot], a textureInfo. Without it the reference is empty.
     TextureRef textureRef(const nlohmann::json& owner, const char* slot, bool srgb);
     void readSurface(const tinygltf::Material& source, const nlohmann::json& json,
                      Material& material);
@@ -75,14 +76,14 @@ TextureRef MaterialReader::textureRef(const nlohmann::json& owner, const char* s
         const glm::dvec2 scale = vector2Or(*transform, "scale", {1, 1});
         const double angle = numberOr(*transform, "rotation", 0);
         const double c = std::cos(angle), s = std::sin(angle);
-        // Counter-clockwise with v pointing down, offset * rotation * scale; the listing in the
-        // extension's text has the sign of the sine wrong (glTF issue 1563).
+        // The map is offset * rotation * scale. The rotation is counter-clockwise with v pointing
+        // down; the code in the extension's text has the wrong sign of the sine (glTF issue 1563).
         ref.uRow = glm::vec3(c * scale.x, s * scale.y, offset.x);
         ref.vRow = glm::vec3(-s * scale.x, c * scale.y, offset.y);
     }
     if (uvSet > 1) {
         document_.warn(element_ + "." + slot, "uses TEXCOORD_" + std::to_string(uvSet) +
-                                                  "; sets 0 and 1 are read, it is left out");
+                                                  " and is left out; sets 0 and 1 are supported");
         return TextureRef{};
     }
     ref.uvSet = static_cast<uint32_t>(uvSet);
@@ -117,13 +118,14 @@ void MaterialReader::readEmission(const tinygltf::Material& source, const nlohma
 {
     const auto* extension = GltfDocument::extension(json, "KHR_materials_emissive_strength");
     const double strength = extension ? numberOr(*extension, "emissiveStrength", 1) : 1;
-    // cd/m^2: glTF 2.0, section 3.9.4
+    // The unit is cd/m^2 (glTF 2.0, section 3.9.4).
     material.emission = glm::vec3(glm::dvec3(unitColor(source.emissiveFactor)) * strength);
     material.emissiveTexture = textureRef(json, "emissiveTexture", true);
 }
 
-// KHR_materials_ior: F0 = ((n-1)/(n+1))^2, 0 means total reflection. KHR_materials_specular:
-// F0 = min(F0 * colour, 1) * factor and F90 = factor for the dielectric part.
+// Reads F0 and F90 of the dielectric part. KHR_materials_ior: F0 = ((n-1)/(n+1))^2, where n = 0
+// stands for total reflection. KHR_materials_specular: F0 = min(F0 * colour, 1) * factor and F90 =
+// factor.
 void MaterialReader::readDielectric(const nlohmann::json& json, Material& material)
 {
     double f0 = 0.04;
@@ -144,13 +146,15 @@ void MaterialReader::readDielectric(const nlohmann::json& json, Material& materi
         for (int i = 0; i < 3; ++i)
             color[i] = (*found)[static_cast<size_t>(i)].get<double>();
     material.dielectricF0 = glm::vec3(glm::min(f0 * color, glm::dvec3(1))) * factor;
-    // One weight for the whole material: metals keep F90 = 1 in proportion to the metalness factor.
+    // A material has one F90: the factor applies to its dielectric part and 1 to its metallic part,
+    // in the proportion of the metalness factor.
     material.specularWeight = glm::mix(factor, 1.0f, material.metalness);
     for (const char* slot : {"specularTexture", "specularColorTexture"})
         if (specular->contains(slot))
-            document_.warn(element_, std::string(slot) + " is left out, its factor is used");
+            document_.warn(element_, std::string(slot) + " is left out; only its factor is used");
     if (factor < 1 && material.metallicRoughnessTexture.texture >= 0)
-        document_.warn(element_, "specularFactor follows metallicFactor, not its texture");
+        document_.warn(element_,
+                       "specularFactor is weighted by metallicFactor alone, without its texture");
 }
 
 Material MaterialReader::read(size_t index)
@@ -164,7 +168,7 @@ Material MaterialReader::read(size_t index)
     readEmission(source, json, material);
     readDielectric(json, material);
     if (GltfDocument::extension(json, "KHR_materials_unlit"))
-        document_.warn(element_, "is unlit, which says nothing about light; it is lit here");
+        document_.warn(element_, "is unlit; it is lit like every other material here");
     const float largest = std::numeric_limits<float>::max();
     for (int i = 0; i < 3; ++i)
         if (!(material.emission[i] <= largest))
@@ -185,7 +189,7 @@ uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene)
             isDefaultUsed = isDefaultUsed || primitive.material < 0;
     if (!isDefaultUsed)
         return 0;
-    // glTF 2.0, section 3.7.2.1: white, metallic and rough.
+    // The default material is white, metallic and rough (glTF 2.0, section 3.7.2.1).
     Material material;
     material.name = "glTF default";
     material.metalness = 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF materials, textures and images -> Scene. Internal to the glTF loader; throws SceneError.
+// Reads the materials, textures and images of a glTF file. Internal to the glTF loader. Throws
+// SceneError.
 #pragma once
 
 #include "gltf/document.h"
@@ -8,9 +9,9 @@
 namespace candelabra::app
 {
 
-// Appends every material of the document, in order, and the textures they use; then, when a
-// primitive has no material, the default material of glTF 2.0, whose index is returned. Images are
-// PNG or JPEG up to 16384 pixels a side.
+// Appends every material of the document to the scene, in order, and the textures that they use. If
+// a primitive has no material, appends the default material of glTF 2.0 as well and returns its
+// index, else returns 0. Images must be PNG or JPEG of at most 16384 pixels a side.
 uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene);
 
 } // namespace candelabra::app

@@ -35,8 +35,9 @@ private:
     {
         takeGltfBudget(document_, element_, vertices, indices, budget_);
     }
-    // Keeps the vertices that the triangles use: exporters share one large vertex buffer between
-    // many primitives. Returns their numbers in the file, increasing.
+    // Renumbers `indices` so that only the vertices that the triangles use are kept: exporters let
+    // many primitives share one large vertex buffer. Returns the numbers of these vertices in the
+    // file, in increasing order.
     std::vector<uint32_t> compact(std::vector<uint32_t>& indices) const;
     void readPositions(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readUvs(const std::vector<uint32_t>& used, Mesh& mesh) const;
@@ -49,7 +50,7 @@ private:
     const tinygltf::Primitive& primitive_;
     std::string element_;
     GltfMeshBudget& budget_;
-    size_t vertexCount_ = 0; // of every attribute accessor
+    size_t vertexCount_ = 0; // every attribute accessor must have as many elements
 };
 
 std::optional<GltfAccessor> PrimitiveReader::attribute(const char* name, int minComponents,
@@ -63,7 +64,8 @@ std::optional<GltfAccessor> PrimitiveReader::attribute(const char* name, int min
     if (accessor.components() < minComponents || accessor.components() > maxComponents)
         document_.fail(element, accessor.element() + " has the wrong number of components");
     if (accessor.componentType() == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-        document_.fail(element, accessor.element() + " has 32-bit integers");
+        document_.fail(element,
+                       accessor.element() + " has 32-bit integers, which are not allowed here");
     if (vertexCount_ != 0 && accessor.count() != vertexCount_)
         document_.fail(element, accessor.element() + " has " + std::to_string(accessor.count()) +
                                     " elements, POSITION has " + std::to_string(vertexCount_));
@@ -99,14 +101,15 @@ std::vector<uint32_t> PrimitiveReader::readIndices(size_t vertexCount) const
     return corners;
 }
 
-// Lists, strips and fans (glTF 2.0, section 3.7.2.1) as a list, without triangles that use a vertex
-// twice: strips are stitched together with those.
+// Converts triangle lists, strips and fans (glTF 2.0, section 3.7.2.1) to a list. Triangles that
+// use a vertex twice are dropped: such triangles only join strips together.
 std::vector<uint32_t> PrimitiveReader::triangles(const std::vector<uint32_t>& corners) const
 {
     const size_t n = corners.size();
     const bool isList = primitive_.mode == TINYGLTF_MODE_TRIANGLES;
     if (isList && n % 3 != 0)
-        document_.fail(element_, "is a triangle list of " + std::to_string(n) + " corners");
+        document_.fail(element_, "is a triangle list of " + std::to_string(n) +
+                                     " corners, not a multiple of 3");
     const size_t count = isList ? n / 3 : (n < 3 ? 0 : n - 2);
     if (!isList)
         takeBudget(0, 2 * uint64_t{count});
@@ -116,7 +119,7 @@ std::vector<uint32_t> PrimitiveReader::triangles(const std::vector<uint32_t>& co
         size_t a = 3 * t, b = a + 1, c = a + 2;
         if (primitive_.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
             a = t;
-            b = t + 1 + t % 2; // every other triangle is wound the other way
+            b = t + 1 + t % 2; // every second triangle has the opposite winding
             c = t + 2 - t % 2;
         } else if (primitive_.mode == TINYGLTF_MODE_TRIANGLE_FAN) {
             a = t + 1;
@@ -182,7 +185,7 @@ void PrimitiveReader::readColors(const std::vector<uint32_t>& used, Mesh& mesh) 
         glm::vec4 color = accessor->read(used[i]);
         if (accessor->components() == 3)
             color.w = 1;
-        // Colours multiply a reflectance, so the range is that of reflectances.
+        // Colours multiply a reflectance, so they have the range of reflectances.
         if (glm::any(glm::lessThan(color, glm::vec4(0))) ||
             glm::any(glm::greaterThan(color, glm::vec4(1.0001f))))
             document_.fail(element_ + ".attributes.COLOR_0", accessor->element() + " element " +
@@ -198,14 +201,15 @@ bool PrimitiveReader::readNormals(const std::vector<uint32_t>& used, Mesh& mesh)
     if (!accessor)
         return false;
     for (size_t i = 0; i < used.size(); ++i) {
-        // double: the square of a float's length may not fit into a float
+        // In double precision, because the square of a float may not fit into a float.
         const glm::dvec3 n(accessor->read(used[i]));
         const double length = glm::length(n);
         mesh.vertices[i].normal = length > 1e-3 ? glm::vec3(n / length) : glm::vec3(0);
     }
     if (const size_t broken = repairNormals(mesh))
-        document_.warn(element_, std::to_string(broken) +
-                                     " normals have no length; they are computed instead");
+        document_.warn(element_,
+                       std::to_string(broken) +
+                           " normals have zero length and are computed from the triangles");
     return true;
 }
 
@@ -227,8 +231,8 @@ bool PrimitiveReader::readTangents(const std::vector<uint32_t>& used, Mesh& mesh
         v.tangent.w = value.w < 0 ? -1.0f : 1.0f;
     }
     if (broken)
-        document_.warn(element_,
-                       std::to_string(broken) + " tangents have no direction; any is used instead");
+        document_.warn(element_, std::to_string(broken) +
+                                     " tangents have no usable direction and are replaced");
     return true;
 }
 
@@ -255,7 +259,7 @@ std::optional<Mesh> PrimitiveReader::read(const Material& material)
         return std::nullopt;
     }
     if (!primitive_.targets.empty())
-        document_.warn(element_, "has morph targets; the mesh stands as at rest");
+        document_.warn(element_, "has morph targets; the mesh is drawn in its rest pose");
     if (positions->count() >= unused)
         document_.fail(element_, "has too many vertices");
     vertexCount_ = positions->count();
@@ -267,7 +271,8 @@ std::optional<Mesh> PrimitiveReader::read(const Material& material)
     }
     const std::vector<uint32_t> used = compact(mesh.indices);
     const bool hasNormals = primitive_.attributes.count("NORMAL") != 0;
-    // Flat normals give every corner its vertex; tangents split a vertex in two at most.
+    // With flat normals every corner needs its own vertex. Tangents split a vertex into at most
+    // two.
     takeBudget(hasNormals ? used.size() : mesh.indices.size(), 0);
     mesh.vertices.resize(used.size());
     readPositions(used, mesh);
@@ -275,7 +280,7 @@ std::optional<Mesh> PrimitiveReader::read(const Material& material)
     readColors(used, mesh);
     if (!readNormals(used, mesh)) {
         makeFlatNormals(mesh);
-        fillTangents(material, mesh); // glTF 2.0: given tangents are to be ignored
+        fillTangents(material, mesh); // without normals, glTF 2.0 has tangents ignored
     } else if (!readTangents(used, mesh)) {
         fillTangents(material, mesh);
     }
@@ -314,7 +319,7 @@ Mesh mirroredMesh(const Mesh& mesh)
         v.position.x = -v.position.x;
         v.normal.x = -v.normal.x;
         v.tangent.x = -v.tangent.x;
-        v.tangent.w = -v.tangent.w; // a reflection turns cross(normal, tangent) around
+        v.tangent.w = -v.tangent.w; // a reflection reverses cross(normal, tangent)
     }
     for (size_t t = 0; t + 2 < mirrored.indices.size(); t += 3)
         std::swap(mirrored.indices[t + 1], mirrored.indices[t + 2]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF primitives -> triangle meshes. Internal to the glTF loader; throws SceneError.
+// Reads glTF primitives as triangle meshes. Internal to the glTF loader. Throws SceneError.
 #pragma once
 
 #include <cstdint>
@@ -11,41 +11,43 @@
 namespace candelabra::app
 {
 
-// Sizes accepted for one scene, so that a small file with shared accessors cannot fill the memory:
-// 2.4 GB of vertices and 1.1 GB of indices.
+// The largest sizes of a scene, 2.4 GB of vertices and 1.1 GB of indices, so that a small file with
+// shared accessors cannot fill the memory.
 constexpr uint64_t maxSceneVertices = uint64_t{1} << 25;
 constexpr uint64_t maxSceneIndices = uint64_t{1} << 28;
 
-// What is left of them while a file is read.
+// How many more vertices and indices may be added while a file is read.
 struct GltfMeshBudget {
     uint64_t vertices = maxSceneVertices;
     uint64_t indices = maxSceneIndices;
 };
 
-// Takes from the budget or fails naming `element`.
+// Subtracts from the budget. Fails with a message that names `element` if the budget is too small.
 void takeGltfBudget(const GltfDocument& document, const std::string& element, uint64_t vertices,
                     uint64_t indices, GltfMeshBudget& budget);
 
-// The triangles of one primitive with all vertex attributes filled in: missing normals are flat
-// (corners no longer shared), missing tangents follow the UVs of `material`'s normal map. Empty,
-// with a warning, for points, lines and primitives without triangles.
+// Reads the triangles of one primitive and fills in all vertex attributes. Missing normals become
+// flat, so that triangles share no vertices; missing tangents follow the UVs of `material`'s normal
+// map. Returns nothing, with a warning, for points, lines and primitives without triangles.
 std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh, size_t primitive,
                                       const Material& material, GltfMeshBudget& budget);
 
-// The mesh reflected in its object-space x axis, front faces counter-clockwise again: drawn with
-// M * diag(-1, 1, 1), it looks as the original drawn with a mirroring M.
+// Returns the mesh with x negated and the winding reversed, so that front faces are
+// counter-clockwise again. Drawn with M * diag(-1, 1, 1), it looks like the original drawn with a
+// mirroring transform M.
 Mesh mirroredMesh(const Mesh& mesh);
 
-// --- frames.cpp ---
+// --- Defined in frames.cpp ---
 // Gives every corner its own vertex with the normal of its triangle.
 void makeFlatNormals(Mesh& mesh);
-// Replaces normals of zero length by the area-weighted mean of the triangles around; returns how
-// many there were.
+// Replaces normals of zero length by the area-weighted mean normal of the triangles around the
+// vertex. Returns how many were replaced.
 size_t repairNormals(Mesh& mesh);
-// Tangents along u of uv set ref.uvSet after ref's transform; vertices where triangles of both
-// orientations meet are split. Where u has no direction, any tangent perpendicular to the normal.
+// Computes tangents that point to where u grows in the uv set ref.uvSet, transformed by `ref`.
+// Vertices at which triangles of both orientations meet are split. If u has no direction there, the
+// tangent is any that is perpendicular to the normal.
 void makeTangents(Mesh& mesh, const TextureRef& ref);
-// Any unit tangent perpendicular to the unit normal.
+// Returns some unit tangent that is perpendicular to the unit normal.
 glm::vec4 anyTangent(const glm::vec3& normal);
 
 } // namespace candelabra::app

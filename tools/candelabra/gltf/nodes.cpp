@@ -37,7 +37,8 @@ std::vector<int> findParents(const GltfDocument& document)
     return parents;
 }
 
-// With one parent each, a cycle is a chain of parents that comes back: every node is walked once.
+// Fails if the nodes form a cycle. Every node has at most one parent here, so a cycle is a chain of
+// parents that leads back to its start. Every node is visited once.
 void refuseCycles(const GltfDocument& document, const std::vector<int>& parents)
 {
     constexpr size_t unseen = 0;
@@ -91,7 +92,7 @@ glm::dmat4 localTransform(const GltfDocument& document, size_t index)
     if (!node.rotation.empty()) {
         const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
         if (!(glm::length(q) > 1e-6))
-            document.fail(nodeName(index) + ".rotation", "is no rotation: all zero");
+            document.fail(nodeName(index) + ".rotation", "must not be zero");
         m = glm::mat4_cast(glm::normalize(q));
     }
     if (!node.scale.empty())
@@ -107,7 +108,8 @@ void refuseHuge(const GltfDocument& document, size_t index, const glm::dmat4& wo
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 3; ++row)
             if (!(std::abs(world[column][row]) <= maxCoordinate))
-                document.fail(nodeName(index), "its transform exceeds 1e12 in world space");
+                document.fail(nodeName(index),
+                              "has a transform that exceeds 1e12 m in world space");
 }
 
 } // namespace
@@ -119,9 +121,11 @@ std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
     const std::vector<size_t> roots = findRoots(document, parents);
 
     std::vector<GltfPlacedNode> placed;
-    std::vector<GltfPlacedNode> open; // a stack: chains of nodes can be long
+    // A stack and not recursion, because chains of nodes can be long. Here worldFromNode is still
+    // the transform of the parent.
+    std::vector<GltfPlacedNode> open;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        open.push_back({*root, glm::dmat4(1)}); // with the parent's transform
+        open.push_back({*root, glm::dmat4(1)});
     while (!open.empty()) {
         GltfPlacedNode current = open.back();
         open.pop_back();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node hierarchy of a glTF scene. Internal to the glTF loader; throws SceneError.
+// Walks the node hierarchy of a glTF scene. Internal to the glTF loader. Throws SceneError.
 #pragma once
 
 #include <vector>
@@ -16,10 +16,10 @@ struct GltfPlacedNode {
     glm::dmat4 worldFromNode{1};
 };
 
-// The nodes of the default scene (scene 0 without one; all root nodes, with a warning, when the
-// file has no scene), parents before children, in file order. Fails for nodes with two parents,
-// cycles, scenes that list a node twice or a node that is no root, and transforms that are not
-// affine, not finite or leave 1e12 m.
+// Returns the nodes of the default scene, parents before children, in the order of the file.
+// Without a default scene they are those of scene 0, and without any scene all root nodes and their
+// children, with a warning. Fails for nodes with two parents, cycles, scenes that list a node twice
+// or a node that is not a root, and transforms that are not affine, not finite, or exceed 1e12 m.
 std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document);
 
 } // namespace candelabra::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shape of glTF 2.0 as tables: which properties exist, of which type, range and target array.
-// Properties that are not listed are not read. Internal to the glTF loader.
+// Tables of the properties of glTF 2.0 that the loader reads: their types, ranges and, for indices,
+// the array that they point into. Properties that are not listed are not read. Internal to the glTF
+// loader.
 #pragma once
 
 #include <span>
@@ -17,12 +18,12 @@ enum class Kind {
     Number,
     Boolean,
     String,
-    Index,    // integer, an index into the array `target`
-    Object,   // of shape `fields`
-    Numbers,  // minItems..maxItems numbers
-    Indices,  // any number of indices into `target`
-    Objects,  // any number of objects of shape `fields`
-    IndexMap, // object whose values are indices into `target`
+    Index,    // an integer, an index into the array `target`
+    Object,   // an object with the members `fields`
+    Numbers,  // an array of minItems to maxItems numbers
+    Indices,  // an array of indices into `target`
+    Objects,  // an array of objects with the members `fields`
+    IndexMap, // an object whose values are indices into `target`
     List      // any array
 };
 
@@ -43,9 +44,11 @@ struct Field {
     }
 };
 
-inline constexpr double maxInteger = 2147483647;          // what tinygltf's int holds
-inline constexpr double maxByte = 9007199254740991;       // 2^53 - 1, exact in double
-inline constexpr NumberRange unitInterval{-1e-4, 1.0001}; // exporters' rounding; used clamped
+inline constexpr double maxInteger = 2147483647;    // the largest int of tinygltf
+inline constexpr double maxByte = 9007199254740991; // 2^53 - 1, exact in double
+// Factors of 0 to 1. Exporters' rounding is accepted, and the values are clamped when they are
+// used.
+inline constexpr NumberRange unitInterval{-1e-4, 1.0001};
 inline constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
 inline constexpr NumberRange notNegative{0};
 
@@ -193,7 +196,7 @@ inline constexpr Field punctual[] = {string("type").need(),
                                      object("spot", spot)};
 inline constexpr Field punctualLights[] = {objects("lights", punctual).need()};
 inline constexpr Field area[] = {string("shape"),
-                                 string("type"), // spelling of an earlier draft
+                                 string("type"), // the name of "shape" in an earlier draft
                                  string("name"),
                                  numbers("color", 3, notNegative),
                                  number("intensity", notNegative),
