@@ -50,7 +50,6 @@ bool isMapped(const CndMemoryRequest& request)
     return request.required & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
 }
 
-// What is wrong with what the host's allocator gave; null: nothing.
 // Returns what is wrong with the memory that the host's allocator gave, or null.
 const char* faultOf(const CndMemoryRequest& request, const CndMemory& given)
 {

@@ -73,7 +73,6 @@ public:
         return out;
     }
 
-    // Whether the ray at this angle meets the cap above the horizon.
     // True if the ray at this angle meets the cap above the horizon.
     bool meets(double angle) const { return makeRay(angle).count > 0; }
 
