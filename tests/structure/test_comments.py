@@ -10,8 +10,13 @@ import sys
 root = pathlib.Path(sys.argv[1]).resolve()
 
 # Folders in which such a comment fails the test; elsewhere it is only counted. "" is everything.
-CLEAN = ["tools/candelabra/" + folder for folder in
-         ("gltf/", "io/", "json/", "load/", "scene/", "viewer/")]
+CLEAN = ["samples/", "tests/",
+         *("engine/" + folder for folder in
+           ("compiler/", "environment/", "exposure/", "gbuffer/", "gpu/", "include/", "package/",
+            "reference/", "tables/")),
+         *("shaders/" + folder for folder in ("bench/", "gbuffer/", "probes/")),
+         *("tools/candelabra/" + folder for folder in
+           ("gltf/", "io/", "json/", "load/", "scene/", "viewer/"))]
 
 BEGINNING = re.compile(r"(Of|Those|That of|As of)\b")
 SLASHES = {".c", ".comp", ".cpp", ".frag", ".glsl", ".h", ".hpp", ".inc", ".vert"}
