@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "candelabra_shaders.h"
-#include "lighting/lighting.h"
+#include "lights/light_limits.h"
 
 namespace candelabra::lighting
 {
@@ -53,8 +53,8 @@ VkDeviceSize workBytes(uint32_t lists, uint32_t items)
 
 } // namespace
 
-ClusterKernels::ClusterKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
-                               uint32_t tileClasses)
+ClusterKernels::ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host,
+                               uint32_t gbuffer, uint32_t tileClasses)
     : lightTree(device, spirv::light_tree_comp,
                 {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
       tileClusters(device, host.of(spirv::tile_clusters_comp),
@@ -80,13 +80,15 @@ TreeShapes treeShapes(const LightTypeCounts& counts)
     return shapes;
 }
 
-Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBudget)
-    : lighting_(lighting),
-      maxTiles_(maxTiles),
-      tileClasses_(lighting.desc().materialClasses ? gpu::TILE_CLASSES : 1),
-      splitCapacity_(area(maxTiles))
+Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
+                   gpu::Recordings& recordings, const Sizes& sizes)
+    : device_(device),
+      kernels_(kernels),
+      recordings_(recordings),
+      sizes_(sizes),
+      splitCapacity_(area(sizes.maxTiles))
 {
-    const gpu::Device& device = lighting.device();
+    const glm::uvec2 maxTiles = sizes.maxTiles;
     uint32_t records = 0, blockCount = 0;
     for (const Level& level : levels(maxTiles)) {
         records += area(level.count);
@@ -109,13 +111,11 @@ Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBud
                    "%u of %u tiles: deep tiles beyond that have longer lists",
                    splitCapacity_, area(maxTiles));
     clusterCount_ = uint32_t(fixed) + splitCapacity_ * gpu::SLICES;
-    const uint32_t slots = lighting.desc().framesInFlight;
-    const ClusterKernels& k = lighting.kernels().clusters;
-    treeSets_ = k.lightTree.createBindings(slots);
-    tileSets_ = k.tileClusters.createBindings(slots);
-    splitSets_ = k.splitTiles.createBindings(slots);
-    blockSets_ = k.blockClusters.createBindings(slots);
-    listSets_ = k.clusterLists.createBindings(slots * CND_LIGHT_TYPE_COUNT);
+    treeSets_ = kernels.lightTree.createBindings(sizes.slots);
+    tileSets_ = kernels.tileClusters.createBindings(sizes.slots);
+    splitSets_ = kernels.splitTiles.createBindings(sizes.slots);
+    blockSets_ = kernels.blockClusters.createBindings(sizes.slots);
+    listSets_ = kernels.clusterLists.createBindings(sizes.slots * CND_LIGHT_TYPE_COUNT);
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
         return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Scratch);
     };
@@ -124,7 +124,7 @@ Clusters::Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBud
     surfaces_ = make("surface tiles", tileWorkBytes(), workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     splits_ = make("split tiles", workBytes(1, splitCapacity_),
                    workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    entries_ = make("list entries", std::max(listBudget, 2 * pageBytes), storageUse);
+    entries_ = make("list entries", std::max(sizes.listBudget, 2 * pageBytes), storageUse);
 }
 
 // Clusters: one per tile of the largest frame, the slices of split tiles, then of blocks.
@@ -145,14 +145,13 @@ std::array<Clusters::Level, 1 + gpu::BLOCK_LEVELS> Clusters::levels(glm::uvec2 t
 // All tiles may be of one class, whichever it is.
 VkDeviceSize Clusters::tileWorkBytes() const
 {
-    return workBytes(gpu::TILE_CLASSES, tileClasses_ * area(maxTiles_));
+    return workBytes(gpu::TILE_CLASSES, sizes_.tileClasses * maxTileCount());
 }
 
 Clusters::Lists Clusters::createLists() const
 {
-    const gpu::Device& device = lighting_.device();
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
-        return gpu::createBuffer(device, name, bytes, use, gpu::MemoryUse::Scratch);
+        return gpu::createBuffer(device_, name, bytes, use, gpu::MemoryUse::Scratch);
     };
     return {.heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
             .lit = make("lit tiles", tileWorkBytes(), workUse),
@@ -161,16 +160,15 @@ Clusters::Lists Clusters::createLists() const
 
 void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
 {
-    const gpu::Device& device = lighting_.device();
     // Of any split into types: each may round up on every level.
     const VkDeviceSize nodes = nodeCount(lightCapacity) + CND_LIGHT_TYPE_COUNT * gpu::TREE_LEVELS;
     const VkDeviceSize bytes = nodes * gpu::TREE_NODE_STRIDE * sizeof(glm::vec4);
     if (bytes > nodes_.size) {
-        gpu::Buffer grown = gpu::createBuffer(device, "light tree", bytes,
+        gpu::Buffer grown = gpu::createBuffer(device_, "light tree", bytes,
                                               storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                                               gpu::MemoryUse::Scratch);
-        gpu::createTexelView(device, grown);
-        lighting_.replace(nodes_, std::move(grown));
+        gpu::createTexelView(device_, grown);
+        recordings_.replace(nodes_, std::move(grown));
     }
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (types[type] && !lists_[type].heads.buffer)
@@ -229,7 +227,7 @@ void Clusters::recordReset(const gpu::Frame& f, const LightTypeCounts& types) co
     const auto reset = [&](const gpu::Buffer& work) {
         gpu::WorkList none[gpu::TILE_CLASSES];
         for (uint32_t i = 0; i < gpu::TILE_CLASSES; ++i)
-            none[i] = {.groupsX = gpu::TILE_ROW, .groupsZ = 1, .first = i * area(maxTiles_)};
+            none[i] = {.groupsX = gpu::TILE_ROW, .groupsZ = 1, .first = i * maxTileCount()};
         f.device.CmdUpdateBuffer(f.cmd, work.get(), 0, sizeof none, none);
     };
     reset(surfaces_);
@@ -250,8 +248,8 @@ void Clusters::recordTree(const gpu::Frame& f, const gpu::TreeShape& tree) const
         const uint32_t lower = divideUp(params.childCount, gpu::TREE_WIDTH);
         const uint32_t upper = divideUp(lower, gpu::TREE_WIDTH);
         params.upperFirst = params.lowerFirst + lower;
-        lighting_.kernels().clusters.lightTree.dispatch(f, treeSets_.set(f.slot), params,
-                                                        divideUp(upper, gpu::LIGHT_TREE_GROUP));
+        kernels_.lightTree.dispatch(f, treeSets_.set(f.slot), params,
+                                    divideUp(upper, gpu::LIGHT_TREE_GROUP));
         f.barrier();
         params = {.childFirst = params.upperFirst,
                   .childCount = upper,
@@ -262,20 +260,19 @@ void Clusters::recordTree(const gpu::Frame& f, const gpu::TreeShape& tree) const
 void Clusters::recordClusters(const gpu::Frame& f, gpu::TileClustersParams params,
                               bool forLists) const noexcept
 {
-    const ClusterKernels& k = lighting_.kernels().clusters;
     params.firstSplit = firstSplit();
     params.splitCapacity = splitCapacity_;
-    k.tileClusters.dispatch(f, tileSets_.set(f.slot), params,
-                            divideUp(params.tileCount, gpu::TILE_CLUSTERS_GROUP));
+    kernels_.tileClusters.dispatch(f, tileSets_.set(f.slot), params,
+                                   divideUp(params.tileCount, gpu::TILE_CLUSTERS_GROUP));
     f.barrier();
     if (!forLists)
         return;
-    k.splitTiles.dispatchIndirect(f, splitSets_.set(f.slot), params, splits_);
+    kernels_.splitTiles.dispatchIndirect(f, splitSets_.set(f.slot), params, splits_);
     f.barrier();
     const auto level = levels({params.tileCountX, params.tileCount / params.tileCountX});
     for (size_t i = 1; i < level.size(); ++i) {
         const uint32_t blockCount = area(level[i].count);
-        k.blockClusters.dispatch(
+        kernels_.blockClusters.dispatch(
             f, blockSets_.set(f.slot),
             {.childFirst = level[i - 1].first,
              .childCountX = level[i - 1].count.x,
@@ -292,9 +289,9 @@ void Clusters::recordClusters(const gpu::Frame& f, gpu::TileClustersParams param
 void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeShape& tree,
                            glm::uvec2 tileCount, uint32_t longest) const noexcept
 {
-    const gpu::Kernel<gpu::ClusterListsParams>& kernel = lighting_.kernels().clusters.clusterLists;
+    const gpu::Kernel<gpu::ClusterListsParams>& kernel = kernels_.clusterLists;
     const VkDescriptorSet set = listSets_.set(f.slot * CND_LIGHT_TYPE_COUNT + type);
-    const uint32_t loops = lighting_.device().maxLoopIterations;
+    const uint32_t loops = device_.maxLoopIterations;
     const auto level = levels(tileCount);
     gpu::ClusterListsParams params{.tree = tree,
                                    .pageCount = uint32_t(entries_.size / pageBytes) / 2,

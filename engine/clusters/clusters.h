@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
-#include "gpu/kernel.h"
-#include "lights/pack_lights.h"
+#include "gpu/recordings.h"
+#include "lights/light_types.h"
 #include "shared/clusters.h"
 #include "surfaces/host_gbuffer.h"
 #include "surfaces/host_kernels.h"
@@ -15,11 +15,9 @@
 namespace candelabra::lighting
 {
 
-class Lighting;
-
 struct ClusterKernels {
     // `gbuffer`: value of SPEC_GBUFFER; `tileClasses`: of SPEC_TILE_CLASSES.
-    ClusterKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
+    ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host, uint32_t gbuffer,
                    uint32_t tileClasses);
     gpu::Kernel<gpu::LightTreeParams> lightTree;
     gpu::Kernel<gpu::TileClustersParams> tileClusters, splitTiles;
@@ -48,14 +46,23 @@ TreeShapes treeShapes(const LightTypeCounts& counts);
 class Clusters
 {
 public:
-    // Throws gpu::Failure when the device's buffers are too small for so many tiles.
-    Clusters(Lighting& lighting, glm::uvec2 maxTiles, VkDeviceSize listBudget);
+    struct Sizes {
+        uint32_t slots;          // frames in flight
+        uint32_t tileClasses;    // classes of tiles that work lists have room for
+        glm::uvec2 maxTiles;     // of a frame
+        VkDeviceSize listBudget; // bytes for the pages of lists
+    };
+    // Throws gpu::Failure when the device's buffers are too small for so many tiles. All that are
+    // referred to must outlive it.
+    Clusters(const gpu::Device& device, const ClusterKernels& kernels, gpu::Recordings& recordings,
+             const Sizes& sizes);
 
-    // Makes room for a set of lights; old buffers are retired.
+    // Makes room for a set of lights; buffers that are too small are retired, and what they held
+    // is lost.
     void grow(uint32_t lightCapacity, const LightTypeCounts& types);
 
     struct Inputs {
-        const GBufferViews& gbuffer;
+        const surfaces::GBufferViews& gbuffer;
         const gpu::Buffer &core, &counters;
     };
     void writeBindings(uint32_t slot, const LightTypeCounts& types, const Inputs& inputs) const;
@@ -96,13 +103,15 @@ private:
         uint32_t firstCluster; // in the buffer of clusters
     };
     std::array<Level, 1 + gpu::BLOCK_LEVELS> levels(glm::uvec2 tileCount) const;
-    uint32_t firstSplit() const { return maxTiles_.x * maxTiles_.y; }
+    uint32_t maxTileCount() const { return sizes_.maxTiles.x * sizes_.maxTiles.y; }
+    uint32_t firstSplit() const { return maxTileCount(); } // cluster of split tiles
     VkDeviceSize tileWorkBytes() const;
     Lists createLists() const;
 
-    Lighting& lighting_;
-    glm::uvec2 maxTiles_;
-    uint32_t tileClasses_; // of which work lists have room
+    const gpu::Device& device_;
+    const ClusterKernels& kernels_;
+    gpu::Recordings& recordings_;
+    Sizes sizes_;
     uint32_t splitCapacity_, clusterCount_;
     gpu::Bindings treeSets_, tileSets_, splitSets_, blockSets_; // per slot
     gpu::Bindings listSets_;                                    // per slot and type

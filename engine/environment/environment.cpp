@@ -275,7 +275,7 @@ void Environment::validate(const CndEnvironmentFrame& frame) const
     if (!isRotation(rotationOf(frame.worldFromEnvironment)))
         gpu::failArgument("CndEnvironmentFrame: worldFromEnvironment must be a rotation");
     hostKernels_.requireSet("CndEnvironmentFrame", frame.hostSet);
-    lighting::checkCamera(frame.camera);
+    surfaces::checkCamera(frame.camera);
 }
 
 void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
@@ -283,9 +283,9 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
     using namespace gpu;
     validate(frame);
     const Projection projection =
-        lighting::projectionOf(frame.camera.clipFromView, frame.clearDepth);
+        surfaces::projectionOf(frame.camera.clipFromView, frame.clearDepth);
     gbufferParams_.write(frame.frameSlot, gbuffer_, frame.camera);
-    const lighting::GBufferViews images = gbuffer_.views(frame, gbufferParams_);
+    const surfaces::GBufferViews images = gbuffer_.views(frame, gbufferParams_);
     sets_.shade.write(frame.frameSlot,
                       {Binding::sampled(SHADE_ENVIRONMENT_NORMAL_ROUGHNESS, images.packedNormal),
                        Binding::sampled(SHADE_ENVIRONMENT_HOST_NORMAL, images.hostNormal),

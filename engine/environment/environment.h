@@ -41,15 +41,15 @@ private:
 
     gpu::Device device_;
     CndEnvironmentDesc desc_;
-    lighting::GBufferSource gbuffer_;
-    lighting::GBufferParams gbufferParams_;
+    surfaces::GBufferSource gbuffer_;
+    surfaces::GBufferParams gbufferParams_;
     gpu::Timer timer_;
     tables::DfgTable dfg_;
     gpu::Kernel<gpu::EnvironmentCubeParams> cube_;
     gpu::Kernel<gpu::EnvironmentMipParams> mip_;
     gpu::Kernel<gpu::EnvironmentPrefilterParams> prefilter_;
     gpu::Kernel<gpu::EnvironmentIrradianceParams> irradianceKernel_;
-    lighting::HostKernels hostKernels_;
+    surfaces::HostKernels hostKernels_;
     gpu::Kernel<gpu::ShadeEnvironmentParams> shade_;
     Sets sets_;
     gpu::CubeImage source_;      // the environment as a cube map, all mips

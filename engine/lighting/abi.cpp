@@ -7,6 +7,7 @@
 
 #include "gpu/planning.h"
 #include "lighting/lighting.h"
+#include "lights/light_limits.h"
 
 using namespace candelabra;
 
@@ -14,6 +15,16 @@ struct CndLighting_T {
     lighting::Lighting impl;
 };
 struct CndLightingView_T {
+    CndLightingView_T(lighting::Lighting& of, const CndLightingViewDesc& desc)
+        : lighting(of), impl(of.module(), desc)
+    {
+        lighting.add(&impl);
+    }
+    ~CndLightingView_T() { lighting.remove(&impl); }
+    CndLightingView_T(const CndLightingView_T&) = delete;
+    CndLightingView_T& operator=(const CndLightingView_T&) = delete;
+
+    lighting::Lighting& lighting;
     lighting::View impl;
 };
 
@@ -69,9 +80,9 @@ CndResult cndPlanLighting(const CndDeviceDesc* device, const CndLightingDesc* de
             gpu::requireNotNull("cndPlanLighting", {views});
         const gpu::Planning planning(*device);
         lighting::Lighting lighting(planning.desc(), *desc);
-        std::deque<lighting::View> made; // which stay where they are
+        std::deque<lighting::View> made; // their elements stay where they are
         for (const CndLightingViewDesc& view : std::span(views, viewCount))
-            made.emplace_back(lighting, view);
+            made.emplace_back(lighting.module(), view);
         lighting.device().readUsage(*usage);
     });
 }
@@ -93,7 +104,7 @@ CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* e
 {
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndSetLights", {lighting, set});
-        lighting->impl.setLights(*set);
+        lighting->impl.lights().set(*set);
     });
 }
 
@@ -104,7 +115,7 @@ CndResult cndAddLights(CndLighting lighting, uint32_t count, const CndLight* lig
         gpu::requireNotNull("cndAddLights", {lighting});
         if (count)
             gpu::requireNotNull("cndAddLights", {lights, ids});
-        lighting->impl.addLights({lights, count}, ids);
+        lighting->impl.lights().add({lights, count}, ids);
     });
 }
 
@@ -115,7 +126,7 @@ CndResult cndUpdateLights(CndLighting lighting, uint32_t count, const CndLightId
         gpu::requireNotNull("cndUpdateLights", {lighting});
         if (count)
             gpu::requireNotNull("cndUpdateLights", {ids, lights});
-        lighting->impl.updateLights({ids, count}, {lights, count});
+        lighting->impl.lights().update({ids, count}, {lights, count});
     });
 }
 
@@ -126,7 +137,7 @@ CndResult cndRemoveLights(CndLighting lighting, uint32_t count, const CndLightId
         gpu::requireNotNull("cndRemoveLights", {lighting});
         if (count)
             gpu::requireNotNull("cndRemoveLights", {ids});
-        lighting->impl.removeLights({ids, count});
+        lighting->impl.lights().remove({ids, count});
     });
 }
 
@@ -135,7 +146,7 @@ CndResult cndCreateLightingView(CndLighting lighting, const CndLightingViewDesc*
 {
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndCreateLightingView", {lighting, desc, view});
-        *view = new CndLightingView_T{.impl = lighting::View(lighting->impl, *desc)};
+        *view = new CndLightingView_T(lighting->impl, *desc);
     });
 }
 

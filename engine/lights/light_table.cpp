@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "gpu/failure.h"
+#include "lights/light_types.h"
 #include "lights/pack_lights.h"
-#include "shading/shade_kernels.h"
 
 namespace candelabra::lighting
 {

@@ -9,7 +9,6 @@
 
 #include "gpu/failure.h"
 #include "lights/reach.h"
-#include "shading/shade_kernels.h"
 #include "shared/device_lights.h"
 
 namespace candelabra::lighting

@@ -2,16 +2,14 @@
 // CndLight -> gpu::LightRecord: the one place where physical units become shader values.
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "candelabra/candelabra.h"
+#include "lights/light_types.h"
 #include "shared/lighting.h"
 
 namespace candelabra::lighting
 {
-
-using LightTypeCounts = std::array<uint32_t, CND_LIGHT_TYPE_COUNT>;
 
 // Throws gpu::Failure naming the first light and field outside its documented range.
 void validateLights(std::span<const CndLight> lights);

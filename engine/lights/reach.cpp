@@ -9,7 +9,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
-#include "shading/shade_kernels.h"
+#include "lights/light_types.h"
 
 namespace candelabra::lighting
 {

@@ -9,7 +9,6 @@
 
 #include "candelabra_shaders.h"
 #include "shared/exposure.h"
-#include "view/view_plan.h"
 
 namespace candelabra::lighting
 {
@@ -86,10 +85,13 @@ InfluenceKernels::InfluenceKernels(const gpu::Device& device)
 {
 }
 
-Influence::Influence(const Lighting& lighting, glm::uvec2 maxSize)
+Influence::Influence(const gpu::Device& device, const InfluenceKernels& kernels,
+                     const MeasureKernel& measure, uint32_t slots, glm::uvec2 maxSize)
+    : kernels_(kernels),
+      measure_(measure.createBindings(slots)),
+      choose_(kernels.choose.createBindings(slots)),
+      cut_(kernels.cutLights.createBindings(slots))
 {
-    const gpu::Device& device = lighting.device();
-    const uint32_t slots = lighting.desc().framesInFlight;
     const uint32_t samples =
         std::min(area(squares(maxSize, gpu::INFLUENCE_MIN_SPACING)), gpu::INFLUENCE_MAX_SAMPLES);
     constexpr VkBufferUsageFlags use =
@@ -98,16 +100,12 @@ Influence::Influence(const Lighting& lighting, glm::uvec2 maxSize)
                               gpu::MemoryUse::Device);
     sums_ = gpu::createBuffer(device, "influence sums", sumBytes(samples), use,
                               gpu::MemoryUse::Scratch);
-    const Kernels& k = lighting.kernels();
-    measure_ = k.shade.anyVariant().measure.createBindings(slots);
-    choose_ = k.influence.choose.createBindings(slots);
-    cut_ = k.influence.cutLights.createBindings(slots);
 }
 
-void Influence::writeBindings(uint32_t slot, const Lighting& lighting, const Inputs& in) const
+void Influence::writeBindings(uint32_t slot, const Inputs& in) const
 {
     using namespace gpu;
-    const GBufferViews& g = in.gbuffer;
+    const surfaces::GBufferViews& g = in.gbuffer;
     measure_.write(
         slot,
         {Binding::ofTexels(SHADE_CORE, in.core), Binding::of(SHADE_CORE_WORDS, in.core),
@@ -116,8 +114,8 @@ void Influence::writeBindings(uint32_t slot, const Lighting& lighting, const Inp
          Binding::sampled(SHADE_HOST_NORMAL, g.hostNormal),
          Binding::sampled(SHADE_ALBEDO, g.albedo), Binding::sampled(SHADE_SPECULAR, g.specular),
          Binding::sampled(SHADE_DEPTH, g.depth), g.params(SHADE_GBUFFER_VIEW),
-         Binding::ofTexels(SHADE_DFG, lighting.directionalAlbedo()),
-         Binding::ofTexels(SHADE_LTC, lighting.transformedCosines()),
+         Binding::ofTexels(SHADE_DFG, in.directionalAlbedo),
+         Binding::ofTexels(SHADE_LTC, in.transformedCosines),
          Binding::of(MEASURE_INFLUENCE_DATA, data_), Binding::of(MEASURE_INFLUENCE_SUMS, sums_)});
     choose_.write(slot, {Binding::of(CHOOSE_INFLUENCE_DATA, data_),
                          Binding::of(CHOOSE_INFLUENCE_SUMS, sums_),
@@ -160,7 +158,7 @@ void Influence::recordRound(const gpu::Frame& f) const noexcept
     f.barrier();
 }
 
-void Influence::recordMeasure(const gpu::Frame& f, const gpu::Kernel<gpu::ShadeParams>& kernel,
+void Influence::recordMeasure(const gpu::Frame& f, const MeasureKernel& kernel,
                               const gpu::ShadeParams& params) const noexcept
 {
     constexpr uint32_t perGroup = gpu::MEASURE_INFLUENCE_GROUP / gpu::MEASURE_INFLUENCE_LANES;
@@ -168,55 +166,23 @@ void Influence::recordMeasure(const gpu::Frame& f, const gpu::Kernel<gpu::ShadeP
     f.barrier();
 }
 
-void Influence::recordChoice(const gpu::Frame& f, const InfluenceKernels& kernels,
-                             uint32_t round) const noexcept
+void Influence::recordChoice(const gpu::Frame& f, uint32_t round) const noexcept
 {
     const uint32_t samples = area(frame_.samples);
-    kernels.choose.dispatch(f, choose_.set(f.slot), {samples, round},
-                            gpu::divideUp(samples, gpu::CHOOSE_INFLUENCE_GROUP));
+    kernels_.choose.dispatch(f, choose_.set(f.slot), {samples, round},
+                             gpu::divideUp(samples, gpu::CHOOSE_INFLUENCE_GROUP));
     f.barrier();
 }
 
-void Influence::recordCut(const gpu::Frame& f, const InfluenceKernels& kernels,
-                          const LightTypeCounts& types, const TreeShapes& lights) const noexcept
+void Influence::recordCut(const gpu::Frame& f, const LightTypeCounts& types,
+                          const TreeShapes& lights) const noexcept
 {
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (types[type] && !isDistant(type))
-            kernels.cutLights.dispatch(
+            kernels_.cutLights.dispatch(
                 f, cut_.set(f.slot), {lights[type].firstLight, lights[type].lightCount, type},
                 gpu::divideUp(lights[type].lightCount, gpu::CUT_LIGHTS_GROUP));
     f.barrier();
-}
-
-void View::recordInfluence(const gpu::Frame& f, const CndLightingFrame& frame,
-                           const Plan& p) noexcept
-{
-    const Kernels& k = lighting_.kernels();
-    gpu::Timer untimed; // all rounds are one row
-    const gpu::Frame u{f.device, f.cmd, untimed, f.slot};
-    const char* measured = nullptr;
-    const uint32_t rounds = influence_.recordBegin(u, frame);
-    for (uint32_t round = 0; round < rounds; ++round) {
-        influence_.recordRound(u);
-        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
-            if (!p.lights[type])
-                continue;
-            // In full, whatever the frame's error budget: it has no variant of its own.
-            const auto& kernel = k.shade.variant(type, frame.specularMethod, false).measure;
-            measured = kernel.name();
-            gpu::ShadeParams params = shadeParams(frame, p, type);
-            params.batchLevel = round;
-            // The lanes of a sample share them out.
-            const uint64_t largest =
-                uint64_t(lightsPerBatch(frame, p, type)) * gpu::MEASURE_INFLUENCE_LANES;
-            inBatches(
-                params, uint32_t(std::min<uint64_t>(largest, UINT32_MAX)),
-                [&](const gpu::ShadeParams& batch) { influence_.recordMeasure(u, kernel, batch); });
-        }
-        influence_.recordChoice(u, k.influence, round);
-    }
-    f.timer.stamp(f.cmd, measured);
-    influence_.recordCut(f, k.influence, p.lights, p.trees);
 }
 
 } // namespace candelabra::lighting

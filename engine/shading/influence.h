@@ -14,8 +14,6 @@
 namespace candelabra::lighting
 {
 
-class Lighting;
-
 // The rule that a frame follows: brute force and frames without an exposure cut nothing.
 CndInfluenceRule influenceOf(const CndLightingFrame& frame);
 // Throws gpu::Failure. `byError`: CndLightingDesc::influenceByError.
@@ -32,31 +30,33 @@ struct InfluenceKernels {
 class Influence
 {
 public:
-    Influence() = default;
-    // `maxSize` of frames, pixels.
-    Influence(const Lighting& lighting, glm::uvec2 maxSize);
+    using MeasureKernel = gpu::Kernel<gpu::ShadeParams>;
+    // `measure`: a kernel of ShadeKernels, since binding layouts are the same for all. `maxSize`:
+    // pixels of frames. `kernels` must outlive it.
+    Influence(const gpu::Device& device, const InfluenceKernels& kernels,
+              const MeasureKernel& measure, uint32_t slots, glm::uvec2 maxSize);
 
     struct Inputs {
-        const GBufferViews& gbuffer;
+        const surfaces::GBufferViews& gbuffer;
         VkImageView radiance;
-        const gpu::Buffer &core, &aux, &ids, &counters;
+        const gpu::Buffer &core, &aux, &ids, &directionalAlbedo, &transformedCosines, &counters;
     };
-    void writeBindings(uint32_t slot, const Lighting& lighting, const Inputs& inputs) const;
+    void writeBindings(uint32_t slot, const Inputs& inputs) const;
 
     // In this order, each with a barrier behind it; those between first and last once per round,
     // the second as often as lights need it. The number of rounds:
     uint32_t recordBegin(const gpu::Frame& f, const CndLightingFrame& frame) noexcept;
     void recordRound(const gpu::Frame& f) const noexcept;
     // `params` as of shade_brute, with the round.
-    void recordMeasure(const gpu::Frame& f, const gpu::Kernel<gpu::ShadeParams>& kernel,
+    void recordMeasure(const gpu::Frame& f, const MeasureKernel& kernel,
                        const gpu::ShadeParams& params) const noexcept;
-    void recordChoice(const gpu::Frame& f, const InfluenceKernels& kernels,
-                      uint32_t round) const noexcept;
+    void recordChoice(const gpu::Frame& f, uint32_t round) const noexcept;
     // `types`: those of the frame, not 0; one has a place at least.
-    void recordCut(const gpu::Frame& f, const InfluenceKernels& kernels,
-                   const LightTypeCounts& types, const TreeShapes& lights) const noexcept;
+    void recordCut(const gpu::Frame& f, const LightTypeCounts& types,
+                   const TreeShapes& lights) const noexcept;
 
 private:
+    const InfluenceKernels& kernels_;
     gpu::InfluenceFrame frame_{}; // recorded last
     float maxError_ = 0;          // of the history
     gpu::Buffer data_, sums_;

@@ -4,16 +4,11 @@
 #include <bit>
 
 #include "candelabra_shaders.h"
-#include "lighting/lighting.h"
+#include "lights/light_limits.h"
+#include "lights/light_types.h"
 
 namespace candelabra::lighting
 {
-
-uint32_t lightsAsTexels(const gpu::Device& device)
-{
-    return device.limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >=
-           maxLights(device.limits);
-}
 
 CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method)
 {
@@ -52,8 +47,8 @@ uint32_t tileClassesOf(const CndLightingDesc& desc)
     return 1u << gpu::CLASS_ANY | stored << 1;
 }
 
-ShadeKernels::ShadeKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
-                           uint32_t methods, uint32_t tileClasses, bool measures)
+ShadeKernels::ShadeKernels(const gpu::Device& device, const surfaces::HostKernels& host,
+                           uint32_t gbuffer, uint32_t methods, uint32_t tileClasses, bool measures)
     : device_(&device),
       host_(&host),
       gbuffer_(gbuffer),
@@ -70,16 +65,6 @@ bool ShadeKernels::require(uint32_t lightType)
         return false;
     types_[lightType] = make(lightType);
     return true;
-}
-
-bool isDistant(uint32_t lightType)
-{
-    return lightType == CND_LIGHT_DIRECTIONAL || lightType == CND_LIGHT_DISTANT_SPHERE;
-}
-
-bool isSphere(uint32_t lightType)
-{
-    return lightType == CND_LIGHT_SPHERE || lightType == CND_LIGHT_DISTANT_SPHERE;
 }
 
 bool takesBudget(uint32_t lightType, CndSpecularMethod method)

@@ -10,16 +10,9 @@
 namespace candelabra::lighting
 {
 
-// Whether light data is read as texel buffers: when they can hold every light that the other limits
-// let in. The value of SPEC_LIGHTS_AS_TEXELS.
-uint32_t lightsAsTexels(const gpu::Device& device);
-
 // The method that stands for `method` where the light type has fewer: punctual lights have one,
 // tubes, rectangles and discs a representative point, cosines and samples.
 CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method);
-// Distant lights have no place: no tree and no lists, they reach everything.
-bool isDistant(uint32_t lightType);
-bool isSphere(uint32_t lightType);
 // Whether an error budget changes the evaluation: the closed form of spheres has cheaper bounds.
 bool takesBudget(uint32_t lightType, CndSpecularMethod method);
 
@@ -36,7 +29,7 @@ public:
     // `methods`: mask of 1 << CndSpecularMethod.
     // `gbuffer`: value of SPEC_GBUFFER. `tileClasses`: as of tileClassesOf. `host` must outlive it.
     // `measures`: CndLightingDesc::influenceByError.
-    ShadeKernels(const gpu::Device& device, const HostKernels& host, uint32_t gbuffer,
+    ShadeKernels(const gpu::Device& device, const surfaces::HostKernels& host, uint32_t gbuffer,
                  uint32_t methods, uint32_t tileClasses, bool measures);
     // Makes the pipelines of a light type unless they exist; whether it did.
     bool require(uint32_t lightType);
@@ -73,7 +66,7 @@ private:
                       bool withBudget, uint32_t tileClass) const;
 
     const gpu::Device* device_;
-    const HostKernels* host_;
+    const surfaces::HostKernels* host_;
     uint32_t gbuffer_;
     uint32_t methods_, tileClasses_;
     bool measures_;

@@ -10,7 +10,7 @@
 
 #include "gpu/failure.h"
 
-namespace candelabra::lighting
+namespace candelabra::surfaces
 {
 
 void checkCamera(const CndCamera& camera)
@@ -64,4 +64,4 @@ gpu::Projection projectionOf(const float (&m)[16], float clearDepth)
     return p;
 }
 
-} // namespace candelabra::lighting
+} // namespace candelabra::surfaces

@@ -5,7 +5,7 @@
 #include "candelabra/candelabra.h"
 #include "shared/lighting.h"
 
-namespace candelabra::lighting
+namespace candelabra::surfaces
 {
 
 // Throws gpu::Failure when viewFromWorld is not a finite rotation and translation.
@@ -15,4 +15,4 @@ void checkCamera(const CndCamera& camera);
 // gpu::Failure for anything else. `clearDepth` (0 or 1) is the depth of the far end.
 gpu::Projection projectionOf(const float (&clipFromView)[16], float clearDepth);
 
-} // namespace candelabra::lighting
+} // namespace candelabra::surfaces

@@ -6,7 +6,7 @@
 
 #include "surfaces/host_gbuffer.h"
 
-namespace candelabra::lighting
+namespace candelabra::surfaces
 {
 namespace
 {
@@ -205,4 +205,4 @@ void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndG
     requireSampled(device, "depthFormat", d.depthFormat);
 }
 
-} // namespace candelabra::lighting
+} // namespace candelabra::surfaces

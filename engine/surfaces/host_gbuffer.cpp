@@ -6,7 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-namespace candelabra::lighting
+namespace candelabra::surfaces
 {
 namespace
 {
@@ -93,4 +93,4 @@ void GBufferParams::write(uint32_t slot, const GBufferSource& source,
     std::memcpy(buffer_.mapped + offset(slot), &params, sizeof params);
 }
 
-} // namespace candelabra::lighting
+} // namespace candelabra::surfaces

@@ -9,7 +9,7 @@
 #include "gpu/kernel.h"
 #include "shared/host_gbuffer.h"
 
-namespace candelabra::lighting
+namespace candelabra::surfaces
 {
 
 class GBufferParams;
@@ -109,4 +109,4 @@ GBufferViews GBufferSource::views(const Frame& f, const GBufferParams& params) c
             .paramsOffset = GBufferParams::offset(f.frameSlot)};
 }
 
-} // namespace candelabra::lighting
+} // namespace candelabra::surfaces

@@ -9,7 +9,7 @@
 #include "candelabra_shaders.h"
 #include "gpu/failure.h"
 
-namespace candelabra::lighting
+namespace candelabra::surfaces
 {
 namespace
 {
@@ -99,4 +99,4 @@ void HostKernels::requireSet(const char* frame, VkDescriptorSet set) const
                           ": hostSet is null, but kernels of CndHostKernels use descriptor set 1");
 }
 
-} // namespace candelabra::lighting
+} // namespace candelabra::surfaces

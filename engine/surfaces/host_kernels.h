@@ -8,7 +8,7 @@
 #include "candelabra/surfaces.h"
 #include "gpu/spirv.h"
 
-namespace candelabra::lighting
+namespace candelabra::surfaces
 {
 
 class HostKernels
@@ -41,4 +41,4 @@ private:
     bool readSurfaces_;             // every kernel that reads the G-buffer is the host's
 };
 
-} // namespace candelabra::lighting
+} // namespace candelabra::surfaces

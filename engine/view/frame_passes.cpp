@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/frame_passes.h"
 
-#include "lighting/lighting.h"
+#include "clusters/clusters.h"
 
 namespace candelabra::lighting
 {
@@ -18,42 +18,6 @@ constexpr Pass clustering[] = {Pass::TileClusters, Pass::SplitTiles, Pass::Block
                                Pass::LightTree, Pass::ClusterLists};
 
 } // namespace
-
-// Whether the lists of the frame recorded before are this one's; remembers what this one's are for.
-bool View::keepsLists(const CndLightingFrame& frame, uint32_t sampleCount)
-{
-    ListsKey key;
-    if (frame.culling == CND_CULLING_CLUSTERED && lighting_.lightCount())
-        key = {lighting_.lightSet(), frame.specularMethod, sampleCount, layersOf(frame.layers),
-               influenceOf(frame)};
-    // What an error allows depends on the other light of the image as well, and is measured at
-    // other pixels in each frame.
-    const bool same = frame.surfacesUnchanged && key.lightSet &&
-                      key.rule != CND_INFLUENCE_BY_ERROR && key == lists_;
-    lists_ = key;
-    return same;
-}
-
-FrameContent View::contentOf(const CndLightingFrame& frame, const LightTypeCounts& inView,
-                             bool listsKept) const
-{
-    FrameContent out{.lights = lighting_.lightCount() > 0,
-                     .inLayers = lighting_.hasLightsIn(layersOf(frame.layers)),
-                     .lightsChanged = lighting_.lightsChanged(),
-                     .deviceLights = lighting_.hasDeviceLights(),
-                     .deviceLightsChanged = lighting_.deviceLightsChanged(),
-                     .brute = frame.culling == CND_CULLING_BRUTE,
-                     .listsKept = listsKept,
-                     .readsAlbedoTable = frame.lobes != CND_LOBES_SUM || frame.energyCompensation,
-                     .albedoTableFilled = lighting_.albedoTableFilled(),
-                     .cutByError = influenceOf(frame) == CND_INFLUENCE_BY_ERROR,
-                     .countPairs = frame.countPairs == VK_TRUE,
-                     .forward = forward_.wanted()};
-    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (inView[type])
-            (isDistant(type) ? out.distantInView : out.placedInView) = true;
-    return out;
-}
 
 FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
 {

@@ -7,8 +7,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-#include "lighting/lighting.h"
 #include "surfaces/camera.h"
+#include "view/frame_checks.h"
+#include "view/view.h"
 
 namespace candelabra::lighting
 {
@@ -25,7 +26,7 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
                          const CndSurfaceOverlay& overlay)
 {
     using namespace gpu;
-    validateSurfaces(frame);
+    checkSurfaces(module_, desc_, frame);
     if (overlay.structSize != sizeof overlay)
         failArgument("CndSurfaceOverlay: structSize is " + std::to_string(overlay.structSize) +
                      ", this library expects " + std::to_string(sizeof overlay));
@@ -33,9 +34,10 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
         failArgument("CndSurfaceOverlay: quantity is not a CndSurfaceQuantity");
     if (!overlay.image)
         failArgument("CndSurfaceOverlay: image is null");
-    const Projection projection = projectionOf(frame.camera.clipFromView, frame.clearDepth);
-    gbufferParams_.write(frame.frameSlot, lighting_.gbuffer(), frame.camera);
-    const GBufferViews images = lighting_.gbuffer().views(frame, gbufferParams_);
+    const Projection projection =
+        surfaces::projectionOf(frame.camera.clipFromView, frame.clearDepth);
+    gbufferParams_.write(frame.frameSlot, module_.gbuffer, frame.camera);
+    const surfaces::GBufferViews images = module_.gbuffer.views(frame, gbufferParams_);
     sets_.surfaceOverlay.write(frame.frameSlot,
                                {Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal),
                                 Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal),
@@ -54,10 +56,10 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
         eyeInPeriod[i] = float(std::fmod(eye[i], double(SURFACE_PERIOD)));
 
     Timer untimed; // times are of cndRecordLighting
-    const Frame f{lighting_.device(), cmd, untimed, frame.frameSlot, frame.hostSet};
+    const Frame f{module_.device, cmd, untimed, frame.frameSlot, frame.hostSet};
     f.device.beginLabel(cmd, "candelabra surface overlay");
-    lighting_.recordGBuffer(f);
-    lighting_.kernels().surfaceOverlay.dispatch(
+    module_.gbuffer.record(f);
+    module_.kernels.surfaceOverlay.dispatch(
         f, sets_.surfaceOverlay.set(f.slot),
         {.projection = projection,
          .size = {frame.width, frame.height},

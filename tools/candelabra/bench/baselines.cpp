@@ -10,9 +10,9 @@
 #include "bench/light_kernels.h"
 #include "candelabra_bench_shaders.h"
 #include "candelabra_shaders.h"
+#include "lights/light_limits.h"
 #include "lights/pack_lights.h"
 #include "render/error.h"
-#include "shading/shade_kernels.h"
 #include "shared/light_order.h"
 #include "surfaces/camera.h"
 
@@ -74,7 +74,7 @@ Baselines::Baselines(const VulkanContext& context, Renderer& renderer, const Sce
       renderer_(renderer),
       options_(options),
       frame_(renderer.lightingFrame(0, options)),
-      projection_(lighting::projectionOf(frame_.camera.clipFromView, frame_.clearDepth)),
+      projection_(surfaces::projectionOf(frame_.camera.clipFromView, frame_.clearDepth)),
       kernels_(context.device()),
       timer_(context.device(), "baselines", 1, true),
       dfg_(context.device()),

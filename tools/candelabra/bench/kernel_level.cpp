@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "shading/shade_kernels.h"
+#include "lights/light_types.h"
 
 namespace candelabra::app
 {

@@ -10,7 +10,8 @@
 #include "candelabra_bench_shaders.h"
 #include "generate/random.h"
 #include "io/statistics.h"
-#include "shading/shade_kernels.h"
+#include "lights/light_limits.h"
+#include "lights/light_types.h"
 
 namespace candelabra::app
 {

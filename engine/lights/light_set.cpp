@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lights/light_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "lights/light_limits.h"
+#include "lights/pack_lights.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+// Light buffers start with this capacity and grow by half, so that a growing scene reallocates
+// rarely. A light takes 64 bytes of records and 64 of staging.
+constexpr uint32_t defaultCapacity = 1024;
+
+// The extent of the lights is estimated again when more than one light in so many was edited: the
+// estimate costs as much as sorting 1024 numbers four times.
+constexpr uint32_t editsPerExtent = 16;
+
+constexpr VkDeviceSize recordBytes = sizeof(gpu::LightRecord);
+
+void checkSet(const gpu::Device& device, const CndLightSet& set)
+{
+    if (set.structSize != sizeof set)
+        gpu::failArgument("CndLightSet: structSize is " + std::to_string(set.structSize) +
+                          ", this library expects " + std::to_string(sizeof set));
+    if (set.count && !set.lights)
+        gpu::failArgument("CndLightSet: lights is null but count is " + std::to_string(set.count));
+    if (set.deviceLights)
+        checkDeviceLights(device, *set.deviceLights);
+}
+
+} // namespace
+
+LightSet::LightSet(const gpu::Device& device, gpu::Recordings& recordings, uint32_t capacity,
+                   Prepare prepare)
+    : device_(device),
+      recordings_(recordings),
+      prepare_(std::move(prepare)),
+      firstCapacity_(capacity ? capacity : defaultCapacity),
+      sorting_(device),
+      deviceLights_(device)
+{
+    requireRoom("CndLightingDesc: lightCapacity", capacity);
+    capacity_ = capacityFor(0);
+    store_ = createStore(capacity_);
+}
+
+void LightSet::requireRoom(const char* what, uint64_t count) const
+{
+    if (count > maxLights(device_.limits))
+        gpu::failUnsupported(std::string(what) + ": " + std::to_string(count) +
+                             " lights are more than the device can take, " +
+                             std::to_string(maxLights(device_.limits)));
+}
+
+void LightSet::set(const CndLightSet& set)
+{
+    checkSet(device_, set);
+    const CndDeviceLights* const device = set.deviceLights;
+    const uint64_t total = uint64_t(set.count) + (device ? device->maxCount : 0);
+    requireRoom("CndLightSet", total);
+    for (const double o : set.origin)
+        if (!std::isfinite(o))
+            gpu::failArgument("CndLightSet: origin must be finite");
+    const std::span lights(set.lights, set.count);
+    validateLights(lights);
+    LightTypeCounts types = countTypes(lights);
+    ReachBoxes reach = reachOf(lights);
+    if (device) {
+        types[device->type] += device->maxCount;
+        ReachBox& box = reach[device->type]; // nobody here knows where they are
+        box = endlessReach(box.layers | layersOf(device->layers));
+    }
+    const uint32_t capacity = capacityFor(uint32_t(total));
+    recordings_.freeRetired();
+    prepare_(capacity, types);
+    lights_.reserveSet(set.count);
+    std::shared_ptr<gpu::Bindings> bindings;
+    if (device)
+        bindings = deviceLights_.prepare(*device, capacity > capacity_);
+    if (bindings) // which replace these
+        recordings_.retire(deviceLights_.bindings());
+    grow(capacity, false);
+    Staging& staging = freeStaging(); // the last that can fail
+    if (device)
+        deviceLights_.take(*device, store_.records, std::move(bindings));
+    else
+        deviceLights_.takeNone();
+    firstRecord_ = device ? device->maxCount : 0;
+    packLights(lights, hostRecords(staging));
+    lights_.set(lights);
+    pending_ = &staging;
+    carriedFrom_ = VK_NULL_HANDLE;
+    onDevice_ = 0;
+    typeCounts_ = types;
+    count_ = uint32_t(total);
+    deviceLightsPending_ = device;
+    ++number_;
+    std::copy_n(set.origin, 3, origin_);
+    extent_ = currentExtent();
+    editsSinceExtent_ = 0;
+    reach_ = reach;
+}
+
+void LightSet::add(std::span<const CndLight> lights, CndLightId* ids)
+{
+    if (lights.empty())
+        return;
+    const uint64_t total = uint64_t(count_) + lights.size();
+    requireRoom("cndAddLights", total);
+    validateLights(lights);
+    LightTypeCounts types = countTypes(lights);
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        types[type] += typeCounts_[type];
+    const LightTable::Records staging = prepareEdit(types, lights.size(), lights.size());
+    for (size_t i = 0; i < lights.size(); ++i)
+        ids[i] = lights_.add(lights[i], staging);
+    finishEdit(types, lights, lights.size());
+}
+
+void LightSet::update(std::span<const CndLightId> ids, std::span<const CndLight> lights)
+{
+    if (ids.empty())
+        return;
+    lights_.check("cndUpdateLights", ids);
+    validateLights(lights);
+    LightTypeCounts types = typeCounts_;
+    for (size_t i = 0; i < ids.size(); ++i) {
+        --types[lights_.typeOf(ids[i])];
+        ++types[lights[i].type];
+    }
+    const LightTable::Records staging = prepareEdit(types, ids.size(), 0);
+    for (size_t i = 0; i < ids.size(); ++i)
+        lights_.update(ids[i], lights[i], staging);
+    finishEdit(types, lights, ids.size());
+}
+
+void LightSet::remove(std::span<const CndLightId> ids)
+{
+    if (ids.empty())
+        return;
+    lights_.check("cndRemoveLights", ids);
+    LightTypeCounts types = typeCounts_;
+    for (const CndLightId id : ids)
+        --types[lights_.typeOf(id)];
+    const LightTable::Records staging = prepareEdit(types, ids.size(), 0);
+    for (const CndLightId id : ids)
+        lights_.remove(id, staging);
+    finishEdit(types, {}, ids.size());
+}
+
+// Everything of an edit that can fail. `types`: lights by type once it is done.
+LightTable::Records LightSet::prepareEdit(const LightTypeCounts& types, size_t edits, size_t added)
+{
+    const uint32_t capacity = capacityFor(count_ + uint32_t(added));
+    recordings_.freeRetired();
+    prepare_(capacity, types);
+    lights_.reserveEdits(edits, added);
+    std::shared_ptr<gpu::Bindings> bindings;
+    if (deviceLights_.present() && capacity > capacity_)
+        bindings = deviceLights_.prepare(deviceLights_.lights(), true);
+    grow(capacity, true);
+    if (bindings)
+        deviceLights_.take(deviceLights_.lights(), store_.records, std::move(bindings));
+    pending_ = &freeStaging();
+    return hostRecords(*pending_);
+}
+
+void LightSet::finishEdit(const LightTypeCounts& types, std::span<const CndLight> lights,
+                          size_t edits) noexcept
+{
+    // Lights that were replaced or removed stay in the boxes until their type has no lights.
+    const ReachBoxes none = reachOf({});
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (!typeCounts_[type])
+            reach_[type] = none[type];
+    widen(reach_, reachOf(lights));
+    typeCounts_ = types;
+    count_ = firstRecord_ + lights_.count();
+    ++number_;
+    editsSinceExtent_ += uint32_t(edits);
+    if (editsSinceExtent_ > lights_.count() / editsPerExtent) {
+        extent_ = currentExtent();
+        editsSinceExtent_ = 0;
+    }
+}
+
+LightTypeCounts LightSet::countsInLayers(uint32_t layers) const
+{
+    LightTypeCounts out = typeCounts_;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (!(reach_[type].layers & layers))
+            out[type] = 0;
+    return out;
+}
+
+LightTypeCounts LightSet::countsInView(const CndCamera& camera, uint32_t layers) const
+{
+    LightTypeCounts out = countsInLayers(layers);
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (out[type] && !reachesView(reach_[type], origin_, camera))
+            out[type] = 0;
+    return out;
+}
+
+LightTable::Records LightSet::hostRecords(const Staging& staging) const
+{
+    return staging.buffer.as<gpu::LightRecord>().subspan(firstRecord_);
+}
+
+LightExtent LightSet::currentExtent() const noexcept
+{
+    const LightExtent host = lights_.extent();
+    if (!deviceLights_.present())
+        return host;
+    uint32_t distant = 0;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        distant += isDistant(type) ? typeCounts_[type] : 0;
+    return extentWith(host, lights_.count() - distant, deviceLights_.lights());
+}
+
+// A staging buffer that no recording still reads.
+LightSet::Staging& LightSet::freeStaging()
+{
+    if (pending_) // not recorded yet: it takes the next changes as well
+        return *pending_;
+    const uint64_t running = recordings_.oldestRunning();
+    for (Staging& staging : store_.staging)
+        if (staging.recording < running)
+            return staging;
+    store_.staging.emplace_back(createStaging(capacity_));
+    device_.say(CND_MESSAGE_INFO,
+                "lights have %zu staging buffers of %llu bytes now, because frames in flight "
+                "still read the others",
+                store_.staging.size(), (unsigned long long)store_.staging.back().buffer.size);
+    return store_.staging.back();
+}
+
+gpu::Buffer LightSet::createStaging(uint32_t capacity) const
+{
+    return gpu::createBuffer(device_, "light staging", capacity * recordBytes,
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryUse::Upload);
+}
+
+LightSet::Store LightSet::createStore(uint32_t capacity) const
+{
+    Store store;
+    store.records =
+        gpu::createBuffer(device_, "light records", capacity * recordBytes,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                              VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                          gpu::MemoryUse::Device);
+    store.sort = sorting_.createState(capacity, store.records);
+    store.staging.emplace_back(createStaging(capacity)); // what fills the new records
+    return store;
+}
+
+// The capacity that a set of `count` lights asks for: at least the present one.
+uint32_t LightSet::capacityFor(uint32_t count) const
+{
+    if (capacity_ && count <= capacity_)
+        return capacity_;
+    const uint32_t wanted = std::max({count, firstCapacity_, capacity_ + capacity_ / 2});
+    return std::min(wanted, maxLights(device_.limits));
+}
+
+// Replaces the store by a larger one unless the capacity stays. `keepRecords`: the next recording
+// copies the old records into the new ones; otherwise all lights are uploaded anew.
+void LightSet::grow(uint32_t capacity, bool keepRecords)
+{
+    if (capacity == capacity_)
+        return;
+    // Everything is allocated before anything is replaced: a failure leaves the old set in place.
+    Store store = createStore(capacity);
+    const VkBuffer old = store_.records.get();
+    Staging& staging = store.staging.front();
+    const bool keepStaging = keepRecords && pending_;
+    if (keepStaging)
+        std::memcpy(staging.buffer.mapped, pending_->buffer.mapped, count_ * recordBytes);
+    if (deviceLights_.bindings())
+        recordings_.retire(deviceLights_.bindings());
+    recordings_.replaceAfterNext(store_, std::move(store)); // the next may copy the old records
+    const uint32_t previous = std::exchange(capacity_, capacity);
+    deviceLights_.forgetBindings();
+    if (!carriedFrom_ && onDevice_)
+        carriedFrom_ = old;
+    if (!keepRecords)
+        carriedFrom_ = VK_NULL_HANDLE;
+    pending_ = keepStaging ? &staging : nullptr;
+    device_.say(CND_MESSAGE_INFO,
+                "buffers of lights grew from room for %u to room for %u lights; "
+                "CndLightingDesc::lightCapacity makes room at creation",
+                previous, capacity);
+}
+
+void LightSet::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
+{
+    if (!pending_)
+        return;
+    pending_->recording = recording;
+    const VkBuffer records = store_.records.get();
+    if (carriedFrom_) {
+        const VkBufferCopy all{.size = onDevice_ * recordBytes};
+        device_.CmdCopyBuffer(frame.cmd, carriedFrom_, records, 1, &all);
+        frame.barrier();
+    }
+    const auto& [moves, uploads] = lights_.take(firstRecord_);
+    if (!moves.empty()) {
+        device_.CmdCopyBuffer(frame.cmd, records, records, uint32_t(moves.size()), moves.data());
+        frame.barrier();
+    }
+    if (!uploads.empty())
+        device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records, uint32_t(uploads.size()),
+                              uploads.data());
+    if (deviceLightsPending_) {
+        deviceLights_.recordReset(frame);
+        frame.barrier();
+        deviceLights_.record(frame);
+    }
+    if (count_) {
+        frame.barrier();
+        sorting_.record(frame, store_.sort, count_, extent_);
+    }
+    carriedFrom_ = VK_NULL_HANDLE;
+    onDevice_ = count_;
+    pending_ = nullptr;
+    deviceLightsPending_ = false;
+}
+
+void LightSet::recordDeviceCounts(const gpu::Frame& frame,
+                                  const gpu::Buffer& counters) const noexcept
+{
+    if (!deviceLights_.present())
+        return;
+    static_assert(offsetof(gpu::LightingCounters, rejectedLights) ==
+                  offsetof(gpu::LightingCounters, deviceLights) +
+                      offsetof(gpu::DeviceLightCounts, rejected));
+    const VkBufferCopy copy{.dstOffset = offsetof(gpu::LightingCounters, deviceLights),
+                            .size = sizeof(gpu::DeviceLightCounts)};
+    device_.CmdCopyBuffer(frame.cmd, deviceLights_.counts().get(), counters.get(), 1, &copy);
+}
+
+} // namespace candelabra::lighting

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each kernel of a frame reads and writes.
+#include "view/view.h"
+
+namespace candelabra::lighting
+{
+
+using gpu::Binding;
+
+void View::writeBindings(const CndLightingFrame& frame) const
+{
+    const uint32_t slot = frame.frameSlot;
+    const LightSet& lights = module_.lights;
+    const tables::ShadingTables& tables = module_.tables;
+    gbufferParams_.write(slot, module_.gbuffer, frame.camera);
+    const surfaces::GBufferViews images = module_.gbuffer.views(frame, gbufferParams_);
+    sets_.prepareLights.write(slot, {Binding::of(gpu::PREPARE_LIGHTS_RECORDS, lights.records()),
+                                     Binding::of(gpu::PREPARE_LIGHTS_CORE, core_),
+                                     Binding::of(gpu::PREPARE_LIGHTS_AUX, aux_),
+                                     Binding::of(gpu::PREPARE_LIGHTS_ORDER, lights.order()),
+                                     Binding::of(gpu::PREPARE_LIGHTS_IDS, ids_)});
+    clusters_.writeBindings(slot, lights.typeCounts(),
+                            {.gbuffer = images, .core = core_, .counters = counters_});
+    if (forward_.wanted())
+        forward_.write(slot, {.core = core_,
+                              .aux = aux_,
+                              .nodes = clusters_.nodes(),
+                              .ids = ids_,
+                              .directionalAlbedo = tables.directionalAlbedo(),
+                              .transformedCosines = tables.transformedCosines()});
+    if (influence_)
+        influence_->writeBindings(slot, {.gbuffer = images,
+                                         .radiance = frame.radiance,
+                                         .core = core_,
+                                         .aux = aux_,
+                                         .ids = ids_,
+                                         .directionalAlbedo = tables.directionalAlbedo(),
+                                         .transformedCosines = tables.transformedCosines(),
+                                         .counters = counters_});
+    if (frame.culling == CND_CULLING_BRUTE) {
+        writeBruteBindings(frame, images);
+        return;
+    }
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (lights.typeCounts()[type])
+            writeShadeBindings(frame, images, type);
+}
+
+void View::writeBruteBindings(const CndLightingFrame& frame,
+                              const surfaces::GBufferViews& images) const
+{
+    using namespace gpu;
+    const tables::ShadingTables& tables = module_.tables;
+    sets_.shadeBrute.write(
+        frame.frameSlot,
+        {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
+         Binding::of(SHADE_AUX, aux_), Binding::of(SHADE_LIGHT_IDS, ids_),
+         Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal),
+         Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal),
+         Binding::sampled(SHADE_ALBEDO, images.albedo),
+         Binding::sampled(SHADE_SPECULAR, images.specular),
+         Binding::sampled(SHADE_DEPTH, images.depth), images.params(SHADE_GBUFFER_VIEW),
+         Binding::storage(SHADE_RADIANCE, frame.radiance),
+         Binding::ofTexels(SHADE_DFG, tables.directionalAlbedo()),
+         Binding::ofTexels(SHADE_LTC, tables.transformedCosines())});
+}
+
+void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBufferViews& images,
+                              uint32_t type) const
+{
+    using namespace gpu;
+    const uint32_t set = frame.frameSlot * CND_LIGHT_TYPE_COUNT + type;
+    const tables::ShadingTables& tables = module_.tables;
+    const Clusters::Lists& lists = clusters_.lists(type);
+    const Binding core = Binding::ofTexels(SHADE_CORE, core_);
+    const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
+    const Binding aux = Binding::of(SHADE_AUX, aux_);
+    const Binding ids = Binding::of(SHADE_LIGHT_IDS, ids_);
+    const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal);
+    const Binding hostNormals = Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal);
+    const Binding albedo = Binding::sampled(SHADE_ALBEDO, images.albedo);
+    const Binding f0 = Binding::sampled(SHADE_SPECULAR, images.specular);
+    const Binding depth = Binding::sampled(SHADE_DEPTH, images.depth);
+    const Binding gbufferView = images.params(SHADE_GBUFFER_VIEW);
+    const Binding radiance = Binding::storage(SHADE_RADIANCE, frame.radiance);
+    const Binding dfg = Binding::ofTexels(SHADE_DFG, tables.directionalAlbedo());
+    const Binding ltc = Binding::ofTexels(SHADE_LTC, tables.transformedCosines());
+    const Binding tiles = Binding::of(SHADE_TILES, clusters_.tiles());
+    const Binding heads = Binding::of(SHADE_LISTS, lists.heads);
+    const Binding entries = Binding::of(SHADE_ENTRIES, clusters_.entries());
+    const Binding surfaces = Binding::of(SHADE_WORK, clusters_.surfaces());
+    const Binding toShade = Binding::of(SHADE_WORK, clusters_.tilesToShade(type));
+    const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
+    sets_.shadeTiles.write(set, {core, coreWords, aux, ids, normals, hostNormals, albedo, f0, depth,
+                                 gbufferView, radiance, dfg, ltc, tiles, heads, entries, toShade});
+    sets_.shadeUnlisted.write(set, {core, coreWords, aux, ids, normals, hostNormals, albedo, f0,
+                                    depth, gbufferView, radiance, dfg, ltc, tiles, heads, unlisted,
+                                    Binding::of(SHADE_CLUSTERS, clusters_.clusters()),
+                                    Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
+                                    Binding::of(SHADE_NODE_WORDS, clusters_.nodes())});
+    // Without an image for pairs count_pairs writes none, but every binding must be given.
+    const VkImageView pairs = frame.pairImage ? frame.pairImage : frame.radiance;
+    sets_.countPairs.write(set, {core, coreWords, aux, ids, normals, hostNormals, albedo, f0, depth,
+                                 gbufferView, dfg, ltc, tiles, heads, entries, surfaces,
+                                 Binding::of(SHADE_COUNTERS, counters_),
+                                 Binding::storage(SHADE_PAIRS, pairs)});
+}
+
+} // namespace candelabra::lighting

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/frame_plan.h"
+
+#include <cstring>
+#include <limits>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "surfaces/camera.h"
+
+namespace candelabra::lighting
+{
+namespace
+{
+
+// Tiles longer than so many radii of influence are split. Half and twice of it are as fast
+// (DECISIONS 25).
+constexpr float splitLength = 2;
+constexpr uint32_t defaultSampleCount = 64;
+
+// Lights by type, 0 for types that the frame can do without.
+LightTypeCounts typesOf(const LightSet& lights, const CndLightingFrame& frame)
+{
+    if (frame.culling == CND_CULLING_BRUTE) // the check: it knows no bound
+        return lights.typeCounts();
+    const uint32_t layers = layersOf(frame.layers);
+    return influenceOf(frame) == CND_INFLUENCE_GIVEN
+               ? lights.countsInView(frame.camera, layers)
+               : lights.countsInLayers(layers); // they may reach the view from anywhere
+}
+
+gpu::PrepareLightsParams prepareParams(const LightSet& lights, const CndLightingFrame& frame)
+{
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
+    const double* o = lights.origin();
+    return {.viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
+            .originView = glm::vec3(viewFromWorld * glm::dvec4(o[0], o[1], o[2], 1)),
+            .lightCount = lights.count(),
+            .layers = layersOf(frame.layers),
+            .uncut = influenceOf(frame) != CND_INFLUENCE_GIVEN};
+}
+
+} // namespace
+
+FramePlan planFrame(const Module& module, const CndLightingFrame& frame)
+{
+    const LightSet& lights = module.lights;
+    return {.frame = frame,
+            .projection = surfaces::projectionOf(frame.camera.clipFromView, frame.clearDepth),
+            .size = {frame.width, frame.height},
+            .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
+            .tileCount = {tilesAlong(frame.width), tilesAlong(frame.height)},
+            .lights = typesOf(lights, frame),
+            .trees = treeShapes(lights.typeCounts()),
+            .sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount,
+            // Radii other than those that lights were given are known on the device alone.
+            .splitLength = influenceOf(frame) == CND_INFLUENCE_GIVEN
+                               ? splitLength * lights.extent().influenceRadius
+                               : std::numeric_limits<float>::infinity(),
+            .prepare = prepareParams(lights, frame)};
+}
+
+} // namespace candelabra::lighting

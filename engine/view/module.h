@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all views of a lighting module share: its pipelines, its lights, its tables, and how it was
+// created. Lighting owns all of it and hands it to each view.
+#pragma once
+
+#include "gpu/recordings.h"
+#include "lights/light_set.h"
+#include "shading/influence.h"
+#include "shading/shade_kernels.h"
+#include "shared/surface_overlay.h"
+#include "surfaces/host_gbuffer.h"
+#include "surfaces/host_kernels.h"
+#include "tables/shading_tables.h"
+
+namespace candelabra::lighting
+{
+
+struct Kernels {
+    // `gbuffer`: value of SPEC_GBUFFER. `withIds`: prepare_lights writes the ids of lights. `host`
+    // must outlive it.
+    Kernels(const gpu::Device& device, const surfaces::HostKernels& host,
+            const CndLightingDesc& desc, uint32_t gbuffer, bool withIds);
+    gpu::Kernel<gpu::PrepareLightsParams> prepareLights;
+    ClusterKernels clusters;
+    ShadeKernels shade;
+    InfluenceKernels influence; // empty without CndLightingDesc::influenceByError
+    gpu::Kernel<gpu::SurfaceOverlayParams> surfaceOverlay;
+};
+
+struct Module {
+    const gpu::Device& device;
+    const CndLightingDesc& desc;
+    gpu::Recordings& recordings;
+    surfaces::GBufferSource& gbuffer;
+    const surfaces::HostKernels& hostKernels;
+    const Kernels& kernels;
+    tables::ShadingTables& tables;
+    LightSet& lights;
+};
+
+// Shaders may ask which light a light is: those of the host's forward passes, or functions of the
+// host's in our kernels.
+inline bool readsLightIds(const CndLightingDesc& desc)
+{
+    return desc.forwardStages || desc.hostKernels.count;
+}
+
+} // namespace candelabra::lighting
