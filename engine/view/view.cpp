@@ -84,6 +84,7 @@ void View::makeRoom(uint32_t lightCapacity, LightTypeCounts types)
 {
     const gpu::Device& device = module_.device;
     const VkDeviceSize lights = lightCapacity;
+    lists_ = {}; // new buffers hold no trees and no lists
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         types[type] += module_.desc.lightTypes >> type & 1;
     clusters_.grow(lightCapacity, types);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +26,21 @@ struct FlightingView {
     uint64_t submissions[slots] = {}; // 0: none
     uint64_t frame = 0;
 };
+
+CndLightingFrame testFrame(uint32_t width, uint32_t height)
+{
+    CndLightingFrame frame{.width = width, .height = height};
+    for (int i = 0; i < 4; ++i)
+        frame.camera.viewFromWorld[5 * i] = 1;
+    frame.camera.clipFromView[0] = 1;
+    frame.camera.clipFromView[5] = -1;
+    frame.camera.clipFromView[11] = -1;
+    frame.camera.clipFromView[14] = 0.1f;
+    frame.normalRoughness = frame.albedo = frame.specular = frame.depth = frame.radiance =
+        MockVulkan::imageView();
+    frame.specularMethod = CND_SPECULAR_CONIC;
+    return frame;
+}
 
 class Storm
 {
@@ -101,16 +117,8 @@ public:
         wait(v, slot);
         if (width > v.maxWidth || height > v.maxHeight)
             resize(v, width, height);
-        CndLightingFrame frame{.frameSlot = slot, .width = width, .height = height};
-        for (int i = 0; i < 4; ++i)
-            frame.camera.viewFromWorld[5 * i] = 1;
-        frame.camera.clipFromView[0] = 1;
-        frame.camera.clipFromView[5] = -1;
-        frame.camera.clipFromView[11] = -1;
-        frame.camera.clipFromView[14] = 0.1f;
-        frame.normalRoughness = frame.albedo = frame.specular = frame.depth = frame.radiance =
-            MockVulkan::imageView();
-        frame.specularMethod = CND_SPECULAR_CONIC;
+        CndLightingFrame frame = testFrame(width, height);
+        frame.frameSlot = slot;
         const auto recorded = v.view.record(MockVulkan::commandBuffer(), frame);
         ASSERT_TRUE(recorded) << recorded.error().message;
         v.submissions[slot] = vulkan_.submit();
@@ -202,6 +210,42 @@ TEST(Lifetimes, OutgrownBuffersAreFreed)
         storm.wait(view, slot);
     for (const std::string& what : storm.vulkan().misuse)
         ADD_FAILURE() << what;
+}
+
+// A light set that fails while buffers grow leaves the old set in place, but perhaps larger buffers
+// in a view: what an earlier frame wrote is not in them, so the next frame makes its lists again.
+TEST(Lifetimes, ListsAreNotReusedAfterAFailedLightSet)
+{
+    uint64_t failing = 0;
+    for (bool failed = true; failed && !HasFailure(); ++failing) {
+        MockVulkan vulkan;
+        Lighting lighting =
+            std::move(Lighting::create(vulkan.desc(), {.framesInFlight = 1}).value());
+        LightingView view =
+            std::move(lighting.createView({.maxWidth = 64, .maxHeight = 64}).value());
+        const std::vector<CndLight> lights(largestCount, {.type = CND_LIGHT_SPHERE,
+                                                          .radius = 0.1f,
+                                                          .emission = {1, 1, 1},
+                                                          .influenceRadius = 5});
+        const auto preparesLights = [&] {
+            CndLightingFrame frame = testFrame(64, 64);
+            frame.surfacesUnchanged = VK_TRUE;
+            EXPECT_TRUE(view.record(MockVulkan::commandBuffer(), frame));
+            vulkan.finish(vulkan.submit());
+            const CndLightingStats stats = view.stats(0).value().value();
+            const auto* const prepare = std::find_if(
+                stats.passes, stats.passes + stats.passCount,
+                [](const CndPassPlan& p) { return std::string_view(p.name) == "prepare_lights"; });
+            return !prepare->skipped;
+        };
+        ASSERT_TRUE(lighting.setLights(std::span(lights).first(1), {0, 0, 0}));
+        EXPECT_TRUE(preparesLights());
+        EXPECT_FALSE(preparesLights()) << "nothing has changed";
+        vulkan.failingCall = vulkan.failableCalls + failing;
+        failed = !lighting.setLights(lights, {0, 0, 0});
+        EXPECT_TRUE(preparesLights()) << vulkan.failed << ", call " << failing;
+    }
+    EXPECT_GT(failing, 10u);
 }
 
 } // namespace candelabra::test
