@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.h"
+#include "io/error.h"
 #include "io/parse.h"
 #include "render/camera.h"
-#include "render/error.h"
 
 namespace candelabra::test
 {

@@ -2,9 +2,9 @@
 // Fuzzes the parsing of results of `candelabra profile`, as `compare` reads them.
 #include <cmath>
 
-#include "commands/run_file.h"
 #include "fuzz/fuzz_target.h"
-#include "render/error.h"
+#include "io/error.h"
+#include "measure/profile/run_file.h"
 #include "scene/scene_error.h"
 
 namespace candelabra::test

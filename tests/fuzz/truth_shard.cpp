@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzzes the reader of truth image shards.
 #include "fuzz/fuzz_target.h"
-#include "io/truth_file.h"
+#include "truth/truth_file.h"
 
 namespace candelabra::test
 {

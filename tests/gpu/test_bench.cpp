@@ -3,14 +3,16 @@
 // are consistent.
 #include <cmath>
 
-#include "bench/image_level.h"
-#include "bench/kernel_level.h"
-#include "bench/low_roughness.h"
-#include "bench/stability.h"
 #include "generate/random.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
 #include "io/image.h"
+#include "measure/accuracy/image_level.h"
+#include "measure/accuracy/kernel_level.h"
+#include "measure/accuracy/low_roughness.h"
+#include "measure/stability/stability.h"
+#include "render/setting_names.h"
+#include "scene/light_names.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -41,7 +43,7 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
     EXPECT_EQ(level.unconvergedTruths, 0u);
     ASSERT_EQ(level.points.size(), 3u); // karis, ltc and sampled
     for (const KernelPoint& p : level.points) {
-        const std::string name = methodName(p.method);
+        const std::string name = specularName(p.method);
         const ErrorStatistics& all = p.error.mirror.all;
         std::cout << "rectangle " << name << ": mean error " << 100 * all.mean
                   << "% of the peak, form factor within " << p.error.diffuse.all.max << "\n";
@@ -194,8 +196,8 @@ TEST_F(Bench, SpheresBelowTheHorizonGiveExactlyNothing)
             for (const gpu::BenchResponse& response : evaluator.evaluate(receivers, lights))
                 largest =
                     std::max({largest, double(response.f), double(response.a), double(response.b)});
-            std::cout << lightTypeName(type) << " " << methodName(method) << ": largest " << largest
-                      << "\n";
-            EXPECT_EQ(largest, 0) << lightTypeName(type) << " " << methodName(method);
+            std::cout << lightTypeName(type) << " " << specularName(method) << ": largest "
+                      << largest << "\n";
+            EXPECT_EQ(largest, 0) << lightTypeName(type) << " " << specularName(method);
         }
 }

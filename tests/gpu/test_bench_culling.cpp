@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The benchmark of culling at a small size. Every way to cull must give the image of brute force,
 // otherwise comparing their times would be meaningless.
-#include "bench/culling.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
+#include "measure/culling/culling.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks in small frames of the benchmark that no skipped pass changes the image.
-#include "bench/skip.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
+#include "measure/skip/skip.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

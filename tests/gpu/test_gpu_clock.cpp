@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the mapping of the device's timestamps to the CPU's clock.
 #include "harness/gpu_fixture.h"
-#include "render/gpu_clock.h"
+#include "measure/profile/gpu_clock.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

@@ -2,10 +2,10 @@
 // Tests of CND_INFLUENCE_BY_ERROR: cut lights change no pixel of the display by more than the
 // error, compared with brute force under all light. Nothing is measured that should not be, and
 // other rules are unaffected.
-#include "commands/influence_check.h"
 #include "gpu/influence_harness.h"
 #include "harness/paths.h"
 #include "load/load.h"
+#include "measure/frame/influence_check.h"
 #include "render/camera.h"
 
 namespace candelabra::test

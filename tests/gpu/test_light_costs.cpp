@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "candelabra/candelabra.hpp"
-#include "commands/light_costs.h"
-#include "commands/measure.h"
-#include "commands/pick.h"
 #include "harness/gpu_fixture.h"
 #include "load/load.h"
+#include "measure/frame/frames.h"
+#include "measure/frame/light_costs.h"
+#include "measure/frame/pick.h"
 #include "render/camera.h"
 
 using namespace candelabra;

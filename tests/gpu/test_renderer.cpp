@@ -9,10 +9,10 @@
 #include <numeric>
 #include <tuple>
 
-#include "commands/brute_check.h"
-#include "commands/measure.h"
 #include "generate/generators.h"
 #include "harness/gpu_fixture.h"
+#include "measure/frame/brute_check.h"
+#include "measure/frame/frames.h"
 #include "render/camera.h"
 #include "render/readback.h"
 

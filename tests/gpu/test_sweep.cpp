@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "bench/stability.h"
 #include "harness/gpu_fixture.h"
+#include "measure/stability/stability.h"
 #include "reference/sphere_light.h"
+#include "render/setting_names.h"
+#include "scene/light_names.h"
 #include "transcription/conic.h"
 
 using namespace candelabra;
@@ -111,7 +113,7 @@ TEST_F(SweepInDouble, EveryInputOfTheSweepIsTheFormulaInDouble)
                     ++count;
                 }
             compared += count;
-            const std::string name = std::string(lightTypeName(type)) + " " + methodName(method);
+            const std::string name = std::string(lightTypeName(type)) + " " + specularName(method);
             std::cout << name << ": " << count << " inputs (" << atCentre
                       << " more at the centre), float32 - double over the response on the mirror "
                          "axis: mean "

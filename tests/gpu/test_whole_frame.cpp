@@ -13,7 +13,7 @@
 #include "harness/gpu_fixture.h"
 #include "render/camera.h"
 #include "render/readback.h"
-#include "scene/reference_scene.h"
+#include "truth/reference_scene.h"
 #include "json/scene_json.h"
 
 using namespace candelabra;

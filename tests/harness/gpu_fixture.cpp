@@ -5,7 +5,7 @@
 #include <iostream>
 #include <memory>
 
-#include "render/error.h"
+#include "render/check.h"
 
 namespace candelabra::test
 {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/kernel_error.h"
+#include "measure/accuracy/kernel_error.h"
 
 namespace candelabra::app
 {

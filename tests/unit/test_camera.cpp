@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "io/error.h"
 #include "render/camera.h"
-#include "render/error.h"
 
 using namespace candelabra::app;
 

@@ -12,12 +12,12 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
-#include "commands/brute_check.h"
 #include "commands/options.h"
-#include "commands/pick.h"
 #include "generate/generators.h"
 #include "harness/run_program.h"
-#include "render/error.h"
+#include "io/error.h"
+#include "measure/frame/brute_check.h"
+#include "measure/frame/pick.h"
 
 using namespace candelabra::app;
 using candelabra::test::runWith;

@@ -11,7 +11,7 @@
 
 #include "harness/json_schema.h"
 #include "harness/run_program.h"
-#include "render/error.h"
+#include "io/error.h"
 
 using namespace candelabra::app;
 using candelabra::test::ProgramOutcome;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/image_error.h"
+#include "measure/accuracy/image_error.h"
 
 namespace candelabra::app
 {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/legend.h"
+#include "render/legend.h"
 
 using namespace candelabra::app;
 

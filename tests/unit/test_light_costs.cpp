@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "commands/light_costs.h"
+#include "measure/frame/light_costs.h"
 
 namespace candelabra::test
 {

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "harness/xml.h"
+#include "io/error.h"
 #include "io/parse.h"
 #include "io/report.h"
 #include "io/svg_plot.h"
 #include "io/table.h"
-#include "render/error.h"
 #include "render/pass_times.h"
 
 using namespace candelabra;

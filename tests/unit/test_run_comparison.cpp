@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/run_comparison.h"
+#include "measure/profile/run_comparison.h"
 
 using namespace candelabra::app;
 

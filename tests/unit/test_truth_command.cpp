@@ -14,8 +14,8 @@
 
 #include "cli.h"
 #include "io/image.h"
-#include "io/truth_file.h"
-#include "scene/reference_scene.h"
+#include "truth/reference_scene.h"
+#include "truth/truth_file.h"
 #include "json/scene_json.h"
 
 using namespace candelabra;

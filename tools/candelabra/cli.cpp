@@ -13,8 +13,9 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
+#include "io/error.h"
 #include "io/report.h"
-#include "render/error.h"
+#include "render/check.h"
 #include "scene/scene_error.h"
 
 namespace candelabra::app

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "commands/bench_commands.h"
+#include "io/error.h"
 #include "io/report.h"
-#include "render/error.h"
 
 namespace candelabra::app
 {

@@ -5,13 +5,15 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "bench/low_roughness.h"
-#include "bench/page.h"
 #include "commands/bench_commands.h"
-#include "commands/measure.h"
+#include "commands/messages.h"
 #include "generate/generators.h"
+#include "io/error.h"
 #include "io/image.h"
-#include "render/error.h"
+#include "measure/accuracy/low_roughness.h"
+#include "measure/accuracy/page.h"
+#include "render/provenance.h"
+#include "scene/scene_options.h"
 
 namespace candelabra::app
 {

@@ -7,11 +7,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "bench/culling.h"
 #include "commands/bench_commands.h"
-#include "commands/measure.h"
+#include "commands/messages.h"
 #include "generate/generators.h"
-#include "render/error.h"
+#include "io/error.h"
+#include "measure/culling/culling.h"
+#include "render/provenance.h"
 #include "render/renderer.h"
 
 namespace candelabra::app

@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "bench/skip.h"
 #include "commands/bench_commands.h"
-#include "commands/measure.h"
+#include "commands/messages.h"
 #include "commands/options.h"
 #include "generate/generators.h"
-#include "render/error.h"
+#include "io/error.h"
+#include "measure/skip/skip.h"
+#include "render/provenance.h"
 
 namespace candelabra::app
 {

@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "bench/stability.h"
 #include "commands/bench_commands.h"
-#include "commands/measure.h"
-#include "render/error.h"
+#include "commands/messages.h"
+#include "io/error.h"
+#include "measure/stability/stability.h"
+#include "render/provenance.h"
 
 namespace candelabra::app
 {

@@ -8,11 +8,11 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
-#include "commands/run_file.h"
-#include "io/run_comparison.h"
+#include "io/error.h"
 #include "io/statistics.h"
 #include "io/table.h"
-#include "render/error.h"
+#include "measure/profile/run_comparison.h"
+#include "measure/profile/run_file.h"
 
 namespace candelabra::app
 {

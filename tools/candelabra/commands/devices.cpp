@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "commands/commands.h"
+#include "io/error.h"
 #include "io/report.h"
 #include "io/table.h"
-#include "render/error.h"
 
 namespace candelabra::app
 {

@@ -3,72 +3,18 @@
 #include <cmath>
 
 #include "candelabra/candelabra.hpp"
-#include "commands/choice.h"
+#include "commands/choice_option.h"
 #include "commands/options.h"
-#include "shared/specular_methods.h"
+#include "render/setting_names.h"
 
 namespace candelabra::app
 {
 namespace
 {
 
-constexpr Choice<CndSpecularMethod> specularChoices[] = {
-#define X(id, NAME, name) {name, CND_SPECULAR_##NAME},
-    CND_SPECULAR_METHODS(X)
-#undef X
-};
-constexpr Choice<CndCulling> cullingChoices[] = {{"clustered", CND_CULLING_CLUSTERED},
-                                                 {"brute", CND_CULLING_BRUTE}};
-constexpr Choice<CndInfluenceRule> influenceChoices[] = {{"given", CND_INFLUENCE_GIVEN},
-                                                         {"uncut", CND_INFLUENCE_UNCUT}};
-constexpr Choice<Reuse> reuseChoices[] = {
-    {"none", Reuse::None}, {"lists", Reuse::Lists}, {"lighting", Reuse::Lighting}};
-constexpr Choice<HeatMap> heatMapChoices[] = {{"none", HeatMap::None},
-                                              {"lights-per-pixel", HeatMap::LightsPerPixel},
-                                              {"evaluated", HeatMap::Evaluated},
-                                              {"efficiency", HeatMap::Efficiency},
-                                              {"class", HeatMap::Class}};
-constexpr Choice<CndGBufferLayout> gbufferChoices[] = {{"full", CND_GBUFFER_FULL},
-                                                       {"compact", CND_GBUFFER_COMPACT}};
-constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NONE},
-                                                 {"reinhard", CND_TONEMAP_REINHARD},
-                                                 {"aces", CND_TONEMAP_ACES},
-                                                 {"neutral", CND_TONEMAP_PBR_NEUTRAL},
-                                                 {"agx", CND_TONEMAP_AGX}};
-constexpr Choice<CndMetering> meteringChoices[] = {{"average", CND_METERING_AVERAGE},
-                                                   {"centre", CND_METERING_CENTRE_WEIGHTED}};
 constexpr Choice<bool> onOffChoices[] = {{"on", true}, {"off", false}};
 
 } // namespace
-
-const char* specularName(CndSpecularMethod method)
-{
-    return nameOf(method, specularChoices);
-}
-const char* cullingName(CndCulling culling)
-{
-    return nameOf(culling, cullingChoices);
-}
-const char* influenceName(CndInfluenceRule rule)
-{
-    return rule == CND_INFLUENCE_BY_ERROR ? "error" : nameOf(rule, influenceChoices);
-}
-const char* reuseName(Reuse reuse)
-{
-    return nameOf(reuse, reuseChoices);
-}
-const char* heatMapName(HeatMap heatMap)
-{
-    return nameOf(heatMap, heatMapChoices);
-}
-const char* toneMapName(CndToneMap toneMap)
-{
-    return nameOf(toneMap, toneMapChoices);
-}
-const char* gbufferName(CndGBufferLayout layout)
-{
-    return nameOf(layout, gbufferChoices);
-}
 
 void FrameArguments::addViewTo(CLI::App& command)
 {

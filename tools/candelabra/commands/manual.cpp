@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "candelabra/candelabra.h"
-#include "commands/choice.h"
 #include "commands/commands.h"
+#include "io/choice.h"
 #include "io/report.h"
 
 namespace candelabra::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/options.h"
+#include "scene/scene_options.h"
 
 #include <algorithm>
 #include <numbers>
@@ -7,26 +8,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "commands/choice.h"
+#include "commands/choice_option.h"
 #include "generate/generators.h"
 #include "io/table.h"
-#include "render/renderer.h"
+#include "render/setting_names.h"
 
 namespace candelabra::app
 {
-namespace
-{
-
-constexpr Choice<CndLobeJoining> lobeChoices[] = {{"conserving", CND_LOBES_CONSERVING},
-                                                  {"sum", CND_LOBES_SUM}};
-
-} // namespace
-
-const char* lobesName(CndLobeJoining lobes)
-{
-    return nameOf(lobes, lobeChoices);
-}
-
 uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,
                         uint32_t max)
 {

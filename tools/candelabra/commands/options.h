@@ -94,16 +94,6 @@ struct FrameArguments {
     CndExposureSettings exposureSettings() const;
 };
 
-// Names on the command line, as they appear in results.
-const char* specularName(CndSpecularMethod method);
-const char* cullingName(CndCulling culling);
-const char* influenceName(CndInfluenceRule rule);
-const char* reuseName(Reuse reuse);
-const char* heatMapName(HeatMap heatMap);
-const char* toneMapName(CndToneMap toneMap);
-const char* gbufferName(CndGBufferLayout layout);
-const char* lobesName(CndLobeJoining lobes);
-
 // Numbers of options: a sentence that names the option, its text and the range otherwise.
 uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,
                         uint32_t max);
@@ -111,8 +101,6 @@ double numberOption(const std::string& option, const std::string& text, double m
 std::vector<uint32_t> unsignedListOption(const std::string& option, const std::string& text,
                                          uint32_t min, uint32_t max);
 
-// Largest number of lights that options accept: 2^24, beyond it float cannot count them.
-constexpr uint32_t maxLights = 1u << 24;
 constexpr uint32_t maxSide = 16384; // pixels of an image: the modules' limit
 
 } // namespace candelabra::app

@@ -9,16 +9,18 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
-#include "commands/light_costs.h"
-#include "commands/measure.h"
-#include "commands/profile_frames.h"
-#include "commands/run_file.h"
+#include "commands/messages.h"
+#include "io/error.h"
 #include "io/progress.h"
 #include "io/statistics.h"
 #include "io/table.h"
 #include "load/load.h"
+#include "measure/frame/frames.h"
+#include "measure/frame/light_costs.h"
+#include "measure/profile/profile_frames.h"
+#include "measure/profile/run_file.h"
 #include "render/camera.h"
-#include "render/error.h"
+#include "render/provenance.h"
 
 namespace candelabra::app
 {

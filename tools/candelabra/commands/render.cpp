@@ -9,14 +9,16 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
-#include "commands/influence_check.h"
-#include "commands/measure.h"
-#include "commands/pick.h"
+#include "commands/messages.h"
+#include "io/error.h"
 #include "io/progress.h"
 #include "io/table.h"
 #include "load/load.h"
+#include "measure/frame/frames.h"
+#include "measure/frame/influence_check.h"
+#include "measure/frame/pick.h"
 #include "render/camera.h"
-#include "render/error.h"
+#include "render/provenance.h"
 #include "render/readback.h"
 
 namespace candelabra::app

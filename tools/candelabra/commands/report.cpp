@@ -7,21 +7,25 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "bench/culling.h"
-#include "bench/page.h"
-#include "bench/skip.h"
-#include "bench/stability.h"
 #include "commands/bench_commands.h"
-#include "commands/light_costs.h"
-#include "commands/measure.h"
-#include "commands/profile_frames.h"
+#include "commands/messages.h"
+#include "io/error.h"
 #include "io/markup.h"
 #include "io/statistics.h"
 #include "io/table.h"
 #include "load/load.h"
+#include "measure/accuracy/page.h"
+#include "measure/culling/culling.h"
+#include "measure/frame/frames.h"
+#include "measure/frame/light_costs.h"
+#include "measure/profile/profile_frames.h"
+#include "measure/skip/skip.h"
+#include "measure/stability/stability.h"
 #include "render/camera.h"
-#include "render/error.h"
+#include "render/provenance.h"
 #include "render/readback.h"
+#include "render/setting_names.h"
+#include "scene/scene_options.h"
 
 namespace candelabra::app
 {

@@ -8,9 +8,12 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
-#include "commands/stress_point.h"
-#include "commands/stress_report.h"
-#include "render/error.h"
+#include "commands/messages.h"
+#include "io/error.h"
+#include "measure/stress/stress_point.h"
+#include "measure/stress/stress_report.h"
+#include "render/provenance.h"
+#include "scene/scene_options.h"
 
 namespace candelabra::app
 {

@@ -8,17 +8,17 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
-#include "commands/measure.h"
-#include "commands/truth_cache.h"
+#include "commands/messages.h"
+#include "io/error.h"
 #include "io/progress.h"
 #include "io/table.h"
-#include "io/truth_file.h"
 #include "load/load.h"
 #include "reference/render.h"
 #include "render/camera.h"
-#include "render/error.h"
 #include "render/readback.h"
-#include "scene/reference_scene.h"
+#include "truth/reference_scene.h"
+#include "truth/truth_cache.h"
+#include "truth/truth_file.h"
 
 namespace candelabra::app
 {

@@ -6,11 +6,11 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
-#include "commands/measure.h"
+#include "commands/messages.h"
+#include "io/error.h"
 #include "io/table.h"
 #include "load/load.h"
 #include "render/camera.h"
-#include "render/error.h"
 #include "viewer/keys.h"
 #include "viewer/viewer.h"
 

@@ -129,9 +129,9 @@ LightMotion circleMotion(Random& random, double height, float lightRadius, float
 
 void checkLightOptions(const std::string& name, uint32_t count, const SceneOptions& options)
 {
-    if (count > maxLightCount) {
+    if (count > maxLights) {
         throw SceneError(name + ": lights: " + std::to_string(count) +
-                         " is more than the limit of " + std::to_string(maxLightCount));
+                         " is more than the limit of " + std::to_string(maxLights));
     }
     if (!options.overlaps)
         return;

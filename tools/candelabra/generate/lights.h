@@ -16,8 +16,6 @@ namespace candelabra::app
 
 constexpr uint32_t defaultLightCount = 4000;
 constexpr double defaultOverlaps = 8;
-// 2^24: beyond it, lists and buffers of lights stop fitting into common devices.
-constexpr uint32_t maxLightCount = 1u << 24u;
 
 // A sphere light before its influence radius is known.
 struct LightSite {

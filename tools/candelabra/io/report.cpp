@@ -4,17 +4,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "candelabra/candelabra.h"
-#include "candelabra_commit.h"
+#include "io/error.h"
 #include "io/image_file.h"
-#include "render/error.h"
 
 namespace candelabra::app
 {
@@ -85,21 +81,6 @@ void requireWritable(const std::string& option, const std::string& path)
     if (access(directory.c_str(), W_OK))
         throw UsageError(fmt::format("{} {}: cannot write into {}: {}", option, path, directory,
                                      std::strerror(errno)));
-}
-
-Json provenance(const DeviceInfo& device, const std::string& commandLine)
-{
-    const uint32_t version = cndGetVersion();
-    const std::time_t now = std::time(nullptr);
-    return {{"candelabra",
-             fmt::format("{}.{}.{}", version >> 22, (version >> 12) & 0x3ff, version & 0xfff)},
-            {"commit", commit},
-            {"utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))},
-            {"device", device.name},
-            {"deviceType", deviceTypeName(device.type)},
-            {"driver", device.driver},
-            {"vulkan", device.vulkanVersion},
-            {"commandLine", commandLine}};
 }
 
 std::string commandLine(int argc, const char* const* argv)

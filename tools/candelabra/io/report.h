@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the text and JSON files of the commands, and the provenance of the numbers in them. A file
-// appears complete or not at all.
+// Writes the text and JSON files of the commands. A file appears complete or not at all.
 #pragma once
 
 #include <string>
 
 #include <nlohmann/json.hpp>
-
-#include "render/vulkan_instance.h"
 
 namespace candelabra::app
 {
@@ -25,9 +22,6 @@ void writeJson(const std::string& path, const Json& json);
 // the work is done: `path` is not the name of a regular file, the name is too long, or its
 // directory does not exist or is not writable. `option` is the option that the message names.
 void requireWritable(const std::string& option, const std::string& path);
-
-// Program version, commit, device, driver, UTC time and command line.
-Json provenance(const DeviceInfo& device, const std::string& commandLine);
 
 // The command line as text, such as "candelabra render hall", with quotes where a shell needs them.
 std::string commandLine(int argc, const char* const* argv);

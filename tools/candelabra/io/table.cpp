@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "render/error.h"
+#include "io/error.h"
 
 namespace candelabra::app
 {

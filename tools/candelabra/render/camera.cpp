@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "io/error.h"
 #include "io/parse.h"
 #include "io/table.h"
-#include "render/error.h"
 
 namespace candelabra::app
 {

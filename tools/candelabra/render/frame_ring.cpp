@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/frame_ring.h"
 
-#include "render/error.h"
+#include "render/check.h"
 
 namespace candelabra::app
 {

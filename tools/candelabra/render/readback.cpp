@@ -5,7 +5,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "render/error.h"
+#include "io/error.h"
 
 namespace candelabra::app
 {

@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "gbuffer/gbuffer.h"
+#include "io/error.h"
 #include "render/camera.h"
-#include "render/error.h"
+#include "render/check.h"
 #include "render/frame_stamps.h"
 #include "render/image_barrier.h"
 #include "render/lit.h"

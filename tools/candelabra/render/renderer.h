@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/heat_map.h"
 #include "candelabra/candelabra.h"
 #include "gbuffer/targets.h"
 #include "gpu/memory.h"
 #include "io/parse.h"
+#include "render/heat_map.h"
 #include "render/pass_times.h"
 #include "render/vulkan_context.h"
 #include "scene/scene.h"

@@ -8,7 +8,8 @@
 #include <fmt/format.h>
 
 #include "gpu/memory.h"
-#include "render/error.h"
+#include "io/error.h"
+#include "render/check.h"
 #include "render/image_barrier.h"
 
 namespace candelabra::app

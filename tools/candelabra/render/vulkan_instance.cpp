@@ -11,8 +11,9 @@
 #include <GLFW/glfw3.h>
 
 #include "candelabra/candelabra.h"
+#include "io/error.h"
 #include "io/table.h"
-#include "render/error.h"
+#include "render/check.h"
 
 namespace candelabra::app
 {

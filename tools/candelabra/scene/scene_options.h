@@ -11,6 +11,10 @@
 namespace candelabra::app
 {
 
+// Largest number of lights that can be asked for: 2^24. A float counts no further, and lists and
+// buffers of lights stop fitting into common devices.
+constexpr uint32_t maxLights = 1u << 24;
+
 struct SceneOptions {
     // For hall, field and fence the number of sphere lights (default 4000). For files the number of
     // random sphere lights that are added inside the scene's bounds.

@@ -7,6 +7,8 @@
 
 #include <imgui.h>
 
+#include "scene/light_names.h"
+
 namespace candelabra::app
 {
 namespace
@@ -17,8 +19,6 @@ constexpr float smallestRadius = 1e-4f, largestRadius = 1e3f;
 // The influence radius must be greater than the distance from the light's centre to the farthest
 // point of the emitter (reachOf).
 constexpr float reachMargin = 1.01f;
-constexpr const char* typeNames[CND_LIGHT_TYPE_COUNT] = {
-    "point", "sphere", "spot", "directional", "distant sphere", "tube", "rectangle", "disc"};
 
 bool hasPlace(uint32_t type)
 {
@@ -183,11 +183,6 @@ bool shapeWidgets(CndLight& light)
 
 } // namespace
 
-const char* lightTypeName(CndLightType type)
-{
-    return typeNames[type];
-}
-
 void addLight(Scene& scene, LightEditor& editor, const glm::dvec3& position)
 {
     CndLight light{.type = CND_LIGHT_SPHERE, .radius = 0.1f, .influenceRadius = 12};
@@ -297,9 +292,9 @@ void drawLightEditor(Scene& scene, LightEditor& editor)
         return;
     }
     bool edited = false;
-    if (ImGui::BeginCombo("type", typeNames[light->type])) {
+    if (ImGui::BeginCombo("type", lightTypeName(light->type))) {
         for (uint32_t i = 0; i < CND_LIGHT_TYPE_COUNT; ++i)
-            if (ImGui::Selectable(typeNames[i], light->type == i)) {
+            if (ImGui::Selectable(lightTypeName(uint32_t(i)), light->type == i)) {
                 changeType(*light, CndLightType(i));
                 edited = true;
             }

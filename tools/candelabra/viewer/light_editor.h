@@ -30,8 +30,6 @@ void scaleLightRadius(Scene& scene, LightEditor& editor, float factor);
 void changeType(CndLight& light, CndLightType type);
 void changeRadius(CndLight& light, float radius);
 
-const char* lightTypeName(CndLightType type);
-
 // Draws the widgets that edit the selected light, and applies what the user does with them.
 void drawLightEditor(Scene& scene, LightEditor& editor);
 

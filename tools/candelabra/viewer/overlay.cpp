@@ -7,7 +7,7 @@
 #include <backends/imgui_impl_vulkan.h>
 #include <imgui.h>
 
-#include "render/error.h"
+#include "render/check.h"
 
 namespace candelabra::app
 {

@@ -7,9 +7,11 @@
 
 #include <imgui.h>
 
-#include "commands/options.h"
 #include "io/table.h"
 #include "reference/exposure.h"
+#include "render/setting_names.h"
+#include "scene/light_names.h"
+#include "scene/scene_options.h"
 #include "viewer/keys.h"
 
 namespace candelabra::app
@@ -251,8 +253,8 @@ void drawPick(PanelState& state, const Pick& pick, const Scene& scene)
         const double y = luminanceOf(light.radiance), truth = luminanceOf(light.truth);
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        const std::string name = std::to_string(light.light) + " " +
-                                 lightTypeName(CndLightType(scene.lights[light.light].type));
+        const std::string name =
+            std::to_string(light.light) + " " + lightTypeName(scene.lights[light.light].type);
         if (ImGui::Selectable(name.c_str(), state.editor.selected == light.light,
                               ImGuiSelectableFlags_SpanAllColumns))
             state.editor.selected = light.light;

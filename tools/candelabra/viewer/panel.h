@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "commands/pick.h"
+#include "measure/frame/pick.h"
 #include "render/renderer.h"
 #include "viewer/light_editor.h"
 #include "json/save.h"

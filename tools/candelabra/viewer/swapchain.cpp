@@ -6,7 +6,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "render/error.h"
+#include "io/error.h"
+#include "render/check.h"
 
 namespace candelabra::app
 {

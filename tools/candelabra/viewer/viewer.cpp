@@ -10,13 +10,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "commands/options.h"
 #include "generate/generators.h"
+#include "io/error.h"
 #include "io/image.h"
 #include "io/table.h"
 #include "load/load.h"
 #include "render/camera.h"
-#include "render/error.h"
 #include "render/image_barrier.h"
 #include "render/readback.h"
 #include "scene/scene_error.h"

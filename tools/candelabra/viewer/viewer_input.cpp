@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "commands/options.h"
-#include "commands/pick.h"
 #include "io/report.h"
 #include "io/table.h"
+#include "measure/frame/pick.h"
 #include "render/camera.h"
 #include "render/readback.h"
+#include "scene/scene_options.h"
 #include "viewer/viewer.h"
 #include "json/save.h"
 

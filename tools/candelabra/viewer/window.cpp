@@ -4,7 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "render/error.h"
+#include "io/error.h"
 
 namespace candelabra::app
 {

@@ -1,0 +1,271 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Which file may include which. The tree is divided into rooms, each a folder; ROOMS lists them from
+the ground up and says what each may include. No include leads to a room that stands later in that list,
+and no file and no room includes itself by way of others. Usage: test_includes.py REPOSITORY"""
+import pathlib
+import posixpath
+import re
+import sys
+
+PUBLIC = "engine/include/candelabra"
+
+# (folder, what its files may include besides each other: folders and files of rooms that stand before
+# it, and headers that the build generates). A file belongs to the room with the longest matching name.
+ROOMS = [
+    ("shaders/shared", []),
+    ("shaders/lib", ["shaders/shared"]),
+    ("shaders/shading", ["shaders/lib", "shaders/shared"]),
+    # The name by which shaders of hosts include what shaders/shading/forward.glsl holds.
+    ("shaders/lib/forward.glsl", ["shaders/shading/forward.glsl"]),
+    ("shaders/kernels/common", ["shaders/shading", "shaders/lib", "shaders/shared"]),
+    ("shaders/kernels", ["shaders/kernels/common", "shaders/shading", "shaders/lib", "shaders/shared"]),
+    ("shaders/gbuffer", ["shaders/lib", "shaders/shared"]),
+    ("shaders/bench", ["shaders/kernels/common", "shaders/shading", "shaders/lib", "shaders/shared"]),
+    ("shaders/program", ["shaders/shared"]),
+    ("shaders/probes", ["shaders/shading", "shaders/lib/forward.glsl", "shaders/lib", "shaders/shared"]),
+
+    (PUBLIC, []),
+    # The double-precision reference shares nothing with what it judges: no shader, no other room.
+    ("engine/reference", [f"{PUBLIC}/candelabra.h"]),
+    # The engine's floors.
+    ("engine/gpu", [PUBLIC]),
+    ("engine/tables", ["engine/gpu", "shaders/shared", "candelabra_shaders.h"]),
+    ("engine/surfaces", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
+    ("engine/lights", ["engine/tables", "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
+    ("engine/clusters", ["engine/lights", "engine/surfaces", "engine/tables", "engine/gpu", "shaders/shared",
+                         PUBLIC, "candelabra_shaders.h"]),
+    ("engine/shading", ["engine/clusters", "engine/lights", "engine/surfaces", "engine/tables", "engine/gpu",
+                        "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
+    ("engine/view", ["engine/shading", "engine/clusters", "engine/lights", "engine/surfaces", "engine/tables",
+                     "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
+    ("engine/lighting", ["engine/view", "engine/shading", "engine/clusters", "engine/lights", "engine/surfaces",
+                         "engine/tables", "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
+    # Beside the floors of lighting.
+    ("engine/environment", ["engine/surfaces", "engine/tables", "engine/gpu", "shaders/shared", PUBLIC,
+                            "candelabra_shaders.h"]),
+    ("engine/exposure", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
+    ("engine/gbuffer", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_gbuffer_shaders.h"]),
+    ("engine/compiler", ["engine/gpu/failure.h", PUBLIC]),
+
+    # The program: files and text; scenes, then their three origins, then what picks the origin; the
+    # double-precision truth of a scene.
+    ("tools/candelabra/io", []),
+    ("tools/candelabra/scene", ["tools/candelabra/io", PUBLIC]),
+    ("tools/candelabra/gltf", ["tools/candelabra/scene", "tools/candelabra/io", PUBLIC]),
+    ("tools/candelabra/generate", ["tools/candelabra/scene", "tools/candelabra/io", PUBLIC]),
+    ("tools/candelabra/json", ["tools/candelabra/gltf", "tools/candelabra/generate", "tools/candelabra/scene",
+                               "tools/candelabra/io", PUBLIC]),
+    ("tools/candelabra/load", ["tools/candelabra/json", "tools/candelabra/gltf", "tools/candelabra/generate",
+                               "tools/candelabra/scene", "tools/candelabra/io", PUBLIC]),
+    ("tools/candelabra/truth", ["tools/candelabra/scene", "tools/candelabra/io", "engine/reference", PUBLIC]),
+    # The program draws its frames through the public face; of the engine's inside it may use the gpu
+    # floor and the raster pass, both of which are made to be used alone.
+    ("tools/candelabra/render", ["tools/candelabra/scene", "tools/candelabra/io", PUBLIC, "engine/gpu",
+                                 "engine/gbuffer", "shaders/shared/specular_methods.h",
+                                 "shaders/shared/heat_map.h", "candelabra_commit.h",
+                                 "candelabra_program_shaders.h"]),
+    # What measures may look below the public face, and compares with the double-precision truth.
+    ("tools/candelabra/measure", ["tools/candelabra/render", "tools/candelabra/truth", "tools/candelabra/load",
+                                  "tools/candelabra/generate", "tools/candelabra/scene", "tools/candelabra/io",
+                                  PUBLIC, "engine/gpu", "engine/tables", "engine/lights/pack_lights.h",
+                                  "engine/surfaces/camera.h", "engine/shading/shade_kernels.h",
+                                  "engine/reference", "shaders/shared", "candelabra_shaders.h",
+                                  "candelabra_bench_shaders.h"]),
+    ("tools/candelabra/viewer", ["tools/candelabra/measure", "tools/candelabra/render", "tools/candelabra/load",
+                                 "tools/candelabra/json", "tools/candelabra/generate", "tools/candelabra/scene",
+                                 "tools/candelabra/io", PUBLIC, "engine/gpu", "engine/reference"]),
+    ("tools/candelabra/commands", ["tools/candelabra/viewer", "tools/candelabra/measure",
+                                   "tools/candelabra/render", "tools/candelabra/truth", "tools/candelabra/load",
+                                   "tools/candelabra/generate", "tools/candelabra/scene", "tools/candelabra/io",
+                                   PUBLIC, "engine/reference"]),
+    ("tools/candelabra", ["tools/candelabra/commands", "tools/candelabra/render", "tools/candelabra/scene",
+                          "tools/candelabra/io"]),
+    ("tools/fit", ["engine/reference", "shaders/shared/ltc.h"]),
+
+    # Written as if in a project of their own, which finds the installed engine.
+    ("samples/common", []),
+    ("samples/embed_c", ["samples/common"]),
+    ("samples/embed_forward", ["samples/common", "shaders/lib/forward.glsl", "ball_frag.h", "ball_vert.h"]),
+    ("samples/embed_minimal", ["samples/common"]),
+    ("samples/embed_window", ["samples/common", "boxes.frag.inc", "boxes.vert.inc"]),
+
+    # Tests may include everything, and nothing includes tests.
+    ("tests", ["engine", "shaders", "tools", "candelabra_probes.h"]),
+]
+
+# Where quoted includes of files in a folder are looked for, after the includer's own folder.
+SEARCHED = [
+    ("engine", ["engine", "engine/include", "shaders"]),
+    ("shaders", ["shaders"]),
+    ("tools/candelabra", ["tools/candelabra", "engine", "engine/include", "shaders"]),
+    ("tools/fit", ["tools", "engine", "shaders"]),
+    ("samples", ["samples/common", "shaders"]),
+    ("tests", ["tests", "tests/data", "tools/candelabra", "tools", "engine", "engine/include", "shaders"]),
+]
+
+# Includes inside the engine that lead upward: the lighting rooms are being made independent of the
+# context object in engine/lighting. Whoever removes such an include removes its line here.
+PENDING = {
+    ("engine/clusters/clusters.cpp", "engine/lighting/lighting.h"),
+    ("engine/lights/light_edits.cpp", "engine/lighting/lighting.h"),
+    ("engine/lights/light_table.cpp", "engine/shading/shade_kernels.h"),
+    ("engine/lights/pack_lights.cpp", "engine/shading/shade_kernels.h"),
+    ("engine/lights/reach.cpp", "engine/shading/shade_kernels.h"),
+    ("engine/shading/influence.cpp", "engine/view/view_plan.h"),
+    ("engine/shading/shade_kernels.cpp", "engine/lighting/lighting.h"),
+    ("engine/view/frame_passes.cpp", "engine/lighting/lighting.h"),
+    ("engine/view/surface_overlay.cpp", "engine/lighting/lighting.h"),
+    ("engine/view/view.cpp", "engine/lighting/lighting.h"),
+    ("engine/view/view_bindings.cpp", "engine/lighting/lighting.h"),
+    ("engine/view/view_checks.cpp", "engine/lighting/lighting.h"),
+    ("engine/view/view_plan.h", "engine/lighting/lighting.h"),
+}
+
+# What public headers may include with angle brackets: the standard library and Vulkan.
+PUBLIC_SYSTEM = re.compile(r"^(vulkan/vulkan_core\.h|[a-z_]+(\.h)?)$")
+
+SUFFIXES = {".c", ".comp", ".cpp", ".frag", ".glsl", ".h", ".hpp", ".vert"}
+
+
+def within(path, place):
+    return path == place or path.startswith(place + "/")
+
+
+def is_generated(place):
+    """Whether an entry of a room's list is a header that the build generates."""
+    return "/" not in place and "." in place
+
+
+def room_of(path, rooms):
+    """The room that a file belongs to; None: it stands in no room."""
+    return max((folder for folder, _ in rooms if within(path, folder)), key=len, default=None)
+
+
+def resolve(path, include, files):
+    """The files that an include may mean."""
+    searched = next((places for folder, places in SEARCHED if within(path, folder)), [])
+    places = [path.rpartition("/")[0]] + searched
+    return {posixpath.normpath(f"{place}/{include}") for place in places} & files.keys()
+
+
+def cycles(edges):
+    """The strongly connected components of more than one node (Tarjan 1972), each in sorted order."""
+    index, low, stack, found = {}, {}, [], []
+
+    def visit(node):
+        index[node] = low[node] = len(index)
+        stack.append(node)
+        for other in edges.get(node, ()):
+            if other not in index:
+                visit(other)
+            if other in stack:
+                low[node] = min(low[node], low[other])
+        if low[node] == index[node]:
+            component = stack[stack.index(node):]
+            del stack[stack.index(node):]
+            if len(component) > 1 or node in edges.get(node, ()):
+                found.append(sorted(component))
+
+    for node in sorted(edges):
+        if node not in index:
+            visit(node)
+    return found
+
+
+def check_table(rooms):
+    """What is wrong with the list of rooms itself."""
+    order = [folder for folder, _ in rooms]
+    for at, (folder, allowed) in enumerate(rooms):
+        for place in allowed:
+            if not is_generated(place) and not any(
+                    within(place, below) or within(below, place) for below in order[:at]):
+                yield f"the list of rooms: {folder} may include {place}, which does not stand before it"
+
+
+def check(files, rooms, pending=frozenset()):
+    """What is wrong with the includes of `files`, texts by path."""
+    yield from check_table(rooms)
+    allowed = dict(rooms)
+    generated = {place for places in allowed.values() for place in places if is_generated(place)}
+    by_file, by_room = {}, {}
+    for path, text in sorted(files.items()):
+        if pathlib.Path(path).suffix not in SUFFIXES:
+            continue
+        room = room_of(path, rooms)
+        if room is None:
+            yield f"{path}: stands in no room"
+            continue
+        for include in re.findall(r'^\s*#\s*include "([^"]+)"', text, re.MULTILINE):
+            if include in generated:
+                if include not in allowed[room] and room != "tests":
+                    yield f'{path}: may not include "{include}"'
+                continue
+            targets = resolve(path, include, files)
+            if len(targets) != 1:
+                yield f'{path}: "{include}" ' + (f"means {' and '.join(sorted(targets))}" if targets
+                                                  else "is no file of the repository")
+                continue
+            target = targets.pop()
+            if (path, target) in pending:
+                continue
+            by_file.setdefault(path, set()).add(target)
+            other = room_of(target, rooms)
+            if other != room:
+                by_room.setdefault(room, set()).add(other)
+                if not any(within(target, place) for place in allowed[room]):
+                    yield f'{path}: may not include "{include}": {room} may not include {other}'
+    for component in cycles(by_file):
+        yield "files include each other in a circle: " + ", ".join(component)
+    for component in cycles(by_room):
+        yield "rooms include each other in a circle: " + ", ".join(component)
+
+
+def check_public(files):
+    """Includes with angle brackets in the headers that hosts include."""
+    for path, text in sorted(files.items()):
+        if within(path, PUBLIC):
+            for include in re.findall(r"^\s*#\s*include <([^>]+)>", text, re.MULTILINE):
+                if not PUBLIC_SYSTEM.match(include) and \
+                        not (path.endswith("/glm.hpp") and include.startswith("glm/")):
+                    yield f"{path}: may not include <{include}>"
+
+
+def test_the_test():
+    """Plants one of each fault: every one is found, and nothing where there is none."""
+    rooms = [("engine/low", []), ("engine/high", ["engine/low"])]
+    low, high = "engine/low/a.h", "engine/high/b.h"
+
+    def found(files, rooms=rooms, **more):
+        return [fault.split(": ")[0] for fault in check(files, rooms, **more)]
+
+    around = "files include each other in a circle"
+    assert found({low: "", high: '#include "low/a.h"\n'}) == []
+    assert found({low: '#include "high/b.h"\n', high: ""}) == [low]  # upward
+    assert found({low: '#include "c.h"\n', "engine/low/c.h": '#include "low/a.h"\n'}) == [around]
+    assert found({low: '#include "a.h"\n'}) == [around]
+    three = {low: '#include "c.h"\n', "engine/low/c.h": '#include "d.h"\n', "engine/low/d.h": '#include "a.h"\n'}
+    assert found(three) == [around]
+    assert found(three, pending={("engine/low/d.h", low)}) == []
+    assert found({low: '#include "high/b.h"\n', high: "", "engine/high/c.h": '#include "low/a.h"\n'}) == \
+        [low, "rooms include each other in a circle"]
+    assert found({low: '#include "nowhere.h"\n'}) == [low]
+    assert found({"engine/other/a.h": ""}) == ["engine/other/a.h"]  # in no room
+    assert found({}, [("engine/low", ["engine/high"]), ("engine/high", [])]) == ["the list of rooms"]
+    assert list(check_public({f"{PUBLIC}/a.h": "#include <vulkan/vulkan.h>\n"})) != []
+    assert list(check_public({f"{PUBLIC}/a.h": "#include <vulkan/vulkan_core.h>\n"})) == []
+
+
+def main():
+    test_the_test()
+    root = pathlib.Path(sys.argv[1]).resolve()
+    files = {path.relative_to(root).as_posix(): path.read_text(encoding="utf-8")
+             for folder in ("engine", "samples", "shaders", "tests", "tools")
+             for path in sorted((root / folder).rglob("*")) if path.suffix in SUFFIXES | {".inc"}}
+    failures = list(check(files, ROOMS, PENDING)) + list(check_public(files))
+    print("\n".join(failures) or f"{len(files)} files in {len(ROOMS)} rooms include each other as they may")
+    return 1 if failures else 0
+
+
+sys.setrecursionlimit(10_000)
+sys.exit(main())

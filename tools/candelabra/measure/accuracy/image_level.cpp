@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/accuracy/image_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "io/statistics.h"
+#include "load/load.h"
+#include "measure/kernels/light_kernels.h"
+#include "reference/render.h"
+#include "render/camera.h"
+#include "render/readback.h"
+#include "truth/reference_scene.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct Variants {
+    std::vector<FrameTime> times;
+    std::vector<std::vector<double>> lightingMs; // [variant][round]
+    std::vector<Image> images;                   // of the last timed frame
+};
+
+bool evaluatesLights(const char* kernel)
+{
+    return passName(kernel).starts_with("shade_");
+}
+
+// Frames of all variants in turn.
+Variants runVariants(const VulkanContext& context, Renderer& renderer,
+                     const std::vector<FrameOptions>& variants, uint32_t rounds,
+                     const std::function<void()>& onRound)
+{
+    Variants out;
+    const size_t n = variants.size();
+    std::vector<std::vector<double>> shading(n);
+    out.lightingMs.resize(n);
+    out.images.resize(n);
+    for (uint32_t round = 0; round <= rounds; ++round) {
+        for (size_t i = 0; i < n; ++i) {
+            context.submitAndWait(
+                [&](VkCommandBuffer cmd) { renderer.record(cmd, 0, variants[i]); });
+            if (round == 0) // compiles on first use
+                continue;
+            const CndLightingStats stats = renderer.lightingStats(0);
+            double all = 0, evaluating = 0;
+            for (uint32_t k = 0; k < stats.kernelTimeCount; ++k) {
+                all += stats.kernelTimes[k].ms;
+                evaluating +=
+                    evaluatesLights(stats.kernelTimes[k].name) ? stats.kernelTimes[k].ms : 0;
+            }
+            out.lightingMs[i].push_back(all);
+            shading[i].push_back(evaluating);
+            if (round == rounds)
+                out.images[i] = readRadiance(context, renderer);
+        }
+        onRound();
+    }
+    for (size_t i = 0; i < n; ++i) {
+        std::vector<double> ratios;
+        for (uint32_t round = 0; round < rounds; ++round)
+            ratios.push_back(out.lightingMs[0][round] > 0
+                                 ? out.lightingMs[i][round] / out.lightingMs[0][round]
+                                 : 0);
+        out.times.push_back({medianOf(out.lightingMs[i]), medianOf(shading[i]), medianOf(ratios)});
+    }
+    return out;
+}
+
+FrameOptions frameOf(const Scene& scene)
+{
+    FrameOptions frame{.camera = selectCamera(scene, ""), .lightsVisible = false};
+    cndDefaultExposureSettings(&frame.exposure);
+    return frame;
+}
+
+void integrate(const Scene& scene, const ImageLevelSettings& s, Progress& progress, ImageScene& out)
+{
+    const reference::Scene model =
+        toReference(scene, selectCamera(scene, ""), double(s.size.width) / s.size.height, false);
+    std::vector<uint32_t> rows(s.size.height);
+    std::iota(rows.begin(), rows.end(), 0u);
+    const reference::TruthRows truth = reference::renderTruth(
+        model, s.size.width, s.size.height, rows,
+        {.relative = s.truthTolerance, .onRow = [&] { progress.advance(1); }});
+    out.unconverged = truth.unconverged;
+    out.truth = {s.size.width, s.size.height, 3, {}};
+    for (const glm::dvec3& pixel : truth.pixels)
+        for (int i = 0; i < 3; ++i)
+            out.truth.pixels.push_back(float(pixel[i]));
+}
+
+// In the progress bar a round of frames weighs as much as these rows of truth.
+constexpr double stepsPerRound = 30;
+
+BudgetPoint budgetPoint(const Image& full, const Image& image)
+{
+    BudgetPoint out{};
+    const double peak = double(*std::max_element(full.pixels.begin(), full.pixels.end()));
+    std::vector<double> relative;
+    for (size_t i = 0; i < full.pixels.size(); ++i) {
+        const double d = std::abs(double(image.pixels[i]) - double(full.pixels[i]));
+        out.maxOverPeak = std::max(out.maxOverPeak, peak > 0 ? d / peak : 0);
+        if (double(full.pixels[i]) > 1e-3 * peak)
+            relative.push_back(d / double(full.pixels[i]));
+    }
+    if (relative.empty())
+        return out;
+    std::sort(relative.begin(), relative.end());
+    out.meanRel = std::accumulate(relative.begin(), relative.end(), 0.0) / double(relative.size());
+    out.p99Rel = relative[size_t(std::ceil(0.99 * double(relative.size()))) - 1];
+    return out;
+}
+
+} // namespace
+
+std::vector<CndSpecularMethod> imageMethods()
+{
+    std::vector<CndSpecularMethod> out{CND_SPECULAR_KARIS};
+    for (const CndSpecularMethod method : methodsOf(CND_LIGHT_SPHERE))
+        if (method != CND_SPECULAR_KARIS)
+            out.push_back(method);
+    return out;
+}
+
+double imageLevelSteps(const ImageLevelSettings& s)
+{
+    return double(benchScenes().size()) * (s.size.height + stepsPerRound * (s.rounds + 1)) +
+           stepsPerRound * (s.rounds + 1);
+}
+
+std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageLevelSettings& s,
+                                      Progress& progress)
+{
+    std::vector<ImageScene> out;
+    for (const Scene& scene : benchScenes()) {
+        ImageScene measured{.name = scene.name, .about = {}, .truth = {}, .points = {}};
+        progress.doing("truth: " + scene.name);
+        integrate(scene, s, progress, measured);
+        progress.doing("frames: " + scene.name);
+        uint32_t mask = 0;
+        for (const CndSpecularMethod method : s.methods)
+            mask |= 1u << method;
+        Renderer renderer(context, scene, {.size = s.size, .specularMethods = mask});
+        std::vector<FrameOptions> variants;
+        for (const CndSpecularMethod method : s.methods) {
+            variants.push_back(frameOf(scene));
+            variants.back().specular = method;
+            variants.back().sampleCount = s.sampleCount;
+        }
+        Variants run = runVariants(context, renderer, variants, s.rounds,
+                                   [&] { progress.advance(stepsPerRound); });
+        for (size_t i = 0; i < variants.size(); ++i) {
+            ImagePoint point{.method = variants[i].specular,
+                             .time = run.times[i],
+                             .error = imageDifference(run.images[i], measured.truth),
+                             .radiance = std::move(run.images[i])};
+            const Displayed displayed = displayBoth(measured.truth, point.radiance);
+            point.error.flip = meanOf(flipMap(displayed.truth, displayed.value));
+            measured.points.push_back(std::move(point));
+        }
+        out.push_back(std::move(measured));
+    }
+    return out;
+}
+
+Scene budgetScene(const ImageLevelSettings& s)
+{
+    return loadScene(s.budgetScene, {.lights = s.budgetLights});
+}
+
+BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSettings& s,
+                           const Scene& scene, Progress& progress)
+{
+    progress.doing("error budgets: " + s.budgetScene);
+    Renderer renderer(context, scene,
+                      {.size = s.budgetSize,
+                       .specularMethods = 1u << CND_SPECULAR_KARIS | 1u << CND_SPECULAR_CONIC});
+    BudgetSweep out{
+        .scene = scene.name, .lights = scene.lights.size(), .size = s.budgetSize, .points = {}};
+    std::vector<FrameOptions> variants;
+    const auto add = [&](CndSpecularMethod method, double budget) {
+        variants.push_back(frameOf(scene));
+        variants.back().specular = method;
+        variants.back().errorBudget = float(budget);
+    };
+    add(CND_SPECULAR_KARIS, 0);
+    for (const double budget : {0.0, 0.003, 0.01, 0.03})
+        add(CND_SPECULAR_CONIC, budget);
+    const Variants run = runVariants(context, renderer, variants, s.rounds,
+                                     [&] { progress.advance(stepsPerRound); });
+    for (size_t i = 0; i < variants.size(); ++i) {
+        const size_t full = std::min<size_t>(i, 1);
+        BudgetPoint point = budgetPoint(run.images[full], run.images[i]);
+        point.method = variants[i].specular;
+        point.budget = double(variants[i].errorBudget);
+        point.time = run.times[i];
+        std::vector<double> ratios;
+        for (uint32_t round = 0; round < s.rounds; ++round)
+            ratios.push_back(run.lightingMs[full][round] > 0
+                                 ? run.lightingMs[i][round] / run.lightingMs[full][round]
+                                 : 0);
+        point.ratioToFull = medianOf(ratios);
+        out.points.push_back(point);
+    }
+    return out;
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/accuracy/kernel_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr double dielectricF0 = 0.04;
+
+struct Error {
+    double value;
+    size_t sample;
+};
+
+ErrorStatistics statistics(std::vector<Error> errors)
+{
+    ErrorStatistics out{.count = errors.size()};
+    if (errors.empty())
+        return out;
+    std::sort(errors.begin(), errors.end(),
+              [](const Error& a, const Error& b) { return a.value < b.value; });
+    for (const Error& e : errors)
+        out.mean += e.value / double(errors.size());
+    const auto rank = [&](double share) { // nearest rank
+        return errors[size_t(std::ceil(share * double(errors.size()))) - 1].value;
+    };
+    out.p95 = rank(0.95);
+    out.p99 = rank(0.99);
+    out.max = errors.back().value;
+    out.worst = errors.back().sample;
+    return out;
+}
+
+// A quantity of the true and of the shader's response.
+struct Quantity {
+    std::function<double(const reference::LightResponse&)> truth;
+    std::function<double(const gpu::BenchResponse&)> shader;
+};
+
+const Quantity mirror{[](const reference::LightResponse& t) { return t.a; },
+                      [](const gpu::BenchResponse& r) { return double(r.a); }};
+const Quantity dielectric{
+    [](const reference::LightResponse& t) { return dielectricF0 * (t.a - t.b) + t.b; },
+    [](const gpu::BenchResponse& r) {
+        return dielectricF0 * (double(r.a) - double(r.b)) + double(r.b);
+    }};
+const Quantity diffuse{[](const reference::LightResponse& t) { return t.f; },
+                       [](const gpu::BenchResponse& r) { return double(r.f); }};
+
+std::vector<double> peaks(const SampleSet& set, const Quantity& quantity)
+{
+    std::vector<double> out(set.groups, 0.0);
+    for (const LightSample& s : set.samples)
+        out[s.group] = std::max(out[s.group], quantity.truth(s.truth));
+    return out;
+}
+
+bool isValid(const gpu::BenchResponse& r)
+{
+    const auto good = [](float x) { return std::isfinite(x) && x >= 0; };
+    return good(r.f) && good(r.a) && good(r.b);
+}
+
+HorizonStatistics compare(const SampleSet& set, std::span<const gpu::BenchResponse> responses,
+                          const Quantity& quantity)
+{
+    const std::vector<double> peak = peaks(set, quantity);
+    std::vector<Error> all, above, crossing;
+    for (size_t i = 0; i < set.samples.size(); ++i) {
+        const LightSample& s = set.samples[i];
+        if (s.horizon == Horizon::Below || !isValid(responses[i]) || !(peak[s.group] > 0))
+            continue;
+        const double difference = quantity.shader(responses[i]) - quantity.truth(s.truth);
+        const Error e{std::abs(difference) / peak[s.group], i};
+        all.push_back(e);
+        (s.horizon == Horizon::Above ? above : crossing).push_back(e);
+    }
+    return {statistics(std::move(all)), statistics(std::move(above)),
+            statistics(std::move(crossing))};
+}
+
+double scanL1(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
+{
+    std::vector<double> error(set.groups, 0.0), sum(set.groups, 0.0);
+    for (size_t i = 0; i < set.samples.size(); ++i)
+        if (set.samples[i].scan && isValid(responses[i])) {
+            error[set.samples[i].group] += std::abs(responses[i].a - set.samples[i].truth.a);
+            sum[set.samples[i].group] += set.samples[i].truth.a;
+        }
+    double mean = 0;
+    for (uint32_t g = 0; g < set.groups; ++g)
+        mean += sum[g] > 0 ? error[g] / sum[g] / set.groups : 0;
+    return mean;
+}
+
+Json toJson(const ErrorStatistics& s)
+{
+    return {{"samples", s.count},
+            {"meanPercent", 100 * s.mean},
+            {"p95Percent", 100 * s.p95},
+            {"p99Percent", 100 * s.p99},
+            {"maxPercent", 100 * s.max}};
+}
+
+Json toJson(const HorizonStatistics& s)
+{
+    return {{"all", toJson(s.all)}, {"above", toJson(s.above)}, {"crossing", toJson(s.crossing)}};
+}
+
+} // namespace
+
+KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
+{
+    KernelError out{.mirror = compare(set, responses, mirror),
+                    .dielectric = compare(set, responses, dielectric),
+                    .diffuse = compare(set, responses, diffuse),
+                    .scanL1 = scanL1(set, responses)};
+    const std::vector<double> peak = peaks(set, mirror);
+    for (size_t i = 0; i < set.samples.size(); ++i) {
+        out.invalid += !isValid(responses[i]);
+        if (set.samples[i].horizon == Horizon::Below && peak[set.samples[i].group] > 0)
+            out.leak = std::max(out.leak, double(responses[i].a) / peak[set.samples[i].group]);
+    }
+    return out;
+}
+
+Json toJson(const KernelError& e)
+{
+    return {{"fresnel1", toJson(e.mirror)},         {"F0_0.04", toJson(e.dielectric)},
+            {"formFactor", toJson(e.diffuse)},      {"scanRelativeL1Percent", 100 * e.scanL1},
+            {"leakFromBelowPercent", 100 * e.leak}, {"invalid", e.invalid}};
+}
+
+std::string describeSample(const SampleSet& set, size_t i)
+{
+    const CndLight& light = set.lights[i];
+    const gpu::BenchReceiver& r = set.receivers[i];
+    const bool distant = light.type == CND_LIGHT_DISTANT_SPHERE;
+    const glm::dvec3 to =
+        distant ? -glm::dvec3(light.direction[0], light.direction[1], light.direction[2])
+                : glm::dvec3(light.position[0], light.position[1], light.position[2]);
+    constexpr double degrees = 180 / std::numbers::pi;
+    const double distance = glm::length(to);
+    const double s = std::min(double(light.radius) / distance, 1.0);
+    const glm::dvec3 mirrored(-r.v.x, -r.v.y, r.v.z);
+    return fmt::format("alpha {:.4f}, view {:.1f} deg, light {:.1f} deg from the normal and {:.1f} "
+                       "from the mirror "
+                       "direction, half angle {:.2f} deg",
+                       set.alphaOf(i), std::acos(std::clamp(double(r.v.z), -1.0, 1.0)) * degrees,
+                       std::acos(std::clamp(to.z / distance, -1.0, 1.0)) * degrees,
+                       std::acos(std::clamp(glm::dot(to / distance, mirrored), -1.0, 1.0)) *
+                           degrees,
+                       std::asin(s) * degrees);
+}
+
+} // namespace candelabra::app

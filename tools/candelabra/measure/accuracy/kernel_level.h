@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Error against time of every method for every light type, on explicit receivers and lights.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/progress.h"
+#include "measure/accuracy/kernel_error.h"
+#include "measure/accuracy/kernel_time.h"
+
+namespace candelabra::app
+{
+
+// The light types whose specular is approximated.
+std::vector<uint32_t> areaLightTypes();
+
+struct KernelLevelSettings {
+    std::vector<uint32_t> lightTypes = areaLightTypes();
+    uint32_t groups = 300; // of spheres; other types have a third, at least 20
+    uint64_t seed = 1;
+    double truthTolerance = 1e-6;
+    uint32_t sampleCount = 16; // of the sampled method, for time and error
+    TimingSettings timing;
+};
+
+// One method for one light type.
+struct KernelPoint {
+    uint32_t lightType;
+    CndSpecularMethod method;
+    KernelError error;
+    std::string worst; // what is special about the worst sample with F = 1
+    struct Class {
+        EvaluationClass evaluationClass;
+        VariantTime both;      // diffuse and specular; ratio: to karis
+        double specularNs = 0; // both less diffuse alone
+    };
+    std::vector<Class> classes; // empty without timestamps
+};
+
+// Without the loop, the light's direction and the product of cosine and s^2, which is all that the
+// engine evaluates for a light above the horizon; the naive form does not tell them apart.
+struct FormFactorTime {
+    double robustNs = 0, naiveNs = 0, naiveAboveNs = 0;
+};
+
+struct KernelLevel {
+    std::vector<KernelPoint> points;
+    FormFactorTime formFactor;
+    double pointBudgetNs = 0;     // sphere evaluated as a point by an error budget
+    size_t unconvergedTruths = 0; // samples whose quadrature did not reach the tolerance
+    size_t samples = 0;
+};
+
+double kernelLevelSteps(const KernelLevelSettings& settings);
+KernelLevel measureKernelLevel(const VulkanContext& context, const KernelLevelSettings& settings,
+                               Progress& progress);
+
+std::string kernelTables(const KernelLevel& level);
+Json kernelJson(const KernelLevelSettings& settings, const KernelLevel& level);
+// Mean error against nanoseconds, above the horizon; one series per light type.
+std::string kernelPlot(const KernelLevel& level, const DeviceInfo& device);
+
+} // namespace candelabra::app

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one evaluation of a light costs on the device, everything else subtracted.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "measure/kernels/light_kernels.h"
+
+namespace candelabra::app
+{
+
+enum class EvaluationClass : uint32_t {
+    Point = gpu::EVALUATE_POINT,
+    Above = gpu::EVALUATE_ABOVE,
+    Near = gpu::EVALUATE_NEAR,
+    General = gpu::EVALUATE_GENERAL
+};
+const char* className(EvaluationClass c);
+
+struct TimedVariant {
+    std::string name;
+    Evaluation evaluation;
+    EvaluationClass evaluationClass = EvaluationClass::Above;
+    EvaluationClass lights = evaluationClass; // the class whose lights are evaluated so
+    // Nonzero: a form of the form factor alone instead (BENCH_FORM_FACTOR_*).
+    bool formFactor = false;
+    uint32_t form = 0;
+};
+
+struct VariantTime {
+    double medianNs = 0, minNs = 0; // per (pixel, light) on the whole device
+    // Of the ratio to the variant's baseline in the same round; 0 without one.
+    double ratio = 0;
+};
+
+struct TimingSettings {
+    uint32_t lanes = 1u << 16;
+    uint32_t fewLights = 8, manyLights = 40;
+    uint32_t rounds = 15;
+    uint64_t seed = 1;
+};
+
+// Every round runs every variant once with few and once with many lights; a cost is the difference
+// of the two times over (manyLights - fewLights) lanes. `baseline[i]`: index of the variant that
+// variant i is compared with, round by round, or -1. Empty when the device has no timestamps.
+// `onRound` is called after each.
+std::vector<VariantTime> timeVariants(const VulkanContext& context,
+                                      const std::vector<TimedVariant>& variants,
+                                      const std::vector<int>& baseline,
+                                      const TimingSettings& settings,
+                                      const std::function<void()>& onRound);
+
+} // namespace candelabra::app

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/culling/culling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "load/load.h"
+#include "measure/culling/baselines.h"
+#include "measure/frame/brute_check.h"
+#include "measure/frame/frames.h"
+#include "render/camera.h"
+#include "render/readback.h"
+#include "scene/scene_error.h"
+#include "scene/scene_options.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+// Brute force that takes longer than this is drawn once, not in every round.
+constexpr double patienceMs = 1000;
+// Pairs of the strip that brute force is estimated from.
+constexpr double stripPairs = 2e8;
+
+bool shades(const std::string& pass)
+{
+    return pass.starts_with("shade_") || pass == "baseline_shade" || pass == "baseline_floor";
+}
+
+// Of the tables that shading reads, filled by the first frame.
+bool countsAsLighting(const std::string& pass)
+{
+    return pass != "dfg_table";
+}
+
+std::vector<PassTime> passesOf(const CndLightingStats& stats)
+{
+    std::vector<PassTime> out;
+    for (uint32_t i = 0; i < stats.kernelTimeCount; ++i) {
+        const std::string name = passName(stats.kernelTimes[i].name);
+        if (countsAsLighting(name))
+            out.push_back({name, stats.kernelTimes[i].ms});
+    }
+    return out;
+}
+
+double largestDifference(const Image& image, const Image& reference)
+{
+    float largest = 0, difference = 0;
+    for (size_t i = 0; i < reference.pixels.size(); ++i) {
+        largest = std::max(largest, std::abs(reference.pixels[i]));
+        const float d = std::abs(image.pixels[i] - reference.pixels[i]);
+        if (!std::isfinite(d))
+            return std::numeric_limits<double>::infinity();
+        difference = std::max(difference, d);
+    }
+    return largest > 0 ? double(difference) / double(largest) : 0;
+}
+
+FrameOptions frameOptions(const Scene& scene)
+{
+    FrameOptions out{.camera = selectCamera(scene, ""), .lightsVisible = false};
+    cndDefaultExposureSettings(&out.exposure);
+    return out;
+}
+
+// One configuration, ready to be drawn in any way.
+class Frame
+{
+public:
+    Frame(const VulkanContext& context, const Scene& scene, PixelSize size)
+        : context_(context),
+          scene_(scene),
+          options_(frameOptions(scene)),
+          renderer_(context, scene, {.size = size, .specularMethods = 1u << CND_SPECULAR_CONIC}),
+          baselines_(context, renderer_, scene, options_)
+    {
+        drawEngine(); // compiles, fills tables, uploads
+        drawEngine();
+        image_ = readRadiance(context_, renderer_);
+    }
+    std::vector<PassTime> drawEngine()
+    {
+        context_.submitAndWait([&](VkCommandBuffer cmd) { renderer_.record(cmd, 0, options_); });
+        return passesOf(renderer_.lightingStats(0));
+    }
+    std::vector<PassTime> drawBaseline(Baseline b) { return baselines_.draw(b); }
+    // Of the last frame drawn, to the engine's.
+    double difference() const
+    {
+        return largestDifference(readRadiance(context_, renderer_), image_);
+    }
+    BruteCheck drawBrute()
+    {
+        const uint64_t lights = scene_.lights.size();
+        return compareWithBruteForce(context_, renderer_, options_, image_,
+                                     checkRects(renderer_.size(), lights, CheckExtent::Full),
+                                     lights, [](double) {});
+    }
+    // ms, from a strip across the middle.
+    double estimateBrute()
+    {
+        const auto [width, height] = renderer_.size();
+        const uint32_t rows = std::min(height, 8u);
+        const double affordable = stripPairs / double(scene_.lights.size()) / rows;
+        const uint32_t columns = std::min(width, std::max(uint32_t(affordable) / 64 * 64, 64u));
+        const VkRect2D strip{{int32_t((width - columns) / 2), int32_t((height - rows) / 2)},
+                             {columns, rows}};
+        const auto once = [&] {
+            context_.submitAndWait([&](VkCommandBuffer cmd) {
+                renderer_.recordUnlit(cmd, options_);
+                renderer_.recordBruteRect(cmd, options_, strip);
+                renderer_.recordBruteEnd(cmd);
+            });
+            double ms = 0;
+            for (const PassTime& pass : passesOf(renderer_.lightingStats(0)))
+                ms += pass.name == "shade_brute" ? pass.ms : 0;
+            return ms;
+        };
+        once(); // compiles
+        return once() * double(width) * height / (double(columns) * rows);
+    }
+    CndLightingStats countPairs() { return app::countPairs(context_, renderer_, options_); }
+    BaselineStats statsOf(Baseline b) const { return baselines_.stats(b); }
+
+private:
+    const VulkanContext& context_;
+    const Scene& scene_;
+    FrameOptions options_;
+    Renderer renderer_;
+    Baselines baselines_;
+    Image image_;
+};
+
+Contender withStats(const char* name, const BaselineStats& s)
+{
+    Contender c{.name = name};
+    c.listEntries = s.listEntries;
+    c.listBytes = s.listBytes;
+    c.listedPairs = s.listedPairs;
+    c.evaluatedPairs = s.evaluatedPairs;
+    c.insidePairs = s.insidePairs;
+    c.contributingPairs = s.contributingPairs;
+    return c;
+}
+
+Contender engineContender(const CndLightingStats& s)
+{
+    Contender c{.name = engineName, .difference = 0};
+    c.listEntries = s.listEntries;
+    // Whole pages are handed out; what they hold is all that the statistics say.
+    c.listBytes = uint64_t(s.listEntries) * sizeof(uint32_t);
+    c.listedPairs = s.listedPairs;
+    c.evaluatedPairs = s.evaluatedPairs;
+    c.insidePairs = s.insidePairs;
+    c.contributingPairs = s.contributingPairs;
+    return c;
+}
+
+CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& settings,
+                          const Scene& scene, CullingPoint point,
+                          const std::function<void()>& onRound)
+{
+    Frame frame(context, scene, point.size);
+    const CndLightingStats stats = frame.countPairs();
+    point.tiles = stats.tileCount;
+    point.splitTiles = stats.splitTileCount;
+    point.unlistedClusters = stats.unlistedClusters;
+    Contender engine = engineContender(stats), floor{.name = floorName};
+    Contender tiles = withStats(tilesName, frame.statsOf(Baseline::Tiles));
+    Contender froxels = withStats(froxelsName, frame.statsOf(Baseline::Froxels));
+    floor.contributingPairs = floor.listedPairs = tiles.contributingPairs;
+    Contender brute{.name = bruteName};
+    const double estimate = frame.estimateBrute();
+    if (estimate > 1e3 * settings.bruteLimit)
+        brute.skippedMs = estimate;
+    frame.drawBaseline(Baseline::Tiles); // compiles
+    tiles.difference = frame.difference();
+    frame.drawBaseline(Baseline::Froxels);
+    froxels.difference = frame.difference();
+    frame.drawBaseline(Baseline::Floor);
+
+    const std::function<void()> turns[] = {
+        [&] { engine.times.add(frame.drawEngine()); },
+        [&] { tiles.times.add(frame.drawBaseline(Baseline::Tiles)); },
+        [&] { froxels.times.add(frame.drawBaseline(Baseline::Froxels)); },
+        [&] { floor.times.add(frame.drawBaseline(Baseline::Floor)); }};
+    constexpr size_t count = std::size(turns);
+    for (uint32_t round = 0; round < settings.rounds; ++round) {
+        for (size_t i = 0; i < count; ++i)
+            turns[(round + i) % count](); // nobody always comes first
+        if (!brute.skippedMs && (round == 0 || estimate < patienceMs)) {
+            const BruteCheck check = frame.drawBrute();
+            const PassTime pass{"shade_brute", check.bruteMs};
+            brute.times.add({&pass, 1});
+            brute.difference = check.relative();
+        }
+        onRound();
+    }
+    point.contenders = {engine, tiles, froxels, brute, floor};
+    return point;
+}
+
+double ratio(uint64_t a, uint64_t b)
+{
+    return b ? double(a) / double(b) : 0;
+}
+
+} // namespace
+
+double Contender::totalMs() const
+{
+    return times.total().medianMs;
+}
+
+double Contender::shadingMs() const
+{
+    double ms = 0;
+    for (const PassSummary& pass : times.summary())
+        ms += shades(pass.name) ? pass.medianMs : 0;
+    return std::min(ms, totalMs());
+}
+
+double Contender::contributingPerListed() const
+{
+    return ratio(contributingPairs, listedPairs);
+}
+
+double Contender::contributingPerEvaluated() const
+{
+    return ratio(contributingPairs, evaluatedPairs);
+}
+
+bool Contender::hasRightImage() const
+{
+    return !difference || *difference <= (name == bruteName ? BruteCheck::bound : reorderedBound);
+}
+
+const Contender& CullingPoint::of(const std::string& name) const
+{
+    return *std::find_if(contenders.begin(), contenders.end(),
+                         [&](const Contender& c) { return c.name == name; });
+}
+
+const Contender& CullingPoint::bestBaseline() const
+{
+    const Contender* best = &of(tilesName);
+    for (const char* name : {froxelsName, bruteName}) {
+        const Contender& c = of(name);
+        if (!c.skippedMs && c.hasRightImage() &&
+            (!best->hasRightImage() || c.totalMs() < best->totalMs()))
+            best = &c;
+    }
+    return *best;
+}
+
+double cullingSteps(const CullingSettings& s)
+{
+    return double(s.scenes.size() * s.sizes.size() * s.lights.size() * s.overlaps.size()) *
+           s.rounds;
+}
+
+std::vector<CullingPoint> measureCulling(const VulkanContext& context,
+                                         const CullingSettings& settings, Progress& progress)
+{
+    std::vector<CullingPoint> out;
+    for (const std::string& name : settings.scenes)
+        for (const uint32_t overlaps : settings.overlaps)
+            for (const uint32_t lights : settings.lights) {
+                progress.doing(fmt::format("{}, {} lights, {} overlaps", name, lights, overlaps));
+                SceneOptions options{.lights = lights, .seed = settings.seed};
+                options.overlaps = overlaps;
+                std::optional<Scene> scene;
+                try {
+                    scene = loadScene(name, options);
+                } catch (const SceneError& error) {
+                    spdlog::warn("warning: left out: {}", error.what());
+                    progress.advance(double(settings.rounds * settings.sizes.size()));
+                    continue;
+                }
+                for (const PixelSize size : settings.sizes)
+                    out.push_back(measurePoint(
+                        context, settings, *scene,
+                        {.scene = name, .size = size, .lights = lights, .overlaps = overlaps},
+                        [&] { progress.advance(1); }));
+            }
+    return out;
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/frame/frames.h"
+
+#include <fmt/format.h>
+
+#include "io/table.h"
+#include "render/frame_ring.h"
+#include "render/setting_names.h"
+#include "scene/light_names.h"
+
+namespace candelabra::app
+{
+
+MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
+                            const FrameOptions& options, FrameCounts counts, bool moving,
+                            const std::function<void()>& onFrame)
+{
+    FrameRing ring(context, 2);
+    MeasuredFrames out;
+    FrameOptions frame = options;
+    const uint32_t total = counts.warmUp + counts.measured;
+    uint32_t collected = 0;
+    const auto collect = [&](uint32_t slot) {
+        out.last = renderer.stats(slot);
+        if (collected++ >= counts.warmUp)
+            out.times.add(out.last.passes);
+    };
+    uint32_t lastSlot = 0;
+    for (uint32_t i = 0; i < total; ++i) {
+        const auto [cmd, slot, reused] = ring.begin();
+        if (reused)
+            collect(slot);
+        renderer.record(cmd, slot, frame);
+        ring.submit();
+        lastSlot = slot;
+        onFrame();
+        if (moving && i >= counts.warmUp) {
+            frame.time += frameTime;
+            frame.deltaTime = float(frameTime);
+            frame.resetExposure = false;
+        }
+    }
+    ring.wait();
+    if (total > 1)
+        collect(1 - lastSlot);
+    collect(lastSlot);
+    return out;
+}
+
+CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, FrameOptions options)
+{
+    options.countPairs = true;
+    options.heatMap = HeatMap::None;
+    options.culling = CND_CULLING_CLUSTERED;
+    context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
+    return renderer.stats(0).lighting;
+}
+
+std::string passTable(const PassTimes& times)
+{
+    Table table({"GPU pass", "min ms", "median ms", "p95 ms"});
+    const auto add = [&](const PassSummary& pass) {
+        table.add({pass.name, threeDigits(pass.minMs), threeDigits(pass.medianMs),
+                   threeDigits(pass.p95Ms)});
+    };
+    for (const PassSummary& pass : times.summary())
+        add(pass);
+    table.rule();
+    add(times.total());
+    return table.text();
+}
+
+std::string planText(const FrameStats& frame)
+{
+    std::string types;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (const uint32_t count = frame.lighting.lightTypeCounts[type])
+            types += fmt::format("{}{} {}", types.empty() ? "" : ", ", grouped(count),
+                                 lightTypeName(type));
+    std::string out;
+    if (frame.lit)
+        out =
+            fmt::format("lights: {}; other types have no passes\n", types.empty() ? "none" : types);
+    for (const CndPassPlan& pass : frame.plan)
+        out += fmt::format("{:<20} {}\n", pass.name,
+                           pass.skipped ? fmt::format("skipped: {}", pass.skipped) : "runs");
+    return out;
+}
+
+Json toJson(const std::vector<CndPassPlan>& plan)
+{
+    Json out = Json::array();
+    for (const CndPassPlan& pass : plan)
+        out.push_back({{"pass", pass.name},
+                       {"runs", !pass.skipped},
+                       {"skipped", pass.skipped ? Json(pass.skipped) : Json()}});
+    return out;
+}
+
+Json toJson(const PassTimes& times)
+{
+    const auto one = [](const PassSummary& pass) {
+        return Json{{"name", pass.name},
+                    {"minMs", pass.minMs},
+                    {"medianMs", pass.medianMs},
+                    {"p95Ms", pass.p95Ms}};
+    };
+    Json passes = Json::array();
+    for (const PassSummary& pass : times.summary())
+        passes.push_back(one(pass));
+    return {{"frames", times.frames()}, {"passes", passes}, {"total", one(times.total())}};
+}
+
+Json toJson(const CndLightingStats& stats)
+{
+    const double tiles = std::max(stats.tileCount, 1u);
+    return {{"lights", stats.lightCount},
+            {"tiles", stats.tileCount},
+            {"listEntries", stats.listEntries},
+            {"meanListLength", stats.listEntries / tiles},
+            {"maxListLength", stats.maxListLength},
+            {"unlistedClusters", stats.unlistedClusters},
+            {"cutBelowLux", stats.cutBelow},
+            {"listedPairs", stats.listedPairs},
+            {"insidePairs", stats.insidePairs},
+            {"contributingPairs", stats.contributingPairs},
+            {"evaluatedPairs", stats.evaluatedPairs}};
+}
+
+Json toJson(const CndExposureStats& stats)
+{
+    return {{"targetEv100", stats.targetEv100},
+            {"adaptedEv100", stats.adaptedEv100},
+            {"exposurePerCandelaPerSquareMetre", stats.exposure},
+            {"invalidPixels", stats.invalidPixels}};
+}
+
+Json toJson(const FrameOptions& options, CndGBufferLayout layout)
+{
+    const glm::dvec3& p = options.camera.position;
+    const glm::dvec3& f = options.camera.forward;
+    return {{"camera",
+             {{"name", options.camera.name},
+              {"positionMetres", {p.x, p.y, p.z}},
+              {"forward", {f.x, f.y, f.z}}}},
+            {"timeSeconds", options.time},
+            {"specular", specularName(options.specular)},
+            {"sampleCount", options.sampleCount},
+            {"errorBudget", options.errorBudget},
+            {"influence", influenceName(options.influence.rule)},
+            {"influenceError", options.influence.maxError},
+            {"culling", cullingName(options.culling)},
+            {"reuse", reuseName(options.reuse)},
+            {"debug", heatMapName(options.heatMap)},
+            {"gbuffer", gbufferName(layout)},
+            {"toneMap", toneMapName(options.exposure.toneMap)},
+            {"lightsVisible", options.lightsVisible},
+            {"exposure", options.exposure.manual ? "manual" : "auto"},
+            {"compensationEv", options.exposure.compensation}};
+}
+
+Json sceneJson(const Scene& scene, const Renderer& renderer)
+{
+    Json environment; // null: there is none
+    if (scene.environment)
+        environment = {{"file", scene.environment->file},
+                       {"rotationRadians", scene.environment->rotation},
+                       {"scale", scene.environment->scale}};
+    return {{"name", scene.name},
+            {"lights", scene.lights.size()},
+            {"instances", scene.instances.size()},
+            {"triangles", renderer.triangleCount()},
+            {"textures", scene.textures.size()},
+            {"lobes", lobesName(scene.lobes)},
+            {"energyCompensation", scene.energyCompensation},
+            {"environment", environment},
+            {"warnings", scene.warnings}};
+}
+
+} // namespace candelabra::app

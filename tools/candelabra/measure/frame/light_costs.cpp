@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/frame/light_costs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "io/table.h"
+#include "measure/frame/surfaces.h"
+#include "render/frame_ring.h"
+#include "render/readback.h"
+#include "scene/light_layers.h"
+#include "scene/light_names.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr uint32_t costTile = 8; // pixels a side: a group of shade_tiles
+constexpr double everywhere = std::numeric_limits<double>::infinity();
+
+glm::dvec3 vec(const float (&v)[3])
+{
+    return {v[0], v[1], v[2]};
+}
+
+// A light as far as it decides which surfaces it reaches.
+struct Reach {
+    uint32_t light;
+    glm::dvec3 centre{0}; // world space
+    double radius = everywhere;
+    double extent = 0;   // of the emitter around its centre, metres
+    glm::dvec3 axis{0};  // the way it shines; zero: all around
+    double cosOuter = 0; // of the angle to the axis up to which it shines
+    bool distant = false;
+
+    bool covers(const reference::SurfacePoint& s) const
+    {
+        if (distant)
+            return glm::dot(s.normal, -axis) > -extent;
+        const glm::dvec3 away = s.position - centre;
+        if (glm::dot(away, away) >= radius * radius || glm::dot(s.normal, away) >= extent)
+            return false;
+        return axis == glm::dvec3(0) || glm::dot(away, axis) > cosOuter * glm::length(away);
+    }
+};
+
+Reach reachOf(uint32_t index, const CndLight& l, const glm::dvec3& origin)
+{
+    Reach out{.light = index};
+    if (l.type == CND_LIGHT_DIRECTIONAL || l.type == CND_LIGHT_DISTANT_SPHERE) {
+        out.distant = true;
+        out.axis = glm::normalize(vec(l.direction));
+        out.extent = l.type == CND_LIGHT_DISTANT_SPHERE ? l.radius : 0;
+        return out;
+    }
+    out.centre = origin + vec(l.position);
+    out.radius = l.influenceRadius;
+    const glm::dvec3 u = vec(l.axisU), v = vec(l.axisV);
+    switch (l.type) {
+    case CND_LIGHT_SPHERE:
+        out.extent = l.radius;
+        break;
+    case CND_LIGHT_TUBE:
+        out.extent = glm::length(u) + l.radius;
+        break;
+    case CND_LIGHT_RECTANGLE:
+        out.extent = std::sqrt(glm::dot(u, u) + glm::dot(v, v));
+        if (!l.twoSided)
+            out.axis = glm::normalize(glm::cross(u, v));
+        break;
+    case CND_LIGHT_DISC:
+        out.extent = l.radius;
+        if (!l.twoSided)
+            out.axis = glm::normalize(vec(l.direction));
+        break;
+    case CND_LIGHT_SPOT:
+        out.axis = glm::normalize(vec(l.direction));
+        out.cosOuter = std::cos(double(l.outerConeAngle));
+        break;
+    default:
+        break;
+    }
+    return out;
+}
+
+struct Box {
+    glm::dvec3 min{everywhere}, max{-everywhere};
+
+    double squaredDistance(const glm::dvec3& p) const
+    {
+        const glm::dvec3 d = glm::max(glm::max(min - p, p - max), glm::dvec3(0));
+        return glm::dot(d, d);
+    }
+};
+
+std::vector<glm::vec4> drawAndReadPairs(const VulkanContext& context, Renderer& renderer,
+                                        FrameOptions frame)
+{
+    frame.heatMap = HeatMap::Evaluated;
+    frame.reuse = Reuse::None;
+    FrameRing ring(context, 1);
+    const auto [cmd, slot, reused] = ring.begin();
+    renderer.record(cmd, slot, frame);
+    ring.submit();
+    ring.wait();
+    const gpu::Image& pairs = renderer.pairs();
+    const std::vector<uint8_t> bytes =
+        readTexels(context, pairs, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL,
+                   {{0, 0}, {pairs.width, pairs.height}}, sizeof(glm::vec4));
+    std::vector<glm::vec4> out(bytes.size() / sizeof(glm::vec4));
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<uint8_t*>(out.data()));
+    return out;
+}
+
+struct CostRow {
+    uint32_t light;
+    uint64_t pixels;
+    double pairs, share, ms;
+};
+
+std::vector<CostRow> rowsOf(const LightCosts& costs, size_t count, double shadingMs)
+{
+    std::vector<CostRow> out;
+    for (size_t i = 0; i < std::min(count, costs.lights.size()); ++i) {
+        const LightCost& l = costs.lights[i];
+        const double share = costs.pairs > 0 ? l.pairs / costs.pairs : 0;
+        out.push_back({l.light, l.pixels, l.pairs, share, share * shadingMs});
+    }
+    return out;
+}
+
+} // namespace
+
+LightCosts shareOut(const PairImage& image, const std::vector<CndLight>& lights,
+                    const glm::dvec3& origin, const Camera& camera)
+{
+    const auto [width, height] = image.size;
+    std::vector<Reach> reaches;
+    for (uint32_t i = 0; i < lights.size(); ++i)
+        if (isShown(lights[i], camera))
+            reaches.push_back(reachOf(i, lights[i], origin));
+
+    LightCosts out;
+    std::vector<LightCost> all(lights.size());
+    std::vector<reference::SurfacePoint> points;
+    std::vector<std::pair<uint32_t, uint32_t>> covered; // light, pixels of the tile
+    for (uint32_t top = 0; top < height; top += costTile)
+        for (uint32_t left = 0; left < width; left += costTile) {
+            Box box;
+            double evaluated = 0;
+            points.clear();
+            covered.clear();
+            for (uint32_t y = top; y < std::min(top + costTile, height); ++y)
+                for (uint32_t x = left; x < std::min(left + costTile, width); ++x) {
+                    evaluated += double(image.evaluated[size_t(y) * width + x]);
+                    if (const auto point = image.pointAt(x, y)) {
+                        points.push_back(*point);
+                        box.min = glm::min(box.min, point->position);
+                        box.max = glm::max(box.max, point->position);
+                    }
+                }
+            out.surfaces += points.size();
+            out.pairs += evaluated;
+            uint64_t sum = 0;
+            for (const Reach& reach : reaches) {
+                if (points.empty() || (!reach.distant && box.squaredDistance(reach.centre) >=
+                                                             reach.radius * reach.radius))
+                    continue;
+                uint32_t pixels = 0;
+                for (const reference::SurfacePoint& point : points)
+                    pixels += reach.covers(point);
+                sum += pixels;
+                if (pixels)
+                    covered.emplace_back(reach.light, pixels);
+            }
+            out.coveredPairs += sum;
+            if (!sum)
+                out.others += evaluated;
+            for (const auto& [light, pixels] : covered) {
+                all[light].pixels += pixels;
+                all[light].pairs += evaluated * double(pixels) / double(sum);
+            }
+        }
+    for (uint32_t i = 0; i < all.size(); ++i)
+        if (all[i].pixels)
+            out.lights.push_back({i, all[i].pixels, all[i].pairs});
+    std::stable_sort(out.lights.begin(), out.lights.end(),
+                     [](const LightCost& a, const LightCost& b) { return a.pairs > b.pairs; });
+    return out;
+}
+
+LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Scene& scene,
+                      const FrameOptions& frame)
+{
+    PairImage image;
+    for (const glm::vec4& pairs : drawAndReadPairs(context, renderer, frame))
+        image.evaluated.push_back(pairs.y);
+    const Surfaces surfaces(context, renderer, frame);
+    image.size = surfaces.size();
+    image.pointAt = [&](uint32_t x, uint32_t y) { return surfaces.pointAt(x, y); };
+    std::vector<CndLight> lights;
+    lightsAtTime(scene, frame.time, lights);
+    return shareOut(image, lights, scene.lightOrigin, frame.camera);
+}
+
+std::string lightCostTable(const LightCosts& costs, const Scene& scene, size_t count,
+                           double shadingMs)
+{
+    Table table({"light", "type", "reach m", "pixels", "of all", "pairs", "share", "ms"});
+    const auto add = [&](const std::string& name, const std::string& type, const std::string& reach,
+                         uint64_t pixels, double pairs, double ms) {
+        table.add(
+            {name, type, reach, pixels ? grouped(pixels) : "",
+             pixels ? fmt::format("{:.2f}%", 100.0 * double(pixels) / double(costs.surfaces)) : "",
+             grouped(uint64_t(std::llround(pairs))),
+             fmt::format("{:.2f}%", costs.pairs > 0 ? 100 * pairs / costs.pairs : 0.0),
+             threeDigits(ms)});
+    };
+    double shown = 0;
+    const std::vector<CostRow> rows = rowsOf(costs, count, shadingMs);
+    for (const CostRow& row : rows) {
+        const CndLight& light = scene.lights[row.light];
+        add(fmt::format("{}", row.light), lightTypeName(light.type),
+            threeDigits(double(light.influenceRadius)), row.pixels, row.pairs, row.ms);
+        shown += row.pairs;
+    }
+    const double perPair = costs.pairs > 0 ? shadingMs / costs.pairs : 0;
+    table.rule();
+    const double rest = costs.pairs - costs.others - shown;
+    add(counted(costs.lights.size() - rows.size(), "other light"), "", "", 0, rest, rest * perPair);
+    if (costs.others > 0)
+        add("tiles without a light", "", "", 0, costs.others, costs.others * perPair);
+    table.add({"shading", "", "", "", "", grouped(uint64_t(std::llround(costs.pairs))), "100.00%",
+               threeDigits(shadingMs)});
+    return table.text();
+}
+
+Json lightCostJson(const LightCosts& costs, const Scene& scene, size_t count, double shadingMs)
+{
+    Json rows = Json::array();
+    for (const CostRow& row : rowsOf(costs, count, shadingMs)) {
+        const CndLight& light = scene.lights[row.light];
+        rows.push_back({{"light", row.light},
+                        {"type", lightTypeName(light.type)},
+                        {"position", light.position},
+                        {"influenceRadius", light.influenceRadius},
+                        {"pixels", row.pixels},
+                        {"pairs", row.pairs},
+                        {"share", row.share},
+                        {"ms", row.ms}});
+    }
+    double sum = 0;
+    for (const LightCost& light : costs.lights)
+        sum += light.pairs;
+    const double perPair = costs.pairs > 0 ? shadingMs / costs.pairs : 0;
+    return {{"shadingMs", shadingMs},
+            {"surfacePixels", costs.surfaces},
+            {"pairs", costs.pairs},
+            {"coveredPairs", costs.coveredPairs},
+            {"lightsThatCoverPixels", costs.lights.size()},
+            {"sumOfAllLightsMs", sum * perPair},
+            {"tilesWithoutLightMs", costs.others * perPair},
+            {"lights", rows}};
+}
+
+} // namespace candelabra::app

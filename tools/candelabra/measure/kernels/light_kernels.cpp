@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/kernels/light_kernels.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <limits>
+
+#include "candelabra_bench_shaders.h"
+#include "lights/pack_lights.h"
+#include "shading/shade_kernels.h"
+#include "tables/ltc_table.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+template <typename T>
+gpu::Buffer upload(const gpu::Device& device, const std::string& name, std::span<const T> data)
+{
+    gpu::Buffer buffer = gpu::createBuffer(device, name, data.size_bytes(),
+                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                                           gpu::MemoryUse::Upload);
+    if (!data.empty())
+        std::memcpy(buffer.mapped, data.data(), data.size_bytes());
+    return buffer;
+}
+
+// Lights that one dispatch takes: their storage buffers stay far below any device's limit.
+constexpr size_t maxBatch = size_t(1) << 18;
+
+} // namespace
+
+std::vector<CndSpecularMethod> methodsOf(uint32_t lightType)
+{
+    std::vector<CndSpecularMethod> out;
+    for (uint32_t m = 0; m < CND_SPECULAR_METHOD_COUNT; ++m) {
+        const auto method = CndSpecularMethod(m);
+        if (method != CND_SPECULAR_NONE && lighting::canonicalMethod(lightType, method) == method)
+            out.push_back(method);
+    }
+    return out;
+}
+
+const gpu::Spirv& ofFamily(const Families& families, const Evaluation& evaluation)
+{
+    const bool conic =
+        evaluation.method == CND_SPECULAR_CONIC || evaluation.method == CND_SPECULAR_CONIC_FULL;
+    switch (evaluation.lightType) {
+    case CND_LIGHT_SPHERE:
+    case CND_LIGHT_DISTANT_SPHERE:
+        return *families[conic ? 1 : 2];
+    case CND_LIGHT_TUBE:
+        return *families[3];
+    case CND_LIGHT_RECTANGLE:
+        return *families[4];
+    case CND_LIGHT_DISC:
+        return *families[5];
+    default:
+        return *families[0];
+    }
+}
+
+DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> lights)
+{
+    lighting::validateLights(lights);
+    std::vector<gpu::LightRecord> records(lights.size());
+    lighting::packLights(lights, records);
+    std::vector<glm::vec4> core, aux;
+    for (const gpu::LightRecord& r : records) { // prepare_lights.comp with an identity view
+        core.emplace_back(r.position, r.reach);
+        core.emplace_back(r.emission, r.influenceRadius * r.influenceRadius);
+        aux.emplace_back(r.axisU, r.axisV.x);
+        aux.emplace_back(r.axisV, r.type & gpu::LIGHT_TWO_SIDED ? 1.0f : 0.0f);
+    }
+    DeviceLights out{.core = upload(device, "bench lights", std::span<const glm::vec4>(core)),
+                     .aux = upload(device, "bench light axes", std::span<const glm::vec4>(aux)),
+                     .count = uint32_t(lights.size())};
+    gpu::createTexelView(device, out.core);
+    return out;
+}
+
+gpu::Buffer uploadReceivers(const gpu::Device& device,
+                            std::span<const gpu::BenchReceiver> receivers)
+{
+    return upload(device, "bench receivers", receivers);
+}
+
+gpu::Buffer uploadLtcTable(const gpu::Device& device)
+{
+    gpu::Buffer out = upload(device, "transformed cosines", tables::ltcTable());
+    gpu::createTexelView(device, out);
+    return out;
+}
+
+void shaderToHostBarrier(const gpu::Device& device, VkCommandBuffer cmd)
+{
+    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                   .srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                   .srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .memoryBarrierCount = 1,
+                                .pMemoryBarriers = &barrier};
+    device.CmdPipelineBarrier2(cmd, &info);
+}
+
+void writeBindings(const gpu::Bindings& bindings, const DeviceLights& lights,
+                   const gpu::Buffer& receivers, const gpu::Buffer& output,
+                   const gpu::Buffer& ltcTable)
+{
+    using gpu::Binding;
+    bindings.write(
+        0, {Binding::ofTexels(gpu::BENCH_CORE, lights.core),
+            Binding::of(gpu::BENCH_CORE_WORDS, lights.core),
+            Binding::of(gpu::BENCH_AUX, lights.aux), Binding::of(gpu::BENCH_INPUT, receivers),
+            Binding::of(gpu::BENCH_OUTPUT, output), Binding::ofTexels(gpu::BENCH_LTC, ltcTable)});
+}
+
+LightEvaluator::LightEvaluator(const VulkanContext& context, const Evaluation& evaluation)
+    : context_(context),
+      evaluation_(evaluation),
+      kernel_(context.device(), ofFamily(BENCH_FAMILIES(evaluate_lights), evaluation),
+              {{gpu::SPEC_LIGHTS_AS_TEXELS, 0},
+               {gpu::SPEC_SPECULAR_METHOD, evaluation.method},
+               {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
+               {gpu::SPEC_ERROR_BUDGET, evaluation.errorBudget > 0}}),
+      bindings_(kernel_.createBindings(1)),
+      ltcTable_(uploadLtcTable(context.device()))
+{
+}
+
+std::vector<gpu::BenchResponse>
+LightEvaluator::evaluateBatch(std::span<const gpu::BenchReceiver> receivers,
+                              std::vector<CndLight> lights) const
+{
+    for (CndLight& light : lights) {
+        light.influenceRadius = infinity;
+        std::fill(std::begin(light.emission), std::end(light.emission), 1.0f);
+    }
+    const gpu::Device& device = context_.device();
+    const DeviceLights onDevice = uploadLights(device, lights);
+    const gpu::Buffer in = uploadReceivers(device, receivers);
+    const gpu::Buffer result =
+        gpu::createBuffer(device, "bench responses", receivers.size() * sizeof(gpu::BenchResponse),
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Readback);
+    writeBindings(bindings_, onDevice, in, result, ltcTable_);
+    const gpu::BenchParams params{.count = uint32_t(receivers.size()),
+                                  .sampleCount = evaluation_.sampleCount,
+                                  .errorBudget = evaluation_.errorBudget};
+    gpu::Timer timer(device, "bench", 1, false);
+    context_.submitAndWait([&](VkCommandBuffer cmd) {
+        timer.begin(cmd, 0);
+        kernel_.dispatch(gpu::Frame{device, cmd, timer, 0}, bindings_.set(0), params,
+                         gpu::divideUp(params.count, gpu::BENCH_GROUP));
+        shaderToHostBarrier(device, cmd);
+    });
+    const auto values = result.as<gpu::BenchResponse>();
+    return {values.begin(), values.begin() + ptrdiff_t(receivers.size())};
+}
+
+std::vector<gpu::BenchResponse>
+LightEvaluator::evaluate(std::span<const gpu::BenchReceiver> receivers,
+                         std::span<const CndLight> lights) const
+{
+    std::vector<gpu::BenchResponse> out;
+    for (size_t first = 0; first < receivers.size(); first += maxBatch) {
+        const size_t count = std::min(maxBatch, receivers.size() - first);
+        const auto batch = lights.subspan(first, count);
+        const auto responses =
+            evaluateBatch(receivers.subspan(first, count), {batch.begin(), batch.end()});
+        out.insert(out.end(), responses.begin(), responses.end());
+    }
+    return out;
+}
+
+} // namespace candelabra::app

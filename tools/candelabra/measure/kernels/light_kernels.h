@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shipping shader evaluation of lights on explicit receivers and lights, without G-buffer and
+// lists: what the benchmarks of accuracy and stability measure.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "candelabra/candelabra.h"
+#include "gpu/kernel.h"
+#include "render/vulkan_context.h"
+#include "shared/bench.h"
+
+namespace candelabra::app
+{
+
+// One light type under one specular method: a specialisation of the kernels.
+struct Evaluation {
+    uint32_t lightType = CND_LIGHT_SPHERE;
+    CndSpecularMethod method = CND_SPECULAR_CONIC;
+    float errorBudget = 0;
+    uint32_t sampleCount = 1024; // CND_SPECULAR_SAMPLED
+};
+
+// The methods that differ from each other for a type, in the order of the list; NONE is not among
+// them.
+std::vector<CndSpecularMethod> methodsOf(uint32_t lightType);
+
+// A bench kernel in the families of shading/light_families.glsl: BENCH_FAMILIES(time_lights) is
+// spirv::time_lights_comp in all of them.
+using Families = std::array<const gpu::Spirv*, 6>;
+#define BENCH_FAMILIES(kernel)                                                                     \
+    ::candelabra::app::Families                                                                    \
+    {                                                                                              \
+        &spirv::kernel##_comp_punctual, &spirv::kernel##_comp_conic, &spirv::kernel##_comp_sphere, \
+            &spirv::kernel##_comp_tube, &spirv::kernel##_comp_rectangle,                           \
+            &spirv::kernel##_comp_disc                                                             \
+    }
+// The one that evaluates a type by a method, as the lighting module chooses it.
+const gpu::Spirv& ofFamily(const Families& families, const Evaluation& evaluation);
+
+// Lights of one type in device memory as kernels read them, relative to receivers at the origin.
+struct DeviceLights {
+    gpu::Buffer core, aux;
+    uint32_t count = 0;
+};
+// Throws gpu::Failure for a light outside its documented range.
+DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> lights);
+gpu::Buffer uploadReceivers(const gpu::Device& device,
+                            std::span<const gpu::BenchReceiver> receivers);
+
+// Evaluates explicit lights; holds the pipeline.
+class LightEvaluator
+{
+public:
+    LightEvaluator(const VulkanContext& context, const Evaluation& evaluation);
+
+    // Response of receiver i to light i, whatever the light's emission and influence. All lights
+    // are of the evaluation's type.
+    std::vector<gpu::BenchResponse> evaluate(std::span<const gpu::BenchReceiver> receivers,
+                                             std::span<const CndLight> lights) const;
+
+private:
+    std::vector<gpu::BenchResponse> evaluateBatch(std::span<const gpu::BenchReceiver> receivers,
+                                                  std::vector<CndLight> lights) const;
+
+    const VulkanContext& context_;
+    Evaluation evaluation_;
+    gpu::Kernel<gpu::BenchParams> kernel_;
+    gpu::Bindings bindings_;
+    gpu::Buffer ltcTable_;
+};
+
+// The table of linearly transformed cosines, for BENCH_LTC.
+gpu::Buffer uploadLtcTable(const gpu::Device& device);
+
+// Makes what kernels wrote visible to the host once it has waited.
+void shaderToHostBarrier(const gpu::Device& device, VkCommandBuffer cmd);
+
+// The bindings that every kernel with bench/lights.glsl has.
+void writeBindings(const gpu::Bindings& bindings, const DeviceLights& lights,
+                   const gpu::Buffer& receivers, const gpu::Buffer& output,
+                   const gpu::Buffer& ltcTable);
+
+} // namespace candelabra::app

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/stability/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "candelabra_bench_shaders.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+// Lanes of a dispatch: a second of work at most on a software device.
+constexpr uint32_t maxLanes = 1u << 20;
+
+gpu::Kernel<gpu::SweepParams> makeKernel(const gpu::Device& device, const Evaluation& evaluation,
+                                         bool recording)
+{
+    return {device,
+            ofFamily(BENCH_FAMILIES(sweep_inputs), evaluation),
+            {{gpu::SPEC_SPECULAR_METHOD, evaluation.method},
+             {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
+             {gpu::SPEC_ERROR_BUDGET, evaluation.errorBudget > 0},
+             {gpu::SPEC_SWEEP_RECORD, recording}}};
+}
+
+gpu::Buffer makeRecords(const gpu::Device& device, size_t count)
+{
+    return gpu::createBuffer(device, "sweep records", count * sizeof(gpu::SweepRecord),
+                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Readback);
+}
+
+std::string text(const glm::vec3& v)
+{
+    return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
+
+std::string text(const glm::vec4& v)
+{
+    return fmt::format("({}, {}, {}, {})", v.x, v.y, v.z, v.w);
+}
+
+void set(float (&out)[3], const glm::vec3& v)
+{
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
+}
+
+} // namespace
+
+const char* sliceText(uint32_t slice)
+{
+    static constexpr const char* texts[] = {
+#define X(id, NAME, words) words,
+        CND_SWEEP_SLICES(X)
+#undef X
+    };
+    static_assert(std::size(texts) == sweepSliceCount);
+    return texts[slice];
+}
+
+Sweep::Sweep(const VulkanContext& context, const Evaluation& evaluation, uint32_t seed)
+    : context_(context),
+      evaluation_(evaluation),
+      seed_(seed),
+      counting_(makeKernel(context.device(), evaluation, false)),
+      recording_(makeKernel(context.device(), evaluation, true)),
+      bindings_(counting_.createBindings(1)),
+      counters_(gpu::createBuffer(context.device(), "sweep counters", sizeof(gpu::SweepCounters),
+                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Readback)),
+      bad_(makeRecords(context.device(), gpu::SWEEP_MAX_BAD)),
+      ltcTable_(uploadLtcTable(context.device())),
+      timer_(context.device(), "sweep", 1, false)
+{
+}
+
+void Sweep::dispatch(const gpu::Kernel<gpu::SweepParams>& kernel, const gpu::SweepParams& params,
+                     const gpu::Buffer& records)
+{
+    bindings_.write(0, {gpu::Binding::of(gpu::SWEEP_OUTPUT, records),
+                        gpu::Binding::of(gpu::SWEEP_COUNTERS, counters_),
+                        gpu::Binding::ofTexels(gpu::BENCH_LTC, ltcTable_)});
+    counters_.as<gpu::SweepCounters>()[0] = {};
+    context_.submitAndWait([&](VkCommandBuffer cmd) {
+        timer_.begin(cmd, 0);
+        kernel.dispatch(gpu::Frame{context_.device(), cmd, timer_, 0}, bindings_.set(0), params,
+                        gpu::divideUp(params.count, gpu::BENCH_GROUP));
+        shaderToHostBarrier(context_.device(), cmd);
+    });
+}
+
+SweepCount Sweep::count(uint32_t slice, uint32_t first, uint64_t configurations,
+                        const std::function<void(uint64_t)>& onDone)
+{
+    SweepCount out;
+    while (out.tried < configurations) {
+        const auto lanes = uint32_t(std::min<uint64_t>(configurations - out.tried, maxLanes));
+        dispatch(counting_,
+                 {.count = lanes,
+                  .slice = slice,
+                  .seed = seed_,
+                  .firstIndex = first + uint32_t(out.tried),
+                  .sampleCount = evaluation_.sampleCount,
+                  .errorBudget = evaluation_.errorBudget},
+                 bad_);
+        const gpu::SweepCounters& c = counters_.as<gpu::SweepCounters>()[0];
+        out.tried += lanes;
+        out.nan += c.nan;
+        out.infinite += c.infinite;
+        out.negative += c.negative;
+        const auto records = bad_.as<gpu::SweepRecord>();
+        for (uint32_t i = 0; i < std::min(c.bad, gpu::SWEEP_MAX_BAD) && out.bad.size() < 4; ++i)
+            out.bad.push_back(records[i]);
+        onDone(lanes);
+    }
+    return out;
+}
+
+std::vector<gpu::SweepRecord> Sweep::record(uint32_t slice, uint32_t first, uint32_t configurations)
+{
+    const gpu::Buffer records = makeRecords(context_.device(), configurations);
+    dispatch(recording_,
+             {.count = configurations,
+              .slice = slice,
+              .seed = seed_,
+              .firstIndex = first,
+              .sampleCount = evaluation_.sampleCount,
+              .errorBudget = evaluation_.errorBudget},
+             records);
+    const auto values = records.as<gpu::SweepRecord>();
+    return {values.begin(), values.begin() + configurations};
+}
+
+CndLight lightOf(const gpu::SweepRecord& r, uint32_t lightType)
+{
+    CndLight light{.type = lightType, .emission = {1, 1, 1}};
+    light.influenceRadius = INFINITY;
+    const glm::vec3 centre(r.centreReach);
+    set(light.position, centre - r.position);
+    light.radius = lightType == CND_LIGHT_TUBE ? r.axisURadius.w : r.centreReach.w;
+    set(light.axisU, glm::vec3(r.axisURadius));
+    set(light.axisV, glm::vec3(r.axisVTwoSided));
+    if (lightType == CND_LIGHT_DISTANT_SPHERE)
+        set(light.direction, -centre);
+    else
+        set(light.direction, glm::vec3(r.axisURadius));
+    light.twoSided = r.axisVTwoSided.w != 0;
+    return light;
+}
+
+std::string describeRecord(const gpu::SweepRecord& r)
+{
+    return fmt::format(
+        "index {}: position {}, n {}, v {}, perceptualRoughness {}, centre and reach "
+        "{}, emission and squared influence {}, axes {} {}; response {}",
+        r.index, text(r.position), text(r.n), text(r.v), r.perceptualRoughness, text(r.centreReach),
+        text(r.emissionInfluence), text(r.axisURadius), text(r.axisVTwoSided), text(r.response));
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the settings of a scene and of a frame are called on the command line, in the viewer's panel
+// and in results.
+#pragma once
+
+#include "candelabra/candelabra.h"
+#include "io/choice.h"
+#include "render/renderer.h"
+#include "shared/specular_methods.h"
+
+namespace candelabra::app
+{
+
+inline constexpr Choice<CndLobeJoining> lobeChoices[] = {{"conserving", CND_LOBES_CONSERVING},
+                                                         {"sum", CND_LOBES_SUM}};
+inline constexpr Choice<CndSpecularMethod> specularChoices[] = {
+#define X(id, NAME, name) {name, CND_SPECULAR_##NAME},
+    CND_SPECULAR_METHODS(X)
+#undef X
+};
+inline constexpr Choice<CndCulling> cullingChoices[] = {{"clustered", CND_CULLING_CLUSTERED},
+                                                        {"brute", CND_CULLING_BRUTE}};
+// CND_INFLUENCE_BY_ERROR is chosen by an option of its own, which holds the error.
+inline constexpr Choice<CndInfluenceRule> influenceChoices[] = {{"given", CND_INFLUENCE_GIVEN},
+                                                                {"uncut", CND_INFLUENCE_UNCUT}};
+inline constexpr Choice<Reuse> reuseChoices[] = {
+    {"none", Reuse::None}, {"lists", Reuse::Lists}, {"lighting", Reuse::Lighting}};
+inline constexpr Choice<HeatMap> heatMapChoices[] = {{"none", HeatMap::None},
+                                                     {"lights-per-pixel", HeatMap::LightsPerPixel},
+                                                     {"evaluated", HeatMap::Evaluated},
+                                                     {"efficiency", HeatMap::Efficiency},
+                                                     {"class", HeatMap::Class}};
+inline constexpr Choice<CndGBufferLayout> gbufferChoices[] = {{"full", CND_GBUFFER_FULL},
+                                                              {"compact", CND_GBUFFER_COMPACT}};
+inline constexpr Choice<CndToneMap> toneMapChoices[] = {{"none", CND_TONEMAP_NONE},
+                                                        {"reinhard", CND_TONEMAP_REINHARD},
+                                                        {"aces", CND_TONEMAP_ACES},
+                                                        {"neutral", CND_TONEMAP_PBR_NEUTRAL},
+                                                        {"agx", CND_TONEMAP_AGX}};
+inline constexpr Choice<CndMetering> meteringChoices[] = {{"average", CND_METERING_AVERAGE},
+                                                          {"centre", CND_METERING_CENTRE_WEIGHTED}};
+
+inline const char* lobesName(CndLobeJoining lobes)
+{
+    return nameOf(lobes, lobeChoices);
+}
+inline const char* specularName(CndSpecularMethod method)
+{
+    return nameOf(method, specularChoices);
+}
+inline const char* cullingName(CndCulling culling)
+{
+    return nameOf(culling, cullingChoices);
+}
+inline const char* influenceName(CndInfluenceRule rule)
+{
+    return rule == CND_INFLUENCE_BY_ERROR ? "error" : nameOf(rule, influenceChoices);
+}
+inline const char* reuseName(Reuse reuse)
+{
+    return nameOf(reuse, reuseChoices);
+}
+inline const char* heatMapName(HeatMap heatMap)
+{
+    return nameOf(heatMap, heatMapChoices);
+}
+inline const char* toneMapName(CndToneMap toneMap)
+{
+    return nameOf(toneMap, toneMapChoices);
+}
+inline const char* gbufferName(CndGBufferLayout layout)
+{
+    return nameOf(layout, gbufferChoices);
+}
+
+} // namespace candelabra::app
