@@ -28,52 +28,10 @@ VkShaderModule createModule(VkDevice device, std::span<const uint32_t> words)
     return shader;
 }
 
-} // namespace
-
-void GBuffer::create(const Host& host, VkExtent2D size)
+// The pipeline that draws into the G-buffer, of a vertex and a fragment stage.
+VkPipeline createPipeline(VkDevice device, VkPipelineLayout layout,
+                          const VkPipelineShaderStageCreateInfo (&stages)[2])
 {
-    const auto image = [&](VkFormat format, VkImageUsageFlags usage) {
-        return createHostImage(&host, format, size.width, size.height, usage);
-    };
-    constexpr VkImageUsageFlags drawn =
-        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    normal = image(gbufferDesc.normalRoughnessFormat, drawn);
-    baseColour = image(gbufferDesc.albedoFormat, drawn);
-    roughnessMetalness = image(gbufferDesc.specularFormat, drawn);
-    depth = image(gbufferDesc.depthFormat,
-                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
-    radiance = image(VK_FORMAT_R32G32B32A32_SFLOAT,
-                     VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
-    display = image(VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_USAGE_STORAGE_BIT);
-}
-
-void GBuffer::destroy(const Host& host)
-{
-    for (const HostImage& image :
-         {normal, baseColour, roughnessMetalness, depth, radiance, display})
-        destroyHostImage(&host, image);
-}
-
-Boxes::Boxes(const Host& host) : device_(host.device)
-{
-    const VkPushConstantRange push{VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                   sizeof(Push)};
-    const VkPipelineLayoutCreateInfo layout{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                            .pushConstantRangeCount = 1,
-                                            .pPushConstantRanges = &push};
-    checkVulkan(vkCreatePipelineLayout(device_, &layout, nullptr, &layout_),
-                "creating a pipeline layout");
-    const VkShaderModule vertex = createModule(device_, boxes_vert);
-    const VkShaderModule fragment = createModule(device_, boxes_frag);
-    const VkPipelineShaderStageCreateInfo stages[] = {
-        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-         .stage = VK_SHADER_STAGE_VERTEX_BIT,
-         .module = vertex,
-         .pName = "main"},
-        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-         .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
-         .module = fragment,
-         .pName = "main"}};
     const VkPipelineRenderingCreateInfo rendering{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
         .colorAttachmentCount = 3,
@@ -129,9 +87,60 @@ Boxes::Boxes(const Host& host) : device_(host.device)
                                             .pDepthStencilState = &depth,
                                             .pColorBlendState = &blend,
                                             .pDynamicState = &dynamic,
-                                            .layout = layout_};
-    checkVulkan(vkCreateGraphicsPipelines(device_, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
+                                            .layout = layout};
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    checkVulkan(vkCreateGraphicsPipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
                 "creating the pipeline of the boxes");
+    return pipeline;
+}
+
+} // namespace
+
+void GBuffer::create(const Host& host, VkExtent2D size)
+{
+    const auto image = [&](VkFormat format, VkImageUsageFlags usage) {
+        return createHostImage(&host, format, size.width, size.height, usage);
+    };
+    constexpr VkImageUsageFlags drawn =
+        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    normal = image(gbufferDesc.normalRoughnessFormat, drawn);
+    baseColour = image(gbufferDesc.albedoFormat, drawn);
+    roughnessMetalness = image(gbufferDesc.specularFormat, drawn);
+    depth = image(gbufferDesc.depthFormat,
+                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    radiance = image(VK_FORMAT_R32G32B32A32_SFLOAT,
+                     VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    display = image(VK_FORMAT_R8G8B8A8_UNORM, VK_IMAGE_USAGE_STORAGE_BIT);
+}
+
+void GBuffer::destroy(const Host& host)
+{
+    for (const HostImage& image :
+         {normal, baseColour, roughnessMetalness, depth, radiance, display})
+        destroyHostImage(&host, image);
+}
+
+Boxes::Boxes(const Host& host) : device_(host.device)
+{
+    const VkPushConstantRange push{VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                                   sizeof(Push)};
+    const VkPipelineLayoutCreateInfo layout{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                            .pushConstantRangeCount = 1,
+                                            .pPushConstantRanges = &push};
+    checkVulkan(vkCreatePipelineLayout(device_, &layout, nullptr, &layout_),
+                "creating a pipeline layout");
+    const VkShaderModule vertex = createModule(device_, boxes_vert);
+    const VkShaderModule fragment = createModule(device_, boxes_frag);
+    const VkPipelineShaderStageCreateInfo stages[] = {
+        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+         .stage = VK_SHADER_STAGE_VERTEX_BIT,
+         .module = vertex,
+         .pName = "main"},
+        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+         .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
+         .module = fragment,
+         .pName = "main"}};
+    pipeline_ = createPipeline(device_, layout_, stages);
     vkDestroyShaderModule(device_, vertex, nullptr);
     vkDestroyShaderModule(device_, fragment, nullptr);
 }

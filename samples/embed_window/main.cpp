@@ -174,6 +174,45 @@ void clearRadiance(VkCommandBuffer cmd, const HostImage& radiance)
     imageBarrier(cmd, &radiance, cleared, storageInCompute);
 }
 
+struct ExposureStep {
+    float deltaTime = 0; // s since the frame before
+    bool reset = false;  // the first frame has none before it
+};
+
+// Records the lighting and the display image of a frame, or the overlay that was chosen instead.
+void light(const Window::Frame& frame, Targets& targets, candelabra::Exposure& exposure,
+           const Settings& settings, const Camera& camera, const ExposureStep& step)
+{
+    const GBuffer& g = targets.gbuffer;
+    const CndLightingFrame surfaces{.frameSlot = frame.slot,
+                                    .width = targets.size.width,
+                                    .height = targets.size.height,
+                                    .camera = camera.forCandelabra(),
+                                    .clearDepth = 1,
+                                    .normalRoughness = g.normal.view,
+                                    .albedo = g.baseColour.view,
+                                    .specular = g.roughnessMetalness.view,
+                                    .depth = g.depth.view,
+                                    .radiance = g.radiance.view,
+                                    .specularMethod = CND_SPECULAR_CONIC};
+    if (settings.overlay >= 0) {
+        orExit(targets.view.recordOverlay(
+            frame.cmd, surfaces,
+            {.quantity = CndSurfaceQuantity(settings.overlay), .image = g.display.view}));
+        return;
+    }
+    orExit(targets.view.record(frame.cmd, surfaces));
+    imageBarrier(frame.cmd, &g.radiance, storageInCompute, sampledInCompute);
+    orExit(exposure.record(frame.cmd, {.frameSlot = frame.slot,
+                                       .width = targets.size.width,
+                                       .height = targets.size.height,
+                                       .radiance = g.radiance.view,
+                                       .display = g.display.view,
+                                       .deltaTime = step.deltaTime,
+                                       .reset = step.reset,
+                                       .settings = candelabra::defaultExposureSettings()}));
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -228,34 +267,8 @@ int main(int argc, char** argv)
         // Light.
         lightsAt(seconds, settings.lightCount, lights);
         orExit(lighting.setLights(lights, {0, 0, 0}));
-        const CndLightingFrame surfaces{.frameSlot = frame->slot,
-                                        .width = size.width,
-                                        .height = size.height,
-                                        .camera = camera.forCandelabra(),
-                                        .clearDepth = 1,
-                                        .normalRoughness = g.normal.view,
-                                        .albedo = g.baseColour.view,
-                                        .specular = g.roughnessMetalness.view,
-                                        .depth = g.depth.view,
-                                        .radiance = g.radiance.view,
-                                        .specularMethod = CND_SPECULAR_CONIC};
-        if (settings.overlay >= 0) {
-            orExit(targets.view.recordOverlay(
-                frame->cmd, surfaces,
-                {.quantity = CndSurfaceQuantity(settings.overlay), .image = g.display.view}));
-        } else {
-            orExit(targets.view.record(frame->cmd, surfaces));
-            imageBarrier(frame->cmd, &g.radiance, storageInCompute, sampledInCompute);
-            orExit(
-                exposure.record(frame->cmd, {.frameSlot = frame->slot,
-                                             .width = size.width,
-                                             .height = size.height,
-                                             .radiance = g.radiance.view,
-                                             .display = g.display.view,
-                                             .deltaTime = float(step),
-                                             .reset = n == 0,
-                                             .settings = candelabra::defaultExposureSettings()}));
-        }
+        light(*frame, targets, exposure, settings, camera,
+              {.deltaTime = float(step), .reset = n == 0});
 
         // The window.
         showDisplay(*frame, g.display, size);

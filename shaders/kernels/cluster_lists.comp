@@ -50,6 +50,19 @@ layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
 // Leaves found before their lights are tested: lanes take turns at walking and testing together.
 const uint QUEUE = 16u;
 
+// Appends the tile of a cluster that lights touch to the tiles that are shaded with lists or to those
+// that are shaded without, and counts the cluster's list.
+void appendTile(uint tile, ListWriter list, bool tooLong)
+{
+    const bool withoutList = tooLong || (list.full && list.found != 0u);
+    if (withoutList)
+        appendUnlisted(tile);
+    else if (list.found != 0u)
+        appendLit(tile);
+    atomicAdd(counters.listEntries, withoutList ? 0u : list.found);
+    atomicMax(counters.maxListLength, list.found);
+}
+
 void main()
 {
     uint at;
@@ -121,13 +134,6 @@ void main()
     const bool tooLong =
         cut || list.found > params.longest || (list.full && steps >= params.maxUnlistedSteps);
     lists[at] = endList(list, tooLong);
-    if (isBlock)
-        return;
-    const bool withoutList = tooLong || (list.full && list.found != 0u);
-    if (withoutList)
-        appendUnlisted(cluster.tile);
-    else if (list.found != 0u)
-        appendLit(cluster.tile);
-    atomicAdd(counters.listEntries, withoutList ? 0u : list.found);
-    atomicMax(counters.maxListLength, list.found);
+    if (!isBlock)
+        appendTile(cluster.tile, list, tooLong);
 }

@@ -162,16 +162,12 @@ TEST_F(FramesInFlight, ViewsAndGrowingSetsStayRight)
     cndDestroyLighting(lighting);
 }
 
-// Two views with three frames in flight, another size in every frame, and views that are recreated
-// while lights are added, removed and moved: every image must equal brute force recorded beside it.
-// (tests/mock/test_lifetimes.cpp checks what is allocated and freed meanwhile.)
-TEST_F(FramesInFlight, StormOfSizesAndLightsEqualsBrute)
+// Two views of one light set, each lit twice in every frame: by clustered culling and by brute
+// force.
+class StormOfFrames : public FramesInFlight
 {
-    const int frames = fullTests() ? 500 : 60;
-    constexpr uint32_t maxWidth = 150, maxHeight = 110;
-    constexpr VkDeviceSize imageBytes = maxWidth * maxHeight * sizeof(glm::vec4);
-    std::mt19937 random(3);
-    const auto pick = [&](uint32_t below) { return uint32_t(random() % below); };
+protected:
+    static constexpr uint32_t maxWidth = 150, maxHeight = 110;
 
     struct StormView {
         CpuGBuffer g;
@@ -181,31 +177,37 @@ TEST_F(FramesInFlight, StormOfSizesAndLightsEqualsBrute)
         std::array<std::array<gpu::Buffer, 2>, slotCount> pixels;
         std::array<VkExtent2D, slotCount> sizes{};
     };
-    std::array<StormView, 2> views;
-    for (uint32_t v = 0; v < 2; ++v) {
-        CndCamera camera;
-        setPerspective(camera, 0.6 + v, 1.4, 0.1, 0, v == 0);
-        views[v].g = randomGBuffer(maxWidth, maxHeight, camera, v == 0 ? 0.f : 1.f, 50 + v);
-        for (uint32_t slot = 0; slot < slotCount; ++slot)
-            for (uint32_t way = 0; way < 2; ++way) {
-                views[v].images[slot][way] = uploadImages(views[v].g);
-                views[v].pixels[slot][way] = readback("radiance", imageBytes);
-            }
-    }
-    CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc,
-                               .framesInFlight = slotCount,
-                               .specularMethods = 1u << RunOptions{}.specular};
-    CndLighting lighting{};
-    ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS);
 
-    const auto check = [&](uint32_t index) {
+    uint32_t pick(uint32_t below) { return uint32_t(random_() % below); }
+
+    void create()
+    {
+        constexpr VkDeviceSize imageBytes = maxWidth * maxHeight * sizeof(glm::vec4);
+        for (uint32_t v = 0; v < 2; ++v) {
+            CndCamera camera;
+            setPerspective(camera, 0.6 + v, 1.4, 0.1, 0, v == 0);
+            views_[v].g = randomGBuffer(maxWidth, maxHeight, camera, v == 0 ? 0.f : 1.f, 50 + v);
+            for (uint32_t slot = 0; slot < slotCount; ++slot)
+                for (uint32_t way = 0; way < 2; ++way) {
+                    views_[v].images[slot][way] = uploadImages(views_[v].g);
+                    views_[v].pixels[slot][way] = readback("radiance", imageBytes);
+                }
+        }
+        const CndLightingDesc desc{.structSize = sizeof desc,
+                                   .framesInFlight = slotCount,
+                                   .specularMethods = 1u << RunOptions{}.specular};
+        ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting_, &error_), CND_SUCCESS);
+    }
+
+    // Compares the two images of both views that the slot's last frame made, if there was one.
+    void check(uint32_t index)
+    {
         Slot& slot = slots_[index];
         if (!slot.used)
             return;
         wait(slot);
         slot.used = false;
-        for (StormView& view : views) {
+        for (StormView& view : views_) {
             const size_t count = size_t(view.sizes[index].width) * view.sizes[index].height;
             std::array<std::vector<glm::vec4>, 2> got;
             for (uint32_t way = 0; way < 2; ++way) {
@@ -215,83 +217,122 @@ TEST_F(FramesInFlight, StormOfSizesAndLightsEqualsBrute)
             EXPECT_LE(maxRelativeDifference(got[0], got[1]), 1e-6)
                 << view.sizes[index].width << "x" << view.sizes[index].height;
         }
-    };
-    const auto makeViews = [&](StormView& view, uint32_t width, uint32_t height) {
+    }
+
+    void checkAll()
+    {
         for (uint32_t slot = 0; slot < slotCount; ++slot)
             check(slot);
+    }
+
+    void recreate(StormView& view, VkExtent2D size)
+    {
+        checkAll();
         cndDestroyLightingView(view.clustered);
         cndDestroyLightingView(view.brute);
-        view.desc.maxWidth = width;
-        view.desc.maxHeight = height;
-        ASSERT_EQ(cndCreateLightingView(lighting, &view.desc, &view.clustered, &error),
+        view.desc.maxWidth = size.width;
+        view.desc.maxHeight = size.height;
+        ASSERT_EQ(cndCreateLightingView(lighting_, &view.desc, &view.clustered, &error_),
                   CND_SUCCESS);
-        ASSERT_EQ(cndCreateLightingView(lighting, &view.desc, &view.brute, &error), CND_SUCCESS);
-    };
-    std::vector<CndLight> lights;
-    std::vector<CndLightId> ids;
-    for (int i = 0; i < frames && !HasFatalFailure(); ++i) {
-        const uint32_t index = uint32_t(i) % slotCount;
-        Slot& slot = slots_[index];
-        check(index);
-        if (i == 0 || pick(3) == 0) {
-            lights = randomSpheres(views[pick(2)].g, pick(400), uint32_t(random()));
-            const CndLightSet set{sizeof set, uint32_t(lights.size()), lights.data(), {}};
-            ASSERT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
-            ids.resize(lights.size());
-            std::iota(ids.begin(), ids.end(), CndLightId(0));
-        } else if (!lights.empty()) {
-            const uint32_t first = pick(uint32_t(lights.size()));
-            const uint32_t count = 1 + pick(uint32_t(lights.size()) - first);
-            for (uint32_t k = first; k < first + count; ++k)
-                lights[k].position[pick(3)] += 0.5f;
-            if (pick(2)) {
-                ASSERT_EQ(cndUpdateLights(lighting, count, &ids[first], &lights[first], &error),
-                          CND_SUCCESS)
-                    << error.message;
-            } else { // achieves the same by removing and adding lights
-                ASSERT_EQ(cndRemoveLights(lighting, count, &ids[first], &error), CND_SUCCESS)
-                    << error.message;
-                ASSERT_EQ(cndAddLights(lighting, count, &lights[first], &ids[first], &error),
-                          CND_SUCCESS)
-                    << error.message;
-            }
+        ASSERT_EQ(cndCreateLightingView(lighting_, &view.desc, &view.brute, &error_), CND_SUCCESS);
+    }
+
+    void setLights()
+    {
+        lights_ = randomSpheres(views_[pick(2)].g, pick(400), uint32_t(random_()));
+        const CndLightSet set{sizeof set, uint32_t(lights_.size()), lights_.data(), {}};
+        ASSERT_EQ(cndSetLights(lighting_, &set, &error_), CND_SUCCESS) << error_.message;
+        ids_.resize(lights_.size());
+        std::iota(ids_.begin(), ids_.end(), CndLightId(0));
+    }
+
+    void moveLights()
+    {
+        const uint32_t first = pick(uint32_t(lights_.size()));
+        const uint32_t count = 1 + pick(uint32_t(lights_.size()) - first);
+        for (uint32_t k = first; k < first + count; ++k)
+            lights_[k].position[pick(3)] += 0.5f;
+        if (pick(2)) {
+            ASSERT_EQ(cndUpdateLights(lighting_, count, &ids_[first], &lights_[first], &error_),
+                      CND_SUCCESS)
+                << error_.message;
+        } else { // achieves the same by removing and adding lights
+            ASSERT_EQ(cndRemoveLights(lighting_, count, &ids_[first], &error_), CND_SUCCESS)
+                << error_.message;
+            ASSERT_EQ(cndAddLights(lighting_, count, &lights_[first], &ids_[first], &error_),
+                      CND_SUCCESS)
+                << error_.message;
         }
-        std::array<VkExtent2D, 2> sizes;
-        for (uint32_t v = 0; v < 2; ++v) {
-            sizes[v] = {1 + pick(maxWidth), 1 + pick(maxHeight)};
-            const CndLightingViewDesc& had = views[v].desc;
-            if (sizes[v].width > had.maxWidth || sizes[v].height > had.maxHeight || pick(20) == 0)
-                makeViews(views[v], sizes[v].width, sizes[v].height);
-        }
+    }
+
+    void record(uint32_t index, const std::array<VkExtent2D, 2>& sizes)
+    {
+        const VkCommandBuffer cmd = slots_[index].cmd;
         const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-        ASSERT_EQ(vkBeginCommandBuffer(slot.cmd, &begin), VK_SUCCESS);
-        fullBarrier(slot.cmd);
+        ASSERT_EQ(vkBeginCommandBuffer(cmd, &begin), VK_SUCCESS);
+        fullBarrier(cmd);
         for (uint32_t v = 0; v < 2; ++v)
             for (uint32_t way = 0; way < 2; ++way) {
-                StormView& view = views[v];
+                StormView& view = views_[v];
                 view.sizes[index] = sizes[v];
                 const Images& images = view.images[index][way];
-                clearRadiance(slot.cmd, images);
+                clearRadiance(cmd, images);
                 CndLightingFrame frame = frameOf(view.g, images, {});
                 frame.frameSlot = index;
                 frame.width = sizes[v].width;
                 frame.height = sizes[v].height;
                 frame.culling = way == 0 ? CND_CULLING_CLUSTERED : CND_CULLING_BRUTE;
-                ASSERT_EQ(cndRecordLighting(way == 0 ? view.clustered : view.brute, slot.cmd,
-                                            &frame, &error),
-                          CND_SUCCESS)
-                    << error.message;
-                copyRadiance(slot.cmd, images, view.pixels[index][way], sizes[v]);
+                ASSERT_EQ(
+                    cndRecordLighting(way == 0 ? view.clustered : view.brute, cmd, &frame, &error_),
+                    CND_SUCCESS)
+                    << error_.message;
+                copyRadiance(cmd, images, view.pixels[index][way], sizes[v]);
             }
-        submit(slot);
+        submit(slots_[index]);
     }
-    for (uint32_t slot = 0; slot < slotCount; ++slot)
-        check(slot);
-    for (StormView& view : views) {
-        cndDestroyLightingView(view.clustered);
-        cndDestroyLightingView(view.brute);
+
+    void destroy()
+    {
+        for (StormView& view : views_) {
+            cndDestroyLightingView(view.clustered);
+            cndDestroyLightingView(view.brute);
+        }
+        cndDestroyLighting(lighting_);
     }
-    cndDestroyLighting(lighting);
+
+    std::mt19937 random_{3};
+    std::array<StormView, 2> views_;
+    CndError error_{};
+    CndLighting lighting_{};
+    std::vector<CndLight> lights_;
+    std::vector<CndLightId> ids_;
+};
+
+// Two views with three frames in flight, another size in every frame, and views that are recreated
+// while lights are added, removed and moved: every image must equal brute force recorded beside it.
+// (tests/mock/test_lifetimes.cpp checks what is allocated and freed meanwhile.)
+TEST_F(StormOfFrames, SizesAndLightsEqualBrute)
+{
+    const int frames = fullTests() ? 500 : 60;
+    create();
+    for (int i = 0; i < frames && !HasFatalFailure(); ++i) {
+        const uint32_t index = uint32_t(i) % slotCount;
+        check(index);
+        if (i == 0 || pick(3) == 0)
+            setLights();
+        else if (!lights_.empty())
+            moveLights();
+        std::array<VkExtent2D, 2> sizes;
+        for (uint32_t v = 0; v < 2; ++v) {
+            sizes[v] = {1 + pick(maxWidth), 1 + pick(maxHeight)};
+            const CndLightingViewDesc& had = views_[v].desc;
+            if (sizes[v].width > had.maxWidth || sizes[v].height > had.maxHeight || pick(20) == 0)
+                recreate(views_[v], sizes[v]);
+        }
+        record(index, sizes);
+    }
+    checkAll();
+    destroy();
 }
 
 } // namespace candelabra::test

@@ -85,32 +85,10 @@ CndResult setLightsOfDevice(Host& h, CndError* error)
     return result;
 }
 
-bool reportsSentence(const std::string& step)
+// Creates every module.
+std::vector<Step> creationSteps()
 {
-    return step.find("statistics") == std::string::npos;
-}
-
-} // namespace
-
-void Host::destroy()
-{
-    cndDestroyLightingView(view);
-    cndDestroyLighting(lighting);
-    cndDestroyExposure(exposure);
-    cndDestroyEnvironment(environment);
-    view = nullptr;
-    lighting = nullptr;
-    exposure = nullptr;
-    environment = nullptr;
-    raster.reset();
-    targets.reset();
-    geometry.reset();
-    rasterDevice.reset();
-}
-
-const std::vector<Step>& steps()
-{
-    static const std::vector<Step> all = {
+    return {
         {"create lighting", false,
          [](Host& h, CndError* error) {
              const CndLightingDesc desc{.structSize = sizeof desc,
@@ -143,6 +121,13 @@ const std::vector<Step>& steps()
                                            .gbuffer = {.roughness = CND_CHANNEL_NORMAL_A}};
              return cndCreateEnvironment(&h.device, &desc, &h.environment, error);
          }},
+    };
+}
+
+// Sets and edits the host's own lights, and records after each edit.
+std::vector<Step> editSteps()
+{
+    return {
         {"set lights", false,
          [](Host& h, CndError* error) {
              return setLights(h, CND_LIGHT_SPHERE, firstCount, error);
@@ -198,6 +183,13 @@ const std::vector<Step>& steps()
              return result;
          }},
         {"record what is left", true, recordTubes},
+    };
+}
+
+// Sets lights that the device writes, and edits the host's lights beside them.
+std::vector<Step> deviceLightSteps()
+{
+    return {
         {"set lights of the device", false, setLightsOfDevice},
         {"record lights of the device", true, recordTubes},
         {"set lights of the device again", false, setLightsOfDevice}, // allocates nothing
@@ -210,6 +202,13 @@ const std::vector<Step>& steps()
              return result;
          }},
         {"record all of them", true, recordTubes},
+    };
+}
+
+// Records the modules beside lighting.
+std::vector<Step> moduleSteps()
+{
+    return {
         {"record exposure", true,
          [](Host& h, CndError* error) {
              CndExposureFrame frame{.structSize = sizeof frame,
@@ -237,6 +236,13 @@ const std::vector<Step>& steps()
              frame.scale = 1;
              return cndRecordEnvironment(h.environment, MockVulkan::commandBuffer(), &frame, error);
          }},
+    };
+}
+
+// Asks every module for its statistics.
+std::vector<Step> statisticsSteps()
+{
+    return {
         {"lighting statistics", false,
          [](Host& h, CndError*) {
              CndLightingStats stats{.structSize = sizeof stats};
@@ -253,6 +259,40 @@ const std::vector<Step>& steps()
              return cndGetEnvironmentStats(h.environment, 0, &stats);
          }},
     };
+}
+
+bool reportsSentence(const std::string& step)
+{
+    return step.find("statistics") == std::string::npos;
+}
+
+} // namespace
+
+void Host::destroy()
+{
+    cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+    cndDestroyExposure(exposure);
+    cndDestroyEnvironment(environment);
+    view = nullptr;
+    lighting = nullptr;
+    exposure = nullptr;
+    environment = nullptr;
+    raster.reset();
+    targets.reset();
+    geometry.reset();
+    rasterDevice.reset();
+}
+
+const std::vector<Step>& steps()
+{
+    static const std::vector<Step> all = [] {
+        std::vector<Step> out;
+        for (const auto& part :
+             {creationSteps(), editSteps(), deviceLightSteps(), moduleSteps(), statisticsSteps()})
+            out.insert(out.end(), part.begin(), part.end());
+        return out;
+    }();
     return all;
 }
 

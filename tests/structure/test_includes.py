@@ -81,7 +81,9 @@ ROOMS = [
                                    PUBLIC, "engine/reference"]),
     ("tools/candelabra", ["tools/candelabra/commands", "tools/candelabra/render", "tools/candelabra/scene",
                           "tools/candelabra/io"]),
-    ("tools/fit", ["engine/reference", "shaders/shared/ltc.h"]),
+    # The closed form's shader functions in double precision, for fits and tests.
+    ("tools/transcription", ["shaders/shared/conic_constants.h"]),
+    ("tools/fit", ["tools/transcription", "engine/reference", "shaders/shared/ltc.h"]),
 
     # Written as if in a project of their own, which finds the installed engine.
     ("samples/common", []),
@@ -99,7 +101,7 @@ SEARCHED = [
     ("engine", ["engine", "engine/include", "shaders"]),
     ("shaders", ["shaders"]),
     ("tools/candelabra", ["tools/candelabra", "engine", "engine/include", "shaders"]),
-    ("tools/fit", ["tools", "engine", "shaders"]),
+    ("tools", ["tools", "engine", "shaders"]),
     ("samples", ["samples/common", "shaders"]),
     ("tests", ["tests", "tests/data", "tools/candelabra", "tools", "engine", "engine/include", "shaders"]),
 ]

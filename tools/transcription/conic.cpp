@@ -91,10 +91,8 @@ glm::dvec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
     return glm::dvec3(across, pc + 0.5 * NoV2 * p.oneMinusA2 * J0);
 }
 
-ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
+CapCone makeCapCone(ConicPoint p, SphereCap cap, CapFrame f)
 {
-    const Chord chord = makeChord(cap, f.sinC);
-    const glm::dvec3 horizon = horizonArc(p, f, chord);
     const double cx = f.sinC;
     const double cz = cap.NoC;
     const double vz = p.NoV;
@@ -107,80 +105,85 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const double t = v1 * cx;
     const double w2 = v2 * v2 * cx * cx;
     const double hh = 0.5 * ((v1 + cx) * (v1 + cx) + v2 * v2 + (vz + cz) * (vz + cz));
-
     const double signedK = hh - cap.omc;
-    const double sg = signedK < 0.0 ? -1.0 : 1.0;
+    CapCone q{};
+    q.sg = signedK < 0.0 ? -1.0 : 1.0;
     const double ak = glm::max(std::abs(signedK), 1e-4 * hh);
-    const double k = sg * ak;
+    const double k = q.sg * ak;
     const double AC = 2.0 * (k - t);
     const double Z = z0 * p.invA2;
-    const double D0 = ak * s2 * p.invA2;
-    const double tr = sg * (AC + Z);
+    q.D0 = ak * s2 * p.invA2;
+    q.tr = q.sg * (AC + Z);
     const double m2 = k * (k - 2.0 * t) - w2 + AC * Z - G * p.invA2;
-    const double lam = conicRoot(tr, m2, D0);
-
+    q.lam = conicRoot(q.tr, m2, q.D0);
     const double invAlpha = 1.0 / p.alpha;
-    const double xx = sg * (k - 2.0 * t);
-    const double xy = -sg * v2 * cx;
-    const double xz = -sg * (v1 * cz + vz * cx) * invAlpha;
-    const double yy = ak;
-    const double yz = -sg * v2 * cz * invAlpha;
-    const double zz = sg * Z;
+    q.xx = q.sg * (k - 2.0 * t);
+    q.xy = -q.sg * v2 * cx;
+    q.xz = -q.sg * (v1 * cz + vz * cx) * invAlpha;
+    q.yy = ak;
+    q.yz = -q.sg * v2 * cz * invAlpha;
+    q.zz = q.sg * Z;
+    return q;
+}
 
-    const double sp = chord.sp;
-    const glm::dvec3 wc = glm::dvec3(1.0 + v1 - chord.cm, v2, p.alpha * vz);
-
-    const double X = xx + lam;
-    const double Y = yy + lam;
-    const double W = zz + lam;
-    const double adjXY = yz * xz - xy * W;
-    const double adjXZ = xy * yz - xz * Y;
-    const double adjYZ = xy * xz - yz * X;
-    const glm::dvec3 E = glm::dvec3((Y * W - yz * yz) * wc.x + adjXY * wc.y + adjXZ * wc.z,
-                                    adjXY * wc.x + (X * W - xz * xz) * wc.y + adjYZ * wc.z,
-                                    adjXZ * wc.x + adjYZ * wc.y + (X * Y - xy * xy) * wc.z);
-
+ConeAxes makeConeAxes(CapCone q, glm::dvec3 inside)
+{
+    const double X = q.xx + q.lam;
+    const double Y = q.yy + q.lam;
+    const double W = q.zz + q.lam;
+    const double adjXY = q.yz * q.xz - q.xy * W;
+    const double adjXZ = q.xy * q.yz - q.xz * Y;
+    const double adjYZ = q.xy * q.xz - q.yz * X;
+    const glm::dvec3 E =
+        glm::dvec3((Y * W - q.yz * q.yz) * inside.x + adjXY * inside.y + adjXZ * inside.z,
+                   adjXY * inside.x + (X * W - q.xz * q.xz) * inside.y + adjYZ * inside.z,
+                   adjXZ * inside.x + adjYZ * inside.y + (X * Y - q.xy * q.xy) * inside.z);
     const double se = E.z < 0.0 ? -1.0 : 1.0;
     const double reach = std::sqrt(glm::max(length2(E), 1e-36));
     const double stretch = se * reach + E.z;
     const double invE = 1.0 / (reach * stretch);
-    const glm::dvec3 e = E * (stretch * invE);
+    ConeAxes o{};
+    o.e = E * (stretch * invE);
     const double fb = -E.x * E.y * invE;
-    const glm::dvec3 f1 = glm::dvec3(1.0 - se * E.x * E.x * invE, se * fb, -se * e.x);
-    const glm::dvec3 f2 = glm::dvec3(fb, se - E.y * E.y * invE, -e.y);
+    const glm::dvec3 f1 = glm::dvec3(1.0 - se * E.x * E.x * invE, se * fb, -se * o.e.x);
+    const glm::dvec3 f2 = glm::dvec3(fb, se - E.y * E.y * invE, -o.e.y);
     const glm::dvec3 qf1 =
-        glm::dvec3(xx * f1.x + xy * f1.y + xz * f1.z, xy * f1.x + yy * f1.y + yz * f1.z,
-                   xz * f1.x + yz * f1.y + zz * f1.z);
-    const double S = 0.5 * (tr + lam);
+        glm::dvec3(q.xx * f1.x + q.xy * f1.y + q.xz * f1.z, q.xy * f1.x + q.yy * f1.y + q.yz * f1.z,
+                   q.xz * f1.x + q.yz * f1.y + q.zz * f1.z);
+    const double S = 0.5 * (q.tr + q.lam);
     const double de = glm::dot(f1, qf1) - S;
     const double be = glm::dot(f2, qf1);
     const double ade = std::abs(de) + 1e-15;
     const double r = std::sqrt(ade * ade + be * be);
     const double l1 = S + r;
-    const double invLD = 1.0 / (l1 * D0);
-    const double A2 = lam * D0 * invLD;
-    const double B2 = glm::max(lam * lam * l1 * l1 * invLD, A2);
+    const double invLD = 1.0 / (l1 * q.D0);
+    o.A2 = q.lam * q.D0 * invLD;
+    o.B2 = glm::max(q.lam * q.lam * l1 * l1 * invLD, o.A2);
     const double turn = inversesqrt(2.0 * r * (r + ade));
     const double ph = (r + ade) * turn;
     const double qh = be * turn;
     const double cosT = de >= 0.0 ? ph : std::abs(qh);
     const double sinT = de >= 0.0 ? qh : (be < 0.0 ? -ph : ph);
-    const glm::dvec3 e1 = cosT * f1 + sinT * f2;
-    const glm::dvec3 e2 = cosT * f2 - sinT * f1;
-    const double a = std::sqrt(A2);
-    const double b = std::sqrt(B2);
+    o.e1 = cosT * f1 + sinT * f2;
+    o.e2 = cosT * f2 - sinT * f1;
+    return o;
+}
 
-    const double w1 = glm::dot(wc, e1);
-    const double w2e = glm::dot(wc, e2);
-    const glm::dvec2 plus = glm::dvec2((w1 + sp * e1.y) * b, (w2e + sp * e2.y) * a);
-    const glm::dvec2 minus = glm::dvec2((w1 - sp * e1.y) * b, (w2e - sp * e2.y) * a);
+glm::dvec3 capArc(ConeAxes axes, double sg, glm::dvec3 wc, double sp, bool above)
+{
+    const double a = std::sqrt(axes.A2);
+    const double b = std::sqrt(axes.B2);
+    const double w1 = glm::dot(wc, axes.e1);
+    const double w2e = glm::dot(wc, axes.e2);
+    const glm::dvec2 plus = glm::dvec2((w1 + sp * axes.e1.y) * b, (w2e + sp * axes.e2.y) * a);
+    const glm::dvec2 minus = glm::dvec2((w1 - sp * axes.e1.y) * b, (w2e - sp * axes.e2.y) * a);
     const double lp = std::sqrt(glm::max(glm::dot(plus, plus), 1e-36));
     const double lm = std::sqrt(glm::max(glm::dot(minus, minus), 1e-36));
-    const double oa = 1.0 + A2;
-    const double ob = 1.0 + B2;
+    const double oa = 1.0 + axes.A2;
+    const double ob = 1.0 + axes.B2;
     const double oab = oa * ob;
     const double soab = std::sqrt(oab);
-    const double df = glm::max(B2 - A2, 1e-6 * ob);
+    const double df = glm::max(axes.B2 - axes.A2, 1e-6 * ob);
     const double inv = 1.0 / (oab * df);
     const double invSoab = soab * df * inv;
     const double g2 = df * df * ob * inv;
@@ -192,22 +195,30 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     const glm::dvec2 angles = atan2Pair(glm::dvec2(si, g * (minus.y * lp - plus.y * lm)),
                                         glm::dvec2(co, lpm + g2 * plus.y * minus.y));
     const double angle = angles.x;
-
-    const bool full = co > 7.0 * std::abs(si) ? cz > 0.0 : angle < 0.0;
+    const bool full = co > 7.0 * std::abs(si) ? above : angle < 0.0;
     const double dt = full ? angle + 2.0 * PI : angle;
-    const glm::dvec3 arc =
-        e1 * (-b * g * oab * inv * angles.y) +
-        e2 * (a * h * oab * inv *
-              atanhRatio(h * (minus.x * lp - plus.x * lm), lpm - h * h * plus.x * minus.x)) +
-        e * (sg * a * b * dt * invSoab);
+    return axes.e1 * (-b * g * oab * inv * angles.y) +
+           axes.e2 *
+               (a * h * oab * inv *
+                atanhRatio(h * (minus.x * lp - plus.x * lm), lpm - h * h * plus.x * minus.x)) +
+           axes.e * (sg * a * b * dt * invSoab);
+}
+
+ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
+{
+    const Chord chord = makeChord(cap, f.sinC);
+    const glm::dvec3 horizon = horizonArc(p, f, chord);
+    const CapCone cone = makeCapCone(p, cap, f);
+    const glm::dvec3 wc = glm::dvec3(1.0 + f.v1 - chord.cm, f.v2, p.alpha * p.NoV);
+    const glm::dvec3 arc = capArc(makeConeAxes(cone, wc), cone.sg, wc, chord.sp, cap.NoC > 0.0);
     const double phiZ = (arc.z + horizon.z) * (0.5 * INV_PI);
     const glm::dvec2 slope =
         (glm::dvec2(arc) + glm::dvec2(horizon)) * (0.5 * INV_PI * p.alpha / glm::max(phiZ, 1e-12));
     ConicRegion o{};
     o.integral = saturate(phiZ);
-    o.av = v1 * slope.x + v2 * slope.y;
+    o.av = f.v1 * slope.x + f.v2 * slope.y;
     o.x2 = glm::dot(slope, slope);
-    o.mu = glm::max(vz + o.av, MIN_CONIC_MU);
+    o.mu = glm::max(p.NoV + o.av, MIN_CONIC_MU);
     return o;
 }
 

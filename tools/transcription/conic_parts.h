@@ -67,6 +67,17 @@ struct Chord {
     double cp, sp, cm;
 };
 
+struct CapCone {
+    double xx, xy, xz, yy, yz, zz;
+    double sg;
+    double tr, D0, lam;
+};
+
+struct ConeAxes {
+    glm::dvec3 e, e1, e2;
+    double A2, B2;
+};
+
 struct SubstituteCap {
     glm::dvec3 c;
     double NoC, s2, omc;
@@ -87,6 +98,9 @@ double conicRoot(double tr, double m2, double D0);
 CapFrame makeCapFrame(ConicPoint p, glm::dvec3 c, double NoC);
 Chord makeChord(SphereCap cap, double sinC);
 glm::dvec3 horizonArc(ConicPoint p, CapFrame f, Chord chord);
+CapCone makeCapCone(ConicPoint p, SphereCap cap, CapFrame f);
+ConeAxes makeConeAxes(CapCone q, glm::dvec3 inside);
+glm::dvec3 capArc(ConeAxes axes, double sg, glm::dvec3 wc, double sp, bool above);
 ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f);
 SubstituteCap substituteCap(ConicPoint p, SphereCap cap, const ConicConstants& k);
 unsigned conicClass(double heightAbove, double radius, double d2, double a2);

@@ -119,17 +119,15 @@ vec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
     return vec3(across, pc + 0.5 * NoV2 * p.oneMinusA2 * J0);
 }
 
-// The region of the part of a cap above the horizon, for caps that cross it, |NoC| < s. On the rim,
-// w^T q w = 0 with the q of conic_region.glsl. In the principal axes e1, e2, e of q (e: the axis of the
-// cone; a, b: the tangents of its half angles along e1 and e2) the rim is w = (a cos t, b sin t, 1), so
-// |w|^2 = 1 + a^2 cos^2 t + b^2 sin^2 t and w x dw = (-b cos t, -a sin t, a b) dt. The integrals are an
-// arc tangent, an inverse hyperbolic tangent and an arc tangent of the ends.
-ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
+// The cone w^T q w <= 0 of a cap, with the q of conic_region.glsl.
+struct CapCone {
+    float xx, xy, xz, yy, yz, zz; // the elements of q times sg
+    float sg;                     // 1 or -1: see makeCapCone
+    float tr, D0, lam;            // t^3 + tr t^2 + m2 t - D0 has lam as its largest root
+};
+
+CapCone makeCapCone(ConicPoint p, SphereCap cap, CapFrame f)
 {
-    // The horizon comes first because it does not need the root below: so the two long chains of
-    // operations overlap.
-    const Chord chord = makeChord(cap, f.sinC);
-    const vec3 horizon = horizonArc(p, f, chord);
     const float cx = f.sinC;
     const float cz = cap.NoC;
     const float vz = p.NoV;
@@ -145,80 +143,102 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     // k < 0: the cap holds -v, as lights ahead of a grazing view can. The quadratic form of the same
     // cone then has the other sign, sg.
     const float signedK = hh - cap.omc;
-    const float sg = signedK < 0.0 ? -1.0 : 1.0;
+    CapCone q;
+    q.sg = signedK < 0.0 ? -1.0 : 1.0;
     const float ak = max(abs(signedK), 1e-4 * hh);
-    const float k = sg * ak;
+    const float k = q.sg * ak;
     const float AC = 2.0 * (k - t);
     const float Z = z0 * p.invA2;
-    const float D0 = ak * s2 * p.invA2;
-    const float tr = sg * (AC + Z);
+    q.D0 = ak * s2 * p.invA2;
+    q.tr = q.sg * (AC + Z);
     const float m2 = k * (k - 2.0 * t) - w2 + AC * Z - G * p.invA2;
-    const float lam = conicRoot(tr, m2, D0);
+    q.lam = conicRoot(q.tr, m2, q.D0);
 
-    // The cone w^T q w <= 0, q times sg.
     const float invAlpha = 1.0 / p.alpha;
-    const float xx = sg * (k - 2.0 * t);
-    const float xy = -sg * v2 * cx;
-    const float xz = -sg * (v1 * cz + vz * cx) * invAlpha;
-    const float yy = ak;
-    const float yz = -sg * v2 * cz * invAlpha;
-    const float zz = sg * Z;
-    // w at the middle of the chord between the ends of the arcs: it lies inside the cone.
-    const float sp = chord.sp;
-    const vec3 wc = vec3(1.0 + v1 - chord.cm, v2, p.alpha * vz);
-    // The axis e of the cone: the adjugate of q + lam I is a multiple of e e^T, so it maps wc to the
-    // axis, on the cone's side.
-    const float X = xx + lam;
-    const float Y = yy + lam;
-    const float W = zz + lam;
-    const float adjXY = yz * xz - xy * W;
-    const float adjXZ = xy * yz - xz * Y;
-    const float adjYZ = xy * xz - yz * X;
-    const vec3 E = vec3((Y * W - yz * yz) * wc.x + adjXY * wc.y + adjXZ * wc.z,
-                        adjXY * wc.x + (X * W - xz * xz) * wc.y + adjYZ * wc.z,
-                        adjXZ * wc.x + adjYZ * wc.y + (X * Y - xy * xy) * wc.z);
+    q.xx = q.sg * (k - 2.0 * t);
+    q.xy = -q.sg * v2 * cx;
+    q.xz = -q.sg * (v1 * cz + vz * cx) * invAlpha;
+    q.yy = ak;
+    q.yz = -q.sg * v2 * cz * invAlpha;
+    q.zz = q.sg * Z;
+    return q;
+}
+
+// The principal axes of a cone: e along it, e1 and e2 across it.
+struct ConeAxes {
+    vec3 e, e1, e2;
+    float A2, B2; // squared tangents a^2 and b^2 of its half angles along e1 and e2
+};
+
+// `inside` is any vector inside the cone.
+ConeAxes makeConeAxes(CapCone q, vec3 inside)
+{
+    // The axis e of the cone: the adjugate of q + lam I is a multiple of e e^T, so it maps `inside` to
+    // the axis, on the cone's side.
+    const float X = q.xx + q.lam;
+    const float Y = q.yy + q.lam;
+    const float W = q.zz + q.lam;
+    const float adjXY = q.yz * q.xz - q.xy * W;
+    const float adjXZ = q.xy * q.yz - q.xz * Y;
+    const float adjYZ = q.xy * q.xz - q.yz * X;
+    const vec3 E = vec3((Y * W - q.yz * q.yz) * inside.x + adjXY * inside.y + adjXZ * inside.z,
+                        adjXY * inside.x + (X * W - q.xz * q.xz) * inside.y + adjYZ * inside.z,
+                        adjXZ * inside.x + adjYZ * inside.y + (X * Y - q.xy * q.xy) * inside.z);
     // f1, f2, e: a right-handed frame (Duff et al. 2017, "Building an Orthonormal Basis, Revisited"). A
     // turn about e by half the angle of (de, be) takes f1, f2 to the principal axes e1, e2 of q.
     const float se = E.z < 0.0 ? -1.0 : 1.0;
     const float reach = sqrt(max(length2(E), 1e-36));
     const float stretch = se * reach + E.z;
     const float invE = 1.0 / (reach * stretch);
-    const vec3 e = E * (stretch * invE);
+    ConeAxes o;
+    o.e = E * (stretch * invE);
     const float fb = -E.x * E.y * invE;
-    const vec3 f1 = vec3(1.0 - se * E.x * E.x * invE, se * fb, -se * e.x);
-    const vec3 f2 = vec3(fb, se - E.y * E.y * invE, -e.y);
-    const vec3 qf1 = vec3(xx * f1.x + xy * f1.y + xz * f1.z, xy * f1.x + yy * f1.y + yz * f1.z,
-                          xz * f1.x + yz * f1.y + zz * f1.z);
-    const float S = 0.5 * (tr + lam);
+    const vec3 f1 = vec3(1.0 - se * E.x * E.x * invE, se * fb, -se * o.e.x);
+    const vec3 f2 = vec3(fb, se - E.y * E.y * invE, -o.e.y);
+    const vec3 qf1 = vec3(q.xx * f1.x + q.xy * f1.y + q.xz * f1.z,
+                          q.xy * f1.x + q.yy * f1.y + q.yz * f1.z,
+                          q.xz * f1.x + q.yz * f1.y + q.zz * f1.z);
+    const float S = 0.5 * (q.tr + q.lam);
     const float de = dot(f1, qf1) - S;
     const float be = dot(f2, qf1);
     const float ade = abs(de) + 1e-15; // r = 0: any axes will do
     const float r = sqrt(ade * ade + be * be);
     const float l1 = S + r;
-    const float invLD = 1.0 / (l1 * D0);
-    const float A2 = lam * D0 * invLD; // squared tangents of the cone's half angles: lam / l1 and
-    const float B2 = max(lam * lam * l1 * l1 * invLD, A2); // lam / l2, l1 l2 = D0 / lam
+    const float invLD = 1.0 / (l1 * q.D0);
+    o.A2 = q.lam * q.D0 * invLD;                       // lam / l1
+    o.B2 = max(q.lam * q.lam * l1 * l1 * invLD, o.A2); // lam / l2, where l1 l2 = D0 / lam
     const float turn = inversesqrt(2.0 * r * (r + ade));
     const float ph = (r + ade) * turn;
     const float qh = be * turn;
     const float cosT = de >= 0.0 ? ph : abs(qh);
     const float sinT = de >= 0.0 ? qh : (be < 0.0 ? -ph : ph);
-    const vec3 e1 = cosT * f1 + sinT * f2;
-    const vec3 e2 = cosT * f2 - sinT * f1;
-    const float a = sqrt(A2);
-    const float b = sqrt(B2);
+    o.e1 = cosT * f1 + sinT * f2;
+    o.e2 = cosT * f2 - sinT * f1;
+    return o;
+}
+
+// 2 pi times the rim's share of Phi. On the rim, w^T q w = 0. In the principal axes e1, e2, e of q (e
+// is the axis of the cone, a and b are the tangents of its half angles along e1 and e2) the rim is
+// w = (a cos t, b sin t, 1), so |w|^2 = 1 + a^2 cos^2 t + b^2 sin^2 t and
+// w x dw = (-b cos t, -a sin t, a b) dt. The integrals are an arc tangent, an inverse hyperbolic
+// tangent and an arc tangent of the ends. wc is w at the middle of the chord between the ends and sp
+// half the chord's length; `above` says whether the cap's centre is above the horizon.
+vec3 capArc(ConeAxes axes, float sg, vec3 wc, float sp, bool above)
+{
+    const float a = sqrt(axes.A2);
+    const float b = sqrt(axes.B2);
     // (cos t, sin t) at the ends of the rim's arc, each times a b and a length, lp or lm.
-    const float w1 = dot(wc, e1);
-    const float w2e = dot(wc, e2);
-    const vec2 plus = vec2((w1 + sp * e1.y) * b, (w2e + sp * e2.y) * a);
-    const vec2 minus = vec2((w1 - sp * e1.y) * b, (w2e - sp * e2.y) * a);
+    const float w1 = dot(wc, axes.e1);
+    const float w2e = dot(wc, axes.e2);
+    const vec2 plus = vec2((w1 + sp * axes.e1.y) * b, (w2e + sp * axes.e2.y) * a);
+    const vec2 minus = vec2((w1 - sp * axes.e1.y) * b, (w2e - sp * axes.e2.y) * a);
     const float lp = sqrt(max(dot(plus, plus), 1e-36));
     const float lm = sqrt(max(dot(minus, minus), 1e-36));
-    const float oa = 1.0 + A2;
-    const float ob = 1.0 + B2;
+    const float oa = 1.0 + axes.A2;
+    const float ob = 1.0 + axes.B2;
     const float oab = oa * ob;
     const float soab = sqrt(oab);
-    const float df = max(B2 - A2, 1e-6 * ob);
+    const float df = max(axes.B2 - axes.A2, 1e-6 * ob);
     const float inv = 1.0 / (oab * df);
     const float invSoab = soab * df * inv;
     const float g2 = df * df * ob * inv; // df / oa
@@ -233,20 +253,32 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     // The arc runs from one end to the other by `angle` or by the rest of the full turn. Where it is
     // nearly empty or nearly full (within atan(1 / 7) = 8 degrees) rounding could take either for the
     // other, and the side of the horizon on which the centre lies decides.
-    const bool full = co > 7.0 * abs(si) ? cz > 0.0 : angle < 0.0;
+    const bool full = co > 7.0 * abs(si) ? above : angle < 0.0;
     const float dt = full ? angle + 2.0 * PI : angle;
-    const vec3 arc =
-        e1 * (-b * g * oab * inv * angles.y) +
-        e2 * (a * h * oab * inv *
-              atanhRatio(h * (minus.x * lp - plus.x * lm), lpm - h * h * plus.x * minus.x)) +
-        e * (sg * a * b * dt * invSoab);
+    return axes.e1 * (-b * g * oab * inv * angles.y) +
+           axes.e2 * (a * h * oab * inv *
+                      atanhRatio(h * (minus.x * lp - plus.x * lm), lpm - h * h * plus.x * minus.x)) +
+           axes.e * (sg * a * b * dt * invSoab);
+}
+
+// The region of the part of a cap above the horizon, for caps that cross it, |NoC| < s.
+ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
+{
+    // The horizon comes first because it does not need the root below: so the two long chains of
+    // operations overlap.
+    const Chord chord = makeChord(cap, f.sinC);
+    const vec3 horizon = horizonArc(p, f, chord);
+    const CapCone cone = makeCapCone(p, cap, f);
+    // w at the middle of the chord between the ends of the arcs: it lies inside the cone.
+    const vec3 wc = vec3(1.0 + f.v1 - chord.cm, f.v2, p.alpha * p.NoV);
+    const vec3 arc = capArc(makeConeAxes(cone, wc), cone.sg, wc, chord.sp, cap.NoC > 0.0);
     const float phiZ = (arc.z + horizon.z) * (0.5 * INV_PI);
     const vec2 slope = (arc.xy + horizon.xy) * (0.5 * INV_PI * p.alpha / max(phiZ, 1e-12));
     ConicRegion o;
     o.integral = saturate(phiZ);
-    o.av = v1 * slope.x + v2 * slope.y;
+    o.av = f.v1 * slope.x + f.v2 * slope.y;
     o.x2 = dot(slope, slope);
-    o.mu = max(vz + o.av, MIN_CONIC_MU);
+    o.mu = max(p.NoV + o.av, MIN_CONIC_MU);
     return o;
 }
 

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""No function of C, C++ or GLSL is longer than a page. Usage: test_functions.py REPOSITORY"""
+import pathlib
+import re
+import sys
+
+MAX_LINES = 80  # from the first line of its head to its closing brace
+
+SUFFIXES = {".c", ".comp", ".cpp", ".frag", ".glsl", ".h", ".hpp", ".vert"}
+
+# What braces do not count in: comments, preprocessor lines, raw strings, strings, numbers with digit
+# separators (which are no character literals) and characters.
+SKIPPED = re.compile(r"""//[^\n]*|/\*.*?\*/|^[ \t]*\#(?:[^\n\\]|\\.)*|R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"
+                         |\b\d[\w']*|'(?:[^'\\\n]|\\.)*'""", re.DOTALL | re.MULTILINE | re.VERBOSE)
+# Heads of blocks in which functions stand. A head with a parenthesis is a function's, which may return
+# a struct.
+SCOPE = re.compile(r"^(?:inline |template\s*<.*?>\s*)*(?:namespace|class|struct|union|enum|extern)\b(?!.*\))|^layout\b",
+                   re.DOTALL)
+# What stands before the brace of an initialiser; our formatter puts a space before the brace of a block.
+INITIALISED = re.compile(r"[\w>\]]\Z|[=(,]\s*\Z")
+
+
+def functions(text):
+    """First line, number of lines and head of every function that stands in no other."""
+    code = SKIPPED.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
+    head_from, start = 0, None
+    blocks = []  # kinds of the braces that are open
+    for token in re.finditer(r"[{};]", code):
+        outside = all(block == "scope" for block in blocks)
+        if token[0] == "{":
+            head = code[head_from:token.start()]
+            stripped = re.sub(r"^(?:\s*(?:public|private|protected):)*\s*", "", head)
+            if INITIALISED.search(head):
+                blocks.append("initialiser")
+                continue
+            blocks.append("scope" if outside and SCOPE.match(stripped) else "body")
+            if outside and blocks[-1] == "body":
+                start = token.start() - len(stripped)
+        elif token[0] == "}":
+            if not blocks:
+                raise ValueError("a brace closes what none has opened")
+            closed = blocks.pop()
+            if closed == "initialiser":
+                continue
+            if closed == "body" and all(block == "scope" for block in blocks):
+                first = code.count("\n", 0, start) + 1
+                head = " ".join(code[start:code.index("{", start)].split())
+                yield first, code.count("\n", 0, token.end()) + 2 - first, head
+        if all(block == "scope" for block in blocks):
+            head_from = token.end()
+    if blocks:
+        raise ValueError(f"{len(blocks)} braces stay open")
+
+
+def faults(path, text):
+    try:
+        for line, length, head in functions(text):
+            if length > MAX_LINES:
+                yield f"{path}:{line}: {length} lines, at most {MAX_LINES}: {head}"
+    except ValueError as error:
+        yield f"{path}: {error}"
+
+
+def test_the_test():
+    """Finds a function that is one line too long, and none that is as long as it may be."""
+    def body(lines):
+        return "{\n" + "    x('{', \"}\", 1'000); // {\n" * (lines - 3) + "}\n"
+
+    def lengths(text):
+        return [length for _, length, _ in functions(text)]
+
+    assert lengths("int f(int a)\n" + body(80)) == [80]
+    assert lengths("namespace a\n{\nclass B\n{\npublic:\n    B() : x{1}, y(2)\n    " + body(81) + "};\n}\n") == [81]
+    assert lengths("template <typename T>\nvoid f()\n" + body(30) + "struct A g()\n" + body(20)) == [31, 20]
+    assert lengths("const Entry list[] = {f({1, 2}),\n{3, 4}};\nvoid h()\n{\n    [&] {\n    }();\n}\n") == [5]
+    assert lengths("#define F(x) {\nauto text = R\"({{{)\";\nvoid k() const\n{\n}\n") == [3]
+    assert list(faults("a.cpp", "int f(int a)\n" + body(80))) == []
+    assert list(faults("a.cpp", "int f(int a)\n" + body(81))) == ["a.cpp:1: 81 lines, at most 80: int f(int a)"]
+    assert list(faults("a.cpp", "int f()\n{\n")) == ["a.cpp: 1 braces stay open"]
+
+
+def main():
+    test_the_test()
+    root = pathlib.Path(sys.argv[1]).resolve()
+    failures, count = [], 0
+    for folder in ("engine", "samples", "shaders", "tests", "tools"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in SUFFIXES:
+                text = path.read_text(encoding="utf-8")
+                failures += faults(path.relative_to(root).as_posix(), text)
+                count += 1
+    print("\n".join(failures) or f"no function of {count} files is longer than {MAX_LINES} lines")
+    return 1 if failures else 0
+
+
+sys.exit(main())
