@@ -3,7 +3,7 @@
 get_filename_component(dir ${OUTPUT} DIRECTORY)
 file(MAKE_DIRECTORY ${dir})
 if(FAMILY)
-    set(family -DLIGHT_FAMILY=FAMILY_${FAMILY})
+    set(family -DLIGHT_FAMILY_${FAMILY})
 endif()
 set(spv ${OUTPUT}.spv)
 execute_process(

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 
 #include "compiler/shader_sources.h"
 #include "gpu/failure.h"
+#include "shading/light_family.h"
 
 struct CndCompiledKernels_T {
     struct Kernel {
@@ -56,32 +58,31 @@ public:
     void releaseInclude(IncludeResult* result) override { delete result; }
 };
 
-// A kernel to compile, and the family of light types (shading/light_families.glsl) to compile it
-// for; empty if the kernel does not depend on the family.
+// A kernel to compile, and the family of lights (shared/light_families.h) to compile it for; empty
+// if the kernel does not depend on the family.
 struct Job {
     std::string kernel, family;
     std::string name() const { return family.empty() ? kernel : kernel + ":" + family; }
 };
 
-// Returns the families of light types that these types need with these methods (both masks).
+// Returns the families of light types that these types need with these methods, both of which are
+// masks of 1 << id.
 std::vector<std::string> familiesOf(uint32_t types, uint32_t methods)
 {
-    const auto has = [&](auto... type) { return (types & (... | (1u << type))) != 0; };
-    constexpr uint32_t conic = 1u << CND_SPECULAR_CONIC | 1u << CND_SPECULAR_CONIC_FULL;
+    types |= 1u << CND_LIGHT_SPHERE; // always: every CndLighting creates their pipelines
+    std::set<uint32_t> families;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
+            if (types >> type & methods >> method & 1)
+                families.insert(lighting::familyOf(type, CndSpecularMethod(method)));
+    static constexpr const char* names[] = {
+#define X(index, NAME, iterations) #NAME,
+        CND_LIGHT_FAMILIES(X)
+#undef X
+    };
     std::vector<std::string> out;
-    if (has(CND_LIGHT_POINT, CND_LIGHT_SPOT, CND_LIGHT_DIRECTIONAL))
-        out.push_back("PUNCTUAL");
-    // Spheres are always included: every CndLighting creates their pipelines.
-    if (methods & conic)
-        out.push_back("CONIC");
-    if (methods & ~conic)
-        out.push_back("SPHERE");
-    if (has(CND_LIGHT_TUBE))
-        out.push_back("TUBE");
-    if (has(CND_LIGHT_RECTANGLE))
-        out.push_back("RECTANGLE");
-    if (has(CND_LIGHT_DISC))
-        out.push_back("DISC");
+    for (const uint32_t family : families)
+        out.push_back(names[family]);
     return out;
 }
 
@@ -127,7 +128,7 @@ std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
 {
     std::string preamble = "#extension GL_GOOGLE_include_directive : require\n";
     if (!job.family.empty())
-        preamble += "#define LIGHT_FAMILY FAMILY_" + job.family + "\n";
+        preamble += "#define LIGHT_FAMILY_" + job.family + "\n";
     if (desc.functions & CND_HOST_VISIBILITY_BIT && !job.family.empty())
         preamble += "#define CANDELABRA_VISIBILITY\n";
     if (desc.functions & CND_HOST_READ_SURFACE_BIT)

@@ -28,22 +28,23 @@ gpu::EmitterRecord recordOf(const CndLight& light, size_t index)
         if (!condition)
             gpu::failArgument("emitter " + std::to_string(index) + " has " + otherwise);
     };
-    const bool distant = light.type == CND_LIGHT_DISTANT_SPHERE;
-    const bool rectangle = light.type == CND_LIGHT_RECTANGLE;
+    const auto has = [&](uint32_t types) { return (types >> light.type & 1) != 0; };
+    const bool distant = Emitters::isDistant(light.type);
     require((distant || isFinite(light.position)) && isFinite(light.emission),
             "a position or emission that is not finite");
-    require(rectangle || (light.radius > 0 && std::isfinite(light.radius)),
+    require(!has(gpu::TYPES_WITH_RADIUS) || (light.radius > 0 && std::isfinite(light.radius)),
             "a radius that is not above 0");
     const auto isLong = [](const float(&v)[3]) { return isFinite(v) && glm::length(vec(v)) > 0; };
+    require((!has(gpu::TYPES_WITH_AXIS_U) || isLong(light.axisU)) &&
+                (!has(gpu::TYPES_WITH_AXIS_V) || isLong(light.axisV)),
+            "an axis without length");
     gpu::EmitterRecord record{
         .position = vec(light.position), .radius = light.radius, .luminance = vec(light.emission)};
-    if (light.type == CND_LIGHT_TUBE || rectangle) {
-        require(isLong(light.axisU) && (!rectangle || isLong(light.axisV)),
-                "an axis without length");
+    if (has(gpu::TYPES_WITH_AXIS_U))
         record.axisU = vec(light.axisU);
+    if (has(gpu::TYPES_WITH_AXIS_V))
         record.axisV = vec(light.axisV);
-    }
-    if (distant || light.type == CND_LIGHT_DISC) {
+    if (has(gpu::TYPES_WITH_DIRECTION)) {
         require(isLong(light.direction), "a direction without length");
         const glm::vec3 direction = glm::normalize(vec(light.direction));
         (distant ? record.position : record.axisU) = distant ? -direction : direction;
@@ -58,8 +59,8 @@ void Emitters::set(std::span<const CndLight> lights, const double origin[3])
 {
     std::vector<gpu::EmitterRecord> records;
     records.reserve(lights.size());
-    std::array<Group, shapes.size()> groups{};
-    for (size_t shape = 0; shape < shapes.size(); ++shape) {
+    std::array<Group, shapeCount> groups{};
+    for (size_t shape = 0; shape < shapeCount; ++shape) {
         groups[shape].first = uint32_t(records.size());
         for (size_t i = 0; i < lights.size(); ++i)
             if (lights[i].type == shapes[shape])

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "candelabra/candelabra.h"
 #include "gpu/memory.h"
+#include "shared/light_types.h"
 #include "shared/raster.h"
 
 namespace candelabra::gbuffer
@@ -30,12 +32,24 @@ public:
     struct Group {
         uint32_t first = 0, count = 0;
     };
-    // shapes[i] is the light type of group i. Distant spheres come last: they are drawn where
-    // nothing else was drawn.
-    static constexpr std::array<CndLightType, 5> shapes{CND_LIGHT_SPHERE, CND_LIGHT_TUBE,
-                                                        CND_LIGHT_RECTANGLE, CND_LIGHT_DISC,
-                                                        CND_LIGHT_DISTANT_SPHERE};
-    const std::array<Group, shapes.size()>& groups() const { return groups_; }
+    static constexpr size_t shapeCount = std::popcount(gpu::AREA_LIGHT_TYPES);
+    // shapes[i] is the light type of group i: the types of lights that have a size. Distant ones
+    // come last, because they are drawn where nothing else was drawn.
+    static constexpr std::array<uint32_t, shapeCount> shapes = [] {
+        std::array<uint32_t, shapeCount> out{};
+        size_t count = 0;
+        for (const uint32_t types : {gpu::AREA_LIGHT_TYPES & gpu::TYPES_WITH_POSITION,
+                                     gpu::AREA_LIGHT_TYPES & ~gpu::TYPES_WITH_POSITION})
+            for (uint32_t type = 0; type < gpu::LIGHT_TYPE_COUNT; ++type)
+                if (types >> type & 1)
+                    out[count++] = type;
+        return out;
+    }();
+    static constexpr bool isDistant(uint32_t type)
+    {
+        return !(gpu::TYPES_WITH_POSITION >> type & 1);
+    }
+    const std::array<Group, shapeCount>& groups() const { return groups_; }
     bool empty() const { return records_.empty(); }
     const std::array<double, 3>& origin() const { return origin_; } // world space
 
@@ -49,7 +63,7 @@ private:
     const gpu::Device* device_;
     std::vector<Slot> slots_;
     std::vector<gpu::EmitterRecord> records_;
-    std::array<Group, shapes.size()> groups_{};
+    std::array<Group, shapeCount> groups_{};
     std::array<double, 3> origin_{};
     uint64_t version_ = 0;
 };

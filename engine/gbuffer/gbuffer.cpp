@@ -237,7 +237,7 @@ void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records
         const Emitters::Group& group = emitters.groups()[i];
         if (!group.count)
             continue;
-        if (Emitters::shapes[i] == CND_LIGHT_DISTANT_SPHERE)
+        if (Emitters::isDistant(Emitters::shapes[i]))
             device.CmdSetDepthCompareOp(cmd, VK_COMPARE_OP_EQUAL); // only where the depth is still
                                                                    // clear
         device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.emitters[i].get());

@@ -215,8 +215,8 @@ Pipelines::Pipelines(const gpu::Device& device, CndGBufferLayout layout)
     createAnalytic(gpu::ANALYTIC_BALL, "analytic ball");
 
     for (size_t i = 0; i < emitters.size(); ++i) {
-        const std::array constants{
-            layoutConstant, gpu::SpecConstant{gpu::RASTER_SHAPE, uint32_t(Emitters::shapes[i])}};
+        const std::array constants{layoutConstant,
+                                   gpu::SpecConstant{gpu::RASTER_SHAPE, Emitters::shapes[i]}};
         emitters[i] = createPipeline(device, layout,
                                      {"emitter", spirv::emitter_vert, spirv::emitter_frag,
                                       constants, emitterStreams, emitterAttributes,

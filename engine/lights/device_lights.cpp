@@ -7,7 +7,7 @@
 #include <string>
 
 #include "candelabra_shaders.h"
-#include "lights/reach.h"
+#include "lights/influence_box.h"
 
 namespace candelabra::lighting
 {

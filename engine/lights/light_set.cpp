@@ -70,11 +70,11 @@ void LightSet::set(const CndLightSet& set)
     const std::span lights(set.lights, set.count);
     validateLights(lights);
     LightTypeCounts types = countTypes(lights);
-    ReachBoxes reach = reachOf(lights);
+    InfluenceBoxes boxes = influenceBoxesOf(lights);
     if (device) {
         types[device->type] += device->maxCount;
-        ReachBox& box = reach[device->type]; // nobody here knows where they are
-        box = endlessReach(box.layers | layersOf(device->layers));
+        InfluenceBox& box = boxes[device->type]; // nobody here knows where they are
+        box = endlessBox(box.layers | layersOf(device->layers));
     }
     const uint32_t capacity = capacityFor(uint32_t(total));
     recordings_.freeRetired();
@@ -104,7 +104,7 @@ void LightSet::set(const CndLightSet& set)
     std::copy_n(set.origin, 3, origin_);
     extent_ = currentExtent();
     editsSinceExtent_ = 0;
-    reach_ = reach;
+    influenceBoxes_ = boxes;
 }
 
 void LightSet::add(std::span<const CndLight> lights, CndLightId* ids)
@@ -175,11 +175,11 @@ void LightSet::finishEdit(const LightTypeCounts& types, std::span<const CndLight
                           size_t edits) noexcept
 {
     // Lights that were replaced or removed stay in the boxes until their type has no lights.
-    const ReachBoxes none = reachOf({});
+    const InfluenceBoxes none = influenceBoxesOf({});
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (!typeCounts_[type])
-            reach_[type] = none[type];
-    widen(reach_, reachOf(lights));
+            influenceBoxes_[type] = none[type];
+    widen(influenceBoxes_, influenceBoxesOf(lights));
     typeCounts_ = types;
     count_ = firstRecord_ + lights_.count();
     ++number_;
@@ -194,7 +194,7 @@ LightTypeCounts LightSet::countsInLayers(uint32_t layers) const
 {
     LightTypeCounts out = typeCounts_;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (!(reach_[type].layers & layers))
+        if (!(influenceBoxes_[type].layers & layers))
             out[type] = 0;
     return out;
 }
@@ -203,7 +203,7 @@ LightTypeCounts LightSet::countsInView(const CndCamera& camera, uint32_t layers)
 {
     LightTypeCounts out = countsInLayers(layers);
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (out[type] && !reachesView(reach_[type], origin_, camera))
+        if (out[type] && !reachesView(influenceBoxes_[type], origin_, camera))
             out[type] = 0;
     return out;
 }

@@ -10,10 +10,10 @@
 
 #include "gpu/recordings.h"
 #include "lights/device_lights.h"
+#include "lights/influence_box.h"
 #include "lights/light_order.h"
 #include "lights/light_table.h"
 #include "lights/light_types.h"
-#include "lights/reach.h"
 
 namespace candelabra::lighting
 {
@@ -100,7 +100,7 @@ private:
     uint64_t number_ = 0;
     double origin_[3]{};
     LightTypeCounts typeCounts_{};
-    ReachBoxes reach_{};
+    InfluenceBoxes influenceBoxes_{};
     LightExtent extent_;
     uint32_t editsSinceExtent_ = 0; // edits since `extent_` was estimated
 

@@ -1,27 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light type is, as far as all rooms above ask: whether its lights have a place, whether it
-// is a sphere, and how many lights of each type there are.
+// What a light type is and has, from the list of shared/light_types.h, and how many lights of each
+// type there are.
 #pragma once
 
 #include <array>
 
-#include "candelabra/candelabra.h"
+#include "candelabra/lights.h"
+#include "shared/light_types.h"
 
 namespace candelabra::lighting
 {
 
 using LightTypeCounts = std::array<uint32_t, CND_LIGHT_TYPE_COUNT>;
 
+#define X(id, NAME, family, fields) static_assert(gpu::LIGHT_##NAME == uint32_t{CND_LIGHT_##NAME});
+CND_LIGHT_TYPES(X)
+#undef X
+static_assert(gpu::LIGHT_TYPE_COUNT == uint32_t{CND_LIGHT_TYPE_COUNT});
+static_assert(gpu::LIGHT_HAS_POSITION == uint32_t{CND_LIGHT_FIELD_POSITION_BIT} &&
+              gpu::LIGHT_HAS_RADIUS == uint32_t{CND_LIGHT_FIELD_RADIUS_BIT} &&
+              gpu::LIGHT_HAS_DIRECTION == uint32_t{CND_LIGHT_FIELD_DIRECTION_BIT} &&
+              gpu::LIGHT_HAS_CONE == uint32_t{CND_LIGHT_FIELD_CONE_BIT} &&
+              gpu::LIGHT_HAS_AXIS_U == uint32_t{CND_LIGHT_FIELD_AXIS_U_BIT} &&
+              gpu::LIGHT_HAS_AXIS_V == uint32_t{CND_LIGHT_FIELD_AXIS_V_BIT} &&
+              gpu::LIGHT_HAS_SIDES == uint32_t{CND_LIGHT_FIELD_TWO_SIDED_BIT});
+
+// Returns the fields of CndLight that the type uses, a mask of gpu::LIGHT_HAS_*; 0 for what is no
+// type.
+constexpr uint32_t fieldsOf(uint32_t lightType)
+{
+    using namespace gpu;
+#define X(id, NAME, family, fields) (fields),
+    constexpr uint32_t fieldsOfTypes[] = {CND_LIGHT_TYPES(X)};
+#undef X
+    return lightType < LIGHT_TYPE_COUNT ? fieldsOfTypes[lightType] : 0;
+}
+
+constexpr bool has(uint32_t lightType, uint32_t field)
+{
+    return (fieldsOf(lightType) & field) != 0;
+}
+
 // Distant lights have a direction and no position: they light every surface, so there is no light
 // tree over them and no list holds them.
 constexpr bool isDistant(uint32_t lightType)
 {
-    return lightType == CND_LIGHT_DIRECTIONAL || lightType == CND_LIGHT_DISTANT_SPHERE;
+    return !has(lightType, gpu::LIGHT_HAS_POSITION);
+}
+
+// Returns the family of the type, where types with the methods of spheres belong to FAMILY_SPHERE.
+constexpr uint32_t baseFamilyOf(uint32_t lightType)
+{
+    using namespace gpu;
+#define X(id, NAME, family, fields) FAMILY_##family,
+    constexpr uint32_t families[] = {CND_LIGHT_TYPES(X)};
+#undef X
+    return families[lightType];
 }
 
 constexpr bool isSphere(uint32_t lightType)
 {
-    return lightType == CND_LIGHT_SPHERE || lightType == CND_LIGHT_DISTANT_SPHERE;
+    return baseFamilyOf(lightType) == gpu::FAMILY_SPHERE;
 }
+
+// Punctual lights have no size; the emission of all others is luminance.
+constexpr bool isPunctual(uint32_t lightType)
+{
+    return baseFamilyOf(lightType) == gpu::FAMILY_PUNCTUAL;
+}
+
+// Returns the radius of a sphere around the light's centre that holds its emitter: metres, 0 for
+// punctual lights, the sine of the angular radius for distant spheres.
+float boundingRadiusOf(const CndLight& light);
 
 } // namespace candelabra::lighting

@@ -8,17 +8,14 @@
 #include <string>
 
 #include "gpu/failure.h"
-#include "lights/reach.h"
+#include "lights/influence_box.h"
+#include "lights/light_types.h"
 #include "shared/device_lights.h"
 
 namespace candelabra::lighting
 {
 namespace
 {
-
-#define X(id, NAME) static_assert(gpu::LIGHT_##NAME == uint32_t{CND_LIGHT_##NAME});
-CND_LIGHT_TYPES(X)
-#undef X
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -44,38 +41,15 @@ bool isNear(const float (&v)[3])
            std::abs(v[2]) <= maxCoordinate; // false for NaN
 }
 
-bool isOneOf(uint32_t type, std::initializer_list<CndLightType> types)
-{
-    return std::find(types.begin(), types.end(), CndLightType(type)) != types.end();
-}
-
-// From the centre to the farthest point of the emitter.
-float reachOf(const CndLight& light)
-{
-    const glm::vec3 u = vec(light.axisU), v = vec(light.axisV);
-    switch (light.type) {
-    case CND_LIGHT_SPHERE:
-    case CND_LIGHT_DISTANT_SPHERE:
-    case CND_LIGHT_DISC:
-        return light.radius;
-    case CND_LIGHT_TUBE:
-        return std::hypot(u.x, u.y, u.z) + light.radius;
-    case CND_LIGHT_RECTANGLE:
-        return std::hypot(std::hypot(u.x, u.y, u.z), std::hypot(v.x, v.y, v.z));
-    default:
-        return 0;
-    }
-}
-
 const char* whyAxesInvalid(const CndLight& light)
 {
-    if (light.type != CND_LIGHT_TUBE && light.type != CND_LIGHT_RECTANGLE)
+    if (!has(light.type, gpu::LIGHT_HAS_AXIS_U))
         return nullptr;
     const glm::vec3 u = vec(light.axisU), v = vec(light.axisV);
     const float lengthU = std::hypot(u.x, u.y, u.z), lengthV = std::hypot(v.x, v.y, v.z);
     if (!(isNear(light.axisU) && lengthU >= minLength))
         return "axisU must be finite and not zero";
-    if (light.type == CND_LIGHT_TUBE)
+    if (!has(light.type, gpu::LIGHT_HAS_AXIS_V))
         return nullptr;
     if (!(isNear(light.axisV) && lengthV >= minLength))
         return "axisV must be finite and not zero";
@@ -86,7 +60,7 @@ const char* whyAxesInvalid(const CndLight& light)
 
 const char* whyConeInvalid(const CndLight& light)
 {
-    if (light.type != CND_LIGHT_SPOT)
+    if (!has(light.type, gpu::LIGHT_HAS_CONE))
         return nullptr;
     // float(pi / 2) may exceed the double by an ulp.
     constexpr float quarterTurn = float(std::numbers::pi / 2) * (1 + 1e-6f);
@@ -100,11 +74,11 @@ const char* whyConeInvalid(const CndLight& light)
 
 const char* whyRadiusInvalid(const CndLight& light)
 {
-    const bool round = isOneOf(
-        light.type, {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_DISC});
-    if (round && !(light.radius >= minLength && light.radius <= maxCoordinate))
+    if (!has(light.type, gpu::LIGHT_HAS_RADIUS))
+        return nullptr;
+    if (!(light.radius >= minLength && light.radius <= maxCoordinate))
         return "radius must be within 1e-15..1e15";
-    if (light.type == CND_LIGHT_DISTANT_SPHERE && light.radius > 1)
+    if (isDistant(light.type) && light.radius > 1)
         return "radius of a distant sphere is a sine and must be <= 1";
     return nullptr;
 }
@@ -115,12 +89,12 @@ const char* whyInfluenceInvalid(const CndLight& light)
         return nullptr;
     if (!(light.influenceRadius > 0))
         return "influenceRadius must be > 0 (INFINITY for uncut)";
-    if (light.type == CND_LIGHT_SPHERE || light.type == CND_LIGHT_DISC)
-        return light.influenceRadius > light.radius ? nullptr
-                                                    : "influenceRadius must be greater than radius";
-    return light.influenceRadius > reachOf(light)
-               ? nullptr
-               : "influenceRadius must be greater than the emitter's reach from its centre";
+    if (light.influenceRadius > boundingRadiusOf(light))
+        return nullptr;
+    return has(light.type, gpu::LIGHT_HAS_AXIS_U)
+               ? "influenceRadius must be greater than the distance from the light's centre to the "
+                 "farthest point of its emitter"
+               : "influenceRadius must be greater than radius";
 }
 
 // Why a light cannot be used, or null. Kept free of allocation: it runs a million times a frame.
@@ -133,8 +107,7 @@ const char* whyInvalid(const CndLight& light)
             return "emission must be finite and >= 0";
     if (!isDistant(light.type) && !isNear(light.position))
         return "position must be finite and within 1e15 m of the origin";
-    if (isOneOf(light.type, {CND_LIGHT_SPOT, CND_LIGHT_DIRECTIONAL, CND_LIGHT_DISTANT_SPHERE,
-                             CND_LIGHT_DISC})) {
+    if (has(light.type, gpu::LIGHT_HAS_DIRECTION)) {
         const float length = std::hypot(light.direction[0], light.direction[1], light.direction[2]);
         if (!(std::abs(length - 1) <= 1e-3f))
             return "direction must be a unit vector";
@@ -158,37 +131,30 @@ glm::vec3 unit(const float (&v)[3])
 
 gpu::LightRecord pack(const CndLight& light)
 {
+    const uint32_t fields = fieldsOf(light.type);
+    const bool distant = isDistant(light.type);
     gpu::LightRecord r{};
-    r.type = light.type;
-    r.reach = reachOf(light);
+    r.flags = light.type;
+    r.boundingRadius = boundingRadiusOf(light);
     r.emission = vec(light.emission);
-    r.influenceRadius = isDistant(light.type) ? infinity : light.influenceRadius;
-    r.position = isDistant(light.type) ? -unit(light.direction) : vec(light.position);
-    switch (light.type) {
-    case CND_LIGHT_SPOT: {
+    r.influenceRadius = distant ? infinity : light.influenceRadius;
+    r.position = distant ? -unit(light.direction) : vec(light.position);
+    if (fields & gpu::LIGHT_HAS_AXIS_U)
+        r.axisU = vec(light.axisU);
+    else if (fields & gpu::LIGHT_HAS_DIRECTION && !distant)
+        r.axisU = unit(light.direction);
+    if (fields & gpu::LIGHT_HAS_CONE) {
         // KHR_lights_punctual: attenuation is linear in the cosine between the cones, then squared.
         const double cosOuter = std::cos(double(light.outerConeAngle));
-        r.axisU = unit(light.direction);
         r.axisV = {float(1 / cosBetween(light)), float(-cosOuter / cosBetween(light)), 0};
-        break;
-    }
-    case CND_LIGHT_TUBE:
-        r.axisU = vec(light.axisU);
-        r.axisV.x = light.radius;
-        break;
-    case CND_LIGHT_RECTANGLE:
-        r.axisU = vec(light.axisU);
+    } else if (fields & gpu::LIGHT_HAS_AXIS_V) {
         r.axisV = vec(light.axisV);
-        break;
-    case CND_LIGHT_DISC:
-        r.axisU = unit(light.direction);
-        break;
-    default:
-        break;
+    } else if (fields & gpu::LIGHT_HAS_AXIS_U && fields & gpu::LIGHT_HAS_RADIUS) {
+        r.axisV.x = light.radius; // shapeOf
     }
-    if (light.twoSided && isOneOf(light.type, {CND_LIGHT_RECTANGLE, CND_LIGHT_DISC}))
-        r.type |= gpu::LIGHT_TWO_SIDED;
-    r.type |= layersOf(light.layers) << gpu::LIGHT_LAYERS_SHIFT;
+    if (light.twoSided && fields & gpu::LIGHT_HAS_SIDES)
+        r.flags |= gpu::LIGHT_TWO_SIDED;
+    r.flags |= layersOf(light.layers) << gpu::LIGHT_LAYERS_SHIFT;
     return r;
 }
 
@@ -207,6 +173,17 @@ LightTypeCounts countTypes(std::span<const CndLight> lights)
     for (const CndLight& light : lights)
         ++counts[light.type];
     return counts;
+}
+
+gpu::LightShape shapeOf(const gpu::LightRecord& record)
+{
+    const uint32_t fields = fieldsOf(record.flags & gpu::LIGHT_TYPE_MASK);
+    const bool inAxisV = fields & gpu::LIGHT_HAS_RADIUS && fields & gpu::LIGHT_HAS_AXIS_U &&
+                         !(fields & gpu::LIGHT_HAS_AXIS_V);
+    return {.axisU = record.axisU,
+            .radius = inAxisV ? record.axisV.x : record.boundingRadius,
+            .axisV = record.axisV,
+            .flags = record.flags};
 }
 
 void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records,

@@ -21,4 +21,7 @@ LightTypeCounts countTypes(std::span<const CndLight> lights);
 void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records,
                 uint32_t firstId = 0) noexcept;
 
+// The shape that prepare_lights reads from a record, in the frame of the light set.
+gpu::LightShape shapeOf(const gpu::LightRecord& record);
+
 } // namespace candelabra::lighting

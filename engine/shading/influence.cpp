@@ -8,6 +8,7 @@
 #include <string>
 
 #include "candelabra_shaders.h"
+#include "lights/light_types.h"
 #include "shared/exposure.h"
 
 namespace candelabra::lighting
@@ -109,7 +110,7 @@ void Influence::writeBindings(uint32_t slot, const Inputs& in) const
     measure_.write(
         slot,
         {Binding::ofTexels(SHADE_CORE, in.core), Binding::of(SHADE_CORE_WORDS, in.core),
-         Binding::of(SHADE_AUX, in.aux), Binding::of(SHADE_LIGHT_IDS, in.ids),
+         Binding::of(SHADE_SHAPES, in.shapes), Binding::of(SHADE_LIGHT_IDS, in.ids),
          Binding::sampled(SHADE_NORMAL_ROUGHNESS, g.packedNormal),
          Binding::sampled(SHADE_HOST_NORMAL, g.hostNormal),
          Binding::sampled(SHADE_ALBEDO, g.albedo), Binding::sampled(SHADE_SPECULAR, g.specular),
@@ -122,7 +123,7 @@ void Influence::writeBindings(uint32_t slot, const Inputs& in) const
                          Binding::sampled(CHOOSE_INFLUENCE_DEPTH, g.depth),
                          Binding::storage(CHOOSE_INFLUENCE_RADIANCE, in.radiance)});
     cut_.write(slot, {Binding::of(CUT_LIGHTS_DATA, data_), Binding::of(CUT_LIGHTS_CORE, in.core),
-                      Binding::of(CUT_LIGHTS_AUX, in.aux),
+                      Binding::of(CUT_LIGHTS_SHAPES, in.shapes),
                       Binding::of(CUT_LIGHTS_COUNTERS, in.counters)});
 }
 

@@ -39,7 +39,7 @@ public:
     struct Inputs {
         const surfaces::GBufferViews& gbuffer;
         VkImageView radiance;
-        const gpu::Buffer &core, &aux, &ids, &directionalAlbedo, &transformedCosines, &counters;
+        const gpu::Buffer &core, &shapes, &ids, &directionalAlbedo, &transformedCosines, &counters;
     };
     void writeBindings(uint32_t slot, const Inputs& inputs) const;
 

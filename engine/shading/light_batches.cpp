@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading/light_batches.h"
 
-#include "lights/light_types.h"
+#include "shading/light_family.h"
 #include "shared/clusters.h"
 
 namespace candelabra::lighting
@@ -9,12 +9,14 @@ namespace candelabra::lighting
 namespace
 {
 
-// Loop iterations inside the evaluation of one light, at most: the outline of a tube has 16 edges
-// and is walked for the diffuse lobe and two specular ones; discs have a series of 9 terms.
+// Returns an upper bound of the loop iterations inside the evaluation of one light.
 uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t sampleCount)
 {
-    const uint32_t shape = lightType == CND_LIGHT_TUBE ? 64 : isSphere(lightType) ? 0 : 24;
-    return shape + (method == CND_SPECULAR_SAMPLED ? sampleCount : 0);
+#define X(index, NAME, iterations) iterations,
+    static constexpr uint32_t iterationsOfFamilies[] = {CND_LIGHT_FAMILIES(X)};
+#undef X
+    return iterationsOfFamilies[familyOf(lightType, method)] +
+           (method == CND_SPECULAR_SAMPLED ? sampleCount : 0);
 }
 
 } // namespace

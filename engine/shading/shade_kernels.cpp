@@ -2,36 +2,17 @@
 #include "shading/shade_kernels.h"
 
 #include <bit>
+#include <iterator>
 
 #include "candelabra_shaders.h"
 #include "lights/light_limits.h"
-#include "lights/light_types.h"
+#include "shading/light_family.h"
 
 namespace candelabra::lighting
 {
 
-CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method)
-{
-    if (method == CND_SPECULAR_NONE)
-        return method;
-    switch (lightType) {
-    case CND_LIGHT_POINT:
-    case CND_LIGHT_SPOT:
-    case CND_LIGHT_DIRECTIONAL:
-        return CND_SPECULAR_POINT;
-    case CND_LIGHT_TUBE:
-    case CND_LIGHT_RECTANGLE:
-    case CND_LIGHT_DISC:
-        if (method == CND_SPECULAR_SAMPLED)
-            return method;
-        return method == CND_SPECULAR_POINT || method == CND_SPECULAR_KARIS ||
-                       method == CND_SPECULAR_KX
-                   ? CND_SPECULAR_KARIS
-                   : CND_SPECULAR_LTC;
-    default:
-        return method;
-    }
-}
+// The build found every family of shared/light_families.h.
+static_assert(std::size(spirv::shade_tiles_comp) == gpu::FAMILY_COUNT);
 
 uint32_t tileClassesOf(const CndLightingDesc& desc)
 {
@@ -67,54 +48,6 @@ bool ShadeKernels::require(uint32_t lightType)
     return true;
 }
 
-bool takesBudget(uint32_t lightType, CndSpecularMethod method)
-{
-    return isSphere(lightType) &&
-           (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL);
-}
-
-namespace
-{
-
-struct Family {
-    const gpu::Spirv* tiles;
-    const gpu::Spirv* unlisted;
-    const gpu::Spirv* brute;
-    const gpu::Spirv* countPairs;
-    const gpu::Spirv* measure;
-};
-
-// shaders/shading/light_families.glsl.
-Family familyOf(uint32_t lightType, CndSpecularMethod method)
-{
-    using namespace spirv;
-    switch (lightType) {
-    case CND_LIGHT_TUBE:
-        return {&shade_tiles_comp_tube, &shade_unlisted_comp_tube, &shade_brute_comp_tube,
-                &count_pairs_comp_tube, &measure_influence_comp_tube};
-    case CND_LIGHT_RECTANGLE:
-        return {&shade_tiles_comp_rectangle, &shade_unlisted_comp_rectangle,
-                &shade_brute_comp_rectangle, &count_pairs_comp_rectangle,
-                &measure_influence_comp_rectangle};
-    case CND_LIGHT_DISC:
-        return {&shade_tiles_comp_disc, &shade_unlisted_comp_disc, &shade_brute_comp_disc,
-                &count_pairs_comp_disc, &measure_influence_comp_disc};
-    case CND_LIGHT_SPHERE:
-    case CND_LIGHT_DISTANT_SPHERE:
-        if (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL)
-            return {&shade_tiles_comp_conic, &shade_unlisted_comp_conic, &shade_brute_comp_conic,
-                    &count_pairs_comp_conic, &measure_influence_comp_conic};
-        return {&shade_tiles_comp_sphere, &shade_unlisted_comp_sphere, &shade_brute_comp_sphere,
-                &count_pairs_comp_sphere, &measure_influence_comp_sphere};
-    default:
-        return {&shade_tiles_comp_punctual, &shade_unlisted_comp_punctual,
-                &shade_brute_comp_punctual, &count_pairs_comp_punctual,
-                &measure_influence_comp_punctual};
-    }
-}
-
-} // namespace
-
 ShadeKernels::Kernel ShadeKernels::makeKernel(const gpu::Spirv& spirv, uint32_t lightType,
                                               CndSpecularMethod method, bool withBudget,
                                               uint32_t tileClass) const
@@ -132,22 +65,28 @@ ShadeKernels::Kernel ShadeKernels::makeKernel(const gpu::Spirv& spirv, uint32_t 
 ShadeKernels::Tiles ShadeKernels::makeTiles(uint32_t lightType, CndSpecularMethod method,
                                             bool withBudget, uint32_t tileClass) const
 {
-    const Family family = familyOf(lightType, method);
-    return {.shade = makeKernel(*family.tiles, lightType, method, withBudget, tileClass),
-            .unlisted = makeKernel(*family.unlisted, lightType, method, withBudget, tileClass),
-            .countPairs = makeKernel(*family.countPairs, lightType, method, withBudget, tileClass)};
+    const auto make = [&](auto& families) {
+        return makeKernel(*families[familyOf(lightType, method)], lightType, method, withBudget,
+                          tileClass);
+    };
+    return {.shade = make(spirv::shade_tiles_comp),
+            .unlisted = make(spirv::shade_unlisted_comp),
+            .countPairs = make(spirv::count_pairs_comp)};
 }
 
 ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, CndSpecularMethod method,
                                                 bool withBudget) const
 {
-    const Family family = familyOf(lightType, method);
+    const auto make = [&](auto& families) {
+        return makeKernel(*families[familyOf(lightType, method)], lightType, method, withBudget,
+                          gpu::CLASS_ANY);
+    };
     Variant out{.any = makeTiles(lightType, method, withBudget, gpu::CLASS_ANY),
-                .brute = makeKernel(*family.brute, lightType, method, withBudget, gpu::CLASS_ANY)};
+                .brute = make(spirv::shade_brute_comp)};
     if (tellsApart(gpu::CLASS_SPECULAR))
         out.specular = makeTiles(lightType, method, withBudget, gpu::CLASS_SPECULAR);
     if (measures_ && !withBudget)
-        out.measure = makeKernel(*family.measure, lightType, method, withBudget, gpu::CLASS_ANY);
+        out.measure = make(spirv::measure_influence_comp);
     return out;
 }
 

@@ -10,12 +10,6 @@
 namespace candelabra::lighting
 {
 
-// The method that stands for `method` where the light type has fewer: punctual lights have one,
-// tubes, rectangles and discs a representative point, cosines and samples.
-CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method);
-// Whether an error budget changes the evaluation: the closed form of spheres has cheaper bounds.
-bool takesBudget(uint32_t lightType, CndSpecularMethod method);
-
 // Mask of 1 << CLASS_*: the classes of tiles that are told apart, CLASS_ANY among them. Only those
 // that the layout of the G-buffer can store.
 uint32_t tileClassesOf(const CndLightingDesc& desc);

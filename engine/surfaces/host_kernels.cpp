@@ -8,37 +8,39 @@
 
 #include "candelabra_shaders.h"
 #include "gpu/failure.h"
+#include "shared/light_families.h"
 
 namespace candelabra::surfaces
 {
 namespace
 {
 
-struct Named {
+// A kernel that may be replaced, in either module.
+struct BuiltIn {
     const char* name;
     const gpu::Spirv* spirv;
-    bool evaluates = false; // lights: with a shadow term of the host's
+    bool evaluates = false; // lights, with the shadow term of the host where there is one
 };
 
-#define FAMILIES(kernel, evaluates)                                                                \
-    {#kernel ":PUNCTUAL", &spirv::kernel##_comp_punctual, evaluates},                              \
-        {#kernel ":CONIC", &spirv::kernel##_comp_conic, evaluates},                                \
-        {#kernel ":SPHERE", &spirv::kernel##_comp_sphere, evaluates},                              \
-        {#kernel ":TUBE", &spirv::kernel##_comp_tube, evaluates},                                  \
-        {#kernel ":RECTANGLE", &spirv::kernel##_comp_rectangle, evaluates},                        \
-    {                                                                                              \
-#kernel ":DISC", &spirv::kernel##_comp_disc, evaluates                                     \
-    }
-// All that may be replaced, in either module: those that read surfaces.
-const Named builtIn[] = {FAMILIES(shade_tiles, true),
-                         FAMILIES(shade_unlisted, true),
-                         FAMILIES(shade_brute, true),
-                         FAMILIES(count_pairs, false),
-                         {"tile_clusters", &spirv::tile_clusters_comp},
-                         {"split_tiles", &spirv::split_tiles_comp},
-                         {"surface_overlay", &spirv::surface_overlay_comp},
-                         {"shade_environment", &spirv::shade_environment_comp}};
-#undef FAMILIES
+// All that read surfaces.
+const BuiltIn builtIn[] = {
+#define X(index, NAME, iterations) {"shade_tiles:" #NAME, spirv::shade_tiles_comp[index], true},
+    CND_LIGHT_FAMILIES(X)
+#undef X
+#define X(index, NAME, iterations)                                                                 \
+    {"shade_unlisted:" #NAME, spirv::shade_unlisted_comp[index], true},
+        CND_LIGHT_FAMILIES(X)
+#undef X
+#define X(index, NAME, iterations) {"shade_brute:" #NAME, spirv::shade_brute_comp[index], true},
+            CND_LIGHT_FAMILIES(X)
+#undef X
+#define X(index, NAME, iterations) {"count_pairs:" #NAME, spirv::count_pairs_comp[index]},
+                CND_LIGHT_FAMILIES(X)
+#undef X
+                    {"tile_clusters", &spirv::tile_clusters_comp},
+    {"split_tiles", &spirv::split_tiles_comp},
+    {"surface_overlay", &spirv::surface_overlay_comp},
+    {"shade_environment", &spirv::shade_environment_comp}};
 
 [[noreturn]] void fail(const std::string& sentence)
 {
@@ -50,7 +52,7 @@ const gpu::Spirv& find(const CndKernelCode& code)
     if (!code.name || !code.words)
         fail("the name or the words of a kernel are null");
     const auto found =
-        std::ranges::find(builtIn, std::string(code.name), [](const Named& n) { return n.name; });
+        std::ranges::find(builtIn, std::string(code.name), [](const BuiltIn& b) { return b.name; });
     if (found == std::end(builtIn))
         fail("there is no kernel " + std::string(code.name) + " to replace");
     return *found->spirv;
@@ -84,7 +86,7 @@ const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
         needsSet_ = needsSet_ || (host->usesSet && setLayout_); // without: refused as a pipeline
         return host->spirv;
     }
-    const auto* const known = std::ranges::find(builtIn, &original, &Named::spirv);
+    const auto* const known = std::ranges::find(builtIn, &original, &BuiltIn::spirv);
     if (known != std::end(builtIn) && (readSurfaces_ || (!kernels_.empty() && known->evaluates)))
         fail(std::string("kernel ") + known->name +
              " is missing: name its light type and method in CndCompileDesc" +

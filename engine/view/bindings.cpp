@@ -16,14 +16,14 @@ void View::writeBindings(const CndLightingFrame& frame) const
     const surfaces::GBufferViews images = module_.gbuffer.views(frame, gbufferParams_);
     sets_.prepareLights.write(slot, {Binding::of(gpu::PREPARE_LIGHTS_RECORDS, lights.records()),
                                      Binding::of(gpu::PREPARE_LIGHTS_CORE, core_),
-                                     Binding::of(gpu::PREPARE_LIGHTS_AUX, aux_),
+                                     Binding::of(gpu::PREPARE_LIGHTS_SHAPES, shapes_),
                                      Binding::of(gpu::PREPARE_LIGHTS_ORDER, lights.order()),
                                      Binding::of(gpu::PREPARE_LIGHTS_IDS, ids_)});
     clusters_.writeBindings(slot, lights.typeCounts(),
                             {.gbuffer = images, .core = core_, .counters = counters_});
     if (forward_.wanted())
         forward_.write(slot, {.core = core_,
-                              .aux = aux_,
+                              .shapes = shapes_,
                               .nodes = clusters_.nodes(),
                               .ids = ids_,
                               .directionalAlbedo = tables.directionalAlbedo(),
@@ -32,7 +32,7 @@ void View::writeBindings(const CndLightingFrame& frame) const
         influence_->writeBindings(slot, {.gbuffer = images,
                                          .radiance = frame.radiance,
                                          .core = core_,
-                                         .aux = aux_,
+                                         .shapes = shapes_,
                                          .ids = ids_,
                                          .directionalAlbedo = tables.directionalAlbedo(),
                                          .transformedCosines = tables.transformedCosines(),
@@ -54,7 +54,7 @@ void View::writeBruteBindings(const CndLightingFrame& frame,
     sets_.shadeBrute.write(
         frame.frameSlot,
         {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
-         Binding::of(SHADE_AUX, aux_), Binding::of(SHADE_LIGHT_IDS, ids_),
+         Binding::of(SHADE_SHAPES, shapes_), Binding::of(SHADE_LIGHT_IDS, ids_),
          Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal),
          Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal),
          Binding::sampled(SHADE_ALBEDO, images.albedo),
@@ -74,7 +74,7 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Clusters::Lists& lists = clusters_.lists(type);
     const Binding core = Binding::ofTexels(SHADE_CORE, core_);
     const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
-    const Binding aux = Binding::of(SHADE_AUX, aux_);
+    const Binding shapes = Binding::of(SHADE_SHAPES, shapes_);
     const Binding ids = Binding::of(SHADE_LIGHT_IDS, ids_);
     const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal);
     const Binding hostNormals = Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal);
@@ -91,17 +91,18 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Binding surfaces = Binding::of(SHADE_WORK, clusters_.surfaces());
     const Binding toShade = Binding::of(SHADE_WORK, clusters_.tilesToShade(type));
     const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
-    sets_.shadeTiles.write(set, {core, coreWords, aux, ids, normals, hostNormals, albedo, f0, depth,
-                                 gbufferView, radiance, dfg, ltc, tiles, heads, entries, toShade});
-    sets_.shadeUnlisted.write(set, {core, coreWords, aux, ids, normals, hostNormals, albedo, f0,
+    sets_.shadeTiles.write(set,
+                           {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0, depth,
+                            gbufferView, radiance, dfg, ltc, tiles, heads, entries, toShade});
+    sets_.shadeUnlisted.write(set, {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0,
                                     depth, gbufferView, radiance, dfg, ltc, tiles, heads, unlisted,
                                     Binding::of(SHADE_CLUSTERS, clusters_.clusters()),
                                     Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
                                     Binding::of(SHADE_NODE_WORDS, clusters_.nodes())});
     // Without an image for pairs count_pairs writes none, but every binding must be given.
     const VkImageView pairs = frame.pairImage ? frame.pairImage : frame.radiance;
-    sets_.countPairs.write(set, {core, coreWords, aux, ids, normals, hostNormals, albedo, f0, depth,
-                                 gbufferView, dfg, ltc, tiles, heads, entries, surfaces,
+    sets_.countPairs.write(set, {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0,
+                                 depth, gbufferView, dfg, ltc, tiles, heads, entries, surfaces,
                                  Binding::of(SHADE_COUNTERS, counters_),
                                  Binding::storage(SHADE_PAIRS, pairs)});
 }

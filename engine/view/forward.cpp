@@ -12,9 +12,9 @@ std::vector<gpu::ReflectedBinding> bindings()
 {
     constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     constexpr VkDescriptorType texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    return {{gpu::FORWARD_VIEW, storage, 1}, {gpu::FORWARD_CORE, storage, 1},
-            {gpu::FORWARD_AUX, storage, 1},  {gpu::FORWARD_NODES, storage, 1},
-            {gpu::FORWARD_DFG, texels, 1},   {gpu::FORWARD_LTC, texels, 1},
+    return {{gpu::FORWARD_VIEW, storage, 1},   {gpu::FORWARD_CORE, storage, 1},
+            {gpu::FORWARD_SHAPES, storage, 1}, {gpu::FORWARD_NODES, storage, 1},
+            {gpu::FORWARD_DFG, texels, 1},     {gpu::FORWARD_LTC, texels, 1},
             {gpu::FORWARD_IDS, storage, 1}};
 }
 
@@ -69,7 +69,8 @@ void ForwardLights::write(uint32_t slot, const Inputs& in) const
     using gpu::Binding;
     sets_.write(slot,
                 {Binding::of(gpu::FORWARD_VIEW, view_), Binding::of(gpu::FORWARD_CORE, in.core),
-                 Binding::of(gpu::FORWARD_AUX, in.aux), Binding::of(gpu::FORWARD_NODES, in.nodes),
+                 Binding::of(gpu::FORWARD_SHAPES, in.shapes),
+                 Binding::of(gpu::FORWARD_NODES, in.nodes),
                  Binding::ofTexels(gpu::FORWARD_DFG, in.directionalAlbedo),
                  Binding::ofTexels(gpu::FORWARD_LTC, in.transformedCosines),
                  Binding::of(gpu::FORWARD_IDS, in.ids)});

@@ -22,7 +22,7 @@ public:
     VkDescriptorSet set(uint32_t slot) const { return sets_.set(slot); }
 
     struct Inputs {
-        const gpu::Buffer &core, &aux, &nodes, &ids, &directionalAlbedo, &transformedCosines;
+        const gpu::Buffer &core, &shapes, &nodes, &ids, &directionalAlbedo, &transformedCosines;
     };
     void write(uint32_t slot, const Inputs& inputs) const;
     // Waits for shaders that read what the commands behind write; and at the end, for what these

@@ -89,21 +89,21 @@ void View::makeRoom(uint32_t lightCapacity, LightTypeCounts types)
         types[type] += module_.desc.lightTypes >> type & 1;
     clusters_.grow(lightCapacity, types);
     const VkDeviceSize coreBytes = lights * gpu::LIGHT_CORE_STRIDE * sizeof(glm::vec4);
-    const VkDeviceSize auxBytes = lights * gpu::LIGHT_AUX_STRIDE * sizeof(glm::vec4);
+    const VkDeviceSize shapeBytes = lights * sizeof(gpu::LightShape);
     const VkDeviceSize idBytes = (readsLightIds(module_.desc) ? lights : 1) * sizeof(uint32_t);
-    if (coreBytes <= core_.size && auxBytes <= aux_.size)
+    if (coreBytes <= core_.size && shapeBytes <= shapes_.size)
         return;
     gpu::Buffer core = gpu::createBuffer(device, "light core", coreBytes,
                                          storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                                          gpu::MemoryUse::Scratch);
     gpu::createTexelView(device, core);
-    gpu::Buffer aux =
-        gpu::createBuffer(device, "light aux", auxBytes, storageUse, gpu::MemoryUse::Scratch);
+    gpu::Buffer shapes =
+        gpu::createBuffer(device, "light shapes", shapeBytes, storageUse, gpu::MemoryUse::Scratch);
     gpu::Buffer ids =
         gpu::createBuffer(device, "light ids", idBytes, storageUse, gpu::MemoryUse::Device);
     module_.recordings.replace(ids_, std::move(ids));
     module_.recordings.replace(core_, std::move(core));
-    module_.recordings.replace(aux_, std::move(aux));
+    module_.recordings.replace(shapes_, std::move(shapes));
 }
 
 CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept

@@ -83,10 +83,10 @@ private:
     Clusters clusters_;
     surfaces::GBufferParams gbufferParams_;
     Sets sets_;
-    gpu::Buffer core_, aux_, ids_; // one per light; when nobody reads ids, one in all
-    gpu::Buffer counters_;         // gpu::LightingCounters
-    gpu::RecordingSlots slots_;    // they read the counters back
-    std::vector<SlotPlan> plans_;  // per slot
+    gpu::Buffer core_, shapes_, ids_; // one per light; when nobody reads ids, one in all
+    gpu::Buffer counters_;            // gpu::LightingCounters
+    gpu::RecordingSlots slots_;       // they read the counters back
+    std::vector<SlotPlan> plans_;     // per slot
     ForwardLights forward_;
     std::optional<Influence> influence_; // CndLightingDesc::influenceByError
     ListsKey lists_;                     // of the frame recorded last

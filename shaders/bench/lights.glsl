@@ -12,9 +12,9 @@ layout(push_constant, scalar) uniform Push
 {
     BenchParams params;
 };
-layout(scalar, binding = BENCH_AUX) readonly buffer Aux
+layout(scalar, binding = BENCH_SHAPES) readonly buffer LightShapes
 {
-    vec4 lightAux[];
+    LightShape lightShapes[];
 };
 
 uint lightAt(uint k)

@@ -94,34 +94,38 @@ void makeSweepLight(uint slice, SweepPoint p)
     else if (slice == SWEEP_DENORMAL)
         emission = 1e-30 * randomLog10(-15.0, 0.0);
     const vec3 tint = vec3(1.0, random01(), chance(0.2) ? 0.0 : random01());
-    lightAux[0] = vec4(0.0);
-    lightAux[1] = vec4(0.0);
-    float reach = 0.0;
+    LightShape shape = LightShape(vec3(0.0), 0.0, vec3(0.0), 0u);
+    float boundingRadius = 0.0;
     if (lightType == LIGHT_SPHERE) {
-        reach = size;
+        boundingRadius = shape.radius = size;
     } else if (lightType == LIGHT_TUBE) {
-        const float radius = max(size * aspect, 1e-30);
-        lightAux[0] = vec4(max(size, 2e-15) * u, radius);
-        reach = length(lightAux[0].xyz) + radius;
+        shape.radius = max(size * aspect, 1e-30);
+        shape.axisU = max(size, 2e-15) * u;
+        boundingRadius = length(shape.axisU) + shape.radius;
     } else if (lightType == LIGHT_RECTANGLE) {
-        lightAux[0] = vec4(max(size, 2e-15) * w, 0.0);
-        lightAux[1] = vec4(max(size * aspect, 2e-15) * cross(u, w), chance(0.5) ? 1.0 : 0.0);
-        reach = length(vec2(length(lightAux[0].xyz), length(lightAux[1].xyz)));
+        shape.axisU = max(size, 2e-15) * w;
+        shape.axisV = max(size * aspect, 2e-15) * cross(u, w);
+        shape.flags = chance(0.5) ? LIGHT_TWO_SIDED : 0u;
+        boundingRadius = length(vec2(length(shape.axisU), length(shape.axisV)));
     } else if (lightType == LIGHT_DISC) {
-        lightAux[0] = vec4(u, 0.0);
-        lightAux[1] = vec4(0.0, 0.0, 0.0, chance(0.5) ? 1.0 : 0.0);
-        reach = max(size, 1e-30);
+        shape.axisU = u;
+        shape.radius = max(size, 1e-30);
+        shape.flags = chance(0.5) ? LIGHT_TWO_SIDED : 0u;
+        boundingRadius = shape.radius;
     } else if (lightType == LIGHT_SPOT) {
         const float outer = randomRange(0.01, 1.5);
         const float between = max(cos(outer * random01()) - cos(outer), 1e-6);
-        lightAux[0] = vec4(u, 0.0);
-        lightAux[1] = vec4(1.0 / between, -cos(outer) / between, 0.0, 0.0);
+        shape.axisU = u;
+        shape.axisV = vec3(1.0 / between, -cos(outer) / between, 0.0);
     }
-    centreReach = vec4(centre, reach);
+    lightShapes[0] = shape;
+    centreRadius = vec4(centre, boundingRadius);
     if (IS_DISTANT) {
         const float sine = lightType == LIGHT_DISTANT_SPHERE ? max(at.w, 1e-7) : 0.0;
-        centreReach = vec4(normalize(at.xyz), sine);
+        centreRadius = vec4(normalize(at.xyz), sine);
+        lightShapes[0].radius = sine;
     }
-    const float influence = chance(0.5) ? uintBitsToFloat(0x7F800000u) : reach * 1.01 + 3.0 * d + 1e-12;
+    const float infinity = uintBitsToFloat(0x7F800000u);
+    const float influence = chance(0.5) ? infinity : boundingRadius * 1.01 + 3.0 * d + 1e-12;
     emissionInfluence = vec4(emission * tint, influence * influence);
 }

@@ -25,12 +25,12 @@ layout(scalar, binding = SWEEP_COUNTERS) buffer Counters
 };
 
 // The current light, with the accessors through which light_eval.glsl reads lights.
-vec4 centreReach, emissionInfluence;
-vec4 lightAux[LIGHT_AUX_STRIDE];
+vec4 centreRadius, emissionInfluence;
+LightShape lightShapes[1];
 
 vec4 lightCentre(uint light)
 {
-    return centreReach;
+    return centreRadius;
 }
 
 vec4 lightEmission(uint light)
@@ -96,6 +96,5 @@ void main()
     }
     if (keep)
         records[slot] = SweepRecord(point.position, point.n, point.v, point.perceptualRoughness,
-                                    centreReach, emissionInfluence, lightAux[0], lightAux[1], response,
-                                    index);
+                                    centreRadius, emissionInfluence, lightShapes[0], response, index);
 }

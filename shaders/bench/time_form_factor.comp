@@ -35,10 +35,10 @@ void main()
     const vec3 n = receivers[i].n;
     float sum = 0.0;
     for (uint light = 0u; light < params.lightCount; ++light) {
-        const vec4 centreReach = lightCentre(light);
-        const float invD2 = 1.0 / max(length2(centreReach.xyz), MIN_LENGTH2);
-        const float c = dot(n, centreReach.xyz) * sqrt(invD2);
-        const float s2 = min(centreReach.w * centreReach.w * invD2, 1.0);
+        const vec4 centreRadius = lightCentre(light);
+        const float invD2 = 1.0 / max(length2(centreRadius.xyz), MIN_LENGTH2);
+        const float c = dot(n, centreRadius.xyz) * sqrt(invD2);
+        const float s2 = min(centreRadius.w * centreRadius.w * invD2, 1.0);
         if (form == BENCH_FORM_FACTOR_ROBUST)
             sum += sphereFormFactor(c, s2);
         else if (form == BENCH_FORM_FACTOR_NAIVE)

@@ -19,13 +19,13 @@ layout(scalar, binding = BENCH_OUTPUT) writeonly buffer Output
 // `evaluation` is a specialisation constant, so only one of the calls remains.
 vec3 evaluate(Receiver r, uint light)
 {
-#if LIGHT_FAMILY == FAMILY_CONIC
+#ifdef LIGHT_FAMILY_CONIC
     if (evaluation == EVALUATE_POINT)
         return evaluateAsPoint(r, light);
     if (evaluation == EVALUATE_NEAR)
         return evaluateNear(r, light);
 #endif
-#if HAS_SPHERES
+#ifdef HAS_SPHERES
     if (evaluation == EVALUATE_ABOVE)
         return evaluateAbove(r, light);
 #endif

@@ -22,20 +22,20 @@ layout(location = 3) flat out vec4 outAxisV; // view space; w: whether it is two
 // Angular rounding error of the quad and of pixel rays, with a safety factor of about 50.
 const float MARGIN = 1e-5;
 
-// Returns the distance from the centre to the farthest point of the light.
-float reachOf()
+// Returns the radius of a sphere around the centre that holds the light: half the longer diagonal of
+// its axes, which need not be exactly perpendicular, and its radius. (cndEmitterBoundingRadius takes
+// the axes to be perpendicular.)
+float boundingRadius()
 {
-    if (shape == LIGHT_TUBE)
-        return length(axisU) + positionAndRadius.w;
-    // half the longer diagonal, as the axes need not be exactly perpendicular
-    if (shape == LIGHT_RECTANGLE)
-        return max(length(axisU + axisVAndTwoSided.xyz), length(axisU - axisVAndTwoSided.xyz));
-    return positionAndRadius.w;
+    const vec3 u = (TYPES_WITH_AXIS_U >> shape & 1u) != 0u ? axisU : vec3(0.0);
+    const vec3 v = (TYPES_WITH_AXIS_V >> shape & 1u) != 0u ? axisVAndTwoSided.xyz : vec3(0.0);
+    const float radius = (TYPES_WITH_RADIUS >> shape & 1u) != 0u ? positionAndRadius.w : 0.0;
+    return max(length(u + v), length(u - v)) + radius;
 }
 
 void main()
 {
-    const bool distant = shape == LIGHT_DISTANT_SPHERE;
+    const bool distant = (TYPES_WITH_POSITION >> shape & 1u) == 0u;
     const bool perspective = frame.perspective > 0.5;
     const vec3 rotated = frame.viewFromWorld * positionAndRadius.xyz;
     const vec3 center = distant ? rotated : frame.emitterOrigin + rotated;
@@ -45,7 +45,7 @@ void main()
     outAxisV = vec4(frame.viewFromWorld * axisVAndTwoSided.xyz, axisVAndTwoSided.w);
 
     const vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 2.0 - 1.0;
-    const float radius = reachOf();
+    const float radius = boundingRadius();
     const vec3 toCenter = distant ? center : center - frame.rayOrigin[0]; // seen from the eye
     const float distanceToCenter = length(toCenter);
     const float sinCone = radius / distanceToCenter;
@@ -58,10 +58,10 @@ void main()
     const vec3 v = vec3(b, s + axis.y * axis.y * a, -axis.y);
 
     const float tanCone = sinCone / sqrt(max(1.0 - sinCone * sinCone, 1e-6));
-    const float reach = perspective ? tanCone * (1.0 + MARGIN) + MARGIN
-                                    : radius + MARGIN * (radius + distanceToCenter);
-    const vec3 positionView =
-        (perspective ? frame.rayOrigin[0] + axis : center) + reach * (corner.x * u + corner.y * v);
+    const float halfSide = perspective ? tanCone * (1.0 + MARGIN) + MARGIN
+                                       : radius + MARGIN * (radius + distanceToCenter);
+    const vec3 positionView = (perspective ? frame.rayOrigin[0] + axis : center) +
+                              halfSide * (corner.x * u + corner.y * v);
     gl_Position = frame.clipFromView * vec4(positionView, 1.0);
     // Larger quads than tan(cone) = 7 lose precision. In orthographic views all rays look at one point
     // of the sky.

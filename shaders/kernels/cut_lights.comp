@@ -19,9 +19,9 @@ layout(scalar, binding = CUT_LIGHTS_CORE) buffer Core
 {
     vec4 core[];
 };
-layout(scalar, binding = CUT_LIGHTS_AUX) readonly buffer Aux
+layout(scalar, binding = CUT_LIGHTS_SHAPES) readonly buffer Shapes
 {
-    vec4 aux[];
+    LightShape shapes[];
 };
 layout(scalar, binding = CUT_LIGHTS_COUNTERS) writeonly buffer Counters
 {
@@ -70,8 +70,7 @@ void main()
     if (emission.w <= 0.0) // no light (device_lights), or none of the frame
         return;
     const float intensity =
-        peakIntensity(params.type, emission.xyz, core[at - 1u].w, aux[light * LIGHT_AUX_STRIDE],
-                      aux[light * LIGHT_AUX_STRIDE + 1u]);
+        peakIntensity(params.type, emission.xyz, core[at - 1u].w, shapes[light]);
     core[at].w = state.cut != 0u ? max(intensity / lux, NOWHERE)
                                    : uintBitsToFloat(0x7F800000u); // infinite
 }

@@ -29,15 +29,15 @@ layout(scalar, binding = DEVICE_LIGHTS_COUNTS) buffer Counts
 };
 
 // Every comparison is false for NaN.
-bool isLight(DeviceLight light, float reach)
+bool isLight(DeviceLight light, float radius)
 {
     const float largest = uintBitsToFloat(0x7F7FFFFFu);
     return all(lessThanEqual(abs(light.position), vec3(MAX_LIGHT_COORDINATE))) &&
            all(greaterThanEqual(light.emission, vec3(0.0))) &&
            all(lessThanEqual(light.emission, vec3(largest))) &&
            (params.type == LIGHT_POINT ||
-            (reach >= MIN_LIGHT_LENGTH && reach <= MAX_LIGHT_COORDINATE)) &&
-           light.influenceRadius > reach;
+            (radius >= MIN_LIGHT_LENGTH && radius <= MAX_LIGHT_COORDINATE)) &&
+           light.influenceRadius > radius;
 }
 
 void main()
@@ -52,10 +52,10 @@ void main()
                                      params.type | params.layers << LIGHT_LAYERS_SHIFT);
     if (i < written) {
         const DeviceLight light = from[i];
-        const float reach = params.type == LIGHT_POINT ? 0.0 : light.radius;
-        if (isLight(light, reach)) {
+        const float radius = params.type == LIGHT_POINT ? 0.0 : light.radius;
+        if (isLight(light, radius)) {
             record.position = light.position;
-            record.reach = reach;
+            record.boundingRadius = radius;
             record.emission = light.emission;
             record.influenceRadius = light.influenceRadius;
             atomicAdd(counts.taken, 1u);

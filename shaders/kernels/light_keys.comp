@@ -50,7 +50,7 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= params.lightCount)
         return;
-    const uint type = records[i].type & (LIGHT_TWO_SIDED - 1u);
+    const uint type = records[i].flags & LIGHT_TYPE_MASK;
     const uint size = sizeClass(records[i].influenceRadius);
     const uint place = morton(records[i].position);
     const uint key = ((type << ORDER_SIZE_BITS) | size) << (3u * params.axisBits) | place;

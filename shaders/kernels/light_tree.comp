@@ -38,9 +38,9 @@ void childBox(uint child, out vec3 lowest, out vec3 highest)
     const vec3 centre = lightCentre(child).xyz;
     const vec3 size = abs(centre);
     const float r = min(sqrt(lightEmission(child).w), LARGEST);
-    const float reach = r + BOX_MARGIN * (r + max(size.x, max(size.y, size.z)));
-    lowest = centre - reach;
-    highest = centre + reach;
+    const float widened = r + BOX_MARGIN * (r + max(size.x, max(size.y, size.z)));
+    lowest = centre - widened;
+    highest = centre + widened;
 }
 
 void writeNode(uint node, vec3 lowest, vec3 highest)

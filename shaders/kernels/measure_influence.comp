@@ -37,11 +37,10 @@ uint slotOf(Receiver r, uint light)
 {
     if (IS_DISTANT)
         return INFLUENCE_DISTANT;
-    const vec4 centreReach = lightCentre(light);
-    const float d2 = length2(towardsLight(centreReach.xyz, r.p.position));
+    const vec4 centreRadius = lightCentre(light);
+    const float d2 = length2(towardsLight(centreRadius.xyz, r.p.position));
     const float intensity =
-        peakIntensity(lightType, lightEmission(light).xyz, centreReach.w,
-                      lightAux[light * LIGHT_AUX_STRIDE], lightAux[light * LIGHT_AUX_STRIDE + 1u]);
+        peakIntensity(lightType, lightEmission(light).xyz, centreRadius.w, lightShapes[light]);
     return influenceBin(intensity * data.frame.exposure / max(d2, MIN_LENGTH2));
 }
 
@@ -76,10 +75,10 @@ void measure(uvec2 pixel, float depth)
     const uint count = (params.lightCount + LANES - 1u - lane) / LANES;
     for (uint first = 0u; first < count; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, count - first), false);
-#if HAS_CONIC
+#ifdef LIGHT_FAMILY_CONIC
         MEASURE_FOUND(r, first, found.near, evaluateNear)
 #endif
-#if HAS_SPHERES
+#ifdef HAS_SPHERES
         MEASURE_FOUND(r, first, found.above, evaluateAbove)
 #endif
         MEASURE_FOUND(r, first, found.general, evaluateGeneral)

@@ -3,8 +3,8 @@
 // and the rest.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/light_shape.glsl"
 #include "shared/light_order.h"
-#include "shared/lighting.h"
 
 layout(local_size_x = PREPARE_LIGHTS_GROUP) in;
 layout(push_constant, scalar) uniform Push
@@ -19,9 +19,9 @@ layout(scalar, binding = PREPARE_LIGHTS_CORE) writeonly buffer Core
 {
     vec4 core[];
 };
-layout(scalar, binding = PREPARE_LIGHTS_AUX) writeonly buffer Aux
+layout(scalar, binding = PREPARE_LIGHTS_SHAPES) writeonly buffer Shapes
 {
-    vec4 aux[];
+    LightShape shapes[];
 };
 layout(scalar, binding = PREPARE_LIGHTS_ORDER) readonly buffer Order
 {
@@ -39,22 +39,19 @@ void main()
     if (i >= params.lightCount)
         return;
     const LightRecord light = records[order[i].light];
-    const uint type = light.type & (LIGHT_TWO_SIDED - 1u);
-    const bool distant = type == LIGHT_DIRECTIONAL || type == LIGHT_DISTANT_SPHERE;
+    const uint type = light.flags & LIGHT_TYPE_MASK;
+    const bool distant = (TYPES_WITH_POSITION >> type & 1u) == 0u;
     const vec3 origin = distant ? vec3(0.0) : params.originView;
-    const bool inFrame = (light.type >> LIGHT_LAYERS_SHIFT & params.layers) != 0u;
+    const bool inFrame = (light.flags >> LIGHT_LAYERS_SHIFT & params.layers) != 0u;
     core[i * LIGHT_CORE_STRIDE] = vec4(params.viewFromWorld * light.position + origin,
-                                       inFrame ? light.reach : REACH_OF_NONE);
+                                       inFrame ? light.boundingRadius : BOUNDING_RADIUS_OF_NONE);
     // A radius of 0 says that there is no light (device_lights).
     const bool endless = params.uncut != 0u && light.influenceRadius > 0.0;
     const float influence2 = endless ? uintBitsToFloat(0x7F800000u) // infinite
                                      : light.influenceRadius * light.influenceRadius;
     core[i * LIGHT_CORE_STRIDE + 1u] =
         vec4(light.emission, inFrame ? influence2 : INFLUENCE2_OF_NONE);
-    const vec3 axisV = type == LIGHT_SPOT ? light.axisV : params.viewFromWorld * light.axisV;
-    aux[i * LIGHT_AUX_STRIDE] = vec4(params.viewFromWorld * light.axisU, light.axisV.x);
-    aux[i * LIGHT_AUX_STRIDE + 1u] =
-        vec4(axisV, (light.type & LIGHT_TWO_SIDED) != 0u ? 1.0 : 0.0);
+    shapes[i] = rotatedShape(shapeOfRecord(light, type), type, params.viewFromWorld);
     if (withIds != 0u)
         ids[i] = light.id;
 }

@@ -46,9 +46,9 @@ bool boxTouches(ClusterBounds c, Box b)
            coneTouches(c, centre, 0.5 * distance(b.min, b.max), margin);
 }
 
-// Whether a light may reach a sample and be above its horizon. `reach`: of the emitter from its
-// centre; `r2`: square of its radius of influence.
-bool lightTouches(ClusterBounds c, vec3 centre, float reach, float r2)
+// Whether a light may reach a sample and be above its horizon. `boundingRadius`: of its emitter; `r2`:
+// square of its radius of influence.
+bool lightTouches(ClusterBounds c, vec3 centre, float boundingRadius, float r2)
 {
     const float margin = 2.0 * DOT_MARGIN * largest(centre);
     const float r = sqrt(r2);
@@ -58,7 +58,7 @@ bool lightTouches(ClusterBounds c, vec3 centre, float reach, float r2)
     // more than n.v = cos(cone) a.v + sin(cone) |v|.
     const float below = along - c.slabMin + margin;
     const bool hidden = below < 0.0 && c.minCos > 0.0 &&
-                        c.minCos * below + c.maxSin * r + margin <= -reach;
+                        c.minCos * below + c.maxSin * r + margin <= -boundingRadius;
     return sphereTouches(c.box, centre, r2) && beyond * beyond <= r2 * BOUNDS_MARGIN && !hidden &&
            coneTouches(c, centre, r, margin);
 }

@@ -4,7 +4,7 @@
 #define CND_LIB_INFLUENCE
 
 #include "shared/influence.h"
-#include "shared/light_types.h"
+#include "shared/lighting.h"
 #include "lib/math.glsl"
 
 uint evenBits(uint x)
@@ -43,22 +43,22 @@ uint influenceTurn(InfluenceFrame f, InfluenceState previous, uint round)
     return frame == 0u ? round : f.rounds + frame - 1u;
 }
 
-// Largest intensity of a light that has a place, cd, of its strongest channel: emission as of CndLight,
-// `reach` of the emitter, both vectors of `aux`.
-float peakIntensity(uint type, vec3 emission, float reach, vec4 aux0, vec4 aux1)
+// Largest intensity in cd, in any direction and of the strongest channel, of a light that has a
+// position. `emission` is CndLight::emission. Types that are not named here get the intensity of a
+// sphere of the bounding radius, which no convex emitter exceeds.
+float peakIntensity(uint type, vec3 emission, float boundingRadius, LightShape shape)
 {
     const float e = max(emission.x, max(emission.y, emission.z));
-    const float disc = PI * reach * reach;
     switch (type) {
     case LIGHT_POINT:
     case LIGHT_SPOT:
         return e;
     case LIGHT_TUBE:
-        return e * aux0.w * (4.0 * length(aux0.xyz) + PI * aux0.w);
+        return e * shape.radius * (4.0 * length(shape.axisU) + PI * shape.radius);
     case LIGHT_RECTANGLE:
-        return e * 4.0 * length(aux0.xyz) * length(aux1.xyz);
-    default: // spheres, discs
-        return e * disc;
+        return e * 4.0 * length(shape.axisU) * length(shape.axisV);
+    default:
+        return e * (PI * boundingRadius * boundingRadius);
     }
 }
 

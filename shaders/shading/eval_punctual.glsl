@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Responses to lights without size. Part of shading/light_eval.glsl.
+// Responses to lights without size.
+#include "shading/light.glsl"
 
-#if HAS_PUNCTUAL
 // Response to unit illuminance on a surface that faces the light, from the unit direction l.
 vec3 responseFrom(ShadingPoint p, vec3 l)
 {
@@ -19,9 +19,8 @@ vec3 intensityResponse(ShadingPoint p, Light light)
     float illuminance = 1.0 / d2;
     if (lightType == LIGHT_SPOT) {
         // KHR_lights_punctual, "Inner and Outer Cone Angles".
-        const vec3 axis = lightAux[light.index * LIGHT_AUX_STRIDE].xyz;
-        const vec2 cone = lightAux[light.index * LIGHT_AUX_STRIDE + 1u].xy;
-        const float t = saturate(dot(-l, axis) * cone.x + cone.y);
+        const LightShape spot = lightShapes[light.index];
+        const float t = saturate(dot(-l, spot.axisU) * coneScale(spot) + coneOffset(spot));
         illuminance *= t * t;
     }
     return illuminance * responseFrom(p, l);
@@ -32,4 +31,7 @@ vec3 punctualResponse(Receiver r, Light light)
     return lightType == LIGHT_DIRECTIONAL ? responseFrom(r.p, light.toLight)
                                           : intensityResponse(r.p, light);
 }
+
+#ifndef LIGHT_FAMILY_ALL
+#define GENERAL_RESPONSE punctualResponse
 #endif

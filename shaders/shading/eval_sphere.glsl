@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Responses to spheres, near and distant, of unit luminance. Part of shading/light_eval.glsl.
+// Responses to spheres, near and distant, of unit luminance.
+#include "lib/lights/sphere.glsl"
+#include "lib/lights/sphere_cap.glsl"
+#include "lib/specular/karis.glsl"
+#include "lib/specular/kx.glsl"
+#include "shading/light.glsl"
 
-#if LIGHT_FAMILY == FAMILY_SPHERE
+#ifdef LIGHT_FAMILY_SPHERE
 // Response of the specular lobe to a sphere of unit luminance; the closed form is not among these.
 vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 {
@@ -12,8 +17,8 @@ vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
         return kxResponse(r.p, cap);
     case SPECULAR_KARIS:
         return karisResponse(r.p, light.toLight,
-                             inversesqrt(max(length2(light.toLight), MIN_LENGTH2)), light.reach,
-                             cap.s2);
+                             inversesqrt(max(length2(light.toLight), MIN_LENGTH2)),
+                             light.boundingRadius, cap.s2);
     case SPECULAR_LTC:
         return ltcSphere(r.ltc, cap.c, cap.s2);
     case SPECULAR_SAMPLED:
@@ -23,12 +28,11 @@ vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 }
 #endif
 
-#if HAS_SPHERES
 // A sphere in the four evaluations.
 vec3 sphereAbove(Receiver r, Light light)
 {
-    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
-#if HAS_CONIC
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
+#ifdef LIGHT_FAMILY_CONIC
     const vec2 specular = specularMethod == SPECULAR_CONIC ? conicAbove(r.conic, cap)
                                                            : conicFullUnclipped(r.conic, cap);
 #else
@@ -39,8 +43,8 @@ vec3 sphereAbove(Receiver r, Light light)
 
 vec3 sphereAcross(Receiver r, Light light)
 {
-    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
-#if HAS_CONIC
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
+#ifdef LIGHT_FAMILY_CONIC
     const vec2 response = conicClipped(r.conic, cap);
 #else
     const vec2 response = cheapSphereSpecular(r, light, cap);
@@ -49,12 +53,11 @@ vec3 sphereAcross(Receiver r, Light light)
     const vec2 specular = cap.NoC > -cap.s ? response : vec2(0.0);
     return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) + schlick(r.p, specular);
 }
-#endif
 
-#if HAS_CONIC
+#ifdef LIGHT_FAMILY_CONIC
 vec3 sphereNear(Receiver r, Light light)
 {
-    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
     const bool mixed = specularMethod == SPECULAR_CONIC;
     return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) +
            schlick(r.p, conicUnclipped(r.conic, cap, mixed));
@@ -62,7 +65,11 @@ vec3 sphereNear(Receiver r, Light light)
 
 vec3 sphereAsPoint(Receiver r, Light light)
 {
-    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.reach);
+    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
     return diffuseResponse(r.p, cap.NoC * cap.s2) + schlick(r.p, pointResponse(r.p, cap));
 }
+#endif
+
+#ifndef LIGHT_FAMILY_ALL
+#define GENERAL_RESPONSE sphereAcross
 #endif

@@ -21,9 +21,9 @@ layout(scalar, set = FORWARD_SET, binding = FORWARD_CORE) readonly buffer Forwar
 {
     vec4 lightCore[];
 };
-layout(scalar, set = FORWARD_SET, binding = FORWARD_AUX) readonly buffer ForwardAux
+layout(scalar, set = FORWARD_SET, binding = FORWARD_SHAPES) readonly buffer ForwardShapes
 {
-    vec4 lightAux[];
+    LightShape lightShapes[];
 };
 layout(scalar, set = FORWARD_SET, binding = FORWARD_NODES) readonly buffer ForwardNodes
 {
@@ -65,7 +65,7 @@ uint lightAt(uint k)
     return foundLights[k];
 }
 
-#define LIGHT_FAMILY FAMILY_ALL
+#define LIGHT_FAMILY_ALL
 #include "shading/light_walk.glsl"
 
 // Steps through the lights of one type that reach a position. One at a time.

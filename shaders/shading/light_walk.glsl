@@ -31,19 +31,19 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
     uint k = first;
     do {
         const uint light = lightAt(k);
-        const vec4 centreReach = lightCentre(light);
-        const vec3 toLight = towardsLight(centreReach.xyz, r.p.position);
-        const float radius = centreReach.w;
+        const vec4 centreRadius = lightCentre(light);
+        const vec3 toLight = towardsLight(centreRadius.xyz, r.p.position);
+        const float radius = centreRadius.w;
         const float height = dot(r.p.n, toLight);
         const float d2 = length2(toLight);
         bool reaches = height > -radius;
         if (testInfluence)
             reaches = reaches && d2 < lightEmission(light).w;
         found.reaching |= reaches ? bit : 0u;
-#if HAS_SPHERES
+#ifdef HAS_SPHERES
         found.above |= height >= r.aboveFrom * radius ? bit : 0u;
 #endif
-#if HAS_CONIC
+#ifdef LIGHT_FAMILY_CONIC
         // Inside a sphere its cap is that of makeSphereCap; in its very centre all of this is 0.
         const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
         const bool whole = height * abs(height) > radius2;
@@ -68,8 +68,8 @@ Found findLights(Receiver r, uint first, uint count, bool testInfluence)
     Found found;
     found.asPoint = uvec2(low.asPoint, high.asPoint) & reaching;
     found.above = uvec2(low.above, high.above) & reaching & ~found.asPoint;
-#if LIGHT_FAMILY == FAMILY_ALL
-    if (!IS_SPHERE) {
+#ifdef LIGHT_FAMILY_ALL
+    if (FAMILY_OF_TYPE[lightType] != FAMILY_SPHERE) {
         found.above = uvec2(0u);
         found.near = uvec2(0u);
         found.general = reaching;
@@ -131,26 +131,24 @@ vec3 total(Sums sums)
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
     const Found found = findLights(r, first, count, testInfluence);
-#if HAS_CONIC
+#ifdef LIGHT_FAMILY_CONIC
     if (HAS_BUDGET) {
         SHADE_FOUND(sums.asPoint, r, first, found.asPoint, evaluateAsPoint)
     }
     SHADE_FOUND(sums.near, r, first, found.near, evaluateNear)
 #endif
-#if HAS_SPHERES
+#ifdef HAS_SPHERES
     SHADE_FOUND(sums.above, r, first, found.above, evaluateAbove)
 #endif
-#if LIGHT_FAMILY == FAMILY_ALL
+#ifdef LIGHT_FAMILY_ALL
     // The block is of one type. A loop each: what a device pays for branches that it does not take, it
     // pays once for a block.
-    const bool isPunctual =
-        lightType == LIGHT_POINT || lightType == LIGHT_SPOT || lightType == LIGHT_DIRECTIONAL;
-    SHADE_FOUND(sums.general, r, first, IF(IS_SPHERE, found.general), evaluateAcross)
-    SHADE_FOUND(sums.general, r, first, IF(lightType == LIGHT_TUBE, found.general), evaluateTube)
-    SHADE_FOUND(sums.general, r, first, IF(lightType == LIGHT_RECTANGLE, found.general),
-                evaluateRectangle)
-    SHADE_FOUND(sums.general, r, first, IF(lightType == LIGHT_DISC, found.general), evaluateDisc)
-    SHADE_FOUND(sums.general, r, first, IF(isPunctual, found.general), evaluatePunctual)
+    const uint family = FAMILY_OF_TYPE[lightType];
+#define X(FAMILY, response)                                                                        \
+    SHADE_FOUND(sums.general, r, first, IF(family == FAMILY_##FAMILY, found.general),              \
+                evaluate_##FAMILY)
+    GENERAL_RESPONSES(X)
+#undef X
 #else
     SHADE_FOUND(sums.general, r, first, found.general, evaluateGeneral)
 #endif

@@ -6,7 +6,7 @@
 #include "shared/lighting.h"
 #include "shading/light_families.glsl"
 
-#if LIGHT_FAMILY == FAMILY_ALL
+#ifdef LIGHT_FAMILY_ALL
 const uint tileClass = CLASS_ANY;
 #else
 layout(constant_id = SPEC_TILE_CLASS) const uint tileClass = CLASS_ANY;

@@ -13,7 +13,7 @@ const uint BENCH_GROUP = 64u;
 
 const uint BENCH_CORE = 0u; // lights as in lighting.h
 const uint BENCH_CORE_WORDS = 1u;
-const uint BENCH_AUX = 2u;
+const uint BENCH_SHAPES = 2u;
 const uint BENCH_INPUT = 3u;
 const uint BENCH_OUTPUT = 4u;
 const uint BENCH_LTC = 6u; // also in sweep_inputs
@@ -96,10 +96,9 @@ struct SweepRecord {
     vec3 n;
     vec3 v;
     float perceptualRoughness;
-    vec4 centreReach;
+    vec4 centreRadius;      // bounding radius
     vec4 emissionInfluence; // squared influence radius
-    vec4 axisURadius;
-    vec4 axisVTwoSided;
+    LightShape shape;
     vec3 response; // recording: BenchResponse; else the outgoing luminance
     uint index;
 };

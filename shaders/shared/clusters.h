@@ -64,8 +64,8 @@ struct TileClusters {
 };
 GPU_SIZE(TileClusters, 20)
 const uint UNLISTED_BITS = 0u; // the tiles of shade_unlisted
-const uint LIT_BITS = 16u;     // the tiles of shade_tiles: some cluster has lights
-const uint CLASS_BITS = 24u;
+const uint LIT_BITS = 15u;     // the tiles of shade_tiles: some cluster has lights
+const uint CLASS_BITS = 30u;
 const uint UNSPLIT = 31u; // shift of a tile with one cluster
 
 // A list of lights: pages of the entry buffer. A page begins with a header, the number of its

@@ -10,20 +10,18 @@ GPU_BEGIN
 
 const uint FORWARD_VIEW = 0u;
 const uint FORWARD_CORE = 1u; // lights, shared/lighting.h
-const uint FORWARD_AUX = 2u;
+const uint FORWARD_SHAPES = 2u;
 const uint FORWARD_NODES = 3u; // of the light trees, shared/clusters.h
 const uint FORWARD_DFG = 4u;   // texel buffers: shared/dfg.h
 const uint FORWARD_LTC = 5u;   // shared/ltc.h
 const uint FORWARD_IDS = 6u;   // of lights
-
-const uint LIGHT_TYPE_COUNT = 8u;
 
 struct ForwardView {
     Projection projection;
     uint lobes;                        // as ShadeParams::lobes
     TreeShape trees[LIGHT_TYPE_COUNT]; // by light type; distant types have lights, but no tree
 };
-GPU_SIZE(ForwardView, 156)
+GPU_SIZE(ForwardView, 60 + 12 * LIGHT_TYPE_COUNT)
 
 GPU_END
 

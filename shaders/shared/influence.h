@@ -85,7 +85,7 @@ GPU_SIZE(ChooseInfluenceParams, 8)
 const uint CUT_LIGHTS_GROUP = 64u;
 const uint CUT_LIGHTS_DATA = 0u;
 const uint CUT_LIGHTS_CORE = 1u;
-const uint CUT_LIGHTS_AUX = 2u;
+const uint CUT_LIGHTS_SHAPES = 2u;
 const uint CUT_LIGHTS_COUNTERS = 3u;
 struct CutLightsParams {
     uint firstLight, lightCount;

@@ -5,6 +5,7 @@
 #ifndef CND_SHARED_LIGHT_ORDER_H
 #define CND_SHARED_LIGHT_ORDER_H
 
+#include "shared/light_types.h"
 #include "shared/prelude.h"
 
 GPU_BEGIN
@@ -16,7 +17,7 @@ struct LightKey {
 GPU_SIZE(LightKey, 8)
 
 // Bits of a key, from the top: type, class of influence radius, Morton code.
-const uint ORDER_TYPE_BITS = 3u;
+const uint ORDER_TYPE_BITS = LIGHT_TYPE_COUNT <= 8u ? 3u : 4u;
 const uint ORDER_SIZE_BITS = 3u;
 
 // Digit of a sorting pass. 64 counters fit a lane's private memory; 24 bits take four passes.

@@ -1,24 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one list of light types. Ids are stable: they are CndLightType and appear in scene files.
+// The one list of light types and of what each has. Ids are stable: they are CndLightType.
 #ifndef CND_SHARED_LIGHT_TYPES_H
 #define CND_SHARED_LIGHT_TYPES_H
 
+#include "shared/light_families.h"
 #include "shared/prelude.h"
 
+// X(id, NAME, family, fields of CndLight that the type uses). Types with the methods of spheres
+// belong to the family SPHERE here. A type without a position is distant: it has no place and no
+// influence radius, and its direction says where it is seen.
 #define CND_LIGHT_TYPES(X)                                                                         \
-    X(0, POINT)                                                                                    \
-    X(1, SPHERE)                                                                                   \
-    X(2, SPOT)                                                                                     \
-    X(3, DIRECTIONAL)                                                                              \
-    X(4, DISTANT_SPHERE)                                                                           \
-    X(5, TUBE)                                                                                     \
-    X(6, RECTANGLE)                                                                                \
-    X(7, DISC)
+    X(0, POINT, PUNCTUAL, LIGHT_HAS_POSITION)                                                      \
+    X(1, SPHERE, SPHERE, LIGHT_HAS_POSITION | LIGHT_HAS_RADIUS)                                    \
+    X(2, SPOT, PUNCTUAL, LIGHT_HAS_POSITION | LIGHT_HAS_DIRECTION | LIGHT_HAS_CONE)                \
+    X(3, DIRECTIONAL, PUNCTUAL, LIGHT_HAS_DIRECTION)                                               \
+    X(4, DISTANT_SPHERE, SPHERE, LIGHT_HAS_DIRECTION | LIGHT_HAS_RADIUS)                           \
+    X(5, TUBE, TUBE, LIGHT_HAS_POSITION | LIGHT_HAS_RADIUS | LIGHT_HAS_AXIS_U)                     \
+    X(6, RECTANGLE, RECTANGLE,                                                                     \
+      LIGHT_HAS_POSITION | LIGHT_HAS_AXIS_U | LIGHT_HAS_AXIS_V | LIGHT_HAS_SIDES)                  \
+    X(7, DISC, DISC, LIGHT_HAS_POSITION | LIGHT_HAS_RADIUS | LIGHT_HAS_DIRECTION | LIGHT_HAS_SIDES)
 
 GPU_BEGIN
-#define X(id, NAME) const uint LIGHT_##NAME = id;
+
+// CndLightFieldBits.
+const uint LIGHT_HAS_POSITION = 1u;
+const uint LIGHT_HAS_RADIUS = 2u;
+const uint LIGHT_HAS_DIRECTION = 4u;
+const uint LIGHT_HAS_CONE = 8u;
+const uint LIGHT_HAS_AXIS_U = 16u;
+const uint LIGHT_HAS_AXIS_V = 32u;
+const uint LIGHT_HAS_SIDES = 64u; // twoSided
+
+#define X(id, NAME, family, fields) const uint LIGHT_##NAME = id;
 CND_LIGHT_TYPES(X)
 #undef X
+#define X(id, NAME, family, fields) +1u
+const uint LIGHT_TYPE_COUNT = 0u CND_LIGHT_TYPES(X);
+#undef X
+
+// Masks of 1 << type. As expressions of constants they may be used with specialisation constants.
+#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_POSITION) != 0u ? 1u << id : 0u)
+const uint TYPES_WITH_POSITION = 0u CND_LIGHT_TYPES(X);
+#undef X
+#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_RADIUS) != 0u ? 1u << id : 0u)
+const uint TYPES_WITH_RADIUS = 0u CND_LIGHT_TYPES(X);
+#undef X
+#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_DIRECTION) != 0u ? 1u << id : 0u)
+const uint TYPES_WITH_DIRECTION = 0u CND_LIGHT_TYPES(X);
+#undef X
+#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_CONE) != 0u ? 1u << id : 0u)
+const uint TYPES_WITH_CONE = 0u CND_LIGHT_TYPES(X);
+#undef X
+#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_AXIS_U) != 0u ? 1u << id : 0u)
+const uint TYPES_WITH_AXIS_U = 0u CND_LIGHT_TYPES(X);
+#undef X
+#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_AXIS_V) != 0u ? 1u << id : 0u)
+const uint TYPES_WITH_AXIS_V = 0u CND_LIGHT_TYPES(X);
+#undef X
+#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_SIDES) != 0u ? 1u << id : 0u)
+const uint TYPES_WITH_SIDES = 0u CND_LIGHT_TYPES(X);
+#undef X
+// Types whose lights have a size.
+#define X(id, NAME, family, fields) | (FAMILY_##family != FAMILY_PUNCTUAL ? 1u << id : 0u)
+const uint AREA_LIGHT_TYPES = 0u CND_LIGHT_TYPES(X);
+#undef X
+
 GPU_END
 
 #endif

@@ -12,38 +12,45 @@
 
 GPU_BEGIN
 
+// The shape of an emitter. Members that a type does not have are without meaning (light_types.h).
+struct LightShape {
+    vec3 axisU;   // m; disc: unit normal; spot: unit, the way the light travels
+    float radius; // m; distant sphere: the sine of its angular radius
+    vec3 axisV;   // m; spot: scale and offset of its cone (lib/light_shape.glsl)
+    uint flags;   // LIGHT_TWO_SIDED
+};
+GPU_SIZE(LightShape, 32)
+
 // A light as the host sends it, relative to the light set's origin. Made by pack_lights.cpp, in any
 // order: light_order.h sorts them by type, since each type has its own shading pipeline.
 struct LightRecord {
-    vec3 position; // m; distant types: unit direction towards the light
-    float reach;   // m, from the centre to the farthest point of the emitter; distant sphere:
-                   //   the sine of its angular radius
-    vec3 emission; // as CndLight
+    vec3 position;         // m; distant types: unit direction towards the light
+    float boundingRadius;  // m, of a sphere around the centre that holds the emitter; distant
+                           //   sphere: the sine of its angular radius
+    vec3 emission;         // as CndLight
     float influenceRadius; // m, may be infinite
-    vec3 axisU;            // m; spot: unit, the way the light travels; disc: unit normal
+    vec3 axisU;            // as LightShape, as are axisV and flags
     uint id;               // low half of the CndLightId, or LIGHT_OF_DEVICE and an index
-    vec3 axisV; // m; spot: (scale, offset), attenuation = sat(cos(angle) scale + offset)^2; tube:
-                //   its radius, m
-    uint type;  // LIGHT_*, plus LIGHT_TWO_SIDED, plus layers << LIGHT_LAYERS_SHIFT
+    vec3 axisV;            // types with a radius and axisU alone: (radius, 0, 0)
+    uint flags;            // LIGHT_*, plus LIGHT_TWO_SIDED, plus layers << LIGHT_LAYERS_SHIFT
 };
 GPU_SIZE(LightRecord, 64)
+const uint LIGHT_TYPE_MASK = 255u;
 const uint LIGHT_TWO_SIDED = 256u;
 const uint LIGHT_LAYERS_SHIFT = 16u;
 const uint LIGHT_OF_DEVICE = 0x80000000u;
 const uint ALL_LAYERS = 0xFFFFu;
 
-// After prepare_lights, two vec4 per light, hot in every loop:
-//   core[2 i]     = position in view space, reach
+// After prepare_lights, in view space: two vec4 per light, hot in every loop,
+//   core[2 i]     = position, bounding radius
 //   core[2 i + 1] = emission, squared influence radius
-// and, read only by the types that need them:
-//   aux[2 i]      = axisU in view space, radius (tube)
-//   aux[2 i + 1]  = axisV in view space (spot: as it is), 1 if two-sided else 0
-// Lights of other layers than the frame's reach nothing: reach and squared influence radius are
-// these, so that no box of the tree and no list holds them, and none is above a horizon.
-const float REACH_OF_NONE = -1e30f;
+// and a LightShape, read only by the types that need it.
+// Lights of other layers than the frame's light nothing: their bounding radius and squared
+// influence radius are these, so that no box of the tree and no list holds them, and none is above
+// a horizon.
+const float BOUNDING_RADIUS_OF_NONE = -1e30f;
 const float INFLUENCE2_OF_NONE = -1.0f;
 const uint LIGHT_CORE_STRIDE = 2u;
-const uint LIGHT_AUX_STRIDE = 2u;
 
 // Non-zero elements of clipFromView (m<column><row>), enough for perspective and orthographic, and
 // the way back from pixel and depth to view space.
@@ -90,7 +97,7 @@ GPU_SIZE(LightingCounters, 76)
 const uint PREPARE_LIGHTS_GROUP = 64u;
 const uint PREPARE_LIGHTS_RECORDS = 0u;
 const uint PREPARE_LIGHTS_CORE = 1u;
-const uint PREPARE_LIGHTS_AUX = 2u;
+const uint PREPARE_LIGHTS_SHAPES = 2u;
 const uint PREPARE_LIGHTS_ORDER = 3u; // shared/light_order.h
 const uint PREPARE_LIGHTS_IDS = 4u;   // LightRecord::id, in that order
 // Specialisation constant: 1: write ids; 0: nobody reads them.
@@ -109,7 +116,7 @@ GPU_SIZE(PrepareLightsParams, 60)
 // one lane per pixel
 const uint SHADE_CORE = 0u;
 const uint SHADE_CORE_WORDS = 1u;
-const uint SHADE_AUX = 2u;
+const uint SHADE_SHAPES = 2u;
 const uint SHADE_NORMAL_ROUGHNESS = 3u;
 const uint SHADE_ALBEDO = 4u;
 const uint SHADE_SPECULAR = 5u;

@@ -12,7 +12,7 @@
 #include "measure/accuracy/low_roughness.h"
 #include "measure/stability/stability.h"
 #include "render/setting_names.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

@@ -153,7 +153,7 @@ std::vector<CndLight> everyType(const CpuGBuffer& g, uint32_t perType)
 {
     std::vector<CndLight> all;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
-        const bool distant = type == CND_LIGHT_DIRECTIONAL || type == CND_LIGHT_DISTANT_SPHERE;
+        const bool distant = cndIsDistant(type);
         const std::vector<CndLight> some =
             lightsOf(CndLightType(type), g, distant ? 3 : perType, 40 + type);
         all.insert(all.end(), some.begin(), some.end());

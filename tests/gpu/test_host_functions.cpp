@@ -71,8 +71,7 @@ protected:
     {
         constexpr float parts[] = {0, 0.25f, 0.5f, 1}; // factors that multiply without rounding
         const float visible = parts[(id * 7 + light.type) % 4];
-        const bool distant =
-            light.type == CND_LIGHT_DIRECTIONAL || light.type == CND_LIGHT_DISTANT_SPHERE;
+        const bool distant = cndIsDistant(light.type);
         const float* p = distant ? light.direction : light.position;
         shadows_.as<Shadow>()[uint32_t(id)] = {
             (distant ? -1.0f : 1.0f) * glm::vec3(p[0], p[1], p[2]), visible, light.type};

@@ -83,7 +83,7 @@ TEST_F(InfluenceTest, EveryTypeStaysWithinTheError)
     const CpuGBuffer first = surfaces();
     std::vector<CndLight> lights;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
-        const bool distant = type == CND_LIGHT_DIRECTIONAL || type == CND_LIGHT_DISTANT_SPHERE;
+        const bool distant = cndIsDistant(type);
         for (CndLight light : lightsOf(CndLightType(type), first, distant ? 2 : 15, 20 + type)) {
             for (float& e : light.emission)
                 e *= distant ? 0.01f : 1;

@@ -9,17 +9,24 @@
 #include "harness/full_tests.h"
 #include "reference/light.h"
 #include "reference/truth.h"
+#include "scene/light_types.h"
+#include "shading/light_family.h"
 
 namespace candelabra::test
 {
+
+using app::lightTypeName;
+
 namespace
 {
 
-constexpr CndLightType allTypes[] = {
-    CND_LIGHT_POINT, CND_LIGHT_SPHERE,         CND_LIGHT_SPOT,      CND_LIGHT_DIRECTIONAL,
-    CND_LIGHT_TUBE,  CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC};
-const char* const names[] = {"point",          "sphere", "spot",      "directional",
-                             "distant sphere", "tube",   "rectangle", "disc"};
+std::vector<CndLightType> allTypes()
+{
+    std::vector<CndLightType> types;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        types.push_back(CndLightType(type));
+    return types;
+}
 
 CndCamera camera()
 {
@@ -63,9 +70,7 @@ protected:
                                               glm::normalize(-position)};
         glm::dvec3 sum(0);
         for (const CndLight& light : lights) {
-            const bool punctual = light.type == CND_LIGHT_POINT || light.type == CND_LIGHT_SPOT ||
-                                  light.type == CND_LIGHT_DIRECTIONAL;
-            sum += punctual
+            sum += cndIsPunctual(light.type)
                        ? reference::outgoingLuminance(surface, material, light, glm::dvec3(0),
                                                       CND_SPECULAR_KARIS)
                        : reference::truthLuminance(surface, material, light, glm::dvec3(0), 1e-4)
@@ -100,9 +105,9 @@ protected:
 TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
 {
     const CpuGBuffer g = randomGBuffer(72, 48, camera(), 0, 5);
-    for (const CndLightType type : allTypes) {
+    for (const CndLightType type : allTypes()) {
         const auto lights = lightsOf(type, g, 40, 9);
-        const bool sphere = type == CND_LIGHT_SPHERE || type == CND_LIGHT_DISTANT_SPHERE;
+        const bool sphere = lighting::isSphere(type);
         for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method) {
             // The other types have fewer methods, some of which stand for several names.
             const bool stands = method == CND_SPECULAR_KX || method == CND_SPECULAR_POINT ||
@@ -117,7 +122,7 @@ TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
             options.culling = CND_CULLING_BRUTE;
             const LightingResult brute = run(g, lights, options);
             EXPECT_EQ(maxRelativeDifference(clustered.radiance, brute.radiance), 0)
-                << names[type] << ", method " << method;
+                << lightTypeName(type) << ", method " << method;
         }
     }
 }
@@ -128,7 +133,7 @@ TEST_F(LightTypes, TypesMixInOneSet)
     const CpuGBuffer g = randomGBuffer(72, 48, camera(), 0, 6);
     std::vector<CndLight> mixed;
     std::vector<glm::vec4> sum(g.depth.size(), glm::vec4(0));
-    for (const CndLightType type : allTypes) {
+    for (const CndLightType type : allTypes()) {
         const auto lights = lightsOf(type, g, 20, 4 + type);
         const auto image = run(g, lights, {.specular = CND_SPECULAR_CONIC}).radiance;
         for (size_t i = 0; i < sum.size(); ++i)
@@ -147,12 +152,12 @@ TEST_F(LightTypes, TypesMixInOneSet)
 TEST_F(LightTypes, DiffuseEqualsTruth)
 {
     const CpuGBuffer g = randomGBuffer(48, 32, camera(), 0, 7);
-    for (const CndLightType type : allTypes) {
+    for (const CndLightType type : allTypes()) {
         const Errors e = errorsOf(g, lightsOf(type, g, 8, 2), {.specular = CND_SPECULAR_NONE});
-        std::cout << names[type] << ": diffuse error mean " << e.mean << ", largest over peak "
-                  << e.max << "\n";
-        EXPECT_LE(e.mean, type == CND_LIGHT_TUBE ? 1e-3 : 3e-5) << names[type];
-        EXPECT_LE(e.max, type == CND_LIGHT_TUBE ? 3e-3 : 1e-4) << names[type];
+        std::cout << lightTypeName(type) << ": diffuse error mean " << e.mean
+                  << ", largest over peak " << e.max << "\n";
+        EXPECT_LE(e.mean, type == CND_LIGHT_TUBE ? 1e-3 : 3e-5) << lightTypeName(type);
+        EXPECT_LE(e.max, type == CND_LIGHT_TUBE ? 3e-3 : 1e-4) << lightTypeName(type);
     }
 }
 
@@ -160,21 +165,20 @@ TEST_F(LightTypes, DiffuseEqualsTruth)
 TEST_F(LightTypes, DefaultMethodIsCloseToTruth)
 {
     const CpuGBuffer g = randomGBuffer(36, 24, camera(), 0, 8);
-    for (const CndLightType type : allTypes) {
+    for (const CndLightType type : allTypes()) {
         const auto lights = lightsOf(type, g, 6, 3);
         const Errors conic = errorsOf(g, lights, {.specular = CND_SPECULAR_CONIC});
         const Errors sampled =
             errorsOf(g, lights, {.specular = CND_SPECULAR_SAMPLED, .sampleCount = 1024});
-        std::cout << names[type] << ": default method, error mean " << conic.mean
+        std::cout << lightTypeName(type) << ": default method, error mean " << conic.mean
                   << ", largest over peak " << conic.max << "; 1024 samples " << sampled.mean
                   << ", " << sampled.max << "\n";
-        const bool area =
-            type == CND_LIGHT_TUBE || type == CND_LIGHT_RECTANGLE || type == CND_LIGHT_DISC;
+        const bool area = !cndIsPunctual(type) && !lighting::isSphere(type);
         // Relative to the luminance, not to the peak; with few lights single ones show.
-        EXPECT_LE(conic.mean, area ? 0.1 : 8e-3) << names[type];
+        EXPECT_LE(conic.mean, area ? 0.1 : 8e-3) << lightTypeName(type);
         // Half of a tube's samples are on its far side, the others are concentrated at its near
         // end.
-        EXPECT_LE(sampled.mean, type == CND_LIGHT_TUBE ? 0.15 : 0.02) << names[type];
+        EXPECT_LE(sampled.mean, type == CND_LIGHT_TUBE ? 0.15 : 0.02) << lightTypeName(type);
     }
 }
 

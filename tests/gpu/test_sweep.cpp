@@ -8,7 +8,7 @@
 #include "measure/stability/stability.h"
 #include "reference/sphere_light.h"
 #include "render/setting_names.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 #include "transcription/conic.h"
 
 using namespace candelabra;
@@ -31,12 +31,12 @@ struct InDouble {
 InDouble inDouble(const gpu::SweepRecord& r, const Evaluation& evaluation)
 {
     const bool distant = evaluation.lightType == CND_LIGHT_DISTANT_SPHERE;
-    const glm::vec3 centre(r.centreReach);
+    const glm::vec3 centre(r.centreRadius);
     const glm::dvec3 n(r.n), to(distant ? centre : centre - r.position);
     const float alpha = r.perceptualRoughness * r.perceptualRoughness;
     const tr::ShadingPoint p = tr::makeShadingPoint(n, glm::dvec3(r.v), double(alpha));
     const tr::ConicPoint conic = tr::makeConicPoint(p);
-    const double radius = double(r.centreReach.w);
+    const double radius = double(r.centreRadius.w);
     const tr::SphereCap cap = tr::makeSphereCap(n, to, radius);
     glm::dvec2 response(0);
     const bool reaches = glm::dot(n, to) > -radius && cap.NoC > -cap.s;
@@ -66,7 +66,7 @@ InDouble inDouble(const gpu::SweepRecord& r, const Evaluation& evaluation)
 
 double distanceOf(const gpu::SweepRecord& r)
 {
-    return double(glm::length(glm::vec3(r.centreReach) - r.position));
+    return double(glm::length(glm::vec3(r.centreRadius) - r.position));
 }
 
 } // namespace

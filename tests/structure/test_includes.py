@@ -46,7 +46,7 @@ ROOMS = [
                             "candelabra_shaders.h"]),
     ("engine/exposure", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
     ("engine/gbuffer", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_gbuffer_shaders.h"]),
-    ("engine/compiler", ["engine/gpu/failure.h", PUBLIC]),
+    ("engine/compiler", ["engine/shading/light_family.h", "engine/gpu/failure.h", PUBLIC]),
 
     # The program: files and text; scenes, then their three origins, then what picks the origin; the
     # double-precision truth of a scene.
@@ -69,7 +69,7 @@ ROOMS = [
     ("tools/candelabra/measure", ["tools/candelabra/render", "tools/candelabra/truth", "tools/candelabra/load",
                                   "tools/candelabra/generate", "tools/candelabra/scene", "tools/candelabra/io",
                                   PUBLIC, "engine/gpu", "engine/tables", "engine/lights",
-                                  "engine/surfaces/camera.h", "engine/shading/shade_kernels.h",
+                                  "engine/surfaces/camera.h", "engine/shading/light_family.h",
                                   "engine/reference", "shaders/shared", "candelabra_shaders.h",
                                   "candelabra_bench_shaders.h"]),
     ("tools/candelabra/viewer", ["tools/candelabra/measure", "tools/candelabra/render", "tools/candelabra/load",

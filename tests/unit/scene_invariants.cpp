@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "unit/scene_invariants.h"
 
-#include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 namespace candelabra::test
 {
@@ -77,52 +75,33 @@ glm::vec3 vec(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-// Returns the distance from a light's centre to its farthest point; 0 for punctual lights.
-float reachOf(const CndLight& l)
-{
-    switch (l.type) {
-    case CND_LIGHT_SPHERE:
-    case CND_LIGHT_DISC:
-        return l.radius;
-    case CND_LIGHT_TUBE:
-        return glm::length(vec(l.axisU)) + l.radius;
-    case CND_LIGHT_RECTANGLE:
-        return glm::length(vec(l.axisU) + vec(l.axisV));
-    default:
-        return 0;
-    }
-}
-
 std::string checkLight(const CndLight& l)
 {
     if (l.type >= CND_LIGHT_TYPE_COUNT)
         return "unknown type";
-    const auto isOneOf = [&](std::initializer_list<uint32_t> types) {
-        return std::find(types.begin(), types.end(), l.type) != types.end();
-    };
+    const uint32_t fields = cndLightFields(l.type);
+    const bool distant = cndIsDistant(l.type);
     if (!isFinite(vec(l.position)) || !isIn(vec(l.emission), 0, 3.4e38f))
         return "position or emission";
-    const bool distant = isOneOf({CND_LIGHT_DIRECTIONAL, CND_LIGHT_DISTANT_SPHERE});
-    if (isOneOf({CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_DISC}) &&
-        !(l.radius > 0 && std::isfinite(l.radius)))
+    if (fields & CND_LIGHT_FIELD_RADIUS_BIT && !(l.radius > 0 && std::isfinite(l.radius)))
         return "radius";
-    if (l.type == CND_LIGHT_DISTANT_SPHERE && !(l.radius <= 1))
+    if (fields & CND_LIGHT_FIELD_RADIUS_BIT && distant && !(l.radius <= 1))
         return "sine of the angular radius";
-    if (!distant && !(l.influenceRadius > reachOf(l)))
+    if (!distant && !(l.influenceRadius > cndEmitterBoundingRadius(&l)))
         return "influence radius";
-    if ((distant || isOneOf({CND_LIGHT_SPOT, CND_LIGHT_DISC})) && !isUnit(vec(l.direction)))
+    if (fields & CND_LIGHT_FIELD_DIRECTION_BIT && !isUnit(vec(l.direction)))
         return "direction";
-    if (isOneOf({CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE}) &&
+    if (fields & CND_LIGHT_FIELD_AXIS_U_BIT &&
         !(isFinite(vec(l.axisU)) && glm::length(vec(l.axisU)) > 0))
         return "axisU";
-    if (l.type == CND_LIGHT_RECTANGLE) {
+    if (fields & CND_LIGHT_FIELD_AXIS_V_BIT) {
         if (!(isFinite(vec(l.axisV)) && glm::length(vec(l.axisV)) > 0))
             return "axisV";
         const glm::vec3 u = glm::normalize(vec(l.axisU)), v = glm::normalize(vec(l.axisV));
         if (!(std::abs(glm::dot(u, v)) <= 1e-3f))
             return "axes not perpendicular";
     }
-    if (l.type == CND_LIGHT_SPOT &&
+    if (fields & CND_LIGHT_FIELD_CONE_BIT &&
         !(l.innerConeAngle >= 0 && l.innerConeAngle < l.outerConeAngle &&
           l.outerConeAngle <= 1.5707963267948966))
         return "cone";

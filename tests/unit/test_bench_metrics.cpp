@@ -32,8 +32,7 @@ SampleSet sphereSet()
 
 TEST(BenchMetrics, SamplesFollowTheSeedAndTheRanges)
 {
-    for (const uint32_t type : {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_TUBE,
-                                CND_LIGHT_RECTANGLE, CND_LIGHT_DISC}) {
+    for (const uint32_t type : areaLightTypes()) {
         const SampleSet a = makeSamples(type, 40, 3), b = makeSamples(type, 40, 3);
         const SampleSet other = makeSamples(type, 40, 4);
         ASSERT_EQ(a.samples.size(), 40 * samplesPerGroup);

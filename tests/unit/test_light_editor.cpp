@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "lights/pack_lights.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 #include "viewer/light_editor.h"
 
 using namespace candelabra;

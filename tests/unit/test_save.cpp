@@ -6,6 +6,7 @@
 
 #include "harness/paths.h"
 #include "load/load.h"
+#include "scene/light_types.h"
 #include "scene/scene_error.h"
 #include "unit/gltf_builder.h"
 #include "unit/scene_invariants.h"
@@ -79,27 +80,26 @@ void expectSameLights(const Scene& a, const Scene& b)
         ASSERT_EQ(x.type, y.type) << what;
         EXPECT_EQ(x.layers, y.layers) << what;
         expectSameVector(x.emission, y.emission, what);
-        if (x.type != CND_LIGHT_DIRECTIONAL && x.type != CND_LIGHT_DISTANT_SPHERE) {
+        const uint32_t fields = cndLightFields(x.type);
+        if (fields & CND_LIGHT_FIELD_POSITION_BIT) {
             const glm::dvec3 at = worldPositionOf(a, x), gap = at - worldPositionOf(b, y);
             EXPECT_LT(glm::length(gap), 1e-6 * std::max(1.0, glm::length(at))) << what;
             EXPECT_EQ(x.influenceRadius, y.influenceRadius) << what;
         }
-        if (x.type == CND_LIGHT_RECTANGLE || x.type == CND_LIGHT_TUBE)
+        if (fields & CND_LIGHT_FIELD_AXIS_U_BIT)
             expectSameVector(x.axisU, y.axisU, what);
-        if (x.type == CND_LIGHT_RECTANGLE)
+        if (fields & CND_LIGHT_FIELD_AXIS_V_BIT)
             expectSameVector(x.axisV, y.axisV, what);
-        if (x.type == CND_LIGHT_RECTANGLE || x.type == CND_LIGHT_DISC) {
+        if (fields & CND_LIGHT_FIELD_TWO_SIDED_BIT) {
             EXPECT_EQ(x.twoSided, y.twoSided) << what;
         }
-        if (x.type == CND_LIGHT_SPOT) {
+        if (fields & CND_LIGHT_FIELD_CONE_BIT) {
             EXPECT_FLOAT_EQ(x.innerConeAngle, y.innerConeAngle) << what;
             EXPECT_FLOAT_EQ(x.outerConeAngle, y.outerConeAngle) << what;
         }
-        if (x.type == CND_LIGHT_SPOT || x.type == CND_LIGHT_DISC ||
-            x.type == CND_LIGHT_DIRECTIONAL || x.type == CND_LIGHT_DISTANT_SPHERE)
+        if (fields & CND_LIGHT_FIELD_DIRECTION_BIT)
             expectSameVector(x.direction, y.direction, what);
-        if (x.type == CND_LIGHT_SPHERE || x.type == CND_LIGHT_TUBE || x.type == CND_LIGHT_DISC ||
-            x.type == CND_LIGHT_DISTANT_SPHERE) {
+        if (fields & CND_LIGHT_FIELD_RADIUS_BIT) {
             EXPECT_EQ(x.radius, y.radius) << what;
         }
     }
@@ -116,6 +116,24 @@ void expectSameCamera(const Camera& a, const Camera& b)
 }
 
 } // namespace
+
+// Also types that the data file does not have.
+TEST_F(Save, LightsOfEveryType)
+{
+    Scene scene = loadSceneJson(dataPath("every_light.json"));
+    scene.lights.clear();
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        CndLight light = lightTypeInfo(type).lamp;
+        light.type = type;
+        light.position[1] = 2.5f;
+        light.direction[1] = -1;
+        std::swap(light.axisV[0], light.axisV[2]); // perpendicular to axisU
+        light.emission[type % 3] = 100;
+        light.influenceRadius = cndEmitterBoundingRadius(&light) + 4;
+        scene.lights.push_back(light);
+    }
+    expectSameLights(scene, again(scene, {"every_light.json"}));
+}
 
 TEST_F(Save, PlanesAndBallsUnderEveryLight)
 {

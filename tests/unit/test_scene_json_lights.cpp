@@ -9,6 +9,7 @@
 #include "constants.h"
 #include "harness/paths.h"
 #include "load/load.h"
+#include "scene/light_types.h"
 #include "scene/scene_error.h"
 #include "unit/gltf_builder.h"
 #include "unit/scene_invariants.h"
@@ -195,12 +196,13 @@ TEST_F(SceneJsonLights, EveryBadValueNamesItsKey)
 
 TEST_F(SceneJsonLights, ErrorsSayWhy)
 {
-    const auto expect = [&](const char* light, const char* message) {
+    const auto expect = [&](const char* light, const std::string& message) {
         EXPECT_EQ(error(Json::parse(light)), message);
     };
-    expect(R"({"type": "cone"})",
-           ".type: must be one of sphere, distant_sphere, tube, rectangle, disc, point, spot, "
-           "directional, is \"cone\"");
+    std::string names = lightTypeName(0);
+    for (uint32_t type = 1; type < CND_LIGHT_TYPE_COUNT; ++type)
+        names += std::string(", ") + lightTypeName(type);
+    expect(R"({"type": "cone"})", ".type: must be one of " + names + ", is \"cone\"");
     expect(R"({"type": "point", "position": [0, 1, 0]})", ": \"intensity\" is missing");
     expect(R"({"type": "point", "position": [0, 1, 0], "radiance": [1, 1, 1]})",
            ": unknown key \"radiance\"");

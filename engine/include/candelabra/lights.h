@@ -50,8 +50,8 @@ typedef struct CndLight {
     float direction[3];
     float emission[3]; // >= 0 and finite; unit by type, per Rec.709 channel
     // Metres, > 0, or INFINITY; greater than the distance from the centre to the farthest point of
-    // the emitter (sphere and disc: radius; tube: |axisU| + radius; rectangle: half its diagonal).
-    // All types but directional and distant sphere.
+    // the emitter (cndEmitterBoundingRadius; sphere and disc: radius; tube: |axisU| + radius;
+    // rectangle: half its diagonal). All types but directional and distant sphere.
     float influenceRadius;
     // Spot: half angle of the cone with full intensity, radians, 0 <= inner < outer.
     float innerConeAngle;
@@ -69,6 +69,32 @@ typedef struct CndLight {
     // share a layer with it (CndLightingFrame::layers).
     uint32_t layers;
 } CndLight;
+
+// The fields of CndLight that only some types use.
+typedef enum CndLightFieldBits {
+    CND_LIGHT_FIELD_POSITION_BIT = 1, // position and influenceRadius
+    CND_LIGHT_FIELD_RADIUS_BIT = 2,
+    CND_LIGHT_FIELD_DIRECTION_BIT = 4,
+    CND_LIGHT_FIELD_CONE_BIT = 8, // innerConeAngle and outerConeAngle
+    CND_LIGHT_FIELD_AXIS_U_BIT = 16,
+    CND_LIGHT_FIELD_AXIS_V_BIT = 32,
+    CND_LIGHT_FIELD_TWO_SIDED_BIT = 64,
+    CND_LIGHT_FIELD_BITS_MAX_ENUM = 0x7FFFFFFF
+} CndLightFieldBits;
+
+// Returns the fields that lights of a type use, a mask of CndLightFieldBits, or 0 if `lightType` is
+// not a CndLightType.
+CND_API uint32_t cndLightFields(uint32_t lightType);
+// Returns VK_TRUE for the types whose lights are infinitely far away and have no position:
+// directional and distant sphere.
+CND_API VkBool32 cndIsDistant(uint32_t lightType);
+// Returns VK_TRUE for the types whose lights have no size: point, spot and directional. The
+// emission of all other types is luminance.
+CND_API VkBool32 cndIsPunctual(uint32_t lightType);
+// Returns the radius in metres of the sphere around the centre of `light` that holds its emitter,
+// whose axes are taken to be perpendicular. It is 0 for punctual lights, and for distant spheres it
+// is the sine of the angular radius. `light` must not be NULL; only its type and shape are read.
+CND_API float cndEmitterBoundingRadius(const CndLight* light);
 
 // Names a light for as long as it is in the set. A light of cndSetLights has its index in the set
 // as id. cndAddLights returns the ids of its lights; they are at least 2^32 and are never reused.

@@ -18,9 +18,9 @@ layout(push_constant, scalar) uniform Push
 {
     ShadeParams params;
 };
-layout(scalar, binding = SHADE_AUX) readonly buffer Aux
+layout(scalar, binding = SHADE_SHAPES) readonly buffer LightShapes
 {
-    vec4 lightAux[];
+    LightShape lightShapes[];
 };
 layout(scalar, binding = SHADE_LIGHT_IDS) readonly buffer LightIds
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lights of a pixel's cluster, as blocks for light_walk.glsl. Distant lights have no lists: every
 // one of them is every cluster's.
-#include "shading/light_reach.glsl"
+#include "shading/light_type.glsl"
 #include "kernels/common/tile_of_group.glsl"
 
 layout(scalar, binding = SHADE_ENTRIES) readonly buffer Entries

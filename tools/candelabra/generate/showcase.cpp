@@ -2,13 +2,16 @@
 // One light of every type over balls of several roughnesses, on a floor that shows reflections:
 // what each type looks like, side by side.
 #include <algorithm>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include <glm/gtc/constants.hpp>
 
 #include "generate/generators.h"
 #include "generate/lights.h"
 #include "generate/scene_builder.h"
+#include "scene/light_types.h"
 #include "scene/scene_error.h"
 
 namespace candelabra::app
@@ -17,18 +20,29 @@ namespace candelabra::app
 namespace
 {
 
-// Stations stand in a row along x, one per light that has a place; the camera looks along -z.
-constexpr int stationCount = 6;
+// Stations stand in a row along x, one per type of light that has a place; the camera looks along
+// -z.
 constexpr double spacing = 1.7; // metres
 constexpr double ballRadius = 0.36;
 constexpr float luminousPower = 600; // lm of each lamp: a bulb of 40 W of old
 
-double stationX(int station)
+// The types of the lamps: those without a size first.
+std::vector<uint32_t> lampTypes()
 {
-    return (station - 0.5 * (stationCount - 1)) * spacing;
+    std::vector<uint32_t> types;
+    for (const bool punctual : {true, false})
+        for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+            if (!cndIsDistant(type) && (cndIsPunctual(type) != 0) == punctual)
+                types.push_back(type);
+    return types;
 }
 
-void addBalls(SceneBuilder& b)
+double stationX(size_t station, size_t count)
+{
+    return (double(station) - 0.5 * double(count - 1)) * spacing;
+}
+
+void addBalls(SceneBuilder& b, size_t stations)
 {
     const auto add = [&](const glm::dvec3& center, uint32_t material) {
         AnalyticObject ball;
@@ -38,16 +52,17 @@ void addBalls(SceneBuilder& b)
         ball.material = material;
         b.scene.analyticObjects.push_back(ball);
     };
-    const float roughnesses[stationCount] = {0.08f, 0.2f, 0.35f, 0.5f, 0.7f, 1.0f};
-    for (int i = 0; i < stationCount; ++i) {
-        const std::string roughness = std::to_string(roughnesses[i]).substr(0, 4);
+    constexpr float roughnesses[] = {0.08f, 0.2f, 0.35f, 0.5f, 0.7f, 1.0f};
+    for (size_t i = 0; i < stations; ++i) {
+        const float perceptualRoughness = roughnesses[i % std::size(roughnesses)];
+        const std::string roughness = std::to_string(perceptualRoughness).substr(0, 4);
         // F0 of aluminium: Lagarde 2011, "Feeding a physically based shading model" (linear).
-        add({stationX(i) - 0.41, ballRadius, 0.1},
+        add({stationX(i, stations) - 0.41, ballRadius, 0.1},
             b.addMetal("aluminium, roughness " + roughness, {0.913f, 0.921f, 0.925f},
-                       roughnesses[i]));
-        add({stationX(i) + 0.41, ballRadius, 0.1},
+                       perceptualRoughness));
+        add({stationX(i, stations) + 0.41, ballRadius, 0.1},
             b.addDielectric("red paint, roughness " + roughness, {0.5f, 0.06f, 0.04f},
-                            roughnesses[i]));
+                            perceptualRoughness));
     }
 }
 
@@ -67,40 +82,20 @@ void setPower(CndLight& light, const glm::vec3& colour)
 }
 
 // A lamp over the station, a little behind the balls; flat ones face down and towards the camera.
-CndLight makeLamp(CndLightType type, int station, const glm::vec3& colour)
+CndLight makeLamp(uint32_t type, double x, const glm::vec3& colour)
 {
-    CndLight light{};
+    const uint32_t fields = cndLightFields(type);
+    CndLight light = lightTypeInfo(type).lamp;
     light.type = type;
-    set(light.position, {static_cast<float>(stationX(station)), 1.75f, -0.9f});
+    set(light.position, {static_cast<float>(x), 1.75f, -0.9f});
     light.influenceRadius = 7;
     const glm::vec3 down = glm::normalize(glm::vec3(0, -1, 0.7f));
     const glm::vec3 up = glm::cross(glm::vec3(1, 0, 0), down); // in the plane of a flat lamp
-    switch (type) {
-    case CND_LIGHT_SPHERE:
-        light.radius = 0.22f;
-        break;
-    case CND_LIGHT_SPOT:
+    if (fields & CND_LIGHT_FIELD_DIRECTION_BIT)
         set(light.direction, down);
-        light.innerConeAngle = 0.25f;
-        light.outerConeAngle = 0.6f;
-        break;
-    case CND_LIGHT_TUBE:
-        light.radius = 0.035f;
-        set(light.axisU, {0.5f, 0.12f, 0.1f});
-        break;
-    case CND_LIGHT_RECTANGLE:
-        set(light.axisU, {0.5f, 0, 0});
-        set(light.axisV, 0.22f * up);
-        if (glm::dot(glm::cross(glm::vec3(1, 0, 0), up), down) < 0)
-            set(light.axisV, -0.22f * up);
-        break;
-    case CND_LIGHT_DISC:
-        light.radius = 0.3f;
-        set(light.direction, down);
-        light.twoSided = VK_TRUE;
-        break;
-    default:
-        break;
+    if (fields & CND_LIGHT_FIELD_AXIS_V_BIT) {
+        const bool facesDown = glm::dot(glm::cross(glm::vec3(1, 0, 0), up), down) >= 0;
+        set(light.axisV, (facesDown ? light.axisV[0] : -light.axisV[0]) * up);
     }
     setPower(light, colour);
     return light;
@@ -135,14 +130,13 @@ Scene generateShowcase(const SceneOptions& options)
     AnalyticObject ground;
     ground.material = b.addDielectric("floor", {0.22f, 0.23f, 0.25f}, 0.25f);
     b.scene.analyticObjects.push_back(ground);
-    addBalls(b);
+    const std::vector<uint32_t> lamps = lampTypes();
+    addBalls(b, lamps.size());
 
-    const CndLightType lamps[stationCount] = {CND_LIGHT_POINT,     CND_LIGHT_SPOT,
-                                              CND_LIGHT_SPHERE,    CND_LIGHT_TUBE,
-                                              CND_LIGHT_RECTANGLE, CND_LIGHT_DISC};
-    const float kelvins[stationCount] = {2700, 6500, 3500, 7500, 4200, 3000};
-    for (int i = 0; i < stationCount; ++i)
-        b.scene.lights.push_back(makeLamp(lamps[i], i, blackbodyColour(kelvins[i])));
+    constexpr float kelvins[] = {2700, 6500, 3500, 7500, 4200, 3000};
+    for (size_t i = 0; i < lamps.size(); ++i)
+        b.scene.lights.push_back(makeLamp(lamps[i], stationX(i, lamps.size()),
+                                          blackbodyColour(kelvins[i % std::size(kelvins)])));
     addDistantLights(b.scene);
     if (options.moving)
         for (size_t i = 0; i < b.scene.lights.size(); ++i)

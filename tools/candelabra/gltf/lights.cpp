@@ -39,18 +39,14 @@ void setInfluence(const GltfDocument& document, const std::string& element, doub
     light.influenceRadius = range > 0 ? static_cast<float>(range) : INFINITY;
     if (!(light.influenceRadius > 0))
         document.fail(element, "range is too small for single precision");
-    const bool round = light.type == CND_LIGHT_SPHERE || light.type == CND_LIGHT_DISC;
-    if (round && !(light.influenceRadius > light.radius))
-        document.fail(element, "range " + std::to_string(range) +
-                                   " must be greater than the light's radius " +
-                                   std::to_string(light.radius));
-    const auto& u = light.axisU;
-    const auto& v = light.axisV;
-    const float diagonal = std::hypot(std::hypot(u[0], u[1], u[2]), std::hypot(v[0], v[1], v[2]));
-    if (light.type == CND_LIGHT_RECTANGLE && !(light.influenceRadius > diagonal * (1 + 1e-6f)))
-        document.fail(element, "range " + std::to_string(range) +
-                                   " must be greater than half the light's diagonal " +
-                                   std::to_string(diagonal));
+    // Among the lights of glTF only rectangles have axes.
+    const bool hasAxes = cndLightFields(light.type) & CND_LIGHT_FIELD_AXIS_U_BIT;
+    const float size = cndEmitterBoundingRadius(&light);
+    if (!(light.influenceRadius > size * (hasAxes ? 1 + 1e-6f : 1.0f)))
+        document.fail(element,
+                      "range " + std::to_string(range) + " must be greater than " +
+                          (hasAxes ? "half the light's diagonal " : "the light's radius ") +
+                          std::to_string(size));
 }
 
 void setRadius(const GltfDocument& document, const std::string& element, double radius,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "generate/generators.h"
+#include "scene/light_types.h"
 #include "scene/scene_error.h"
 
 namespace candelabra::app
@@ -84,58 +85,43 @@ Json objectsJson(const Scene& scene)
     return out;
 }
 
-Json placementJson(const CndLight& light, const glm::dvec3& centre)
+Json keyJson(const CndLight& light, const glm::dvec3& centre, LightKeyMeaning meaning)
 {
-    const Json position = toJson(centre), direction = toJson(toVec3(light.direction));
     const glm::dvec3 u = toVec3(light.axisU);
-    switch (light.type) {
-    case CND_LIGHT_SPHERE:
-        return {{"type", "sphere"}, {"position", position}, {"radius", light.radius}};
-    case CND_LIGHT_DISTANT_SPHERE:
-        return {{"type", "distant_sphere"},
-                {"direction", direction},
-                {"sin_angular_radius", light.radius}};
-    case CND_LIGHT_TUBE:
-        return {{"type", "tube"},
-                {"start", toJson(centre - u)},
-                {"end", toJson(centre + u)},
-                {"radius", light.radius}};
-    case CND_LIGHT_RECTANGLE:
-        return {{"type", "rectangle"},
-                {"position", position},
-                {"axis_u", toJson(u)},
-                {"axis_v", toJson(toVec3(light.axisV))},
-                {"two_sided", light.twoSided != 0}};
-    case CND_LIGHT_DISC:
-        return {{"type", "disc"},
-                {"position", position},
-                {"normal", direction},
-                {"radius", light.radius},
-                {"two_sided", light.twoSided != 0}};
-    case CND_LIGHT_SPOT:
-        return {{"type", "spot"},
-                {"position", position},
-                {"direction", direction},
-                {"inner_cone_degrees", double(light.innerConeAngle) * degrees},
-                {"outer_cone_degrees", double(light.outerConeAngle) * degrees}};
-    case CND_LIGHT_DIRECTIONAL:
-        return {{"type", "directional"}, {"direction", direction}};
-    default:
-        return {{"type", "point"}, {"position", position}};
+    switch (meaning) {
+    case LightKeyMeaning::Position:
+        return toJson(centre);
+    case LightKeyMeaning::Direction:
+        return toJson(toVec3(light.direction));
+    case LightKeyMeaning::Radius:
+    case LightKeyMeaning::Sine:
+        return light.radius;
+    case LightKeyMeaning::SegmentStart:
+        return toJson(centre - u);
+    case LightKeyMeaning::SegmentEnd:
+        return toJson(centre + u);
+    case LightKeyMeaning::AxisU:
+        return toJson(u);
+    case LightKeyMeaning::AxisV:
+        return toJson(toVec3(light.axisV));
+    case LightKeyMeaning::InnerCone:
+        return double(light.innerConeAngle) * degrees;
+    case LightKeyMeaning::OuterCone:
+        return double(light.outerConeAngle) * degrees;
+    case LightKeyMeaning::TwoSided:
+        return light.twoSided != 0;
     }
+    return {};
 }
 
 Json lightJson(const CndLight& light, const glm::dvec3& origin)
 {
-    Json out = placementJson(light, origin + toVec3(light.position));
-    const bool distant =
-        light.type == CND_LIGHT_DIRECTIONAL || light.type == CND_LIGHT_DISTANT_SPHERE;
-    const char* emission = light.type == CND_LIGHT_DIRECTIONAL ? "illuminance"
-                           : light.type == CND_LIGHT_POINT || light.type == CND_LIGHT_SPOT
-                               ? "intensity"
-                               : "radiance";
-    out[emission] = toJson(toVec3(light.emission));
-    if (!distant && std::isfinite(light.influenceRadius))
+    const LightTypeInfo& type = lightTypeInfo(light.type);
+    Json out{{"type", type.name}};
+    for (const LightKey& key : type.keys)
+        out[key.name] = keyJson(light, origin + toVec3(light.position), key.meaning);
+    out[type.emission.front()] = toJson(toVec3(light.emission));
+    if (!cndIsDistant(light.type) && std::isfinite(light.influenceRadius))
         out["influence_radius"] = light.influenceRadius;
     addLayers(out, light.layers);
     return out;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/light_placement.h"
+#include "scene/light_types.h"
 #include "scene/scene_file.h"
 
 namespace candelabra::app
@@ -20,67 +21,30 @@ constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
 // Vectors that are not longer than this count as zero.
 constexpr double minLength = 1e-6;
 
-// A value of "type", and the keys of such lights: those that place it, which are required, those
-// that are optional, and those of which exactly one gives the emission.
-struct LightKind {
-    const char* name;
-    CndLightType type;
-    std::vector<std::string> placement, optional, emission;
-};
-
-const LightKind kinds[] = {
-    {"sphere",
-     CND_LIGHT_SPHERE,
-     {"position", "radius"},
-     {"influence_radius"},
-     {"radiance", "luminance", "luminous_power", "intensity"}},
-    {"distant_sphere",
-     CND_LIGHT_DISTANT_SPHERE,
-     {"direction", "sin_angular_radius"},
-     {},
-     {"radiance", "luminance", "illuminance"}},
-    {"tube",
-     CND_LIGHT_TUBE,
-     {"start", "end", "radius"},
-     {"influence_radius"},
-     {"radiance", "luminance", "luminous_power"}},
-    {"rectangle",
-     CND_LIGHT_RECTANGLE,
-     {"position", "axis_u", "axis_v"},
-     {"influence_radius", "two_sided"},
-     {"radiance", "luminance", "luminous_power"}},
-    {"disc",
-     CND_LIGHT_DISC,
-     {"position", "normal", "radius"},
-     {"influence_radius", "two_sided"},
-     {"radiance", "luminance", "luminous_power"}},
-    {"point", CND_LIGHT_POINT, {"position"}, {"influence_radius"}, {"intensity", "luminous_power"}},
-    {"spot",
-     CND_LIGHT_SPOT,
-     {"position", "direction", "inner_cone_degrees", "outer_cone_degrees"},
-     {"influence_radius"},
-     {"intensity", "luminous_power"}},
-    {"directional", CND_LIGHT_DIRECTIONAL, {"direction"}, {}, {"illuminance"}}};
-
-const LightKind& kindOf(const JsonValue& json)
+// The type that a light of a scene description has, a sphere if it does not say.
+uint32_t typeOf(const JsonValue& json)
 {
     const auto type = json.find("type");
     if (!type)
-        return kinds[0];
+        return CND_LIGHT_SPHERE;
     std::string names;
-    for (const LightKind& kind : kinds) {
-        if (type->string() == kind.name)
-            return kind;
-        names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    for (uint32_t i = 0; i < CND_LIGHT_TYPE_COUNT; ++i) {
+        if (type->string() == lightTypeName(i))
+            return i;
+        names += (names.empty() ? "" : ", ") + std::string(lightTypeName(i));
     }
     type->fail("must be one of " + names + ", is \"" + printable(type->string(), 60) + "\"");
 }
 
-void refuseOtherKeys(const JsonValue& json, const LightKind& kind)
+void refuseOtherKeys(const JsonValue& json, uint32_t type)
 {
     std::vector<std::string> known{"type", "layers"};
-    for (const auto* keys : {&kind.placement, &kind.optional, &kind.emission})
-        known.insert(known.end(), keys->begin(), keys->end());
+    for (const LightKey& key : lightTypeInfo(type).keys)
+        known.push_back(key.name);
+    if (!cndIsDistant(type))
+        known.push_back("influence_radius");
+    const std::vector<std::string>& emission = lightTypeInfo(type).emission;
+    known.insert(known.end(), emission.begin(), emission.end());
     json.refuseOtherKeys(known);
 }
 
@@ -90,12 +54,17 @@ void setVector(float (&out)[3], const glm::dvec3& v)
         out[i] = static_cast<float>(v[i]);
 }
 
-void readUnit(const JsonValue& json, float (&out)[3])
+glm::dvec3 readAxis(const JsonValue& json)
 {
     const glm::dvec3 v = json.vector3(coordinate);
     if (!(glm::length(v) > minLength))
         json.fail("must not be zero");
-    setVector(out, glm::normalize(v));
+    return v;
+}
+
+void readUnit(const JsonValue& json, float (&out)[3])
+{
+    setVector(out, glm::normalize(readAxis(json)));
 }
 
 float readRadius(const JsonValue& json, double max)
@@ -106,65 +75,61 @@ float readRadius(const JsonValue& json, double max)
     return radius;
 }
 
-// Reads the ends of a tube. Returns its centre and sets axisU to half the vector from start to end.
-glm::dvec3 readSegment(const JsonValue& json, CndLight& light)
+// Reads what a key says of a light. `light` has what the keys before it said; `position` is that of
+// the light, or the start of its segment.
+void readKey(const JsonValue& value, LightKeyMeaning meaning, CndLight& light, glm::dvec3& position)
 {
-    const glm::dvec3 start = json.member("start").vector3(coordinate);
-    const glm::dvec3 end = json.member("end").vector3(coordinate);
-    if (!(glm::length(end - start) > minLength))
-        json.member("end").fail("must not be the same point as start");
-    setVector(light.axisU, 0.5 * (end - start));
-    return 0.5 * (start + end);
-}
-
-void readSides(const JsonValue& json, CndLight& light)
-{
-    const JsonValue jsonU = json.member("axis_u"), jsonV = json.member("axis_v");
-    const glm::dvec3 u = jsonU.vector3(coordinate), v = jsonV.vector3(coordinate);
-    if (!(glm::length(u) > minLength))
-        jsonU.fail("must not be zero");
-    if (!(glm::length(v) > minLength))
-        jsonV.fail("must not be zero");
-    // CndLight requires a cosine of at most 1e-3, in single precision.
-    if (!(std::abs(glm::dot(glm::normalize(u), glm::normalize(v))) <= 0.99e-3))
-        jsonV.fail("must be perpendicular to axis_u");
-    setVector(light.axisU, u);
-    setVector(light.axisV, v);
-}
-
-void readCone(const JsonValue& json, CndLight& light)
-{
-    const JsonValue inner = json.member("inner_cone_degrees");
-    const JsonValue outer = json.member("outer_cone_degrees");
-    const double innerAngle = inner.number({0, 90}) * pi / 180;
-    const double outerAngle = outer.number(NumberRange::positive(90)) * pi / 180;
-    light.innerConeAngle = static_cast<float>(innerAngle);
-    light.outerConeAngle =
-        std::min(static_cast<float>(outerAngle), std::nextafter(static_cast<float>(pi / 2), 0.0f));
-    // The lighting module requires the same, because float cosines cannot resolve smaller
-    // differences.
-    const double apart = std::cos(static_cast<double>(light.innerConeAngle)) -
-                         std::cos(static_cast<double>(light.outerConeAngle));
-    if (!(apart >= 1e-6))
-        outer.fail("must be greater than inner_cone_degrees: their cosines must differ by 1e-6");
-}
-
-// The distance from the centre of a light to the farthest point of its emitter.
-double reachOf(const CndLight& light)
-{
-    const auto length = [](const float(&v)[3]) {
-        return static_cast<double>(std::hypot(v[0], v[1], v[2]));
-    };
-    switch (light.type) {
-    case CND_LIGHT_SPHERE:
-    case CND_LIGHT_DISC:
-        return static_cast<double>(light.radius);
-    case CND_LIGHT_TUBE:
-        return length(light.axisU) + static_cast<double>(light.radius);
-    case CND_LIGHT_RECTANGLE:
-        return std::hypot(length(light.axisU), length(light.axisV));
-    default:
-        return 0;
+    switch (meaning) {
+    case LightKeyMeaning::Position:
+    case LightKeyMeaning::SegmentStart:
+        position = value.vector3(coordinate);
+        return;
+    case LightKeyMeaning::SegmentEnd: {
+        const glm::dvec3 start = position, end = value.vector3(coordinate);
+        if (!(glm::length(end - start) > minLength))
+            value.fail("must not be the same point as start");
+        setVector(light.axisU, 0.5 * (end - start));
+        position = 0.5 * (start + end);
+        return;
+    }
+    case LightKeyMeaning::Direction:
+        readUnit(value, light.direction);
+        return;
+    case LightKeyMeaning::Radius:
+        light.radius = readRadius(value, maxCoordinate);
+        return;
+    case LightKeyMeaning::Sine:
+        light.radius = readRadius(value, 1);
+        return;
+    case LightKeyMeaning::AxisU:
+        setVector(light.axisU, readAxis(value));
+        return;
+    case LightKeyMeaning::AxisV: {
+        const glm::dvec3 u(light.axisU[0], light.axisU[1], light.axisU[2]), v = readAxis(value);
+        // CndLight requires a cosine of at most 1e-3, in single precision.
+        if (!(std::abs(glm::dot(glm::normalize(u), glm::normalize(v))) <= 0.99e-3))
+            value.fail("must be perpendicular to axis_u");
+        setVector(light.axisV, v);
+        return;
+    }
+    case LightKeyMeaning::InnerCone:
+        light.innerConeAngle = static_cast<float>(value.number({0, 90}) * pi / 180);
+        return;
+    case LightKeyMeaning::OuterCone:
+        light.outerConeAngle =
+            std::min(static_cast<float>(value.number(NumberRange::positive(90)) * pi / 180),
+                     std::nextafter(static_cast<float>(pi / 2), 0.0f));
+        // The lighting module requires the same, because float cosines cannot resolve smaller
+        // differences.
+        if (!(std::cos(static_cast<double>(light.innerConeAngle)) -
+                  std::cos(static_cast<double>(light.outerConeAngle)) >=
+              1e-6))
+            value.fail("must be greater than inner_cone_degrees: their cosines must differ by "
+                       "1e-6");
+        return;
+    case LightKeyMeaning::TwoSided:
+        light.twoSided = value.boolean() ? VK_TRUE : VK_FALSE;
+        return;
     }
 }
 
@@ -175,12 +140,12 @@ void readInfluence(const JsonValue& json, CndLight& light)
     if (!influence)
         return;
     light.influenceRadius = readRadius(*influence, maxCoordinate);
-    if (static_cast<double>(light.influenceRadius) > reachOf(light) * (1 + 1e-6))
+    if (light.influenceRadius > cndEmitterBoundingRadius(&light) * (1 + 1e-6f))
         return;
-    const bool round = light.type == CND_LIGHT_SPHERE || light.type == CND_LIGHT_DISC;
     influence->fail(
-        round ? "must be greater than radius"
-              : "must be greater than the distance from the light's centre to its farthest point");
+        cndLightFields(light.type) & CND_LIGHT_FIELD_AXIS_U_BIT
+            ? "must be greater than the distance from the light's centre to its farthest point"
+            : "must be greater than radius");
 }
 
 // The value of CndLight::emission, in the unit of the light's type (CndLightType), of a light that
@@ -191,9 +156,9 @@ double emissionPerUnit(const std::string& key, CndLight light)
         return 1;
     const double radius = static_cast<double>(light.radius);
     if (key == "intensity") // in the far field of a sphere I = pi R^2 L
-        return light.type == CND_LIGHT_SPHERE ? 1 / (pi * radius * radius) : 1;
+        return cndIsPunctual(light.type) ? 1 : 1 / (pi * radius * radius);
     if (key == "illuminance") // below a distant sphere E = pi s^2 L
-        return light.type == CND_LIGHT_DISTANT_SPHERE ? 1 / (pi * radius * radius) : 1;
+        return cndIsPunctual(light.type) ? 1 : 1 / (pi * radius * radius);
     // The power is proportional to the emission: it is computed for an emission of 1.
     for (float& emission : light.emission)
         emission = 1;
@@ -202,10 +167,11 @@ double emissionPerUnit(const std::string& key, CndLight light)
     return 1 / static_cast<double>(power[0]);
 }
 
-void readEmission(const JsonValue& json, const LightKind& kind, CndLight& light)
+void readEmission(const JsonValue& json, CndLight& light)
 {
+    const std::vector<std::string>& keys = lightTypeInfo(light.type).emission;
     const std::string* given = nullptr;
-    for (const std::string& key : kind.emission) {
+    for (const std::string& key : keys) {
         if (!json.find(key))
             continue;
         if (given)
@@ -213,7 +179,7 @@ void readEmission(const JsonValue& json, const LightKind& kind, CndLight& light)
         given = &key;
     }
     if (!given)
-        json.fail("\"" + kind.emission.front() + "\" is missing");
+        json.fail("\"" + keys.front() + "\" is missing");
     const JsonValue value = json.member(*given);
     const glm::dvec3 emission = value.vector3({0}) * emissionPerUnit(*given, light);
     setVector(light.emission, emission);
@@ -224,33 +190,18 @@ void readEmission(const JsonValue& json, const LightKind& kind, CndLight& light)
 
 CndLight readLight(const JsonValue& json, glm::dvec3& position)
 {
-    const LightKind& kind = kindOf(json);
-    refuseOtherKeys(json, kind);
     CndLight light = {};
-    light.type = kind.type;
-    for (const std::string& key : kind.placement) {
-        const JsonValue value = json.member(key);
-        if (key == "position")
-            position = value.vector3(coordinate);
-        else if (key == "direction" || key == "normal")
-            readUnit(value, light.direction);
-        else if (key == "radius")
-            light.radius = readRadius(value, maxCoordinate);
-        else if (key == "sin_angular_radius")
-            light.radius = readRadius(value, 1);
+    light.type = typeOf(json);
+    refuseOtherKeys(json, light.type);
+    for (const LightKey& key : lightTypeInfo(light.type).keys) {
+        const bool optional = key.meaning == LightKeyMeaning::TwoSided;
+        if (!optional || json.find(key.name))
+            readKey(json.member(key.name), key.meaning, light, position);
     }
-    if (light.type == CND_LIGHT_TUBE)
-        position = readSegment(json, light);
-    if (light.type == CND_LIGHT_RECTANGLE)
-        readSides(json, light);
-    if (light.type == CND_LIGHT_SPOT)
-        readCone(json, light);
-    if (const auto twoSided = json.find("two_sided"))
-        light.twoSided = twoSided->boolean() ? VK_TRUE : VK_FALSE;
     if (const auto layers = json.find("layers"))
         light.layers = readLayers(*layers);
     readInfluence(json, light);
-    readEmission(json, kind, light);
+    readEmission(json, light);
     return light;
 }
 

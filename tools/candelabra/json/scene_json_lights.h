@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lights of the small scene description. Internal to its loader.
 //
-// The lights of scene descriptions. A light is an object with a "type" (default: "sphere"), the
-// keys that place it, and exactly one key for its emission, an array [r, g, b] for the Rec.709
-// channels. Unless it is infinitely far away it may have an "influence_radius" (default:
-// unlimited). "direction" is the direction in which the light travels.
-//
-//   type            placed by                                   emission
-//   sphere          position, radius                            radiance, luminous_power, intensity
-//   distant_sphere  direction, sin_angular_radius               radiance, illuminance
-//   tube            start, end, radius                          radiance, luminous_power
-//   rectangle       position, axis_u, axis_v [, two_sided]      radiance, luminous_power
-//   disc            position, normal, radius [, two_sided]      radiance, luminous_power
-//   point           position                                    intensity, luminous_power
-//   spot            position, direction, inner_cone_degrees,    intensity, luminous_power
-//                   outer_cone_degrees (half angles)
-//   directional     direction                                   illuminance
+// A light is an object with a "type" (default: "sphere"), the keys that place it, and exactly one
+// key for its emission, an array [r, g, b] for the Rec.709 channels. Which keys a type has is in
+// the table of scene/light_types.cpp. Unless a light is infinitely far away it may have an
+// "influence_radius" (default: unlimited). "direction" is the direction in which the light travels.
+// The cone angles of spots are half angles. axis_u and axis_v lead from the centre of a rectangle
+// to the middles of two adjacent edges; its front faces along axis_u x axis_v. "two_sided" is false
+// if it is missing.
 //
 // "radiance" may also be called "luminance"; it is in cd/m^2. "luminous_power" is in lm.
 // "intensity" is in cd: for a sphere in the far field, for a spot on its axis. "illuminance" is in
-// lx, on a surface that faces the light. axis_u and axis_v lead from the centre of a rectangle to
-// the middles of two adjacent edges; its front faces along axis_u x axis_v. Any light may have
-// "layers", the numbers of its layers, such as [0, 3] (default: all).
+// lx, on a surface that faces the light. Any light may have "layers", the numbers of its layers,
+// such as [0, 3] (default: all).
 #pragma once
 
 #include "scene/json_value.h"

@@ -75,7 +75,7 @@ void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out)
 {
     out = scene.lights;
     for (size_t i = 0; i < scene.lightMotions.size() && i < out.size(); ++i) {
-        if (out[i].type == CND_LIGHT_DIRECTIONAL || out[i].type == CND_LIGHT_DISTANT_SPHERE)
+        if (cndIsDistant(out[i].type))
             continue; // these lights have no position
         const LightMotion& motion = scene.lightMotions[i];
         // The angle is a double until its sine and cosine are taken, so that the motion stays

@@ -7,7 +7,7 @@
 
 #include <imgui.h>
 
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {
@@ -16,24 +16,18 @@ namespace
 
 // Limits of a radius that is edited, in metres; that of a distant sphere is a sine of at most 1.
 constexpr float smallestRadius = 1e-4f, largestRadius = 1e3f;
-// The influence radius must be greater than the distance from the light's centre to the farthest
-// point of the emitter (reachOf).
-constexpr float reachMargin = 1.01f;
+// An influence radius has to be greater than the bounding radius of the emitter.
+constexpr float influenceMargin = 1.01f;
 
-bool hasPlace(uint32_t type)
+bool has(const CndLight& light, CndLightFieldBits field)
 {
-    return type != CND_LIGHT_DIRECTIONAL && type != CND_LIGHT_DISTANT_SPHERE;
+    return (cndLightFields(light.type) & field) != 0;
 }
 
-bool hasRadius(uint32_t type)
+// Whether the light's radius is the sine of an angle.
+bool isSun(const CndLight& light)
 {
-    return type == CND_LIGHT_SPHERE || type == CND_LIGHT_TUBE || type == CND_LIGHT_DISC ||
-           type == CND_LIGHT_DISTANT_SPHERE;
-}
-
-bool hasDirection(uint32_t type)
-{
-    return type == CND_LIGHT_SPOT || type == CND_LIGHT_DISC || !hasPlace(type);
+    return cndIsDistant(light.type) && has(light, CND_LIGHT_FIELD_RADIUS_BIT);
 }
 
 glm::vec3 toVec3(const float (&v)[3])
@@ -65,24 +59,10 @@ void setPower(CndLight& light, const std::optional<glm::vec3>& power)
         assign(light.emission, *power / *perUnit);
 }
 
-float reachOf(const CndLight& light)
-{
-    switch (light.type) {
-    case CND_LIGHT_SPHERE:
-    case CND_LIGHT_DISC:
-        return light.radius;
-    case CND_LIGHT_TUBE:
-        return light.radius + glm::length(toVec3(light.axisU));
-    case CND_LIGHT_RECTANGLE:
-        return std::hypot(glm::length(toVec3(light.axisU)), glm::length(toVec3(light.axisV)));
-    default:
-        return 0;
-    }
-}
-
 void widenInfluence(CndLight& light)
 {
-    light.influenceRadius = std::max(light.influenceRadius, reachOf(light) * reachMargin);
+    light.influenceRadius =
+        std::max(light.influenceRadius, cndEmitterBoundingRadius(&light) * influenceMargin);
 }
 
 CndLight* selectedLight(Scene& scene, const LightEditor& editor)
@@ -142,7 +122,7 @@ bool emissionWidgets(CndLight& light)
         return edited;
     }
     float value = largest;
-    const bool sun = light.type == CND_LIGHT_DISTANT_SPHERE;
+    const bool sun = isSun(light);
     if (ImGui::DragFloat(sun ? "luminance" : "illuminance", &value, value * 0.01f, 1e-3f, 1e12f,
                          sun ? "%.4g cd/m^2" : "%.4g lx", ImGuiSliderFlags_AlwaysClamp)) {
         assign(light.emission, toVec3(light.emission) * (value / largest));
@@ -154,8 +134,8 @@ bool emissionWidgets(CndLight& light)
 bool shapeWidgets(CndLight& light)
 {
     bool edited = false;
-    if (hasRadius(light.type)) {
-        const bool sun = light.type == CND_LIGHT_DISTANT_SPHERE;
+    if (has(light, CND_LIGHT_FIELD_RADIUS_BIT)) {
+        const bool sun = isSun(light);
         float radius = light.radius;
         if (ImGui::DragFloat(sun ? "sine of angular radius" : "radius", &radius,
                              std::max(radius * 0.01f, smallestRadius), smallestRadius,
@@ -165,11 +145,11 @@ bool shapeWidgets(CndLight& light)
             edited = true;
         }
     }
-    if (hasDirection(light.type))
+    if (has(light, CND_LIGHT_FIELD_DIRECTION_BIT))
         edited |= directionWidget(light);
-    if (light.type == CND_LIGHT_SPOT)
+    if (has(light, CND_LIGHT_FIELD_CONE_BIT))
         edited |= coneWidgets(light);
-    if (light.type == CND_LIGHT_RECTANGLE || light.type == CND_LIGHT_DISC) {
+    if (has(light, CND_LIGHT_FIELD_TWO_SIDED_BIT)) {
         bool twoSided = light.twoSided;
         if (ImGui::Checkbox("two-sided", &twoSided)) {
             const std::optional<glm::vec3> power = powerOf(light);
@@ -220,7 +200,7 @@ void selectLight(const Scene& scene, LightEditor& editor, int step)
 void moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres)
 {
     CndLight* light = selectedLight(scene, editor);
-    if (!light || !hasPlace(light->type))
+    if (!light || cndIsDistant(light->type))
         return;
     assign(light->position, toVec3(light->position) + metres);
     editor.changed = true;
@@ -229,7 +209,7 @@ void moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres)
 void scaleLightRadius(Scene& scene, LightEditor& editor, float factor)
 {
     CndLight* light = selectedLight(scene, editor);
-    if (!light || !hasRadius(light->type))
+    if (!light || !has(*light, CND_LIGHT_FIELD_RADIUS_BIT))
         return;
     changeRadius(*light, light->radius * factor);
     editor.changed = true;
@@ -237,12 +217,12 @@ void scaleLightRadius(Scene& scene, LightEditor& editor, float factor)
 
 void changeRadius(CndLight& light, float radius)
 {
-    const bool distant = light.type == CND_LIGHT_DISTANT_SPHERE;
+    const bool sun = isSun(light);
     const std::optional<glm::vec3> power = powerOf(light);
     const float old = light.radius;
-    light.radius = std::clamp(radius, smallestRadius, distant ? 1.0f : largestRadius);
+    light.radius = std::clamp(radius, smallestRadius, sun ? 1.0f : largestRadius);
     setPower(light, power);
-    if (distant) // keeps the illuminance
+    if (sun) // keeps the illuminance
         assign(light.emission,
                toVec3(light.emission) * (old / light.radius) * (old / light.radius));
     widenInfluence(light);
@@ -254,8 +234,7 @@ void changeType(CndLight& light, CndLightType type)
     const glm::vec3 emission = toVec3(light.emission);
     const glm::vec3 colour = emission / std::max({emission.x, emission.y, emission.z, 1e-6f});
     light.type = type;
-    light.radius =
-        type == CND_LIGHT_DISTANT_SPHERE ? CND_SUN_SINE : std::clamp(light.radius, 0.02f, 1.0f);
+    light.radius = isSun(light) ? CND_SUN_SINE : std::clamp(light.radius, 0.02f, 1.0f);
     if (glm::length(toVec3(light.direction)) < 0.5f)
         assign(light.direction, {0, -1, 0});
     assign(light.axisU, {0.5f, 0, 0});
@@ -266,7 +245,7 @@ void changeType(CndLight& light, CndLightType type)
         light.influenceRadius = 12;
     constexpr float noon = 20'000; // lx
     assign(light.emission, colour * noon);
-    if (type == CND_LIGHT_DISTANT_SPHERE)
+    if (isSun(light))
         assign(light.emission, colour * (noon / (3.14159265f * light.radius * light.radius)));
     setPower(light, power ? power : std::optional(colour * 1500.0f));
     widenInfluence(light);
@@ -292,19 +271,20 @@ void drawLightEditor(Scene& scene, LightEditor& editor)
         return;
     }
     bool edited = false;
-    if (ImGui::BeginCombo("type", lightTypeName(light->type))) {
+    if (ImGui::BeginCombo("type", lightTypeLabel(light->type).c_str())) {
         for (uint32_t i = 0; i < CND_LIGHT_TYPE_COUNT; ++i)
-            if (ImGui::Selectable(lightTypeName(uint32_t(i)), light->type == i)) {
+            if (ImGui::Selectable(lightTypeLabel(i).c_str(), light->type == i)) {
                 changeType(*light, CndLightType(i));
                 edited = true;
             }
         ImGui::EndCombo();
     }
-    if (hasPlace(light->type)) {
+    if (!cndIsDistant(light->type)) {
         edited |= ImGui::DragFloat3("position", light->position, 0.02f, 0, 0, "%.2f m");
-        edited |= ImGui::DragFloat("influence", &light->influenceRadius, 0.05f,
-                                   std::max(reachOf(*light) * reachMargin, 0.01f), 1e6f, "%.2f m",
-                                   ImGuiSliderFlags_AlwaysClamp);
+        edited |=
+            ImGui::DragFloat("influence", &light->influenceRadius, 0.05f,
+                             std::max(cndEmitterBoundingRadius(light) * influenceMargin, 0.01f),
+                             1e6f, "%.2f m", ImGuiSliderFlags_AlwaysClamp);
     }
     edited |= shapeWidgets(*light);
     edited |= emissionWidgets(*light);

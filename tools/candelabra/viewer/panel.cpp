@@ -10,7 +10,7 @@
 #include "io/table.h"
 #include "reference/exposure.h"
 #include "render/setting_names.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 #include "scene/scene_options.h"
 #include "viewer/keys.h"
 
@@ -254,7 +254,7 @@ void drawPick(PanelState& state, const Pick& pick, const Scene& scene)
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         const std::string name =
-            std::to_string(light.light) + " " + lightTypeName(scene.lights[light.light].type);
+            std::to_string(light.light) + " " + lightTypeLabel(scene.lights[light.light].type);
         if (ImGui::Selectable(name.c_str(), state.editor.selected == light.light,
                               ImGuiSelectableFlags_SpanAllColumns))
             state.editor.selected = light.light;

@@ -143,7 +143,7 @@ std::string describeSample(const SampleSet& set, size_t i)
 {
     const CndLight& light = set.lights[i];
     const gpu::BenchReceiver& r = set.receivers[i];
-    const bool distant = light.type == CND_LIGHT_DISTANT_SPHERE;
+    const bool distant = cndIsDistant(light.type);
     const glm::dvec3 to =
         distant ? -glm::dvec3(light.direction[0], light.direction[1], light.direction[2])
                 : glm::dvec3(light.position[0], light.position[1], light.position[2]);

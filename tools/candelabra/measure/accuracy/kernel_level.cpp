@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "lights/light_types.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {
@@ -140,12 +140,6 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
 }
 
 } // namespace
-
-std::vector<uint32_t> areaLightTypes()
-{
-    return {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE,
-            CND_LIGHT_DISC};
-}
 
 double kernelLevelSteps(const KernelLevelSettings& s)
 {

@@ -9,12 +9,10 @@
 #include "io/progress.h"
 #include "measure/accuracy/kernel_error.h"
 #include "measure/accuracy/kernel_time.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {
-
-// The light types whose specular is approximated.
-std::vector<uint32_t> areaLightTypes();
 
 struct KernelLevelSettings {
     std::vector<uint32_t> lightTypes = areaLightTypes();

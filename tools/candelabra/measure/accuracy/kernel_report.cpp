@@ -6,7 +6,7 @@
 #include "io/table.h"
 #include "measure/accuracy/kernel_level.h"
 #include "render/setting_names.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {

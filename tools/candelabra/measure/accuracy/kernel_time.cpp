@@ -108,7 +108,7 @@ public:
         out.kernel = gpu::Kernel<gpu::BenchParams>(
             device,
             v.formFactor ? spirv::time_form_factor_comp_sphere
-                         : ofFamily(BENCH_FAMILIES(time_lights), v.evaluation),
+                         : ofFamily(spirv::time_lights_comp, v.evaluation),
             {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
              {gpu::SPEC_SPECULAR_METHOD, v.evaluation.method},
              {gpu::SPEC_LIGHT_TYPE, v.evaluation.lightType},

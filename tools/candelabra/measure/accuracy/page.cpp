@@ -10,7 +10,7 @@
 #include "io/markup.h"
 #include "io/table.h"
 #include "render/setting_names.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {

@@ -134,24 +134,22 @@ std::vector<glm::dvec3> directionsOf(const Group& g, Random& random)
 // Lowest and highest point of the emitter over the plane through the receiver.
 std::pair<double, double> heights(const CndLight& light)
 {
-    const double z = light.position[2];
-    double reach = light.radius;
-    switch (light.type) {
-    case CND_LIGHT_DISTANT_SPHERE:
-        return {-light.direction[2] - reach, -light.direction[2] + reach};
-    case CND_LIGHT_TUBE:
-        reach += std::abs(double(light.axisU[2]));
-        break;
-    case CND_LIGHT_RECTANGLE:
-        reach = std::abs(double(light.axisU[2])) + std::abs(double(light.axisV[2]));
-        break;
-    case CND_LIGHT_DISC:
-        reach *= std::sqrt(std::max(0.0, 1 - double(light.direction[2]) * light.direction[2]));
-        break;
-    default:
-        break;
+    const uint32_t fields = cndLightFields(light.type);
+    const double radius = light.radius;
+    if (cndIsDistant(light.type))
+        return {-light.direction[2] - radius, -light.direction[2] + radius};
+    double half = 0;
+    if (fields & CND_LIGHT_FIELD_AXIS_U_BIT)
+        half += std::abs(double(light.axisU[2]));
+    if (fields & CND_LIGHT_FIELD_AXIS_V_BIT)
+        half += std::abs(double(light.axisV[2]));
+    if (fields & CND_LIGHT_FIELD_RADIUS_BIT) {
+        const bool flat = fields & CND_LIGHT_FIELD_DIRECTION_BIT;
+        const double normal = flat ? double(light.direction[2]) : 0;
+        half += radius * std::sqrt(std::max(0.0, 1 - normal * normal));
     }
-    return {z - reach, z + reach};
+    const double z = light.position[2];
+    return {z - half, z + half};
 }
 
 } // namespace

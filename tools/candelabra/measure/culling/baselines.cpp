@@ -146,7 +146,8 @@ void Baselines::createLights(const Scene& scene)
         order_.as<gpu::LightKey>()[i] = {.key = 0, .light = i};
     core_ = texels(device, "baseline core", std::max<VkDeviceSize>(n, gpu::FLOOR_LIGHTS) * 2,
                    MemoryUse::Device);
-    aux_ = texels(device, "baseline aux", n * 2, MemoryUse::Device);
+    shapes_ = gpu::createBuffer(device, "baseline shapes", n * sizeof(gpu::LightShape), storageUse,
+                                MemoryUse::Device);
     spheres_ = texels(device, "baseline spheres", n, MemoryUse::Device);
 }
 
@@ -198,7 +199,7 @@ void Baselines::writeBindings()
     using namespace gpu;
     sets_.prepare.write(
         0, {Binding::of(PREPARE_LIGHTS_RECORDS, records_), Binding::of(PREPARE_LIGHTS_CORE, core_),
-            Binding::of(PREPARE_LIGHTS_AUX, aux_), Binding::of(PREPARE_LIGHTS_ORDER, order_),
+            Binding::of(PREPARE_LIGHTS_SHAPES, shapes_), Binding::of(PREPARE_LIGHTS_ORDER, order_),
             Binding::of(PREPARE_LIGHTS_IDS, order_)}); // not written
     sets_.spheres.write(0, {Binding::of(BASELINE_SPHERES_CORE, core_),
                             Binding::of(BASELINE_SPHERES_OUTPUT, spheres_)});
@@ -219,7 +220,7 @@ void Baselines::writeBindings()
                          Binding::of(BASELINE_SCAN_COUNTERS, lists_[1].counters)});
     const Binding core = Binding::ofTexels(SHADE_CORE, core_);
     const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
-    const Binding aux = Binding::of(SHADE_AUX, aux_);
+    const Binding shapes = Binding::of(SHADE_SHAPES, shapes_);
     const Binding ids = Binding::of(SHADE_LIGHT_IDS, order_); // not read
     const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame_.normalRoughness);
     // Of hosts' own layouts: bound, not read.
@@ -237,13 +238,13 @@ void Baselines::writeBindings()
         const Binding entries = Binding::of(BASELINE_ENTRIES, lists_[i].entries);
         const Binding grid = Binding::of(BASELINE_GRID, lists_[i].grid);
         sets_.shade[i].write(0,
-                             {core, coreWords, aux, ids, normals, hostNormals, gbufferView, albedo,
-                              specular, depth, radiance, dfg, ltc, heads, entries, grid});
-        sets_.pairs[i].write(0, {core, coreWords, aux, ids, normals, hostNormals, gbufferView,
+                             {core, coreWords, shapes, ids, normals, hostNormals, gbufferView,
+                              albedo, specular, depth, radiance, dfg, ltc, heads, entries, grid});
+        sets_.pairs[i].write(0, {core, coreWords, shapes, ids, normals, hostNormals, gbufferView,
                                  albedo, specular, depth, dfg, ltc, heads, entries, grid,
                                  Binding::of(BASELINE_COUNTERS, lists_[i].counters), found});
     }
-    sets_.floor.write(0, {core, coreWords, aux, ids, normals, hostNormals, gbufferView, albedo,
+    sets_.floor.write(0, {core, coreWords, shapes, ids, normals, hostNormals, gbufferView, albedo,
                           specular, depth, radiance, dfg, ltc, found});
 }
 

@@ -77,7 +77,7 @@ private:
     gpu::Buffer ltc_;
     uint32_t lightCount_ = 0;
     glm::dvec3 lightOrigin_{0};
-    gpu::Buffer records_, order_, core_, aux_, spheres_;
+    gpu::Buffer records_, order_, core_, shapes_, spheres_;
     gpu::Buffer ranges_, boxes_, cursors_, found_, gbufferView_;
     Lists lists_[2];
     gpu::BaselineGrid froxels_{};

@@ -6,7 +6,7 @@
 #include "io/table.h"
 #include "render/frame_ring.h"
 #include "render/setting_names.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {

@@ -12,7 +12,7 @@
 #include "render/frame_ring.h"
 #include "render/readback.h"
 #include "scene/light_layers.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {
@@ -27,63 +27,45 @@ glm::dvec3 vec(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-// A light as far as it decides which surfaces it reaches.
-struct Reach {
+// The part of space, and the way of surfaces in it, that a light lights.
+struct LightVolume {
     uint32_t light;
     glm::dvec3 centre{0}; // world space
-    double radius = everywhere;
-    double extent = 0;   // of the emitter around its centre, metres
-    glm::dvec3 axis{0};  // the way it shines; zero: all around
-    double cosOuter = 0; // of the angle to the axis up to which it shines
+    double influenceRadius = everywhere;
+    double boundingRadius = 0; // of the emitter; distant lights: the sine of its angular radius
+    glm::dvec3 axis{0};        // the way it shines; zero: all around
+    double cosOuter = 0;       // of the angle to the axis up to which it shines
     bool distant = false;
 
     bool covers(const reference::SurfacePoint& s) const
     {
         if (distant)
-            return glm::dot(s.normal, -axis) > -extent;
+            return glm::dot(s.normal, -axis) > -boundingRadius;
         const glm::dvec3 away = s.position - centre;
-        if (glm::dot(away, away) >= radius * radius || glm::dot(s.normal, away) >= extent)
+        if (glm::dot(away, away) >= influenceRadius * influenceRadius ||
+            glm::dot(s.normal, away) >= boundingRadius)
             return false;
         return axis == glm::dvec3(0) || glm::dot(away, axis) > cosOuter * glm::length(away);
     }
 };
 
-Reach reachOf(uint32_t index, const CndLight& l, const glm::dvec3& origin)
+LightVolume volumeOf(uint32_t index, const CndLight& l, const glm::dvec3& origin)
 {
-    Reach out{.light = index};
-    if (l.type == CND_LIGHT_DIRECTIONAL || l.type == CND_LIGHT_DISTANT_SPHERE) {
-        out.distant = true;
-        out.axis = glm::normalize(vec(l.direction));
-        out.extent = l.type == CND_LIGHT_DISTANT_SPHERE ? l.radius : 0;
-        return out;
+    const uint32_t fields = cndLightFields(l.type);
+    LightVolume out{.light = index,
+                    .boundingRadius = double(cndEmitterBoundingRadius(&l)),
+                    .distant = cndIsDistant(l.type) != 0};
+    if (!out.distant) {
+        out.centre = origin + vec(l.position);
+        out.influenceRadius = l.influenceRadius;
     }
-    out.centre = origin + vec(l.position);
-    out.radius = l.influenceRadius;
-    const glm::dvec3 u = vec(l.axisU), v = vec(l.axisV);
-    switch (l.type) {
-    case CND_LIGHT_SPHERE:
-        out.extent = l.radius;
-        break;
-    case CND_LIGHT_TUBE:
-        out.extent = glm::length(u) + l.radius;
-        break;
-    case CND_LIGHT_RECTANGLE:
-        out.extent = std::sqrt(glm::dot(u, u) + glm::dot(v, v));
-        if (!l.twoSided)
-            out.axis = glm::normalize(glm::cross(u, v));
-        break;
-    case CND_LIGHT_DISC:
-        out.extent = l.radius;
-        if (!l.twoSided)
-            out.axis = glm::normalize(vec(l.direction));
-        break;
-    case CND_LIGHT_SPOT:
+    const bool bothSides = fields & CND_LIGHT_FIELD_TWO_SIDED_BIT && l.twoSided;
+    if (fields & CND_LIGHT_FIELD_DIRECTION_BIT && !bothSides)
         out.axis = glm::normalize(vec(l.direction));
+    else if (fields & CND_LIGHT_FIELD_AXIS_V_BIT && !bothSides)
+        out.axis = glm::normalize(glm::cross(vec(l.axisU), vec(l.axisV)));
+    if (fields & CND_LIGHT_FIELD_CONE_BIT)
         out.cosOuter = std::cos(double(l.outerConeAngle));
-        break;
-    default:
-        break;
-    }
     return out;
 }
 
@@ -139,10 +121,10 @@ LightCosts shareOut(const PairImage& image, const std::vector<CndLight>& lights,
                     const glm::dvec3& origin, const Camera& camera)
 {
     const auto [width, height] = image.size;
-    std::vector<Reach> reaches;
+    std::vector<LightVolume> volumes;
     for (uint32_t i = 0; i < lights.size(); ++i)
         if (isShown(lights[i], camera))
-            reaches.push_back(reachOf(i, lights[i], origin));
+            volumes.push_back(volumeOf(i, lights[i], origin));
 
     LightCosts out;
     std::vector<LightCost> all(lights.size());
@@ -166,16 +148,17 @@ LightCosts shareOut(const PairImage& image, const std::vector<CndLight>& lights,
             out.surfaces += points.size();
             out.pairs += evaluated;
             uint64_t sum = 0;
-            for (const Reach& reach : reaches) {
-                if (points.empty() || (!reach.distant && box.squaredDistance(reach.centre) >=
-                                                             reach.radius * reach.radius))
+            for (const LightVolume& volume : volumes) {
+                if (points.empty() ||
+                    (!volume.distant && box.squaredDistance(volume.centre) >=
+                                            volume.influenceRadius * volume.influenceRadius))
                     continue;
                 uint32_t pixels = 0;
                 for (const reference::SurfacePoint& point : points)
-                    pixels += reach.covers(point);
+                    pixels += volume.covers(point);
                 sum += pixels;
                 if (pixels)
-                    covered.emplace_back(reach.light, pixels);
+                    covered.emplace_back(volume.light, pixels);
             }
             out.coveredPairs += sum;
             if (!sum)

@@ -14,7 +14,7 @@
 #include "reference/truth.h"
 #include "render/frame_ring.h"
 #include "render/readback.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {
@@ -35,23 +35,13 @@ glm::dvec3 readPixel(const VulkanContext& context, const Renderer& renderer, VkI
     return glm::dvec3(out);
 }
 
-bool isPunctual(uint32_t type)
-{
-    return type == CND_LIGHT_POINT || type == CND_LIGHT_SPOT || type == CND_LIGHT_DIRECTIONAL;
-}
-
-bool isDistant(uint32_t type)
-{
-    return type == CND_LIGHT_DIRECTIONAL || type == CND_LIGHT_DISTANT_SPHERE;
-}
-
 glm::dvec3 truthOf(const SeenSurface& seen, const CndLight& light, const Scene& scene,
                    CndSpecularMethod method)
 {
     const reference::Material material =
         reference::joinLobes(seen.material, glm::dot(seen.point.normal, seen.point.toEye),
                              scene.lobes, scene.energyCompensation);
-    if (isPunctual(light.type))
+    if (cndIsPunctual(light.type))
         return reference::outgoingLuminance(seen.point, material, light, scene.lightOrigin, method);
     return reference::truthLuminance(seen.point, material, light, scene.lightOrigin, pickTolerance)
         .luminance;
@@ -111,9 +101,9 @@ Pick pickPixel(const VulkanContext& context, Renderer& renderer, const Scene& sc
         const glm::dvec3 centre =
             scene.lightOrigin + glm::dvec3(light.position[0], light.position[1], light.position[2]);
         const double distance =
-            isDistant(light.type) ? 0 : glm::length(centre - seen->point.position);
+            cndIsDistant(light.type) ? 0 : glm::length(centre - seen->point.position);
         // Rounding of the device's own distance must not lose one.
-        if (distance > double(light.influenceRadius) * 1.001 && !isDistant(light.type))
+        if (distance > double(light.influenceRadius) * 1.001 && !cndIsDistant(light.type))
             continue;
         renderer.setLights({light});
         context.submitAndWait([&](VkCommandBuffer cmd) {

@@ -8,7 +8,7 @@
 
 #include "candelabra_bench_shaders.h"
 #include "lights/pack_lights.h"
-#include "shading/shade_kernels.h"
+#include "shading/light_family.h"
 #include "tables/ltc_table.h"
 
 namespace candelabra::app
@@ -46,23 +46,10 @@ std::vector<CndSpecularMethod> methodsOf(uint32_t lightType)
     return out;
 }
 
-const gpu::Spirv& ofFamily(const Families& families, const Evaluation& evaluation)
+const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
+                           const Evaluation& evaluation)
 {
-    const bool conic =
-        evaluation.method == CND_SPECULAR_CONIC || evaluation.method == CND_SPECULAR_CONIC_FULL;
-    switch (evaluation.lightType) {
-    case CND_LIGHT_SPHERE:
-    case CND_LIGHT_DISTANT_SPHERE:
-        return *families[conic ? 1 : 2];
-    case CND_LIGHT_TUBE:
-        return *families[3];
-    case CND_LIGHT_RECTANGLE:
-        return *families[4];
-    case CND_LIGHT_DISC:
-        return *families[5];
-    default:
-        return *families[0];
-    }
+    return *families[lighting::familyOf(evaluation.lightType, evaluation.method)];
 }
 
 DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> lights)
@@ -70,16 +57,17 @@ DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> l
     lighting::validateLights(lights);
     std::vector<gpu::LightRecord> records(lights.size());
     lighting::packLights(lights, records);
-    std::vector<glm::vec4> core, aux;
+    std::vector<glm::vec4> core;
+    std::vector<gpu::LightShape> shapes;
     for (const gpu::LightRecord& r : records) { // prepare_lights.comp with an identity view
-        core.emplace_back(r.position, r.reach);
+        core.emplace_back(r.position, r.boundingRadius);
         core.emplace_back(r.emission, r.influenceRadius * r.influenceRadius);
-        aux.emplace_back(r.axisU, r.axisV.x);
-        aux.emplace_back(r.axisV, r.type & gpu::LIGHT_TWO_SIDED ? 1.0f : 0.0f);
+        shapes.push_back(lighting::shapeOf(r));
     }
-    DeviceLights out{.core = upload(device, "bench lights", std::span<const glm::vec4>(core)),
-                     .aux = upload(device, "bench light axes", std::span<const glm::vec4>(aux)),
-                     .count = uint32_t(lights.size())};
+    DeviceLights out{
+        .core = upload(device, "bench lights", std::span<const glm::vec4>(core)),
+        .shapes = upload(device, "bench light shapes", std::span<const gpu::LightShape>(shapes)),
+        .count = uint32_t(lights.size())};
     gpu::createTexelView(device, out.core);
     return out;
 }
@@ -118,14 +106,14 @@ void writeBindings(const gpu::Bindings& bindings, const DeviceLights& lights,
     bindings.write(
         0, {Binding::ofTexels(gpu::BENCH_CORE, lights.core),
             Binding::of(gpu::BENCH_CORE_WORDS, lights.core),
-            Binding::of(gpu::BENCH_AUX, lights.aux), Binding::of(gpu::BENCH_INPUT, receivers),
+            Binding::of(gpu::BENCH_SHAPES, lights.shapes), Binding::of(gpu::BENCH_INPUT, receivers),
             Binding::of(gpu::BENCH_OUTPUT, output), Binding::ofTexels(gpu::BENCH_LTC, ltcTable)});
 }
 
 LightEvaluator::LightEvaluator(const VulkanContext& context, const Evaluation& evaluation)
     : context_(context),
       evaluation_(evaluation),
-      kernel_(context.device(), ofFamily(BENCH_FAMILIES(evaluate_lights), evaluation),
+      kernel_(context.device(), ofFamily(spirv::evaluate_lights_comp, evaluation),
               {{gpu::SPEC_LIGHTS_AS_TEXELS, 0},
                {gpu::SPEC_SPECULAR_METHOD, evaluation.method},
                {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},

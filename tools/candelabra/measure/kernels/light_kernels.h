@@ -3,7 +3,6 @@
 // lists: what the benchmarks of accuracy and stability measure.
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
 #include "render/vulkan_context.h"
+#include "scene/light_types.h"
 #include "shared/bench.h"
 
 namespace candelabra::app
@@ -28,22 +28,13 @@ struct Evaluation {
 // them.
 std::vector<CndSpecularMethod> methodsOf(uint32_t lightType);
 
-// A bench kernel in the families of shading/light_families.glsl: BENCH_FAMILIES(time_lights) is
-// spirv::time_lights_comp in all of them.
-using Families = std::array<const gpu::Spirv*, 6>;
-#define BENCH_FAMILIES(kernel)                                                                     \
-    ::candelabra::app::Families                                                                    \
-    {                                                                                              \
-        &spirv::kernel##_comp_punctual, &spirv::kernel##_comp_conic, &spirv::kernel##_comp_sphere, \
-            &spirv::kernel##_comp_tube, &spirv::kernel##_comp_rectangle,                           \
-            &spirv::kernel##_comp_disc                                                             \
-    }
-// The one that evaluates a type by a method, as the lighting module chooses it.
-const gpu::Spirv& ofFamily(const Families& families, const Evaluation& evaluation);
+// The module of a bench kernel, such as spirv::time_lights_comp, that evaluates a type by a method.
+const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
+                           const Evaluation& evaluation);
 
 // Lights of one type in device memory as kernels read them, relative to receivers at the origin.
 struct DeviceLights {
-    gpu::Buffer core, aux;
+    gpu::Buffer core, shapes;
     uint32_t count = 0;
 };
 // Throws gpu::Failure for a light outside its documented range.

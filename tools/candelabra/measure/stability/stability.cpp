@@ -9,7 +9,7 @@
 #include "measure/kernels/parallel.h"
 #include "reference/truth.h"
 #include "render/setting_names.h"
-#include "scene/light_names.h"
+#include "shading/light_family.h"
 
 namespace candelabra::app
 {
@@ -29,16 +29,13 @@ std::vector<Evaluation> evaluations(const StabilitySettings& s)
 
 bool hasQuadrature(const Evaluation& e)
 {
-    const bool punctual = e.lightType == CND_LIGHT_POINT || e.lightType == CND_LIGHT_SPOT ||
-                          e.lightType == CND_LIGHT_DIRECTIONAL;
     // A few random samples say nothing about the formula.
-    return !punctual && e.method != CND_SPECULAR_SAMPLED;
+    return !cndIsPunctual(e.lightType) && e.method != CND_SPECULAR_SAMPLED;
 }
 
 bool hasContinuity(const Evaluation& e)
 {
-    return (e.lightType == CND_LIGHT_SPHERE || e.lightType == CND_LIGHT_DISTANT_SPHERE) &&
-           hasQuadrature(e) && e.errorBudget == 0;
+    return lighting::isSphere(e.lightType) && hasQuadrature(e) && e.errorBudget == 0;
 }
 
 // Slices whose lights have a size and a place that float32 resolves.
@@ -73,13 +70,13 @@ Compared compare(const gpu::SweepRecord& r, const Evaluation& evaluation)
     const double alpha = std::max(double(rounded), double(gpu::MIN_ALPHA));
     const CndLight light = lightOf(r, evaluation.lightType);
     const glm::dvec3 to(light.position[0], light.position[1], light.position[2]);
-    const bool distant = evaluation.lightType == CND_LIGHT_DISTANT_SPHERE;
+    const bool distant = cndIsDistant(evaluation.lightType);
     if (!distant && !(glm::length(to) > 0))
         return {};
     const reference::LightResponse truth =
         reference::truthResponse(surface, alpha, light, glm::dvec3(0), 1e-6);
     const double distance = distant ? 1 : std::max(glm::length(to), 1e-30);
-    const double s = std::min(double(r.centreReach.w) / distance, 1.0);
+    const double s = std::min(double(r.centreRadius.w) / distance, 1.0);
     return {std::abs(double(r.response.y) - truth.a) / onAxisResponse(s, alpha, NoV),
             std::abs(double(r.response.x) - truth.f) / (s * s),
             true,

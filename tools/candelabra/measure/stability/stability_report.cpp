@@ -8,7 +8,7 @@
 #include "io/table.h"
 #include "measure/stability/stability.h"
 #include "render/setting_names.h"
-#include "scene/light_names.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {

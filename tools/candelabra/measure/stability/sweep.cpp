@@ -20,7 +20,7 @@ gpu::Kernel<gpu::SweepParams> makeKernel(const gpu::Device& device, const Evalua
                                          bool recording)
 {
     return {device,
-            ofFamily(BENCH_FAMILIES(sweep_inputs), evaluation),
+            ofFamily(spirv::sweep_inputs_comp, evaluation),
             {{gpu::SPEC_SPECULAR_METHOD, evaluation.method},
              {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
              {gpu::SPEC_ERROR_BUDGET, evaluation.errorBudget > 0},
@@ -139,26 +139,25 @@ CndLight lightOf(const gpu::SweepRecord& r, uint32_t lightType)
 {
     CndLight light{.type = lightType, .emission = {1, 1, 1}};
     light.influenceRadius = INFINITY;
-    const glm::vec3 centre(r.centreReach);
+    const glm::vec3 centre(r.centreRadius);
     set(light.position, centre - r.position);
-    light.radius = lightType == CND_LIGHT_TUBE ? r.axisURadius.w : r.centreReach.w;
-    set(light.axisU, glm::vec3(r.axisURadius));
-    set(light.axisV, glm::vec3(r.axisVTwoSided));
-    if (lightType == CND_LIGHT_DISTANT_SPHERE)
-        set(light.direction, -centre);
-    else
-        set(light.direction, glm::vec3(r.axisURadius));
-    light.twoSided = r.axisVTwoSided.w != 0;
+    light.radius = r.shape.radius;
+    set(light.axisU, r.shape.axisU);
+    set(light.axisV, r.shape.axisV);
+    set(light.direction, cndIsDistant(lightType) ? -centre : r.shape.axisU);
+    light.twoSided = (r.shape.flags & gpu::LIGHT_TWO_SIDED) != 0;
     return light;
 }
 
 std::string describeRecord(const gpu::SweepRecord& r)
 {
     return fmt::format(
-        "index {}: position {}, n {}, v {}, perceptualRoughness {}, centre and reach "
-        "{}, emission and squared influence {}, axes {} {}; response {}",
-        r.index, text(r.position), text(r.n), text(r.v), r.perceptualRoughness, text(r.centreReach),
-        text(r.emissionInfluence), text(r.axisURadius), text(r.axisVTwoSided), text(r.response));
+        "index {}: position {}, n {}, v {}, perceptualRoughness {}, centre and bounding "
+        "radius {}, emission and squared influence {}, axes {} {}, radius {}, two-sided {}; "
+        "response {}",
+        r.index, text(r.position), text(r.n), text(r.v), r.perceptualRoughness,
+        text(r.centreRadius), text(r.emissionInfluence), text(r.shape.axisU), text(r.shape.axisV),
+        r.shape.radius, (r.shape.flags & gpu::LIGHT_TWO_SIDED) != 0, text(r.response));
 }
 
 } // namespace candelabra::app

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the lights of a set reach, and in which layers, to leave out types none of which reaches
-// the view.
+// Boxes around the spheres of influence of a set's lights, by type and with the layers of the
+// lights: light types none of which reaches the view are left out of a frame.
 #pragma once
 
 #include <array>
@@ -25,21 +25,21 @@ constexpr uint32_t layersOf(uint32_t mask)
 }
 
 // Holds the spheres of influence of lights, metres, relative to the set's origin. low > high: none.
-struct ReachBox {
+struct InfluenceBox {
     glm::dvec3 low, high;
     uint32_t layers = 0; // of any of them
 };
-using ReachBoxes = std::array<ReachBox, CND_LIGHT_TYPE_COUNT>;
+using InfluenceBoxes = std::array<InfluenceBox, CND_LIGHT_TYPE_COUNT>;
 
-ReachBox endlessReach(uint32_t layers);
+InfluenceBox endlessBox(uint32_t layers);
 
 // By type; those of distant types are infinite.
-ReachBoxes reachOf(std::span<const CndLight> lights);
+InfluenceBoxes influenceBoxesOf(std::span<const CndLight> lights);
 
 // Makes boxes hold those of `more` as well.
-void widen(ReachBoxes& boxes, const ReachBoxes& more);
+void widen(InfluenceBoxes& boxes, const InfluenceBoxes& more);
 
 // False only when no point that the camera shows is inside the box.
-bool reachesView(const ReachBox& box, const double origin[3], const CndCamera& camera);
+bool reachesView(const InfluenceBox& box, const double origin[3], const CndCamera& camera);
 
 } // namespace candelabra::lighting

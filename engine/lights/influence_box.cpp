@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lights/reach.h"
+#include "lights/influence_box.h"
 
 #include <cstring>
 #include <limits>
@@ -25,19 +25,19 @@ constexpr double margin = 1e-4;
 
 static_assert(gpu::ALL_LAYERS == (1u << CND_LAYER_COUNT) - 1);
 
-ReachBox endlessReach(uint32_t layers)
+InfluenceBox endlessBox(uint32_t layers)
 {
     return {glm::dvec3(-infinity), glm::dvec3(infinity), layers};
 }
 
-ReachBoxes reachOf(std::span<const CndLight> lights)
+InfluenceBoxes influenceBoxesOf(std::span<const CndLight> lights)
 {
-    ReachBoxes out;
+    InfluenceBoxes out;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        out[type] = isDistant(type) ? endlessReach(0)
-                                    : ReachBox{glm::dvec3(infinity), glm::dvec3(-infinity)};
+        out[type] = isDistant(type) ? endlessBox(0)
+                                    : InfluenceBox{glm::dvec3(infinity), glm::dvec3(-infinity)};
     for (const CndLight& light : lights) {
-        ReachBox& box = out[light.type];
+        InfluenceBox& box = out[light.type];
         box.layers |= layersOf(light.layers);
         if (isDistant(light.type))
             continue;
@@ -48,7 +48,7 @@ ReachBoxes reachOf(std::span<const CndLight> lights)
     return out;
 }
 
-void widen(ReachBoxes& boxes, const ReachBoxes& more)
+void widen(InfluenceBoxes& boxes, const InfluenceBoxes& more)
 {
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
         boxes[type].low = glm::min(boxes[type].low, more[type].low);
@@ -57,7 +57,7 @@ void widen(ReachBoxes& boxes, const ReachBoxes& more)
     }
 }
 
-bool reachesView(const ReachBox& box, const double origin[3], const CndCamera& camera)
+bool reachesView(const InfluenceBox& box, const double origin[3], const CndCamera& camera)
 {
     for (int axis = 0; axis < 3; ++axis) {
         if (box.low[axis] > box.high[axis])

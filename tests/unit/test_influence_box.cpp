@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "lights/reach.h"
+#include "lights/influence_box.h"
 
 using namespace candelabra;
 using namespace candelabra::lighting;
@@ -54,9 +54,9 @@ View randomView(std::mt19937& random)
     return makeView(view, clip);
 }
 
-ReachBox boxOf(const CndLight& light)
+InfluenceBox boxOf(const CndLight& light)
 {
-    return reachOf({&light, 1})[light.type];
+    return influenceBoxesOf({&light, 1})[light.type];
 }
 
 } // namespace
@@ -95,9 +95,9 @@ TEST(Reach, ReplacedLightsWidenTheBox)
 {
     CndLight lights[] = {{.type = CND_LIGHT_POINT, .position = {1, 2, 3}, .influenceRadius = 1},
                          {.type = CND_LIGHT_POINT, .position = {-5, 2, 9}, .influenceRadius = 2}};
-    ReachBoxes boxes = reachOf({lights, 1});
-    widen(boxes, reachOf({lights + 1, 1}));
-    const ReachBox both = reachOf(lights)[CND_LIGHT_POINT];
+    InfluenceBoxes boxes = influenceBoxesOf({lights, 1});
+    widen(boxes, influenceBoxesOf({lights + 1, 1}));
+    const InfluenceBox both = influenceBoxesOf(lights)[CND_LIGHT_POINT];
     EXPECT_EQ(boxes[CND_LIGHT_POINT].low, both.low);
     EXPECT_EQ(boxes[CND_LIGHT_POINT].high, both.high);
     EXPECT_EQ(both.low, glm::dvec3(-7, 0, 2));
@@ -109,10 +109,10 @@ TEST(Reach, LayersAreThoseOfAnyLight)
     CndLight lights[] = {{.type = CND_LIGHT_POINT, .influenceRadius = 1, .layers = 1},
                          {.type = CND_LIGHT_POINT, .influenceRadius = 1, .layers = 4},
                          {.type = CND_LIGHT_DIRECTIONAL}};
-    ReachBoxes boxes = reachOf({lights, 1});
+    InfluenceBoxes boxes = influenceBoxesOf({lights, 1});
     EXPECT_EQ(boxes[CND_LIGHT_POINT].layers, 1u);
     EXPECT_EQ(boxes[CND_LIGHT_DIRECTIONAL].layers, 0u);
-    widen(boxes, reachOf(lights));
+    widen(boxes, influenceBoxesOf(lights));
     EXPECT_EQ(boxes[CND_LIGHT_POINT].layers, 5u);
     EXPECT_EQ(boxes[CND_LIGHT_DIRECTIONAL].layers, (1u << CND_LAYER_COUNT) - 1);
 }
@@ -126,6 +126,6 @@ TEST(Reach, DistantAndEndlessLightsReachEverything)
     EXPECT_TRUE(reachesView(boxOf(sun), origin, view.camera));
     const CndLight endless{.type = CND_LIGHT_POINT, .influenceRadius = INFINITY};
     EXPECT_TRUE(reachesView(boxOf(endless), origin, view.camera));
-    const ReachBoxes none = reachOf({});
+    const InfluenceBoxes none = influenceBoxesOf({});
     EXPECT_FALSE(reachesView(none[CND_LIGHT_POINT], origin, view.camera));
 }

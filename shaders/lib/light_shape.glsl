@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the members of a LightShape mean for the types that use them in a way of their own.
+#ifndef CND_LIB_LIGHT_SHAPE
+#define CND_LIB_LIGHT_SHAPE
+
+#include "shared/lighting.h"
+
+bool isTwoSided(LightShape shape)
+{
+    return (shape.flags & LIGHT_TWO_SIDED) != 0u;
+}
+
+// The intensity of a spot light at an angle to its axis is multiplied by
+// saturate(cos(angle) coneScale + coneOffset)^2.
+float coneScale(LightShape spot)
+{
+    return spot.axisV.x;
+}
+
+float coneOffset(LightShape spot)
+{
+    return spot.axisV.y;
+}
+
+// The shape of a light of this type, in the frame of its record.
+LightShape shapeOfRecord(LightRecord record, uint type)
+{
+    const uint withRadiusInAxisV = TYPES_WITH_RADIUS & TYPES_WITH_AXIS_U & ~TYPES_WITH_AXIS_V;
+    const bool inAxisV = (withRadiusInAxisV >> type & 1u) != 0u;
+    return LightShape(record.axisU, inAxisV ? record.axisV.x : record.boundingRadius, record.axisV,
+                      record.flags);
+}
+
+// A shape in a frame that is turned.
+LightShape rotatedShape(LightShape shape, uint type, mat3 rotation)
+{
+    shape.axisU = rotation * shape.axisU;
+    if ((TYPES_WITH_CONE >> type & 1u) == 0u)
+        shape.axisV = rotation * shape.axisV;
+    return shape;
+}
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Response to a tube of unit luminance.
+#include "lib/lights/tube.glsl"
+#include "lib/specular/representative.glsl"
+#include "lib/specular/sampled.glsl"
+#include "shading/light.glsl"
+
+vec3 tubeResponse(Receiver r, Light given)
+{
+    float scale;
+    const Light light = atUnitDistance(given, scale);
+    const LightShape shape = lightShapes[light.index];
+    const vec3 axis = scale * shape.axisU;
+    const float radius = scale * shape.radius;
+    const TubeOutline outline = makeTubeOutline(light.toLight, axis, radius);
+    vec3 response = diffuseResponse(r.p, tubeFormFactor(r.p.n, outline));
+    if (areaMethod == SPECULAR_KARIS)
+        response += schlick(r.p, representativeTube(r.p, light.toLight, axis, radius));
+    else if (areaMethod == SPECULAR_LTC)
+        response += schlick(r.p, ltcTube(r.ltc, outline));
+    else if (areaMethod == SPECULAR_SAMPLED)
+        response += schlick(r.p, sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
+                                             lightSeed(r, light.index)));
+    return response;
+}
+
+#ifndef LIGHT_FAMILY_ALL
+#define GENERAL_RESPONSE tubeResponse
+#endif

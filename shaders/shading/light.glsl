@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// A light as a receiver sees it. The includer provides lightCentre() and lightEmission(); with
+// CANDELABRA_VISIBILITY lightIds[], and the host the shadow term.
+#ifndef CND_SHADING_LIGHT
+#define CND_SHADING_LIGHT
+
+#include "lib/light_shape.glsl"
+#include "lib/specular/sampled.glsl"
+#include "shading/light_type.glsl"
+#include "shading/lobes_of_class.glsl"
+#include "shading/receiver.glsl"
+#ifdef CANDELABRA_VISIBILITY
+#include "lib/shadow_query.glsl"
+#endif
+
+// (1 - (d / r)^4)^2 for d < r, else 0; 1 for infinite r. Lagarde and de Rousiers 2014, eq. 26.
+float influenceWindow(float d2, float influenceRadius2)
+{
+    const float x = min(d2 / influenceRadius2, 1.0);
+    const float w = 1.0 - x * x;
+    return w * w;
+}
+
+// What is known of a light at a point.
+struct Light {
+    uint index;
+    vec3 toLight;
+    float boundingRadius; // of the emitter
+    vec3 emission; // times the influence window
+};
+
+Light readLight(Receiver r, uint index)
+{
+    const vec4 centreRadius = lightCentre(index);
+    const vec4 emissionInfluence = lightEmission(index);
+    Light light;
+    light.index = index;
+    light.toLight = towardsLight(centreRadius.xyz, r.p.position);
+    light.boundingRadius = centreRadius.w;
+    light.emission = emissionInfluence.xyz;
+    if (!IS_DISTANT)
+        light.emission *= influenceWindow(length2(light.toLight), emissionInfluence.w);
+#ifdef CANDELABRA_VISIBILITY
+    light.emission *= candelabraVisibility(
+        ShadowQuery(lightIds[index], lightType, r.p.position, r.p.n, light.toLight));
+#endif
+    return light;
+}
+
+// Each light has samples of its own.
+uint lightSeed(Receiver r, uint light)
+{
+    return pcgHash(r.sampleSeed ^ pcgHash(light));
+}
+
+// The diffuse lobe's response to light that gives a white surface so much.
+vec3 diffuseResponse(ShadingPoint p, float formFactor)
+{
+    return HAS_DIFFUSE ? p.albedo * formFactor : vec3(0.0);
+}
+
+// The light at a distance of about 1, scaled by `scale`. The response to an area light does not depend
+// on the scale, and there no product of lengths overflows.
+Light atUnitDistance(Light light, out float scale)
+{
+    const float size2 = light.boundingRadius * light.boundingRadius;
+    scale = inversesqrt(max(length2(light.toLight) + size2, MIN_LENGTH2));
+    light.toLight *= scale;
+    light.boundingRadius *= scale;
+    return light;
+}
+
+#endif
