@@ -253,12 +253,13 @@ TEST(Options, ImageSizeComesFromTheOptionTheSceneOrTheCamera)
 namespace
 {
 
-// The sample costs at most sampledPairs or, if that is more, minSampledTiles tiles. It uses at
-// least half of that unless the image has no more pixels, because tiles at the border may be cut.
-void expectSampleWithinBudget(size_t pixels, size_t imagePixels, uint64_t lights)
+// The sample has at most `pairs` (pixel, light) pairs or, if that is more, minSampledTiles tiles.
+// It has at least half as many pairs unless the image has no more pixels, because tiles at the
+// border may be cut.
+void expectSampleWithinBudget(size_t pixels, size_t imagePixels, uint64_t lights, uint64_t pairs)
 {
     constexpr uint64_t tilePixels = sampledTile * sampledTile;
-    const uint64_t budget = std::max(sampledPairs, minSampledTiles * tilePixels * lights);
+    const uint64_t budget = std::max(pairs, minSampledTiles * tilePixels * lights);
     EXPECT_LE(pixels * lights, budget) << lights;
     EXPECT_GE(pixels * lights, std::min<uint64_t>(imagePixels * lights, budget / 2)) << lights;
 }
@@ -269,9 +270,10 @@ void expectSampleWithinBudget(size_t pixels, size_t imagePixels, uint64_t lights
 TEST(BruteCheck, RectanglesCoverTheImageOnceOrSampleIt)
 {
     for (const PixelSize size : {PixelSize{1, 1}, {17, 3}, {641, 359}, {1280, 720}})
-        for (const uint64_t lights : {uint64_t(1), uint64_t(16384), uint64_t(16385),
+        for (const uint64_t lights : {uint64_t(1), uint64_t(4000), uint64_t(16384), uint64_t(16385),
                                       uint64_t(100'000), uint64_t(1'000'000), uint64_t(maxLights)})
-            for (const CheckExtent extent : {CheckExtent::Auto, CheckExtent::Full}) {
+            for (const CheckExtent extent :
+                 {CheckExtent::Auto, CheckExtent::Sampled, CheckExtent::Full}) {
                 SCOPED_TRACE(testing::Message() << size.width << "x" << size.height);
                 std::vector<uint8_t> covered(size_t(size.width) * size.height);
                 for (const VkRect2D& r : checkRects(size, lights, extent))
@@ -284,10 +286,12 @@ TEST(BruteCheck, RectanglesCoverTheImageOnceOrSampleIt)
                         }
                 EXPECT_EQ(*std::max_element(covered.begin(), covered.end()), 1);
                 const size_t count = size_t(std::count(covered.begin(), covered.end(), 1));
-                if (extent == CheckExtent::Full || lights <= 16384)
+                if (extent == CheckExtent::Sampled)
+                    expectSampleWithinBudget(count, covered.size(), lights, quickSampledPairs);
+                else if (extent == CheckExtent::Full || lights <= 16384)
                     EXPECT_EQ(count, covered.size());
                 else
-                    expectSampleWithinBudget(count, covered.size(), lights);
+                    expectSampleWithinBudget(count, covered.size(), lights, sampledPairs);
             }
     EXPECT_TRUE(checkRects({64, 64}, 100, CheckExtent::None).empty());
 }

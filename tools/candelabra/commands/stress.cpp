@@ -32,11 +32,13 @@ CheckExtent checkExtent(const std::string& text)
 {
     if (text == "auto")
         return CheckExtent::Auto;
+    if (text == "sampled")
+        return CheckExtent::Sampled;
     if (text == "full")
         return CheckExtent::Full;
     if (text == "none")
         return CheckExtent::None;
-    throw UsageError("--check \"" + text + "\": choose one of auto, full, none");
+    throw UsageError("--check \"" + text + "\": choose one of auto, sampled, full, none");
 }
 
 StressSettings settingsOf(const StressArguments& a)
@@ -159,7 +161,7 @@ void addStressCommand(CLI::App& app, Run& run)
     command
         ->add_option("--check", a->check,
                      "pixels compared with brute force: auto (all up to 16384 lights, beyond "
-                     "that sampled tiles), full, none")
+                     "that sampled tiles), sampled (fewer tiles, for a quick look), full, none")
         ->type_name("NAME")
         ->capture_default_str();
     command->add_option("--out", a->directory, "directory for everything; made if missing")

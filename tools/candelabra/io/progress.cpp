@@ -14,16 +14,25 @@ namespace candelabra::app
 namespace
 {
 constexpr int barWidth = 30; // characters; the whole line stays under 80
+
+double secondsSince(Progress::Clock::time_point start)
+{
+    return std::chrono::duration<double>(Progress::Clock::now() - start).count();
+}
+
 } // namespace
 
-Progress::Progress(double steps, bool visible)
-    : steps_(std::max(steps, 1.0)), visible_(visible && isatty(STDERR_FILENO))
+Progress::Progress(double steps, bool visible, Clock::duration period)
+    : steps_(std::max(steps, 1.0)),
+      visible_(visible),
+      terminal_(isatty(STDERR_FILENO)),
+      period_(period)
 {
 }
 
 Progress::~Progress()
 {
-    if (!visible_)
+    if (!visible_ || !terminal_)
         return;
     setProgressShown(false);
     std::fputs("\r\x1b[K", stderr); // clears the line
@@ -45,13 +54,24 @@ void Progress::draw()
 {
     if (!visible_)
         return;
+    if (!terminal_)
+        return log();
     setProgressShown(true);
     const int filled = static_cast<int>(barWidth * done_ / steps_);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const std::string line =
-        fmt::format("\r[{}{}] {:3.0f}% {:4.0f} s  {:.32}\x1b[K", std::string(filled, '#'),
-                    std::string(barWidth - filled, ' '), 100 * done_ / steps_, seconds, what_);
+    const std::string line = fmt::format(
+        "\r[{}{}] {:3.0f}% {:4.0f} s  {:.32}\x1b[K", std::string(filled, '#'),
+        std::string(barWidth - filled, ' '), 100 * done_ / steps_, secondsSince(start_), what_);
+    std::fputs(line.c_str(), stderr);
+    std::fflush(stderr);
+}
+
+void Progress::log()
+{
+    if (Clock::now() - logged_ < period_)
+        return;
+    logged_ = Clock::now();
+    const std::string line = fmt::format("{:3.0f}% after {:.0f} s: {}\n", 100 * done_ / steps_,
+                                         secondsSince(start_), what_);
     std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Progress: a line on the terminal (stderr) that shows how much of a long job is done.
+// Progress: shows on stderr how much of a long job is done. On a terminal it is one line that is
+// drawn again and again. In a file or a pipe it is a new line every few seconds, so that a log
+// shows that the work goes on.
 #pragma once
 
 #include <chrono>
@@ -11,9 +13,10 @@ namespace candelabra::app
 class Progress
 {
 public:
-    // `steps` is the size of the whole job, in any unit. Nothing is written unless stderr is a
-    // terminal and `visible` is true.
-    Progress(double steps, bool visible);
+    using Clock = std::chrono::steady_clock;
+    // `steps` is the size of the whole job, in any unit. Nothing is written unless `visible` is
+    // true. `period` is the time between two lines where stderr is no terminal.
+    Progress(double steps, bool visible, Clock::duration period = std::chrono::seconds(10));
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -25,11 +28,13 @@ public:
 
 private:
     void draw();
+    void log();
 
     double steps_, done_ = 0;
-    bool visible_;
+    bool visible_, terminal_;
+    Clock::duration period_;
     std::string what_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Clock::time_point start_ = Clock::now(), logged_ = start_;
 };
 
 } // namespace candelabra::app

@@ -34,18 +34,20 @@ std::vector<VkRect2D> bands(PixelSize size, uint64_t lights)
     return out;
 }
 
-// Tiles spread evenly: multiples of the golden ratio fill an interval without gaps or clumps.
-std::vector<VkRect2D> sampledTiles(PixelSize size, uint64_t lights)
+// Tiles of about so many (pixel, light) pairs, spread evenly: multiples of the golden ratio fill an
+// interval without gaps or clumps.
+std::vector<VkRect2D> sampledTiles(PixelSize size, uint64_t lights, uint64_t pairs)
 {
     constexpr uint32_t tile = sampledTile;
     const uint32_t columns = (size.width + tile - 1) / tile, rows = (size.height + tile - 1) / tile;
     const uint64_t total = uint64_t(columns) * rows;
-    const uint64_t wanted =
-        std::max<uint64_t>(sampledPairs / (tile * tile * lights), minSampledTiles);
+    const uint64_t wanted = std::max<uint64_t>(pairs / (tile * tile * lights), minSampledTiles);
+    if (wanted >= total)
+        return bands(size, lights);
     constexpr double golden = 0.6180339887498949;
     std::vector<bool> taken(total);
     std::vector<VkRect2D> out;
-    for (uint64_t i = 0; out.size() < std::min(wanted, total); ++i) {
+    for (uint64_t i = 0; out.size() < wanted; ++i) {
         double whole = 0;
         uint64_t index = uint64_t(std::modf(double(i) * golden, &whole) * double(total));
         while (taken[index]) // the sequence rarely meets a tile twice
@@ -98,9 +100,11 @@ std::vector<VkRect2D> checkRects(PixelSize size, uint64_t lights, CheckExtent ex
 {
     if (extent == CheckExtent::None || !lights)
         return {};
+    if (extent == CheckExtent::Sampled)
+        return sampledTiles(size, lights, quickSampledPairs);
     if (extent == CheckExtent::Full || lights <= fullCheckLights)
         return bands(size, lights);
-    return sampledTiles(size, lights);
+    return sampledTiles(size, lights, sampledPairs);
 }
 
 BruteCheck compareWithBruteForce(const VulkanContext& context, Renderer& renderer,

@@ -56,7 +56,10 @@ std::string checkTable(const std::vector<StressPoint>& points)
         table.add({grouped(p.lights), threeDigits(p.times.total().medianMs),
                    p.check.allPixels ? threeDigits(p.check.bruteMs) : "-", pixelsText(p.check),
                    checkText(p.check), p.identical ? "identical" : "DIFFERENT"});
-    return table.text();
+    const bool all = std::all_of(points.begin(), points.end(), [](const StressPoint& p) {
+        return p.check.allPixels || !p.check.pixels;
+    });
+    return table.text() + (all ? "" : "Tiles are a sample: --check full compares every pixel.\n");
 }
 
 // Passes that take at least this share of some total get a line of their own in the plot.
