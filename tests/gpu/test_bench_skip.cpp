@@ -2,7 +2,7 @@
 // Checks in small frames of the benchmark that no skipped pass changes the image.
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
-#include "measure/skip/skip.h"
+#include "measure/skip.h"
 
 using namespace candelabra;
 using namespace candelabra::app;

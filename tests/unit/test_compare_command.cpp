@@ -195,7 +195,7 @@ TEST_F(CompareCommand, RefusesWhatIsNotComparable)
     refused(other, "b.json: schema: must be \"candelabra profile 1\"");
     other = run(50);
     other["variants"].push_back(other["variants"][0]);
-    refused(other, "what --ab compared");
+    refused(other, "a run with --ab");
     other = run(50);
     other["variants"][0]["time"]["passes"][1]["medianMs"] = "fast";
     refused(other, "medianMs: must be a number");

@@ -339,7 +339,7 @@ TEST_F(TruthCommand, MergeTakesNoOtherOptions)
         std::vector<std::string> arguments = more;
         arguments.insert(arguments.end(), {"-o", path("x.pfm"), "--merge", path("part")});
         EXPECT_EQ(run(arguments), 2) << more[0];
-        EXPECT_NE(err_.find(more[0] + " and --merge exclude each other"), std::string::npos)
+        EXPECT_NE(err_.find(more[0] + " and --merge cannot be combined"), std::string::npos)
             << err_;
     }
     EXPECT_EQ(run({"-q", "-o", path("x.pfm"), "--merge", path("part")}), 0) << err_;

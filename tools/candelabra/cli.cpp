@@ -42,23 +42,24 @@ void describe(CLI::App& app, ProgramContext& context)
     app.require_subcommand(1);
     app.fallthrough(); // --quiet may stand after the command, too
     app.add_flag("-q,--quiet", context.quiet,
-                 "no progress and no remarks on stderr, only warnings and errors");
+                 "print only warnings and errors on stderr, no progress and no remarks");
     const uint32_t version = cndGetVersion();
     app.set_version_flag("--version", fmt::format("candelabra {}.{}.{}", version >> 22,
                                                   (version >> 12) & 0x3ff, version & 0xfff));
     app.footer(
-        "SCENE is hall, field or fence (generated, with --lights N --seed S --overlaps K), "
-        "showcase\n(one light of every type), or a file: glTF 2.0 (.gltf, .glb) or a small scene "
-        "description\n(.json).\n\n"
+        "SCENE is hall, field or fence, which are generated with --lights N, --seed S and\n"
+        "--overlaps K; showcase, which has one light of every type; or a file: glTF 2.0 (.gltf,\n"
+        ".glb) or a scene description (.json).\n\n"
         "Examples:\n"
-        "  candelabra stress                        sweep the number of lights, into out/\n"
+        "  candelabra stress                        measure growing numbers of lights, into out/\n"
         "  candelabra render hall --lights 16000 -o hall.png\n"
-        "  candelabra profile hall --lights 4000    where the time of a frame goes\n"
-        "  candelabra view hall --lights 4000       fly through it\n"
-        "  candelabra render --help                 options of one command");
+        "  candelabra profile hall --lights 4000    time every pass of a frame\n"
+        "  candelabra view hall --lights 4000       fly through the hall\n"
+        "  candelabra render --help                 list the options of one command");
 }
 
-// The sentence for a command, or a part of one, that there is not; empty: there is.
+// Returns the error message for a command or subcommand that does not exist, or an empty text if
+// all do.
 std::string unknownCommand(const CLI::App& root, int argc, const char* const* argv)
 {
     const CLI::App* app = &root;
@@ -74,14 +75,14 @@ std::string unknownCommand(const CLI::App& root, int argc, const char* const* ar
                 chosen = all[k];
         }
         if (!chosen)
-            return fmt::format("\"{}\" is no command{}; there are {}", argv[i],
+            return fmt::format("\"{}\" is no command{}; choose from {}", argv[i],
                                app == &root ? "" : " of " + app->get_name(), names);
         app = chosen;
     }
     return "";
 }
 
-// The sentence for a command line that does not parse.
+// Returns the error message for a command line that cannot be parsed.
 std::string parseSentence(const CLI::App& app, int argc, const char* const* argv,
                           const CLI::ParseError& error)
 {
@@ -92,8 +93,8 @@ std::string parseSentence(const CLI::App& app, int argc, const char* const* argv
                        first[0] == '-' ? "" : first + " ");
 }
 
-// "--camera= -o x.png" would take "-o" for the camera, and an empty text means "not given" to some
-// options: neither is what was typed.
+// Refuses "--option=" and empty values. With "--camera= -o x.png" the parser would take "-o" for
+// the camera, and some options take an empty text for "not given".
 void refuseAssignmentsOfNothing(int argc, const char* const* argv)
 {
     for (int i = 1; i < argc; ++i) {
@@ -111,7 +112,7 @@ void refuseEmptyValues(const CLI::App& app)
     for (const CLI::App* command : app.get_subcommands())
         for (const CLI::Option* option : command->get_options())
             for (const std::string& value : option->results())
-                // Of two texts of options one may be empty: nothing is changed.
+                // One of the two texts of --ab may be empty: that variant changes no option.
                 if (value.empty() && option->get_items_expected_min() < 2)
                     throw UsageError(option->get_name() + ": its value is empty");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra bench: what the lights cost and how right they are.
+// candelabra bench: measures what lighting costs and how exact it is.
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -14,12 +14,14 @@ namespace candelabra::app
 void addBenchOutput(CLI::App& command, std::string& directory, std::string& json,
                     const std::string& name)
 {
-    command.add_option("--out", directory, "directory for everything; made if missing")
+    command
+        .add_option("--out", directory,
+                    "directory for all output; it is created if it does not exist")
         ->type_name("DIR")
         ->capture_default_str();
     command
         .add_option("--json", json,
-                    fmt::format("file of all figures (DIR/{}); - is standard output", name))
+                    fmt::format("JSON file with all figures (DIR/{}); - is standard output", name))
         ->type_name("FILE");
 }
 
@@ -29,8 +31,8 @@ std::string benchOutput(const std::string& directory, const std::string& option,
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (!std::filesystem::is_directory(directory))
-        throw UsageError("--out " + directory + ": cannot make this directory: " +
-                         (error ? error.message() : "a file has its name"));
+        throw UsageError("--out " + directory + ": cannot create this directory: " +
+                         (error ? error.message() : "there is a file with this name"));
     const std::string path =
         typed.empty() ? (std::filesystem::path(directory) / name).string() : typed;
     requireWritable(option, path);
@@ -39,8 +41,8 @@ std::string benchOutput(const std::string& directory, const std::string& option,
 
 void addBenchCommand(CLI::App& app, Run& run)
 {
-    CLI::App* bench =
-        app.add_subcommand("bench", "Measure accuracy, numerical stability, culling and skips");
+    CLI::App* bench = app.add_subcommand(
+        "bench", "Measure accuracy, numerical stability, culling, and what skipping saves");
     bench->require_subcommand(1);
     addBenchAccuracy(*bench, run);
     addBenchCulling(*bench, run);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra bench accuracy: error of every way to light against truth, and its time.
+// candelabra bench accuracy: measures the error and the time of every specular method.
 #include <memory>
 
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 #include "generate/generators.h"
 #include "io/error.h"
 #include "io/image.h"
+#include "measure/accuracy/accuracy_page.h"
 #include "measure/accuracy/low_roughness.h"
-#include "measure/accuracy/page.h"
 #include "render/provenance.h"
 #include "scene/scene_options.h"
 
@@ -72,7 +72,7 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     const std::string lowRoughnessPng =
         benchOutput(a.directory, "--out", "", "bench_low_roughness.png");
 
-    const Scene scene = budgetScene(images); // before the long part: it may be no file
+    const Scene scene = budgetScene(images); // loaded first, because the name may be wrong
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("accuracy on {}", context.info().name);
     KernelLevel level;
@@ -112,17 +112,18 @@ void addOptions(CLI::App& command, AccuracyArguments& a)
         command.add_option(name, value, what)->type_name(type)->capture_default_str();
     };
     add("--groups", a.groups,
-        "groups of 89 light directions, of spheres; other shapes have a third", "N");
-    add("--rounds", a.rounds, "rounds of timing kernels, each with every variant once", "N");
+        "groups of 89 light directions for sphere lights; other shapes get a third as many", "N");
+    add("--rounds", a.rounds, "rounds of timing kernels; each runs every variant once", "N");
     add("--samples", a.samples, "samples per light of the method \"sampled\"", "N");
-    add("--size", a.size, "images compared with truth", "WxH");
-    add("--frames", a.frames, "timed frames of every method and scene, after one to warm up", "N");
+    add("--size", a.size, "size of the images that are compared with the truth", "WxH");
+    add("--frames", a.frames, "timed frames of every method and scene, after one warm-up frame",
+        "N");
     add("--scene", a.budgetScene, "scene of the error-budget sweep", "SCENE");
-    add("--lights", a.budgetLights, "its lights, where it is hall, field or fence", "N");
-    add("--budget-size", a.budgetSize, "its image", "WxH");
-    add("--seed", a.seed, "of the random groups and lights", "N");
+    add("--lights", a.budgetLights, "lights of that scene, if it is hall, field or fence", "N");
+    add("--budget-size", a.budgetSize, "size of its image", "WxH");
+    add("--seed", a.seed, "seed of the random groups and lights", "N");
     addBenchOutput(command, a.directory, a.json, "bench_accuracy.json");
-    command.add_option("--html", a.html, "the report page (DIR/bench_accuracy.html)")
+    command.add_option("--html", a.html, "HTML page with all results (DIR/bench_accuracy.html)")
         ->type_name("FILE");
     a.device.addTo(command);
 }
@@ -132,7 +133,7 @@ void addOptions(CLI::App& command, AccuracyArguments& a)
 void addBenchAccuracy(CLI::App& bench, Run& run)
 {
     CLI::App* command = bench.add_subcommand(
-        "accuracy", "Error of every specular method against quadrature, and its time");
+        "accuracy", "Measure the error of every specular method against quadrature, and its time");
     const auto a = std::make_shared<AccuracyArguments>();
     addOptions(*command, *a);
     command->footer("Examples:\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of `candelabra bench`.
+// The subcommands of `candelabra bench`.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ void addBenchCulling(CLI::App& bench, Run& run);
 void addBenchSkip(CLI::App& bench, Run& run);
 void addBenchStability(CLI::App& bench, Run& run);
 
-// --out DIR and --json FILE (DIR/name).
+// Adds the options --out DIR and --json FILE, whose default is DIR/name.
 void addBenchOutput(CLI::App& command, std::string& directory, std::string& json,
                     const std::string& name);
-// Makes the directory; the path of a file that `typed` names, or `name` in the directory, checked
-// to be writable.
+// Creates the directory and returns the path of an output file: `typed` if it is not empty, else
+// `name` in the directory. Throws UsageError if the file cannot be written.
 std::string benchOutput(const std::string& directory, const std::string& option,
                         const std::string& typed, const std::string& name);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra bench culling: what finding the lights of every pixel costs, beside other ways.
+// candelabra bench culling: measures what finding the lights of every pixel costs, with the engine
+// and with other ways to cull.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -72,7 +73,7 @@ int culling(const ProgramContext& program, const CullingArguments& a)
     writeJson(json, document);
     if (json != "-")
         writeText("-", cullingTables(points) +
-                           fmt::format("\nLook at {}/bench_culling_*.svg (time against lights) and "
+                           fmt::format("\nSee {}/bench_culling_*.svg (time against lights) and "
                                        "{} (all figures)\n",
                                        a.directory, json));
     const std::vector<std::string> failures = cullingFailures(points);
@@ -86,33 +87,34 @@ int culling(const ProgramContext& program, const CullingArguments& a)
 void addBenchCulling(CLI::App& bench, Run& run)
 {
     CLI::App* command =
-        bench.add_subcommand("culling", "Time and lists of the engine beside 2D tiles, froxels, "
-                                        "brute force and no culling at all");
+        bench.add_subcommand("culling", "Compare time and lists of the engine with 2D tiles, "
+                                        "froxels, brute force and no culling at all");
     const auto a = std::make_shared<CullingArguments>();
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type)->capture_default_str();
     };
-    add("--scenes", a->scenes, "generated scenes", "NAME,...");
-    add("--lights", a->lights, "light counts, up to 1,000,000", "N,N,...");
-    add("--overlaps", a->overlaps, "mean lights that contribute to a pixel", "K,K,...");
-    add("--size", a->sizes, "sizes of the image", "WxH,...");
-    add("--rounds", a->rounds, "rounds, in each of which everything is drawn once", "N");
+    add("--scenes", a->scenes, "generated scenes to draw", "NAME,...");
+    add("--lights", a->lights, "numbers of lights, up to 1,000,000", "N,N,...");
+    add("--overlaps", a->overlaps, "mean numbers of lights that contribute to a pixel", "K,K,...");
+    add("--size", a->sizes, "image sizes", "WxH,...");
+    add("--rounds", a->rounds, "rounds; each draws the frame once in every way", "N");
     add("--brute-limit", a->bruteLimit,
-        "brute force is skipped, with its estimate, where a frame would take longer", "SECONDS");
-    add("--seed", a->seed, "of the scenes and lights", "N");
+        "skip brute force, and report an estimate, if a frame would take longer", "SECONDS");
+    add("--seed", a->seed, "seed of the scenes and lights", "N");
     addBenchOutput(*command, a->directory, a->json, "bench_culling.json");
     a->device.addTo(*command);
     command->footer(
-        "GPU times of lighting alone: preparing lights, culling, shading; without the raster "
-        "pass.\n"
-        "Emitters are not drawn. All shade with the engine's functions by the closed form:\n"
-        "  16x16 tiles   every light against every tile's frustum and range of depth\n"
-        "  froxels       64x64 pixels x 32 slices, exponential between the nearest and the\n"
-        "                farthest surface; sphere against box\n"
-        "  brute force   all lights at all pixels; once where it takes more than a second\n"
-        "  floor         as many evaluations per pixel as lights contribute, none looked for\n"
-        "Exit code 1 when an image differs from the engine's by more than 4e-6 of the largest\n"
-        "radiance, brute force by more than 1e-6.\n\n"
+        "Times are GPU times of lighting: preparing lights, culling and shading, without the\n"
+        "raster pass. Emitters are not drawn. All ways shade with the engine's functions by the\n"
+        "closed form:\n"
+        "  16x16 tiles   tests every light against every tile's frustum and range of depth\n"
+        "  froxels       cells of 64x64 pixels in 32 slices, which grow exponentially between\n"
+        "                the nearest and the farthest surface; spheres are tested against boxes\n"
+        "  brute force   evaluates all lights at all pixels; once if it takes over a second\n"
+        "  floor         does as many evaluations per pixel as lights contribute, and looks\n"
+        "                for no light\n"
+        "The exit code is 1 if an image differs from the engine's by more than 4e-6 of the\n"
+        "largest radiance, or that of brute force by more than 1e-6.\n\n"
         "Examples:\n"
         "  candelabra bench culling\n"
         "  candelabra bench culling --scenes hall --lights 4000 --overlaps 30 --rounds 15\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra bench skip: what frames save by leaving out what they do not need.
+// candelabra bench skip: measures what a frame saves by skipping what its content does not need.
 #include <memory>
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include "commands/options.h"
 #include "generate/generators.h"
 #include "io/error.h"
-#include "measure/skip/skip.h"
+#include "measure/skip.h"
 #include "render/provenance.h"
 
 namespace candelabra::app
@@ -73,26 +73,27 @@ int skip(const ProgramContext& program, const SkipArguments& a)
 void addBenchSkip(CLI::App& bench, Run& run)
 {
     CLI::App* command = bench.add_subcommand(
-        "skip", "What a frame saves by leaving out what its content does not need");
+        "skip", "Measure what a frame saves by skipping what its content does not need");
     const auto a = std::make_shared<SkipArguments>();
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type)->capture_default_str();
     };
-    add("--scene", a->scene, "generated scene", "NAME");
-    add("--lights", a->lights, "sphere lights, up to 1,000,000", "N");
-    add("--size", a->size, "size of the image", "WxH");
-    add("--rounds", a->rounds, "rounds, in each of which both frames of a row are drawn", "N");
-    add("--point-rounds", a->pointRounds, "rounds of the row that compares points with points",
-        "N");
-    add("--seed", a->seed, "of the scene and lights", "N");
+    add("--scene", a->scene, "generated scene to draw", "NAME");
+    add("--lights", a->lights, "number of sphere lights, up to 1,000,000", "N");
+    add("--size", a->size, "image size", "WxH");
+    add("--rounds", a->rounds, "rounds; each draws both frames of a row once", "N");
+    add("--point-rounds", a->pointRounds,
+        "rounds of the row that compares point lights with point lights", "N");
+    add("--seed", a->seed, "seed of the scene and lights", "N");
     addBenchOutput(*command, a->directory, a->json, "bench_skip.json");
     a->device.addTo(*command);
     command->footer(
-        "One row per skip: GPU time of the passes it is about, with the skip and without it, in\n"
-        "interleaved rounds; what looking for it takes where it is not found (nothing: known\n"
-        "before recording, or what the GPU finds anyway); and how much the images differ.\n"
-        "Exit code 1 when they differ by more than the row allows (nothing; 1e-6 of the largest\n"
-        "radiance where sums may change their order).\n\n"
+        "Each row is one skip. It holds the GPU time of the passes concerned with the skip and\n"
+        "without it, from interleaved rounds; what looking for the skip costs in frames that\n"
+        "cannot use it (\"nothing\" if that is known before recording, or if the GPU finds it\n"
+        "anyway); and how much the two images differ.\n"
+        "The exit code is 1 if they differ by more than the row allows: by anything at all, or\n"
+        "by 1e-6 of the largest radiance where sums may change their order.\n\n"
         "Examples:\n"
         "  candelabra bench skip\n"
         "  candelabra bench skip --scene field --lights 16000 --rounds 15");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra bench stability: the shader functions under every input they may meet.
+// candelabra bench stability: tries the shader functions on random and adversarial inputs.
 #include <memory>
 
 #include <fmt/format.h>
@@ -57,32 +57,34 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
 void addBenchStability(CLI::App& bench, Run& run)
 {
     CLI::App* command = bench.add_subcommand(
-        "stability", "Random and adversarial inputs: invalid responses, errors, jumps");
+        "stability",
+        "Try random and adversarial inputs: count invalid responses, measure errors and "
+        "jumps");
     const auto a = std::make_shared<StabilityArguments>();
     command
         ->add_option("--configs", a->configurations,
-                     "configurations in all; 1e8 takes minutes on two CPU cores")
+                     "number of configurations in all; 1e8 take minutes on two CPU cores")
         ->type_name("N")
         ->capture_default_str();
     command
         ->add_option("--quadrature", a->quadrature,
-                     "configurations in all whose response is compared with quadrature")
+                     "number of configurations in all whose response is compared with quadrature")
         ->type_name("N")
         ->capture_default_str();
-    command->add_option("--sweeps", a->sweeps, "sweeps of each check of continuity")
+    command->add_option("--sweeps", a->sweeps, "number of sweeps of each check of continuity")
         ->type_name("N")
         ->capture_default_str();
-    command->add_option("--seed", a->seed, "of all random inputs")
+    command->add_option("--seed", a->seed, "seed of all random inputs")
         ->type_name("N")
         ->capture_default_str();
     addBenchOutput(*command, a->directory, a->json, "bench_stability.json");
     a->device.addTo(*command);
-    command->footer(
-        "Exit code 1 when any response is NaN, infinite or negative, or the closed form is "
-        "farther from quadrature than its bar.\n\n"
-        "Examples:\n"
-        "  candelabra bench stability\n"
-        "  candelabra bench stability --configs 1e10 --quadrature 1000000");
+    command->footer("The exit code is 1 if any response is NaN, infinite or negative, or if the "
+                    "closed form is\n"
+                    "farther from quadrature than its bar.\n\n"
+                    "Examples:\n"
+                    "  candelabra bench stability\n"
+                    "  candelabra bench stability --configs 1e10 --quadrature 1000000");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return stability(program, *a); }; });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options whose values are words.
+// Options whose values are names.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace candelabra::app
 {
 
-// Adds an option to whose description the words to choose among are appended.
+// Adds an option with a choice of names. The names are appended to the description.
 template <typename T, size_t N>
 void addChoice(CLI::App& command, const std::string& option, std::string& text,
                const Choice<T> (&choices)[N], const std::string& what)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of the program. Each function adds its subcommand to `app`; when that is the one the
-// user chose, `run` becomes the work to do, which returns the exit code and may throw.
+// The commands of the program. Each function adds a subcommand to `app`. If the user chooses it,
+// `run` is set to the work to do, which returns the exit code and may throw.
 #pragma once
 
 #include <functional>

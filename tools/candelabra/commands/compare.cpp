@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra compare: whether runs of `candelabra profile`, before a change and after it, differ by
-// more than runs of the same thing do.
+// candelabra compare: tests whether two sets of runs of `candelabra profile`, such as before and
+// after a change, differ significantly.
 #include <algorithm>
 #include <memory>
 
@@ -28,7 +28,7 @@ struct CompareArguments {
 
 struct ComparedRow {
     std::string name;
-    bool inA = false, inB = false; // in all runs of that side
+    bool inA = false, inB = false; // whether all runs of that side have it
     RunQuantity times;
     RunRatio ratio;
     std::string verdict;
@@ -45,7 +45,7 @@ std::vector<ProfiledRun> runsOf(const std::vector<std::string>& files)
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-// A sentence for each fact of `other` that `first` has not.
+// Adds a sentence for each fact in which `other` differs from `first`.
 void findDifferences(const ProfiledRun& first, const ProfiledRun& other, const Facts& of,
                      const Facts& ofOther, std::vector<std::string>& out)
 {
@@ -55,7 +55,7 @@ void findDifferences(const ProfiledRun& first, const ProfiledRun& other, const F
                                       other.where, ofOther[i].second));
 }
 
-// Why these runs should not be compared.
+// Returns the reasons why these runs should not be compared.
 std::vector<std::string> objections(const std::vector<ProfiledRun>& a,
                                     const std::vector<ProfiledRun>& b)
 {
@@ -68,11 +68,12 @@ std::vector<std::string> objections(const std::vector<ProfiledRun>& a,
     return out;
 }
 
-// What stands for the frames of a run. Frames that draw the same differ by noise alone, which
-// mostly adds, so the shortest time varies least from run to run (DECISIONS 36); where frames
-// differ in work, it would be that of the cheapest.
+// Which time of a run's frames is compared. Frames that draw the same differ by noise alone, which
+// mostly makes them longer, so that the shortest time varies least from run to run (DECISIONS 36).
+// If frames differ in their work, the shortest time would be that of the cheapest frame, and the
+// median is taken.
 struct Statistic {
-    const char* name; // in results
+    const char* name; // its name in results
     double ProfiledTime::*ms;
 };
 
@@ -92,7 +93,7 @@ bool inAll(const std::vector<ProfiledRun>& runs, const std::string& name)
     });
 }
 
-// Times of `name` in every run; 0 where it did not take place.
+// Returns the time of `name` in every run, or 0 for a run that does not have it.
 std::vector<double> timesOf(const std::vector<ProfiledRun>& runs, const std::string& name,
                             const Statistic& statistic)
 {
@@ -110,7 +111,7 @@ bool allPositive(const std::vector<double>& values)
     return std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
 }
 
-// Not of a pass that did not take place in some run, or was too short there to be timed.
+// Returns false for a pass that is missing in some run, or that was too short there to be timed.
 bool hasRatio(const ComparedRow& row)
 {
     return allPositive(row.times.a) && allPositive(row.times.b);
@@ -206,14 +207,14 @@ int compare(const ProgramContext& program, const CompareArguments& given)
     if (!args.fileB.empty())
         args.b = {args.fileB};
     if (args.a.empty() || args.b.empty())
-        throw UsageError("compare: needs results of candelabra profile --json, for A and for B");
+        throw UsageError("compare: give results of candelabra profile --json for both A and B");
     const std::vector<ProfiledRun> a = runsOf(args.a), b = runsOf(args.b);
     if (args.paired && a.size() != b.size())
-        throw UsageError(fmt::format("--paired: A has {}, B {}: there must be as many",
+        throw UsageError(fmt::format("--paired: A has {} and B {}, but both need the same number",
                                      counted(a.size(), "run"), counted(b.size(), "run")));
     const std::vector<std::string> differences = objections(a, b);
     if (!differences.empty() && !args.force)
-        throw UsageError(differences[0] + "; --force compares all the same");
+        throw UsageError(differences[0] + "; --force compares them nevertheless");
     for (const std::string& difference : differences)
         spdlog::warn("warning: {}", difference);
 
@@ -229,10 +230,11 @@ int compare(const ProgramContext& program, const CompareArguments& given)
             fmt::format("A: {}, B: {}{}\n{}", counted(a.size(), "run"), counted(b.size(), "run"),
                         args.paired ? ", in pairs" : "", comparedTable(rows, statistic));
         if (tooFew)
-            text += fmt::format("Fewer than {} runs of each have no interval.\n", needed);
+            text += fmt::format("There is no interval with fewer than {} runs of each.\n", needed);
         else
-            text += "All intervals hold together: of twenty such comparisons of what is alike, one "
-                    "finds a difference.\n";
+            text +=
+                "All intervals hold together with 95% confidence: of twenty such comparisons of "
+                "equal programs, one finds a difference by chance.\n";
         writeText("-", text);
     }
     if (!args.json.empty())
@@ -255,36 +257,39 @@ int compare(const ProgramContext& program, const CompareArguments& given)
 void addCompareCommand(CLI::App& app, Run& run)
 {
     CLI::App* command = app.add_subcommand(
-        "compare", "Tell whether runs of profile differ by more than chance makes them differ");
+        "compare", "Test whether two sets of runs of profile differ significantly");
     const auto a = std::make_shared<CompareArguments>();
-    command->add_option("A", a->fileA, "runs before: a file of profile --json, --append");
-    command->add_option("B", a->fileB, "runs after")->needs("A");
-    command->add_option("--a", a->a, "instead: files with runs of A")->type_name("FILE...");
-    command->add_option("--b", a->b, "and of B")->type_name("FILE...");
-    command->add_flag("--paired", a->paired,
-                      "the n-th run of A was made beside the n-th of B: what drifts meanwhile is "
-                      "left out; needs at least 6 of each");
+    command->add_option("A", a->fileA,
+                        "runs before a change: a file that profile --json --append has written");
+    command->add_option("B", a->fileB, "runs after it, likewise")->needs("A");
+    command->add_option("--a", a->a, "several files with runs of A, instead of two files")
+        ->type_name("FILE...");
+    command->add_option("--b", a->b, "several files with runs of B")->type_name("FILE...");
+    command->add_flag(
+        "--paired", a->paired,
+        "the n-th run of A was made next to the n-th run of B: removes slow drifts of "
+        "the machine; needs at least 6 runs of each");
     command
         ->add_option("--tolerance", a->tolerance,
-                     "exit with 3 only where something is slower by more than this")
+                     "exit with 3 only if something is slower by more than this")
         ->type_name("PERCENT")
         ->capture_default_str();
     command->add_flag(
         "--force", a->force,
-        "compare runs of different devices, scenes, sizes, paths or numbers of frames "
-        "as well");
-    command->add_option("--json", a->json, "all figures for machines; - is standard output")
+        "compare runs even if their devices, scenes, sizes, paths or numbers of frames "
+        "differ");
+    command->add_option("--json", a->json, "JSON file with all figures; - is standard output")
         ->type_name("FILE");
     command->footer(
-        "A run is one call of profile. Of its frames the shortest time of each pass is compared, "
-        "to\n"
-        "which a busy machine adds least; the median along a path and where lights move. At least\n"
-        "4 runs with 4, better 5 with 5 and more, of 40 frames and more, of all as many. Take the\n"
-        "runs of A and B in turn, so that a machine that slows down slows both.\n"
-        "\"cannot tell\": the interval is wider than the change. \"too short to time\": in some "
-        "run\n"
-        "it took no longer than the stamp that is subtracted.\n"
-        "Exit code 3: something is slower; 0: nothing is, or chance cannot be excluded.\n\n"
+        "A run is one call of profile. The shortest time of each pass over the frames of a run is\n"
+        "compared, because a busy machine adds least to it; with a camera path or moving lights\n"
+        "it is the median. Compare at least 4 runs with 4, better 5 with 5 or more, of 40 frames\n"
+        "or more each, and of equally many frames. Make the runs of A and B alternately, so that\n"
+        "a machine that becomes slower affects both.\n"
+        "\"cannot tell\" means that the interval is wider than the change; \"too short to time\",\n"
+        "that in some run the pass took no longer than the timestamp that is subtracted.\n"
+        "The exit code is 3 if something is slower, and 0 if nothing is or if the difference may\n"
+        "be chance.\n\n"
         "Examples:\n"
         "  for i in 1 2 3 4 5; do\n"
         "    old/candelabra profile hall --json a.json --append -q\n"

@@ -37,7 +37,7 @@ int listDevices(bool json)
         return exitOk;
     }
     if (devices.empty())
-        chooseDevice(devices, ""); // says so
+        chooseDevice(devices, ""); // throws an error that says so
     Table table({"device", "type", "Vulkan", "driver", "lacks"});
     for (const DeviceInfo& device : devices)
         table.add({fmt::format("{} {}", device.index, device.name), deviceTypeName(device.type),
@@ -54,7 +54,7 @@ void addDevicesCommand(CLI::App& app, Run& run)
     CLI::App* command =
         app.add_subcommand("devices", "List the Vulkan devices and what each lacks");
     const auto json = std::make_shared<bool>(false);
-    command->add_flag("--json", *json, "as JSON");
+    command->add_flag("--json", *json, "print the list as JSON");
     command->footer("Examples:\n"
                     "  candelabra devices\n"
                     "  candelabra devices --json");

@@ -23,7 +23,7 @@ std::vector<const CLI::App*> partsOf(const CLI::App& app)
     return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-// Those that are typed with dashes.
+// The options that are typed with dashes.
 std::vector<const CLI::Option*> namedOptions(const CLI::App& app)
 {
     return app.get_options([](const CLI::Option* o) { return o->nonpositional(); });

@@ -10,7 +10,7 @@ namespace candelabra::app
 
 void logWarnings(const Scene& scene)
 {
-    constexpr size_t shown = 10; // a broken file can have thousands
+    constexpr size_t shown = 10; // a broken file can give thousands of warnings
     for (size_t i = 0; i < scene.warnings.size() && i < shown; ++i)
         spdlog::warn("warning: {}", scene.warnings[i]);
     if (scene.warnings.size() > shown)

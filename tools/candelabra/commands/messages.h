@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every command says on stderr about its scene and its device.
+// Messages on stderr about the scene and the device, which most commands print.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace candelabra::app
 {
 
-// Logs what a loader understood but did not use.
+// Logs the warnings of the scene's loader, at most ten of them.
 void logWarnings(const Scene& scene);
 
 // Prints the validation messages collected so far on stderr and returns how many there were.

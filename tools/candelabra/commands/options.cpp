@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/options.h"
-#include "scene/scene_options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "candelabra/candelabra.hpp"
 #include "commands/choice_option.h"
 #include "generate/generators.h"
 #include "io/table.h"
 #include "render/setting_names.h"
+#include "scene/scene_options.h"
 
 namespace candelabra::app
 {
+
 uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,
                         uint32_t max)
 {
@@ -50,12 +53,12 @@ void DeviceArguments::addTo(CLI::App& command)
 {
     command
         .add_option("--device", device,
-                    "Vulkan device: an index or a part of the name (candelabra devices lists "
-                    "them); default: discrete, then integrated, then CPU")
+                    "Vulkan device by its index or a part of its name, as candelabra devices lists "
+                    "them; default: a discrete GPU, else an integrated one, else a CPU")
         ->type_name("INDEX|NAME");
     command.add_flag("--validate", validate,
-                     "run with the Vulkan validation layers; any message goes to stderr and makes "
-                     "the exit code 1");
+                     "run with the Vulkan validation layers; their messages go to stderr, and any "
+                     "message makes the exit code 1");
 }
 
 ContextOptions DeviceArguments::contextOptions(Presentation presentation) const
@@ -67,7 +70,7 @@ ContextOptions DeviceArguments::contextOptions(Presentation presentation) const
 
 void DeviceArguments::requireRoomFor(uint32_t lights) const
 {
-    // Vulkan guarantees storage buffers of 2^27 bytes; a light takes less than 64.
+    // Vulkan guarantees storage buffers of 2^27 bytes, and a light takes less than 64 bytes.
     constexpr uint32_t everyDevice = (1u << 27) / 64;
     if (lights <= everyDevice)
         return;
@@ -80,11 +83,13 @@ void DeviceArguments::requireRoomFor(uint32_t lights) const
 
 void LobeArguments::addTo(CLI::App& command)
 {
-    addChoice(command, "--lobes", lobes, lobeChoices,
-              "how diffuse and specular lobes share the light (default: scene .json sum, else "
-              "conserving)");
-    command.add_flag("--energy-compensation", energyCompensation,
-                     "give back what the specular lobe loses between its microfacets");
+    addChoice(
+        command, "--lobes", lobes, lobeChoices,
+        "how the diffuse and the specular lobe of a material share the light (default: sum for "
+        "scene .json files, else conserving)");
+    command.add_flag(
+        "--energy-compensation", energyCompensation,
+        "add the light that bounces between microfacets, which the specular lobe loses");
 }
 
 void LobeArguments::applyTo(SceneOptions& options) const
@@ -97,25 +102,29 @@ void LobeArguments::applyTo(SceneOptions& options) const
 void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
 {
     scene = fallback;
-    CLI::Option* option = command
-                              .add_option(fallback.empty() ? "scene" : "scene,--scene", scene,
-                                          "hall, field, fence, showcase, or a .gltf, .glb or scene "
-                                          ".json file")
-                              ->type_name("SCENE");
+    CLI::Option* option =
+        command
+            .add_option(fallback.empty() ? "scene" : "scene,--scene", scene,
+                        "hall, field, fence, showcase, or the path of a .gltf, .glb or "
+                        "scene .json file")
+            ->type_name("SCENE");
     if (fallback.empty())
         option->required();
     else
         option->capture_default_str();
-    command.add_option("--seed", seed, "seed of everything random in the scene (1)")
+    command.add_option("--seed", seed, "seed of everything that is random in the scene (1)")
         ->type_name("S");
     command
-        .add_option("--overlaps", overlaps,
-                    "mean number of lights whose influence covers a pixel (hall, field, fence: 8)")
+        .add_option(
+            "--overlaps", overlaps,
+            "mean number of generated lights that contribute to a pixel; it sets the radius of "
+            "their influence (8)")
         ->type_name("K");
-    command.add_flag("--moving", moving, "lights move");
+    command.add_flag("--moving", moving,
+                     "let lights move; the own lights of files stay where they are");
     command
         .add_option("--punctual-radius", punctualRadius,
-                    "files: point lights without a radius become spheres of this radius (m)")
+                    "glTF files: point lights without a radius become spheres of this radius (m)")
         ->type_name("METRES");
     command
         .add_option("--sun-radius", sunRadius,
@@ -123,17 +132,19 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
                     "has this sine (the Sun: 0.00465)")
         ->type_name("SINE");
     command
-        .add_option("--environment", environment,
-                    "light from all around: an equirectangular image, .hdr, .exr or .pfm, in "
-                    "cd/m^2, up at the top, seen where no surface is")
+        .add_option(
+            "--environment", environment,
+            "light from all directions: an equirectangular image in cd/m^2 (.hdr, .exr or .pfm), "
+            "with up at its top; it is also seen where no surface is")
         ->type_name("FILE");
     command
-        .add_option("--environment-rotation", environmentRotation,
-                    "turns the environment about the vertical, counter-clockwise from above (0)")
+        .add_option(
+            "--environment-rotation", environmentRotation,
+            "turn the environment about the vertical, counter-clockwise seen from above (0)")
         ->type_name("DEGREES");
     command
         .add_option("--environment-scale", environmentScale,
-                    "factor on the environment's luminance (1)")
+                    "factor for the environment's luminance (1)")
         ->type_name("FACTOR");
     lobes.addTo(command);
 }
@@ -141,8 +152,10 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
 void SceneArguments::addLightsTo(CLI::App& command)
 {
     command
-        .add_option("--lights", lightsOption,
-                    "hall, field, fence: number of sphere lights (4000); files: extra random ones")
+        .add_option(
+            "--lights", lightsOption,
+            "number of sphere lights of hall, field and fence (4000); a file gets as many random "
+            "ones in addition to its own")
         ->type_name("N");
 }
 
@@ -185,9 +198,9 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
         spdlog::warn("warning: {} has no effect: {}", option, reason);
     };
     if (!punctualRadius.empty() && (!file || scene.ends_with(".json")))
-        warn("--punctual-radius", "it is about point lights of glTF files");
+        warn("--punctual-radius", "it is for point lights of glTF files");
     if (!sunRadius.empty() && (!file || scene.ends_with(".json")))
-        warn("--sun-radius", "it is about directional lights of glTF files");
+        warn("--sun-radius", "it is for directional lights of glTF files");
     if (environment.empty() && !environmentRotation.empty())
         warn("--environment-rotation", "there is no --environment");
     if (environment.empty() && !environmentScale.empty())
@@ -195,7 +208,7 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
     if (generated || lights.value_or(0))
         return;
     const std::string reason =
-        file ? "it is about generated lights, which " + scene + " gets with --lights N only"
+        file ? "it is for generated lights, which " + scene + " gets with --lights N only"
              : scene + " has one light of every type";
     if (!overlaps.empty())
         warn("--overlaps", reason);
@@ -203,6 +216,196 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
         warn("--moving", reason);
     if (!seed.empty())
         warn("--seed", reason);
+}
+
+namespace
+{
+
+constexpr Choice<bool> onOffChoices[] = {{"on", true}, {"off", false}};
+
+} // namespace
+
+void FrameArguments::addViewTo(CLI::App& command)
+{
+    command
+        .add_option("--size", size,
+                    "image size in pixels; default: the scene's size, else 1280x720")
+        ->type_name("WxH");
+    command
+        .add_option(
+            "--camera", camera,
+            "camera of the scene by name (hall: nave, gallery; field: terrace, overview; fence: "
+            "path, above; showcase: front, above) or by index, or a new one: position and target "
+            "in metres, and vertical field of view in degrees; default: the scene's first")
+        ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
+    addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
+              "show area lights as emitters (default: as the scene says)");
+}
+
+void FrameArguments::addTo(CLI::App& command)
+{
+    specular = specularName(CND_SPECULAR_CONIC);
+    addViewTo(command);
+    command.add_option("--exposure", exposure, "automatic, or a fixed EV100")
+        ->type_name("auto|EV")
+        ->capture_default_str();
+    command.add_option("--compensation", compensation, "make the picture brighter by this many EV")
+        ->type_name("EV")
+        ->capture_default_str();
+    addChoice(command, "--metering", metering, meteringChoices,
+              "how automatic exposure weights the pixels");
+    addChoice(command, "--tonemap", toneMap, toneMapChoices, "tone map of the display image");
+    addChoice(command, "--specular", specular, specularChoices,
+              "method of evaluating the specular lobe");
+    command
+        .add_option("--samples", sampleCount,
+                    "samples per light and pixel of --specular sampled (1..4096)")
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--error-budget", errorBudget,
+            "evaluate each light as cheaply as this bound of its error allows; the bound is a "
+            "share of the highest response (0.01: 1%); 0: evaluate every light in full")
+        ->type_name("E")
+        ->capture_default_str();
+    addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "layout of the G-buffer");
+}
+
+void FrameArguments::addCullingTo(CLI::App& command)
+{
+    addChoice(command, "--culling", culling, cullingChoices,
+              "how a pixel finds its lights, by clusters or by trying all");
+}
+
+void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
+{
+    reuse = reuseName(fallback);
+    addChoice(
+        command, "--reuse", reuse, reuseChoices,
+        "what a frame reuses of the frame before if nothing has changed; the image is the same");
+}
+
+void FrameArguments::addDebugTo(CLI::App& command)
+{
+    addChoice(command, "--debug", heatMap, heatMapChoices,
+              "instead of the picture, show in false colours what the lights cost each pixel");
+}
+
+void FrameArguments::addInfluenceTo(CLI::App& command)
+{
+    addChoice(command, "--influence", influence, influenceChoices,
+              "how far lights reach: as the scene gives their influence radii, or everywhere");
+    command
+        .add_option(
+            "--influence-error", influenceError,
+            "let lights reach as far as the display can show: all light that is cut together "
+            "changes no channel by more than this share of its range, under the exposure "
+            "of the frame before")
+        ->type_name("E, such as 0.5/255 or 0.002");
+}
+
+PixelSize FrameArguments::pixelSize(const Scene& scene, const Camera& chosen) const
+{
+    PixelSize out{1280, 720};
+    if (!size.empty()) {
+        const auto parsed = parseSize(size);
+        if (!parsed)
+            throw UsageError("--size \"" + size + "\": expected WIDTHxHEIGHT such as 1280x720");
+        out = *parsed;
+    } else if (scene.resolution) {
+        out = {scene.resolution->x, scene.resolution->y};
+    } else if (chosen.aspect) {
+        // The default height, and the width that gives square pixels.
+        const double width = std::round(out.height * *chosen.aspect);
+        out.width = uint32_t(std::clamp(width, 1.0, double(maxSide)));
+    }
+    if (out.width > maxSide || out.height > maxSide)
+        throw UsageError(fmt::format("image size {}x{}: at most {} pixels per side", out.width,
+                                     out.height, maxSide));
+    return out;
+}
+
+CndGBufferLayout FrameArguments::gbufferLayout() const
+{
+    return choose("--gbuffer", gbuffer, gbufferChoices);
+}
+
+CndSpecularMethod FrameArguments::specularMethod() const
+{
+    return choose("--specular", specular, specularChoices);
+}
+
+uint32_t FrameArguments::samples() const
+{
+    return unsignedOption("--samples", sampleCount, 1, 4096);
+}
+
+float FrameArguments::budget() const
+{
+    return float(numberOption("--error-budget", errorBudget, 0, 1));
+}
+
+CndCulling FrameArguments::cullingMode() const
+{
+    return choose("--culling", culling, cullingChoices);
+}
+
+CndInfluence FrameArguments::influenceRule() const
+{
+    const CndInfluenceRule rule = choose("--influence", influence, influenceChoices);
+    if (influenceError.empty())
+        return {.rule = rule};
+    const size_t slash = influenceError.find('/');
+    const auto above = parseNumber(influenceError.substr(0, slash));
+    const auto below = slash == std::string::npos ? std::optional(1.0)
+                                                  : parseNumber(influenceError.substr(slash + 1));
+    const double error = above && below ? *above / *below : 0;
+    if (!(error > 0 && error <= 1) || !(float(error) > 0))
+        throw UsageError("--influence-error \"" + influenceError +
+                         "\": must be above 0 and at most 1, such as 0.5/255 or 0.002");
+    if (rule != CND_INFLUENCE_GIVEN)
+        throw UsageError("--influence-error: cannot be combined with --influence uncut");
+    if (cullingMode() == CND_CULLING_BRUTE)
+        throw UsageError("--influence-error: --culling brute cuts no light");
+    return {.rule = CND_INFLUENCE_BY_ERROR, .maxError = float(error)};
+}
+
+Reuse FrameArguments::reuseMode() const
+{
+    return choose("--reuse", reuse, reuseChoices);
+}
+
+HeatMap FrameArguments::heatMapMode() const
+{
+    const HeatMap out = choose("--debug", heatMap, heatMapChoices);
+    if (out != HeatMap::None && cullingMode() != CND_CULLING_CLUSTERED)
+        throw UsageError("--debug: shows the cost of lists, which needs --culling clustered");
+    return out;
+}
+
+std::optional<bool> FrameArguments::lightsVisibleOverride() const
+{
+    if (lightsVisible.empty())
+        return std::nullopt;
+    return choose("--lights-visible", lightsVisible, onOffChoices);
+}
+
+CndExposureSettings FrameArguments::exposureSettings() const
+{
+    CndExposureSettings out = defaultExposureSettings();
+    if (exposure != "auto") {
+        const auto ev = parseNumber(exposure);
+        if (!ev || std::abs(*ev) > 40)
+            throw UsageError("--exposure \"" + exposure +
+                             "\": must be auto or an EV100 from -40 to 40");
+        out.manual = VK_TRUE;
+        out.manualEv100 = float(*ev);
+    }
+    out.compensation = float(numberOption("--compensation", compensation, -20, 20));
+    out.metering = choose("--metering", metering, meteringChoices);
+    out.toneMap = choose("--tonemap", toneMap, toneMapChoices);
+    return out;
 }
 
 } // namespace candelabra::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options that several commands share, described and checked once.
+// Options that several commands share. They are described and checked here once.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@
 namespace candelabra::app
 {
 
-// What every command gets from main.
+// What every command is given by main.
 struct ProgramContext {
     std::string commandLine;
     bool quiet = false;
@@ -29,12 +29,12 @@ struct DeviceArguments {
 
     void addTo(CLI::App& command);
     ContextOptions contextOptions(Presentation presentation = Presentation::Headless) const;
-    // Throws UsageError when the device has no room for as many lights: before a scene with them
-    // is made, which takes long.
+    // Throws UsageError if the device has no room for so many lights. Call it before a scene with
+    // them is made, which takes long.
     void requireRoomFor(uint32_t lights) const;
 };
 
-// How the lobes of materials share the light.
+// How the diffuse and the specular lobe of a material share the light.
 struct LobeArguments {
     std::string lobes;
     bool energyCompensation = false;
@@ -43,8 +43,8 @@ struct LobeArguments {
     void applyTo(SceneOptions& options) const; // throws UsageError
 };
 
-// SCENE and what shapes it. The number of lights is the command's: one for `render`, a list for
-// `stress`.
+// SCENE and the options that shape it. The number of lights is not among them, because `render`
+// takes one number and `stress` a list.
 struct SceneArguments {
     std::string scene, lightsOption;
     std::string seed, overlaps, punctualRadius, sunRadius;
@@ -52,18 +52,20 @@ struct SceneArguments {
     LobeArguments lobes;
     bool moving = false;
 
-    // With a `fallback` the scene may be left out and named with --scene as well.
+    // With a `fallback`, which is the default scene, SCENE may be left out, or be named with
+    // --scene.
     void addTo(CLI::App& command, const std::string& fallback = "");
     // For commands that draw one number of lights.
     void addLightsTo(CLI::App& command);
-    std::optional<uint32_t> lightCount() const; // empty: not given. Throws UsageError
+    // The value of --lights, or nothing if it is not given. Throws UsageError.
+    std::optional<uint32_t> lightCount() const;
     // Throws UsageError.
     SceneOptions options(std::optional<uint32_t> lights) const;
-    // Warns on stderr of options given that change nothing about this scene.
+    // Warns on stderr about given options that have no effect on this scene.
     void warnOfIdleOptions(std::optional<uint32_t> lights) const;
 };
 
-// How a frame is made.
+// How a frame is drawn.
 struct FrameArguments {
     std::string size, camera;
     std::string gbuffer = "full", specular, culling = "clustered";
@@ -73,34 +75,36 @@ struct FrameArguments {
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
 
     void addTo(CLI::App& command);
-    // Of those only what is seen: size, camera and visible lights.
+    // Adds only the options of what is seen: size, camera and visible lights.
     void addViewTo(CLI::App& command);
     void addCullingTo(CLI::App& command);
     void addReuseTo(CLI::App& command, Reuse fallback);
     void addDebugTo(CLI::App& command);
     void addInfluenceTo(CLI::App& command);
 
-    // All throw UsageError for what they cannot read.
+    // All of these throw UsageError for a value that they cannot read.
     PixelSize pixelSize(const Scene& scene, const Camera& camera) const;
     CndGBufferLayout gbufferLayout() const;
     CndSpecularMethod specularMethod() const;
     uint32_t samples() const; // per light, of the specular method "sampled"
     float budget() const;     // CndLightingFrame::errorBudget
     CndCulling cullingMode() const;
-    CndInfluence influenceRule() const; // without the exposure, which the renderer knows
+    CndInfluence influenceRule() const; // its exposure is set by the renderer
     Reuse reuseMode() const;
-    HeatMap heatMapMode() const; // with clustered culling only
+    HeatMap heatMapMode() const; // throws if culling is not clustered
     std::optional<bool> lightsVisibleOverride() const;
     CndExposureSettings exposureSettings() const;
 };
 
-// Numbers of options: a sentence that names the option, its text and the range otherwise.
+// Read the number or the list of numbers in `text`. Throw a UsageError that names the option, its
+// text and the range if it is something else.
 uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,
                         uint32_t max);
 double numberOption(const std::string& option, const std::string& text, double min, double max);
 std::vector<uint32_t> unsignedListOption(const std::string& option, const std::string& text,
                                          uint32_t min, uint32_t max);
 
-constexpr uint32_t maxSide = 16384; // pixels of an image: the modules' limit
+// The largest width and height of an image in pixels. It is the limit of the engine's modules.
+constexpr uint32_t maxSide = 16384;
 
 } // namespace candelabra::app

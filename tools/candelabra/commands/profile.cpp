@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra profile: where the time of a frame goes, and whether one way of drawing it is faster
-// than another.
+// candelabra profile: measures the time of every pass of a frame, and whether one way of drawing it
+// is faster than another.
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,7 +55,7 @@ FrameOptions frameOptions(const FrameArguments& frame)
             .exposure = frame.exposureSettings()};
 }
 
-// `text`: options of a frame, which replace those of the command line.
+// Returns the frame's options after those in `text` have replaced options of the command line.
 FrameOptions variant(const FrameArguments& base, const std::string& text)
 {
     FrameArguments frame = base;
@@ -74,7 +74,7 @@ FrameOptions variant(const FrameArguments& base, const std::string& text)
     }
     if (frame.size != base.size || frame.camera != base.camera || frame.gbuffer != base.gbuffer ||
         frame.lightsVisible != base.lightsVisible)
-        refuse("size, camera, G-buffer layout and visible lights are the same for both");
+        refuse("size, camera, G-buffer layout and visible lights must be the same for both");
     try {
         return frameOptions(frame);
     } catch (const UsageError& error) {
@@ -105,8 +105,9 @@ ProfilePlan plan(const ProfileArguments& a)
         if (a.json.empty() || a.json == "-")
             throw UsageError("--append: needs --json with a file");
         if (!a.ab.empty())
-            throw UsageError("--append: --ab compares by itself, its results are not collected");
-        withRun(a.json, {}); // refuses a file that cannot be continued
+            throw UsageError(
+                "--append: --ab compares by itself, and its results are not collected");
+        withRun(a.json, {}); // throws if the file holds something else than runs
     }
     const uint32_t rounds = unsignedOption("--frames", a.frames, 1, 1'000'000);
     if (!a.trace.empty() && rounds > maxTracedFrames)
@@ -115,11 +116,13 @@ ProfilePlan plan(const ProfileArguments& a)
     if (!a.lightCosts.empty()) {
         unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);
         if (!a.ab.empty() || a.frame.cullingMode() != CND_CULLING_CLUSTERED)
-            throw UsageError("--light-costs: is about lists of one way to draw: not with --ab or "
-                             "--culling brute");
+            throw UsageError(
+                "--light-costs: needs the lists of one variant, so it cannot be combined "
+                "with --ab or --culling brute");
         if (a.frame.influenceRule().rule != CND_INFLUENCE_GIVEN)
-            throw UsageError("--light-costs: knows the radii that lights are given: not with "
-                             "--influence uncut or --influence-error");
+            throw UsageError(
+                "--light-costs: needs the given influence radii, so it cannot be combined "
+                "with --influence uncut or --influence-error");
     }
     ProfilePlan p{.scene = a.scene.options(a.scene.lightCount()),
                   .gbufferLayout = a.frame.gbufferLayout(),
@@ -130,9 +133,10 @@ ProfilePlan plan(const ProfileArguments& a)
         return p;
     }
     if (p.settings.rounds < minPairs)
-        throw UsageError(fmt::format("--frames {}: --ab needs at least {}, fewer pairs have no "
-                                     "interval of 95%",
-                                     a.frames, minPairs));
+        throw UsageError(
+            fmt::format("--frames {}: --ab needs at least {}, because fewer pairs have "
+                        "no interval of 95%",
+                        a.frames, minPairs));
     p.names = {"A", "B"};
     for (const std::string& text : a.ab)
         p.settings.variants.push_back(variant(a.frame, text));
@@ -172,11 +176,12 @@ std::string text(const ProfileArguments& a, const Profile& profile)
     if (a.ab.empty())
         return seriesTable(profile.series[0]) + overheadText(profile.series[0], profile.stampMs);
     const auto shown = [](const std::string& options) {
-        return options.empty() ? std::string("as the command line says") : options;
+        return options.empty() ? std::string("the options of the command line") : options;
     };
     return fmt::format("A: {}\nB: {}\n", shown(a.ab[0]), shown(a.ab[1])) +
            comparisonTable(profile.series[0], profile.series[1]) +
-           "Of twenty rows that are alike, one is called faster or slower by chance.\n";
+           "Each row has its own 95% interval: of twenty rows without a difference, one is called "
+           "faster or slower by chance.\n";
 }
 
 int profile(const ProgramContext& program, const ProfileArguments& a)
@@ -188,7 +193,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     logWarnings(scene);
     const Camera camera = selectCamera(scene, a.frame.camera);
     const PixelSize size = a.frame.pixelSize(scene, camera);
-    makeCamera(camera, double(size.width) / size.height); // refuses before the GPU is asked
+    makeCamera(camera, double(size.width) / size.height); // throws before a device is created
     uint32_t methods = 0;
     bool byError = false;
     for (FrameOptions& options : p.settings.variants) {
@@ -219,7 +224,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
                                [&] { progress.advance(1); });
     }
     if (!result.settled)
-        spdlog::warn("warning: times had not settled after {} of warming up; the machine is busy",
+        spdlog::warn("warning: times were not stable after {} of warming up; the machine is busy",
                      counted(result.warmUpRounds, "frame"));
     const bool toTerminal = a.json != "-" && a.csv != "-" && a.trace != "-";
     if (toTerminal)
@@ -257,44 +262,51 @@ void addProfileCommand(CLI::App& app, Run& run)
     a->scene.addLightsTo(*command);
     command
         ->add_option("--frames", a->frames,
-                     "frames measured, after as many as it takes until their times are stable "
-                     "(at most 24)")
+                     "number of frames to measure, after warm-up frames until times are stable (at "
+                     "most 24)")
         ->type_name("N")
         ->capture_default_str();
     command
         ->add_option("--path", a->path,
-                     "still, or turn: the camera once around the vertical, in N frames")
+                     "path of the camera: still, or turn, once around the vertical in all frames")
         ->type_name("NAME")
         ->capture_default_str();
     command
-        ->add_option("--ab", a->ab,
-                     "two texts of frame options, the second compared with the first: frames take "
-                     "turns, and the ratio of each pass comes with a 95% interval")
+        ->add_option(
+            "--ab", a->ab,
+            "compare two variants of the frame, given as two texts of options: their frames "
+            "are drawn alternately, and each pass gets a ratio with a 95% interval")
         ->type_name("OPTIONS OPTIONS")
-        ->type_size(2); // takes two even where they begin with dashes
-    command->add_option("--csv", a->csv, "all times, a line per frame; - is standard output")
+        ->type_size(2); // so that texts may begin with dashes
+    command
+        ->add_option("--csv", a->csv,
+                     "CSV file with all times, one line per frame; - is standard output")
         ->type_name("FILE");
     command
-        ->add_option("--light-costs", a->lightCosts,
-                     "the N lights that take most of the time of shading, and why: pixels they "
-                     "cover, pairs evaluated for them")
+        ->add_option(
+            "--light-costs", a->lightCosts,
+            "list the N lights that take most of the shading time, with the pixels that they "
+            "cover and the pairs evaluated for them")
         ->type_name("N");
     command
         ->add_option("--trace", a->trace,
-                     "every measured frame on CPU and GPU in one time, for ui.perfetto.dev or "
-                     "chrome://tracing; - is standard output")
+                     "trace file with all measured frames, CPU and GPU on one time axis, for "
+                     "ui.perfetto.dev or chrome://tracing; - is standard output")
         ->type_name("FILE");
     command
         ->add_option("--json", a->json,
-                     "summary of all times and where they come from; - is standard output")
+                     "JSON file with a summary of all times and their provenance; - is standard "
+                     "output")
         ->type_name("FILE");
     command->add_flag("--append", a->append,
-                      "add to the runs that the file of --json holds, for candelabra compare");
+                      "add this run to those in the file of --json, for candelabra compare");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
     a->frame.addInfluenceTo(*command);
     a->device.addTo(*command);
-    command->footer("One frame at a time is drawn, waited for and timed by the GPU's clock.\n\n"
+    command->footer("Frames are drawn one at a time: each is waited for before the next begins. "
+                    "Times of passes "
+                    "are the GPU's.\n\n"
                     "Examples:\n"
                     "  candelabra profile hall --lights 16000\n"
                     "  candelabra profile hall --path turn --frames 120 --csv frames.csv\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra render: one image of one scene.
+// candelabra render: renders a scene into image files.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -35,7 +35,7 @@ struct RenderArguments {
     std::vector<std::string> outputs;
 };
 
-// What the arguments say, checked before anything is loaded.
+// The settings that the arguments give. They are checked before anything is loaded.
 struct RenderPlan {
     SceneOptions scene;
     FrameOptions frame;
@@ -44,7 +44,7 @@ struct RenderPlan {
     std::optional<PixelPosition> pick;
 };
 
-// The same file however it is spelled.
+// Returns the same path for the same file, however its path is spelled.
 std::filesystem::path identity(const std::string& path)
 {
     std::error_code unknown;
@@ -87,13 +87,14 @@ std::optional<PixelPosition> pickedPixel(const RenderArguments& a)
 RenderPlan plan(const RenderArguments& a)
 {
     if (a.outputs.empty() && a.json.empty() && a.pick.empty() && !a.explain)
-        throw UsageError("render: nothing to write; give -o FILE (.png, .exr, .hdr, .pfm), "
-                         "--json FILE, --pick X,Y or --explain");
+        throw UsageError("render: there is nothing to write; give -o FILE (.png, .exr, .hdr, "
+                         ".pfm), --json FILE, --pick X,Y or --explain");
     requireOutputs(a);
     const CndInfluence influence = a.frame.influenceRule();
     const bool byError = influence.rule == CND_INFLUENCE_BY_ERROR;
     if (byError && a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
-        throw UsageError("--influence-error: --specular sampled is noise, which hides what is cut");
+        throw UsageError("--influence-error: cannot be combined with --specular sampled, whose "
+                         "noise hides the error");
     return {.scene = a.scene.options(a.scene.lightCount()),
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
                       .specular = a.frame.specularMethod(),
@@ -105,7 +106,7 @@ RenderPlan plan(const RenderArguments& a)
                       .heatMap = a.frame.heatMapMode(),
                       .exposure = a.frame.exposureSettings()},
             .gbufferLayout = a.frame.gbufferLayout(),
-            // Both slots have an exposure then, and the frame behind has been cut before.
+            // After three frames both slots have an exposure, and the frame before has cut lights.
             .counts = {.warmUp = byError ? 3u : 1u,
                        .measured = unsignedOption("--frames", a.frames, 1, 1'000'000)},
             .pick = pickedPixel(a)};
@@ -118,7 +119,7 @@ Json describe(const ProgramContext& program, const RenderArguments& a, const Ren
 {
     const PixelSize size = renderer.size();
     FrameOptions again = p.frame;
-    again.exposure.manual = VK_TRUE; // the count must not disturb adaptation
+    again.exposure.manual = VK_TRUE; // so that counting does not change the adapted exposure
     again.exposure.manualEv100 = frames.last.exposure.adaptedEv100;
     const CndLightingStats lighting = p.frame.culling == CND_CULLING_CLUSTERED
                                           ? countPairs(context, renderer, again)
@@ -151,7 +152,8 @@ int render(const ProgramContext& program, const RenderArguments& a)
     p.frame.camera = selectCamera(scene, a.frame.camera);
     p.frame.lightsVisible = a.frame.lightsVisibleOverride().value_or(scene.lightsVisible);
     const PixelSize size = a.frame.pixelSize(scene, p.frame.camera);
-    makeCamera(p.frame.camera, double(size.width) / size.height); // refuses before the GPU is asked
+    makeCamera(p.frame.camera,
+               double(size.width) / size.height); // throws before a device is created
     if (p.pick && (p.pick->x >= size.width || p.pick->y >= size.height))
         throw UsageError(
             fmt::format("--pick {}: the image has {}x{} pixels", a.pick, size.width, size.height));
@@ -185,7 +187,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     }
     std::optional<InfluenceCheck> cut;
     if (p.frame.influence.rule == CND_INFLUENCE_BY_ERROR) {
-        FrameOptions shown = p.frame; // the last frame, behind which time has moved on
+        FrameOptions shown = p.frame; // the options of the last frame
         shown.time += moving ? frameTime * (p.counts.measured - 1) : 0;
         cut = checkInfluence(context, renderer, shown, frames.last, scene.lights.size());
         if (a.json != "-")
@@ -210,28 +212,29 @@ void addRenderCommand(CLI::App& app, Run& run)
     a->scene.addLightsTo(*command);
     command
         ->add_option("-o,--output", a->outputs,
-                     "image file: .png for display, .exr, .hdr or .pfm for linear scene "
-                     "radiance (cd/m^2) before exposure; may be repeated")
+                     "image file: .png for the display image, .exr, .hdr or .pfm for linear scene "
+                     "radiance (cd/m^2) before exposure; may be given several times")
         ->type_name("FILE");
     command
         ->add_option("--frames", a->frames,
-                     "frames to render and time, after one like the first to warm up")
+                     "number of frames to render and time, after a warm-up frame like the first")
         ->type_name("N")
         ->capture_default_str();
-    command->add_option("--time", a->time, "scene time of the first frame, for --moving (s)")
+    command->add_option("--time", a->time, "scene time of the first frame in seconds, for --moving")
         ->type_name("SECONDS")
         ->capture_default_str();
     command
         ->add_option("--json", a->json,
-                     "timings, statistics and where they come from; - is standard output")
+                     "JSON file with times, statistics and their provenance; - is standard output")
         ->type_name("FILE");
     command
-        ->add_option("--pick", a->pick,
-                     "the lights of this pixel, counted from the left and the top: what each "
-                     "contributes, and its error against the truth in double precision")
+        ->add_option(
+            "--pick", a->pick,
+            "list the lights of the pixel X,Y, counted from the left and the top, with what "
+            "each contributes and its error against the truth in double precision")
         ->type_name("X,Y");
     command->add_flag("--explain", a->explain,
-                      "say which passes the last frame ran, and why it did without the others");
+                      "list the passes that the last frame ran, and why it skipped the others");
     a->frame.addTo(*command);
     a->frame.addCullingTo(*command);
     a->frame.addInfluenceTo(*command);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra report: every measurement, short, on one page that needs nothing else.
+// candelabra report: makes every measurement in a short form, and one page of the results that
+// needs no other file.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -10,16 +11,17 @@
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
+#include "io/html_page.h"
 #include "io/markup.h"
 #include "io/statistics.h"
 #include "io/table.h"
 #include "load/load.h"
-#include "measure/accuracy/page.h"
+#include "measure/accuracy/accuracy_page.h"
 #include "measure/culling/culling.h"
 #include "measure/frame/frames.h"
 #include "measure/frame/light_costs.h"
 #include "measure/profile/profile_frames.h"
-#include "measure/skip/skip.h"
+#include "measure/skip.h"
 #include "measure/stability/stability.h"
 #include "render/camera.h"
 #include "render/provenance.h"
@@ -38,7 +40,7 @@ struct ReportArguments {
     std::string lights = "4000", size = "1280x720", frames = "20";
 };
 
-// What a part adds to the page and to its figures in JSON.
+// What one part of the report adds to the page, and its figures as JSON.
 struct ReportPart {
     std::string html;
     Json json;
@@ -54,7 +56,7 @@ struct ReportPlan {
 constexpr const char* reportScene = "hall";
 constexpr size_t costlyLights = 20;
 
-// RGB bytes as the page's pictures hold them.
+// Converts the display image to a picture of the page.
 DisplayImage displayed(const VulkanContext& context, const Renderer& renderer)
 {
     const std::vector<uint8_t> rgb = readDisplay(context, renderer);
@@ -64,7 +66,7 @@ DisplayImage displayed(const VulkanContext& context, const Renderer& renderer)
     return out;
 }
 
-// The frame, and what it costs each pixel, with a slider between them.
+// The picture of the frame and its heat maps, with a slider between two of them.
 std::string pictures(const VulkanContext& context, Renderer& renderer, const FrameOptions& frame)
 {
     std::string figures;
@@ -176,8 +178,7 @@ ReportPart skipPart(const VulkanContext& context, bool quiet)
     const SkipSettings settings{.size = {640, 360}, .lights = 1000, .rounds = 5, .pointRounds = 10};
     Progress progress(skipSteps(settings), !quiet);
     const std::vector<SkipRow> rows = measureSkips(context, settings, progress);
-    return {.html = "<h2>What is skipped where there is nothing to do</h2>\n" +
-                    preformatted(skipTable(rows)) +
+    return {.html = "<h2>What skipping unneeded work saves</h2>\n" + preformatted(skipTable(rows)) +
                     madeBy("candelabra bench skip --size 640x360 --lights 1000 --rounds 5 "
                            "--point-rounds 10"),
             .json = skipJson(settings, rows)};
@@ -218,20 +219,20 @@ int report(const ProgramContext& program, const ReportArguments& a)
         if (const auto all = splitAtCommas(ReportArguments().parts);
             std::find(all.begin(), all.end(), part) == all.end())
             throw UsageError(
-                fmt::format("--parts \"{}\": choose among {}", a.parts, ReportArguments().parts));
+                fmt::format("--parts \"{}\": choose from {}", a.parts, ReportArguments().parts));
     const std::string html = benchOutput(a.directory, "--out", "", "index.html"),
                       json = benchOutput(a.directory, "--out", "", "report.json");
     const auto device = std::make_unique<VulkanContext>(a.device.contextOptions())->info();
     spdlog::info("report on {}", device.name);
     const Json from = provenance(device, program.commandLine);
     bool faults = false;
-    std::string page =
-        pageHead("Candelabra: what it costs and how far it is off") + provenanceTable(from);
+    std::string page = pageHead("Candelabra: times and errors") + provenanceTable(from);
     Json document{{"schema", "candelabra report 1"}, {"provenance", from}};
     for (const std::string& part : wanted) {
         spdlog::info("{}", part);
-        // A device of its own, as each command has: llvmpipe takes timestamps late, all at once, on
-        // one that has rasterised, where nothing else makes it finish (a lone kernel took 0 ms).
+        // Each part has a device of its own, as each command has. On a device that has rasterised,
+        // llvmpipe takes timestamps late and all at once unless something else makes it finish: a
+        // single kernel took 0 ms.
         const VulkanContext context(a.device.contextOptions());
         const ReportPart done = part == "profile"    ? profilePart(context, plan, program.quiet)
                                 : part == "accuracy" ? accuracyPart(context, program.quiet)
@@ -244,7 +245,7 @@ int report(const ProgramContext& program, const ReportArguments& a)
     }
     writeText(html, page + madeBy(program.commandLine) + pageEnd());
     writeJson(json, document);
-    writeText("-", fmt::format("Look at {}; its figures: {}\n", html, json));
+    writeText("-", fmt::format("See {}; its figures are in {}\n", html, json));
     return faults ? exitFailed : exitOk;
 }
 
@@ -253,18 +254,18 @@ int report(const ProgramContext& program, const ReportArguments& a)
 void addReportCommand(CLI::App& app, Run& run)
 {
     CLI::App* command = app.add_subcommand(
-        "report", "Measure everything, short, into one page to read without a network");
+        "report", "Make every measurement in a short form, and one HTML page of the results");
     const auto a = std::make_shared<ReportArguments>();
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type)->capture_default_str();
     };
-    add("--out", a->directory, "directory of index.html and report.json", "DIR");
-    add("--parts", a->parts, "what to measure, in this order", "NAME,...");
-    add("--lights", a->lights, "lights of the frame that is profiled", "N");
-    add("--size", a->size, "its size", "WxH");
-    add("--frames", a->frames, "how often it is drawn", "N");
+    add("--out", a->directory, "directory for index.html and report.json", "DIR");
+    add("--parts", a->parts, "parts to measure, in this order", "NAME,...");
+    add("--lights", a->lights, "number of lights of the frame that is profiled", "N");
+    add("--size", a->size, "image size of that frame", "WxH");
+    add("--frames", a->frames, "number of times it is drawn", "N");
     a->device.addTo(*command);
-    command->footer("Under every figure stands the command that makes it again.\n\n"
+    command->footer("Under every figure is the command with which it can be made again.\n\n"
                     "Examples:\n"
                     "  candelabra report\n"
                     "  candelabra report --parts profile,culling --lights 16000 --out out/culling");

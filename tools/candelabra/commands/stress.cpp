@@ -10,8 +10,7 @@
 #include "commands/commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
-#include "measure/stress/stress_point.h"
-#include "measure/stress/stress_report.h"
+#include "measure/stress.h"
 #include "render/provenance.h"
 #include "scene/scene_options.h"
 

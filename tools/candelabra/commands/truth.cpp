@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra truth: the image that every approximation is measured against, in double precision on
-// the CPU; in one go, or in shards that another call puts together.
+// candelabra truth: computes in double precision on the CPU the image that approximations are
+// compared with, in one call or in shards that another call merges.
 #include <filesystem>
 #include <memory>
 
@@ -28,10 +28,10 @@ namespace
 struct TruthArguments {
     std::string scene, output, tolerance = "1e-4", threads, shard, cache;
     std::vector<std::string> merge;
-    std::vector<std::string> notForMerging; // options given that merging has no use for
+    std::vector<std::string> notForMerging; // options given that --merge does not use
     bool noCache = false;
     LobeArguments lobes;
-    FrameArguments frame; // of which only size, camera and visible lights are options
+    FrameArguments frame; // only size, camera and visible lights are options of this command
 };
 
 struct ShardNumber {
@@ -51,7 +51,8 @@ ShardNumber shardNumber(const std::string& text)
     return {*index, *count};
 }
 
-// Display images have an exposure and eight bits: not for measuring.
+// Throws UsageError for display images: they have an exposure and eight bits, so they are not for
+// measuring.
 void requireLinearImage(const std::string& path)
 {
     requireImageExtension("-o", path);
@@ -59,13 +60,13 @@ void requireLinearImage(const std::string& path)
     for (char& c : extension)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (extension == ".png")
-        throw UsageError("-o " + path + ": a truth is linear luminance; choose .exr, .hdr or .pfm");
+        throw UsageError("-o " + path + ": a truth is linear radiance; choose .exr, .hdr or .pfm");
 }
 
-// Throws UsageError where writing `output` would replace `input`.
+// Throws UsageError if writing `output` would replace `input`.
 void requireOther(const std::string& output, const std::string& input)
 {
-    std::error_code missing; // then they are not the same
+    std::error_code missing; // a file that does not exist is not the same
     if (std::filesystem::equivalent(output, input, missing))
         throw UsageError("-o " + output + ": would replace " + input + ", which is read");
 }
@@ -79,10 +80,10 @@ void warnOfUnconverged(uint64_t count)
 int merge(const TruthArguments& a)
 {
     if (!a.scene.empty())
-        throw UsageError("truth: a SCENE and --merge exclude each other");
+        throw UsageError("truth: SCENE and --merge cannot be combined");
     if (!a.notForMerging.empty())
         throw UsageError("truth: " + a.notForMerging[0] +
-                         " and --merge exclude each other: shards are merged as they are");
+                         " and --merge cannot be combined: shards are merged as they are");
     requireLinearImage(a.output);
     requireWritable("-o", a.output);
     for (const std::string& path : a.merge)
@@ -105,7 +106,7 @@ int merge(const TruthArguments& a)
     return exitOk;
 }
 
-// Computes the pixels of `shard`, whose other members are set.
+// Computes the pixels of `shard`. Its other members say what to compute.
 void compute(const ProgramContext& program, const reference::Scene& scene, uint32_t threads,
              TruthShard& shard)
 {
@@ -125,13 +126,13 @@ void compute(const ProgramContext& program, const reference::Scene& scene, uint3
 int truth(const ProgramContext& program, const TruthArguments& a)
 {
     if (a.output.empty())
-        throw UsageError("truth: nothing to write; give -o FILE");
+        throw UsageError("truth: there is nothing to write; give -o FILE");
     if (!a.merge.empty())
         return merge(a);
     if (a.scene.empty())
         throw UsageError("truth: give a SCENE, or shards with --merge");
     if (a.noCache && !a.cache.empty())
-        throw UsageError("truth: --cache and --no-cache exclude each other");
+        throw UsageError("truth: --cache and --no-cache cannot be combined");
     const ShardNumber number = shardNumber(a.shard);
     if (a.shard.empty())
         requireLinearImage(a.output);
@@ -188,9 +189,10 @@ void addTruthCommand(CLI::App& app, Run& run)
     const auto a = std::make_shared<TruthArguments>();
     command->add_option("scene", a->scene, "a scene .json file")->type_name("SCENE");
     command
-        ->add_option("-o,--output", a->output,
-                     "linear scene radiance (cd/m^2): .exr, .hdr or .pfm; with --shard a file for "
-                     "--merge, of any name")
+        ->add_option(
+            "-o,--output", a->output,
+            "image file of linear scene radiance (cd/m^2): .exr, .hdr or .pfm; with --shard a "
+            "file for --merge, of any name")
         ->type_name("FILE");
     command
         ->add_option("--tolerance", a->tolerance,
@@ -199,24 +201,30 @@ void addTruthCommand(CLI::App& app, Run& run)
         ->capture_default_str();
     a->frame.addViewTo(*command);
     a->lobes.addTo(*command);
-    command->add_option("--threads", a->threads, "default: one for every core")->type_name("N");
+    command->add_option("--threads", a->threads, "number of threads; default: one for every core")
+        ->type_name("N");
     command
-        ->add_option("--shard", a->shard,
-                     "compute every n-th row only, from row i: parts that "
-                     "may run on different machines")
+        ->add_option(
+            "--shard", a->shard,
+            "compute only every n-th row, beginning with row i, so that the n parts may run on "
+            "different machines")
         ->type_name("i/n");
-    command->add_option("--merge", a->merge, "put the files of all shards together, in any order")
+    command
+        ->add_option("--merge", a->merge,
+                     "merge the files of all shards, given in any order, into one image")
         ->type_name("FILE...");
     command
         ->add_option("--cache", a->cache,
-                     "directory of truths computed before (default: candelabra/truth in "
+                     "directory in which computed truths are kept (default: candelabra/truth in "
                      "$XDG_CACHE_HOME or ~/.cache)")
         ->type_name("DIR");
-    command->add_flag("--no-cache", a->noCache, "neither look there nor store anything there");
+    command->add_flag("--no-cache", a->noCache,
+                      "compute the truth even if it is in the cache, and do not store it there");
     command->footer(
-        "A pixel shows what `candelabra render` shows there, at its centre. Where the values "
-        "differ, it is by the\nerror of the specular method: with conic that of tubes, "
-        "rectangles and discs on glossy surfaces above all.\n\n"
+        "Every pixel is evaluated at its centre, as `candelabra render` does. Differences between "
+        "the\n"
+        "two images are errors of the specular method; with conic they are largest for tubes,\n"
+        "rectangles and discs on glossy surfaces.\n\n"
         "Examples:\n"
         "  candelabra truth scene.json -o truth.exr\n"
         "  candelabra truth scene.json --shard 3/8 -o part3.truth\n"

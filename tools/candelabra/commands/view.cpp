@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra view: a window.
+// candelabra view: shows a scene in a window.
 #include <memory>
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ ViewerOptions optionsOf(const ViewArguments& a)
                       .screenshot = a.screenshot};
     if (!out.screenshot.empty()) {
         if (!out.frames)
-            throw UsageError("--screenshot needs --frames N: it shows the last of them");
+            throw UsageError("--screenshot: needs --frames N, and shows the last of these frames");
         if (!out.screenshot.ends_with(".png"))
             throw UsageError("--screenshot " + out.screenshot + ": the name must end in .png");
         requireWritable("--screenshot", out.screenshot);
@@ -60,7 +60,8 @@ int view(const ViewArguments& a)
     ViewerOptions options = optionsOf(a);
     a.scene.warnOfIdleOptions(options.sceneOptions.lights);
     a.device.requireRoomFor(options.sceneOptions.lights.value_or(0));
-    const WindowSystem system; // before the scene: without a display nothing else matters
+    const WindowSystem
+        system; // created before the scene is loaded, because there may be no display
     Scene scene = loadScene(options.scene, options.sceneOptions);
     logWarnings(scene);
     const Camera camera = selectCamera(scene, options.camera);
@@ -79,11 +80,12 @@ void addViewCommand(CLI::App& app, Run& run)
     const auto a = std::make_shared<ViewArguments>();
     a->scene.addTo(*command, "hall");
     a->scene.addLightsTo(*command);
-    command->add_option("--frames", a->frames, "stop after N frames, 1/60 s apart; 0: run on")
+    command->add_option("--frames", a->frames, "stop after N frames, 1/60 s apart; 0: do not stop")
         ->type_name("N")
         ->capture_default_str();
     command
-        ->add_option("--screenshot", a->screenshot, "PNG of the window after the last of --frames")
+        ->add_option("--screenshot", a->screenshot,
+                     "PNG file for a picture of the window with the last of --frames")
         ->type_name("FILE");
     command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
     a->frame.addTo(*command);

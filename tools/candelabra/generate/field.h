@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field's plan, shared by the files that build it: a city of 4 km x 4 km by night, y = 0 is the
-// street. The default camera stands in the south (+z) and looks north over a river. Metres.
+// The plan of the field, which the files that build it share: a city of 4 km x 4 km at night. y = 0
+// is the height of the streets. The default camera stands in the south (+z) and looks north over a
+// river. All lengths are in metres.
 //
 //   -z north: hills (beyond 2000) - downtown - river (z 880..1040) - low houses - camera - +z south
 #pragma once
@@ -25,10 +26,11 @@ constexpr double kerbHeight = 0.18;
 constexpr double riverSouth = 1040, riverNorth = 880; // z of the banks, on block borders
 constexpr double waterLevel = -1.2;
 constexpr double lampSpacing = 20, lampHeight = 7.2;
-constexpr double lampOffset = 0.5 * streetWidth + 0.8; // of the post from the middle of the street
-constexpr double lampReach = 2.4;                      // of the arm over the street
+constexpr double lampOffset = 0.5 * streetWidth + 0.8; // from the middle of the street to the post
+constexpr double lampReach = 2.4;                      // length of the arm over the street
 
-// Middle of block 0 .. blockCount - 1, in x or z, and of the street before it (and after the last).
+// The x or z of the middle of a block, 0 to blockCount - 1, and of the street before it; street
+// blockCount follows the last block.
 constexpr double blockCentre(int block)
 {
     return -cityHalf + blockSize * (block + 0.5);
@@ -42,16 +44,16 @@ constexpr bool isRiver(double z)
     return z > riverNorth && z < riverSouth;
 }
 
-// The default camera, which detail is measured against.
+// The position of the default camera. Details become coarser with the distance from it.
 constexpr glm::dvec3 cameraPosition{52, 88, 1600};
 
-// Of the sky, cd/m^2.
+// The luminance of the sky in cd/m^2.
 constexpr glm::vec3 skyLuminance{0.22f, 0.33f, 0.60f};
 
 // The suspension bridge that crosses the river on the street x = 0.
 constexpr double pylonHeight = 38;
 constexpr double bridgeHalfWidth = 7.5;
-// Height of its cables at `t` = 0..1 between the banks' pylons.
+// The height of its cables at `t` = 0..1 between the pylons on the two banks.
 constexpr double cableHeight(double t)
 {
     return pylonHeight - 4 * (pylonHeight - 4) * t * (1 - t);
@@ -71,12 +73,12 @@ struct Meshes {
     uint32_t lamp, tree, rod, ring, ball, hill, mast;
 };
 
-// Facades by how many storeys their windows are spread over.
+// Classes of facades by the number of storeys over which their windows are spread.
 constexpr std::array<int, 5> storeyClasses = {3, 7, 14, 26, 48};
 
 struct Materials {
-    std::vector<uint32_t> asphalt; // wet to dry
-    std::vector<uint32_t> facades; // styles x storey classes
+    std::vector<uint32_t> asphalt; // from wet to dry
+    std::vector<uint32_t> facades; // one per style and storey class
     uint32_t pavement, water, grass, leaves, steel, painted, chrome, gold, concrete, hill, roof;
 };
 
@@ -84,7 +86,7 @@ struct Kit {
     SceneBuilder builder;
     Meshes mesh;
     Materials material;
-    // Of all blocks, blockCount * z + x.
+    // The buildings of each block; the index of a block is blockCount * z + x.
     std::vector<std::vector<Building>> buildings;
 };
 

@@ -13,8 +13,9 @@ namespace
 {
 
 constexpr double pi = glm::pi<double>();
-// Distances from the default camera up to which details are worth their triangles: at 720 lines a
-// ledge of 0.3 m is a pixel high at about 250 m, and its house some 60 pixels wide at 900 m.
+// The distances from the default camera up to which details are worth their triangles. In a picture
+// with 720 lines a ledge of 0.3 m is one pixel high at about 250 m, and its house some 60 pixels
+// wide at 900 m.
 constexpr double ledgesUntil = 1000, lampsUntil = 950, treesUntil = 1500, streetTreesUntil = 600;
 
 double distanceToCamera(double x, double z)
@@ -29,7 +30,8 @@ double bump(double x, double z, const glm::dvec2& centre, double width)
     return fall * fall;
 }
 
-// Typical height of towers at a place: two centres, of which the first is downtown.
+// The typical height of towers at a place. There are two centres of high buildings; the first is
+// downtown.
 double skyline(double x, double z)
 {
     return 230 * bump(x, z, {-300, 380}, 400) + 100 * bump(x, z, {780, 250}, 260) +
@@ -80,11 +82,12 @@ void addTree(Kit& kit, Random& random, double x, double z)
 
 void addHouses(Kit& kit, Random& random, std::vector<Building>& block, double x, double z)
 {
-    const double free = 0.5 * (blockSize - streetWidth) - pavementWidth; // half the built-up width
+    const double free =
+        0.5 * (blockSize - streetWidth) - pavementWidth; // half the width that may be built on
     const double towers = skyline(x, z);
     const double tall = random.uniform();
     if (towers * tall > 35) {
-        // One tower with a forecourt.
+        // The block has one tower with a forecourt.
         const double half = free * random.uniform(0.45f, 0.75f);
         addBuilding(kit, random, block,
                     {{x, kerbHeight, z}, half, half, 25 + towers * (0.35 + 0.65 * tall * tall)});
@@ -97,7 +100,7 @@ void addHouses(Kit& kit, Random& random, std::vector<Building>& block, double x,
         const double halfX = 0.5 * free * random.uniform(0.72f, 0.94f);
         const double halfZ = 0.5 * free * random.uniform(0.72f, 0.94f);
         const bool garden = random.chance(0.07f);
-        // Fronts stand in line along the pavement.
+        // The fronts of the houses stand in line along the pavement.
         const double cx = x + (lot % 2 ? 1 : -1) * (free - halfX);
         const double cz = z + (lot / 2 ? 1 : -1) * (free - halfZ);
         if (garden) {
@@ -119,20 +122,20 @@ void addPark(Kit& kit, Random& random, double x, double z)
         const glm::dvec2 at(random.uniform2());
         addTree(kit, random, x + half * (2 * at.x - 1), z + half * (2 * at.y - 1));
     }
-    // A sculpture in the middle.
+    // A sculpture stands in the middle.
     const bool chrome = random.chance(0.5f);
     kit.builder.place(kit.mesh.box, kit.material.concrete, {x, kerbHeight + 1, z}, {5, 2, 5});
     kit.builder.place(kit.mesh.ball, chrome ? kit.material.chrome : kit.material.gold,
                       {x, kerbHeight + 5.4, z}, glm::dvec3(3.5));
 }
 
-// Lamps along the block's four kerbs, and some trees between them.
+// Adds lamps along the four kerbs of the block, and some trees between them.
 void addKerbside(Kit& kit, Random& random, double x, double z)
 {
     const double edge = 0.5 * blockSize - lampOffset;
     const int perSide = static_cast<int>(blockSize / lampSpacing);
     for (int side = 0; side < 4; ++side) {
-        // The lamp's arm, which is +z on the mesh, reaches away from the block.
+        // The lamp's arm, which points to +z in the mesh, points away from the block.
         const double yaw = 0.5 * pi * side;
         const glm::dvec2 out{side == 1   ? 1
                              : side == 3 ? -1
@@ -169,7 +172,7 @@ void addBlock(Kit& kit, Random& random, int blockX, int blockZ)
             {x, 0, z}, {blockSize, 1, blockSize});
     const bool besideWheel = glm::length(glm::dvec2(x - wheelHub.x, z - wheelHub.z)) < 75;
     const bool park = random.chance(0.07f) || besideWheel;
-    // The slab's rim is 0.012 high on the mesh.
+    // The rim of the slab is 0.012 high in the mesh.
     const double inner = blockSize - streetWidth;
     b.place(kit.mesh.slab, park ? m.grass : m.pavement, {x, kerbHeight, z},
             {inner, kerbHeight / 0.012, inner});
@@ -193,7 +196,7 @@ void addCity(Kit& kit, Random& random)
         for (int x = 0; x < blockCount; ++x)
             addBlock(kit, random, x, z);
     }
-    // Quays, in pieces of a block.
+    // The quays are built in pieces as long as a block.
     for (int x = 0; x < blockCount; ++x) {
         for (const double z : {riverNorth - 0.6, riverSouth + 0.6}) {
             kit.builder.place(kit.mesh.box, kit.material.concrete, {blockCentre(x), -0.9, z},

@@ -14,9 +14,9 @@ namespace candelabra::app::field
 namespace
 {
 
-// The windows' texture: cells of 8 x 8 texels with 2 texels of wall around each pane.
+// The texture of windows has cells of 8 x 8 texels, with 2 texels of wall around each pane.
 constexpr uint32_t textureCells = 32, cellTexels = 8, frameTexels = 2;
-// Panes next to each other on the facades' shorter sides.
+// The number of panes next to each other on the shorter sides of a facade.
 constexpr double windowColumns = 8;
 
 glm::mat4 boxTransform(const glm::vec3& low, const glm::vec3& high)
@@ -24,7 +24,7 @@ glm::mat4 boxTransform(const glm::vec3& low, const glm::vec3& high)
     return glm::scale(glm::translate(glm::mat4(1), 0.5f * (low + high)), high - low);
 }
 
-// A box whose sides carry the windows that fit its share of the unit house.
+// Appends a box whose sides show the windows that fit its share of the unit house.
 void appendStoreys(Mesh& mesh, const glm::vec3& low, const glm::vec3& high)
 {
     const size_t first = mesh.vertices.size();
@@ -40,7 +40,7 @@ void appendStoreys(Mesh& mesh, const glm::vec3& low, const glm::vec3& high)
     }
 }
 
-// A box without windows: the texture's corner shows wall.
+// Appends a box without windows: its uv is the corner of the texture, which shows wall.
 void appendSolid(Mesh& mesh, const glm::vec3& low, const glm::vec3& high)
 {
     const size_t first = mesh.vertices.size();
@@ -49,7 +49,7 @@ void appendSolid(Mesh& mesh, const glm::vec3& low, const glm::vec3& high)
         mesh.vertices[i].uv[0] = mesh.vertices[i].uv[1] = glm::vec2(0);
 }
 
-// Houses are 1 x 1 x 1 on y = 0.
+// Houses are 1 x 1 x 1 in size and stand on y = 0.
 Mesh makePlainHouse()
 {
     Mesh mesh;
@@ -65,7 +65,7 @@ Mesh makeLedgedHouse()
         {0, 0.04f, 0.5f}, {0.32f, 0.335f, 0.49f}, {0.64f, 0.655f, 0.49f}, {0.93f, 0.98f, 0.5f}};
     for (const auto& [low, high, half] : ledges)
         appendSolid(mesh, {-half, low, -half}, {half, high, half});
-    // Stair head on the roof.
+    // The head of the stairs on the roof.
     appendSolid(mesh, {-0.2f, 0.97f, -0.1f}, {0.05f, 1.0f, 0.2f});
     return mesh;
 }
@@ -84,7 +84,7 @@ Mesh makeSetbackTower()
 Mesh makeRoundTower()
 {
     Mesh mesh;
-    // uv runs around four facades' worth of windows, and up.
+    // u runs around as many windows as four facades have, and v runs upwards.
     for (Mesh part : {makeLathe({{{0.5f, 0}, {0.5f, 0.94f}}}, 24)}) {
         for (Vertex& vertex : part.vertices)
             vertex.uv[0] = vertex.uv[1] = glm::vec2(4 * vertex.uv[0].x, vertex.position.y);
@@ -101,7 +101,7 @@ Mesh makeRoundTower()
     return mesh;
 }
 
-// A rod of radius `radius` between two points, four-sided.
+// Appends a four-sided rod of radius `radius` between two points.
 void appendBar(Mesh& mesh, const glm::vec3& from, const glm::vec3& to, float radius)
 {
     const glm::vec3 axis = to - from;
@@ -114,7 +114,7 @@ void appendBar(Mesh& mesh, const glm::vec3& from, const glm::vec3& to, float rad
                          glm::vec4(front * radius, 0), glm::vec4(from, 1)));
 }
 
-// Stands at the kerb, its arm reaching along +z.
+// A street lamp, which stands at the kerb; its arm points to +z.
 Mesh makeLamp()
 {
     Mesh mesh;
@@ -128,7 +128,7 @@ Mesh makeLamp()
     return mesh;
 }
 
-// About 1 high; vertex colours tell trunk from crown.
+// A tree about 1 high. Vertex colours distinguish trunk and crown.
 Mesh makeTree()
 {
     Mesh mesh;
@@ -140,7 +140,7 @@ Mesh makeTree()
     return mesh;
 }
 
-// Lattice mast, 1 high.
+// A lattice mast 1 high.
 Mesh makeMast()
 {
     Mesh mesh;
@@ -166,7 +166,8 @@ struct WindowTextures {
     int32_t baseColor, metallicRoughness, emissive;
 };
 
-// sRGB bytes of lit panes: warm lamps, cool tubes, and television blue; the rest is dark.
+// The colours of lit panes in sRGB bytes: warm lamps, cool tubes, and the blue of televisions. All
+// other panes are dark.
 glm::u8vec3 paneLight(Random& random)
 {
     const glm::u8vec3 kinds[] = {
@@ -223,9 +224,10 @@ void addFacades(Kit& kit, Random& random)
             facade.name =
                 "facade " + std::to_string(style) + ", " + std::to_string(storeys) + " storeys";
             facade.baseColor = walls[style];
-            // cd/m^2 of a fully lit pane: a lit room seen from the street.
+            // The luminance in cd/m^2 of a lit pane, like that of a room seen from the street.
             facade.emission = glm::vec3(5);
-            // Whole cells, so that uv 0 stays in the corner of a cell, which is wall.
+            // The offset is a whole number of cells, so that uv 0 stays in the corner of a cell,
+            // which is wall.
             const glm::vec2 offset =
                 glm::floor(random.uniform2() * static_cast<float>(textureCells));
             const float cells = static_cast<float>(textureCells);
@@ -269,7 +271,7 @@ void addMaterials(Kit& kit, Random& random)
 {
     SceneBuilder& b = kit.builder;
     Materials& m = kit.material;
-    // From puddles to dry.
+    // Asphalt from puddles to dry.
     for (const float perceptualRoughness : {0.12f, 0.2f, 0.3f, 0.42f, 0.6f})
         m.asphalt.push_back(b.addDielectric("asphalt", glm::vec3(0.06f), perceptualRoughness));
     m.pavement = b.addDielectric("pavement", {0.26f, 0.25f, 0.23f}, 0.55f);
@@ -281,12 +283,12 @@ void addMaterials(Kit& kit, Random& random)
     m.roof = b.addDielectric("roof tiles", {0.32f, 0.13f, 0.08f}, 0.6f);
     m.hill = b.addDielectric("hills", {0.10f, 0.11f, 0.08f}, 0.95f);
     m.painted = b.addDielectric("red paint", {0.52f, 0.07f, 0.05f}, 0.35f);
-    // F0 as in the hall (Lagarde 2011).
+    // The F0 of metals is that of the hall (Lagarde 2011).
     m.steel = b.addMetal("steel", {0.56f, 0.57f, 0.58f}, 0.4f);
     m.chrome = b.addMetal("chrome", {0.549f, 0.556f, 0.554f}, 0.06f);
     m.gold = b.addMetal("gold", {1.0f, 0.766f, 0.336f}, 0.2f);
     addFacades(kit, random);
-    // No lamp reaches these: they reflect the sky instead of standing black against it.
+    // No lamp lights these. They reflect the sky, so that they are not black in front of it.
     for (const uint32_t outside : {m.grass, m.hill}) {
         Material& material = b.scene.materials[outside];
         material.emission = material.baseColor * skyLuminance;

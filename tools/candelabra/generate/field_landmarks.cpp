@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bridges, big wheel, masts and the hills around the field.
+// The bridges, the big wheel and the masts of the field, and the hills around it.
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
@@ -17,7 +17,7 @@ constexpr double riverWidth = riverSouth - riverNorth;
 void addDeck(Kit& kit, double x)
 {
     SceneBuilder& b = kit.builder;
-    // In pieces of half a block.
+    // The deck is built in pieces half as long as a block.
     for (int i = 0; i < 4; ++i) {
         b.place(kit.mesh.box, kit.material.asphalt[1],
                 {x, -0.3, riverNorth + riverWidth * (i + 0.5) / 4},
@@ -64,7 +64,7 @@ void addSuspension(Kit& kit)
             const glm::dvec3 top = onCable(i);
             b.placeRod(kit.mesh.rod, m.steel, {x, 0, top.z}, top, 0.05);
         }
-        // Back stays to the ground.
+        // The stays from the pylons back to the ground.
         b.placeRod(kit.mesh.rod, m.painted, onCable(0), {x, 0, riverNorth - 60}, 0.22);
         b.placeRod(kit.mesh.rod, m.painted, onCable(pieces), {x, 0, riverSouth + 60}, 0.22);
     }
@@ -107,12 +107,12 @@ void addWheel(Kit& kit)
     }
 }
 
-// Country around the city in tiles of 500 m, and hills on the horizon.
+// Adds the country around the city in tiles of 500 m, and hills on the horizon.
 void addSurroundings(Kit& kit, Random& random)
 {
     SceneBuilder& b = kit.builder;
     constexpr double tile = 500;
-    constexpr int half = 11; // tiles to each side: 5.5 km
+    constexpr int half = 11; // tiles to each side, which are 5.5 km
     constexpr int city = static_cast<int>(cityHalf / tile);
     for (int x = -half; x < half; ++x) {
         for (int z = -half; z < half; ++z) {
@@ -148,7 +148,7 @@ void addLandmarks(Kit& kit, Random& random)
     const glm::dvec3 masts[] = {{300, 0, 1240}, {-620, 0, 1180}, {1100, 0, 640}, {-1500, 0, -300}};
     for (const glm::dvec3& mast : masts)
         kit.builder.place(kit.mesh.mast, kit.material.painted, mast, glm::dvec3(75));
-    // A monument on the bank, reflected in the river.
+    // A monument stands on the bank and is reflected in the river.
     kit.builder.place(kit.mesh.ball, kit.material.chrome, {120, 12, 1064}, glm::dvec3(9));
     kit.builder.place(kit.mesh.box, kit.material.concrete, {120, 1.6, 1064}, {12, 3.2, 12});
     addSurroundings(kit, random);

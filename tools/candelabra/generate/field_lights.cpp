@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the field's lights stand.
+// Places the lights of the field.
 #include <algorithm>
 #include <cmath>
 
@@ -14,10 +14,11 @@ namespace
 
 constexpr double pi = glm::pi<double>();
 
-// Lights thin out with the distance from the default camera, so that near streets have many small
-// ones while far districts are lit by few that reach far. Discs on the ground, and the whole city.
+// A zone of the city with its share of the lights. Lights become sparser with the distance from the
+// default camera: near streets have many small ones, and far districts are lit by few with a large
+// influence. The zones are discs on the ground, and the whole city.
 struct Zone {
-    float share; // of the lights; the zones add up to 1
+    float share; // of the lights; the shares of all zones add up to 1
     glm::dvec2 centre;
     double radius;
 };
@@ -39,7 +40,7 @@ glm::dvec2 drawPlace(Random& random)
     float at = random.uniform();
     for (const Zone& zone : zones) {
         if (at < zone.share) {
-            // Uniform in the disc, by rejection from its square.
+            // Points are uniform in the disc: those of its square outside the disc are rejected.
             glm::dvec2 p;
             do {
                 p = zone.centre + zone.radius * (2.0 * glm::dvec2(random.uniform2()) - 1.0);
@@ -51,7 +52,7 @@ glm::dvec2 drawPlace(Random& random)
     return inCity(random);
 }
 
-// Lights per square metre around `p`, of one light in all.
+// The density of lights around `p` per square metre, if there were one light in all.
 double density(const glm::dvec2& p)
 {
     double sum = 0, rest = 1;
@@ -63,7 +64,7 @@ double density(const glm::dvec2& p)
     return sum + rest / (4 * cityHalf * cityHalf);
 }
 
-// A place on the grid of streets: `along` the street, which lies `across` = 0.
+// A place on one of the streets: `street` is the coordinate of its middle, `along` the place on it.
 struct StreetPlace {
     bool runsAlongZ;
     double street, along;
@@ -109,7 +110,7 @@ LightSite onLamp(Random& random, const glm::dvec2& p, const Buildings&)
     place.along += 0.15 * jitter;
     site.position = place.at(side * (lampOffset - lampReach), lampHeight);
     site.radius = random.uniform(0.12f, 0.35f);
-    // Districts still have sodium lamps or already white ones.
+    // A district has either sodium lamps or white ones.
     const bool sodium = std::floor(p.x / 400) + std::floor(p.y / 560) > -1;
     site.colour = blackbodyColour(sodium ? random.uniform(2100, 2900) : random.uniform(3600, 5600));
     site.edgeIlluminance = 1.2f;
@@ -130,7 +131,7 @@ LightSite onCar(Random& random, const glm::dvec2& p, const Buildings&)
     return site;
 }
 
-// Signs and shop windows along the fronts.
+// Places signs and shop windows along the fronts of houses.
 LightSite onFront(Random& random, const glm::dvec2& p, const Buildings&)
 {
     LightSite site;
@@ -155,7 +156,7 @@ LightSite onRoof(Random& random, const glm::dvec2& p, const Buildings& buildings
     const std::vector<Building>& choice =
         buildings[static_cast<size_t>(blockCount) * block(p.y) + block(p.x)];
     if (choice.empty()) {
-        return site; // parks and the river keep the lamp
+        return site; // in parks and at the river it stays a street lamp
     }
     const Building& building = choice[random.below(static_cast<uint32_t>(choice.size()))];
     const glm::dvec2 offset = 0.8 * (2.0 * glm::dvec2(random.uniform2()) - 1.0);
@@ -169,7 +170,7 @@ LightSite onRoof(Random& random, const glm::dvec2& p, const Buildings& buildings
     return site;
 }
 
-// Lanterns that rise over the city and drift over the water.
+// Places lanterns that rise over the city and drift over the water.
 LightSite lantern(Random& random, const glm::dvec2& p, const Buildings&)
 {
     LightSite site;
@@ -182,7 +183,7 @@ LightSite lantern(Random& random, const glm::dvec2& p, const Buildings&)
     return site;
 }
 
-// The wheel's rim and the suspension bridge's cables.
+// Places lights along the rim of the wheel and the cables of the suspension bridge.
 LightSite onLandmark(Random& random, const glm::dvec2&, const Buildings&)
 {
     LightSite site;
@@ -211,7 +212,7 @@ struct Kind {
     MakeSite make;
 };
 
-// Shares add up to 1.
+// The shares add up to 1.
 constexpr Kind kinds[] = {{0.44f, onLamp}, {0.14f, onCar},   {0.22f, onFront},
                           {0.10f, onRoof}, {0.07f, lantern}, {0.03f, onLandmark}};
 
@@ -230,7 +231,7 @@ MakeSite anyKind(Random& random)
 
 std::vector<LightSite> lightSites(const Kit& kit, uint32_t count, const SceneOptions& options)
 {
-    // Streams of their own, as in the hall.
+    // Each kind of light has a random stream of its own, as in the hall.
     Random random(options.seed, 1), motionRandom(options.seed, 2);
     const double farDensity = density({cityHalf, -cityHalf});
     std::vector<LightSite> sites;
@@ -242,7 +243,7 @@ std::vector<LightSite> lightSites(const Kit& kit, uint32_t count, const SceneOpt
         const bool overWater = isRiver(site.position.z) && make != onLandmark && make != lantern;
         if (overWater)
             site = lantern(random, place, kit.buildings);
-        // Reach like the mean distance of neighbours.
+        // The influence radius is proportional to the mean distance of neighbours.
         site.reach *=
             static_cast<float>(std::sqrt(farDensity / density({site.position.x, site.position.z})));
         site.reach *= random.uniform(0.7f, 1.45f);

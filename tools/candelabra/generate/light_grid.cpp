@@ -14,11 +14,12 @@ LightGrid::LightGrid(const std::vector<glm::dvec3>& positions)
         low = glm::min(low, position);
         high = glm::max(high, position);
     }
-    // Flat sets get a thickness, so that the cells' size makes sense and their number is bounded.
+    // Flat sets of points get a thickness, so that the volume of cells is not 0 and their number is
+    // bounded.
     const glm::dvec3 size = high - low;
     const double longest = std::max({size.x, size.y, size.z, 1e-3});
     const glm::dvec3 extent = glm::max(size, glm::dvec3(longest / 256));
-    // About two lights per cell.
+    // There are about two lights per cell.
     cell_ = std::cbrt(2 * extent.x * extent.y * extent.z / static_cast<double>(positions.size()));
     cell_ = std::max(cell_, longest / 1024);
     origin_ = low;

@@ -9,7 +9,7 @@ uint32_t appendVertex(Mesh& mesh, const SurfacePoint& point, const glm::vec2& uv
     Vertex vertex;
     vertex.position = point.position;
     vertex.normal = glm::normalize(point.normal);
-    // Smoothed normals need not be square to the parameter line.
+    // A smoothed normal need not be perpendicular to the tangent.
     const glm::vec3 tangent =
         point.tangent - vertex.normal * glm::dot(point.tangent, vertex.normal);
     vertex.tangent = glm::vec4(glm::normalize(tangent), 1);
@@ -22,7 +22,8 @@ void appendTriangle(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c)
 {
     const glm::vec3 edge1 = mesh.vertices[b].position - mesh.vertices[a].position;
     const glm::vec3 edge2 = mesh.vertices[c].position - mesh.vertices[a].position;
-    // Poles collapse one edge; what is left over is rounding (1e-7 squared) or a real triangle.
+    // At a pole two corners coincide, and the cross product is 0 or as small as rounding makes it
+    // (1e-7 squared). That of a real triangle is larger.
     if (glm::length(glm::cross(edge1, edge2)) > 1e-8f)
         mesh.indices.insert(mesh.indices.end(), {a, b, c});
 }

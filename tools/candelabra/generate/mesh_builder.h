@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces that the meshes of the procedural scenes are made of.
+// Functions that build the meshes of the generated scenes.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,8 @@
 namespace candelabra::app
 {
 
-// A point of a parametric surface. Normal and tangent need not be unit, nor square to each other.
+// A point of a parametric surface. Normal and tangent need not have unit length, nor be
+// perpendicular.
 struct SurfacePoint {
     glm::vec3 position{0};
     glm::vec3 normal{0, 1, 0};
@@ -26,24 +27,25 @@ uint32_t appendVertex(Mesh& mesh, const SurfacePoint& point, const glm::vec2& uv
 // Adds a triangle of existing vertices unless it is degenerate.
 void appendTriangle(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c);
 
-// Adds one flat triangle, turned to face `outward`.
+// Adds one flat triangle that faces `outward`.
 void appendFlatTriangle(Mesh& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
                         const glm::vec3& outward);
 
-// Adds one flat quad whose corners go around, turned to face `outward`.
+// Adds one flat quad that faces `outward`. Its corners are given in order around it.
 void appendQuad(Mesh& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
                 const glm::vec3& d, const glm::vec3& outward);
 
-// Adds `part`, transformed; `transform` must not mirror.
+// Adds a transformed copy of `part`. `transform` must not mirror.
 void appendMesh(Mesh& mesh, const Mesh& part, const glm::mat4& transform);
 
-// Unit vector at `angle` radians from +x towards +y.
+// The unit vector at `angle` radians from +x towards +y.
 inline glm::vec2 direction(float angle)
 {
     return {std::cos(angle), std::sin(angle)};
 }
 
-// A grid of columns x rows quads over `at(u, v)`, u and v in [0, 1]; cross(d/du, d/dv) points out.
+// Adds a grid of columns x rows quads on the surface `at(u, v)`, with u and v in [0, 1]. The cross
+// product of its derivatives by u and by v must point out.
 template <typename Surface>
 void appendGrid(Mesh& mesh, uint32_t columns, uint32_t rows, Surface&& at)
 {

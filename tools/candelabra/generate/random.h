@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The generators' random numbers: equal on every platform, which std:: distributions are not.
+// The random numbers of generators and benchmarks. They are equal on every platform, unlike those
+// of the distributions of the standard library.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@ namespace candelabra::app
 {
 
 // PCG32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms
-// for Random Number Generation", pcg32_random_r). Draws must be sequenced: keep two calls out of
-// one expression, except between the braces of an initialiser list.
+// for Random Number Generation", pcg32_random_r). Do not call it twice in one expression, unless it
+// is a list in braces: the order of the calls must be defined.
 class Random
 {
 public:
@@ -32,12 +33,12 @@ public:
         return xorShifted >> rotation | xorShifted << ((0u - rotation) & 31u);
     }
 
-    // [0, 1): 24 bits, so that the float is exact and never rounds to 1.
+    // Uniform in [0, 1). It has 24 bits, so that the float is exact and never rounds to 1.
     float uniform() { return static_cast<float>(bits() >> 8u) * 0x1p-24f; }
 
     float uniform(float low, float high) { return low + (high - low) * uniform(); }
 
-    // 0 .. count-1; the bias of the multiplication (count / 2^32) does not matter here.
+    // Uniform in 0 .. count - 1, but for a bias of count / 2^32, which does not matter here.
     uint32_t below(uint32_t count)
     {
         return static_cast<uint32_t>(static_cast<uint64_t>(bits()) * count >> 32u);
@@ -45,7 +46,8 @@ public:
 
     bool chance(float probability) { return uniform() < probability; }
 
-    // Roughly normal, mean 0, standard deviation 1/3, within (-1, 1): mean of three uniforms.
+    // Roughly normal with mean 0 and standard deviation 1/3, within (-1, 1): the mean of three
+    // uniform numbers.
     float bell()
     {
         float sum = uniform();

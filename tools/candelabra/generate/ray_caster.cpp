@@ -15,7 +15,8 @@ namespace
 
 constexpr double far = std::numeric_limits<double>::infinity();
 
-// Distance at which the ray enters the box, infinity when it misses it or enters beyond `nearest`.
+// The distance at which the ray enters the box, or infinity if the ray misses the box or enters it
+// beyond `nearest`.
 double enterBox(const Ray& ray, const glm::dvec3& inverseDirection, const Bounds& box,
                 double nearest)
 {
@@ -23,15 +24,16 @@ double enterBox(const Ray& ray, const glm::dvec3& inverseDirection, const Bounds
     for (int axis = 0; axis < 3; ++axis) {
         const double a = (box.min[axis] - ray.origin[axis]) * inverseDirection[axis];
         const double b = (box.max[axis] - ray.origin[axis]) * inverseDirection[axis];
-        // 0 * infinity is NaN when the ray runs inside a side of the box: fmin and fmax drop it.
+        // If the ray runs within a side of the box, 0 * infinity gives NaN, which fmin and fmax
+        // ignore.
         enter = std::fmax(enter, std::fmin(a, b));
         leave = std::fmin(leave, std::fmax(a, b));
     }
     return enter <= leave ? enter : far;
 }
 
-// Distance along a ray in object space (direction of any length) and barycentrics; Moeller and
-// Trumbore 1997, both sides.
+// The distance along a ray in object space, whose direction may have any length, and the
+// barycentric coordinates (Moeller and Trumbore 1997). Both sides of the triangle are hit.
 struct TriangleHit {
     double distance = far, u = 0, v = 0;
 };
@@ -110,7 +112,7 @@ void BoxTree::traverse(const Ray& ray, double& nearest, Visit&& visit) const
     if (nodes_.empty())
         return;
     const glm::dvec3 inverseDirection = 1.0 / ray.direction;
-    uint32_t stack[64]; // halving 2^32 items needs 32
+    uint32_t stack[64]; // 2^32 items need 32 levels
     uint32_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
@@ -187,7 +189,7 @@ void RayCaster::hitInstance(uint32_t item, const Ray& ray, RayHit& best)
     const Instance& instance = scene_.instances[instanceIds_[item]];
     const Mesh& mesh = scene_.meshes[instance.mesh];
     const glm::dmat4& objectFromWorld = objectFromWorld_[item];
-    // Not normalised: distances stay those of the world ray.
+    // The direction is not normalised, so that distances are those along the ray in world space.
     const Ray local{glm::dvec3(objectFromWorld * glm::dvec4(ray.origin, 1)),
                     glm::dvec3(objectFromWorld * glm::dvec4(ray.direction, 0))};
     meshTree(instance.mesh).traverse(local, best.distance, [&](uint32_t triangle, double& nearest) {

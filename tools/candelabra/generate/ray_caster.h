@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays against a scene, on the CPU in double: what a camera sees without a renderer. Ignores alpha
-// masks and normal maps.
+// Casts rays into a scene, on the CPU in double precision, and so finds what a camera sees without
+// a renderer. Alpha masks and normal maps are ignored.
 #pragma once
 
 #include <cstdint>
@@ -22,27 +22,28 @@ struct Ray {
 struct RayHit {
     double distance = 0;
     glm::dvec3 position{0};
-    glm::dvec3 normal{0, 1, 0}; // unit, interpolated, on the side that the ray comes from
+    glm::dvec3 normal{0, 1, 0}; // unit, interpolated, on the side from which the ray comes
     uint32_t material = 0;
 };
 
-// A binary tree over boxes, for any kind of content.
+// A binary tree of boxes, which may hold anything.
 class BoxTree
 {
 public:
     BoxTree() = default;
     explicit BoxTree(const std::vector<Bounds>& boxes);
 
-    // Calls visit(item, nearest) for boxes that the ray meets before `nearest`; visit may lower
-    // `nearest`.
+    // Calls visit(item, nearest) for every box that the ray meets before the distance `nearest`,
+    // which `visit` may lower.
     template <typename Visit>
     void traverse(const Ray& ray, double& nearest, Visit&& visit) const;
 
 private:
     struct Node {
         Bounds box;
-        uint32_t first = 0; // leaf: first of order_; else: right child (the left one follows)
-        uint32_t count = 0; // leaf: items; else 0
+        uint32_t first = 0; // leaf: the first of its items in order_; else: the right child (the
+                            // left child follows its parent)
+        uint32_t count = 0; // leaf: the number of items; else 0
     };
 
     void build(const std::vector<Bounds>& boxes, uint32_t first, uint32_t count);
@@ -51,13 +52,13 @@ private:
     std::vector<uint32_t> order_;
 };
 
-// Keeps a reference to the scene, which must not change meanwhile.
+// Casts rays into a scene, to which it keeps a reference and which must not change.
 class RayCaster
 {
 public:
     explicit RayCaster(const Scene& scene);
 
-    // The nearest surface; back faces count too.
+    // Returns the nearest surface that the ray meets, which may be a back face.
     std::optional<RayHit> cast(const Ray& ray);
 
 private:
@@ -72,7 +73,8 @@ private:
     std::vector<std::optional<BoxTree>> meshTrees_; // built when first needed
 };
 
-// Through the centre of pixel (x, y), counted from the top left, of a width x height image.
+// Returns the ray through the centre of pixel (x, y), counted from the top left, of a width x
+// height image.
 Ray cameraRay(const Camera& camera, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
 
 } // namespace candelabra::app

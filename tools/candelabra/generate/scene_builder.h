@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the procedural scenes are put together with.
+// Functions with which the generated scenes are put together.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@
 namespace candelabra::app
 {
 
-// A camera that looks along `direction` (of any length, not vertical) and stands upright.
+// Makes an upright camera that looks along `direction`, which may have any length but must not be
+// vertical.
 inline Camera makeUprightCamera(std::string name, const glm::dvec3& position,
                                 const glm::dvec3& direction, double verticalFov)
 {
@@ -41,7 +42,7 @@ struct SceneBuilder {
         return static_cast<uint32_t>(scene.materials.size() - 1);
     }
 
-    // baseColor is the reflectance at normal incidence (F0) of the metal, linear Rec.709.
+    // `baseColor` is the reflectance of the metal at normal incidence (F0), in linear Rec.709.
     uint32_t addMetal(std::string name, const glm::vec3& baseColor, float perceptualRoughness)
     {
         return addMaterial({.name = std::move(name),
@@ -50,7 +51,7 @@ struct SceneBuilder {
                             .perceptualRoughness = perceptualRoughness});
     }
 
-    // baseColor is the diffuse albedo, linear Rec.709.
+    // `baseColor` is the diffuse albedo in linear Rec.709.
     uint32_t addDielectric(std::string name, const glm::vec3& baseColor, float perceptualRoughness)
     {
         return addMaterial({.name = std::move(name),
@@ -63,7 +64,7 @@ struct SceneBuilder {
         scene.instances.push_back({mesh, material, worldFromObject});
     }
 
-    // Scaled, then turned by `yaw` radians about y, then moved.
+    // Adds an instance that is scaled, then turned by `yaw` radians about y, then moved.
     void place(uint32_t mesh, uint32_t material, const glm::dvec3& position,
                const glm::dvec3& scale = glm::dvec3(1), double yaw = 0)
     {
@@ -73,7 +74,8 @@ struct SceneBuilder {
         place(mesh, material, glm::scale(worldFromObject, scale));
     }
 
-    // A mesh with radius 1 that reaches from y = 0 to y = 1, laid from `from` to `to`.
+    // Adds an instance of a mesh that has radius 1 and extends from y = 0 to y = 1, so that it
+    // extends from `from` to `to`.
     void placeRod(uint32_t mesh, uint32_t material, const glm::dvec3& from, const glm::dvec3& to,
                   double radius)
     {

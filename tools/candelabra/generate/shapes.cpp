@@ -2,23 +2,25 @@
 #include "generate/shapes.h"
 
 #include <cmath>
+#include <vector>
 
 #include "generate/mesh_builder.h"
 
 namespace candelabra::app
 {
+
 namespace
 {
 
 constexpr float pi = glm::pi<float>();
 
-// The end of a closed line is its beginning, to the bit: no cracks at seams.
+// The position along a closed line. Its end is exactly its beginning, so that seams have no cracks.
 float closed(float turn)
 {
     return turn < 1 ? turn : 0;
 }
 
-// Unit circle around y, turning so that u x v points out when v goes up.
+// A point of the unit circle around y, in the direction in which u x v points out if v goes up.
 glm::vec3 around(float turn)
 {
     turn = closed(turn);
@@ -31,7 +33,8 @@ glm::vec3 aroundTangent(float turn)
     return {-std::sin(2 * pi * turn), 0, -std::cos(2 * pi * turn)};
 }
 
-// Normals of a profile run in the (radius, height) plane, averaged where two pieces meet.
+// The normals of a profile run in the (radius, height) plane. They are averaged where two pieces
+// meet.
 std::vector<glm::vec2> profileNormals(const ProfileRun& run)
 {
     std::vector<glm::vec2> normals(run.size(), glm::vec2(0));
@@ -52,7 +55,7 @@ Mesh makeBox()
 {
     Mesh mesh;
     for (int turn = 0; turn < 4; ++turn) {
-        // Quarter turns about y, written as exact integers.
+        // Sine and cosine of quarter turns about y as integers, which are exact.
         const glm::vec3 out{turn == 0   ? 1
                             : turn == 2 ? -1
                                         : 0,
@@ -77,7 +80,7 @@ Mesh makeBox()
 
 Mesh makeBevelledBox(float bevel)
 {
-    // Corner `sign` of the face across `axis`.
+    // The corner `sign` of the face that is perpendicular to `axis`.
     const auto corner = [bevel](const glm::vec3& sign, int axis) {
         glm::vec3 p = sign * (0.5f - bevel);
         p[axis] = 0.5f * sign[axis];
@@ -99,7 +102,7 @@ Mesh makeBevelledBox(float bevel)
                 q[i] = corner(sign, axis);
             }
             appendQuad(mesh, q[0], q[1], q[2], q[3], out);
-            // Edges between the faces of `axis` and `next`, along `last`.
+            // The edges along `last`, between the faces of `axis` and `next`.
             for (const float t : {-1.0f, 1.0f}) {
                 glm::vec3 low(0), high(0);
                 low[axis] = high[axis] = s;
@@ -208,6 +211,126 @@ Mesh makeLathe(const std::vector<ProfileRun>& runs, uint32_t segments)
 Mesh makeCylinder(uint32_t segments)
 {
     return makeLathe({{{0, 0}, {1, 0}}, {{1, 0}, {1, 1}}, {{1, 1}, {0, 1}}}, segments);
+}
+
+namespace
+{
+
+// The point where the ray at `angle` in [0, pi] leaves the rectangle |x| <= halfWidth, 0 <= y <=
+// height.
+glm::vec2 onRectangle(float angle, float halfWidth, float height)
+{
+    const glm::vec2 ray = direction(angle);
+    const float toSide = halfWidth / std::max(std::abs(ray.x), 1e-6f);
+    const float toTop = height / std::max(ray.y, 1e-6f);
+    return glm::vec2(glm::clamp(ray.x * toTop, -halfWidth, halfWidth),
+                     glm::clamp(ray.y * toSide, 0.0f, height));
+}
+
+} // namespace
+
+Mesh makeArchedWall(float width, float height, float depth, float radius, uint32_t segments)
+{
+    Mesh mesh;
+    const float half = 0.5f * width, z = 0.5f * depth;
+    // The sweep is split at the outer corners, which must be vertices.
+    const float cornerAngle = std::atan2(height, half);
+    const uint32_t sideSteps = segments / 3 + 1, topSteps = segments - segments / 3;
+    std::vector<float> angles{0};
+    const auto sweep = [&angles](float end, uint32_t steps) {
+        const float start = angles.back();
+        for (uint32_t i = 1; i <= steps; ++i) {
+            angles.push_back(start +
+                             (end - start) * static_cast<float>(i) / static_cast<float>(steps));
+        }
+    };
+    sweep(cornerAngle, sideSteps);
+    sweep(pi - cornerAngle, topSteps);
+    sweep(pi, sideSteps);
+    for (size_t i = 0; i + 1 < angles.size(); ++i) {
+        const glm::vec2 in0 = radius * direction(angles[i]);
+        const glm::vec2 in1 = radius * direction(angles[i + 1]);
+        const glm::vec2 out0 = onRectangle(angles[i], half, height);
+        const glm::vec2 out1 = onRectangle(angles[i + 1], half, height);
+        for (const float s : {-z, z})
+            appendQuad(mesh, {in0, s}, {out0, s}, {out1, s}, {in1, s}, {0, 0, s});
+    }
+    appendGrid(mesh, segments, 1, [=](float u, float v) {
+        const glm::vec2 d = direction(pi * u);
+        return SurfacePoint{{radius * d, z - depth * v}, {-d, 0}, {-d.y, d.x, 0}};
+    });
+    for (const float s : {-1.0f, 1.0f}) {
+        appendQuad(mesh, {s * radius, 0, z}, {s * half, 0, z}, {s * half, 0, -z},
+                   {s * radius, 0, -z}, {0, -1, 0});
+        appendQuad(mesh, {s * half, 0, z}, {s * half, height, z}, {s * half, height, -z},
+                   {s * half, 0, -z}, {s, 0, 0});
+    }
+    appendQuad(mesh, {-half, height, z}, {half, height, z}, {half, height, -z}, {-half, height, -z},
+               {0, 1, 0});
+    return mesh;
+}
+
+Mesh makeArchRing(float inner, float outer, float depth, float angle, uint32_t segments)
+{
+    Mesh mesh;
+    const float z = 0.5f * depth;
+    for (const float s : {-1.0f, 1.0f}) {
+        appendGrid(mesh, segments, 1, [=](float u, float v) {
+            // Seen from +z, turning left and going inwards is counter-clockwise; seen from -z,
+            // going outwards is.
+            const glm::vec2 d = direction(angle * u);
+            const float r = (s > 0) == (v == 0) ? outer : inner;
+            return SurfacePoint{{r * d, s * z}, {0, 0, s}, {-d.y, d.x, 0}};
+        });
+        appendGrid(mesh, segments, 1, [=](float u, float v) {
+            const glm::vec2 d = direction(angle * u);
+            const float r = s > 0 ? outer : inner;
+            return SurfacePoint{{r * d, s * (2 * v - 1) * z}, {s * d, 0}, {-d.y, d.x, 0}};
+        });
+    }
+    if (angle < 2 * pi - 1e-3f) {
+        for (const float end : {0.0f, angle}) {
+            const glm::vec2 d = direction(end);
+            const glm::vec3 out = glm::vec3(-d.y, d.x, 0) * (end > 0 ? 1.0f : -1.0f);
+            appendQuad(mesh, {inner * d, z}, {outer * d, z}, {outer * d, -z}, {inner * d, -z}, out);
+        }
+    }
+    return mesh;
+}
+
+Mesh makeVault(uint32_t segments)
+{
+    Mesh mesh;
+    appendGrid(mesh, 1, segments, [](float u, float v) {
+        // v goes from +z over the top to -z. u goes along -x, because the cross product of +x and
+        // +y at +z would point out.
+        const glm::vec2 d = direction(pi * v);
+        return SurfacePoint{{0.5f - u, d.y, d.x}, {0, -d.y, -d.x}, {-1, 0, 0}};
+    });
+    return mesh;
+}
+
+Mesh makeGabledHouse()
+{
+    Mesh mesh;
+    const float eaves = 0.7f;
+    for (const float s : {-0.5f, 0.5f}) {
+        appendQuad(mesh, {-0.5f, 0, s}, {0.5f, 0, s}, {0.5f, eaves, s}, {-0.5f, eaves, s},
+                   {0, 0, s});
+        appendQuad(mesh, {s, 0, -0.5f}, {s, 0, 0.5f}, {s, eaves, 0.5f}, {s, eaves, -0.5f},
+                   {s, 0, 0});
+    }
+    const size_t sides = mesh.vertices.size();
+    for (const float s : {-0.5f, 0.5f}) {
+        appendFlatTriangle(mesh, {s, eaves, -0.5f}, {s, eaves, 0.5f}, {s, 1, 0}, {s, 0, 0});
+        appendQuad(mesh, {-0.5f, eaves, s}, {0.5f, eaves, s}, {0.5f, 1, 0}, {-0.5f, 1, 0},
+                   {0, 1, 0});
+    }
+    // The uv of the roof is that of the texture's first texel, which is wall, so that it has no
+    // windows.
+    for (size_t i = sides; i < mesh.vertices.size(); ++i)
+        mesh.vertices[i].uv[0] = mesh.vertices[i].uv[1] = glm::vec2(0);
+    return mesh;
 }
 
 } // namespace candelabra::app

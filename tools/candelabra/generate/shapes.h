@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes for the procedural scenes. All are wound counter-clockwise seen from outside and carry
-// unit normals, unit tangents along +u, and uv in set 0. Metres.
+// Makes the meshes of the generated scenes. Triangles are counter-clockwise seen from outside.
+// Vertices have unit normals, unit tangents along +u, and uv coordinates in set 0. Lengths are in
+// metres.
 #pragma once
 
 #include <cstdint>
@@ -13,36 +14,39 @@
 namespace candelabra::app
 {
 
-// One smooth part of a profile, (distance to the y axis, height), from the bottom up along the
-// outside. A new run starts a crease.
+// One smooth part of a profile, as points (distance to the y axis, height) from the bottom up along
+// the outside. There is a crease between two runs.
 using ProfileRun = std::vector<glm::vec2>;
 
-// Edge length 1 around the origin. uv: 0..1 on the four sides, 0 at top and bottom.
+// A box with edges of length 1 around the origin. uv is 0..1 on the four sides, and 0 at top and
+// bottom.
 Mesh makeBox();
-// The same with its edges cut off by `bevel` (0 < bevel < 0.5).
+// The same box with its edges cut off by `bevel` (0 < bevel < 0.5).
 Mesh makeBevelledBox(float bevel);
-// 1 x 1 in x and z, top at y = 0, slanted rim of `bevel` that goes down to y = -bevel; no bottom.
+// A tile of 1 x 1 in x and z with its top at y = 0, a slanted rim of width `bevel` that goes down
+// to y = -bevel, and no bottom.
 Mesh makeTile(float bevel);
-// Square of 1 x 1 around the origin in y = 0, facing up, cells x cells quads.
+// A square of 1 x 1 around the origin in y = 0 that faces up, of cells x cells quads.
 Mesh makeGround(uint32_t cells);
-// Radius 1 around the origin.
+// A sphere of radius 1 around the origin.
 Mesh makeSphere(uint32_t segments, uint32_t rings);
-// Around the y axis.
+// A torus around the y axis.
 Mesh makeTorus(float majorRadius, float minorRadius, uint32_t segments, uint32_t sides);
-// Tube around the (2,3) torus knot; about 1 wide in all.
+// A tube along the (2,3) torus knot, about 1 wide in all.
 Mesh makeKnot(float tubeRadius, uint32_t segments, uint32_t sides);
-// Solid of revolution around the y axis.
+// A solid of revolution around the y axis.
 Mesh makeLathe(const std::vector<ProfileRun>& runs, uint32_t segments);
-// Radius 1, from y = 0 to y = 1, closed.
+// A closed cylinder of radius 1 from y = 0 to y = 1.
 Mesh makeCylinder(uint32_t segments);
-// Wall in the xy plane, `width` around x = 0, `height` up from y = 0, `depth` around z = 0, with a
-// half round opening of `radius` (< width / 2, < height) around the origin. Closed.
+// A closed wall in the xy plane: `width` wide around x = 0, `height` high above y = 0, and `depth`
+// deep around z = 0, with a semicircular opening of `radius` (< width / 2, < height) around the
+// origin.
 Mesh makeArchedWall(float width, float height, float depth, float radius, uint32_t segments);
-// Rectangular section swept around the z axis from angle 0 (+x) to `angle` <= 2 pi.
+// A rectangular section swept around the z axis from angle 0 (+x) to `angle` <= 2 pi.
 Mesh makeArchRing(float inner, float outer, float depth, float angle, uint32_t segments);
-// Inside of half a tube: radius 1, around the x axis, y >= 0, x from -0.5 to 0.5.
+// The inside of half a tube of radius 1 around the x axis, with y >= 0 and x from -0.5 to 0.5.
 Mesh makeVault(uint32_t segments);
-// Box of 1 x 1 x 1 standing on y = 0 with a ridge along x at y = 1 and eaves at y = 0.7.
+// A house of 1 x 1 x 1 that stands on y = 0, with a ridge along x at y = 1 and eaves at y = 0.7.
 Mesh makeGabledHouse();
 
 } // namespace candelabra::app

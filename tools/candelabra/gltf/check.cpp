@@ -3,15 +3,235 @@
 // the wrong type and truncates large integers.
 #include <array>
 #include <initializer_list>
+#include <span>
 #include <string_view>
 
 #include "gltf/document.h"
-#include "gltf/schema.h"
 #include "scene/json_value.h"
 #include "scene/scene_file.h"
 
 namespace candelabra::app
 {
+
+// Tables of the properties of glTF 2.0 that the loader reads: their types, ranges and, for indices,
+// the array that they point into. Properties that are not listed are not read.
+namespace schema
+{
+namespace
+{
+
+enum class Kind {
+    Integer,
+    Number,
+    Boolean,
+    String,
+    Index,    // an integer, an index into the array `target`
+    Object,   // an object with the members `fields`
+    Numbers,  // an array of minItems to maxItems numbers
+    Indices,  // an array of indices into `target`
+    Objects,  // an array of objects with the members `fields`
+    IndexMap, // an object whose values are indices into `target`
+    List      // any array
+};
+
+struct Field {
+    std::string_view name;
+    Kind kind = Kind::Number;
+    bool required = false;
+    NumberRange range = {};
+    size_t minItems = 0, maxItems = 0;
+    const char* target = nullptr; // JSON pointer of the array that an index points into
+    std::span<const Field> fields = {};
+
+    constexpr Field need() const
+    {
+        Field f = *this;
+        f.required = true;
+        return f;
+    }
+};
+
+constexpr double maxInteger = 2147483647;    // the largest int of tinygltf
+constexpr double maxByte = 9007199254740991; // 2^53 - 1, exact in double
+// Factors of 0 to 1. Exporters' rounding is accepted, and the values are clamped when they are
+// used.
+constexpr NumberRange unitInterval{-1e-4, 1.0001};
+constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
+constexpr NumberRange notNegative{0};
+
+constexpr Field number(std::string_view n, NumberRange r = {})
+{
+    return {n, Kind::Number, 0, r};
+}
+constexpr Field integer(std::string_view n, double lo, double hi)
+{
+    return {n, Kind::Integer, false, {lo, hi}};
+}
+constexpr Field boolean(std::string_view n)
+{
+    return {n, Kind::Boolean};
+}
+constexpr Field string(std::string_view n)
+{
+    return {n, Kind::String};
+}
+constexpr Field list(std::string_view n)
+{
+    return {n, Kind::List};
+}
+constexpr Field numbers(std::string_view n, size_t count, NumberRange r = {})
+{
+    return {n, Kind::Numbers, false, r, count, count};
+}
+constexpr Field index(std::string_view n, const char* target, Kind kind = Kind::Index)
+{
+    return {n, kind, false, {}, 0, 0, target};
+}
+constexpr Field object(std::string_view n, std::span<const Field> fields, Kind kind = Kind::Object)
+{
+    return {n, kind, false, {}, 0, 0, nullptr, fields};
+}
+constexpr Field objects(std::string_view n, std::span<const Field> fields)
+{
+    return object(n, fields, Kind::Objects);
+}
+
+// --- accessors
+constexpr Field sparseIndices[] = {index("bufferView", "/bufferViews").need(),
+                                   integer("byteOffset", 0, maxInteger),
+                                   integer("componentType", 5121, 5125).need()};
+constexpr Field sparseValues[] = {index("bufferView", "/bufferViews").need(),
+                                  integer("byteOffset", 0, maxInteger)};
+constexpr Field sparse[] = {integer("count", 1, maxInteger).need(),
+                            object("indices", sparseIndices).need(),
+                            object("values", sparseValues).need()};
+constexpr Field accessor[] = {index("bufferView", "/bufferViews"),
+                              integer("byteOffset", 0, maxByte),
+                              integer("componentType", 5120, 5126).need(),
+                              boolean("normalized"),
+                              integer("count", 1, maxByte).need(),
+                              string("type").need(),
+                              string("name"),
+                              object("sparse", sparse)};
+constexpr Field bufferView[] = {
+    index("buffer", "/buffers").need(), integer("byteOffset", 0, maxByte),
+    integer("byteLength", 1, maxByte).need(), integer("byteStride", 4, 252), string("name")};
+constexpr Field buffer[] = {integer("byteLength", 1, maxByte).need(), string("uri"),
+                            string("name")};
+
+// --- textures and materials
+constexpr Field image[] = {string("uri"), string("mimeType"), string("name"),
+                           index("bufferView", "/bufferViews")};
+constexpr Field sampler[] = {integer("magFilter", 0, maxInteger), integer("wrapS", 0, maxInteger),
+                             integer("wrapT", 0, maxInteger), string("name")};
+constexpr Field texture[] = {index("sampler", "/samplers"), index("source", "/images"),
+                             string("name")};
+constexpr Field textureTransform[] = {numbers("offset", 2), number("rotation"), numbers("scale", 2),
+                                      integer("texCoord", 0, maxInteger)};
+constexpr Field textureExtensions[] = {object("KHR_texture_transform", textureTransform)};
+constexpr Field textureInfo[] = {index("index", "/textures").need(),
+                                 integer("texCoord", 0, maxInteger),
+                                 number("scale"),    // normal textures
+                                 number("strength"), // occlusion textures
+                                 object("extensions", textureExtensions)};
+constexpr Field metallicRoughness[] = {
+    numbers("baseColorFactor", 4, unitInterval), object("baseColorTexture", textureInfo),
+    number("metallicFactor", unitInterval), number("roughnessFactor", unitInterval),
+    object("metallicRoughnessTexture", textureInfo)};
+constexpr Field emissiveStrength[] = {number("emissiveStrength", notNegative)};
+constexpr Field ior[] = {number("ior", notNegative)};
+constexpr Field specular[] = {
+    number("specularFactor", unitInterval), numbers("specularColorFactor", 3, notNegative),
+    object("specularTexture", textureInfo), object("specularColorTexture", textureInfo)};
+constexpr Field unlit[] = {string("name")};
+constexpr Field materialExtensions[] = {
+    object("KHR_materials_emissive_strength", emissiveStrength), object("KHR_materials_ior", ior),
+    object("KHR_materials_specular", specular), object("KHR_materials_unlit", unlit)};
+constexpr Field material[] = {string("name"),
+                              object("pbrMetallicRoughness", metallicRoughness),
+                              object("normalTexture", textureInfo),
+                              object("occlusionTexture", textureInfo),
+                              object("emissiveTexture", textureInfo),
+                              numbers("emissiveFactor", 3, unitInterval),
+                              string("alphaMode"),
+                              number("alphaCutoff", notNegative),
+                              boolean("doubleSided"),
+                              object("extensions", materialExtensions)};
+
+// --- meshes, nodes, cameras, lights
+constexpr Field primitive[] = {index("attributes", "/accessors", Kind::IndexMap).need(),
+                               index("indices", "/accessors"), index("material", "/materials"),
+                               integer("mode", 0, 6), list("targets")};
+constexpr Field mesh[] = {objects("primitives", primitive).need(), string("name")};
+constexpr Field lightReference[] = {
+    index("light", "/extensions/KHR_lights_punctual/lights").need()};
+constexpr Field areaReference[] = {index("light", "/extensions/KHR_lights_area/lights").need()};
+constexpr Field nodeExtensions[] = {object("KHR_lights_punctual", lightReference),
+                                    object("KHR_lights_area", areaReference)};
+constexpr Field node[] = {index("camera", "/cameras"),
+                          index("mesh", "/meshes"),
+                          index("skin", "/skins"),
+                          index("children", "/nodes", Kind::Indices),
+                          numbers("matrix", 16, coordinate),
+                          numbers("rotation", 4, coordinate),
+                          numbers("scale", 3, coordinate),
+                          numbers("translation", 3, coordinate),
+                          string("name"),
+                          object("extensions", nodeExtensions)};
+constexpr Field sceneFields[] = {index("nodes", "/nodes", Kind::Indices), string("name")};
+constexpr Field perspective[] = {number("yfov", NumberRange::positive(3.14159)).need(),
+                                 number("znear", NumberRange::positive(maxCoordinate)).need(),
+                                 number("zfar", NumberRange::positive(maxCoordinate)),
+                                 number("aspectRatio", NumberRange::positive(1e6))};
+constexpr Field orthographic[] = {number("xmag", coordinate).need(),
+                                  number("ymag", coordinate).need(),
+                                  number("zfar", NumberRange::positive(maxCoordinate)).need(),
+                                  number("znear", {0, maxCoordinate}).need()};
+constexpr Field camera[] = {string("type").need(), string("name"),
+                            object("perspective", perspective),
+                            object("orthographic", orthographic)};
+constexpr Field spot[] = {number("innerConeAngle"), number("outerConeAngle")};
+constexpr Field punctual[] = {string("type").need(),
+                              string("name"),
+                              numbers("color", 3, notNegative),
+                              number("intensity", notNegative),
+                              number("range", NumberRange::positive(maxCoordinate)),
+                              object("spot", spot)};
+constexpr Field punctualLights[] = {objects("lights", punctual).need()};
+constexpr Field area[] = {string("shape"),
+                          string("type"), // the name of "shape" in an earlier draft
+                          string("name"),
+                          numbers("color", 3, notNegative),
+                          number("intensity", notNegative),
+                          number("radius", NumberRange::positive(maxCoordinate)),
+                          number("range", NumberRange::positive(maxCoordinate))};
+constexpr Field areaLights[] = {objects("lights", area).need()};
+constexpr Field rootExtensions[] = {object("KHR_lights_punctual", punctualLights),
+                                    object("KHR_lights_area", areaLights)};
+
+constexpr Field asset[] = {string("version").need(), string("minVersion"), string("generator"),
+                           string("copyright")};
+constexpr Field root[] = {object("asset", asset).need(),
+                          object("extensions", rootExtensions),
+                          list("extensionsUsed"),
+                          list("extensionsRequired"),
+                          objects("accessors", accessor),
+                          objects("bufferViews", bufferView),
+                          objects("buffers", buffer),
+                          objects("images", image),
+                          objects("samplers", sampler),
+                          objects("textures", texture),
+                          objects("materials", material),
+                          objects("meshes", mesh),
+                          objects("nodes", node),
+                          objects("cameras", camera),
+                          objects("scenes", sceneFields),
+                          index("scene", "/scenes"),
+                          list("animations"),
+                          list("skins")};
+
+} // namespace
+} // namespace schema
 
 namespace
 {

@@ -37,17 +37,4 @@ std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh,
 // mirroring transform M.
 Mesh mirroredMesh(const Mesh& mesh);
 
-// --- Defined in frames.cpp ---
-// Gives every corner its own vertex with the normal of its triangle.
-void makeFlatNormals(Mesh& mesh);
-// Replaces normals of zero length by the area-weighted mean normal of the triangles around the
-// vertex. Returns how many were replaced.
-size_t repairNormals(Mesh& mesh);
-// Computes tangents that point to where u grows in the uv set ref.uvSet, transformed by `ref`.
-// Vertices at which triangles of both orientations meet are split. If u has no direction there, the
-// tangent is any that is perpendicular to the normal.
-void makeTangents(Mesh& mesh, const TextureRef& ref);
-// Returns some unit tangent that is perpendicular to the unit normal.
-glm::vec4 anyTangent(const glm::vec3& normal);
-
 } // namespace candelabra::app

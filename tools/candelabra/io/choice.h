@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values that have a name on the command line and in results.
+// Values with names, for options of the command line and for results.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ struct Choice {
     T value;
 };
 
-// "one, two, three"
+// Returns the names as text: "one, two, three".
 template <typename T>
 std::string names(std::span<const Choice<T>> choices)
 {
@@ -28,7 +28,7 @@ std::string names(std::span<const Choice<T>> choices)
     return out;
 }
 
-// The value that `text` names. Throws a UsageError that lists the names.
+// Returns the value that `text` names. Throws a UsageError that lists the names if there is none.
 template <typename T, size_t N>
 T choose(const std::string& option, const std::string& text, const Choice<T> (&choices)[N])
 {

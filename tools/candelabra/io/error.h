@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the program fails: what() is one sentence for the user; the type decides the exit code.
+// The program's errors. what() is one sentence for the user; the type of the error decides the exit
+// code.
 #pragma once
 
 #include <stdexcept>
@@ -10,14 +11,14 @@ namespace candelabra::app
 constexpr int exitOk = 0;
 constexpr int exitFailed = 1; // something that should have worked did not, or a check failed
 constexpr int exitUsage = 2;  // arguments, files or an environment the program cannot work with
-constexpr int exitSlower = 3; // candelabra compare: something takes longer
+constexpr int exitSlower = 3; // candelabra compare found something that takes longer
 
-// Arguments that cannot be used. Exit code 2.
+// The arguments cannot be used. The program ends with exit code 2.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// A failing call or check. Exit code 1.
+// A call or a check failed. The program ends with exit code 1.
 struct RunError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

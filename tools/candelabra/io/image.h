@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 namespace candelabra::app
 {
 
@@ -22,6 +24,12 @@ struct Image {
     uint32_t width = 0, height = 0; // pixels, 1..16384
     uint32_t channels = 0;          // 1 (grey) or 3 (RGB)
     std::vector<float> pixels;      // width * height * channels, rows from the top
+};
+
+// An image as a display shows it.
+struct DisplayImage {
+    uint32_t width = 0, height = 0; // pixels
+    std::vector<glm::vec3> pixels;  // sRGB-encoded values in [0, 1], rows from the top
 };
 
 // The bytes of the PNG file that savePng would write. `name` is its name in error messages.

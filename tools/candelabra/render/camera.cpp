@@ -32,7 +32,7 @@ void viewFromWorld(const Camera& camera, double out[16])
     out[15] = 1;
 }
 
-// Row 2 and 3 of the projection give depth = (m22 z + m23) / w with z = -distance.
+// The rows 2 and 3 of the projection give depth = (m22 z + m23) / w, where z = -distance.
 void perspective(const Camera& camera, double aspect, float out[16])
 {
     const double focal = 1 / std::tan(camera.verticalFov / 2);
@@ -86,8 +86,9 @@ Camera typedCamera(const Scene& scene, const std::string& text, const std::vecto
     camera.name = text;
     camera.nearPlane =
         scene.cameras[0].orthographic ? Camera{}.nearPlane : scene.cameras[0].nearPlane;
-    // Beyond any scene; much farther, squares of distances leave the range of floats.
-    constexpr double farthest = 1e9; // m
+    // In metres. This is beyond any scene; much farther away, squares of distances would leave the
+    // range of float.
+    constexpr double farthest = 1e9;
     for (int i = 0; i < 6; ++i)
         if (std::abs(v[i]) > farthest)
             throw UsageError(fmt::format("--camera {}: position and target must lie within 1e9 m "
@@ -98,7 +99,8 @@ Camera typedCamera(const Scene& scene, const std::string& text, const std::vecto
     if (!(glm::length(direction) > 0))
         throw UsageError("--camera " + text + ": looks at its own position");
     camera.forward = glm::normalize(direction);
-    // Straight up or down, +y is no up; -z then is what a map has at its top.
+    // A camera that looks straight up or down cannot have +y as its up direction. It gets -z, which
+    // is north on a map.
     if (std::abs(camera.forward.y) > 0.99999)
         camera.up = {0, 0, -1};
     if (v.size() == 7) {
@@ -147,8 +149,8 @@ Camera selectCamera(const Scene& scene, const std::string& wanted)
     std::string names;
     for (const Camera& camera : scene.cameras)
         names += (names.empty() ? "" : ", ") + (camera.name.empty() ? "(unnamed)" : camera.name);
-    throw UsageError("--camera " + wanted + ": is no camera of the scene (" + names +
-                     "), index, or position and target px,py,pz,tx,ty,tz[,fov]");
+    throw UsageError("--camera " + wanted + ": give a camera of the scene by name (" + names +
+                     ") or index, or position and target as px,py,pz,tx,ty,tz[,fov]");
 }
 
 } // namespace candelabra::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a scene's camera to the matrices of the modules. View space: x right, y up, looking down -z.
+// Makes the engine's camera matrices of a scene's camera. In view space x points right, y up, and
+// the camera looks along -z.
 #pragma once
 
 #include <string>
@@ -10,16 +11,19 @@
 namespace candelabra::app
 {
 
-// Depth of pixels without a surface: all our projections are reversed (near 1, far 0).
+// The depth of pixels without a surface. All projections of the program are reversed: the near
+// plane has depth 1, the far plane 0.
 constexpr float clearDepth = 0.0f;
 
-// Reversed-Z, infinite where the camera's farPlane is 0, y pointing down in clip space as Vulkan
-// wants it. `imageAspect` (width / height) serves cameras without an aspect of their own.
-// Throws UsageError for a camera that spans no volume, naming it.
+// Returns view and projection matrices with reversed depth, an infinite far plane if the camera's
+// farPlane is 0, and y pointing down in clip space, as in Vulkan. `imageAspect` (width / height) is
+// used for cameras without an aspect of their own. Throws UsageError, which names the camera, if
+// the camera spans no volume.
 CndCamera makeCamera(const Camera& camera, double imageAspect);
 
-// The camera that `wanted` names: empty (the first), a name, an index, or
-// "px,py,pz,tx,ty,tz[,fov]" (metres, metres, vertical degrees). Throws UsageError.
+// Returns the camera of the scene that `wanted` names or describes: the first for an empty text,
+// else one by name, by index, or a new one from "px,py,pz,tx,ty,tz[,fov]": position and target in
+// metres, and the vertical field of view in degrees. Throws UsageError.
 Camera selectCamera(const Scene& scene, const std::string& wanted);
 
 } // namespace candelabra::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Failing calls of Vulkan and of the engine as exceptions.
+// Turns failed calls of Vulkan and of the engine into exceptions.
 #pragma once
 
 #include <type_traits>
@@ -12,10 +12,11 @@
 namespace candelabra::app
 {
 
-// Throws gpu::Failure when a Vulkan call failed; `what` says what was being done.
+// check(result, what) throws gpu::Failure if a Vulkan call failed; `what` says what the call was
+// for.
 using gpu::check;
 
-// The value of a result of the engine, or its error as a RunError.
+// Returns the value of a result of the engine, or throws its error as a RunError.
 template <typename T>
 T take(Result<T> result)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// FrameRing: command buffers of the frames in flight, and when the GPU is done with each.
+// FrameRing has one command buffer per frame in flight and knows when the GPU has finished each.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace candelabra::app
 class FrameRing
 {
 public:
-    // `slots` frames may be under way at once.
+    // `slots` is the number of frames that may be in flight at the same time.
     FrameRing(const VulkanContext& context, uint32_t slots);
     ~FrameRing(); // waits for the GPU
     FrameRing(const FrameRing&) = delete;
@@ -22,14 +22,16 @@ public:
     struct Frame {
         VkCommandBuffer cmd;
         uint32_t slot;
-        bool reused; // a frame of this slot has finished since the ring was made: it has statistics
+        // A frame of this slot has finished since the ring was created, so there are statistics.
+        bool reused;
     };
-    // Waits until the slot's previous frame is done and begins its command buffer.
+    // Waits until the previous frame of the next slot is finished, and begins the command buffer of
+    // that slot.
     Frame begin();
-    // Ends and submits what was recorded since begin(). Semaphores may be null: colour output and
-    // transfers wait for `wait`; `signal` follows all of the frame.
+    // Ends and submits what was recorded since begin(). Colour output and transfers wait for the
+    // semaphore `wait`; `signal` is signalled when the whole frame is finished. Both may be null.
     void submit(VkSemaphore wait = VK_NULL_HANDLE, VkSemaphore signal = VK_NULL_HANDLE);
-    // Waits for all frames.
+    // Waits until the GPU has finished all frames.
     void wait() const;
     uint32_t slots() const { return uint32_t(slots_.size()); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// FrameStamps: when the parts of a frame began on the GPU, one after another.
+// FrameStamps measures when the parts of a frame end on the GPU, with timestamps between them.
 #pragma once
 
 #include <vector>
@@ -13,20 +13,24 @@ namespace candelabra::app
 class FrameStamps
 {
 public:
-    FrameStamps() = default; // does nothing
-    // `validBits`: of timestamps of the queue that frames are submitted to; 0: there are none.
+    FrameStamps() = default; // takes no timestamps
+    // `validBits` is the number of valid bits in timestamps of the queue that frames are submitted
+    // to; with 0 the queue has no timestamps, and none are taken. `parts` is the number of parts of
+    // a frame.
     FrameStamps(const gpu::Device& device, uint32_t validBits, uint32_t slots, uint32_t parts);
 
-    // Outside render passes: begin(), then stamp() behind each part.
+    // Call begin() before the first part of a frame and stamp() after each part, outside render
+    // passes.
     void begin(VkCommandBuffer cmd, uint32_t slot);
     void stamp(VkCommandBuffer cmd, uint32_t slot);
 
     struct Times {
-        double startMs = 0;         // on the device's clock
-        std::vector<double> endsMs; // of the parts, since the start; empty without stamps
+        double startMs = 0;         // start of the frame on the device's clock
+        std::vector<double> endsMs; // end of each part since the start; empty without timestamps
     };
-    // Of a frame that the GPU has finished.
+    // The times of the slot's last frame, which the GPU must have finished.
     Times read(uint32_t slot) const;
+    // The number of timestamps of the slot's last frame.
     uint32_t count(uint32_t slot) const { return slot < taken_.size() ? taken_[slot] : 0; }
 
 private:

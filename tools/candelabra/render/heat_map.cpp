@@ -18,7 +18,7 @@ namespace
 
 static_assert(gpu::HEAT_MAP_CLASSES == CND_PIXEL_UNLISTED + 1);
 
-// By CndPixelClass.
+// Colour and text of each CndPixelClass.
 const LegendEntry classes[gpu::HEAT_MAP_CLASSES] = {{glm::vec3(0.2f), "no surface"},
                                                     {viridis(0.25f), "one list per tile"},
                                                     {viridis(0.6f), "a list per slice of depth"},

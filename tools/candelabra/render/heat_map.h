@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heat maps: what finding and evaluating lights costs each pixel, in false colours with a legend.
+// Heat maps show in false colours, with a legend, what finding and evaluating lights costs each
+// pixel.
 #pragma once
 
 #include "gpu/kernel.h"
@@ -11,25 +12,26 @@ namespace candelabra::app
 
 enum class HeatMap : uint32_t {
     None = 0,
-    LightsPerPixel = gpu::HEAT_MAP_LISTED, // of the pixel's list
-    Evaluated = gpu::HEAT_MAP_EVALUATED,   // turns of evaluation, waiting for neighbours included
-    Efficiency = gpu::HEAT_MAP_EFFICIENCY, // lights that contribute, of those listed
+    LightsPerPixel = gpu::HEAT_MAP_LISTED, // lights in the pixel's list
+    // Lights evaluated, including loop turns in which the pixel waits for its neighbours.
+    Evaluated = gpu::HEAT_MAP_EVALUATED,
+    Efficiency = gpu::HEAT_MAP_EFFICIENCY, // the share of the listed lights that contribute
     Class = gpu::HEAT_MAP_CLASS            // CndPixelClass
 };
-constexpr int heatMapCount = 5; // None included
+constexpr int heatMapCount = 5; // including None
 
 class HeatMapPass
 {
 public:
-    // `device` must outlive it.
+    // `device` must outlive the pass.
     HeatMapPass(const gpu::Device& device, PixelSize size, uint32_t framesInFlight);
 
     VkImageView pairs() const { return pairs_.view.get(); }
-    const gpu::Image& pairImage() const { return pairs_; } // GENERAL; may be copied from
-    // Empties the pair image for the frame that is recorded next.
+    const gpu::Image& pairImage() const { return pairs_; } // in GENERAL; may be copied from
+    // Sets the pair image to 0 for the frame that is recorded next.
     void recordClear(VkCommandBuffer cmd) const;
-    // Paints over the display image, which is in GENERAL; begins with a barrier for what compute
-    // wrote.
+    // Paints the heat map over the display image, which is in GENERAL. The recording begins with a
+    // barrier that waits for what compute shaders wrote.
     void record(VkCommandBuffer cmd, uint32_t slot, HeatMap which, VkImageView display);
 
 private:

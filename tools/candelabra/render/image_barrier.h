@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Barriers of images of one mip level, in terms of who uses them.
+// Barriers for images with one mip level. An ImageAccess says who uses the image before or after.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -24,17 +24,19 @@ inline constexpr ImageAccess transferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
 inline constexpr ImageAccess transferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                                            VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
-// Its contents are not wanted; waits for transfers, which alone may still be reading it.
+// The state before of an image whose contents are no longer needed. The barrier waits for
+// transfers, because nothing else may still be reading the image.
 inline constexpr ImageAccess discarded{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE,
                                        VK_IMAGE_LAYOUT_UNDEFINED};
 
 VkImageMemoryBarrier2 imageBarrier(VkImage image, VkImageAspectFlags aspect,
                                    const ImageAccess& from, const ImageAccess& to);
 
-// Of colour images.
+// Records the barrier of a colour image.
 void transition(VkCommandBuffer cmd, VkImage image, const ImageAccess& from, const ImageAccess& to);
 
-// All texels become 0, in GENERAL, for compute to read and write.
+// Sets all texels to 0. Afterwards the image is in GENERAL, and compute shaders may read and write
+// it.
 void clearForCompute(VkCommandBuffer cmd, VkImage image, const ImageAccess& from);
 
 } // namespace candelabra::app

@@ -18,7 +18,7 @@ constexpr uint32_t margin = 3, barHeight = 6, barWidth = 160, swatch = 5;
 
 const glm::vec3 paper(0.08f), ink(0.92f);
 
-// Five rows of three dots, highest bit at the upper left.
+// The glyph of a character: five rows of three dots, with the highest bit at the upper left.
 uint16_t glyphOf(char c)
 {
     constexpr std::array<uint16_t, 10> digits = {075557, 026227, 071747, 071717, 055711,
@@ -38,7 +38,7 @@ uint16_t glyphOf(char c)
 class Canvas
 {
 public:
-    // Sizes in dots.
+    // `width` and `height` are in dots of `scale` pixels a side.
     Canvas(uint32_t width, uint32_t height, uint32_t scale)
         : scale_(scale), legend_{width * scale, height * scale, {}}
     {
@@ -77,7 +77,7 @@ uint32_t widthOf(const std::string& text)
 
 } // namespace
 
-// Polynomial: M. Zucker, public domain.
+// The polynomial is by M. Zucker, who put it into the public domain.
 glm::vec3 viridis(float place)
 {
     const glm::vec3 c[] = {{0.2777273272f, 0.0054073445f, 0.3340998053f},

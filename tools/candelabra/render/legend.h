@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of heat maps and the legend that says what they mean.
+// The colours of heat maps, and the legends that explain them.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 namespace candelabra::app
 {
 
-// viridis at 0..1: dark to light in steps that look even (Smith and van der Walt 2015; polynomial
-// fit), sRGB.
+// The sRGB colour of the map "viridis" (Smith and van der Walt 2015; a polynomial fit) at `place`,
+// 0 to 1: from dark to light, in steps that look even.
 glm::vec3 viridis(float place);
 
-// A small picture, RGBA8 packed with red lowest, rows from the top.
+// A small picture: RGBA8 with red in the lowest byte, rows from the top.
 struct Legend {
     uint32_t width = 0, height = 0;
     std::vector<uint32_t> pixels;
@@ -26,7 +26,8 @@ struct LegendMark {
     float place; // 0..1 along the bar
     std::string text;
 };
-// A bar of all colours with marks under it; `scale`: pixels per dot of the letters, 1 or more.
+// Draws a bar of all colours with marks under it. Letters are made of dots of `scale` pixels a
+// side, at least 1.
 Legend barLegend(const std::string& title, const std::vector<LegendMark>& marks, uint32_t scale);
 
 struct LegendEntry {

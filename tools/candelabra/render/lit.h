@@ -7,7 +7,8 @@
 namespace candelabra::app
 {
 
-// All that shapes the lit image of one scene at one size.
+// Everything that decides the lit image of one scene at one size: two frames with equal values have
+// the same image.
 struct Lit {
     Camera camera;
     double lightTime;
@@ -17,7 +18,7 @@ struct Lit {
     float errorBudget;
     CndCulling culling;
     CndInfluenceRule influence;
-    float influenceError, influenceExposure; // BY_ERROR
+    float influenceError, influenceExposure; // of CND_INFLUENCE_BY_ERROR
     CndToneMap influenceToneMap;
 
     bool operator==(const Lit&) const = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GPU times of the passes of several frames, and what is worth saying about them.
+// GPU times of the passes of several frames, and their statistics.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@ namespace candelabra::app
 struct PassTime {
     std::string name; // the kernel's file name
     double ms = 0;
-    double startMs = 0; // since the frame's start, with RendererOptions::stamps
-    uint32_t runs = 1;  // that the time is the sum of, with a stamp each
+    double startMs = 0; // since the start of the frame; needs RendererOptions::stamps
+    uint32_t runs = 1;  // the pass ran so often; `ms` is the sum, with one timestamp per run
 };
 
 struct PassSummary {
@@ -24,19 +24,20 @@ struct PassSummary {
     double minMs = 0, medianMs = 0, p95Ms = 0;
 };
 
-// "shade_tiles.comp" -> "shade_tiles"; other names stay.
+// Removes ".comp" from the end of a name, so "shade_tiles.comp" becomes "shade_tiles".
 std::string passName(const char* kernelName);
 
 class PassTimes
 {
 public:
-    // One frame's passes in order; a name that occurs twice is added up.
+    // Adds the passes of one frame, in order. Times of passes with the same name are added up.
     void add(std::span<const PassTime> frame);
     size_t frames() const { return totals_.size(); }
-    // In order of first appearance; passes missing from a frame count as 0 there. p95 is the
-    // nearest rank: the smallest time that 95% of the frames do not exceed.
+    // One entry per pass, in the order in which passes first appeared. A pass that a frame did not
+    // run counts as 0 ms in that frame. p95 is the nearest rank: the smallest time that 95% of the
+    // frames do not exceed.
     std::vector<PassSummary> summary() const;
-    // Sum of all passes, per frame; name "total".
+    // The statistics of each frame's sum over all passes, under the name "total".
     PassSummary total() const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the numbers of a result come from.
+// The provenance of the numbers in a result.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@
 namespace candelabra::app
 {
 
-// Program version, commit, device, driver, UTC time and command line.
+// Returns the program's version and commit, the device, its driver, the time (UTC) and the command
+// line.
 Json provenance(const DeviceInfo& device, const std::string& commandLine);
 
 } // namespace candelabra::app

@@ -35,7 +35,7 @@ void makeVisibleToHost(VkCommandBuffer cmd)
     vkCmdPipelineBarrier2(cmd, &info);
 }
 
-// The first three of every four values.
+// Returns the first three of every four values.
 template <typename T>
 std::vector<T> dropAlpha(std::span<const T> rgba, size_t texels)
 {

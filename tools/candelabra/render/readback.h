@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images from the GPU to the host, in the terms of image files.
+// Copies images from the GPU to the host, and writes them to files.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +11,28 @@
 namespace candelabra::app
 {
 
-// Records the copy of all texels of a colour image that is in TRANSFER_SRC_OPTIMAL and visible to
-// transfers; the buffer is read once the GPU is done with it.
+// Records the copy of all texels of a colour image, which must be in TRANSFER_SRC_OPTIMAL and
+// visible to transfers, to the buffer returned. Read the buffer once the GPU has finished.
 gpu::Buffer recordReadback(const gpu::Device& device, VkCommandBuffer cmd, VkImage image,
                            PixelSize size, uint32_t texelBytes);
 
-// Texels of a rectangle of an image that is in `layout` and stays there, rows from the top.
+// Returns the texels of a rectangle of an image, rows from the top. The image is in `layout` before
+// and after. Waits for the GPU.
 std::vector<uint8_t> readTexels(const VulkanContext& context, const gpu::Image& image,
                                 VkImageAspectFlags aspect, VkImageLayout layout,
                                 const VkRect2D& rect, uint32_t texelBytes);
 
-// The last frame of a renderer that the GPU is done with. Throws gpu::Failure.
-Image readRadiance(const VulkanContext& context, const Renderer& renderer); // 3 channels, cd/m^2
-std::vector<uint8_t> readDisplay(const VulkanContext& context, const Renderer& renderer); // RGB
+// Read the last frame of the renderer, which the GPU must have finished: its radiance as 3 channels
+// in cd/m^2, or its display image as RGB. Throw gpu::Failure.
+Image readRadiance(const VulkanContext& context, const Renderer& renderer);
+std::vector<uint8_t> readDisplay(const VulkanContext& context, const Renderer& renderer);
 
-// Writes .png (display) or .exr, .hdr, .pfm (radiance). Throws ImageError.
+// Writes the display image to a .png file, or the radiance to an .exr, .hdr or .pfm file. Throws
+// ImageError.
 void saveFrame(const VulkanContext& context, const Renderer& renderer, const std::string& path);
 
-// Throws UsageError for other extensions; before any work is done.
+// Throws UsageError if saveFrame does not write files with the extension of `path`, so that
+// commands can refuse it before any work is done. `option` is the option that the message names.
 void requireImageExtension(const std::string& option, const std::string& path);
 
 } // namespace candelabra::app

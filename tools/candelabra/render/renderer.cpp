@@ -43,8 +43,8 @@ void append(std::vector<PassTime>& out, const CndKernelTime* times, uint32_t cou
         out.push_back({passName(times[i].name), times[i].ms});
 }
 
-// Rows behind one another from `start`, as they ran; of rows that sum several runs the first
-// counts.
+// Sets when each pass began: the first at `start`, each other one when the pass before it ended. A
+// pass that ran several times is placed at its first run.
 void place(std::span<PassTime> passes, double start)
 {
     for (PassTime& pass : passes) {
@@ -59,7 +59,8 @@ struct Renderer::State {
     const VulkanContext& context;
     const Scene& scene;
     RendererOptions options;
-    std::vector<bool> litSlots, exposedSlots; // its frame was lit, not kept; it has had one
+    std::vector<bool> litSlots;     // whether the slot's last frame was lit, not reused
+    std::vector<bool> exposedSlots; // whether the slot has had a frame with exposure
     gbuffer::Geometry geometry;
     gbuffer::GBuffer gbuffer;
     gbuffer::Targets targets;
@@ -69,11 +70,13 @@ struct Renderer::State {
     Exposure exposure;
     Environment environment; // empty: the scene has none
     std::vector<CndLight> lights;
-    std::optional<uint32_t> emitterLayers; // of what the G-buffer shows; empty: of no lights yet
+    std::optional<uint32_t>
+        emitterLayers; // layers of the emitters in the G-buffer; empty: no lights yet
     double lightTime = 0;
-    std::optional<Lit> drawn;            // what the images hold
-    std::optional<HeatMapPass> heatMaps; // once one is asked for
-    FrameStamps stamps; // behind surfaces with their environment, lighting, exposure
+    std::optional<Lit> drawn;            // what the images show
+    std::optional<HeatMapPass> heatMaps; // created for the first frame that shows a heat map
+    // After surfaces and their environment, after lighting, and after exposure.
+    FrameStamps stamps;
 
     State(const VulkanContext& c, const Scene& s, const RendererOptions& o)
         : context(c),
@@ -97,7 +100,7 @@ struct Renderer::State {
     void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
     void recordEnvironment(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame) const;
     CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& frame) const;
-    // What lighting and environment are told alike.
+    // The members that frames of lighting and of the environment have in common.
     template <typename Frame>
     Frame surfaceFrame(uint32_t slot, const FrameOptions& frame) const
     {
@@ -138,7 +141,8 @@ void Renderer::State::createSized()
     heatMaps.reset();
     const gpu::Device& device = context.device();
     const auto [width, height] = options.size;
-    // The old ones go first, so that both never take memory at once.
+    // The old images are destroyed first, so that old and new ones never take memory at the same
+    // time.
     view = LightingView();
     targets = {};
     display = {};
@@ -213,7 +217,8 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
         recordEnvironment(cmd, slot, frame);
 }
 
-// Before the lights, so that frames drawn in pieces add up in the same order.
+// The environment is added before the lights, so that frames recorded in pieces add up in the same
+// order.
 void Renderer::State::recordEnvironment(VkCommandBuffer cmd, uint32_t slot,
                                         const FrameOptions& frame) const
 {
@@ -238,7 +243,8 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
     return out;
 }
 
-// The slot's frame before is done: its exposure needs no waiting, and is the same in every run.
+// The previous frame in the slot has finished, so its exposure is read without waiting and is the
+// same in every run.
 CndInfluence Renderer::State::influenceOf(uint32_t slot, const FrameOptions& frame) const
 {
     CndInfluence out = frame.influence;
@@ -385,7 +391,7 @@ FrameStats Renderer::stats(uint32_t slot) const
     out.stamps = state_->stamps.count(slot);
     const auto addModule = [&](const CndKernelTime* rows, uint32_t count) {
         append(out.passes, rows, count);
-        out.stamps += count ? count + 1 : 0; // one at its beginning
+        out.stamps += count ? count + 1 : 0; // one more at the beginning of the module
     };
     std::vector<CndKernelTime> raster(CND_MAX_KERNEL_TIMES);
     uint32_t count = 0;
@@ -401,7 +407,7 @@ FrameStats Renderer::stats(uint32_t slot) const
         const size_t first = out.passes.size();
         addModule(out.lighting.kernelTimes, out.lighting.kernelTimeCount);
         place(std::span(out.passes).subspan(first), endOf(0));
-        // Once for every type of light.
+        // Shading passes run once for every type of light in the scene.
         const uint32_t types = uint32_t(std::count_if(std::begin(out.lighting.lightTypeCounts),
                                                       std::end(out.lighting.lightTypeCounts),
                                                       [](uint32_t n) { return n; }));

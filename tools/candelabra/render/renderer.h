@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renderer: one scene at one image size, from G-buffer to display image. Uses the lighting and
-// exposure modules through their public C ABI only.
+// Renderer draws one scene at one image size, from the G-buffer to the display image. It uses the
+// lighting, environment and exposure modules through the engine's public face only.
 #pragma once
 
 #include <memory>
@@ -24,47 +24,50 @@ struct RendererOptions {
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     uint32_t framesInFlight = 2;
     uint32_t specularMethods = 0;  // mask of 1 << CndSpecularMethod that frames may use; 0: all
-    bool influenceByError = false; // FrameOptions::influence may be BY_ERROR
-    bool stamps = false;           // FrameStats::gpuMs, and when passes began: four more timestamps
+    bool influenceByError = false; // FrameOptions::influence may be CND_INFLUENCE_BY_ERROR
+    // Measures FrameStats::gpuMs, and when passes begin, with four more timestamps per frame.
+    bool stamps = false;
 };
 
-// What a frame takes over from the one before it where nothing has changed: the image is the same,
-// the time is not, so what is timed asks for it by name.
+// What a frame takes over from the frame before if nothing has changed. The image is the same, but
+// the GPU time is not, so whoever measures times chooses explicitly.
 enum class Reuse {
-    None,    // everything is done again
-    Lists,   // prepared lights, clusters and lists: camera and lights have not changed
-    Lighting // the lit image as well: nothing that shapes it has changed
+    None,    // nothing: every frame does all the work
+    Lists,   // the prepared lights, clusters and lists, if camera and lights have not changed
+    Lighting // the lit image as well, if nothing that decides it has changed
 };
 
 struct FrameOptions {
     Camera camera;
-    double time = 0;           // s: where moving lights are
-    float deltaTime = 0;       // s since the previous frame, for exposure
+    double time = 0;           // s; decides where moving lights are
+    float deltaTime = 0;       // s since the previous frame, for the adaptation of exposure
     bool resetExposure = true; // jump to the converged exposure
     bool lightsVisible = true;
     bool countPairs = false;
     uint32_t ditherSeed = 0;
     CndSpecularMethod specular = CND_SPECULAR_CONIC;
-    uint32_t sampleCount = 0; // CND_SPECULAR_SAMPLED; 0: the module's default
+    uint32_t sampleCount = 0; // of CND_SPECULAR_SAMPLED; 0: the module's default
     uint32_t sampleSeed = 0;
     float errorBudget = 0; // as CndLightingFrame::errorBudget
     CndCulling culling = CND_CULLING_CLUSTERED;
-    // Exposure and tone map are filled in: those of the slot's frame before, which is when lights
-    // are first cut, or of manual exposure.
+    // The renderer fills in the exposure and the tone map. The exposure is the manual one, or that
+    // of the previous frame in the same slot; in a slot's first frame no light is cut.
     CndInfluence influence{};
     Reuse reuse = Reuse::None;
-    HeatMap heatMap = HeatMap::None; // on the display image; clustered culling only
+    HeatMap heatMap = HeatMap::None; // painted over the display image; needs clustered culling
     CndExposureSettings exposure{};
 };
 
-// Of one finished frame.
+// Statistics of one finished frame.
 struct FrameStats {
-    std::vector<PassTime> passes;  // in order; empty without timestamps
-    std::vector<CndPassPlan> plan; // of all modules, in order
-    double gpuStartMs = 0;         // with RendererOptions::stamps: on the device's clock
-    double gpuMs = 0;              // likewise: from the frame's first stamp to its last
-    uint32_t stamps = 0;           // timestamps taken, those of the modules included
-    bool lit = true;               // false: Reuse kept the image, and `lighting` is empty
+    std::vector<PassTime> passes;  // in order; empty if the device has no timestamps
+    std::vector<CndPassPlan> plan; // passes of all modules, in order
+    // With RendererOptions::stamps: the frame's first timestamp on the device's clock, and the time
+    // from it to the frame's last one.
+    double gpuStartMs = 0;
+    double gpuMs = 0;
+    uint32_t stamps = 0; // timestamps taken, including those of the modules
+    bool lit = true;     // false: the image was reused (Reuse::Lighting), and `lighting` is empty
     CndLightingStats lighting{};
     CndExposureStats exposure{};
 };
@@ -72,48 +75,53 @@ struct FrameStats {
 class Renderer
 {
 public:
-    // `context` and `scene` must outlive it. Throws UsageError, RunError or gpu::Failure.
+    // `context` and `scene` must outlive the renderer. Throws UsageError, RunError or gpu::Failure.
     Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    // Keeps the history of exposure. The GPU must be done with all frames.
+    // Changes the image size and keeps the history of exposure. The GPU must have finished all
+    // frames.
     void resize(PixelSize size);
     PixelSize size() const;
 
-    // The scene's lights are others than they were: frames recorded from now on have them. Throws
-    // UsageError for lights that the module refuses.
+    // Call it after the lights of the scene have changed: frames recorded from now on show the new
+    // ones. Throws RunError for lights that the lighting module refuses.
     void lightsChanged();
-    // Lights of a moving scene go to where they are at `time` (s). record() does it too.
+    // Moves the lights of a moving scene to where they are at `time` (s). record() does so too.
     void moveLights(double time);
-    // A whole frame; the GPU must be done with the slot's previous one. Leaves radiance and display
-    // in TRANSFER_SRC_OPTIMAL, visible to transfers.
+    // Records a whole frame. The GPU must have finished the slot's previous frame. Radiance and
+    // display image end in TRANSFER_SRC_OPTIMAL, visible to transfers.
     void record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& options);
-    // A frame in pieces, for checks that spread it over many submissions: the G-buffer and the
-    // environment; lighting of rectangles that do not overlap, by brute force; the end, which
-    // leaves radiance (not display) like record(). Slot 0 only.
+    // Record a frame in slot 0 in pieces, for checks that spread it over many submissions:
+    // recordUnlit the G-buffer and the environment, recordBruteRect lighting by brute force of a
+    // rectangle that overlaps no other, and recordBruteEnd the end, which leaves the radiance, but
+    // not the display image, as record() does.
     void recordUnlit(VkCommandBuffer cmd, const FrameOptions& options);
     void recordBruteRect(VkCommandBuffer cmd, const FrameOptions& options, const VkRect2D& rect);
     void recordBruteEnd(VkCommandBuffer cmd);
-    // Between those: forgets what radiance holds.
+    // Between those calls: sets the radiance to 0.
     void recordBlack(VkCommandBuffer cmd);
-    // Lights of the frames recorded from now on, instead of the scene's, which come back when they
-    // move. The GPU must be done with all frames.
+    // Replaces the scene's lights in the frames recorded from now on. The scene's lights come back
+    // when they move, or with lightsChanged(). The GPU must have finished all frames.
     void setLights(const std::vector<CndLight>& lights);
 
-    // What the lighting module is told of such a frame; images change with resize().
+    // Returns what the lighting module is told about a frame. The images in it change with
+    // resize().
     CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& options) const;
 
-    // Of the last frame recorded in `slot`, which the GPU must have finished.
+    // Statistics of the last frame recorded in `slot`, which the GPU must have finished.
     FrameStats stats(uint32_t slot) const;
-    // Of the last lighting recorded in `slot`.
+    // Statistics of the last lighting recorded in `slot`, which the GPU must have finished.
     CndLightingStats lightingStats(uint32_t slot) const;
 
-    const gpu::Image& radiance() const;      // R32G32B32A32_SFLOAT, cd/m^2
-    const gpu::Image& display() const;       // R8G8B8A8_UNORM, sRGB-encoded
-    const gbuffer::Targets& targets() const; // SHADER_READ_ONLY_OPTIMAL but for radiance
-    const gpu::Image& pairs() const; // GENERAL, CndLightingFrame::pairImage of the last heat map
+    const gpu::Image& radiance() const; // R32G32B32A32_SFLOAT, cd/m^2
+    const gpu::Image& display() const;  // R8G8B8A8_UNORM, sRGB-encoded
+    // The G-buffer; all images but the radiance are in SHADER_READ_ONLY_OPTIMAL.
+    const gbuffer::Targets& targets() const;
+    // CndLightingFrame::pairImage of the last heat map, in GENERAL.
+    const gpu::Image& pairs() const;
 
     uint64_t triangleCount() const; // of all instances
 

@@ -32,7 +32,8 @@ gpu::Buffer stage(const gpu::Device& device, const Image& image)
     return buffer;
 }
 
-// As many texels around the horizon as the image has, within reason.
+// The side of a cube face that gives the cube map about as many texels around the horizon as the
+// image has, between 64 and 1024.
 uint32_t cubeSizeFor(const Image& image)
 {
     return std::clamp(std::bit_ceil(std::max(image.width / 4, 1u)), 64u, 1024u);

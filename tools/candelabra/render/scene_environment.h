@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment of a scene, on the device.
+// Uploads the environment of a scene to the device.
 #pragma once
 
 #include "candelabra/candelabra.hpp"
@@ -14,13 +14,13 @@ struct EnvironmentOptions {
     uint32_t framesInFlight = 1;
 };
 
-// The environment as a light, ready for frames: uploads the image and waits until the device has
-// made of it what shading needs. Throws UsageError, RunError or gpu::Failure.
+// Uploads the image of the environment and waits until the device has prepared what shading needs.
+// Returns the environment, ready for frames. Throws UsageError, RunError or gpu::Failure.
 Environment uploadEnvironment(const VulkanContext& context, const SceneEnvironment& environment,
                               const EnvironmentOptions& options);
 
-// worldFromEnvironment of CndEnvironmentFrame: the image turned about the y axis, counter-clockwise
-// seen from above, by `rotation` radians.
+// Sets CndEnvironmentFrame::worldFromEnvironment to a rotation about the y axis by `rotation`
+// radians, counter-clockwise seen from above.
 void setEnvironmentRotation(double rotation, float (&worldFromEnvironment)[9]);
 
 } // namespace candelabra::app

@@ -12,7 +12,8 @@ namespace candelabra::app
 namespace
 {
 
-// The two vertex structs have one layout, so that meshes are copied in one piece.
+// The two vertex structs have the same layout, so that the vertices of a mesh are copied in one
+// piece.
 static_assert(sizeof(Vertex) == sizeof(gbuffer::Vertex));
 static_assert(offsetof(Vertex, position) == offsetof(gbuffer::Vertex, position));
 static_assert(offsetof(Vertex, normal) == offsetof(gbuffer::Vertex, normal));

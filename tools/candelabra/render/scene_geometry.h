@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Scene in the terms of the default raster pass.
+// Converts the geometry of a Scene for the default raster pass.
 #pragma once
 
 #include "gbuffer/geometry.h"
@@ -8,8 +8,10 @@
 namespace candelabra::app
 {
 
-// On the GPU, ready to draw: uploads and waits. Throws gpu::Failure.
 class VulkanContext;
+
+// Uploads the geometry of the scene to the GPU, waits, and returns it ready to draw. Throws
+// gpu::Failure.
 gbuffer::Geometry uploadGeometry(const VulkanContext& context, const Scene& scene);
 
 } // namespace candelabra::app

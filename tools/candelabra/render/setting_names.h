@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the settings of a scene and of a frame are called on the command line, in the viewer's panel
+// The names that settings of a scene and of a frame have on the command line, in the viewer's panel
 // and in results.
 #pragma once
 

@@ -43,7 +43,8 @@ uint32_t findQueueFamily(const VulkanInstance& instance, const DeviceInfo& devic
                           "display"));
 }
 
-// The same commands under two names; the first is not in headers of 1.3.239.
+// The same two functions under two extensions. The first extension is not in the headers of Vulkan
+// 1.3.239.
 struct CalibratedTimestamps {
     const char *extension, *get, *domains;
 };
@@ -53,7 +54,7 @@ constexpr CalibratedTimestamps calibratedTimestamps[] = {
     {VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME, "vkGetCalibratedTimestampsEXT",
      "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT"}};
 
-// Those of the device that know CLOCK_MONOTONIC; null: none.
+// Returns the extension of the device that knows CLOCK_MONOTONIC, or null if it has none.
 const CalibratedTimestamps* findCalibratedTimestamps(VkInstance instance, VkPhysicalDevice device)
 {
     uint32_t count = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Vulkan device with one queue, as the host of the candelabra modules.
+// VulkanContext creates a Vulkan device with one queue and hosts the engine's modules on it.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace candelabra::app
 {
 
 struct ContextOptions {
-    std::string device; // as for chooseDevice
+    std::string device; // `wanted` of chooseDevice
     Validation validation = Validation::Off;
     Presentation presentation = Presentation::Headless;
 };
@@ -30,26 +30,28 @@ public:
 
     const VulkanInstance& instance() const { return instance_; }
     const DeviceInfo& info() const { return info_; }
-    // Valid as long as the context.
+    // The description from which modules are created. It is valid as long as the context.
     const CndDeviceDesc& desc() const { return desc_; }
     const gpu::Device& device() const { return *gpu_; }
-    VkQueue queue() const { return queue_; } // graphics, compute, transfer (and presentation)
+    // The queue does graphics, compute and transfers, and presentation with Presentation::Window.
+    VkQueue queue() const { return queue_; }
     uint32_t queueFamily() const { return queueFamily_; }
     uint32_t timestampValidBits() const { return timestampValidBits_; } // of the queue
     bool samplerAnisotropy() const { return samplerAnisotropy_; }
-    // Asks the device's timestamps and CLOCK_MONOTONIC at once, and the extension it is of; null
-    // where the device cannot.
+    // The function that reads the device's timestamps and CLOCK_MONOTONIC at the same time, and the
+    // extension that it belongs to. Both are null if the device cannot do that.
     PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps() const
     {
         return getCalibratedTimestamps_;
     }
     const char* calibratedTimestampsExtension() const { return calibratedTimestamps_; }
 
-    // Records with `record`, submits, and waits until the GPU has finished.
+    // Lets `record` record commands, submits them, and waits until the GPU has finished.
     void submitAndWait(const std::function<void(VkCommandBuffer)>& record) const;
     void waitIdle() const;
 
-    // Ends the context's life but for instance() and its messages: leaks are reported there.
+    // Destroys everything but instance() and its messages, among which the validation layers then
+    // report leaks.
     void destroyDevice();
 
 private:

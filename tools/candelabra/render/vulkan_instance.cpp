@@ -39,7 +39,8 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(MessageLog& log)
     return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
             .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                                VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-            // Not GENERAL: those are the loader's own remarks about the machine's drivers.
+            // GENERAL is left out: such messages are the loader's own remarks about the drivers of
+            // the machine.
             .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
                            VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
             .pfnUserCallback = onMessage,
@@ -133,7 +134,7 @@ bool isNumber(const std::string& text)
            std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-// The device that `wanted` names; throws UsageError when there is none.
+// Returns the device that `wanted` names. Throws UsageError if there is none.
 DeviceInfo findDevice(const std::vector<DeviceInfo>& devices, const std::string& wanted)
 {
     if (isNumber(wanted)) {
@@ -273,7 +274,7 @@ DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::strin
         if (d.missing.empty() && (!best || preference(d.type) < preference(best->type)))
             best = &d;
     if (!best)
-        throw RunError("no Vulkan device will do; " + devices[0].name +
+        throw RunError("no Vulkan device is usable; " + devices[0].name +
                        " lacks: " + devices[0].missing);
     return *best;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vulkan instance, validation messages, and the list of devices with what each lacks.
+// The Vulkan instance, the messages of the validation layers, and the list of devices, which says
+// what each device lacks.
 #pragma once
 
 #include <memory>
@@ -18,8 +19,8 @@ enum class Validation {
 };
 
 enum class Presentation {
-    Headless, // never touches a display
-    Window,   // instance and device can present to GLFW windows
+    Headless, // no display is used
+    Window,   // the instance and the device can present to GLFW windows
 };
 
 struct ValidationMessage {
@@ -27,12 +28,12 @@ struct ValidationMessage {
     std::string text;
 };
 
-// Warnings and errors of the validation layers, from any thread.
+// Collects warnings and errors of the validation layers, which may come from any thread.
 class MessageLog
 {
 public:
     void add(ValidationMessage message);
-    // All messages since the last call.
+    // Returns all messages since the last call.
     std::vector<ValidationMessage> take();
 
 private:
@@ -47,11 +48,11 @@ struct DeviceInfo {
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     std::string vulkanVersion; // "1.3.230"
     std::string driver;        // driver name and version as the driver states them
-    std::string missing;       // what candelabra needs and the device lacks; empty: usable
+    std::string missing;       // what candelabra needs and the device lacks; empty: it is usable
 };
 
-// Lights that the device has room for: their records share one storage buffer. The lighting module
-// refuses more by itself, but only after a scene with that many has been made.
+// The largest number of lights whose records fit into one storage buffer of the device. The
+// lighting module itself refuses more, but only after a scene with so many lights has been made.
 uint32_t maxLightsOf(const DeviceInfo& device);
 
 // "discrete GPU", "integrated GPU", "virtual GPU", "CPU" or "other".
@@ -60,7 +61,8 @@ const char* deviceTypeName(VkPhysicalDeviceType type);
 class VulkanInstance
 {
 public:
-    // Throws RunError without a Vulkan loader or, when asked for, validation layer or display.
+    // Throws RunError if there is no Vulkan loader, or no validation layer or display where one is
+    // asked for.
     VulkanInstance(Validation validation, Presentation presentation);
     ~VulkanInstance();
     VulkanInstance(const VulkanInstance&) = delete;
@@ -72,7 +74,7 @@ public:
     bool debugUtils() const { return debugUtils_; }
     MessageLog& messages() const { return *messages_; }
 
-    // In the loader's order; throws gpu::Failure when they cannot be listed.
+    // Returns the devices in the loader's order. Throws gpu::Failure if they cannot be listed.
     std::vector<DeviceInfo> devices() const;
 
 private:
@@ -84,9 +86,10 @@ private:
     std::unique_ptr<MessageLog> messages_ = std::make_unique<MessageLog>();
 };
 
-// The device to use. `wanted` is empty (discrete, then integrated, virtual, CPU; among those that
-// lack nothing), an index, or a part of the name in any case. Throws UsageError when `wanted` names
-// no device or one that lacks something, RunError when no device will do.
+// Chooses the device to use. `wanted` is an index, or a part of the device's name in upper or lower
+// case. If it is empty, the device is the first that lacks nothing: a discrete GPU, else an
+// integrated one, else a virtual one, else a CPU. Throws UsageError if `wanted` names no device or
+// one that lacks something, and RunError if no device is usable.
 DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& wanted);
 
 } // namespace candelabra::app

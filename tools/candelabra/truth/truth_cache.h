@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where computed truths are kept, so that the same one is never computed twice.
+// Stores computed truths in a directory, so that the same truth is not computed twice.
 #pragma once
 
 #include <optional>
@@ -13,18 +13,18 @@ namespace candelabra::app
 class TruthCache
 {
 public:
-    // $XDG_CACHE_HOME/candelabra/truth or ~/.cache/candelabra/truth; no cache where neither
-    // variable says something.
+    // Returns the cache in $XDG_CACHE_HOME/candelabra/truth or in $HOME/.cache/candelabra/truth. If
+    // neither variable holds an absolute path, the cache stores nothing.
     static TruthCache standard();
-    // This directory, which is made when something is stored.
+    // The cache in `directory`, which is created when something is stored.
     explicit TruthCache(const std::string& directory) : directory_(directory) {}
-    // No cache: finds nothing and stores nothing.
+    // A cache that stores nothing and finds nothing.
     TruthCache() = default;
 
-    // Fills in the pixels of a shard whose other members say what is wanted. Files that are not
-    // what their name says are as good as absent.
+    // Looks for the shard that the other members of `wanted` describe. Returns true and sets its
+    // pixels if the cache has it. A file that does not hold what its name says is ignored.
     bool find(TruthShard& wanted) const;
-    // A cache that cannot be written is a warning, not an error.
+    // Stores the shard. If that fails, a warning is logged, and the program goes on.
     void store(const TruthShard& shard) const;
 
 private:

@@ -18,9 +18,9 @@ struct Size {
     int width, height;
 };
 
-// --- colour spaces, all relative to the white of Rec.709 primaries
+// --- Colour spaces, all relative to the white of the Rec.709 primaries
 
-// Rows of the matrix; IEC 61966-2-1.
+// The rows of the matrix from linear RGB to XYZ (IEC 61966-2-1).
 glm::dvec3 xyzFromLinear(const glm::dvec3& c)
 {
     return {0.4123865632529917 * c.x + 0.3575914909206253 * c.y + 0.1804504912035637 * c.z,
@@ -42,7 +42,7 @@ double linearFromSrgb(double x)
     return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
 
-// Opponent space in which contrast sensitivity is given: achromatic, red-green, blue-yellow.
+// The opponent space in which contrast sensitivity is given: achromatic, red-green, blue-yellow.
 glm::dvec3 opponentFromLinear(const glm::dvec3& c)
 {
     const glm::dvec3 r = xyzFromLinear(c) / white;
@@ -55,7 +55,7 @@ glm::dvec3 linearFromOpponent(const glm::dvec3& c)
     return linearFromXyz(glm::dvec3(y + c.y / 500, y, y - c.z / 200) * white);
 }
 
-// CIELAB with a and b scaled by lightness (Hunt effect).
+// CIELAB with a and b scaled by lightness (the Hunt effect).
 glm::dvec3 huntFromLinear(const glm::dvec3& c)
 {
     const auto f = [](double t) {
@@ -73,9 +73,9 @@ double hyab(const glm::dvec3& a, const glm::dvec3& b)
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-// --- filters
+// --- Filters
 
-// Weights (2 radius + 1)^2, one per channel; samples outside the image repeat its edge.
+// Filters with (2 radius + 1)^2 weights per channel. Samples outside the image repeat its edge.
 struct Filter {
     int radius;
     std::vector<glm::vec3> weights;
@@ -99,7 +99,8 @@ Plane convolve(const Plane& in, Size size, const Filter& filter)
     return out;
 }
 
-// Contrast sensitivity of the three opponent channels as sums of two Gaussians (their table 1).
+// The contrast sensitivity of the three opponent channels as sums of two Gaussians (table 1 of the
+// paper).
 Filter contrastSensitivity(double pixelsPerDegree)
 {
     struct Gaussians {
@@ -126,8 +127,8 @@ Filter contrastSensitivity(double pixelsPerDegree)
     return out;
 }
 
-// First and second derivative of a Gaussian along x, in the components x and y; positive and
-// negative weights each add up to 1.
+// The first and second derivative of a Gaussian along x, in the components x and y. Positive
+// weights add up to 1, negative ones to -1.
 Filter features(double pixelsPerDegree, bool alongX)
 {
     const double sd = 0.5 * 0.082 * pixelsPerDegree;
@@ -148,7 +149,7 @@ Filter features(double pixelsPerDegree, bool alongX)
     return out;
 }
 
-// --- the two halves of the measure
+// --- The two halves of the measure
 
 Plane filteredLab(const Plane& opponent, Size size, const Filter& sensitivity)
 {
@@ -158,7 +159,8 @@ Plane filteredLab(const Plane& opponent, Size size, const Filter& sensitivity)
     return out;
 }
 
-// Their section 4.1.3: HyAB compressed, large distances squeezed into the last 5%.
+// The colour difference of section 4.1.3 of the paper: HyAB, compressed so that large distances
+// share the last 5% of the range.
 double colourDifference(const glm::dvec3& a, const glm::dvec3& b)
 {
     constexpr double exponent = 0.7, knee = 0.4, kneeValue = 0.95;
@@ -171,7 +173,7 @@ double colourDifference(const glm::dvec3& a, const glm::dvec3& b)
 }
 
 struct Features {
-    Plane x, y; // components: edge, point
+    Plane x, y; // the components hold edges and points
 };
 
 Features featuresOf(const Plane& opponent, Size size, double pixelsPerDegree)

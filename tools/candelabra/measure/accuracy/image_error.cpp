@@ -13,12 +13,12 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double litShare = 1e-3; // of the largest value: brighter is lit
+constexpr double litShare = 1e-3; // channels above this share of the largest value are lit
 constexpr size_t worstPixels = 8;
 
 std::vector<WorstPixel> worstOf(const Image& value, const Image& truth)
 {
-    std::vector<std::pair<double, size_t>> bySize; // per pixel: its worst channel
+    std::vector<std::pair<double, size_t>> bySize; // the worst channel of each pixel
     for (size_t pixel = 0; pixel < truth.pixels.size() / 3; ++pixel) {
         std::pair<double, size_t> worst{-1, 0};
         for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)

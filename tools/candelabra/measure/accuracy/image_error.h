@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a rendered image is from its truth.
+// Measures how far a rendered image is from its truth.
 #pragma once
 
 #include <vector>
@@ -17,24 +17,23 @@ struct WorstPixel {
     double value, truth; // cd/m^2, the channel that differs most
 };
 
-// Of all channels of all pixels. d = value - truth.
+// The differences of all channels of all pixels, where d = value - truth.
 struct ImageDifference {
     double relMse = 0; // mean of d^2 / (truth^2 + 0.01 mean(truth)^2)
     double relL1 = 0;  // sum |d| / sum truth
     double maxOverPeak = 0;
     double energy = 0; // sum value / sum truth - 1
-    // Where truth > 0.001 of its largest value:
+    // The same over lit channels only: those whose truth is above 0.001 of its largest value.
     double litRelMse = 0, litMeanRel = 0, litP99Rel = 0, litMaxRel = 0;
-    double flip = 0;               // mean over the pixels, as displayed
-    size_t invalid = 0;            // values that are NaN or infinite; counted as 0
-    std::vector<WorstPixel> worst; // by |d|, largest first
+    double flip = 0;               // the mean of FLIP over the pixels of the displayed images
+    size_t invalid = 0;            // values that are NaN or infinite, which count as 0
+    std::vector<WorstPixel> worst; // the pixels with the largest |d|, the largest first
 };
 
-// Both have 3 channels and one size.
+// Both images have 3 channels and the same size.
 ImageDifference imageDifference(const Image& value, const Image& truth);
 
-// The images as an eye adapted to the first sees them: exposure metered on `truth`, default tone
-// map. For both the same exposure.
+// Both images as they are displayed: with the exposure metered on `truth` and the default tone map.
 struct Displayed {
     DisplayImage truth, value;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole frames: GPU time of lighting against the image's error to its truth, and what an error
-// budget saves and costs. Time and error come from the same frames, methods interleaved.
+// Measures on whole frames the GPU time of lighting against the image's error, and what an error
+// budget saves and costs. Time and error come from the same frames. The methods are drawn in turn.
 #pragma once
 
 #include <optional>
@@ -15,25 +15,26 @@
 namespace candelabra::app
 {
 
-// The methods that frames can be lit by, the representative point first.
+// The specular methods that frames can be lit with, beginning with the representative point
+// (karis).
 std::vector<CndSpecularMethod> imageMethods();
 
 struct ImageLevelSettings {
     std::vector<CndSpecularMethod> methods = imageMethods(); // times are relative to the first
     PixelSize size{192, 144};
-    uint32_t rounds = 5; // frames of every variant, after one to warm up
+    uint32_t rounds = 5; // frames of every variant, after one warm-up frame
     double truthTolerance = 1e-4;
-    uint32_t sampleCount = 16; // of the sampled method
-    // The scene of the error-budget sweep, as for loadScene, and its image.
+    uint32_t sampleCount = 16; // samples per light of the sampled method
+    // The scene of the error-budget sweep, named as for loadScene, its lights and the image size.
     std::string budgetScene = "hall";
     std::optional<uint32_t> budgetLights;
     PixelSize budgetSize{640, 360};
 };
 
 struct FrameTime {
-    double lightingMs = 0; // median over the rounds: all passes of the lighting module
-    double shadingMs = 0;  // of those, the ones that evaluate lights
-    double ratio = 0;      // of lighting to the first variant, median over the rounds
+    double lightingMs = 0; // all passes of the lighting module, median over the rounds
+    double shadingMs = 0;  // the passes that evaluate lights, median over the rounds
+    double ratio = 0;      // of lightingMs to the first variant's, median over the rounds
 };
 
 struct ImagePoint {
@@ -47,16 +48,16 @@ struct ImageScene {
     std::string name, about;
     Image truth;
     uint64_t unconverged = 0;
-    std::vector<ImagePoint> points; // karis first
+    std::vector<ImagePoint> points; // the first is karis
 };
 
 struct BudgetPoint {
     CndSpecularMethod method;
     double budget;
-    FrameTime time;         // ratio: to the full evaluation with karis
-    double ratioToFull = 0; // to the same method without a budget
-    // To the same method without a budget, all channels:
-    double meanRel = 0, p99Rel = 0; // where the full image is lit
+    FrameTime time;         // its ratio is to the full evaluation with karis
+    double ratioToFull = 0; // of the time to that of the same method without a budget
+    // Differences of all channels to the image of the same method without a budget.
+    double meanRel = 0, p99Rel = 0; // over the channels in which that image is lit
     double maxOverPeak = 0;
 };
 
@@ -64,16 +65,17 @@ struct BudgetSweep {
     std::string scene;
     size_t lights = 0;
     PixelSize size;
-    std::vector<BudgetPoint> points; // karis first, then conic with growing budgets
+    std::vector<BudgetPoint> points; // karis, then conic with growing budgets
 };
 
-// Planes and balls under lights of every kind.
+// The benchmark's own scenes of planes and balls, which together hold lights of every kind.
 std::vector<Scene> benchScenes();
 
 double imageLevelSteps(const ImageLevelSettings& settings);
 std::vector<ImageScene> measureImages(const VulkanContext& context,
                                       const ImageLevelSettings& settings, Progress& progress);
-// The scene of the error-budget sweep, made. Throws SceneError, so before the long part.
+// Loads the scene of the error-budget sweep. Throws SceneError; so call it before the measurements,
+// which take long.
 Scene budgetScene(const ImageLevelSettings& settings);
 BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSettings& settings,
                            const Scene& scene, Progress& progress);
@@ -81,7 +83,7 @@ BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSetting
 std::string imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets);
 Json imageJson(const ImageLevelSettings& settings, const std::vector<ImageScene>& scenes,
                const BudgetSweep& budgets);
-// relMSE against milliseconds, one series per method.
+// Plots relMSE against milliseconds, one series per method.
 std::string imagePlot(const std::vector<ImageScene>& scenes, const DeviceInfo& device);
 
 } // namespace candelabra::app

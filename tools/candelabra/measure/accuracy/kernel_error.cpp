@@ -29,7 +29,7 @@ ErrorStatistics statistics(std::vector<Error> errors)
               [](const Error& a, const Error& b) { return a.value < b.value; });
     for (const Error& e : errors)
         out.mean += e.value / double(errors.size());
-    const auto rank = [&](double share) { // nearest rank
+    const auto rank = [&](double share) { // the nearest rank
         return errors[size_t(std::ceil(share * double(errors.size()))) - 1].value;
     };
     out.p95 = rank(0.95);
@@ -39,7 +39,7 @@ ErrorStatistics statistics(std::vector<Error> errors)
     return out;
 }
 
-// A quantity of the true and of the shader's response.
+// A quantity that both the true response and the shader's response have.
 struct Quantity {
     std::function<double(const reference::LightResponse&)> truth;
     std::function<double(const gpu::BenchResponse&)> shader;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of one method on a sample set.
+// The errors of one specular method on a sample set.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@
 namespace candelabra::app
 {
 
-// Of absolute errors relative to the highest true response of their group, as a fraction.
+// Statistics of absolute errors, each divided by the highest true response of its group.
 struct ErrorStatistics {
     size_t count = 0;
     double mean = 0, p95 = 0, p99 = 0, max = 0;
@@ -21,24 +21,27 @@ struct ErrorStatistics {
 };
 
 struct HorizonStatistics {
-    ErrorStatistics all, above, crossing; // all: both; samples below the horizon are not in it
+    // Above the horizon, across it, and both. Samples below the horizon are not included.
+    ErrorStatistics all, above, crossing;
 };
 
 struct KernelError {
     HorizonStatistics mirror;     // F = 1
     HorizonStatistics dielectric; // F0 = 0.04
-    HorizonStatistics diffuse;    // of the form factor
-    // Relative L1 over the scan through the plane of incidence, mean over the groups.
+    HorizonStatistics diffuse;    // errors of the form factor
+    // The relative L1 error over the scan through the plane of incidence, averaged over the groups.
     double scanL1 = 0;
-    double leak = 0;    // largest response to a light wholly below the horizon, relative likewise
-    size_t invalid = 0; // NaN, infinite or negative responses; not in the statistics
+    // The largest response to a light wholly below the horizon, divided by the highest true
+    // response of its group.
+    double leak = 0;
+    size_t invalid = 0; // responses that are NaN, infinite or negative, which no statistic includes
 };
 
-// `responses`: of every sample of the set.
+// `responses` holds the shader's response to every sample of the set.
 KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse> responses);
 
 Json toJson(const KernelError& error);
-// What is special about a sample, in words.
+// Describes in words what is special about a sample.
 std::string describeSample(const SampleSet& set, size_t i);
 
 } // namespace candelabra::app

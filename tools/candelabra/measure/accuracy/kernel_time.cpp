@@ -48,8 +48,8 @@ void set(float (&out)[3], const glm::dvec3& v)
     out[2] = float(v.z);
 }
 
-// Lights of one type that the class is meant for: across the horizon (General), touching it from
-// above (Near), or well above.
+// Makes lights of one type for which a class is meant: lights that cross the horizon (General),
+// that touch it from above (Near), or that are well above it (Above, Point).
 std::vector<CndLight> lightsOf(uint32_t type, EvaluationClass c, const TimingSettings& s)
 {
     Random random(s.seed, 200 + uint64_t(type) * 8 + uint64_t(c));
@@ -166,7 +166,8 @@ std::vector<VariantTime> timeVariants(const VulkanContext& context,
     std::vector<Prepared> prepared;
     for (const TimedVariant& v : variants) {
         prepared.push_back(bench.prepare(v));
-        bench.milliseconds(prepared.back(), v, settings.manyLights); // compiles on first use
+        bench.milliseconds(prepared.back(), v,
+                           settings.manyLights); // the first use compiles the kernel
     }
     const double pairs = double(settings.lanes) * (settings.manyLights - settings.fewLights);
     std::vector<std::vector<double>> ns(variants.size());

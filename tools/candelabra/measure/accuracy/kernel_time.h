@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one evaluation of a light costs on the device, everything else subtracted.
+// Measures what one evaluation of a light costs on the device, without everything else in the
+// kernel.
 #pragma once
 
 #include <functional>
@@ -23,15 +24,15 @@ struct TimedVariant {
     std::string name;
     Evaluation evaluation;
     EvaluationClass evaluationClass = EvaluationClass::Above;
-    EvaluationClass lights = evaluationClass; // the class whose lights are evaluated so
-    // Nonzero: a form of the form factor alone instead (BENCH_FORM_FACTOR_*).
+    EvaluationClass lights = evaluationClass; // the class whose lights are evaluated
+    // With formFactor only a form factor is evaluated, in the form `form` (BENCH_FORM_FACTOR_*).
     bool formFactor = false;
     uint32_t form = 0;
 };
 
 struct VariantTime {
-    double medianNs = 0, minNs = 0; // per (pixel, light) on the whole device
-    // Of the ratio to the variant's baseline in the same round; 0 without one.
+    double medianNs = 0, minNs = 0; // per (pixel, light), with the whole device at work
+    // The median ratio to the variant's baseline in the same round; 0 without a baseline.
     double ratio = 0;
 };
 
@@ -42,10 +43,10 @@ struct TimingSettings {
     uint64_t seed = 1;
 };
 
-// Every round runs every variant once with few and once with many lights; a cost is the difference
-// of the two times over (manyLights - fewLights) lanes. `baseline[i]`: index of the variant that
-// variant i is compared with, round by round, or -1. Empty when the device has no timestamps.
-// `onRound` is called after each.
+// Every round runs every variant once with few and once with many lights. The cost of an evaluation
+// is the difference of the two times divided by (manyLights - fewLights) * lanes. `baseline[i]` is
+// the index of the variant that variant i is compared with, round by round, or -1. Returns nothing
+// if the device has no timestamps. `onRound` is called after each round.
 std::vector<VariantTime> timeVariants(const VulkanContext& context,
                                       const std::vector<TimedVariant>& variants,
                                       const std::vector<int>& baseline,

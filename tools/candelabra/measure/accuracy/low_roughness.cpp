@@ -15,7 +15,7 @@ constexpr float perceptualRoughness = 0.01f;
 const glm::dvec3 lightCentre{0.9, 0.8, 1.6};
 constexpr double lightRadius = 0.25;
 
-// A pixel of an orthographic view down -z onto the unit ball.
+// One pixel of an orthographic view along -z onto the unit ball.
 struct Hit {
     size_t pixel;
     glm::vec3 n, toLight;
@@ -26,7 +26,7 @@ std::vector<Hit> hitsOf(uint32_t size)
     std::vector<Hit> out;
     for (uint32_t y = 0; y < size; ++y)
         for (uint32_t x = 0; x < size; ++x) {
-            // The quarter of the ball that mirrors the light.
+            // The view shows the quarter of the ball that mirrors the light.
             const glm::dvec2 at((x + 0.5) / size * 0.7, 0.7 - (y + 0.5) / size * 0.7);
             const double z2 = 1 - glm::dot(at, at);
             if (z2 <= 0)
@@ -37,8 +37,9 @@ std::vector<Hit> hitsOf(uint32_t size)
     return out;
 }
 
-// Karis 2013 as usually written, in float32: alpha down to roughness^2, the distribution by
-// NoH^2 (a2 - 1) + 1, separable Schlick-Smith shadowing, no guard anywhere.
+// The method of Karis 2013 as it is usually written, in float32: alpha may be as small as
+// roughness^2, the distribution uses NoH^2 (a2 - 1) + 1, shadowing is the separable Schlick-Smith
+// form, and nothing guards against rounding.
 float naiveKaris(const Hit& hit)
 {
     const glm::vec3 v(0, 0, 1);

@@ -23,7 +23,7 @@ struct Group {
     glm::dvec3 v;
     double halfAngle; // of the emitter as seen, radians
     double distance;  // m
-    // Of shapes other than spheres: turn and tilt to the direction, and how long they are.
+    // For shapes other than spheres: turn and tilt to the direction, and how long they are.
     double turn, tilt, aspect;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The benchmark's own scenes: each shows one thing that methods find hard.
+// The scenes of the accuracy benchmark. Each shows one thing that specular methods find hard.
 #include <cmath>
 #include <limits>
 

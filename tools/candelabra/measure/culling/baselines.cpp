@@ -27,7 +27,7 @@ using gpu::MemoryUse;
 constexpr VkBufferUsageFlags storageUse =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 constexpr VkBufferUsageFlags texelUse = storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
-constexpr VkDeviceSize firstEntries = 1u << 20; // words
+constexpr VkDeviceSize firstEntries = 1u << 20; // in words; the buffer grows if lists need more
 
 uint64_t join(glm::uvec2 lowHigh)
 {
@@ -151,7 +151,8 @@ void Baselines::createLights(const Scene& scene)
     spheres_ = texels(device, "baseline spheres", n, MemoryUse::Device);
 }
 
-// The grid between the nearest and the farthest surface, which fitting the tiles has found.
+// The grid of froxels between the nearest and the farthest surface, whose depths were found while
+// the tiles were fitted to the depth buffer.
 void Baselines::createFroxels()
 {
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
@@ -161,7 +162,7 @@ void Baselines::createFroxels()
             farthest = std::max(farthest, double(range.y));
         }
     if (farthest == 0)
-        nearest = farthest = 1; // no surface
+        nearest = farthest = 1; // no pixel shows a surface
     nearest *= 0.999;
     farthest *= 1.001;
     gpu::BaselineGrid& grid = lists_[1].grid.as<gpu::BaselineGrid>()[0];
@@ -200,7 +201,7 @@ void Baselines::writeBindings()
     sets_.prepare.write(
         0, {Binding::of(PREPARE_LIGHTS_RECORDS, records_), Binding::of(PREPARE_LIGHTS_CORE, core_),
             Binding::of(PREPARE_LIGHTS_SHAPES, shapes_), Binding::of(PREPARE_LIGHTS_ORDER, order_),
-            Binding::of(PREPARE_LIGHTS_IDS, order_)}); // not written
+            Binding::of(PREPARE_LIGHTS_IDS, order_)}); // bound, but not written
     sets_.spheres.write(0, {Binding::of(BASELINE_SPHERES_CORE, core_),
                             Binding::of(BASELINE_SPHERES_OUTPUT, spheres_)});
     sets_.tiles.write(0, {Binding::sampled(BASELINE_TILES_DEPTH, frame_.depth),
@@ -221,9 +222,9 @@ void Baselines::writeBindings()
     const Binding core = Binding::ofTexels(SHADE_CORE, core_);
     const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
     const Binding shapes = Binding::of(SHADE_SHAPES, shapes_);
-    const Binding ids = Binding::of(SHADE_LIGHT_IDS, order_); // not read
+    const Binding ids = Binding::of(SHADE_LIGHT_IDS, order_); // bound, but not read
     const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame_.normalRoughness);
-    // Of hosts' own layouts: bound, not read.
+    // These are for G-buffer layouts of hosts. Here they are bound, but not read.
     const Binding hostNormals = Binding::sampled(SHADE_HOST_NORMAL, frame_.albedo);
     const Binding gbufferView = Binding::of(SHADE_GBUFFER_VIEW, gbufferView_);
     const Binding albedo = Binding::sampled(SHADE_ALBEDO, frame_.albedo);
@@ -268,7 +269,7 @@ gpu::BaselineCounters Baselines::counters(Baseline baseline) const
     return lists_[size_t(baseline)].counters.as<gpu::BaselineCounters>()[0];
 }
 
-// Draws until the lists fit.
+// Draws the frame again with larger buffers until the lists fit.
 void Baselines::fitLists(Baseline baseline)
 {
     Lists& lists = lists_[size_t(baseline)];
@@ -356,8 +357,8 @@ void Baselines::recordTiles(const gpu::Frame& f) const
                                         uint32_t(lists_[0].entries.size / sizeof(uint32_t)),
                                     .clearDepth = frame_.clearDepth,
                                     .invImageSize = 1.0f / glm::vec2(frame_.width, frame_.height)};
-    // A light takes at most an iteration to test and one to write; 32 of them one more, and the
-    // exits of three loops.
+    // 32 lights take at most 68 iterations of loops: for each light one to test and one to write
+    // it, one more for all 32, and the exits of three loops.
     constexpr uint32_t pixelIterations = 1024;
     const uint32_t limit = context_.device().maxLoopIterations;
     const uint32_t batch = limit == UINT32_MAX ? lightCount_ : (limit - pixelIterations) / 68 * 32;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other ways to cull the lights of a frame: 16x16 pixel tiles between their lowest and highest
-// depth (Lauritzen 2010), a grid of froxels (Persson 2013), and the floor: no culling at all. They
-// shade with the shipping functions by the closed form, so that only culling and lists differ.
-// Lights stand in the order of the scene, emitters are spheres, the camera is a perspective one.
+// Other ways to cull the lights of a frame: tiles of 16x16 pixels between their lowest and highest
+// depth (Lauritzen 2010), a grid of froxels (Persson 2013), and the floor, which does not cull at
+// all. They shade with the engine's functions by the closed form, so that only culling and lists
+// differ. Lights are sphere lights in the order of the scene, and the camera is a perspective one.
 #pragma once
 
 #include <array>
@@ -27,15 +27,16 @@ struct BaselineStats {
 class Baselines
 {
 public:
-    // Of one frame that `renderer` draws of `scene`; both must outlive it. Sizes every buffer by
-    // drawing the frame, so that no list is cut. Throws RunError where the lists do not fit the
-    // device, and for lights that are not spheres.
+    // Prepares for one frame that `renderer` draws of `scene`; both must outlive the object. The
+    // frame is drawn to find the sizes of the buffers, so that no list is cut. Throws RunError if
+    // the lists do not fit into the device, and for lights that are not spheres.
     Baselines(const VulkanContext& context, Renderer& renderer, const Scene& scene,
               const FrameOptions& options);
 
-    // Draws the frame; leaves the radiance like Renderer::record. Times of its passes.
+    // Draws the frame and returns the times of its passes. The radiance ends as after
+    // Renderer::record.
     std::vector<PassTime> draw(Baseline baseline);
-    // Of the tiles or the froxels.
+    // The statistics of the lists of Baseline::Tiles or Baseline::Froxels.
     BaselineStats stats(Baseline baseline) const { return lists_[size_t(baseline)].stats; }
 
 private:
@@ -64,7 +65,7 @@ private:
     void submit(const std::function<void(const gpu::Frame&)>& record);
     gpu::BaselineCounters counters(Baseline baseline) const;
     gpu::ShadeParams shadeParams() const;
-    glm::uvec2 groups() const; // of shading
+    glm::uvec2 groups() const; // workgroups of the shading kernels
 
     const VulkanContext& context_;
     Renderer& renderer_;

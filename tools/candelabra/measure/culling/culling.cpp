@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "io/svg_plot.h"
+#include "io/table.h"
 #include "load/load.h"
 #include "measure/culling/baselines.h"
 #include "measure/frame/brute_check.h"
@@ -20,12 +22,13 @@
 
 namespace candelabra::app
 {
+
 namespace
 {
 
-// Brute force that takes longer than this is drawn once, not in every round.
+// Brute force that takes longer than this is drawn once, and not in every round.
 constexpr double patienceMs = 1000;
-// Pairs of the strip that brute force is estimated from.
+// The (pixel, light) pairs of the strip from which the time of brute force is estimated.
 constexpr double stripPairs = 2e8;
 
 bool shades(const std::string& pass)
@@ -33,7 +36,8 @@ bool shades(const std::string& pass)
     return pass.starts_with("shade_") || pass == "baseline_shade" || pass == "baseline_floor";
 }
 
-// Of the tables that shading reads, filled by the first frame.
+// Returns false for the kernel that fills a table which shading reads: it runs in the first frame
+// only.
 bool countsAsLighting(const std::string& pass)
 {
     return pass != "dfg_table";
@@ -70,7 +74,7 @@ FrameOptions frameOptions(const Scene& scene)
     return out;
 }
 
-// One configuration, ready to be drawn in any way.
+// One configuration of scene and image size, ready to be lit in any way.
 class Frame
 {
 public:
@@ -81,7 +85,7 @@ public:
           renderer_(context, scene, {.size = size, .specularMethods = 1u << CND_SPECULAR_CONIC}),
           baselines_(context, renderer_, scene, options_)
     {
-        drawEngine(); // compiles, fills tables, uploads
+        drawEngine(); // compiles kernels, fills tables, uploads lights
         drawEngine();
         image_ = readRadiance(context_, renderer_);
     }
@@ -91,7 +95,7 @@ public:
         return passesOf(renderer_.lightingStats(0));
     }
     std::vector<PassTime> drawBaseline(Baseline b) { return baselines_.draw(b); }
-    // Of the last frame drawn, to the engine's.
+    // The difference of the last frame drawn to the engine's image.
     double difference() const
     {
         return largestDifference(readRadiance(context_, renderer_), image_);
@@ -103,7 +107,7 @@ public:
                                      checkRects(renderer_.size(), lights, CheckExtent::Full),
                                      lights, [](double) {});
     }
-    // ms, from a strip across the middle.
+    // Estimates the time of brute force in ms from a strip across the middle of the image.
     double estimateBrute()
     {
         const auto [width, height] = renderer_.size();
@@ -123,7 +127,7 @@ public:
                 ms += pass.name == "shade_brute" ? pass.ms : 0;
             return ms;
         };
-        once(); // compiles
+        once(); // compiles the kernel
         return once() * double(width) * height / (double(columns) * rows);
     }
     CndLightingStats countPairs() { return app::countPairs(context_, renderer_, options_); }
@@ -154,7 +158,7 @@ Contender engineContender(const CndLightingStats& s)
 {
     Contender c{.name = engineName, .difference = 0};
     c.listEntries = s.listEntries;
-    // Whole pages are handed out; what they hold is all that the statistics say.
+    // Lists take whole pages of memory, but the statistics count entries only.
     c.listBytes = uint64_t(s.listEntries) * sizeof(uint32_t);
     c.listedPairs = s.listedPairs;
     c.evaluatedPairs = s.evaluatedPairs;
@@ -180,7 +184,7 @@ CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& s
     const double estimate = frame.estimateBrute();
     if (estimate > 1e3 * settings.bruteLimit)
         brute.skippedMs = estimate;
-    frame.drawBaseline(Baseline::Tiles); // compiles
+    frame.drawBaseline(Baseline::Tiles); // compiles the kernels
     tiles.difference = frame.difference();
     frame.drawBaseline(Baseline::Froxels);
     froxels.difference = frame.difference();
@@ -194,7 +198,7 @@ CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& s
     constexpr size_t count = std::size(turns);
     for (uint32_t round = 0; round < settings.rounds; ++round) {
         for (size_t i = 0; i < count; ++i)
-            turns[(round + i) % count](); // nobody always comes first
+            turns[(round + i) % count](); // the first place goes around
         if (!brute.skippedMs && (round == 0 || estimate < patienceMs)) {
             const BruteCheck check = frame.drawBrute();
             const PassTime pass{"shade_brute", check.bruteMs};
@@ -290,6 +294,227 @@ std::vector<CullingPoint> measureCulling(const VulkanContext& context,
                         {.scene = name, .size = size, .lights = lights, .overlaps = overlaps},
                         [&] { progress.advance(1); }));
             }
+    return out;
+}
+
+namespace
+{
+
+std::string millions(uint64_t count)
+{
+    return threeDigits(double(count) * 1e-6);
+}
+
+std::string orDash(bool known, const std::string& text)
+{
+    return known ? text : "-";
+}
+
+std::string titleOf(const CullingPoint& p)
+{
+    return fmt::format("{}, {}x{}, {} overlaps", p.scene, p.size.width, p.size.height, p.overlaps);
+}
+
+bool sameSweep(const CullingPoint& a, const CullingPoint& b)
+{
+    return titleOf(a) == titleOf(b);
+}
+
+// Groups the points by scene, size and overlaps, in the order in which these first appear.
+std::vector<std::vector<CullingPoint>> sweepsOf(const std::vector<CullingPoint>& points)
+{
+    std::vector<std::vector<CullingPoint>> out;
+    for (const CullingPoint& p : points) {
+        const auto at = std::find_if(
+            out.begin(), out.end(), [&](const auto& sweep) { return sameSweep(sweep.front(), p); });
+        if (at == out.end())
+            out.push_back({p});
+        else
+            at->push_back(p);
+    }
+    return out;
+}
+
+void addRow(Table& table, const CullingPoint& p, const Contender& c)
+{
+    const bool drawn = !c.skippedMs;
+    const bool lists = c.listBytes > 0;
+    table.add({fmt::format("{} {}", grouped(p.lights), c.name),
+               drawn ? threeDigits(c.totalMs())
+                     : fmt::format("skipped (about {})", threeDigits(*c.skippedMs)),
+               orDash(drawn, threeDigits(c.cullingMs())), orDash(drawn, threeDigits(c.shadingMs())),
+               orDash(lists, grouped(c.listEntries)),
+               orDash(lists, threeDigits(double(c.listBytes) * 1e-6)),
+               orDash(lists, millions(c.listedPairs)), orDash(lists, millions(c.evaluatedPairs)),
+               orDash(c.contributingPairs > 0, millions(c.contributingPairs)),
+               c.difference ? fmt::format("{:.0e}", *c.difference) : "-"});
+}
+
+std::string timeTable(const std::vector<CullingPoint>& sweep)
+{
+    Table table({"lights", "GPU ms", "culling", "shading", "list entries", "MB", "M pairs listed",
+                 "evaluated", "contributing", "difference"});
+    for (const CullingPoint& p : sweep) {
+        if (&p != &sweep.front())
+            table.rule();
+        for (const Contender& c : p.contenders)
+            addRow(table, p, c);
+    }
+    return table.text();
+}
+
+double share(double a, double b)
+{
+    return b > 0 ? a / b : 0;
+}
+
+struct Ratios {
+    double toBest, toFloor, cullingShare, perListed, perEvaluated, listedGain;
+    std::string best;
+};
+
+Ratios ratiosOf(const CullingPoint& p)
+{
+    const Contender& engine = p.of(engineName);
+    const Contender& best = p.bestBaseline();
+    return {.toBest = share(engine.totalMs(), best.totalMs()),
+            .toFloor = share(engine.totalMs(), p.of(floorName).totalMs()),
+            .cullingShare = share(engine.cullingMs(), engine.shadingMs()),
+            .perListed = engine.contributingPerListed(),
+            .perEvaluated = engine.contributingPerEvaluated(),
+            .listedGain =
+                share(engine.contributingPerListed(), p.of(tilesName).contributingPerListed()),
+            .best = best.name};
+}
+
+std::string ratioTable(const std::vector<CullingPoint>& points)
+{
+    Table table({"candelabra", "/ best other", "which", "/ floor", "culling / shading",
+                 "contributing / listed", "of that of tiles", "contributing / evaluated"});
+    for (const CullingPoint& p : points) {
+        const Ratios r = ratiosOf(p);
+        table.add({fmt::format("{}, {}", titleOf(p), counted(p.lights, "light")),
+                   fmt::format("{:.2f}", r.toBest), r.best, fmt::format("{:.2f}", r.toFloor),
+                   fmt::format("{:.1f}%", 100 * r.cullingShare), fmt::format("{:.2f}", r.perListed),
+                   fmt::format("{:.1f}", r.listedGain), fmt::format("{:.2f}", r.perEvaluated)});
+    }
+    return table.text();
+}
+
+Json passesJson(const PassTimes& times)
+{
+    Json out = Json::array();
+    for (const PassSummary& pass : times.summary())
+        out.push_back({{"name", pass.name}, {"minMs", pass.minMs}, {"medianMs", pass.medianMs}});
+    return out;
+}
+
+Json contenderJson(const Contender& c)
+{
+    Json out{{"name", c.name}};
+    if (c.skippedMs) {
+        out["skipped"] = true;
+        out["estimatedMs"] = *c.skippedMs;
+        return out;
+    }
+    out.update({{"frames", c.times.frames()},
+                {"medianMs", c.totalMs()},
+                {"minMs", c.times.total().minMs},
+                {"cullingMs", c.cullingMs()},
+                {"shadingMs", c.shadingMs()},
+                {"passes", passesJson(c.times)},
+                {"listEntries", c.listEntries},
+                {"listBytes", c.listBytes},
+                {"listedPairs", c.listedPairs},
+                {"evaluatedPairs", c.evaluatedPairs},
+                {"insidePairs", c.insidePairs},
+                {"contributingPairs", c.contributingPairs}});
+    if (c.difference)
+        out["differenceOverLargest"] = *c.difference;
+    return out;
+}
+
+} // namespace
+
+std::string cullingTables(const std::vector<CullingPoint>& points)
+{
+    std::string out;
+    for (const auto& sweep : sweepsOf(points))
+        out += titleOf(sweep.front()) + "; medians\n" + timeTable(sweep) + "\n";
+    return out + "Candelabra against the others\n" + ratioTable(points);
+}
+
+Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint>& points)
+{
+    Json list = Json::array();
+    for (const CullingPoint& p : points) {
+        Json contenders = Json::array();
+        for (const Contender& c : p.contenders)
+            contenders.push_back(contenderJson(c));
+        const Ratios r = ratiosOf(p);
+        list.push_back({{"scene", p.scene},
+                        {"widthPixels", p.size.width},
+                        {"heightPixels", p.size.height},
+                        {"lights", p.lights},
+                        {"overlaps", p.overlaps},
+                        {"tiles", p.tiles},
+                        {"splitTiles", p.splitTiles},
+                        {"unlistedClusters", p.unlistedClusters},
+                        {"ratioToBestBaseline", r.toBest},
+                        {"bestBaseline", r.best},
+                        {"ratioToFloor", r.toFloor},
+                        {"cullingOverShading", r.cullingShare},
+                        {"contributingOverListed", r.perListed},
+                        {"contributingOverEvaluated", r.perEvaluated},
+                        {"contributingOverListedToTiles", r.listedGain},
+                        {"contenders", contenders}});
+    }
+    return {{"rounds", settings.rounds},
+            {"seed", settings.seed},
+            {"specular", "conic"},
+            {"bruteLimitSeconds", settings.bruteLimit},
+            {"bound", Contender::reorderedBound},
+            {"points", list}};
+}
+
+std::vector<CullingPlot> cullingPlots(const std::vector<CullingPoint>& points,
+                                      const DeviceInfo& device)
+{
+    std::vector<CullingPlot> out;
+    for (const auto& sweep : sweepsOf(points)) {
+        std::vector<PlotSeries> series;
+        for (const char* name : {engineName, tilesName, froxelsName, bruteName, floorName}) {
+            PlotSeries line{.name = name, .points = {}, .emphasised = name == engineName};
+            for (const CullingPoint& p : sweep)
+                if (!p.of(name).skippedMs)
+                    line.points.emplace_back(p.lights, p.of(name).totalMs());
+            series.push_back(line);
+        }
+        PlotSeries culling{.name = "candelabra, culling alone", .points = {}};
+        for (const CullingPoint& p : sweep)
+            culling.points.emplace_back(p.lights, p.of(engineName).cullingMs());
+        series.push_back(culling);
+        const CullingPoint& p = sweep.front();
+        out.push_back({fmt::format("bench_culling_{}_{}x{}_{}", p.scene, p.size.width,
+                                   p.size.height, p.overlaps),
+                       logLogPlot({.title = "Lighting time against lights: " + titleOf(p),
+                                   .subtitle = device.name,
+                                   .xAxis = "sphere lights",
+                                   .yAxis = "GPU time (ms)"},
+                                  series)});
+    }
+    return out;
+}
+
+std::vector<std::string> cullingFailures(const std::vector<CullingPoint>& points)
+{
+    std::vector<std::string> out;
+    for (const CullingPoint& p : points)
+        for (const Contender& c : p.contenders)
+            if (!c.hasRightImage())
+                out.push_back(fmt::format(
+                    "{}, {}: {} and candelabra differ by {:.1e} of the largest radiance",
+                    titleOf(p), counted(p.lights, "light"), c.name, *c.difference));
     return out;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What finding the lights of every pixel costs: the engine, other ways to cull, brute force, and
-// the floor, in interleaved rounds of the same frame.
+// Measures what finding the lights of every pixel costs: with the engine, with other ways to cull,
+// with brute force, and with no culling at all ("floor"), in interleaved rounds of the same frame.
 #pragma once
 
 #include <optional>
@@ -23,27 +23,29 @@ struct CullingSettings {
     std::vector<uint32_t> overlaps{8, 30};
     uint32_t rounds = 5;
     uint32_t seed = 1;
-    double bruteLimit = 60; // s: brute force is left out where a frame is estimated to take longer
+    double bruteLimit = 60; // s; brute force is skipped if a frame is estimated to take longer
 };
 
-// One way to light the frame.
+// One way to light the frame, and what it measured.
 struct Contender {
     std::string name;
     PassTimes times;
     uint64_t listEntries = 0, listBytes = 0;
     uint64_t listedPairs = 0, evaluatedPairs = 0, insidePairs = 0, contributingPairs = 0;
-    std::optional<double> skippedMs; // not drawn: estimated to take so long
-    // Of any channel to the engine's image, relative to its largest value; the floor has no image.
+    std::optional<double> skippedMs; // if it was not drawn: how long it was estimated to take
+    // The largest difference of any channel to the engine's image, relative to that image's largest
+    // value. The floor has no image.
     std::optional<double> difference;
 
-    // Bound of `difference` but for brute force, which has BruteCheck's. Other lists hold lights in
-    // another order, and float sums then differ by up to 1.1e-6 with 8 overlaps and 3e-6 with 30 (a
-    // million lights in the hall); what lost lights left was 1e-1.
+    // The bound of `difference`; brute force has the bound of BruteCheck instead. The lists of
+    // other contenders hold the lights in another order, and sums in float then differ by up
+    // to 1.1e-6 with 8 overlaps and 3e-6 with 30 (a million lights in the hall). Lists that lost
+    // lights gave 1e-1.
     static constexpr double reorderedBound = 4e-6;
     bool hasRightImage() const;
 
     double totalMs() const;
-    double shadingMs() const; // of which kernels that shade
+    double shadingMs() const; // the part of totalMs() that shading kernels take
     double cullingMs() const { return totalMs() - shadingMs(); }
     double contributingPerListed() const;
     double contributingPerEvaluated() const;
@@ -53,14 +55,14 @@ struct CullingPoint {
     std::string scene;
     PixelSize size;
     uint32_t lights = 0, overlaps = 0;
-    uint32_t tiles = 0, splitTiles = 0, unlistedClusters = 0; // of the engine
+    uint32_t tiles = 0, splitTiles = 0, unlistedClusters = 0; // statistics of the engine
     std::vector<Contender> contenders;
 
     const Contender& of(const std::string& name) const;
-    // The fastest of the other ways to cull that were drawn, and drew the right image if any did.
+    // The fastest of the other ways to cull that were drawn. One with the right image is preferred.
     const Contender& bestBaseline() const;
 };
-// Names of contenders.
+// The names of the contenders.
 inline constexpr const char* engineName = "candelabra";
 inline constexpr const char* tilesName = "16x16 tiles";
 inline constexpr const char* froxelsName = "froxels";
@@ -68,7 +70,7 @@ inline constexpr const char* floorName = "floor";
 inline constexpr const char* bruteName = "brute force";
 
 double cullingSteps(const CullingSettings& settings);
-// Configurations whose overlaps cannot be reached are left out with a warning.
+// Measures all configurations. One whose overlaps cannot be reached is left out with a warning.
 std::vector<CullingPoint> measureCulling(const VulkanContext& context,
                                          const CullingSettings& settings, Progress& progress);
 
@@ -78,10 +80,10 @@ struct CullingPlot {
     std::string name; // of a file, without extension
     std::string svg;
 };
-// One per scene, size and overlaps: time against lights.
+// Plots time against the number of lights; one plot per scene, size and overlaps.
 std::vector<CullingPlot> cullingPlots(const std::vector<CullingPoint>& points,
                                       const DeviceInfo& device);
-// Sentences about images that differ by more than the bound; empty: none does.
+// Returns a sentence about each image that differs by more than the bound.
 std::vector<std::string> cullingFailures(const std::vector<CullingPoint>& points);
 
 } // namespace candelabra::app

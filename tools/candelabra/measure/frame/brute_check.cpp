@@ -13,7 +13,8 @@ namespace
 {
 
 constexpr uint64_t fullCheckLights = 16384;
-// About two seconds on two CPU cores, milliseconds on a GPU: no watchdog minds.
+// As many pairs take about two seconds on two CPU cores and milliseconds on a GPU, which no
+// watchdog of a driver interrupts.
 constexpr uint64_t pairsPerSubmission = 500'000'000;
 constexpr uint32_t workgroup = 8; // pixels a side
 
@@ -34,8 +35,8 @@ std::vector<VkRect2D> bands(PixelSize size, uint64_t lights)
     return out;
 }
 
-// Tiles of about so many (pixel, light) pairs, spread evenly: multiples of the golden ratio fill an
-// interval without gaps or clumps.
+// Returns tiles that are spread evenly and hold about this many (pixel, light) pairs: multiples of
+// the golden ratio, modulo 1, fill an interval without gaps or clumps.
 std::vector<VkRect2D> sampledTiles(PixelSize size, uint64_t lights, uint64_t pairs)
 {
     constexpr uint32_t tile = sampledTile;
@@ -50,7 +51,7 @@ std::vector<VkRect2D> sampledTiles(PixelSize size, uint64_t lights, uint64_t pai
     for (uint64_t i = 0; out.size() < wanted; ++i) {
         double whole = 0;
         uint64_t index = uint64_t(std::modf(double(i) * golden, &whole) * double(total));
-        while (taken[index]) // the sequence rarely meets a tile twice
+        while (taken[index]) // rarely, the sequence comes to a tile for the second time
             index = (index + 1) % total;
         taken[index] = true;
         const uint32_t x = uint32_t(index % columns) * tile, y = uint32_t(index / columns) * tile;
@@ -59,7 +60,8 @@ std::vector<VkRect2D> sampledTiles(PixelSize size, uint64_t lights, uint64_t pai
     return out;
 }
 
-// Of the finite ones: one infinite pixel must not make every difference look small.
+// The largest finite channel. Infinite ones are left out, because one infinite pixel would make
+// every difference look small.
 double maxChannel(const Image& image)
 {
     double out = 0;

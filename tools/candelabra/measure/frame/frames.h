@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renders frames of a scene and collects what is worth reporting about them.
+// Renders frames of a scene, and reports their times and statistics as text and as JSON.
 #pragma once
 
 #include <functional>
@@ -13,12 +13,12 @@
 namespace candelabra::app
 {
 
-// Scene time between two frames of a moving scene.
-constexpr double frameTime = 1.0 / 60; // s
+// Scene time between two frames of a moving scene, in seconds.
+constexpr double frameTime = 1.0 / 60;
 
 struct FrameCounts {
-    // Drawn before the measured ones and like the first of them, not measured: the first frame of
-    // a pipeline includes its compilation.
+    // Frames drawn before the measured ones. They are like the first measured frame, and are not
+    // measured, because the first frame of a pipeline includes its compilation.
     uint32_t warmUp = 1;
     uint32_t measured = 1;
 };
@@ -28,24 +28,27 @@ struct MeasuredFrames {
     FrameStats last;
 };
 
-// All frames go through two slots of a frame ring. Warm-up frames and the first measured one show
-// `options`; with `moving`, later ones are frameTime apart and exposure adapts, else all are the
-// same. With a converged exposure (resetExposure), warm-up frames leave no trace in any image.
-// `onFrame` is called after each. Returns when the GPU is done.
+// Renders frames through a frame ring with two slots. Warm-up frames and the first measured frame
+// show `options`. With `moving`, later frames are frameTime apart and exposure adapts; without it
+// all frames are the same. If exposure converges at once (FrameOptions::resetExposure), warm-up
+// frames leave no trace in any image. `onFrame` is called after each frame is submitted. Returns
+// when the GPU has finished.
 MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
                             const FrameOptions& options, FrameCounts counts, bool moving,
                             const std::function<void()>& onFrame);
 
-// One more frame like `options`, with its (pixel, light) pairs counted.
+// Renders one more frame like `options`, counts its (pixel, light) pairs, and returns its
+// statistics.
 CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, FrameOptions options);
 
 std::string passTable(const PassTimes& times);
-// Lights by type, and every pass with why it was skipped, a line each.
+// Returns a line with the number of lights of each type, then a line per pass, which says that the
+// pass runs or why it was skipped.
 std::string planText(const FrameStats& frame);
 
 Json toJson(const PassTimes& times);
 Json toJson(const std::vector<CndPassPlan>& plan);
-Json toJson(const CndLightingStats& stats); // pairs are 0 when they were not counted
+Json toJson(const CndLightingStats& stats); // pairs are 0 if they were not counted
 Json toJson(const CndExposureStats& stats);
 Json toJson(const FrameOptions& options, CndGBufferLayout layout);
 Json sceneJson(const Scene& scene, const Renderer& renderer);

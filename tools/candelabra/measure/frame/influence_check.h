@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cutting lights (CND_INFLUENCE_BY_ERROR) has changed on the display, against all light by
-// brute force.
+// Checks how much cutting lights (CND_INFLUENCE_BY_ERROR) has changed on the display, by comparison
+// with all lights by brute force.
 #pragma once
 
 #include <functional>
@@ -11,15 +11,17 @@
 namespace candelabra::app
 {
 
-// Errors are the largest of a pixel's sRGB-encoded channels of 0..1, before rounding to levels.
+// The error of a pixel is that of its worst channel. Channels are sRGB-encoded values of 0..1,
+// before they are rounded to 8-bit levels.
 struct InfluenceCheck {
-    double bound = 0; // that was asked for
+    double bound = 0; // the largest error that was asked for
     double largest = 0, mean = 0;
-    double cutBelow = 0; // lx
+    double cutBelow = 0; // lx; lights are cut where their illuminance is below it
     double bruteMs = 0;  // GPU time of brute force
 };
 
-// `last`: of the frame that `renderer` made of `options` last, whose exposure both are shown with.
+// `last` holds the statistics of the last frame, which `renderer` made of `options`. Both images
+// are compared under the exposure of that frame.
 InfluenceCheck checkInfluence(const VulkanContext& context, Renderer& renderer,
                               const FrameOptions& options, const FrameStats& last, uint64_t lights);
 

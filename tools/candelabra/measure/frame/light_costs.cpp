@@ -19,7 +19,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr uint32_t costTile = 8; // pixels a side: a group of shade_tiles
+constexpr uint32_t costTile = 8; // pixels a side, like a workgroup of shade_tiles
 constexpr double everywhere = std::numeric_limits<double>::infinity();
 
 glm::dvec3 vec(const float (&v)[3])
@@ -27,14 +27,14 @@ glm::dvec3 vec(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-// The part of space, and the way of surfaces in it, that a light lights.
+// The members of a light that decide which surfaces it can light.
 struct LightVolume {
     uint32_t light;
     glm::dvec3 centre{0}; // world space
     double influenceRadius = everywhere;
-    double boundingRadius = 0; // of the emitter; distant lights: the sine of its angular radius
-    glm::dvec3 axis{0};        // the way it shines; zero: all around
-    double cosOuter = 0;       // of the angle to the axis up to which it shines
+    double boundingRadius = 0; // of the emitter; distant lights: the sine of their angular radius
+    glm::dvec3 axis{0};        // the direction in which it shines; zero: all directions
+    double cosOuter = 0;       // cosine of the angle to the axis up to which it shines
     bool distant = false;
 
     bool covers(const reference::SurfacePoint& s) const
@@ -129,7 +129,8 @@ LightCosts shareOut(const PairImage& image, const std::vector<CndLight>& lights,
     LightCosts out;
     std::vector<LightCost> all(lights.size());
     std::vector<reference::SurfacePoint> points;
-    std::vector<std::pair<uint32_t, uint32_t>> covered; // light, pixels of the tile
+    std::vector<std::pair<uint32_t, uint32_t>>
+        covered; // a light, and the pixels of the tile that it covers
     for (uint32_t top = 0; top < height; top += costTile)
         for (uint32_t left = 0; left < width; left += costTile) {
             Box box;

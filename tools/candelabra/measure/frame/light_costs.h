@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lights take the time of shading.
+// Attributes the time of shading to single lights.
 #pragma once
 
 #include <cstdint>
@@ -17,36 +17,39 @@ namespace candelabra::app
 
 struct LightCost {
     uint32_t light = 0;  // index in the scene
-    uint64_t pixels = 0; // surfaces within its influence that it can shine on
-    double pairs = 0;    // its part of the evaluated (pixel, light) pairs
+    uint64_t pixels = 0; // pixels whose surface is within its influence and can be lit by it
+    double pairs = 0;    // its share of the evaluated (pixel, light) pairs
 };
 
 struct LightCosts {
-    std::vector<LightCost> lights; // costliest first; only those that cover a pixel
-    uint64_t surfaces = 0;         // pixels that show one
-    uint64_t coveredPairs = 0;     // sum of LightCost::pixels
-    double pairs = 0;              // evaluated ones, lanes that wait for others included
-    double others = 0;             // of those, in 8x8 tiles that no light covers
+    std::vector<LightCost> lights; // the costliest first; only lights that cover a pixel
+    uint64_t surfaces = 0;         // pixels that show a surface
+    uint64_t coveredPairs = 0;     // the sum of LightCost::pixels
+    double pairs = 0;              // pairs evaluated, including lanes that wait for others
+    double others = 0;             // those pairs in tiles of 8x8 pixels that no light covers
 };
 
-// A frame as it was shaded.
+// The pairs that were evaluated at every pixel of a frame.
 struct PairImage {
     PixelSize size;
-    std::vector<float> evaluated; // pairs of every pixel, rows from the top
+    std::vector<float> evaluated; // per pixel, rows from the top
     std::function<std::optional<reference::SurfacePoint>(uint32_t x, uint32_t y)> pointAt;
 };
 
-// The pairs of a tile are shared out among the lights by the pixels of it that they cover: lanes of
-// a tile wait for each other, so a light is paid for where it does not shine, too. Lights of other
-// layers than the camera's are in no list: they cover nothing. `origin`: of the lights' positions.
+// Distributes the pairs of each tile among the lights in proportion to the tile's pixels that they
+// cover: the lanes of a tile wait for each other, so that a light costs time also at pixels on
+// which it does not shine. Lights on other layers than the camera's are on no list and cover
+// nothing. Positions of lights are relative to `origin`.
 LightCosts shareOut(const PairImage& image, const std::vector<CndLight>& lights,
                     const glm::dvec3& origin, const Camera& camera);
 
-// Of one more frame like `frame`, clustered, which is drawn with its pairs counted per pixel.
+// Draws one more clustered frame like `frame`, counts its pairs per pixel, and attributes them to
+// lights.
 LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Scene& scene,
                       const FrameOptions& frame);
 
-// The `count` costliest and what the others take, with their part of `shadingMs`.
+// A table of the `count` costliest lights and of what the others take, with their shares of
+// `shadingMs`.
 std::string lightCostTable(const LightCosts& costs, const Scene& scene, size_t count,
                            double shadingMs);
 Json lightCostJson(const LightCosts& costs, const Scene& scene, size_t count, double shadingMs);

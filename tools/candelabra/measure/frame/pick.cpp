@@ -21,7 +21,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double pickTolerance = 1e-6;                         // of a light's truth
+constexpr double pickTolerance = 1e-6;                         // relative, of a light's truth
 constexpr glm::dvec3 luminanceWeights(0.2126, 0.7152, 0.0722); // Rec.709
 
 glm::dvec3 readPixel(const VulkanContext& context, const Renderer& renderer, VkImageLayout layout,
@@ -102,7 +102,8 @@ Pick pickPixel(const VulkanContext& context, Renderer& renderer, const Scene& sc
             scene.lightOrigin + glm::dvec3(light.position[0], light.position[1], light.position[2]);
         const double distance =
             cndIsDistant(light.type) ? 0 : glm::length(centre - seen->point.position);
-        // Rounding of the device's own distance must not lose one.
+        // The margin of 0.1% keeps every light that the device, which rounds the distance, lets
+        // contribute.
         if (distance > double(light.influenceRadius) * 1.001 && !cndIsDistant(light.type))
             continue;
         renderer.setLights({light});

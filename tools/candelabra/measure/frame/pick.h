@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights of one pixel: what each of them contributes, and what it should.
+// Lists the lights of one pixel with what each contributes and what it should contribute.
 #pragma once
 
 #include <cstdint>
@@ -15,36 +15,37 @@ namespace candelabra::app
 {
 
 struct PixelPosition {
-    uint32_t x = 0, y = 0; // from the left and the top
+    uint32_t x = 0, y = 0; // counted from the left and from the top
 };
 
 struct PickedLight {
     uint32_t light = 0;     // index in the scene
-    double distance = 0;    // metres, from the surface to its centre; 0: infinitely far away
+    double distance = 0;    // metres from the surface to its centre; 0: infinitely far away
     glm::dvec3 radiance{0}; // cd/m^2, evaluated on the device
     glm::dvec3 truth{0};    // cd/m^2, integrated in double (reference/truth.h)
 };
 
 struct Pick {
     PixelPosition pixel;
-    bool surface = false;            // else there is nothing to light
+    bool surface = false;            // whether the pixel shows a surface; only surfaces are lit
     glm::dvec3 position{0};          // world space, metres
-    glm::dvec3 radiance{0};          // of the pixel, cd/m^2
-    glm::dvec3 unlit{0};             // without lights: emission, background, environment
-    std::vector<PickedLight> lights; // strongest first; those that give nothing are left out
+    glm::dvec3 radiance{0};          // cd/m^2 of the pixel
+    glm::dvec3 unlit{0};             // cd/m^2 without lights: emission, background, environment
+    std::vector<PickedLight> lights; // the strongest first; lights that give nothing are left out
 
-    // unlit and all lights.
+    // The sum of `unlit` and of all lights.
     glm::dvec3 sum() const;
 };
 
-// cd/m^2 of linear Rec.709.
+// The luminance in cd/m^2 of linear Rec.709 radiance.
 double luminanceOf(const glm::dvec3& radiance);
 
-// Why lights cannot be shown one by one in such a frame, one clause; empty: they can.
+// Returns, in one clause, why lights cannot be shown one by one in a frame with these settings, or
+// an empty text if they can.
 std::string pickRefusal(CndSpecularMethod specular, CndInfluenceRule influence);
 
-// Draws a frame like `frame`, for which pickRefusal is empty, then the pixel under each of its
-// lights alone. Ends with the lights of the scene.
+// Draws a frame like `frame`, for which pickRefusal must be empty, and then the pixel lit by each
+// light alone. Afterwards the renderer has the scene's lights again.
 Pick pickPixel(const VulkanContext& context, Renderer& renderer, const Scene& scene,
                const FrameOptions& frame, PixelPosition pixel);
 

@@ -27,7 +27,8 @@ std::vector<T> read(const VulkanContext& context, const gpu::Image& image,
     return out;
 }
 
-// Meyer et al. 2010: the sphere folded onto [-1, 1]^2 through an octahedron.
+// The direction whose octahedral mapping is `p` (Meyer et al. 2010): the sphere is folded onto [-1,
+// 1]^2 through an octahedron.
 glm::dvec3 unfolded(const glm::dvec2& p)
 {
     glm::dvec3 n(p, 1 - std::abs(p.x) - std::abs(p.y));
@@ -43,7 +44,7 @@ double signedCode(uint32_t code, uint32_t bits)
     return double(k) / double((1u << (bits - 1)) - 1);
 }
 
-// IEC 61966-2-1.
+// Decodes sRGB (IEC 61966-2-1).
 double linearOfSrgb(double s)
 {
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
@@ -65,7 +66,7 @@ Surfaces::Surfaces(const VulkanContext& context, const Renderer& renderer,
 {
     const double* v = camera_.viewFromWorld;
     const glm::dmat3 viewFromWorld(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]);
-    worldFromView_ = glm::transpose(viewFromWorld); // rigid
+    worldFromView_ = glm::transpose(viewFromWorld); // the inverse, because it is a rotation
     eye_ = worldFromView_ * -glm::dvec3(v[12], v[13], v[14]);
     eyeIsPoint_ = camera_.clipFromView[11] != 0;
     const gbuffer::Targets& t = renderer.targets();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surfaces that a frame shows, read back from its G-buffer and unpacked in double.
+// Reads the surfaces that a frame shows from its G-buffer and unpacks them in double precision.
 #pragma once
 
 #include <optional>
@@ -15,18 +15,18 @@ namespace candelabra::app
 
 struct SeenSurface {
     reference::SurfacePoint point; // world space
-    reference::Material material;  // lobes not joined
+    reference::Material material;  // its lobes are not joined yet (reference/joining.h)
 };
 
 class Surfaces
 {
 public:
-    // Of the frame recorded last, which the GPU is done with, or of recordUnlit(). Throws
-    // gpu::Failure.
+    // Reads the G-buffer of the last frame, or of recordUnlit(), which the GPU must have finished.
+    // `frame` must be the options of that frame. Throws gpu::Failure.
     Surfaces(const VulkanContext& context, const Renderer& renderer, const FrameOptions& frame);
 
     PixelSize size() const { return size_; }
-    // Empty where the pixel shows none. Emitters are surfaces that reflect nothing.
+    // Return nothing if the pixel shows no surface. An emitter is a surface that reflects nothing.
     std::optional<reference::SurfacePoint> pointAt(uint32_t x, uint32_t y) const;
     std::optional<SeenSurface> at(uint32_t x, uint32_t y) const;
 
@@ -42,9 +42,9 @@ private:
     glm::dvec3 eye_; // world space
     bool eyeIsPoint_;
     std::vector<float> depth_;
-    std::vector<uint32_t> normalRoughness_; // two of a pixel in the full layout
-    std::vector<uint32_t> albedo_;          // likewise: four halves, or four bytes
-    std::vector<uint32_t> specular_;        // full layout
+    std::vector<uint32_t> normalRoughness_; // per pixel two in the full layout, else one
+    std::vector<uint32_t> albedo_;   // per pixel four halves in the full layout, else four bytes
+    std::vector<uint32_t> specular_; // in the full layout only
 };
 
 } // namespace candelabra::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Independent work on every core.
+// Distributes independent work among the CPU cores.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@
 namespace candelabra::app
 {
 
-// work(i) for i in 0 .. count-1, on every core, in blocks; the first exception is rethrown.
-// `onDone(n)` is called from one thread at a time after n more are done.
+// Calls work(i) for every i from 0 to count - 1, in blocks on all cores. `onDone(n)` is called, by
+// one thread at a time, each time n more calls are done. The last exception thrown is rethrown.
 template <typename Work, typename OnDone>
 void parallelFor(size_t count, Work work, OnDone onDone)
 {

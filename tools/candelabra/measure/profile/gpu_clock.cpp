@@ -12,7 +12,8 @@ namespace candelabra::app
 namespace
 {
 
-constexpr int calibrations = 5; // of which the closest counts: the CPU may be busy in between
+// The closest of so many calibrations counts, because the CPU may be interrupted during one.
+constexpr int calibrations = 5;
 
 constexpr uint32_t stampsInARow = 100;
 

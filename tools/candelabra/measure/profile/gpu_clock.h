@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GpuClock: the device's timestamps on the clock of the CPU, and what a timestamp costs.
+// GpuClock converts timestamps of the device to times of the CPU's clock, and measures what a
+// timestamp costs.
 #pragma once
 
 #include <chrono>
@@ -21,21 +22,23 @@ inline double msBetween(CpuClock::time_point from, CpuClock::time_point to)
 class GpuClock
 {
 public:
-    // `context` must outlive it. Measures the cost of a stamp, for which the GPU must be idle.
-    // `byExtension` false: calibrates as where the device has none.
+    // Measures the cost of a timestamp, for which the GPU must be idle. `context` must outlive the
+    // clock. With `byExtension` false the clock calibrates as on a device without the extension.
     explicit GpuClock(const VulkanContext& context, bool byExtension = true);
 
-    // Asks both clocks at once, with VK_KHR_calibrated_timestamps or VK_EXT_calibrated_timestamps
-    // where the device has it. Elsewhere a stamp is submitted and waited for, and taken to be in
-    // the middle of the two: the GPU must be idle. Holds for the seconds around; clocks drift.
+    // Reads both clocks at the same time, with VK_KHR_calibrated_timestamps or
+    // VK_EXT_calibrated_timestamps if the device has one of them. Otherwise a timestamp is
+    // submitted and waited for, which needs an idle GPU, and is assumed to lie in the middle
+    // between submission and end. Clocks drift, so a calibration is valid for some seconds.
     void calibrate();
-    // Of a time on the device's clock, which may have wrapped since.
+    // Returns the CPU's time at a time of the device's clock, which may have wrapped around since
+    // the calibration.
     CpuClock::time_point cpuTime(double deviceMs) const;
     double uncertaintyMs() const { return uncertaintyMs_; } // of the last calibration
-    const char* method() const;
+    const char* method() const;                             // names what the last calibration used
 
-    // What a stamp adds to a frame, median of several measurements, back to back; 0 without
-    // timestamps.
+    // The time that a timestamp adds to a frame: the median of several measurements of timestamps
+    // in a row. 0 if the device has no timestamps.
     double stampMs() const { return stampMs_; }
 
 private:
@@ -44,7 +47,7 @@ private:
     const VulkanContext& context_;
     FrameStamps stamps_;
     double wrapMs_ = 0;
-    double deviceMs_ = 0; // at calibration, and what the CPU's clock said then
+    double deviceMs_ = 0; // the device's clock at the calibration; cpu_ is the CPU's clock then
     CpuClock::time_point cpu_;
     double uncertaintyMs_ = 0, stampMs_ = 0;
     bool byExtension_;

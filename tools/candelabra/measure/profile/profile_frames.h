@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of a scene, one after another, and the time of each of their passes.
+// Draws frames of a scene one after another and measures the time of each of their passes.
 #pragma once
 
 #include <functional>
@@ -14,26 +14,28 @@
 namespace candelabra::app
 {
 
-// Times of one kind of frame, a value per frame in every series. Those of the GPU are without what
-// its timestamps themselves take.
+// The times of one variant of the frame, with a value per frame in every series. The time that the
+// timestamps themselves take on the GPU is subtracted.
 struct FrameSeries {
     struct Pass {
         std::string name;
         std::vector<double> ms;
     };
-    std::vector<Pass> passes;   // on the GPU, in order of first appearance; 0 where it did not run
-    std::vector<double> gpuMs;  // sum of the passes
-    std::vector<double> spanMs; // GPU: from the first stamp of the frame to the last
-    std::vector<double> uploadMs; // CPU: moving lights; 0 where nothing moves
+    // GPU passes in the order in which they first appeared. A pass has 0 ms in frames that did not
+    // run it.
+    std::vector<Pass> passes;
+    std::vector<double> gpuMs;    // GPU: the sum of the passes
+    std::vector<double> spanMs;   // GPU: from the first timestamp of the frame to the last
+    std::vector<double> uploadMs; // CPU: moving lights; 0 if nothing moves
     std::vector<double> recordMs; // CPU: recording commands
-    std::vector<double> frameMs;  // from the start of upload until the GPU is done
-    std::vector<double> stamps;   // taken by the frame
+    std::vector<double> frameMs;  // from the start of the upload until the GPU has finished
+    std::vector<double> stamps;   // the number of timestamps in the frame
 
     void add(const FrameStats& frame, const CpuSpans& cpu, double stampMs);
-    double shadingMs() const; // median of the passes that evaluate lights
+    double shadingMs() const; // the sum of the medians of the passes that evaluate lights
 };
 
-// Of a frame beside its passes: rows behind theirs.
+// The times of a whole frame. In tables their rows follow the rows of the passes.
 struct WholeTime {
     const char* name; // for people
     const char* key;  // in results
@@ -48,45 +50,48 @@ constexpr WholeTime wholeTimes[] = {
 
 // What timing costs a frame.
 struct ProfilingOverhead {
-    double stamps = 0; // median of a frame
-    double share = 0;  // what they take, of the GPU's time from first to last
-    double passes = 0; // what the passes add up to, of the same; median of the frames
+    double stamps = 0; // timestamps in a frame, median
+    double share = 0;  // their share of the GPU time from the first timestamp to the last
+    double passes = 0; // the share of that time that the passes add up to, median of the frames
 };
 
 enum class CameraPath { Still, Turn };
 
 struct ProfileSettings {
-    std::vector<FrameOptions> variants; // drawn in turn, each round in the other order
+    // The variants are drawn in turn, and in the opposite order in every other round.
+    std::vector<FrameOptions> variants;
     CameraPath path = CameraPath::Still;
-    bool moving = false; // lights: a sixtieth of a second from frame to frame
+    bool moving = false; // lights move; a round is a sixtieth of a second
     uint32_t rounds = 1;
 };
 
-// What is drawn before measuring: until the median of the last `warmUpWindow` rounds is within
-// `stable` of that of those before, maxWarmUp rounds at most.
+// Warm-up rounds are drawn until the median of the last warmUpWindow frame times differs from the
+// median of the warmUpWindow before them by at most the share `stable`; maxWarmUp rounds at most.
 constexpr uint32_t warmUpWindow = 3, maxWarmUp = 24;
 constexpr double stable = 0.05;
 
 struct Profile {
     std::vector<FrameSeries> series; // one per variant
     uint32_t warmUpRounds = 0;
-    bool settled = false;         // warming up ended because times were stable
+    bool settled = false;         // the warm-up ended because times were stable
     std::vector<FrameStats> last; // one per variant
-    double stampMs = 0;           // what a timestamp takes on the GPU
+    double stampMs = 0;           // the time that a timestamp takes on the GPU
 };
 
 ProfilingOverhead overheadOf(const FrameSeries& series, double stampMs);
 
-// The camera of round `i` of `rounds`; Turn: once around the vertical through its position.
+// Returns the camera of round `i` of `rounds`. With CameraPath::Turn it turns once around the
+// vertical through its position in all rounds.
 Camera cameraAt(const Camera& camera, CameraPath path, uint32_t i, uint32_t rounds);
 
-// One frame at a time, so that none waits for another. `onRound` is called after each round, those
-// of warming up included; measured frames go into `trace` where there is one.
+// Draws one frame at a time, so that no frame waits for another. `onRound` is called after each
+// round, including the warm-up rounds. Measured frames are added to `trace` if it is not null.
 Profile profileFrames(const VulkanContext& context, Renderer& renderer,
                       const ProfileSettings& settings, ProfileTrace* trace,
                       const std::function<void()>& onRound);
 
-// Tables for people: of each pass; of two variants, what of the second's time differs.
+// Text for people: the times of each pass; what the timestamps cost; and for two variants the ratio
+// of the second's times to the first's.
 std::string seriesTable(const FrameSeries& series);
 std::string overheadText(const FrameSeries& series, double stampMs);
 std::string comparisonTable(const FrameSeries& a, const FrameSeries& b);
@@ -94,7 +99,7 @@ std::string comparisonTable(const FrameSeries& a, const FrameSeries& b);
 Json toJson(const FrameSeries& series);
 Json overheadJson(const FrameSeries& series, double stampMs);
 Json comparisonJson(const FrameSeries& a, const FrameSeries& b);
-// A line per frame: variant, frame, then every series, milliseconds.
+// One line per frame: the variant, the frame, and the value of every series in milliseconds.
 std::string toCsv(const std::vector<std::string>& names, const std::vector<FrameSeries>& series);
 
 } // namespace candelabra::app

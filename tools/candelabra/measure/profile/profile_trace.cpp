@@ -8,7 +8,7 @@ namespace candelabra::app
 namespace
 {
 
-// Threads of the trace.
+// The thread identifiers of the trace, each of which is a track in a viewer.
 constexpr uint32_t cpuTrack = 1, gpuFrameTrack = 2, gpuPassTrack = 3;
 
 } // namespace
@@ -56,7 +56,7 @@ void ProfileTrace::add(size_t variant, const CpuSpans& cpu, const FrameStats& st
     }
     if (stats.gpuMs > 0) {
         slice("gpu", gpuFrameTrack, "frame", first, first + 1000 * stats.gpuMs, frame);
-        // An arrow from the submission to what it started.
+        // An arrow from the submission to the frame on the GPU.
         Json flow{{"name", "submit"}, {"cat", "flow"},   {"ph", "s"},     {"id", frames_},
                   {"pid", 1},         {"tid", cpuTrack}, {"ts", recorded}};
         events_.push_back(flow);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ProfileTrace: what CPU and GPU did for every frame, in one time, as a file of Chrome's trace
-// event format, which Perfetto reads.
+// ProfileTrace collects what CPU and GPU did for every frame on one time axis, and writes it in
+// Chrome's trace event format, which Perfetto reads.
 #pragma once
 
 #include <string>
@@ -13,22 +13,22 @@
 namespace candelabra::app
 {
 
-// When the CPU was done with what, one after another.
+// When the CPU started a frame and when it finished each step, in order.
 struct CpuSpans {
     CpuClock::time_point start{}, uploaded{}, recorded{}, submitted{}, done{};
 };
 
-// Beyond it viewers become slow: about 25 slices a frame.
+// With more frames viewers of the trace become slow: a frame has about 25 slices.
 constexpr uint32_t maxTracedFrames = 10'000;
 
 class ProfileTrace
 {
 public:
-    // Names of the variants.
+    // `variants` are the names of the variants.
     explicit ProfileTrace(std::vector<std::string> variants) : variants_(std::move(variants)) {}
 
-    // `clock` was calibrated beside the frame, which was drawn with RendererOptions::stamps. Passes
-    // that ran several times are one slice, at the place of the first.
+    // Adds a frame, which must have been drawn with RendererOptions::stamps, and `clock` calibrated
+    // shortly after it. A pass that ran several times is one slice, placed at its first run.
     void add(size_t variant, const CpuSpans& cpu, const FrameStats& frame, const GpuClock& clock);
     std::string text(const Json& provenance) const;
 
@@ -40,7 +40,7 @@ private:
     std::vector<std::string> variants_;
     CpuClock::time_point begin_{};
     uint32_t frames_ = 0;
-    double uncertaintyMs_ = 0; // largest
+    double uncertaintyMs_ = 0; // the largest of all frames
     std::string alignedBy_;
     Json events_ = Json::array();
 };

@@ -18,7 +18,7 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
 {
     const JsonValue schema = json.member("schema");
     if (schema.string() != profileSchema)
-        schema.fail(fmt::format("must be \"{}\", what candelabra profile writes", profileSchema));
+        schema.fail(fmt::format("must be \"{}\", as candelabra profile writes it", profileSchema));
     ProfiledRun out{.where = json.path().empty() ? path : path + ": " + json.path()};
     const JsonValue from = json.member("provenance");
     for (const char* key : {"device", "driver"})
@@ -28,7 +28,7 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
     const JsonValue variants = json.member("variants");
     variants.requireArray();
     if (variants.size() != 1)
-        variants.fail("must be one way to draw: what --ab compared is compared");
+        variants.fail("must hold one variant: a run with --ab compares its variants itself");
     const JsonValue variant = variants.item(0);
     out.version = {{"commit", from.member("commit").string()},
                    {"settings", variant.member("settings").json().dump()}};
@@ -40,7 +40,7 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
                             .minMs = row.member("minMs").number({0}),
                             .medianMs = row.member("medianMs").number({0})};
     };
-    const auto upload = time.find("upload"); // of lights that move
+    const auto upload = time.find("upload"); // the time of moving lights
     out.still = json.member("path").json() == "still" &&
                 (!upload || upload->member("medianMs").number({0}) == 0);
     for (size_t i = 0; i < passes.size(); ++i)
@@ -78,7 +78,7 @@ Json withRun(const std::string& path, const Json& run)
 {
     Json out = Json::array();
     if (std::filesystem::exists(path)) {
-        readRuns(path); // refuses what is something else
+        readRuns(path); // throws if the file holds something else
         const std::vector<uint8_t> bytes = readSceneFile(path);
         const Json before = Json::parse(bytes.begin(), bytes.end());
         out = before.is_array() ? before : Json::array({before});

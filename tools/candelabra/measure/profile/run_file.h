@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `candelabra profile --json` left behind: one run, or several in one file (--append).
+// Reads files that `candelabra profile --json` has written. A file holds one run, or several if it
+// was written with --append.
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@ namespace candelabra::app
 
 constexpr const char* profileSchema = "candelabra profile 1";
 
-// Of a pass or a whole time (wholeTimes) over the frames of a run.
+// The time of a pass, or one of wholeTimes, over the frames of a run.
 struct ProfiledTime {
     std::string name;
     double minMs = 0, medianMs = 0;
@@ -21,18 +22,19 @@ struct ProfiledTime {
 
 struct ProfiledRun {
     std::string where; // "a.json", or "a.json: [2]"
-    // What has to be alike for times to be comparable, and what runs of one side share besides;
-    // names with values.
+    // Names with values. Runs are comparable if their conditions are equal; runs of the same side
+    // of a comparison also have the same version.
     std::vector<std::pair<std::string, std::string>> conditions, version;
-    bool still = false;              // every frame draws the same: camera and lights rest
-    std::vector<ProfiledTime> times; // of passes, then of wholeTimes
+    bool still = false;              // all frames are the same: camera and lights do not move
+    std::vector<ProfiledTime> times; // the passes, then wholeTimes
 };
 
-// All runs in a file, in order. Throws SceneError for a file that is none of that command, and for
-// runs with --ab, whose variants are compared already.
+// Returns all runs in a file, in order. Throws SceneError if the file was not written by
+// `candelabra profile`, and for a run with --ab, which compares its variants itself.
 std::vector<ProfiledRun> readRuns(const std::string& path);
 
-// `run` behind those that the file holds; there need not be one. Throws SceneError as above.
+// Returns the runs that the file holds, if it exists, followed by `run`. Throws SceneError like
+// readRuns.
 Json withRun(const std::string& path, const Json& run);
 
 } // namespace candelabra::app

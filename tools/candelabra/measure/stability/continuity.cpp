@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jumps of the response along continuous changes of the input, found by bisection on the device.
+// Finds jumps of the response along continuous changes of the input, by bisection on the device.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,18 +17,18 @@ namespace
 
 constexpr double pi = std::numbers::pi;
 
-// One sweep's constants; drawn at random.
+// The constants of one sweep, which are drawn at random.
 struct Path {
     float perceptualRoughness;
     glm::dvec3 v;
     double s, azimuth;
 };
 
-// A place along a path, t in 0..1: towards the light and the sine of its half angle.
+// The light at a position t in 0..1 along a path.
 struct Place {
-    glm::dvec3 direction;
-    double sine;
-    double distance; // from the centre, in radii / sine
+    glm::dvec3 direction; // unit, towards the light's centre
+    double sine;          // the light's radius: at distance 1, the sine of its half angle
+    double distance;      // of the light's centre
 };
 using Way = std::function<Place(const Path&, double)>;
 
@@ -44,14 +44,14 @@ Place throughHorizon(const Path& p, double t)
     return {polar(pi / 2 - elevation, p.azimuth), p.s, 1};
 }
 
-// From well above the horizon to where one half angle remains.
+// The light goes from well above the horizon to one half angle above it.
 Place towardsHorizon(const Path& p, double t)
 {
     const double half = std::asin(p.s);
     return {polar((pi / 2 - half) * t, p.azimuth), p.s, 1};
 }
 
-// Through the mirror direction, in the plane of incidence.
+// The light goes through the mirror direction in the plane of incidence.
 Place throughMirror(const Path& p, double t)
 {
     const double alpha = double(p.perceptualRoughness) * p.perceptualRoughness;
@@ -60,7 +60,7 @@ Place throughMirror(const Path& p, double t)
     return {polar(angle, std::atan2(-p.v.y, -p.v.x)), p.s, 1};
 }
 
-// The receiver enters the sphere: d from 3 R to R / 4.
+// The receiver enters the sphere: its distance from the centre goes from 3 R to R / 4.
 Place throughSurface(const Path& p, double t)
 {
     return {polar(0.5 * pi * p.s, p.azimuth), 1, 3 * (1 - t) + 0.25 * t};
@@ -69,7 +69,7 @@ Place throughSurface(const Path& p, double t)
 struct Named {
     const char* name;
     Way way;
-    bool nearOnly; // needs a distance
+    bool nearOnly; // only for lights at a finite distance
 };
 const Named ways[] = {{"the horizon", throughHorizon, false},
                       {"the approach to it", towardsHorizon, false},
@@ -116,7 +116,7 @@ public:
     {
     }
 
-    // Response with F = 1 of path i at t[i][...], `perPath` of them.
+    // The responses with F = 1 at `perPath` positions of each path.
     std::vector<double> evaluate(const std::vector<double>& t, size_t perPath) const
     {
         std::vector<gpu::BenchReceiver> receivers;
@@ -145,14 +145,14 @@ ContinuityCheck check(const VulkanContext& context, const Evaluation& evaluation
                       const std::vector<Path>& paths, const Named& named)
 {
     constexpr size_t steps = 512;
-    constexpr int bisections = 24; // t is then as fine as float32
+    constexpr int bisections = 24; // after so many, neighbouring t are neighbouring floats
     const Follow follow(context, evaluation, paths, named.way);
     std::vector<double> t;
     for (size_t i = 0; i < paths.size(); ++i)
         for (size_t k = 0; k < steps; ++k)
             t.push_back(double(k) / (steps - 1));
     const std::vector<double> coarse = follow.evaluate(t, steps);
-    // The steepest step of each path, then always the steeper half.
+    // Bisection begins with the steepest step of each path and always keeps the steeper half.
     std::vector<double> low, high, atLow, atHigh;
     for (size_t i = 0; i < paths.size(); ++i) {
         size_t steepest = 0;

@@ -3,16 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
+#include "io/table.h"
 #include "measure/kernels/parallel.h"
 #include "reference/truth.h"
 #include "render/setting_names.h"
+#include "scene/light_types.h"
 #include "shading/light_family.h"
 
 namespace candelabra::app
 {
+
 namespace
 {
 
@@ -29,7 +33,7 @@ std::vector<Evaluation> evaluations(const StabilitySettings& s)
 
 bool hasQuadrature(const Evaluation& e)
 {
-    // A few random samples say nothing about the formula.
+    // A few random samples of the sampled method say nothing about the formula.
     return !cndIsPunctual(e.lightType) && e.method != CND_SPECULAR_SAMPLED;
 }
 
@@ -38,13 +42,13 @@ bool hasContinuity(const Evaluation& e)
     return lighting::isSphere(e.lightType) && hasQuadrature(e) && e.errorBudget == 0;
 }
 
-// Slices whose lights have a size and a place that float32 resolves.
+// The slices whose lights have a size and a position that float32 resolves.
 constexpr uint32_t quadratureSlices[] = {gpu::SWEEP_ANYTHING, gpu::SWEEP_CONTACT,
                                          gpu::SWEEP_ALIGNED, gpu::SWEEP_TANGENT,
                                          gpu::SWEEP_EXTREME_ALPHA};
 
-// The closed form's error has a bar, far above what is measured (5 and 15% of the on-axis response)
-// and far below what a formula that fails somewhere gives.
+// The largest error allowed for the closed form. It is far above the measured errors (5 and 15% of
+// the on-axis response) and far below the error of a formula that fails somewhere.
 constexpr double closedFormBar = 0.3;
 
 bool isClosedForm(const Evaluation& e)
@@ -63,7 +67,7 @@ Compared compare(const gpu::SweepRecord& r, const Evaluation& evaluation)
     const reference::SurfacePoint surface{glm::dvec3(0), glm::normalize(glm::dvec3(r.n)),
                                           glm::normalize(glm::dvec3(r.v))};
     const double NoV = glm::dot(surface.normal, surface.toEye);
-    constexpr double minNoV = 0.02; // below it the conic methods tilt the view
+    constexpr double minNoV = 0.02; // below this NoV the conic methods tilt the view
     if (NoV < minNoV)
         return {};
     const float rounded = r.perceptualRoughness * r.perceptualRoughness;
@@ -96,7 +100,7 @@ QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint
     for (size_t k = 0; k < slices.size(); ++k) {
         const size_t target = samples * (k + 1) / slices.size();
         uint32_t drawn = 0;
-        while (errors.size() < target) { // not every configuration counts
+        while (errors.size() < target) { // some configurations cannot be compared
             const auto count = uint32_t(target - errors.size());
             const auto records = sweep.record(slices[k], drawn, count);
             drawn += count;
@@ -110,7 +114,7 @@ QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint
                     continue;
                 errors.push_back(compared[i].error);
                 out.diffuseMax = std::max(out.diffuseMax, compared[i].diffuse);
-                if (!(compared[i].error <= out.max)) { // NaN is the worst
+                if (!(compared[i].error <= out.max)) { // NaN counts as the worst error
                     out.max = compared[i].error;
                     out.worst =
                         fmt::format("{}; {}", sliceText(slices[k]), describeRecord(records[i]));
@@ -129,7 +133,7 @@ QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint
     return out;
 }
 
-// In the progress bar a quadrature weighs as much as these configurations.
+// In the progress bar a quadrature counts as many steps as so many configurations.
 constexpr double stepsPerTruth = 2000;
 
 } // namespace
@@ -178,7 +182,7 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
                                (all.size() * sweepSliceCount),
                            1);
     const auto truths =
-        uint32_t((settings.quadratureSamples + measurable - 1) / measurable); // not fewer in all
+        uint32_t((settings.quadratureSamples + measurable - 1) / measurable); // rounded up
     for (const Evaluation& evaluation : all) {
         progress.doing(fmt::format("{} {}", lightTypeName(evaluation.lightType),
                                    specularName(evaluation.method)));
@@ -197,6 +201,124 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
                 out.continuity.push_back(std::move(check));
     }
     return out;
+}
+
+namespace
+{
+
+std::string nameOf(const Evaluation& e)
+{
+    return fmt::format("{} {}{}", lightTypeName(e.lightType), specularName(e.method),
+                       e.errorBudget > 0 ? fmt::format(" budget {}", e.errorBudget) : "");
+}
+
+std::string countTable(const Stability& stability)
+{
+    Table table({"inputs", "tried", "NaN", "infinite", "negative"});
+    for (uint32_t slice = 0; slice < sweepSliceCount; ++slice) {
+        SweepCount sum;
+        for (const SweptSlice& s : stability.slices)
+            if (s.slice == slice) {
+                sum.tried += s.count.tried;
+                sum.nan += s.count.nan;
+                sum.infinite += s.count.infinite;
+                sum.negative += s.count.negative;
+            }
+        table.add({sliceText(slice), grouped(sum.tried), grouped(sum.nan), grouped(sum.infinite),
+                   grouped(sum.negative)});
+    }
+    return table.text();
+}
+
+std::string quadratureTable(const Stability& stability)
+{
+    Table table({"light, method", "samples", "mean %", "p99 %", "max %", "bar %", "diffuse max"});
+    for (const QuadratureCheck& q : stability.quadrature)
+        table.add({nameOf(q.evaluation), grouped(q.samples), threeDigits(100 * q.mean),
+                   threeDigits(100 * q.p99), threeDigits(100 * q.max),
+                   q.bar > 0 ? threeDigits(100 * q.bar) : "-",
+                   fmt::format("{:.1e}", q.diffuseMax)});
+    return table.text();
+}
+
+std::string continuityTable(const Stability& stability)
+{
+    Table table({"light, method", "through", "largest jump / peak"});
+    for (const ContinuityCheck& c : stability.continuity)
+        table.add({nameOf(c.evaluation), c.through, fmt::format("{:.1e}", c.jump)});
+    return table.text();
+}
+
+std::string badList(const Stability& stability)
+{
+    std::string out;
+    for (const SweptSlice& s : stability.slices)
+        if (s.count.invalid())
+            out += fmt::format("{}, {}: {} NaN, {} infinite, {} negative of {}\n  {}\n",
+                               nameOf(s.evaluation), sliceText(s.slice), s.count.nan,
+                               s.count.infinite, s.count.negative, s.count.tried,
+                               s.count.bad.empty() ? "" : describeRecord(s.count.bad[0]));
+    return out.empty() ? "" : "\nInvalid responses\n" + out;
+}
+
+std::string overBarList(const Stability& stability)
+{
+    std::string out;
+    for (const QuadratureCheck& q : stability.quadrature)
+        if (q.overBar())
+            out += fmt::format("{}: {}% at {}\n", nameOf(q.evaluation), threeDigits(100 * q.max),
+                               q.worst);
+    return out.empty() ? "" : "\nOver the bar\n" + out;
+}
+
+} // namespace
+
+std::string stabilityTables(const Stability& stability)
+{
+    return fmt::format("{} configurations, {} invalid responses\n", grouped(stability.tried()),
+                       grouped(stability.invalid())) +
+           countTable(stability) +
+           "\nFormula against quadrature on such inputs, F = 1, relative to the response on the "
+           "mirror axis\n" +
+           quadratureTable(stability) + "\nContinuity\n" + continuityTable(stability) +
+           badList(stability) + overBarList(stability);
+}
+
+Json stabilityJson(const StabilitySettings& settings, const Stability& stability)
+{
+    Json slices = Json::array(), quadrature = Json::array(), continuity = Json::array();
+    for (const SweptSlice& s : stability.slices) {
+        Json bad = Json::array();
+        for (const gpu::SweepRecord& r : s.count.bad)
+            bad.push_back(describeRecord(r));
+        slices.push_back({{"evaluation", nameOf(s.evaluation)},
+                          {"inputs", sliceText(s.slice)},
+                          {"tried", s.count.tried},
+                          {"nan", s.count.nan},
+                          {"infinite", s.count.infinite},
+                          {"negative", s.count.negative},
+                          {"bad", bad}});
+    }
+    for (const QuadratureCheck& q : stability.quadrature)
+        quadrature.push_back({{"evaluation", nameOf(q.evaluation)},
+                              {"samples", q.samples},
+                              {"meanPercent", 100 * q.mean},
+                              {"p99Percent", 100 * q.p99},
+                              {"maxPercent", 100 * q.max},
+                              {"barPercent", 100 * q.bar},
+                              {"diffuseMax", q.diffuseMax},
+                              {"worst", q.worst}});
+    for (const ContinuityCheck& c : stability.continuity)
+        continuity.push_back({{"evaluation", nameOf(c.evaluation)},
+                              {"through", c.through},
+                              {"jumpOverPeak", c.jump},
+                              {"worst", c.worst}});
+    return {{"seed", settings.seed},
+            {"configurations", stability.tried()},
+            {"invalid", stability.invalid()},
+            {"slices", slices},
+            {"formulaAgainstQuadrature", quadrature},
+            {"continuity", continuity}};
 }
 
 } // namespace candelabra::app

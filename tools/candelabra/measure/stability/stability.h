@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numerical stability of the shipping shader functions: no invalid response to any input, how far
-// the formulas are from quadrature on such inputs, and no jumps. How far float32 is from the same
-// formulas in double, on the inputs of this sweep, is the business of tests/gpu/test_sweep.cpp: the
-// double transcriptions live there.
+// Measures the numerical stability of the shader functions that the engine ships: whether any input
+// gives an invalid response, how far the formulas are from quadrature on such inputs, and whether
+// the response jumps. tests/gpu/test_sweep.cpp measures, on the inputs of the same sweep, how far
+// float32 is from the same formulas in double precision (tools/transcription).
 #pragma once
 
 #include <cstdint>
@@ -17,38 +17,41 @@ namespace candelabra::app
 {
 
 struct StabilitySettings {
-    uint64_t configurations = 20'000'000; // shared by all light types, methods and slices
-    uint32_t quadratureSamples = 100'000; // counted; shared by light types and methods
-    uint32_t sweeps = 200;                // of every continuity check
+    uint64_t configurations =
+        20'000'000; // in all; distributed over light types, methods and slices
+    uint32_t quadratureSamples = 100'000; // in all; distributed over light types and methods
+    uint32_t sweeps = 200;                // per check of continuity
     uint32_t seed = 1;
-    uint32_t sampleCount = 4; // of the sampled method
+    uint32_t sampleCount = 4; // samples per light of the sampled method
 };
 
+// What the sweep of one slice of the inputs with one evaluation counted.
 struct SweptSlice {
     Evaluation evaluation;
     uint32_t slice;
     SweepCount count;
 };
 
-// Response, F = 1, to a light of half angle asin(s) on the mirror axis, about: L1 L2 / sqrt((1 +
-// L1^2) (1 + L2^2)) with L1 = s / 2 alpha, L2 = L1 / NoV. What errors are relative to.
+// The approximate response, with F = 1, to a light of half angle asin(s) on the mirror axis: L1 L2
+// / sqrt((1 + L1^2) (1 + L2^2)) with L1 = s / 2 alpha and L2 = L1 / NoV. Errors are divided by it.
 double onAxisResponse(double s, double alpha, double NoV);
 
-// Formula against quadrature for eyes at least 1.1 degrees above the horizon, relative to
-// onAxisResponse. Where receiver and emitter touch, spheres only, and not from their very centre:
-// the others have no common definition there.
+// The errors of a formula against quadrature, relative to onAxisResponse, for eyes at least 1.1
+// degrees above the horizon. Inputs in which receiver and emitter touch are compared for spheres
+// only, and not at the sphere's centre, because the other shapes have no common definition there.
 struct QuadratureCheck {
     Evaluation evaluation;
     size_t samples = 0;
     double mean = 0, p99 = 0, max = 0;
-    double bar = 0;        // what `max` must stay below; 0: a known approximation, has none
-    double diffuseMax = 0; // of the form factor, relative to (reach / distance)^2, at most 1
-    std::string worst;     // slice and inputs
+    double bar = 0; // the largest `max` allowed; 0: none, the method is a known approximation
+    double diffuseMax = 0; // the largest error of the form factor, relative to the squared ratio of
+                           // the emitter's bounding radius to its distance, which is at most 1
+    std::string worst;     // slice and inputs of the largest error
     bool overBar() const { return bar > 0 && !(max <= bar); }
 };
 
-// Largest jump of the response with F = 1 that remains after bisection down to neighbouring floats,
-// relative to onAxisResponse.
+// The largest jump of the response with F = 1, relative to onAxisResponse, that remains after
+// bisection down to neighbouring floats.
 struct ContinuityCheck {
     Evaluation evaluation;
     std::string through;
@@ -63,7 +66,7 @@ struct Stability {
 
     uint64_t tried() const;
     uint64_t invalid() const;
-    bool overBar() const; // any of `quadrature`
+    bool overBar() const; // whether any of `quadrature` is over its bar
 };
 
 double stabilitySteps(const StabilitySettings& settings);

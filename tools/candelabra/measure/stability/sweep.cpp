@@ -13,7 +13,7 @@ namespace candelabra::app
 namespace
 {
 
-// Lanes of a dispatch: a second of work at most on a software device.
+// Lanes of a dispatch. They are a second of work at most on a software device.
 constexpr uint32_t maxLanes = 1u << 20;
 
 gpu::Kernel<gpu::SweepParams> makeKernel(const gpu::Device& device, const Evaluation& evaluation,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shipping shader evaluation under random and adversarial inputs that the device makes itself
-// (shaders/bench/sweep_inputs.comp).
+// Runs the light evaluation that the engine ships on random and adversarial inputs, which the
+// device generates itself (shaders/bench/sweep_inputs.comp).
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ const char* sliceText(uint32_t slice);
 
 struct SweepCount {
     uint64_t tried = 0, nan = 0, infinite = 0, negative = 0;
-    std::vector<gpu::SweepRecord> bad; // the first few
+    std::vector<gpu::SweepRecord> bad; // the first few inputs with an invalid response
     uint64_t invalid() const { return nan + infinite + negative; }
 };
 
@@ -26,10 +26,12 @@ class Sweep
 public:
     Sweep(const VulkanContext& context, const Evaluation& evaluation, uint32_t seed);
 
-    // `configurations` inputs of a slice, from index `first` on. `onDone` hears how many more.
+    // Evaluates `configurations` inputs of a slice, from index `first` on, and counts the invalid
+    // responses. `onDone` is called with the number of inputs each time some more are done.
     SweepCount count(uint32_t slice, uint32_t first, uint64_t configurations,
                      const std::function<void(uint64_t)>& onDone);
-    // Inputs from index `first` on with what came out, emission 1, no window.
+    // Returns the inputs from index `first` on with their responses. Emission is 1, and no window
+    // is applied.
     std::vector<gpu::SweepRecord> record(uint32_t slice, uint32_t first, uint32_t configurations);
 
 private:
@@ -45,9 +47,10 @@ private:
     gpu::Timer timer_;
 };
 
-// The light of a record relative to its shaded point, as the shader subtracts them.
+// Returns the light of a record with its position relative to the shaded point, in float, as the
+// shader computes it.
 CndLight lightOf(const gpu::SweepRecord& record, uint32_t lightType);
-// One line with every number, enough to evaluate it again.
+// Describes a record in one line with all its numbers, from which it can be evaluated again.
 std::string describeRecord(const gpu::SweepRecord& record);
 
 } // namespace candelabra::app

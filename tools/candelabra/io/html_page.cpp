@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/accuracy/page.h"
+#include "io/html_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "io/image.h"
 #include "io/markup.h"
-#include "io/table.h"
-#include "render/setting_names.h"
-#include "scene/light_types.h"
 
 namespace candelabra::app
 {
 namespace
 {
 
-// Plots are drawn dark on white: inverted, with their hues turned back, they suit a dark page.
+// Plots are drawn dark on white. On a dark page they are inverted, and their hues are turned back.
 constexpr const char* style = R"(
 :root { color-scheme: light dark; --text: #202020; --back: #ffffff; --soft: #f4f4f1;
         --line: #d0d0d0; --dim: #505050; --bar: #0072b2; }
@@ -48,7 +45,7 @@ td.bars { width: 320px; }
 .wipe input { width: 100%; margin: 4px 0; }
 )";
 
-// Neither < nor ampersand: the page is XML as well.
+// The script holds neither < nor an ampersand, because the page is XML as well.
 constexpr const char* script = R"(
 for (const w of document.querySelectorAll('.wipe')) {
   const [left, right] = w.querySelectorAll('select');
@@ -87,80 +84,6 @@ std::string base64(const std::vector<uint8_t>& bytes)
 uint8_t byteOf(float x)
 {
     return uint8_t(std::lround(std::clamp(x, 0.0f, 1.0f) * 255));
-}
-
-// Black, purple, red, orange, pale yellow: steps of "magma" (van der Walt and Smith 2015).
-glm::vec3 heat(float x)
-{
-    static const std::array<glm::vec3, 6> steps = {
-        glm::vec3(0.001f, 0.000f, 0.014f), glm::vec3(0.232f, 0.060f, 0.438f),
-        glm::vec3(0.550f, 0.161f, 0.506f), glm::vec3(0.868f, 0.288f, 0.409f),
-        glm::vec3(0.995f, 0.624f, 0.427f), glm::vec3(0.987f, 0.991f, 0.750f)};
-    const float at = std::clamp(x, 0.0f, 1.0f) * float(steps.size() - 1);
-    const size_t i = std::min(size_t(at), steps.size() - 2);
-    return glm::mix(steps[i], steps[i + 1], at - float(i));
-}
-
-// A map of 0 .. 1 where the eye can tell: FLIP beyond 0.5 is rare.
-DisplayImage heatMap(const std::vector<float>& map, uint32_t width, uint32_t height)
-{
-    DisplayImage out{width, height, {}};
-    for (const float x : map)
-        out.pixels.push_back(heat(2 * x));
-    return out;
-}
-
-std::string worstPixelTable(const ImageScene& scene)
-{
-    Table table({"method, pixel", "value cd/m^2", "truth cd/m^2", "ratio"});
-    for (const ImagePoint& p : scene.points)
-        for (size_t k = 0; k < std::min<size_t>(p.error.worst.size(), 3); ++k) {
-            const WorstPixel& w = p.error.worst[k];
-            table.add({fmt::format("{} ({}, {})", specularName(p.method), w.x, w.y),
-                       threeDigits(w.value), threeDigits(w.truth),
-                       w.truth > 0 ? threeDigits(w.value / w.truth) : "-"});
-        }
-    return table.text();
-}
-
-std::string sceneSection(const ImageScene& scene, size_t index)
-{
-    std::string figures;
-    std::vector<WipeChoice> choices;
-    for (const ImagePoint& p : scene.points) {
-        const Displayed displayed = displayBoth(scene.truth, p.radiance);
-        const std::string name = specularName(p.method);
-        const auto idOf = [&](const std::string& what) {
-            return fmt::format("scene{}-{}", index, what);
-        };
-        if (choices.empty()) {
-            choices.push_back({idOf("truth"), "truth"});
-            figures +=
-                figure(displayed.truth, "truth: double-precision quadrature", choices.back().id) +
-                "<br/>\n";
-        }
-        choices.push_back({idOf(name), name});
-        figures += figure(displayed.value,
-                          fmt::format("{}: {} ms, relMSE {:.1e}, lit mean {:.1e}, FLIP {:.4f}",
-                                      name, threeDigits(p.time.lightingMs), p.error.relMse,
-                                      p.error.litMeanRel, p.error.flip),
-                          choices.back().id);
-        choices.push_back({idOf(name + "-flip"), name + ": difference"});
-        figures += figure(heatMap(flipMap(displayed.truth, displayed.value), displayed.truth.width,
-                                  displayed.truth.height),
-                          name + ": FLIP, 0 black to 0.5 yellow", choices.back().id);
-    }
-    return "<h3>" + escaped(scene.name) + "</h3>\n" + wipe(choices) + figures +
-           "<h4>Worst pixels</h4>" + preformatted(worstPixelTable(scene));
-}
-
-std::string worstSamples(const KernelLevel& kernels)
-{
-    std::string out;
-    for (const KernelPoint& p : kernels.points)
-        out += fmt::format("{} {}: {}% at {}\n", lightTypeName(p.lightType), specularName(p.method),
-                           threeDigits(100 * p.error.mirror.all.max), p.worst);
-    return out;
 }
 
 } // namespace
@@ -211,31 +134,11 @@ std::string wipe(const std::vector<WipeChoice>& choices)
                             i == chosen ? " selected=\"selected\"" : "", escaped(choices[i].name));
         return out + "</select>";
     };
-    // Hidden until the script has filled it in.
+    // The wipe is hidden until the script has filled it in.
     return "<div class=\"wipe\" hidden=\"hidden\"><div class=\"pictures\">"
            "<img class=\"under\" alt=\"right\"/><img class=\"over\" alt=\"left\"/></div>"
            "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"slider\"/>" +
            list(0, "left") + " | " + list(choices.size() - 1, "right") + "</div>\n";
-}
-
-std::string accuracySections(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
-                             const BudgetSweep& budgets, const DeviceInfo& device)
-{
-    std::string out = "<h2>Accuracy: one light at one pixel</h2>\n" + kernelPlot(kernels, device) +
-                      preformatted(kernelTables(kernels)) + "<h3>Worst samples, F = 1</h3>" +
-                      preformatted(worstSamples(kernels)) + "<h2>Accuracy: whole frames</h2>\n" +
-                      imagePlot(scenes, device) + preformatted(imageTables(scenes, budgets));
-    for (size_t i = 0; i < scenes.size(); ++i)
-        out += sceneSection(scenes[i], i);
-    return out;
-}
-
-std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,
-                         const std::vector<ImageScene>& scenes, const BudgetSweep& budgets,
-                         const DeviceInfo& device)
-{
-    return pageHead("Candelabra: error against time") + preformatted(provenance.dump(2)) +
-           accuracySections(kernels, scenes, budgets, device) + pageEnd();
 }
 
 } // namespace candelabra::app

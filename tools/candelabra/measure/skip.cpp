@@ -1,27 +1,152 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/skip/skip.h"
+#include "measure/skip.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "io/table.h"
 #include "load/load.h"
 #include "measure/frame/brute_check.h"
-#include "measure/skip/skip_stage.h"
 #include "reference/tone_map.h"
+#include "render/camera.h"
 #include "render/check.h"
+#include "render/readback.h"
+#include "render/renderer.h"
 #include "scene/scene_options.h"
 
 namespace candelabra::app
 {
+
 namespace
 {
 
+// A frame that can be drawn again and again.
+struct Drawing {
+    std::function<std::vector<PassTime>()> draw; // returns the times of the passes to compare
+    // Returns what was drawn last: the radiance, and for whole frames the display image (0..255)
+    // too.
+    std::function<std::vector<float>()> image;
+};
+
+// How a lighting module is used.
+struct LightingWay {
+    std::function<void(FrameOptions&)> edit = [](FrameOptions&) {};
+    bool surfacesUnchanged = false; // CndLightingFrame::surfacesUnchanged from the second frame on
+    std::vector<CndLight> before{}; // a light set that it is given first
+    uint32_t materialClasses = 0;   // CndLightingDesc::materialClasses
+    CndInfluence influence{};
+};
+
+// Frames of one scene: different ways to draw it that share a G-buffer.
+class SkipStage
+{
+public:
+    // `context` and `scene` must outlive the stage and its drawings.
+    SkipStage(const VulkanContext& context, const Scene& scene, PixelSize size);
+
+    using Lights = std::vector<CndLight>;
+    const Lights& lights() const { return scene_.lights; }
+    const VulkanContext& context() const { return context_; }
+
+    // Draws the lighting alone, by a lighting module of its own that has these lights.
+    Drawing lighting(const Lights& lights, const LightingWay& way = {});
+
+    // Changes the options of a frame; `drawn` is how often it has been drawn before.
+    using Edit = std::function<void(FrameOptions&, uint32_t drawn)>;
+    // Draws whole frames and times the passes for which `counts` returns true.
+    Drawing frames(const Edit& edit, const std::function<bool(const std::string& pass)>& counts);
+    CndExposureStats exposureStats() const { return renderer_.stats(0).exposure; }
+
+private:
+    const VulkanContext& context_;
+    const Scene& scene_;
+    FrameOptions options_;
+    Renderer renderer_;
+};
+
+SkipStage::SkipStage(const VulkanContext& context, const Scene& scene, PixelSize size)
+    : context_(context),
+      scene_(scene),
+      options_{.camera = selectCamera(scene, ""), .lightsVisible = false},
+      renderer_(context, scene, {.size = size, .specularMethods = 1u << CND_SPECULAR_CONIC})
+{
+    cndDefaultExposureSettings(&options_.exposure);
+}
+
+Drawing SkipStage::lighting(const Lights& lights, const LightingWay& way)
+{
+    struct Own {
+        Lighting lighting; // must outlive its view
+        LightingView view;
+        bool drawn = false;
+    };
+    const auto own = std::make_shared<Own>();
+    own->lighting = take(Lighting::create(
+        context_.desc(), {.framesInFlight = 1,
+                          .timestamps = VK_TRUE,
+                          .materialClasses = way.materialClasses,
+                          .influenceByError = way.influence.rule == CND_INFLUENCE_BY_ERROR}));
+    const auto [width, height] = renderer_.size();
+    own->view = take(own->lighting.createView({.maxWidth = width, .maxHeight = height}));
+    const glm::dvec3& o = scene_.lightOrigin;
+    for (const Lights* set : {&way.before, &lights})
+        take(own->lighting.setLights(*set, {o.x, o.y, o.z}));
+    FrameOptions options = options_;
+    way.edit(options);
+    const auto draw = [this, own, options, influence = way.influence,
+                       promise = way.surfacesUnchanged] {
+        CndLightingFrame frame = renderer_.lightingFrame(0, options);
+        frame.influence = influence;
+        frame.surfacesUnchanged = promise && std::exchange(own->drawn, true);
+        context_.submitAndWait([&](VkCommandBuffer cmd) {
+            renderer_.recordUnlit(cmd, options);
+            take(own->view.record(cmd, frame));
+            renderer_.recordBruteEnd(cmd);
+        });
+        const std::optional<CndLightingStats> stats = take(own->view.stats(0));
+        std::vector<PassTime> out;
+        for (uint32_t i = 0; stats && i < stats->kernelTimeCount; ++i)
+            out.push_back({passName(stats->kernelTimes[i].name), stats->kernelTimes[i].ms});
+        return out;
+    };
+    return {.draw = draw, .image = [this] { return readRadiance(context_, renderer_).pixels; }};
+}
+
+Drawing SkipStage::frames(const Edit& edit,
+                          const std::function<bool(const std::string& pass)>& counts)
+{
+    const auto drawn = std::make_shared<uint32_t>(0);
+    const auto draw = [this, edit, counts, drawn] {
+        FrameOptions options = options_;
+        edit(options, (*drawn)++);
+        context_.submitAndWait([&](VkCommandBuffer cmd) { renderer_.record(cmd, 0, options); });
+        std::vector<PassTime> out;
+        for (const PassTime& pass : renderer_.stats(0).passes)
+            if (counts(pass.name))
+                out.push_back(pass);
+        return out;
+    };
+    const auto image = [this] {
+        std::vector<float> out = readRadiance(context_, renderer_).pixels;
+        const std::vector<uint8_t> display = readDisplay(context_, renderer_);
+        out.insert(out.end(), display.begin(), display.end());
+        return out;
+    };
+    return {.draw = draw, .image = image};
+}
+
 using Lights = SkipStage::Lights;
 
-constexpr double lightingBar = 0.05, pointBar = 1.03; // issue 4, acceptance 7
+// The greatest ratios of the times with and without a skip.
+constexpr double lightingBar = 0.05, pointBar = 1.03;
 
 struct Pair {
     Drawing with, without;
@@ -30,7 +155,7 @@ struct Pair {
 struct Skip {
     SkipRow row;
     Pair pair;
-    Drawing unskipped; // its image is that of pair.with
+    Drawing unskipped; // must give the same image as pair.with
     std::optional<Pair> idle{};
 };
 
@@ -48,7 +173,7 @@ Lights raised(Lights lights, float metres)
     return lights;
 }
 
-// The same lights without a size.
+// Returns point lights in place of the sphere lights, with the same intensity.
 Lights points(Lights lights)
 {
     for (CndLight& light : lights) {
@@ -58,7 +183,7 @@ Lights points(Lights lights)
     return lights;
 }
 
-// With one dark light of every type but points, or as many dark points.
+// Adds one dark light of every type other than point, or as many dark point lights.
 Lights withOthers(Lights lights, bool ofOtherTypes)
 {
     const CndLight first = lights.front();
@@ -106,7 +231,7 @@ Skip noLights(SkipStage& stage)
             darkLights};
 }
 
-// The lights come along, or that none is in view would be what is measured.
+// The lights are raised with the camera. Otherwise this would measure that no light is in view.
 Skip noSurface(SkipStage& stage)
 {
     return {{.name = "no surface in view",
@@ -194,7 +319,7 @@ Skip manualExposure(SkipStage& stage)
             automatic};
 }
 
-// In vain: the scene as it is, whose surfaces have both lobes.
+// The skip is looked for without success in the scene as it is, whose surfaces have both lobes.
 Skip withoutLobe(SkipStage& lacking, SkipStage& stage, CndMaterialClass materials, const char* name)
 {
     const LightingWay apart{.materialClasses = uint32_t(materials)};
@@ -223,7 +348,7 @@ Skip noEnvironment(SkipStage& without, SkipStage& black)
 
 std::vector<float> imageOf(const Drawing& drawing)
 {
-    drawing.draw(); // compiles, uploads
+    drawing.draw(); // compiles kernels and uploads lights
     drawing.draw();
     return drawing.image();
 }
@@ -235,22 +360,23 @@ double meanOf(const std::vector<float>& image)
     return std::accumulate(image.begin(), image.end(), 0.0) / double(image.size());
 }
 
-// Radiance as a display shows it, 0..1, without a tone curve.
+// Converts radiance to display values of 0..1 (sRGB) without a tone curve.
 Drawing shown(Drawing drawing, float exposure)
 {
     drawing.image = [image = drawing.image, exposure] {
         std::vector<float> out = image();
         for (float& x : out)
             x = float(reference::srgbEncode(std::min(double(x * exposure), 1.0)));
-        out.push_back(1); // of which differences are shares
+        out.push_back(1); // differences are relative to the largest value: the range of the display
         return out;
     };
     return drawing;
 }
 
-// Few lights, or all of them everywhere would take long: one in ten as it is, the others so dim
-// that no display shows them, not even as highlights of smooth surfaces, where a millionth is still
-// seen. What looking for them costs shows where all are as they are.
+// One light in ten is as it is; the others are so dim that no display shows them, not even as
+// highlights of smooth surfaces, on which a millionth is still visible. There are few lights,
+// because evaluating all of them at every pixel would take long. What looking for dim lights costs
+// is measured with the same lights at full brightness.
 Skip dimLights(SkipStage& stage)
 {
     constexpr float starlight = 1e-9f, error = 0.5f / 255;
@@ -291,9 +417,9 @@ double largestDifference(const std::vector<float>& image, const std::vector<floa
 void interleave(const Pair& pair, uint32_t rounds, PassTimes& with, PassTimes& without,
                 const std::function<void()>& onRound)
 {
-    imageOf(pair.without); // warm, as the other is
+    imageOf(pair.without); // warms up, as the caller has done with the other drawing
     for (uint32_t round = 0; round < rounds; ++round) {
-        const bool first = round % 2 == 0; // neither always comes first
+        const bool first = round % 2 == 0; // the two take turns at being drawn first
         if (first)
             with.add(pair.with.draw());
         without.add(pair.without.draw());
@@ -316,7 +442,7 @@ SkipRow measure(Skip skip, uint32_t rounds, const std::function<void()>& onRound
     return row;
 }
 
-// All surfaces of metal, or all without a specular lobe.
+// Makes all surfaces metal, or removes the specular lobe of all.
 Scene withMaterials(Scene scene, bool metal)
 {
     for (Material& m : scene.materials) {
@@ -349,7 +475,7 @@ double SkipRow::ratio() const
     return other > 0 ? with.total().medianMs / other : 0;
 }
 
-// Rows, four of them with two pairs; and that of points.
+// Every row has one pair of drawings and some a second pair; one row has its own number of rounds.
 double skipSteps(const SkipSettings& s)
 {
     return 15.0 * s.rounds + s.pointRounds;
@@ -360,7 +486,7 @@ std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettin
 {
     SceneOptions options{.lights = settings.lights, .seed = settings.seed};
     Scene scene = loadScene(settings.scene, options);
-    scene.background = {}; // an environment would stand in its place
+    scene.background = {}; // black, like the environment that it is compared with
     const Scene black = withBlackEnvironment(scene);
     std::vector<SkipRow> rows;
     const auto add = [&](Skip skip, uint32_t rounds) {
@@ -388,6 +514,88 @@ std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettin
     SkipStage shaded(context, black, settings.size);
     add(noEnvironment(stage, shaded), settings.rounds);
     return rows;
+}
+
+namespace
+{
+
+double medianMs(const PassTimes& times)
+{
+    return times.total().medianMs;
+}
+
+Json timesJson(const PassTimes& times)
+{
+    Json passes = Json::array();
+    for (const PassSummary& pass : times.summary())
+        passes.push_back({{"name", pass.name}, {"minMs", pass.minMs}, {"medianMs", pass.medianMs}});
+    return {{"frames", times.frames()},
+            {"medianMs", medianMs(times)},
+            {"minMs", times.total().minMs},
+            {"passes", passes}};
+}
+
+// Describes what looking for the skip costs if it is not found.
+std::string costOf(const SkipRow& row)
+{
+    if (!row.idleWith.frames())
+        return "nothing";
+    return fmt::format("{:+.1f} of {} ms", medianMs(row.idleWith) - medianMs(row.idleWithout),
+                       threeDigits(medianMs(row.idleWithout)));
+}
+
+} // namespace
+
+std::string skipTable(const std::vector<SkipRow>& rows)
+{
+    Table table(
+        {"skip", "against", "passes", "ms", "without", "ratio", "bar", "in vain", "difference"});
+    for (const SkipRow& row : rows)
+        table.add({row.name, row.against, row.passes, threeDigits(medianMs(row.with)),
+                   threeDigits(medianMs(row.without)), fmt::format("{:.3f}", row.ratio()),
+                   row.bar > 0 ? fmt::format("{:.2f}", row.bar) : "-", costOf(row),
+                   fmt::format("{:.0e}", row.difference)});
+    return table.text();
+}
+
+Json skipJson(const SkipSettings& settings, const std::vector<SkipRow>& rows)
+{
+    Json list = Json::array();
+    for (const SkipRow& row : rows) {
+        Json out{{"name", row.name},
+                 {"against", row.against},
+                 {"passes", row.passes},
+                 {"ratio", row.ratio()},
+                 {"bar", row.bar > 0 ? Json(row.bar) : Json()},
+                 {"differenceOverLargest", row.difference},
+                 {"bound", row.bound},
+                 {"with", timesJson(row.with)},
+                 {"without", timesJson(row.without)}};
+        if (row.idleWith.frames()) {
+            out["inVain"] = timesJson(row.idleWith);
+            out["notLookedFor"] = timesJson(row.idleWithout);
+        }
+        list.push_back(out);
+    }
+    return {{"scene", settings.scene},
+            {"widthPixels", settings.size.width},
+            {"heightPixels", settings.size.height},
+            {"lights", settings.lights},
+            {"rounds", settings.rounds},
+            {"pointRounds", settings.pointRounds},
+            {"seed", settings.seed},
+            {"specular", "conic"},
+            {"skips", list}};
+}
+
+std::vector<std::string> skipFailures(const std::vector<SkipRow>& rows)
+{
+    std::vector<std::string> out;
+    for (const SkipRow& row : rows)
+        if (!(row.difference <= row.bound))
+            out.push_back(fmt::format("{}: the image differs by {:.1e} of the largest radiance",
+                                      row.name, row.difference));
+    return out;
 }
 
 } // namespace candelabra::app
