@@ -160,7 +160,7 @@ Clusters::Lists Clusters::createLists() const
 
 void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
 {
-    // Of any split into types: each may round up on every level.
+    // Enough for any split of the lights into types: each type may round up on every level.
     const VkDeviceSize nodes = nodeCount(lightCapacity) + CND_LIGHT_TYPE_COUNT * gpu::TREE_LEVELS;
     const VkDeviceSize bytes = nodes * gpu::TREE_NODE_STRIDE * sizeof(glm::vec4);
     if (bytes > nodes_.size) {

@@ -25,7 +25,7 @@ struct ClusterKernels {
     gpu::Kernel<gpu::ClusterListsParams> clusterLists;
 };
 
-// Of one of the WorkLists of a buffer, by class.
+// Byte offset of the work list of one material class in a buffer with a list per class.
 constexpr VkDeviceSize workListAt(uint32_t list)
 {
     return list * sizeof(gpu::WorkList);
@@ -78,7 +78,7 @@ public:
     void recordLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,
                      glm::uvec2 tileCount, uint32_t longest) const noexcept;
 
-    // Of a light type.
+    // The light lists of one light type.
     struct Lists {
         gpu::Buffer heads;         // per cluster
         gpu::Buffer lit, unlisted; // WorkLists of tiles, by class
@@ -91,7 +91,7 @@ public:
     const gpu::Buffer& entries() const { return entries_; }
     const gpu::Buffer& nodes() const { return nodes_; }
     const gpu::Buffer& splits() const { return splits_; }
-    // Of the tiles that asked for it.
+    // The number of tiles that were split, where `asked` tiles asked for it: there is limited room.
     uint32_t splitTileCount(uint32_t asked) const { return std::min(asked, splitCapacity_); }
     const gpu::Buffer& surfaces() const { return surfaces_; } // WorkLists of tiles, by class
 

@@ -26,9 +26,9 @@ public:
     // Descriptors to be given to take(); none when those of the last call still hold, which they do
     // for the same buffers and records.
     std::shared_ptr<gpu::Bindings> prepare(const CndDeviceLights& lights, bool newRecords) const;
-    // Those of the last call, for the caller to keep while recordings use them.
+    // The descriptors in use. The caller keeps them alive while recordings use them.
     const std::shared_ptr<gpu::Bindings>& bindings() const { return bindings_; }
-    // Into the first records.
+    // Takes the lights of a new set; they will fill the first of the records.
     void take(const CndDeviceLights& lights, const gpu::Buffer& records,
               std::shared_ptr<gpu::Bindings> bindings);
     void takeNone() { present_ = false; }

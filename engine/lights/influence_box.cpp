@@ -18,7 +18,7 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Of the terms of a clip coordinate: what the kernels' single precision may differ by, and more.
+// Share of a clip coordinate's terms that exceeds the rounding error of the kernels' float32.
 constexpr double margin = 1e-4;
 
 } // namespace

@@ -12,7 +12,7 @@ namespace
 
 using gpu::divideUp;
 
-// Of the Morton code, per axis: together with type and size 24 or 30 bits, four or five passes. The
+// Bits of the Morton code per axis. With type and size they make 24 or 30: 4 or 5 passes. The
 // coarser grid still has four cells per light.
 constexpr uint32_t coarseAxisBits = 6, fineAxisBits = 8;
 constexpr uint32_t coarseLights = 65536;

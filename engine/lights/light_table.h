@@ -43,7 +43,7 @@ public:
     struct Transfers {
         std::vector<VkBufferCopy> moves, uploads;
     };
-    // Of the edits since the last call; `firstRecord`: of the host's lights.
+    // Transfers of the edits since the last call. `firstRecord`: the first of the host's lights.
     const Transfers& take(uint32_t firstRecord) noexcept;
 
 private:

@@ -14,10 +14,10 @@ namespace candelabra::lighting
 // Throws gpu::Failure naming the first light and field outside its documented range.
 void validateLights(std::span<const CndLight> lights);
 
-// Of valid lights.
+// Counts lights, which must be valid, by type.
 LightTypeCounts countTypes(std::span<const CndLight> lights);
 
-// Valid lights into records, one each.
+// Writes one record for each light. The lights must be valid.
 void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records,
                 uint32_t firstId = 0) noexcept;
 

@@ -43,8 +43,8 @@ public:
     };
     void writeBindings(uint32_t slot, const Inputs& inputs) const;
 
-    // In this order, each with a barrier behind it; those between first and last once per round,
-    // the second as often as lights need it. The number of rounds:
+    // They are called in this order, and each ends with a barrier. All but the first and the last
+    // are called once per round, recordMeasure as often as lights need it. Returns the rounds.
     uint32_t recordBegin(const gpu::Frame& f, const CndLightingFrame& frame) noexcept;
     void recordRound(const gpu::Frame& f) const noexcept;
     // `params` as of shade_brute, with the round.

@@ -29,7 +29,7 @@ public:
     bool require(uint32_t lightType);
 
     bool allows(CndSpecularMethod method) const { return methods_ >> method & 1; }
-    // Of the tiles of one class.
+    // The kernels for tiles of one material class.
     struct Tiles {
         Kernel shade, unlisted, countPairs;
     };

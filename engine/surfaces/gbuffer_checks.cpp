@@ -24,7 +24,7 @@ struct ColourFormat {
     {                                                                                              \
         VK_FORMAT_##name, channels, Numbers::numbers, #name                                        \
     }
-// Those that shaders read as floats and G-buffers are made of.
+// The formats of G-buffer channels that shaders read as floats.
 constexpr ColourFormat colourFormats[] = {FORMAT(R8_UNORM, 1, Unsigned),
                                           FORMAT(R8_SNORM, 1, Signed),
                                           FORMAT(R8G8_UNORM, 2, Unsigned),

@@ -11,7 +11,7 @@ namespace candelabra::lighting
 gpu::Handle<VkDescriptorSetLayout> createForwardLayout(const gpu::Device& device,
                                                        VkShaderStageFlags stages);
 
-// Of one view.
+// The descriptor sets and constants by which the host's shaders find the lights of one view.
 class ForwardLights
 {
 public:

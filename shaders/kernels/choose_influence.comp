@@ -47,7 +47,7 @@ void main()
     const vec3 all = imageLoad(radianceImage, ivec2(pixel)).rgb +
                      sums[firstSlot + INFLUENCE_DISTANT] + placed;
     const vec3 uncut = shown(all);
-    // Of the bins from the cut up, the sums of x^2 and of x^4 times theirs.
+    // Light of the bins from the cut up, weighted by x^2 and by x^4 and summed.
     vec3 squares = vec3(0.0), fourths = vec3(0.0);
     vec3 below = placed; // the cut
     uint allowed = INFLUENCE_BINS - 1u;

@@ -20,7 +20,7 @@ layout(scalar, binding = LIGHT_KEYS_KEYS) writeonly buffer Keys
     LightKey keys[];
 };
 
-// Two zero bits behind each of the low 10 bits.
+// Puts two zero bits after each of the low 10 bits.
 uint spread(uint x)
 {
     x = (x | (x << 16)) & 0x030000FFu;

@@ -20,8 +20,8 @@ layout(scalar, binding = LIGHT_TREE_NODES) buffer Nodes
 
 const float LARGEST = 1e30; // of a box: infinite influence, but products with 0 are 0
 
-// Of a light's centre and radius of influence: what a box is made larger by, so that rounding here and
-// in the tests against it loses nothing.
+// Share of a light's centre and influence radius by which a box is made larger, so that rounding here
+// and in the tests against it loses nothing.
 const float BOX_MARGIN = 1.0 / 1048576.0;
 
 void childBox(uint child, out vec3 lowest, out vec3 highest)

@@ -32,7 +32,7 @@ bool isOutside(vec4 x)
     return any(lessThan(x, vec4(-margin))) || any(greaterThan(x, vec4(1.0 + margin)));
 }
 
-// Of the host's own layout; those of ours are what they are.
+// The normal as stored. Only the host's layout can hold one whose length is not 1.
 vec3 normalBeforeReading(HostTexels t, vec3 normal)
 {
     return gbufferLayout == GBUFFER_LAYOUT_HOST ? storedNormal(t.normal) : normal;

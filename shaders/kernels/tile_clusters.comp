@@ -32,7 +32,7 @@ void main()
         return;
     const uvec2 first = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX);
     const uvec2 end = min(first + TILE_SIZE, params.size);
-    // Of depth alone: where there is none, the loops over samples end at once.
+    // The range of depth alone. Where there is no surface, the loops over samples end at once.
     uint lowest = 0xFFFFFFFFu, highest = 0u;
     for (uint y = first.y; y < end.y; ++y)
         for (uint x = first.x; x < end.x; ++x) {

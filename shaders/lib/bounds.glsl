@@ -10,7 +10,7 @@ struct Box {
 // round by at most half an ulp on either side, together below 8 ulp = 8 * 2^-24.
 const float BOUNDS_MARGIN = 1.0 + 8.0 / 16777216.0;
 
-// Of the size of coordinates: more than a dot product with a unit vector rounds.
+// Share of the coordinates' size that exceeds the rounding error of a dot product with a unit vector.
 const float DOT_MARGIN = 1.0 / 1048576.0;
 
 float largest(vec3 x)

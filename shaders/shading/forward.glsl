@@ -86,7 +86,7 @@ LightCursor lightsAt(uint type, vec3 position)
     return LightCursor(0u, position, 0u, 0u, beginTreeWalk(tree, TREE_LEVELS));
 }
 
-// To the next light; false behind the last.
+// Goes to the next light. False after the last one.
 bool nextLight(inout LightCursor c)
 {
     const TreeShape tree = forwardView.trees[lightType];
@@ -156,7 +156,7 @@ vec3 litSurface(Surface surface, vec3 position)
     LightCursor cursor = lightsAt(type, position);
     Sums sums = noLight();
     // Conditions at the end, as of SHADE_FOUND; a lane that is done may run once more (Mesa 22.3): its
-    // cursor is behind the last light then, or foundLights has room for one more.
+    // cursor is after the last light then, or foundLights has room for one more.
     do {
         uint count = 0u;
         bool more;

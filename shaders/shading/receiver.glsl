@@ -29,7 +29,7 @@ const bool IS_LTC = areaMethod == SPECULAR_LTC;
 // The bound of the error of a point is not proven for errors of the specular lobe beyond this.
 const float MAX_POINT_ERROR = 0.3;
 
-// Of the lobe's highest response, the largest error of one shading node where a light is between one
+// Largest error, relative to the lobe's highest response, of one shading node for a light between one
 // and two of its half angles above the horizon, for F0 = 0.04 and F0 = 1: measured, 3,000 surfaces.
 const vec2 ONE_NODE_ERROR = vec2(0.21, 0.063);
 

@@ -9,7 +9,7 @@ GPU_BEGIN
 
 // --- The light tree: over the sorted lights of one type, an implicit tree of boxes. A node of
 // level k (1: leaves) stands for TREE_WIDTH^k consecutive lights, so there are no pointers. The
-// levels lie one behind the other, leaves first; the highest has at most TREE_WIDTH nodes.
+// levels lie one after the other, leaves first; the highest has at most TREE_WIDTH nodes.
 const uint TREE_WIDTH_BITS = 3u;
 const uint TREE_WIDTH = 8u;
 const uint TREE_LEVELS = 8u; // at most: 8^8 lights
@@ -78,7 +78,7 @@ const uint LIST_EMPTY = 0u;
 const uint LIST_UNLISTED = 0xFFFFFFFFu; // over the budget: walk the tree
 const uint LIST_LONG = 0xFFFFFFFEu;     // longer than a loop may be: walk all lights in batches
 
-// Arguments of an indirect dispatch, and what it is for: `count` of the indices behind the list, or
+// Arguments of an indirect dispatch, and what it is for: `count` of the indices after the list, or
 // lists, of a buffer, from `first` on. Groups come in rows, since devices limit the groups of one
 // dimension; rows are short where groups are few, since some devices deal out groups in equal
 // shares, the idle ones of the last row included.

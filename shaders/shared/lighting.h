@@ -70,7 +70,7 @@ struct TreeShape {
 GPU_SIZE(TreeShape, 12)
 
 // Classes of tiles by what all their surfaces lack; each has a work list and kernels of its own.
-// Those that a module was not asked for have no tiles.
+// Classes that a module was not asked for have no tiles.
 const uint CLASS_ANY = 0u;
 const uint CLASS_DIFFUSE = 1u;  // no specular lobe
 const uint CLASS_SPECULAR = 2u; // no diffuse lobe

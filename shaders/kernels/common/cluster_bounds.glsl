@@ -57,7 +57,7 @@ void addSample(inout Cluster c, uvec2 pixel, float depth)
     c.slope = max(c.slope, ahead > 0.0 ? slope : uintBitsToFloat(0x7F800000u));
 }
 
-// Of the cosine of two normals that are unit to 2 ulp each: the sine made from it is far less exact,
+// Error of the cosine of two normals that are unit to 2 ulp each. Its sine is far less exact,
 // and a light just above the horizon must not be taken for one below.
 const float COS_MARGIN = 16.0 / 16777216.0;
 

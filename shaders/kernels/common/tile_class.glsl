@@ -16,7 +16,7 @@ bool isBlack(vec3 colour)
     return colour.x == 0.0 && colour.y == 0.0 && colour.z == 0.0;
 }
 
-// Of pixels first .. end - 1. Ends as soon as no class is possible.
+// Class of the pixels first .. end - 1. The loop ends as soon as no class is possible any more.
 uint classOfSurfaces(uvec2 first, uvec2 end)
 {
     bool diffuse = FINDS_DIFFUSE, specular = FINDS_SPECULAR;

@@ -27,7 +27,7 @@ uint clusterOf(uint tile, float depth)
     return tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
 }
 
-// False behind the last tile and outside the image.
+// False after the last tile and outside the image.
 bool takeTile(out uint tile, out uvec2 pixel)
 {
     const WorkList work = works[tileClass];

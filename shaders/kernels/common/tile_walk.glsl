@@ -26,7 +26,7 @@ Block pageBlock(uint page)
                  header >> PAGE_COUNT_BITS);
 }
 
-// Of a batch: `at` lights are done.
+// The next block of a batch of which `at` lights are done.
 Block batchBlock(uint at)
 {
     const uint left = params.lightCount - at;

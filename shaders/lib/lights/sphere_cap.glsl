@@ -10,7 +10,7 @@ struct SphereCap {
     vec3 c;    // unit direction to the centre
     float NoC; // n . c
     float s2;  // sin^2 of the cap's half angle, (R / d)^2, in [0, 1]: what the form factor takes
-    // Of s2 clamped to MAX_SPECULAR_S2:
+    // Both belong to s2 clamped to MAX_SPECULAR_S2:
     float s;   // sine and ...
     float omc; // ... 1 - cosine of the half angle
 };
