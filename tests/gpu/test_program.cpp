@@ -316,7 +316,8 @@ TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
                                 " compare r.json r.json >out.txt 2>err.txt";
     ASSERT_EQ(WEXITSTATUS(std::system(compare.c_str())), 0) << text("err.txt");
     EXPECT_NE(text("out.txt").find("shade_tiles"), std::string::npos) << text("out.txt");
-    EXPECT_NE(text("out.txt").find("Fewer than 4 runs"), std::string::npos) << text("out.txt");
+    EXPECT_NE(text("out.txt").find("fewer than 4 runs of each"), std::string::npos)
+        << text("out.txt");
 }
 
 TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
