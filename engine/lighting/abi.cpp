@@ -80,7 +80,7 @@ CndResult cndPlanLighting(const CndDeviceDesc* device, const CndLightingDesc* de
             gpu::requireNotNull("cndPlanLighting", {views});
         const gpu::Planning planning(*device);
         lighting::Lighting lighting(planning.desc(), *desc);
-        std::deque<lighting::View> made; // their elements stay where they are
+        std::deque<lighting::View> made; // a deque does not move its elements when it grows
         for (const CndLightingViewDesc& view : std::span(views, viewCount))
             made.emplace_back(lighting.module(), view);
         lighting.device().readUsage(*usage);

@@ -70,7 +70,8 @@ VkDescriptorSetLayout Lighting::forwardLayout() const
     return forwardLayout_.get();
 }
 
-// Before a light set of these types, with room for so many lights, is taken (LightSet::Prepare).
+// Called before the light set takes lights of these types and grows to this capacity
+// (LightSet::Prepare).
 void Lighting::prepare(uint32_t lightCapacity, const LightTypeCounts& types)
 {
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)

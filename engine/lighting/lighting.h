@@ -11,16 +11,16 @@ class Lighting
 {
 public:
     Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc);
-    Lighting(const Lighting&) = delete; // its objects point to one another
+    Lighting(const Lighting&) = delete; // its members point to one another
     Lighting& operator=(const Lighting&) = delete;
 
     const gpu::Device& device() const { return device_; }
     LightSet& lights() { return lights_; }
     VkDescriptorSetLayout forwardLayout() const; // throws gpu::Failure when there is none
 
-    // For views, which live shorter than this.
+    // What views need of the module. It must outlive them.
     const Module& module() const { return module_; }
-    // The buffers of views on the list grow with the light set.
+    // The buffers of the views added here grow with the light set.
     void add(View* view) { views_.push_back(view); }
     void remove(View* view) { std::erase(views_, view); }
 

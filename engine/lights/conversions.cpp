@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photometric units, and one kind of light as another. Everything is computed in double and rounded
-// once.
+// Conversions between photometric units and between types of lights. Everything is computed in
+// double precision and rounded once.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr double pi = std::numbers::pi;
-// Farther from their origin than this, squared distances are not finite floats.
+// Farther from the origin than this, squared distances are no finite floats.
 constexpr double maxCoordinate = 1e15;
 
 double tubeArea(double length, double radius)
@@ -91,7 +91,7 @@ double requireSine(float sine)
     return double(sine > 0 ? sine : CND_SUN_SINE);
 }
 
-// (1 - (d / r)^4)^2, 0 from r on: the window of CndLight.
+// Returns the window of CndLight, (1 - (d / r)^4)^2, which is 0 from r on.
 double window(double distance, double influenceRadius)
 {
     const double q = distance / influenceRadius; // 0 for an infinite radius
@@ -106,7 +106,8 @@ double luminousPowerPerEmission(const CndLight& light)
     case CND_LIGHT_POINT:
         return 4 * pi;
     case CND_LIGHT_SPOT: {
-        // The attenuation is the square of a line in the cosine: its mean between the cones is 1/3.
+        // Between the cones the attenuation is the square of a linear function of the cosine, from
+        // 0 to 1: its mean is 1/3.
         const double inner = std::cos(double(light.innerConeAngle));
         const double outer = std::cos(double(light.outerConeAngle));
         return 2 * pi * (1 - inner + (inner - outer) / 3);
@@ -189,7 +190,8 @@ CndResult cndSphereFromPoint(const CndLight* point, float radius, const float at
         out.type = CND_LIGHT_SPHERE;
         setVector(out.position, vec(point->position));
         out.influenceRadius = point->influenceRadius;
-        // A light that does not reach `at` stays inside its influence all the same.
+        // The radius chosen is smaller than influenceRadius even where the light does not reach
+        // `at`.
         out.radius = radius > 0
                          ? radius
                          : float(std::min(1e-3 * distance, 0.25 * double(point->influenceRadius)));
@@ -270,7 +272,7 @@ CndResult cndSphereFromDirectional(const CndLight* directional, const float at[3
         setVector(out.position, receiver - away * direction);
         if (!(glm::length(vec(out.position)) <= maxCoordinate))
             gpu::failArgument("distance puts the light farther than 1e15 m from the origin");
-        // What single precision made of the position is what the receiver sees.
+        // The receiver sees the light where single precision has put it.
         const double actual = glm::length(vec(out.position) - receiver);
         out.radius = float(s * away);
         if (!(out.radius > 0 && double(out.radius) < actual))

@@ -108,7 +108,8 @@ void DeviceLights::write(const CndDeviceLights& lights, const gpu::Buffer& recor
                       .buffer = lights.buffer,
                       .offset = lights.offset,
                       .range = VkDeviceSize(lights.maxCount) * sizeof(CndDeviceLight)};
-    gpu::Binding count = gpu::Binding::of(gpu::DEVICE_LIGHTS_COUNT, counts_); // not read
+    // Without a count buffer the kernel does not read this binding.
+    gpu::Binding count = gpu::Binding::of(gpu::DEVICE_LIGHTS_COUNT, counts_);
     if (lights.countBuffer)
         count = {.binding = gpu::DEVICE_LIGHTS_COUNT,
                  .buffer = lights.countBuffer,

@@ -18,7 +18,8 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Share of a clip coordinate's terms that exceeds the rounding error of the kernels' float32.
+// Tests of clip coordinates are wider by this share of the magnitude of their terms, which is more
+// than the rounding error of the kernels' float32.
 constexpr double margin = 1e-4;
 
 } // namespace
@@ -68,8 +69,8 @@ bool reachesView(const InfluenceBox& box, const double origin[3], const CndCamer
     glm::dmat4 viewFromWorld;
     std::memcpy(&viewFromWorld, camera.viewFromWorld, sizeof viewFromWorld);
     const float* m = camera.clipFromView;
-    // Each side of the view is a half space, |x| <= w and |y| <= w: the box is behind one of them
-    // when all its corners are.
+    // In clip coordinates the view lies between the planes x = -w, x = w, y = -w and y = w. The box
+    // is outside the view if all its corners are beyond the same plane.
     bool behind[4] = {true, true, true, true};
     for (int corner = 0; corner < 8; ++corner) {
         glm::dvec4 p(0, 0, 0, 1);

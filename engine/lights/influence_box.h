@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes around the spheres of influence of a set's lights, by type and with the layers of the
-// lights: light types none of which reaches the view are left out of a frame.
+// Boxes around the spheres of influence of a set's lights, one per light type, with the layers of
+// these lights. A frame leaves out the light types whose box is outside the view.
 #pragma once
 
 #include <array>
@@ -14,32 +14,35 @@
 namespace candelabra::lighting
 {
 
-// Masks of layers as the public structs have them.
+// Tells whether `mask` is a mask of layers as in the public structs, where 0 stands for all layers.
 constexpr bool areLayers(uint32_t mask)
 {
     return !(mask & ~gpu::ALL_LAYERS);
 }
+// Returns the layers that such a mask stands for.
 constexpr uint32_t layersOf(uint32_t mask)
 {
     return mask ? mask : gpu::ALL_LAYERS;
 }
 
-// Holds the spheres of influence of lights, metres, relative to the set's origin. low > high: none.
+// A box that holds the spheres of influence of some lights, in metres relative to the set's origin.
+// low > high: there are no lights.
 struct InfluenceBox {
     glm::dvec3 low, high;
-    uint32_t layers = 0; // of any of them
+    uint32_t layers = 0; // every layer that one of the lights is in
 };
 using InfluenceBoxes = std::array<InfluenceBox, CND_LIGHT_TYPE_COUNT>;
 
+// Returns a box without bounds, for lights in these layers.
 InfluenceBox endlessBox(uint32_t layers);
 
-// By type; those of distant types are infinite.
+// Returns the box of each light type. The boxes of distant types have no bounds.
 InfluenceBoxes influenceBoxesOf(std::span<const CndLight> lights);
 
-// Makes boxes hold those of `more` as well.
+// Grows each box until it holds the box of the same type in `more`, and adds that box's layers.
 void widen(InfluenceBoxes& boxes, const InfluenceBoxes& more);
 
-// False only when no point that the camera shows is inside the box.
+// Returns false only if no point that the camera shows is inside the box.
 bool reachesView(const InfluenceBox& box, const double origin[3], const CndCamera& camera);
 
 } // namespace candelabra::lighting

@@ -8,8 +8,9 @@
 namespace candelabra::lighting
 {
 
-// Three things limit the lights: the range of the record buffer, one dispatch of prepare_lights,
-// and the 32-bit sums that count_pairs makes over the 64 pixels of a tile.
+// Three things limit the number of lights: the largest range of a storage buffer, which holds the
+// records; the largest dispatch of prepare_lights; and the 32-bit sums that count_pairs makes over
+// the 64 pixels of a tile.
 uint32_t maxLights(const VkPhysicalDeviceLimits& limits)
 {
     constexpr uint64_t countable = UINT32_MAX / (gpu::TILE_SIZE * gpu::TILE_SIZE);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many lights a device can take, and as what kind of buffer its kernels read them.
+// How many lights a device can take, and from which kind of buffer its kernels read them.
 #pragma once
 
 #include "gpu/device.h"
@@ -7,11 +7,12 @@
 namespace candelabra::lighting
 {
 
-// The largest light set that a device with these limits can take.
+// Returns the number of lights in the largest set that a device with these limits can take.
 uint32_t maxLights(const VkPhysicalDeviceLimits& limits);
 
-// The value of SPEC_LIGHTS_AS_TEXELS: 1 when kernels read lights from texel buffers, which is where
-// texel buffers can hold as many lights as the other limits allow; else 0, storage buffers.
+// Returns the value of SPEC_LIGHTS_AS_TEXELS. It is 1 if the device's texel buffers can hold
+// maxLights() lights: then kernels read lights from a texel buffer. Otherwise it is 0, and kernels
+// read lights from a storage buffer.
 uint32_t lightsAsTexels(const gpu::Device& device);
 
 } // namespace candelabra::lighting

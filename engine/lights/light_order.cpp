@@ -12,8 +12,9 @@ namespace
 
 using gpu::divideUp;
 
-// Bits of the Morton code per axis. With type and size they make 24 or 30: 4 or 5 passes. The
-// coarser grid still has four cells per light.
+// Bits of the Morton code per axis. With the bits of type and size a key has 24 or 30 bits, which
+// are sorted in 4 or 5 passes. Up to `coarseLights` lights the coarser grid is used, which has at
+// least four cells per light.
 constexpr uint32_t coarseAxisBits = 6, fineAxisBits = 8;
 constexpr uint32_t coarseLights = 65536;
 
@@ -74,14 +75,14 @@ LightOrder::State LightOrder::createState(uint32_t capacity, const gpu::Buffer& 
 void LightOrder::record(const gpu::Frame& frame, const State& s, uint32_t lightCount,
                         const LightExtent& extent) const noexcept
 {
-    gpu::Timer untimed; // the passes are one row
+    gpu::Timer untimed; // the whole sort is one row of the timer, stamped at its end
     const gpu::Frame f{frame.device, frame.cmd, untimed, frame.slot};
     const uint32_t axisBits = lightCount <= coarseLights ? coarseAxisBits : fineAxisBits;
     const uint32_t keyBits = gpu::ORDER_TYPE_BITS + gpu::ORDER_SIZE_BITS + 3 * axisBits;
     const uint32_t passes = divideUp(keyBits, gpu::SORT_DIGIT_BITS);
     int exponent = 0;
     std::frexp(extent.size, &exponent);
-    uint32_t from = passes % 2; // so that the last pass ends in keys[0]
+    uint32_t from = passes % 2; // with this start the last pass writes keys[0]
     lightKeys_.dispatch(f, s.makeKeys.set(from),
                         {.low = {extent.low[0], extent.low[1], extent.low[2]},
                          .cellsPerMetre = float(1u << axisBits) / extent.size,

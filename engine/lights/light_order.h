@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts the lights of a set on the device: by type, size and place (shared/light_order.h).
+// Sorts the lights of a set on the device by type, size and position (shared/light_order.h).
 #pragma once
 
 #include <limits>
@@ -11,26 +11,29 @@
 namespace candelabra::lighting
 {
 
-// Where lights lie, for the grid they are sorted along; lights outside count to its border.
+// The cube in which most lights of a set lie. The Morton codes of the sort number the cells of a
+// grid in this cube; a light outside belongs to the nearest cell.
 struct LightExtent {
-    float low[3] = {0, 0, 0}; // metres
-    float size = 1;           // metres, of the longest side, > 0
-    float influenceRadius =
-        std::numeric_limits<float>::infinity(); // metres, median; may be infinite
+    float low[3] = {0, 0, 0}; // lowest corner, metres
+    float size = 1;           // side of the cube, metres, > 0
+    // Median influence radius of the lights, metres; may be infinite.
+    float influenceRadius = std::numeric_limits<float>::infinity();
 };
 
 class LightOrder
 {
 public:
     explicit LightOrder(const gpu::Device& device); // must outlive it
-    // What sorting so many lights takes; keys[0] is the result.
+    // Buffers and descriptor sets for sorting up to a number of lights. keys[0] holds the result.
     struct State {
         gpu::Buffer keys[2], counts, sums;
-        gpu::Bindings makeKeys, count, scatter; // by the buffer they read or make
+        // Set i of makeKeys writes keys[i]; set i of count and scatter reads keys[i].
+        gpu::Bindings makeKeys, count, scatter;
         gpu::Bindings addUp, offset;
     };
+    // `capacity`: the largest number of lights to sort.
     State createState(uint32_t capacity, const gpu::Buffer& records) const;
-    // Ends with a barrier.
+    // Records the sort of the first `lightCount` records, and a barrier after it.
     void record(const gpu::Frame& frame, const State& state, uint32_t lightCount,
                 const LightExtent& extent) const noexcept;
 

@@ -17,8 +17,8 @@ namespace
 // rarely. A light takes 64 bytes of records and 64 of staging.
 constexpr uint32_t defaultCapacity = 1024;
 
-// The extent of the lights is estimated again when more than one light in so many was edited: the
-// estimate costs as much as sorting 1024 numbers four times.
+// The extent of the lights is estimated again when more than one light in editsPerExtent has been
+// edited: the estimate costs as much as sorting 1024 numbers four times.
 constexpr uint32_t editsPerExtent = 16;
 
 constexpr VkDeviceSize recordBytes = sizeof(gpu::LightRecord);
@@ -73,7 +73,7 @@ void LightSet::set(const CndLightSet& set)
     InfluenceBoxes boxes = influenceBoxesOf(lights);
     if (device) {
         types[device->type] += device->maxCount;
-        InfluenceBox& box = boxes[device->type]; // nobody here knows where they are
+        InfluenceBox& box = boxes[device->type]; // only the device knows where its lights are
         box = endlessBox(box.layers | layersOf(device->layers));
     }
     const uint32_t capacity = capacityFor(uint32_t(total));
@@ -83,10 +83,10 @@ void LightSet::set(const CndLightSet& set)
     std::shared_ptr<gpu::Bindings> bindings;
     if (device)
         bindings = deviceLights_.prepare(*device, capacity > capacity_);
-    if (bindings) // which replace these
+    if (bindings) // recordings may still use the ones that these replace
         recordings_.retire(deviceLights_.bindings());
     grow(capacity, false);
-    Staging& staging = freeStaging(); // the last that can fail
+    Staging& staging = freeStaging(); // nothing after this can fail
     if (device)
         deviceLights_.take(*device, store_.records, std::move(bindings));
     else
@@ -154,7 +154,8 @@ void LightSet::remove(std::span<const CndLightId> ids)
     finishEdit(types, {}, ids.size());
 }
 
-// Everything of an edit that can fail. `types`: lights by type once it is done.
+// Does everything in an edit that can fail. Returns where the host's records are to be written.
+// `types`: the number of lights of each type after the edit.
 LightTable::Records LightSet::prepareEdit(const LightTypeCounts& types, size_t edits, size_t added)
 {
     const uint32_t capacity = capacityFor(count_ + uint32_t(added));
@@ -224,10 +225,10 @@ LightExtent LightSet::currentExtent() const noexcept
     return extentWith(host, lights_.count() - distant, deviceLights_.lights());
 }
 
-// A staging buffer that no recording still reads.
+// Returns a staging buffer that no recording in flight reads.
 LightSet::Staging& LightSet::freeStaging()
 {
-    if (pending_) // not recorded yet: it takes the next changes as well
+    if (pending_) // its upload is not recorded yet, so it can take more changes
         return *pending_;
     const uint64_t running = recordings_.oldestRunning();
     for (Staging& staging : store_.staging)
@@ -256,11 +257,11 @@ LightSet::Store LightSet::createStore(uint32_t capacity) const
                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                           gpu::MemoryUse::Device);
     store.sort = sorting_.createState(capacity, store.records);
-    store.staging.emplace_back(createStaging(capacity)); // what fills the new records
+    store.staging.emplace_back(createStaging(capacity)); // the first upload needs one
     return store;
 }
 
-// The capacity that a set of `count` lights asks for: at least the present one.
+// Returns the capacity for a set of `count` lights, which is at least the present capacity.
 uint32_t LightSet::capacityFor(uint32_t count) const
 {
     if (capacity_ && count <= capacity_)
@@ -284,7 +285,8 @@ void LightSet::grow(uint32_t capacity, bool keepRecords)
         std::memcpy(staging.buffer.mapped, pending_->buffer.mapped, count_ * recordBytes);
     if (deviceLights_.bindings())
         recordings_.retire(deviceLights_.bindings());
-    recordings_.replaceAfterNext(store_, std::move(store)); // the next may copy the old records
+    // The next recording may copy the old records, so it still needs the old store.
+    recordings_.replaceAfterNext(store_, std::move(store));
     const uint32_t previous = std::exchange(capacity_, capacity);
     deviceLights_.forgetBindings();
     if (!carriedFrom_ && onDevice_)

@@ -21,29 +21,30 @@ namespace candelabra::lighting
 class LightSet
 {
 public:
-    // Makes ready what lights of these types, and room for `capacity` lights, need outside of the
-    // set: pipelines, and the buffers of views. It is called while the old set is still in place,
-    // and may throw: then the old set stays.
+    // Prepares everything outside of the set that lights of these types and room for `capacity`
+    // lights need: pipelines, and the buffers of views. It is called while the old set is still in
+    // place. If it throws, the old set stays.
     using Prepare = std::function<void(uint32_t capacity, const LightTypeCounts& types)>;
 
-    // An empty set. `capacity`: CndLightingDesc::lightCapacity. `device` and `recordings` must
-    // outlive it.
+    // Creates an empty set. `capacity`: CndLightingDesc::lightCapacity. `device` and `recordings`
+    // must outlive the set.
     LightSet(const gpu::Device& device, gpu::Recordings& recordings, uint32_t capacity,
              Prepare prepare);
-    LightSet(const LightSet&) = delete; // its objects point to one another
+    LightSet(const LightSet&) = delete; // its members point to one another
     LightSet& operator=(const LightSet&) = delete;
 
-    // The calls of the host. They throw gpu::Failure and leave the set as it was, or do all that
-    // they are asked for.
+    // The four calls that hosts make. Each does all that it is asked for, or throws gpu::Failure
+    // and leaves the set as it was.
     void set(const CndLightSet& set);
-    void add(std::span<const CndLight> lights, CndLightId* ids); // `ids`: as many as lights
+    void add(std::span<const CndLight> lights, CndLightId* ids); // writes one id per light
     void update(std::span<const CndLightId> ids, std::span<const CndLight> lights);
     void remove(std::span<const CndLightId> ids);
 
-    // Copies what has changed since the last recording to the device and sorts it there. The caller
-    // puts barriers before and after. `recording`: its number.
+    // Records the upload of the lights that have changed since the last recording, and the sort of
+    // all lights. The caller puts barriers before and after. `recording`: number of this recording.
     void recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept;
-    // Copies what the device found of the lights that the host left on it into LightingCounters.
+    // Records the copy of the counts of the device's lights (accepted and rejected) into
+    // LightingCounters.
     void recordDeviceCounts(const gpu::Frame& frame, const gpu::Buffer& counters) const noexcept;
 
     uint32_t count() const { return count_; }
@@ -53,29 +54,28 @@ public:
     const double* origin() const { return origin_; }
     const LightExtent& extent() const { return extent_; }
     const LightTypeCounts& typeCounts() const { return typeCounts_; }
-    // Lights by type, 0 for types of which no light has one of these layers.
+    // Returns the number of lights of each type, or 0 for a type without a light in these layers.
     LightTypeCounts countsInLayers(uint32_t layers) const;
-    // Lights by type, 0 for types of which no light has one of these layers or none reaches the
-    // view.
+    // The same, and 0 also for a type whose lights all end outside the camera's view.
     LightTypeCounts countsInView(const CndCamera& camera, uint32_t layers) const;
-    // There are lights that no recording has uploaded yet.
+    // Tells whether there are changes that no recording has uploaded yet.
     bool isChanged() const { return pending_ != nullptr; }
     bool hasDeviceLights() const { return deviceLights_.present(); }
     bool deviceLightsChanged() const { return deviceLightsPending_; }
 
-    const gpu::Buffer& records() const { return store_.records; }    // LightRecord, in no order
-    const gpu::Buffer& order() const { return store_.sort.keys[0]; } // LightKey: sorted records
+    const gpu::Buffer& records() const { return store_.records; }    // gpu::LightRecord, unsorted
+    const gpu::Buffer& order() const { return store_.sort.keys[0]; } // gpu::LightKey, sorted
 
 private:
     struct Staging {
         gpu::Buffer buffer;
-        uint64_t recording = 0; // number of the recording that copies from it, 0: none yet
+        uint64_t recording = 0; // number of the recording that copies from it; 0: none yet
     };
-    // The buffers with a place for every light.
+    // The buffers whose size depends on the number of lights.
     struct Store {
         gpu::Buffer records; // the device's lights first, then the host's
         LightOrder::State sort;
-        std::deque<Staging> staging; // elements stay where they are when it grows
+        std::deque<Staging> staging; // a deque does not move its elements when it grows
     };
     Store createStore(uint32_t capacity) const;
     gpu::Buffer createStaging(uint32_t capacity) const;
@@ -92,10 +92,10 @@ private:
     const gpu::Device& device_;
     gpu::Recordings& recordings_;
     Prepare prepare_;
-    uint32_t firstCapacity_; // room that the set has from the beginning
+    uint32_t firstCapacity_; // the capacity at creation
     LightOrder sorting_;
     DeviceLights deviceLights_;
-    LightTable lights_; // the host's
+    LightTable lights_; // the host's lights
     uint32_t count_ = 0, capacity_ = 0;
     uint64_t number_ = 0;
     double origin_[3]{};
@@ -105,11 +105,12 @@ private:
     uint32_t editsSinceExtent_ = 0; // edits since `extent_` was estimated
 
     Store store_;
-    Staging* pending_ = nullptr; // holds what no recording has uploaded yet
-    bool deviceLightsPending_ = false;
-    VkBuffer carriedFrom_ = VK_NULL_HANDLE; // smaller records that the next recording copies
-    uint32_t onDevice_ = 0;                 // records that recordings so far have filled
-    uint32_t firstRecord_ = 0;              // of the host's lights
+    Staging* pending_ = nullptr;       // holds the changes that no recording has uploaded yet
+    bool deviceLightsPending_ = false; // no recording has filled the device lights' records yet
+    // The smaller buffer of records that the next recording copies into the present one, or null.
+    VkBuffer carriedFrom_ = VK_NULL_HANDLE;
+    uint32_t onDevice_ = 0;    // how many records the recordings so far have filled
+    uint32_t firstRecord_ = 0; // index of the first record of the host's lights
 };
 
 } // namespace candelabra::lighting

@@ -17,7 +17,8 @@ namespace
 
 constexpr VkDeviceSize recordBytes = sizeof(gpu::LightRecord);
 
-// Grows by half at least, so that many small calls do not copy the vector each time.
+// Makes room for `more` elements. The capacity grows by half at least, so that many small calls do
+// not copy the vector each time.
 template <typename T>
 void reserveMore(std::vector<T>& v, size_t more)
 {
@@ -30,7 +31,7 @@ std::string text(CndLightId id)
     return std::to_string(uint32_t(id)) + " (generation " + std::to_string(id >> 32) + ")";
 }
 
-// One record, or more of the region before.
+// Adds the copy of one record: it extends the last region if it continues it, or is a new region.
 void append(std::vector<VkBufferCopy>& regions, VkDeviceSize from, VkDeviceSize to) noexcept
 {
     if (!regions.empty()) {
@@ -68,7 +69,8 @@ void LightTable::reserveEdits(size_t edits, size_t added)
             regions->reserve(touched_.capacity() + 1);
 }
 
-// Lights that come and go between two recordings leave their records in the list again and again.
+// Lights that are added and removed between two recordings put the same records on the list many
+// times. This makes the list anew, with each record once.
 void LightTable::forgetDuplicates() noexcept
 {
     touched_.clear();
@@ -131,7 +133,7 @@ CndLightId LightTable::add(const CndLight& light, Records staging) noexcept
         freeSlots_.pop_back();
         recordOf_[slot] = record;
     }
-    generation_ += generation_ == UINT32_MAX ? 2 : 1; // 0 is that of sets
+    generation_ += generation_ == UINT32_MAX ? 2 : 1; // 0 is the generation of lights set whole
     generations_[slot] = generation_;
     lights_.push_back(entry(light, slot));
     touch(record, staged);
@@ -153,8 +155,9 @@ void LightTable::remove(CndLightId id, Records staging) noexcept
 {
     const uint32_t slot = slotOf(id), record = recordOf_[slot], last = count() - 1;
     if (record != last) {
-        // A record that came from elsewhere still does. On the device that was at or behind every
-        // end that the table has had since, so what is read there is written nowhere.
+        // The light of the last record moves here, with the source of that record. Moves never read
+        // a record that a move writes: they write below the smallest count that the table has had
+        // since the last transfers and read from there on. Records added since are staged.
         const uint32_t from = lights_[last].source == inPlace ? last : lights_[last].source;
         if (isStaged(last))
             staging[record] = staging[last];
@@ -172,7 +175,7 @@ void LightTable::remove(CndLightId id, Records staging) noexcept
 LightExtent LightTable::extent() const noexcept
 {
     constexpr size_t samples = 1024;
-    constexpr double outer = 0.02; // of the lights, at either end
+    constexpr double outer = 0.02; // share of the lights that is left out at either end
     const size_t step = lights_.size() / samples + 1;
     LightExtent extent;
     float longest = 0;
@@ -191,14 +194,14 @@ LightExtent LightTable::extent() const noexcept
         std::sort(along.begin(), along.begin() + n);
         const size_t cut = size_t(outer * double(n));
         const float low = along[cut], high = along[n - 1 - cut];
-        const float border = (high - low) / 8; // the sample's ends are not the set's
+        const float border = (high - low) / 8; // room for lights beyond the sampled ones
         extent.low[axis] = low - border;
         longest = std::max(longest, high - low + 2 * border);
     }
     const size_t n = sample([](const Light& light) { return light.influenceRadius; });
     std::nth_element(along.begin(), along.begin() + n / 2, along.begin() + n);
     extent.influenceRadius = along[n / 2];
-    constexpr float shortest = 1e-15f; // as of lengths in CndLight
+    constexpr float shortest = 1e-15f; // the shortest length that CndLight allows
     extent.size = std::max(longest, shortest);
     return extent;
 }
@@ -214,7 +217,7 @@ const LightTable::Transfers& LightTable::take(uint32_t firstRecord) noexcept
     whole_ = false;
     for (const uint32_t record : touched_) {
         if (record >= lights_.size() || lights_[record].source == inPlace)
-            continue; // gone, or done
+            continue; // the record no longer exists, or its copy is already on the list
         const uint32_t source = std::exchange(lights_[record].source, inPlace);
         const VkDeviceSize to = first + record * recordBytes;
         if (source == staged)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's lights as this side knows them: which record each id has, and what must still reach
-// the device for it. Records are dense and in no order of types: the device sorts them. The last
-// one takes the place of one that is removed.
+// The host's lights as the CPU keeps them: which record belongs to which light id, and which
+// records must still be copied to the device. Records are dense and unsorted, because the device
+// sorts them. When a light is removed, the last record takes the place of its record.
 #pragma once
 
 #include <span>
@@ -17,16 +17,16 @@ namespace candelabra::lighting
 class LightTable
 {
 public:
-    // What is noexcept below needs room: for a set of so many lights, or so many edits, some of
-    // which add lights.
+    // Allocates the memory that the noexcept functions below need: for a set of `count` lights, or
+    // for `edits` edits, of which `added` add a light.
     void reserveSet(size_t count);
     void reserveEdits(size_t edits, size_t added);
-    // Throws gpu::Failure naming `call` and the first id that no light has, or that comes twice.
+    // Throws gpu::Failure naming `call` and an id that no light has, or that is given twice.
     void check(const char* call, std::span<const CndLightId> ids) const;
 
-    // A set given whole: indices are ids, and all of it is to be uploaded.
+    // Replaces all lights. Their indices become their ids, and all records are to be uploaded.
     void set(std::span<const CndLight> lights) noexcept;
-    // The records of the host's lights in the staging buffer that the edits will travel from.
+    // The records of the host's lights in the staging buffer from which edits are uploaded.
     using Records = std::span<gpu::LightRecord>;
     CndLightId add(const CndLight& light, Records staging) noexcept;
     void update(CndLightId id, const CndLight& light, Records staging) noexcept;
@@ -34,20 +34,22 @@ public:
 
     uint32_t count() const { return uint32_t(lights_.size()); }
     uint32_t typeOf(CndLightId id) const { return lights_[recordOf_[slotOf(id)]].type; }
-    // Estimated from at most 1024 lights; the outermost are left out, so that one far light does
-    // not make the grid coarse.
+    // Estimates the extent from at most 1024 lights. It leaves out the outermost of these, so that
+    // one far light does not make the grid coarse.
     LightExtent extent() const noexcept;
 
-    // What brings the device's records up to date: copies between records, none of which overlap,
-    // then copies from the staging buffer, to the same place.
+    // The copies that bring the device's records up to date: first the moves from record to record,
+    // none of which overlap, then the uploads from the staging buffer to the same offset.
     struct Transfers {
         std::vector<VkBufferCopy> moves, uploads;
     };
-    // Transfers of the edits since the last call. `firstRecord`: the first of the host's lights.
+    // Returns the transfers for all edits since the last call. `firstRecord`: index of the first
+    // record of the host's lights.
     const Transfers& take(uint32_t firstRecord) noexcept;
 
 private:
-    // Where a record comes from, besides the device's record of this index.
+    // Special values of Light::source. Every other value is the index of the device's record that
+    // is to be moved here.
     static constexpr uint32_t inPlace = UINT32_MAX, staged = UINT32_MAX - 1;
     struct Light {
         float position[3];
@@ -64,13 +66,13 @@ private:
     void touch(uint32_t record, uint32_t source) noexcept;
     void forgetDuplicates() noexcept;
 
-    std::vector<Light> lights_;         // by record
-    std::vector<uint32_t> recordOf_;    // by slot, the low half of an id
-    std::vector<uint32_t> generations_; // by slot, the high half
+    std::vector<Light> lights_;         // indexed by record
+    std::vector<uint32_t> recordOf_;    // indexed by slot, which is the low half of an id
+    std::vector<uint32_t> generations_; // indexed by slot: the high half of the id
     std::vector<uint32_t> freeSlots_;
-    std::vector<uint32_t> touched_; // records whose source is not inPlace, and some more
+    std::vector<uint32_t> touched_; // every record whose source is not inPlace, and some others
     bool whole_ = false;            // the staging buffer holds every record
-    uint32_t generation_ = 0;       // of the light added last
+    uint32_t generation_ = 0;       // generation of the light added last
     Transfers transfers_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light type is and has, from the list of shared/light_types.h, and how many lights of each
-// type there are.
+// Properties of the light types, from the list in shared/light_types.h.
 #pragma once
 
 #include <array>
@@ -11,6 +10,7 @@
 namespace candelabra::lighting
 {
 
+// A number of lights for each type.
 using LightTypeCounts = std::array<uint32_t, CND_LIGHT_TYPE_COUNT>;
 
 #define X(id, NAME, family, fields) static_assert(gpu::LIGHT_##NAME == uint32_t{CND_LIGHT_##NAME});
@@ -25,8 +25,8 @@ static_assert(gpu::LIGHT_HAS_POSITION == uint32_t{CND_LIGHT_FIELD_POSITION_BIT} 
               gpu::LIGHT_HAS_AXIS_V == uint32_t{CND_LIGHT_FIELD_AXIS_V_BIT} &&
               gpu::LIGHT_HAS_SIDES == uint32_t{CND_LIGHT_FIELD_TWO_SIDED_BIT});
 
-// Returns the fields of CndLight that the type uses, a mask of gpu::LIGHT_HAS_*; 0 for what is no
-// type.
+// Returns the fields of CndLight that the type uses, as a mask of gpu::LIGHT_HAS_*, or 0 if
+// `lightType` is not a type.
 constexpr uint32_t fieldsOf(uint32_t lightType)
 {
     using namespace gpu;
@@ -41,14 +41,15 @@ constexpr bool has(uint32_t lightType, uint32_t field)
     return (fieldsOf(lightType) & field) != 0;
 }
 
-// Distant lights have a direction and no position: they light every surface, so there is no light
-// tree over them and no list holds them.
+// Distant lights have a direction and no position. They light every surface, so they are in no
+// light tree and in no list.
 constexpr bool isDistant(uint32_t lightType)
 {
     return !has(lightType, gpu::LIGHT_HAS_POSITION);
 }
 
-// Returns the family of the type, where types with the methods of spheres belong to FAMILY_SPHERE.
+// Returns the family of the type. Types that are shaded by the specular methods of spheres belong
+// to FAMILY_SPHERE.
 constexpr uint32_t baseFamilyOf(uint32_t lightType)
 {
     using namespace gpu;
@@ -63,14 +64,14 @@ constexpr bool isSphere(uint32_t lightType)
     return baseFamilyOf(lightType) == gpu::FAMILY_SPHERE;
 }
 
-// Punctual lights have no size; the emission of all others is luminance.
+// Punctual lights have no size. The emission of all other lights is luminance.
 constexpr bool isPunctual(uint32_t lightType)
 {
     return baseFamilyOf(lightType) == gpu::FAMILY_PUNCTUAL;
 }
 
-// Returns the radius of a sphere around the light's centre that holds its emitter: metres, 0 for
-// punctual lights, the sine of the angular radius for distant spheres.
+// Returns the radius of a sphere around the light's centre that holds its emitter: in metres, 0 for
+// punctual lights, and the sine of the angular radius for distant spheres.
 float boundingRadiusOf(const CndLight& light);
 
 } // namespace candelabra::lighting

@@ -24,7 +24,8 @@ glm::vec3 vec(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-// cos(inner) - cos(outer), which float cosines would lose for narrow cones.
+// Returns cos(inner) - cos(outer) in double precision: float cosines of narrow cones are too close
+// to 1 to be subtracted.
 double cosBetween(const CndLight& light)
 {
     return std::cos(double(light.innerConeAngle)) - std::cos(double(light.outerConeAngle));
@@ -32,7 +33,8 @@ double cosBetween(const CndLight& light)
 
 const float maxCoordinate = gpu::MAX_LIGHT_COORDINATE;
 const float minLength = gpu::MIN_LIGHT_LENGTH;
-// Between the cones of a spot light: what the device's float cosines can still resolve.
+// Smallest difference between the cosines of a spot light's cone angles: the device's float cosines
+// do not resolve a smaller one.
 constexpr double minCosBetween = 1e-6;
 
 bool isNear(const float (&v)[3])
@@ -97,7 +99,8 @@ const char* whyInfluenceInvalid(const CndLight& light)
                : "influenceRadius must be greater than radius";
 }
 
-// Why a light cannot be used, or null. Kept free of allocation: it runs a million times a frame.
+// Returns why a light cannot be used, or null. It allocates nothing, because it may run for a
+// million lights in one frame.
 const char* whyInvalid(const CndLight& light)
 {
     if (light.type >= CND_LIGHT_TYPE_COUNT)
@@ -144,13 +147,14 @@ gpu::LightRecord pack(const CndLight& light)
     else if (fields & gpu::LIGHT_HAS_DIRECTION && !distant)
         r.axisU = unit(light.direction);
     if (fields & gpu::LIGHT_HAS_CONE) {
-        // KHR_lights_punctual: attenuation is linear in the cosine between the cones, then squared.
+        // As in KHR_lights_punctual, the attenuation is the square of a linear function of the
+        // cosine between the cones. axisV holds its slope and offset.
         const double cosOuter = std::cos(double(light.outerConeAngle));
         r.axisV = {float(1 / cosBetween(light)), float(-cosOuter / cosBetween(light)), 0};
     } else if (fields & gpu::LIGHT_HAS_AXIS_V) {
         r.axisV = vec(light.axisV);
     } else if (fields & gpu::LIGHT_HAS_AXIS_U && fields & gpu::LIGHT_HAS_RADIUS) {
-        r.axisV.x = light.radius; // shapeOf
+        r.axisV.x = light.radius; // read by shapeOf
     }
     if (light.twoSided && fields & gpu::LIGHT_HAS_SIDES)
         r.flags |= gpu::LIGHT_TWO_SIDED;

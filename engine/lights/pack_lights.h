@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CndLight -> gpu::LightRecord: the one place where physical units become shader values.
+// Checks lights and turns each CndLight into a gpu::LightRecord: the one place where physical units
+// become the values that shaders read.
 #pragma once
 
 #include <span>
@@ -21,7 +22,7 @@ LightTypeCounts countTypes(std::span<const CndLight> lights);
 void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records,
                 uint32_t firstId = 0) noexcept;
 
-// The shape that prepare_lights reads from a record, in the frame of the light set.
+// Returns the shape that prepare_lights reads from a record, in the coordinates of the light set.
 gpu::LightShape shapeOf(const gpu::LightRecord& record);
 
 } // namespace candelabra::lighting
