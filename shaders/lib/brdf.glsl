@@ -7,8 +7,8 @@
 #include "lib/math.glsl"
 #include "shared/lighting.h"
 
-// One shaded point: everything that does not depend on the light. Directions are unit and point away
-// from the surface.
+// Everything about a shaded point that does not depend on the light. Directions are unit vectors and
+// point away from the surface.
 struct ShadingPoint {
     vec3 position; // view space, m
     vec3 n;
@@ -17,9 +17,9 @@ struct ShadingPoint {
     float NoV;     // clamped to >= MIN_NOV
     float alpha;   // GGX width, >= MIN_ALPHA
     float smithV;  // sqrt(alpha^2 + (1 - alpha^2) NoV^2)
-    vec3 albedo;   // diffuse
+    vec3 albedo;   // diffuse albedo
     vec3 F0;
-    vec3 F90;      // 0: no specular lobe; per channel because joinLobes may scale it
+    vec3 F90;      // 0: no specular lobe; a value per channel, because joinLobes may scale it
 };
 
 ShadingPoint makeShadingPoint(Surface surface, vec3 position, vec3 towardsEye)
@@ -39,10 +39,11 @@ ShadingPoint makeShadingPoint(Surface surface, vec3 position, vec3 towardsEye)
     return p;
 }
 
-// Response of the specular lobe with F = 1 (x) and F = (1 - VoH)^5 (y), times cosine:
-//   D G2 / (4 NoL NoV) NoL, per steradian.
-// D: Trowbridge and Reitz 1975, written with |n x h|^2 from the unnormalised half vector, because
-// NoH^2 (a2 - 1) + 1 cancels near the peak. G2 / (4 NoL NoV): Heitz 2014, eq. 99.
+// Returns the specular lobe times the cosine, F D G2 / (4 NoL NoV) NoL per steradian, with F = 1 (x)
+// and with F = (1 - VoH)^5 (y).
+// D is from Trowbridge and Reitz 1975, written with |n x h|^2 of the half vector before it is
+// normalised, because NoH^2 (a2 - 1) + 1 cancels near the peak. G2 / (4 NoL NoV) is eq. 99 of Heitz
+// 2014.
 vec2 specularResponse(ShadingPoint p, vec3 l)
 {
     const float NoL = dot(p.n, l);
@@ -51,7 +52,7 @@ vec2 specularResponse(ShadingPoint p, vec3 l)
     const float a2 = p.alpha * p.alpha;
     const vec3 nxh = cross(p.n, h);
     const float noh = dot(p.n, h);
-    // = h2 (NoH^2 (a2 - 1) + 1) >= h2 a2; the max matters only for l = -v, where h vanishes.
+    // width = h2 (NoH^2 (a2 - 1) + 1) >= h2 a2. The max matters only for l = -v, where h vanishes.
     const float width = max(dot(nxh, nxh) + noh * noh * a2, h2 * a2);
     const float smithL = sqrt(a2 + (1.0 - a2) * NoL * NoL);
     const float visibility = 0.5 / (NoL * p.smithV + p.NoV * smithL);
@@ -62,8 +63,8 @@ vec2 specularResponse(ShadingPoint p, vec3 l)
     return vec2(a, a * pow5(1.0 - VoH));
 }
 
-// F0 (A - B) + F90 B: Schlick 1994 integrated over a light, with A and B the light's response to
-// F = 1 and F = (1 - VoH)^5.
+// Returns Fresnel's term of Schlick 1994 integrated over a light, F0 (A - B) + F90 B, where A and B
+// are the responses to the light with F = 1 and with F = (1 - VoH)^5.
 vec3 schlick(ShadingPoint p, vec2 response)
 {
     return p.F0 * (response.x - response.y) + p.F90 * response.y;

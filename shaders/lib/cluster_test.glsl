@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lights can add something to a cluster. Conservative in float32: no light that adds to one of
-// the cluster's samples fails.
+// Tests whether a light can light a cluster. The tests are conservative in float32: a light that adds
+// to one of the cluster's samples always passes.
 #ifndef CND_LIB_CLUSTER_TEST
 #define CND_LIB_CLUSTER_TEST
 
 #include "shared/clusters.h"
 #include "lib/bounds.glsl"
 
-// What a lane keeps of its cluster.
+// The bounds of a cluster's samples, as in Cluster, with what every test derives from them.
 struct ClusterBounds {
     Box box;
-    vec3 axis;
+    vec3 axis;              // axis of the slab and of the cone of normals
     float slabMin, slabMax;
-    float minCos, maxSin; // of the cone of normals
-    vec3 ray;
-    float slope; // of the cone of samples
+    float minCos, maxSin;   // cosine and sine of the half angle of the cone of normals
+    vec3 ray;               // axis of the cone of samples, whose apex is the origin of view space
+    float slope;            // tangent of the half angle of the cone of samples
 };
 
 ClusterBounds makeClusterBounds(Cluster c)
@@ -24,8 +24,8 @@ ClusterBounds makeClusterBounds(Cluster c)
                          sqrt(max(sin2, 0.0)), c.ray, c.slope);
 }
 
-// Whether a sphere may hold a point of the cone of samples: such a point p has |p x ray| <= slope p.ray
-// and is at most `r` from the centre.
+// Tells whether a sphere may hold a point of the cone of samples. Such a point p has
+// |p x ray| <= slope p.ray and is at most `r` from the centre.
 bool coneTouches(ClusterBounds c, vec3 centre, float r, float margin)
 {
     const vec3 aside = cross(centre, c.ray);
@@ -33,7 +33,8 @@ bool coneTouches(ClusterBounds c, vec3 centre, float r, float margin)
     return wide >= 0.0 && dot(aside, aside) <= wide * wide;
 }
 
-// Whether a box of influence, margins included, may hold a sample.
+// Tells whether a sample may lie in a box around spheres of influence. The box must include the margins
+// for rounding that light_tree.comp adds.
 bool boxTouches(ClusterBounds c, Box b)
 {
     const vec3 up = max(c.axis, vec3(0.0)), down = min(c.axis, vec3(0.0));
@@ -46,16 +47,16 @@ bool boxTouches(ClusterBounds c, Box b)
            coneTouches(c, centre, 0.5 * distance(b.min, b.max), margin);
 }
 
-// Whether a light may reach a sample and be above its horizon. `boundingRadius`: of its emitter; `r2`:
-// square of its radius of influence.
+// Tells whether a light may reach a sample and be above its horizon. `boundingRadius`: radius of a
+// sphere that holds the emitter; `r2`: square of the light's radius of influence.
 bool lightTouches(ClusterBounds c, vec3 centre, float boundingRadius, float r2)
 {
     const float margin = 2.0 * DOT_MARGIN * largest(centre);
     const float r = sqrt(r2);
     const float along = dot(c.axis, centre);
     const float beyond = max(along - c.slabMax - margin, 0.0);
-    // With v from a sample to the centre, |v| < r and a.v <= below < 0, no normal within the cone has
-    // more than n.v = cos(cone) a.v + sin(cone) |v|.
+    // Let a be the axis and v the vector from a sample to the centre, with |v| < r and
+    // a.v <= below < 0. Then n.v <= cos(cone) a.v + sin(cone) |v| for every normal n in the cone.
     const float below = along - c.slabMin + margin;
     const bool hidden = below < 0.0 && c.minCos > 0.0 &&
                         c.minCos * below + c.maxSin * r + margin <= -boundingRadius;

@@ -6,14 +6,15 @@
 
 #include "lib/math.glsl"
 
-// The terms of the usual sum are as large as the outline is long and cancel down to its area: nothing
-// is left of a small light in float32. Here every edge is compared with one at a common distance d,
-//   angle / (sin |P| |P'|) = (1 + kappa) / d^2,
-// for which the sum is the projected area, known exactly from the offsets; kappa is small for a small
-// light and is computed without cancellation.
+// The terms of the usual sum are proportional to the length of the outline and cancel down to its area,
+// so that float32 keeps no digit of a small light. Here every edge P P' is compared with an edge at a
+// common distance d, by the number kappa in
+//   angle / (sin(angle) |P| |P'|) = (1 + kappa) / d^2.
+// With kappa = 0 the sum is the projected area, which follows exactly from the offsets. For a small
+// light kappa is small, and it is computed without cancellation.
 struct Contour {
-    vec3 n;        // receiver's normal
-    vec3 centre;   // from the receiver; the outline is given by offsets from here
+    vec3 n;        // normal of the receiver
+    vec3 centre;   // relative to the receiver; the outline's points are offsets from here
     float offset2; // typical squared length of an offset
     float invD2;   // 1 / (|centre|^2 + offset2)
     float sum;
@@ -26,7 +27,7 @@ Contour beginContour(vec3 n, vec3 centre, float offset2)
     return Contour(n, centre, offset2, invD2, 0.0, vec3(0.0), vec3(0.0));
 }
 
-// (asin(z) - z) / z^3 as a polynomial in z2 = z^2 in [0, 0.5]; minimax, error 9.7e-8.
+// Returns (asin(z) - z) / z^3, a minimax polynomial in z2 = z^2 in [0, 0.5] with an error of 9.7e-8.
 float asinTail(float z2)
 {
     float k = 0.0878251772;
@@ -38,7 +39,7 @@ float asinTail(float z2)
     return k * z2 + 0.166666761;
 }
 
-// angle / sin(angle) - 1, relative precision for small angles.
+// Returns angle / sin(angle) - 1, with full relative precision for small angles.
 float angleExcess(float sine, float cosine)
 {
     const float s2 = min(sine * sine, 0.5);
@@ -51,20 +52,22 @@ float angleExcess(float sine, float cosine)
     return cosine > 0.0 && sine * sine <= 0.5 ? s2 * tail : wide;
 }
 
-// The straight edge with offsets middle + t along, t from t0 to t1, wholly above the horizon.
+// Adds the straight edge with the offsets middle + t along, t from t0 to t1. It must be wholly above
+// the horizon.
 void contourSegment(inout Contour k, vec3 middle, vec3 along, float t0, float t1)
 {
     const vec3 from = middle + t0 * along;
     const vec3 to = middle + t1 * along;
     const vec3 a = k.centre + from;
     const vec3 b = k.centre + to;
-    // a x b, without the rounding of far ends
+    // a x b, without the rounding errors of distant ends.
     const vec3 axb = (t1 - t0) * cross(k.centre + middle, along);
-    // |a|^2 / d^2 - 1 and |b|^2 / d^2 - 1
+    // qa = |a|^2 / d^2 - 1 and qb = |b|^2 / d^2 - 1.
     const float qa = (2.0 * dot(k.centre, from) + length2(from) - k.offset2) * k.invD2;
     const float qb = (2.0 * dot(k.centre, to) + length2(to) - k.offset2) * k.invD2;
     const float q = qa + qb + qa * qb;
-    // A vertex at the receiver: its edges have no angle, whatever the floor.
+    // The floor prevents a division by 0 if an end is at the receiver. Such an edge adds nothing,
+    // because a x b is 0.
     const float w = max(sqrt(length2(a) * k.invD2 * length2(b) * k.invD2), 1e-12);
     const float invW = 1.0 / w;
     const float lengths = -q / (w + w * w); // d^2 / (|a| |b|) - 1
@@ -74,8 +77,8 @@ void contourSegment(inout Contour k, vec3 middle, vec3 along, float t0, float t1
              (excess + lengths + excess * lengths) * dot(k.n, axb);
 }
 
-// The next edge of the outline, from middle - along to middle + along; what is below the horizon is
-// left out.
+// Adds the part above the horizon of the outline's next edge, which goes from middle - along to
+// middle + along.
 void contourEdge(inout Contour k, vec3 middle, vec3 along)
 {
     const float height = dot(k.n, k.centre + middle);
@@ -92,15 +95,16 @@ void contourEdge(inout Contour k, vec3 middle, vec3 along)
     contourSegment(k, middle, along, up ? -1.0 : crossing, upAfter ? 1.0 : crossing);
 }
 
-// Closes the outline along the horizon. 0..1; an outline seen from either side counts alike.
+// Closes the outline along the horizon and returns its form factor, 0..1, which is the same for both
+// orientations of the outline.
 float contourFormFactor(inout Contour k)
 {
-    // Both are zero where nothing crosses: that adds nothing.
+    // If no edge crosses the horizon, both offsets are zero and this adds nothing.
     contourSegment(k, k.leaves, k.enters - k.leaves, 0.0, 1.0);
     return clamp(abs(k.sum) * k.invD2 * (0.5 * INV_PI), 0.0, 1.0);
 }
 
-// Parallelogram with corners centre +- u +- v.
+// Returns the form factor of the parallelogram with the corners centre +- u +- v.
 float parallelogramFormFactor(vec3 n, vec3 centre, vec3 u, vec3 v)
 {
     Contour k = beginContour(n, centre, length2(u) + length2(v));

@@ -5,8 +5,9 @@
 
 #include "lib/math.glsl"
 
-// Direction (not unit) through the point (u, v) in [-1, 1]^2 of a face, v down the rows. Vulkan 1.3
-// specification, "Cube Map Face Selection", solved for the direction.
+// Returns the direction, not normalised, through the point (u, v) in [-1, 1]^2 of a face, where v grows
+// from row to row. This is "Cube Map Face Selection" of the Vulkan 1.3 specification, solved for the
+// direction.
 vec3 cubeDirection(uint face, vec2 uv)
 {
     const vec3 directions[6] = vec3[6](vec3(1.0, -uv.y, -uv.x), vec3(-1.0, -uv.y, uv.x),
@@ -15,13 +16,14 @@ vec3 cubeDirection(uint face, vec2 uv)
     return directions[face];
 }
 
-// Centre of a texel on its face.
+// Returns the point (u, v) in the centre of a texel.
 vec2 cubeTexelCentre(uvec2 texel, uint size)
 {
     return (2.0 * vec2(texel) + 1.0) / float(size) - 1.0;
 }
 
-// Solid angle of a texel around (u, v), by the midpoint rule: relative error below 1 / size^2.
+// Returns the solid angle of the texel around (u, v), by the midpoint rule, whose relative error is
+// below 1 / size^2.
 float cubeTexelSolidAngle(vec2 uv, uint size)
 {
     const float r2 = 1.0 + dot(uv, uv);
@@ -29,7 +31,8 @@ float cubeTexelSolidAngle(vec2 uv, uint size)
     return side * side * inversesqrt(r2) / r2;
 }
 
-// Position of a unit direction in an equirectangular image, in [0, 1]^2 from its top left corner.
+// Returns the position of a unit direction in an equirectangular image, in [0, 1]^2 from the top left
+// corner.
 vec2 equirectangular(vec3 d)
 {
     return vec2(atan(d.x, -d.z) * (0.5 * INV_PI) + 0.5, acos(clamp(d.y, -1.0, 1.0)) * INV_PI);

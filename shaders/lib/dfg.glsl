@@ -5,11 +5,11 @@
 
 #include "lib/dfg_axes.glsl"
 
-// An entry of the table; the includer defines it.
+// Returns an entry of the table. The includer defines this function.
 vec4 dfgTexel(int entry);
 
-// Share of a white surrounding's light that the lobe reflects with F = 1 (x) and F = (1 - VoH)^5
-// (y), within DFG_ERROR.
+// Returns which share of a uniform white environment's light the lobe reflects with F = 1 (x) and with
+// F = (1 - VoH)^5 (y). The error is at most DFG_ERROR.
 vec2 directionalAlbedo(float NoV, float alpha)
 {
     const vec2 at = dfgCoordinates(NoV, alpha);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rows and columns of the directional albedo table stand for, both ways.
+// NoV and alpha of the columns and rows of the directional albedo table, and the position in the table
+// of a given NoV and alpha.
 #ifndef CND_LIB_DFG_AXES
 #define CND_LIB_DFG_AXES
 
@@ -23,7 +24,7 @@ float dfgAlpha(uint row)
     return y * y * y * y;
 }
 
-// Column (x) and row (y), fractional, inside the table.
+// Returns the column (x) and the row (y), with fractions and clamped to the table.
 vec2 dfgCoordinates(float NoV, float alpha)
 {
     const vec2 first = vec2(DFG_FIRST_COLUMN, DFG_FIRST_ROW);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector irradiance of an elliptic cone, from which follows the form factor of any ellipse.
+// The form factor of an ellipse, from the vector irradiance of the elliptic cone that it is seen under.
 #ifndef CND_LIB_ELLIPTIC_CONE
 #define CND_LIB_ELLIPTIC_CONE
 
 #include "lib/lights/sphere.glsl"
 
-// The cone of the directions to the ellipse c + u cos(t) + v sin(t), by its dual quadratic form
-// u u^T + v v^T - c c^T: one negative eigenvalue -mu, whose eigenvector e is the axis, and two positive
-// ones nu1, nu2.
+// The cone of the directions to the ellipse c + u cos(t) + v sin(t), given by its dual quadratic form
+// u u^T + v v^T - c c^T. The form has one negative eigenvalue, -mu, whose eigenvector e is the cone's
+// axis, and two positive eigenvalues, nu1 and nu2.
 struct DualCone {
     float xx, yy, zz, xy, xz, yz;
     float trace;
@@ -25,12 +25,12 @@ DualCone dualCone(vec3 c, vec3 u, vec3 v)
                     length2(cross(u, v)) - length2(cross(u, c)) - length2(cross(v, c)), d * d);
 }
 
-// The root mu of (t - mu)(t + nu1)(t + nu2) = t^3 + trace t^2 + minors t - determinant. Each start is
-// an upper bound for it, and Halley's iteration (1694) on a polynomial with real roots comes down from
-// one without overshooting. 0 < mu <= |c|^2.
+// Returns the root mu of (t - mu)(t + nu1)(t + nu2) = t^3 + trace t^2 + minors t - determinant, where
+// 0 < mu <= |c|^2. It starts from an upper bound of mu. From there Halley's iteration (1694) on a
+// polynomial whose roots are all real comes down without overshooting.
 float dualConeRoot(DualCone k, float c2)
 {
-    // From t^3 >= 0: trace t^2 + minors t <= determinant.
+    // An upper bound, because t^3 >= 0 implies trace t^2 + minors t <= determinant at the root.
     const float fromQuadratic = 2.0 * k.determinant /
         max(k.minors + sqrt(max(k.minors * k.minors + 4.0 * k.trace * k.determinant, 0.0)), 1e-37);
     float mu = k.trace > 0.0 ? min(c2, fromQuadratic) : c2;
@@ -43,13 +43,15 @@ float dualConeRoot(DualCone k, float c2)
     return max(mu, 1e-12 * c2);
 }
 
-// Form factor under the plane z = 0 of the cone around the direction c (the ellipse's centre). The
-// vector irradiance, |Phi| = sqrt(nu1 nu2 / ((mu + nu1)(mu + nu2))) along e, is exact, and so is the
-// result for a cone wholly above the horizon. One that crosses it is cut like the circular cone of the
-// same |Phi| (an idea of Hill and Heitz 2016, "Real-time area lighting: a journey from research to
-// production"), but where the ellipse itself is cut: with S the sine of its half width across the
-// horizon, e.z / S runs from -1 to 1 as it rises. Exact for circular cones and, in the limit, for small
-// ones; 0 exactly where the ellipse is below.
+// Returns the form factor of the cone around the direction c (to the ellipse's centre) for a receiver
+// with the normal z, whose horizon is the plane z = 0. The vector irradiance, which has the direction e
+// and the length |Phi| = sqrt(nu1 nu2 / ((mu + nu1)(mu + nu2))), is exact, and so is the result for a
+// cone wholly above the horizon. A cone that crosses the horizon is replaced by the circular cone of
+// the same |Phi| (an idea of Hill and Heitz 2016, "Real-time area lighting: a journey from research to
+// production"), whose elevation is scaled so that it is cut when the ellipse itself is cut: if S is the
+// sine of the ellipse's half width across the horizon, e.z / S runs from -1 to 1 as the ellipse rises.
+// The result is exact for circular cones and, in the limit, for small ones. It is 0 exactly when the
+// whole ellipse is below the horizon.
 float ellipticConeFormFactor(DualCone k, vec3 c)
 {
     const float mu = dualConeRoot(k, length2(c));
@@ -58,7 +60,7 @@ float ellipticConeFormFactor(DualCone k, vec3 c)
     const float x = k.xx + mu;
     const float y = k.yy + mu;
     const float z = k.zz + mu;
-    const float axy = k.yz * k.xz - k.xy * z; // of the adjugate, which is p e e^T
+    const float axy = k.yz * k.xz - k.xy * z; // an element of the adjugate, which is p e e^T
     const float axz = k.xy * k.yz - k.xz * y;
     const float ayz = k.xy * k.xz - k.yz * x;
     const vec3 e = vec3((y * z - k.yz * k.yz) * c.x + axy * c.y + axz * c.z,

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights of a view for shaders of hosts: transparent surfaces, particles, volumes. The same lights
-// and the same functions as those of the opaque surfaces, by CND_SPECULAR_CONIC, at any position that
-// the view's camera shows; found through the light tree, so none is missed. Positions and directions
-// are in view space, metres.
+// The lights of a view for shaders of hosts: transparent surfaces, particles, volumes. They light any
+// position that the view's camera shows, with the functions that shade opaque surfaces by
+// CND_SPECULAR_CONIC. The light tree finds the lights of a position and misses none. Positions and
+// directions are in view space, in metres.
 //
-// The includer defines FORWARD_SET, the number of the descriptor set (cndGetForwardSet). One line
-// does it:
+// The includer defines FORWARD_SET, the number of the descriptor set (cndGetForwardSet). One call
+// returns the light of all lights:
 //   vec3 luminance = litSurface(surface, position); // Surface: lib/gbuffer.glsl
-// With CANDELABRA_VISIBILITY defined before the include, the includer also defines the shadow term of
-// lib/shadow_query.glsl behind it.
-// Light by light, with more than that for instance (lightIds[cursor.light]: which light it is):
+// A shader with a shadow term defines CANDELABRA_VISIBILITY before the include, and the function of
+// lib/shadow_query.glsl after it.
+// A loop over the lights gives access to each of them, for instance for a shadow term that needs more
+// than a ShadowQuery. lightIds[cursor.light] identifies the light:
 //   const Receiver receiver = forwardReceiver(surface, position);
 //   for (uint type = 0u; type < LIGHT_TYPE_COUNT; ++type) {
 //       LightCursor cursor = lightsAt(type, position);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packing and unpacking of both G-buffer layouts; a host that fills the G-buffer itself includes this
-// file. Widths and error bounds: shared/gbuffer.h.
+// Packing and unpacking of both G-buffer layouts. A host that fills the G-buffer itself includes this
+// file. The widths in bits and the error bounds are in shared/gbuffer.h.
 #ifndef CND_LIB_GBUFFER_GLSL
 #define CND_LIB_GBUFFER_GLSL
 
@@ -10,12 +10,12 @@ struct Surface {
     vec3 normal;      // unit, view space
     vec3 albedo;      // diffuse, 0..1, already scaled by 1 - metalness
     vec3 F0;          // Fresnel reflectance at normal incidence, 0..1
-    float specularWeight;      // Schlick F90, 0..1; 0: no specular lobe
-    float perceptualRoughness; // 0..1, alpha = its square
+    float specularWeight;      // Schlick's F90, 0..1; 0: no specular lobe
+    float perceptualRoughness; // 0..1; alpha is its square
 };
 
-// Meyer et al. 2010, "On floating-point normal vectors": the sphere folded onto [-1,1]^2 through an
-// octahedron. `n` need not be normalised but not zero.
+// Maps a direction onto [-1, 1]^2 by way of an octahedron (Meyer et al. 2010, "On floating-point normal
+// vectors"). `n` must not be zero; it need not be normalised.
 vec2 encodeOctahedral(vec3 n)
 {
     const vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -63,7 +63,7 @@ uint packNormalRoughnessCompact(vec3 normal, float perceptualRoughness)
     return codes.x | (codes.y << NORMAL_BITS_COMPACT) | (roughness << 24);
 }
 
-// The normal alone, of either layout.
+// Returns the normal of either layout.
 vec3 unpackNormal(uint layout_, uvec2 normalRoughness)
 {
     if (layout_ == GBUFFER_LAYOUT_COMPACT)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sampling the GGX distribution; local frame, the surface normal is z.
+// Sampling of the GGX distribution, in a frame whose z axis is the surface normal.
 #ifndef CND_LIB_GGX_SAMPLING
 #define CND_LIB_GGX_SAMPLING
 
 #include "lib/math.glsl"
 
-// Heitz 2014, eq. 72: Smith's auxiliary function; 0 < cosTheta <= 1.
+// Returns Smith's Lambda (Heitz 2014, eq. 72), for 0 < cosTheta <= 1.
 float smithLambda(float cosTheta, float alpha)
 {
     const float c2 = cosTheta * cosTheta;
@@ -13,8 +13,9 @@ float smithLambda(float cosTheta, float alpha)
     return 0.5 * sqrt(1.0 + alpha * alpha * tan2) - 0.5;
 }
 
-// Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps": the unit microfacet
-// normal that v sees, for phi uniform over a turn and u uniform in [0, 1].
+// Returns a unit microfacet normal from the distribution of the normals visible from v, for phi uniform
+// over a full turn and u uniform in [0, 1] (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
+// Spherical Caps").
 vec3 visibleNormal(vec3 v, float alpha, float phi, float u)
 {
     const vec3 stretched = normalize(vec3(alpha * v.xy, v.z));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radii of influence from an error: where it is measured, and by what lights are told apart.
+// Radii of influence from an error bound (shared/influence.h): which pixels are measured, and which bin
+// a light belongs to.
 #ifndef CND_LIB_INFLUENCE
 #define CND_LIB_INFLUENCE
 
@@ -7,6 +8,7 @@
 #include "shared/lighting.h"
 #include "lib/math.glsl"
 
+// Returns the bits 0, 2, 4 ... of x as one number.
 uint evenBits(uint x)
 {
     x &= 0x55555555u;
@@ -16,8 +18,9 @@ uint evenBits(uint x)
     return (x | x >> 8u) & 0xFFFFu;
 }
 
-// The pixel of a square whose turn it is; may be outside the image. Each has one of spacing^2 turns,
-// and 4^k of them visit as many different parts. Squares begin with different pixels.
+// Returns the pixel of a square that is measured in a turn. It may lie outside the image. Each pixel of
+// the square has one of spacing^2 turns, and 4^k turns in a row measure one pixel in each of the 4^k
+// equal parts of the square. Squares begin with different pixels.
 uvec2 influencePixel(InfluenceFrame f, uint sampleIndex, uint turn)
 {
     const uvec2 square = uvec2(sampleIndex % f.samples.x, sampleIndex / f.samples.x);
@@ -30,22 +33,24 @@ uvec2 influencePixel(InfluenceFrame f, uint sampleIndex, uint turn)
     return square * f.spacing + uvec2(evenBits(at), evenBits(at >> 1u));
 }
 
-// The frame of the history that is at hand; 0 once only.
+// Returns the number of the present frame in its history. Only the first frame has the number 0, even
+// when the number overflows.
 uint influenceFrame(InfluenceFrame f, InfluenceState previous)
 {
     return previous.owner == f.owner ? max(previous.frame + 1u, 1u) : 0u;
 }
 
-// Whose turn it is: those of the first frame are its rounds.
+// Returns the turn to measure. The first frame of a history has one turn per round, later frames have
+// one turn each.
 uint influenceTurn(InfluenceFrame f, InfluenceState previous, uint round)
 {
     const uint frame = influenceFrame(f, previous);
     return frame == 0u ? round : f.rounds + frame - 1u;
 }
 
-// Largest intensity in cd, in any direction and of the strongest channel, of a light that has a
-// position. `emission` is CndLight::emission. Types that are not named here get the intensity of a
-// sphere of the bounding radius, which no convex emitter exceeds.
+// Returns the largest intensity in cd, over all directions and in the strongest channel, of a light
+// that has a position. `emission` is CndLight::emission. Types that are not named here get the
+// intensity of a sphere of the bounding radius, which no convex emitter exceeds.
 float peakIntensity(uint type, vec3 emission, float boundingRadius, LightShape shape)
 {
     const float e = max(emission.x, max(emission.y, emission.z));
@@ -62,7 +67,7 @@ float peakIntensity(uint type, vec3 emission, float boundingRadius, LightShape s
     }
 }
 
-// The bin of a light whose exposed illuminance this is.
+// Returns the bin of a light with this exposed illuminance.
 uint influenceBin(float exposedIlluminance)
 {
     const float octaves = log2(max(exposedIlluminance, 1e-30)) - INFLUENCE_FINEST;
@@ -70,7 +75,7 @@ uint influenceBin(float exposedIlluminance)
     return uint(clamp(bin, 0.0, float(INFLUENCE_BINS - 1u)));
 }
 
-// Exposed illuminance that cut b > 0 cuts at.
+// Returns the exposed illuminance at which a cut > 0 ends the lights.
 float influenceThreshold(uint cut)
 {
     const float bins = float(cut) - float(INFLUENCE_COARSE_BINS);

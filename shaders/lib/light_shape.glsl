@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the members of a LightShape mean for the types that use them in a way of their own.
+// The meaning of a LightShape's members for the types that use them in a special way.
 #ifndef CND_LIB_LIGHT_SHAPE
 #define CND_LIB_LIGHT_SHAPE
 
@@ -22,7 +22,7 @@ float coneOffset(LightShape spot)
     return spot.axisV.y;
 }
 
-// The shape of a light of this type, in the frame of its record.
+// Returns the shape of a light of this type, in the coordinates of its record.
 LightShape shapeOfRecord(LightRecord record, uint type)
 {
     const uint withRadiusInAxisV = TYPES_WITH_RADIUS & TYPES_WITH_AXIS_U & ~TYPES_WITH_AXIS_V;
@@ -31,7 +31,7 @@ LightShape shapeOfRecord(LightRecord record, uint type)
                       record.flags);
 }
 
-// A shape in a frame that is turned.
+// Returns the shape after a rotation.
 LightShape rotatedShape(LightShape shape, uint type, mat3 rotation)
 {
     shape.axisU = rotation * shape.axisU;

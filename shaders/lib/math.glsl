@@ -6,10 +6,11 @@ const float PI = 3.14159265358979;
 const float HALF_PI = 1.57079632679490;
 const float INV_PI = 0.318309886183791;
 
-// Smallest squared length that is inverted: keeps rsqrt finite for coincident points.
+// Squared lengths are not inverted below this value, so that inversesqrt is finite if points coincide.
 const float MIN_LENGTH2 = 1e-30;
 
-// Interpolated and mapped normals can face away from the viewer; grazing there is as good as any.
+// Smallest NoV. Interpolated and mapped normals can face away from the viewer: they are shaded as if
+// the view were grazing.
 const float MIN_NOV = 1e-4;
 
 float saturate(float x)
@@ -28,7 +29,7 @@ float length2(vec3 x)
     return dot(x, x);
 }
 
-// A unit vector perpendicular to another.
+// Returns some unit vector perpendicular to z, which is a unit vector.
 vec3 anyPerpendicular(vec3 z)
 {
     return normalize(cross(z, abs(z.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// From pixel and depth back to view space.
+// View-space positions and directions from pixels and depths.
 #ifndef CND_LIB_PROJECTION
 #define CND_LIB_PROJECTION
 
 #include "shared/lighting.h"
 
-// Depths as integers in their order; -0 is 0.
+// Returns an integer that is ordered like the depth; -0 gives 0.
 uint depthBits(float depth)
 {
     return floatBitsToUint(depth) & 0x7FFFFFFFu;
 }
 
-// View-space position of the centre of `pixel` at `depth`. Every kernel that compares positions must
-// get the same bits, so the arithmetic is precise (not contracted).
-// clip = clipFromView * (x, y, z, 1), ndc = clip / clip.w, depth = (m22 z + m32) / (m23 z + m33).
+// Returns the view-space position of the centre of `pixel` at `depth`. Every kernel that compares
+// positions must get the same bits, so the arithmetic is `precise`, without fused operations.
+// It inverts clip = clipFromView * (x, y, z, 1), ndc = clip / clip.w, where
+// depth = (m22 z + m32) / (m23 z + m33).
 vec3 viewPosition(Projection m, uvec2 pixel, vec2 invImageSize, float depth)
 {
     precise float z = (m.m32 - depth * m.m33) / (depth * m.m23 - m.m22);
@@ -24,16 +25,16 @@ vec3 viewPosition(Projection m, uvec2 pixel, vec2 invImageSize, float depth)
     return vec3(x, y, z);
 }
 
-// Direction in which the eye looks through the centre of `pixel`, not normalised.
+// Returns the direction in which the eye looks through the centre of `pixel`, not normalised.
 vec3 viewRay(Projection m, uvec2 pixel, vec2 invImageSize)
 {
     const vec2 ndc = vec2(2u * pixel + 1u) * invImageSize - 1.0;
-    const float z = 1.0 / m.m23; // where clip.w is 1
+    const float z = 1.0 / m.m23; // here clip.w is 1
     const vec3 through = vec3((ndc.x - m.m20 * z) / m.m00, (ndc.y - m.m21 * z) / m.m11, z);
     return m.eyeIsPoint != 0.0 ? through : -m.eye;
 }
 
-// Towards the eye from `position`, not normalised.
+// Returns the direction from `position` to the eye, not normalised.
 vec3 towardsEye(Projection m, vec3 position)
 {
     return m.eye - m.eyeIsPoint * position;

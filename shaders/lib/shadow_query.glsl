@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host's shadow term may depend on; the host defines it (CANDELABRA_VISIBILITY).
+// The shadow term that a host defines (CANDELABRA_VISIBILITY), and what it may depend on.
 #ifndef CND_LIB_SHADOW_QUERY
 #define CND_LIB_SHADOW_QUERY
 
 #include "shared/lighting.h"
 
-// View space, metres.
+// A surface point and a light, in view space, in metres.
 struct ShadowQuery {
-    uint light;    // low half of its CndLightId; LIGHT_OF_DEVICE + its index in CndDeviceLights::buffer
+    // Low half of the light's CndLightId or, for a light that the host left on the device,
+    // LIGHT_OF_DEVICE + its index in CndDeviceLights::buffer.
+    uint light;
     uint type;     // LIGHT_*
-    vec3 position; // of the surface
-    vec3 normal;   // unit, of the surface
-    vec3 toLight;  // from there to the light's centre; distant lights: unit
+    vec3 position; // position of the surface point
+    vec3 normal;   // unit normal of the surface
+    vec3 toLight;  // from the surface point to the light's centre; a unit vector for distant lights
 };
 
-// 0 (in shadow) to 1 (all of the light is seen): the light is multiplied by it.
+// Returns the factor by which the light is multiplied: 0 (in shadow) to 1 (all of the light is seen).
 float candelabraVisibility(ShadowQuery query);
 
 #endif

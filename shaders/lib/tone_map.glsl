@@ -5,7 +5,7 @@
 
 #include "shared/exposure.h"
 
-// Where every curve has long reached white; its square is still a finite float.
+// A value beyond the white of every curve, whose square is still a finite float.
 const float WHITE_BEYOND = 1e15;
 
 // Reinhard, Stark, Shirley, Ferwerda 2002, eq. 3, per channel.
@@ -14,7 +14,8 @@ vec3 toneMapReinhard(vec3 c)
     return c / (1.0 + c);
 }
 
-// Stephen Hill's fit of the ACES RRT and sRGB ODT (2017). Rows as published, hence v * M.
+// Stephen Hill's fit of the ACES RRT and sRGB ODT (2017). The matrices are written in rows, as
+// published, hence v * M.
 vec3 toneMapAces(vec3 c)
 {
     const mat3 rrt = mat3(0.59719, 0.35458, 0.04823, 0.07600, 0.90834, 0.01566, 0.02840, 0.13383,
@@ -27,8 +28,8 @@ vec3 toneMapAces(vec3 c)
     return clamp(fit * odt, 0.0, 1.0);
 }
 
-// Khronos PBR Neutral tone mapper specification, 2024: identity minus Fresnel below 0.8 - F90, then
-// compression and desaturation of highlights.
+// Khronos PBR Neutral tone mapper specification, 2024. Below 0.8 - F90 it is the identity minus
+// Fresnel's share; above, highlights are compressed and desaturated.
 vec3 toneMapPbrNeutral(vec3 c)
 {
     const float f90 = 0.04;
@@ -57,7 +58,7 @@ vec3 toneMapAgx(vec3 c)
         mat3(1.19687900512017, -0.0528968517574562, -0.0529716355144438, -0.0980208811401368,
              1.15190312990417, -0.0980434501171241, -0.0990297440797205, -0.0989611768448433,
              1.15107367264116);
-    const float minEv = -12.47393; // middle grey 0.18: 10 stops below, 6.5 above
+    const float minEv = -12.47393; // log2(0.18) - 10: from 10 stops below middle grey to 6.5 above
     const float maxEv = 4.026069;
     const vec3 ev = clamp(log2(max(inset * c, 1e-10)), minEv, maxEv);
     const vec3 x = (ev - minEv) / (maxEv - minEv);
@@ -71,8 +72,8 @@ vec3 toneMapAgx(vec3 c)
     return pow(clamp(outset * y, 0.0, 1.0), vec3(2.2));
 }
 
-// Exposed radiance for any bits: NaN and negative channels become 0, infinity WHITE_BEYOND. By the
-// bits, since comparisons may be compiled as if there were no NaN.
+// Returns the exposed radiance, where NaN and negative channels become 0 and infinity becomes
+// WHITE_BEYOND. It tests the bits, because comparisons may be compiled as if there were no NaN.
 vec3 expose(vec3 radiance, float exposure)
 {
     const uvec3 bits = floatBitsToUint(radiance);
@@ -81,7 +82,7 @@ vec3 expose(vec3 radiance, float exposure)
     return mix(min(finite * exposure, WHITE_BEYOND), vec3(0.0), unusable);
 }
 
-// `c` as expose() gives it.
+// Applies a curve, TONEMAP_*, to a colour that expose() has returned.
 vec3 toneMap(uint curve, vec3 c)
 {
     switch (curve) {
@@ -98,7 +99,7 @@ vec3 toneMap(uint curve, vec3 c)
     }
 }
 
-// IEC 61966-2-1, exact piecewise form.
+// The sRGB encoding of IEC 61966-2-1 in its exact piecewise form.
 vec3 encodeSrgb(vec3 c)
 {
     const vec3 low = 12.92 * c;
@@ -106,9 +107,10 @@ vec3 encodeSrgb(vec3 c)
     return mix(high, low, lessThanEqual(c, vec3(0.0031308)));
 }
 
-// Encoded [0, 1] to whole steps 0..255. The noise is triangular over two steps, which makes mean and
-// variance of the error independent of the signal; within half a step of the ends, where clipping it
-// would shift the mean, it is uniform over one step, so that black and white stay exact.
+// Rounds an encoded value in [0, 1] to a step 0..255, with dither. The noise is triangular over two
+// steps, which makes the mean and the variance of the error independent of the signal. Within half a
+// step of the ends, where clipping would shift the mean, it is uniform over one step, so that black and
+// white stay exact.
 vec3 quantize(vec3 encoded, uvec3 random)
 {
     const vec3 value = 255.0 * encoded;

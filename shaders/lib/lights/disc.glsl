@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diffuse of a disc light: its exact form factor.
+// Diffuse lighting by a disc light: its exact form factor.
 #ifndef CND_LIB_LIGHTS_DISC
 #define CND_LIB_LIGHTS_DISC
 
 #include "lib/contour.glsl"
 
-const float DISC_SERIES_LIMIT = 0.35;
-const int DISC_SERIES_TERMS = 9; // the first one left out is below 0.18^9 = 2e-7
+const float DISC_SERIES_LIMIT = 0.35; // discArcIntegrals uses the series up to this e
+const int DISC_SERIES_TERMS = 9;      // the first term left out is below 0.18^9 = 2e-7
 
 vec2 complexProduct(vec2 a, vec2 b)
 {
     return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-// Integrals over phi, from one angle to another whose sines and cosines are given, `turn` apart, of
-// cos(phi) / (1 + e cos(phi)) times 1, cos(phi) and sin(phi); 0 <= e < 1, root = sqrt(1 - e^2).
+// Returns the integrals over phi of cos(phi) / (1 + e cos(phi)) times 1, times cos(phi) and times
+// sin(phi), for 0 <= e < 1 and root = sqrt(1 - e^2). `from` and `to` are (cos, sin) of the first and
+// the last phi, which are the angle `turn` apart.
 vec3 discArcIntegrals(float e, float root, vec2 from, vec2 to, float turn)
 {
     const float delta = to.y - from.y;
-    // In closed form. The integral of 1 / (1 + e cos(phi)) is E / root, with E Kepler's eccentric
-    // anomaly of phi, written as a difference to phi that has no jumps.
+    // The closed form. The integral of 1 / (1 + e cos(phi)) is E / root, where E is Kepler's eccentric
+    // anomaly of the true anomaly phi. It is computed from E - phi, which has no jumps.
     const float ratio = e / (1.0 + root);
     const float even = turn - 2.0 * (atan(ratio * to.y / (1.0 + ratio * to.x)) -
                                      atan(ratio * from.y / (1.0 + ratio * from.x)));
@@ -28,7 +29,8 @@ vec3 discArcIntegrals(float e, float root, vec2 from, vec2 to, float turn)
     closed.x = (turn - even / root) * invE;
     closed.y = (delta - closed.x) * invE;
     closed.z = (log((1.0 + e * to.x) / (1.0 + e * from.x)) * invE - (to.x - from.x)) * invE;
-    // As Fourier series, whose ratio is about e / 2; the closed form cancels for small e.
+    // The Fourier series, whose terms fall by a ratio of about e / 2. It serves small e, for which the
+    // closed form cancels.
     vec2 powerFrom = from;
     vec2 powerTo = to;
     float factor = 1.0;
@@ -47,9 +49,10 @@ vec3 discArcIntegrals(float e, float root, vec2 from, vec2 to, float turn)
     return e > DISC_SERIES_LIMIT ? closed : series / (root + root * root);
 }
 
-// Form factor F = E / (pi L), 0..1: centre relative to the point, unit normal the way the disc faces.
-// Contour integral (contour.glsl) along the circle, on which the squared distance is
-// D^2 (1 + e cos phi), and along the horizon. 0 in the plane of the disc outside of it.
+// Returns the form factor F = E / (pi L), 0..1. `toCentre`: the centre relative to the point; `normal`:
+// unit vector in the direction that the disc faces. It is the contour integral (contour.glsl) along the
+// circle, on which the squared distance is D^2 (1 + e cos(phi)), and along the horizon. It is 0 at
+// points of the disc's plane outside the disc.
 float discFormFactor(vec3 n, vec3 toCentre, vec3 normal, float radius, bool twoSided)
 {
     const float h = dot(toCentre, normal);
@@ -66,7 +69,8 @@ float discFormFactor(vec3 n, vec3 toCentre, vec3 normal, float radius, bool twoS
     const float farther = (offset + radius) * (offset + radius) + h * h;
     const float root = clamp(sqrt(nearer * k.invD2 * farther * k.invD2), 1e-6, 1.0);
 
-    // The arc above the horizon: its middle is the direction (nu, nv), its half angle has this cosine.
+    // The arc above the horizon: (nu, nv) is the direction of its middle, c and s are the cosine and
+    // the sine of its half angle.
     const float nu = dot(n, u);
     const float nv = dot(n, v);
     const float nw = dot(n, normal);
@@ -80,13 +84,13 @@ float discFormFactor(vec3 n, vec3 toCentre, vec3 normal, float radius, bool twoS
     const vec2 to = vec2(middle.x * c - middle.y * s, middle.y * c + middle.x * s);
     const float turn = 2.0 * atan(s, c);
 
-    // n . (P x dP) = p + (q, r).(cos, sin), over the squared radius
+    // n . (P x dP) / (radius^2 dphi) = p + q cos(phi) + r sin(phi)
     const float p = nw;
     const float q = (nw * offset - h * nu) / radius;
     const float r = -h * nv / radius;
     const vec3 integrals = discArcIntegrals(e, root, from, to, turn);
     k.sum = radius * radius * (nw * turn - e * dot(vec3(p, q, r), integrals));
-    // Back along the horizon; where nothing crosses, s = 0 and this adds nothing.
+    // The chord along the horizon. If the circle does not cross it, s = 0 and this adds nothing.
     const vec3 chord = radius * c * (middle.x * u + middle.y * v);
     contourSegment(k, chord, (radius * s) * (middle.y * u - middle.x * v), -1.0, 1.0);
     const float f = contourFormFactor(k);

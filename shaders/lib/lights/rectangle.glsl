@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diffuse of a rectangle light: its exact form factor.
+// Diffuse lighting by a rectangle light: its exact form factor.
 #ifndef CND_LIB_LIGHTS_RECTANGLE
 #define CND_LIB_LIGHTS_RECTANGLE
 
 #include "lib/contour.glsl"
 
-// Whether the point sees the side that emits. axisU and axisV go from the centre to the middle of two
-// edges; the rectangle faces their cross product.
+// Tells whether the point sees a side that emits. axisU and axisV go from the centre to the middles of
+// two edges; the rectangle faces the direction of their cross product.
 bool facesRectangle(vec3 toCentre, vec3 axisU, vec3 axisV, bool twoSided)
 {
     return twoSided || dot(cross(axisU, axisV), toCentre) < 0.0;
 }
 
-// Form factor F = E / (pi L), 0..1; centre relative to the point. In the plane of the rectangle it is
-// 0 outside the rectangle; on its surface it is finite, and whatever rounding says.
+// Returns the form factor F = E / (pi L), 0..1. `toCentre`: the centre relative to the point. It is 0
+// at points of the rectangle's plane outside the rectangle. At points of the rectangle itself it is
+// finite, but its value depends on rounding.
 float rectangleFormFactor(vec3 n, vec3 toCentre, vec3 axisU, vec3 axisV, bool twoSided)
 {
     const float f = parallelogramFormFactor(n, toCentre, axisU, axisV);

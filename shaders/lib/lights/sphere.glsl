@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diffuse of a sphere light: its exact form factor, horizon included.
+// Diffuse lighting by a sphere light: its exact form factor, also where the sphere crosses the horizon.
 #ifndef CND_LIB_LIGHTS_SPHERE
 #define CND_LIB_LIGHTS_SPHERE
 
 #include "lib/math.glsl"
 
-// (atan(t) - t) / t^3 as a polynomial in t2 = t^2, t in [0, 1]; minimax, error 9.9e-8.
+// Returns (atan(t) - t) / t^3, a minimax polynomial in t2 = t^2 for t in [0, 1], whose error is 9.9e-8.
 float sphereAtanTail(float t2)
 {
     float k = 0.00386673891;
@@ -18,10 +18,12 @@ float sphereAtanTail(float t2)
     return k * t2 - 0.333333231;
 }
 
-// Form factor F = E / (pi L) of a spherical cap that crosses the horizon:
-// (1/pi) [c s^2 (pi/2 + atan(c cos s / m)) + atan(m / cos s) - m cos s], m = sqrt(s^2 - c^2). Both arc
-// tangents are of the shorter over the longer side, so the only roots are cos s and m. The last two
-// terms cancel for small lights: they are t s^2 + (atan(t) - t) with t = m / cos s.
+// Returns the form factor F = E / (pi L) of a spherical cap that crosses the horizon. With s the sine
+// of its half angle, q = sqrt(1 - s^2) the cosine and m = sqrt(s^2 - c^2),
+//   F = (1 / pi) [c s^2 (pi / 2 + atan(c q / m)) + atan(m / q) - m q].
+// Both arc tangents are taken of the shorter side over the longer one, so q and m are the only square
+// roots. The last two terms cancel for small lights. They are computed as t s^2 + (atan(t) - t) with
+// t = m / q.
 float crossingFormFactor(float c, float s2)
 {
     const float cs = sqrt(1.0 - s2);
@@ -39,15 +41,16 @@ float crossingFormFactor(float c, float s2)
     return INV_PI * abs(c * s2 * theta + e);
 }
 
-// Form factor F = E / (pi L) of a sphere seen under c = cos(angle of its centre to the normal) and
-// s2 = (R / d)^2 in [0, 1], for any c in [-1, 1]. With s2 clamped to 1 inside the sphere, the value of
-// its surface continues there, F = (1 + c) / 2. Absolute error below 2e-7 s^3.
-// Closed form: Snyder 1996 (area light sources), Lagarde and de Rousiers 2014, section 4.7.2.
+// Returns the form factor F = E / (pi L) of a sphere of radius R at the distance d. c in [-1, 1] is the
+// cosine of the angle between the normal and the direction to the centre; s2 = (R / d)^2 in [0, 1].
+// Callers inside the sphere clamp s2 to 1 and get what its surface gets, F = (1 + c) / 2. The absolute
+// error is below 2e-7 s^3. The closed form is from Snyder 1996 (area light sources) and Lagarde and
+// de Rousiers 2014, section 4.7.2.
 float sphereFormFactor(float c, float s2)
 {
     // No branch: on llvmpipe it cost more than the terms that it skips (DECISIONS 24).
     const float crossing = crossingFormFactor(c, s2);
-    const bool whole = c * c >= s2; // above the horizon or below it
+    const bool whole = c * c >= s2; // the sphere is wholly above or wholly below the horizon
     return whole ? max(c, 0.0) * s2 : crossing;
 }
 

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diffuse of a tube light (a capsule), and its outline for the specular methods.
+// Diffuse lighting by a tube light (a capsule), and its outline for the specular methods.
 #ifndef CND_LIB_LIGHTS_TUBE
 #define CND_LIB_LIGHTS_TUBE
 
 #include "lib/contour.glsl"
 
-// Edges that stand for the arc of each end. The outline's two long edges are exact.
+// How many edges replace the arc of each end. The outline's two long edges are exact.
 const int TUBE_ARC_EDGES = 6;
 
-// The outline of a capsule is two great circles, which touch its cylinder along two lines, and on
-// either end an arc of the circle along which the end's sphere is seen. Vectors are relative to the
-// receiver or, offsets, to the middle of the axis.
+// The outline of a capsule as a receiver sees it. It has two long edges, along the lines where planes
+// through the receiver touch the cylinder, and at each end an arc of the circle where cones from the
+// receiver touch the end's sphere. Positions are relative to the receiver; offsets are relative to the
+// middle of the axis.
 struct TubeOutline {
     vec3 centre, axis;
     float radius;
     vec3 side;              // half the chord between the two lines
-    vec3 tangent[2];        // offset of the chord's middle at either end
-    vec3 circle[2];         // offset of the middle of the end's circle
-    vec3 outward[2];        // its radius away from the other end, in the plane of the axis
-    vec3 across[2];         // its radius along `side`
-    float halfAngle[2];     // of its arc, 0..pi
+    vec3 tangent[2];        // offset of the middle of that chord at each end
+    vec3 circle[2];         // offset of the centre of each end's circle
+    vec3 outward[2];        // radius of that circle away from the other end, in the plane of the axis
+    vec3 across[2];         // radius of that circle along `side`
+    float halfAngle[2];     // half angle of that circle's arc, 0..pi
 };
 
-// axis: from the centre to one end of the segment. A receiver inside the tube sees one of smaller
-// radius that just reaches it: nearly the half sphere towards the nearest point of the segment.
+// `axis`: from the centre to one end of the segment. A receiver inside the tube sees a tube of smaller
+// radius that almost reaches it, nearly a hemisphere towards the nearest point of the segment.
 TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
 {
     TubeOutline k;
@@ -35,7 +36,7 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
     const float height = dot(toCentre, along);
     const vec3 perpendicular = toCentre - height * along;
     const float h2 = length2(perpendicular);
-    // On the line of the axis any direction across it is as good.
+    // For a receiver on the line of the axis, any direction across the line will do.
     const bool beside = h2 > 1e-12 * length2(toCentre);
     const float invH = beside ? inversesqrt(h2) : 0.0;
     const vec3 across = beside ? cross(along, perpendicular) * invH : anyPerpendicular(along);
@@ -44,7 +45,7 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
     const float r2 = min(radius * radius, 0.9998 * length2(nearest));
     const float r = sqrt(r2);
 
-    // Beyond an end, and within the radius of the axis' line, the near end hides the rest.
+    // A receiver beyond an end, and closer to the axis' line than the radius, sees the near end only.
     const bool endOn = h2 <= r2;
     const float sine2 = endOn ? 1.0 : r2 * invH * invH;
     const float cosine = sqrt(1.0 - sine2);
@@ -56,7 +57,7 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
         const float invD = inversesqrt(d2);
         const float s2 = min(r2 / d2, 0.9999);
         const float rho = r * sqrt(1.0 - s2);
-        const float forward = outwards * (height + outwards * axisLength); // > 0: the far end
+        const float forward = outwards * (height + outwards * axisLength); // > 0 for the far end
         k.circle[i] = outwards * axis - s2 * end;
         // Perpendicular to `end` in the plane of the axis, away from the other end.
         const float h = sqrt(h2);
@@ -71,7 +72,7 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
         }
     }
     if (endOn) {
-        // All edges of the far end shrink to where the near end's circle starts.
+        // All edges of the far end shrink to the point where the near end's arc begins.
         const bool firstIsNear = height < 0.0;
         const vec3 start = firstIsNear ? k.circle[0] - k.outward[0] : k.circle[1] - k.outward[1];
         k.tangent[0] = start;
@@ -84,8 +85,9 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
     return k;
 }
 
-// The outline after a linear map, seen from a receiver with normal n in the mapped space. The arcs'
-// edges touch the circle at both ends and enclose the area of the arc.
+// Returns the form factor of the outline after a linear map, for a receiver with normal n in the mapped
+// space. The first and the last edge of an arc are tangents of the circle at the ends of the arc, and
+// the edges enclose the same area as the arc.
 float tubeOutlineFormFactor(vec3 n, mat3 map, TubeOutline tube)
 {
     const vec3 side = map * tube.side;
@@ -93,7 +95,7 @@ float tubeOutlineFormFactor(vec3 n, mat3 map, TubeOutline tube)
     Contour k = beginContour(n, map * tube.centre, length2(extent) + length2(side));
     const vec3 middle = map * (0.5 * (tube.tangent[0] + tube.tangent[1]));
     for (int i = 0; i < 2; ++i) {
-        // With i = 0 along the axis and from +side to -side, with i = 1 back.
+        // i = 0 goes along the axis and from +side to -side, i = 1 goes back.
         const float turn = i == 0 ? 1.0 : -1.0;
         contourEdge(k, middle + turn * side, turn * extent);
         vec3 last = map * tube.tangent[i] + turn * side;
@@ -117,14 +119,15 @@ float tubeOutlineFormFactor(vec3 n, mat3 map, TubeOutline tube)
     return contourFormFactor(k);
 }
 
-// Whether no part of the tube is above the horizon. The polygon's corners may be, by a little.
+// Tells whether the whole tube is below the horizon. Corners of the polygon that replaces its outline
+// may then still be slightly above it.
 bool tubeIsBelow(vec3 n, TubeOutline tube)
 {
     return dot(n, tube.centre) + abs(dot(n, tube.axis)) + tube.radius <= 0.0;
 }
 
-// Form factor F = E / (pi L), 0..1. Largest error measured: 3.1e-3 of F or of that of the tube seen
-// from the side, whichever is more; mean 5e-6.
+// Returns the form factor F = E / (pi L), 0..1. The largest error measured is 3.1e-3 of F or of the
+// form factor of the same tube seen from the side, whichever is larger; the mean error is 5e-6.
 float tubeFormFactor(vec3 n, TubeOutline tube)
 {
     if (tubeIsBelow(n, tube))

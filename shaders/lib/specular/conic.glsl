@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slope-conic specular of sphere lights, near and distant: the lobe over the light is exact
-// (conic_region.glsl, conic_clip.glsl), shadowing and Fresnel are taken at one or two nodes
-// (conic_shading.glsl). Each of these files derives its part. Responses are
+// The slope-conic specular method for sphere lights, near and distant. The integral of the lobe over
+// the light is exact (conic_region.glsl, conic_clip.glsl); shadowing and Fresnel are evaluated at one
+// or two nodes (conic_shading.glsl). Each of these files derives its part. A response is
 // vec2(F = 1, F = (1 - VoH)^5) to a light of luminance 1, in [0, 1].
 //
-// Lights come in four classes (CONIC_BELOW .. CONIC_CLIPPED, shared/conic_constants.h), so that a
-// caller can loop over each apart: on llvmpipe a masked branch is always paid. conicResponse picks the
-// function by itself.
+// Lights are in four classes (CONIC_BELOW .. CONIC_CLIPPED, shared/conic_constants.h), so that a caller
+// can loop over each class separately: on llvmpipe every branch is paid for, even if no lane takes it.
+// conicResponse chooses the function by itself.
 #ifndef CND_LIB_SPECULAR_CONIC
 #define CND_LIB_SPECULAR_CONIC
 
 #include "lib/specular/conic_clip.glsl"
 
-// heightAbove = n . toLight; d2 = |toLight|^2. There is no division, for loops that only sort lights.
+// Returns the class of a light, with heightAbove = n . toLight and d2 = |toLight|^2. It needs no
+// division, because some loops only sort lights by class.
 uint conicClass(float heightAbove, float radius, float d2, float a2)
 {
     const float r2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
@@ -24,21 +25,21 @@ uint conicClass(float heightAbove, float radius, float d2, float a2)
     return signed2 >= r2 || r2 <= SMALL_CAP * a2 * d2 ? CONIC_NEAR : CONIC_CLIPPED;
 }
 
-// For n . c >= 2 s: one node.
+// Returns the response of lights with n . c >= 2 s, with one node.
 vec2 conicAbove(ConicPoint p, SphereCap cap)
 {
     return shadeOneNode(p, wholeCap(p, cap.c, cap.NoC, cap.s * cap.s, cap.omc));
 }
 
-// Share of the response with two nodes in that with both: 1 where the cap touches the horizon, 0 from
-// n . c = 2 s on.
+// Returns the weight of the two-node response where it is mixed with the one-node response: 1 where the
+// cap touches the horizon, 0 from n . c = 2 s on.
 float nearness(SphereCap cap)
 {
     return saturate(2.0 - cap.NoC / cap.s);
 }
 
-// The region and its two-node shading where the clip is not evaluated: caps above the horizon, and
-// small ones that cross it.
+// Returns the response of caps that are not clipped: caps above the horizon, and small caps that cross
+// it, which a substitute cap replaces. `mixed`: whether the one-node response is mixed in.
 vec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed)
 {
     SubstituteCap sub = SubstituteCap(cap.c, cap.NoC, cap.s * cap.s, cap.omc);
@@ -52,19 +53,20 @@ vec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed)
     return mixed ? mix(shadeOneNode(p, o), two, nearness(cap)) : two;
 }
 
-// For s <= n . c < 2 s, and any n . c > -s with s^2 <= SMALL_CAP a2: one and two nodes, mixed.
+// Returns the response of lights with s <= n . c < 2 s, and of small lights (s^2 <= SMALL_CAP a2) with
+// n . c > -s: a mixture of one and two nodes.
 vec2 conicNear(ConicPoint p, SphereCap cap)
 {
     return conicUnclipped(p, cap, true);
 }
 
-// Two nodes wherever conicAbove and conicNear are meant.
+// Returns the response of the lights of conicAbove and conicNear, always with two nodes.
 vec2 conicFullUnclipped(ConicPoint p, SphereCap cap)
 {
     return conicUnclipped(p, cap, false);
 }
 
-// For |n . c| < s: the exact clip, two nodes.
+// Returns the response of lights with |n . c| < s: the exact clip and two nodes.
 vec2 conicClipped(ConicPoint p, SphereCap cap)
 {
     const CapFrame f = makeCapFrame(p, cap.c, cap.NoC);
@@ -90,7 +92,7 @@ vec2 conicResponse(ConicPoint p, SphereCap cap)
     return vec2(0.0);
 }
 
-// Two nodes for every light, whatever its class.
+// The same with two nodes for every class.
 vec2 conicFullResponse(ConicPoint p, SphereCap cap)
 {
     switch (conicClassOf(p, cap)) {

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lobe over the part of a sphere light above the horizon (conic_region.glsl has the whole one).
+// The lobe over the part of a sphere light above the horizon (conic_region.glsl: over a whole light).
 //
 // By Stokes' theorem the vector irradiance of a region of directions is an integral along its border,
 //   Phi = (1 / 2 pi) closed integral of (w x dw) / |w|^2,
-// which for a polygon is Lambert's sum over its edges. Here w = (m_x, m_y, alpha m_z), with the half
-// vector m = l + v of any length, and the border is two arcs: one of the cap's rim, which is a part of
-// an ellipse in w, and one of the horizon, l_z = 0. Both integrals have closed forms.
+// which for a polygon is Lambert's sum over its edges. Here w = (m_x, m_y, alpha m_z), where the half
+// vector m = l + v is not normalised. The border has two arcs: a part of the cap's rim, which is a part
+// of an ellipse in w, and a part of the horizon, l_z = 0. Both integrals have closed forms.
 #ifndef CND_LIB_SPECULAR_CONIC_CLIP
 #define CND_LIB_SPECULAR_CONIC_CLIP
 
 #include "lib/specular/conic_region.glsl"
 #include "lib/specular/conic_shading.glsl"
 
-// (atan(t) - t) / t^3 as a polynomial in t^2, t in [0, 1]. The term t itself is exact.
+// Returns (atan(t) - t) / t^3, a polynomial in t^2 for t in [0, 1]. The term t of the arc tangent is
+// exact.
 vec2 atanTail(vec2 t2)
 {
     vec2 k = -CONIC_ATAN_T15 * t2 + CONIC_ATAN_T13;
@@ -23,7 +24,7 @@ vec2 atanTail(vec2 t2)
     return k * t2 - CONIC_ATAN_T3;
 }
 
-// atan(y, x) of two pairs at the price of one division, and 0 for x = y = 0.
+// Returns atan(y, x) of two pairs with a single division, and 0 for x = y = 0.
 vec2 atan2Pair(vec2 y, vec2 x)
 {
     const vec2 ax = abs(x);
@@ -37,18 +38,18 @@ vec2 atan2Pair(vec2 y, vec2 x)
     return mix(upper, -upper, lessThan(y, vec2(0.0)));
 }
 
-// atanh(y / x), |y| < x.
+// Returns atanh(y / x) for |y| < x.
 float atanhRatio(float y, float x)
 {
     return 0.5 * log(max(x + y, 1e-30) / max(x - y, 1e-30));
 }
 
-// Largest root of p(t) = t^3 + tr t^2 + m2 t - D0, D0 > 0. Halley's iteration starts from an upper
-// bound, the smaller of two (the start of wholeCap is no bound for centres below the horizon):
-//   A, for tr > 0: the root without the cubic term, of tr t^2 + m2 t = D0.
-//   B, for m2 < 0: t (t^2 + tr t + m2) = D0 shows that the positive root tq of the bracket is a lower
-//      bound, so the root of t^2 + tr t + m2 = D0 / tq is an upper one.
-// One of them always exists: with one positive and two negative roots, m2 >= 0 implies tr > 0.
+// Returns the largest root of p(t) = t^3 + tr t^2 + m2 t - D0, D0 > 0. Halley's iteration starts from
+// the smaller of two upper bounds (the start of wholeCap is no bound for centres below the horizon):
+//   A, for tr > 0: the root of tr t^2 + m2 t = D0, which leaves out the cubic term.
+//   B, for m2 < 0: since t (t^2 + tr t + m2) = D0, the positive root tq of the bracket is a lower
+//      bound. So the root of t^2 + tr t + m2 = D0 / tq is an upper bound.
+// At least one of them exists: p has one positive and two negative roots, so m2 >= 0 implies tr > 0.
 float conicRoot(float tr, float m2, float D0)
 {
     const float boundA = 2.0 * D0 / max(m2 + sqrt(max(m2 * m2 + 4.0 * tr * D0, 0.0)), 1e-30);
@@ -58,12 +59,12 @@ float conicRoot(float tr, float m2, float D0)
     const float qb = sqrt(max(tr * tr - 4.0 * mb, 0.0));
     const float boundB = tr > 0.0 ? -2.0 * mb / (tr + qb) : 0.5 * (qb - tr);
     const float negative = tr > 0.0 ? min(boundA, boundB) : boundB;
-    float lam = max(m2 < 0.0 ? negative : boundA, 1e-12); // rounding; no cap here is smaller
+    float lam = max(m2 < 0.0 ? negative : boundA, 1e-12); // against rounding; no cap here is smaller
     lam = halley(lam, tr, m2, D0);
     return halley(lam, tr, m2, D0);
 }
 
-// The frame of a cap: x = c_t / |c_t|, y = n x x, z = n. clippedCap and lightHeights share it.
+// The frame of a cap, x = c_t / |c_t|, y = n x x, z = n, in which clippedCap and lightHeights work.
 struct CapFrame {
     float sinC;   // |n x c|
     float v1, v2; // v . x, v . y
@@ -79,8 +80,8 @@ CapFrame makeCapFrame(ConicPoint p, vec3 c, float NoC)
     return f;
 }
 
-// The two directions in which a cap's rim meets the horizon, (cp, +-sp, 0) in the frame of the cap:
-// l . c = cos S with l_z = 0 gives cp = cos S / |c_t|.
+// The two directions in which a cap's rim meets the horizon: (cp, +-sp, 0) in the frame of the cap,
+// where cp = cos S / |c_t| follows from l . c = cos S and l_z = 0.
 struct Chord {
     float cp, sp, cm; // cm = 1 - cp
 };
@@ -96,10 +97,11 @@ Chord makeChord(SphereCap cap, float sinC)
     return o;
 }
 
-// The horizon's share of 2 pi Phi. Along it l is on the unit circle, w = (l + v_t, alpha NoV), so that
-// |w|^2 = A0 + 2 v_t . l and w x dw = (-alpha NoV l, 1 + v_t . l) times the angle. All that remains is
-// integrals of 1, v_t . l and v_t x l over A0 + 2 v_t . l from -pc to pc: the first, J0, is an arc
-// tangent, the second is pc - A0 J0 / 2 over 2, the third a logarithm of |w|^2 at the ends.
+// Returns the horizon's part of 2 pi Phi. On the horizon l is on the unit circle and
+// w = (l + v_t, alpha NoV), so |w|^2 = A0 + 2 v_t . l, and w x dw = (-alpha NoV l, 1 + v_t . l) times
+// the differential of the angle. What remains are the integrals of 1, v_t . l and v_t x l, each divided
+// by A0 + 2 v_t . l, over the angles from -pc to pc. The first, J0, is an arc tangent; the second is
+// pc - A0 J0 / 2; the third is a logarithm of |w|^2 at both ends.
 vec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
 {
     const float hz = p.alpha * p.NoV;
@@ -119,7 +121,7 @@ vec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
     return vec3(across, pc + 0.5 * NoV2 * p.oneMinusA2 * J0);
 }
 
-// The cone w^T q w <= 0 of a cap, with the q of conic_region.glsl.
+// The cone w^T q w <= 0 of a cap, where q is the matrix of conic_region.glsl.
 struct CapCone {
     float xx, xy, xz, yy, yz, zz; // the elements of q times sg
     float sg;                     // 1 or -1: see makeCapCone
@@ -140,8 +142,8 @@ CapCone makeCapCone(ConicPoint p, SphereCap cap, CapFrame f)
     const float t = v1 * cx;
     const float w2 = v2 * v2 * cx * cx;
     const float hh = 0.5 * ((v1 + cx) * (v1 + cx) + v2 * v2 + (vz + cz) * (vz + cz)); // 1 + v . c
-    // k < 0: the cap holds -v, as lights ahead of a grazing view can. The quadratic form of the same
-    // cone then has the other sign, sg.
+    // k < 0 if the cap holds -v, which is possible for lights ahead of a grazing view. The quadratic
+    // form of the same cone then has the other sign, sg.
     const float signedK = hh - cap.omc;
     CapCone q;
     q.sg = signedK < 0.0 ? -1.0 : 1.0;
@@ -173,8 +175,8 @@ struct ConeAxes {
 // `inside` is any vector inside the cone.
 ConeAxes makeConeAxes(CapCone q, vec3 inside)
 {
-    // The axis e of the cone: the adjugate of q + lam I is a multiple of e e^T, so it maps `inside` to
-    // the axis, on the cone's side.
+    // The axis e of the cone. The adjugate of q + lam I is a multiple of e e^T, so it maps `inside` to
+    // a vector E along the axis that points into the cone.
     const float X = q.xx + q.lam;
     const float Y = q.yy + q.lam;
     const float W = q.zz + q.lam;
@@ -185,7 +187,7 @@ ConeAxes makeConeAxes(CapCone q, vec3 inside)
                         adjXY * inside.x + (X * W - q.xz * q.xz) * inside.y + adjYZ * inside.z,
                         adjXZ * inside.x + adjYZ * inside.y + (X * Y - q.xy * q.xy) * inside.z);
     // f1, f2, e: a right-handed frame (Duff et al. 2017, "Building an Orthonormal Basis, Revisited"). A
-    // turn about e by half the angle of (de, be) takes f1, f2 to the principal axes e1, e2 of q.
+    // rotation about e by half the angle of (de, be) takes f1, f2 to the principal axes e1, e2 of q.
     const float se = E.z < 0.0 ? -1.0 : 1.0;
     const float reach = sqrt(max(length2(E), 1e-36));
     const float stretch = se * reach + E.z;
@@ -201,7 +203,7 @@ ConeAxes makeConeAxes(CapCone q, vec3 inside)
     const float S = 0.5 * (q.tr + q.lam);
     const float de = dot(f1, qf1) - S;
     const float be = dot(f2, qf1);
-    const float ade = abs(de) + 1e-15; // r = 0: any axes will do
+    const float ade = abs(de) + 1e-15; // a circular cone has r = 0, and any axes will do
     const float r = sqrt(ade * ade + be * be);
     const float l1 = S + r;
     const float invLD = 1.0 / (l1 * q.D0);
@@ -217,17 +219,17 @@ ConeAxes makeConeAxes(CapCone q, vec3 inside)
     return o;
 }
 
-// 2 pi times the rim's share of Phi. On the rim, w^T q w = 0. In the principal axes e1, e2, e of q (e
+// Returns the rim's part of 2 pi Phi. On the rim, w^T q w = 0. In the principal axes e1, e2, e of q (e
 // is the axis of the cone, a and b are the tangents of its half angles along e1 and e2) the rim is
 // w = (a cos t, b sin t, 1), so |w|^2 = 1 + a^2 cos^2 t + b^2 sin^2 t and
-// w x dw = (-b cos t, -a sin t, a b) dt. The integrals are an arc tangent, an inverse hyperbolic
-// tangent and an arc tangent of the ends. wc is w at the middle of the chord between the ends and sp
-// half the chord's length; `above` says whether the cap's centre is above the horizon.
+// w x dw = (-b cos t, -a sin t, a b) dt. The three integrals are an arc tangent, an inverse hyperbolic
+// tangent and an arc tangent of values at the ends. wc is w at the middle of the chord between the
+// ends, sp is half the chord's length, and `above` tells whether the cap's centre is above the horizon.
 vec3 capArc(ConeAxes axes, float sg, vec3 wc, float sp, bool above)
 {
     const float a = sqrt(axes.A2);
     const float b = sqrt(axes.B2);
-    // (cos t, sin t) at the ends of the rim's arc, each times a b and a length, lp or lm.
+    // The ends of the rim's arc: (cos t, sin t) scaled to vectors of the lengths lp and lm.
     const float w1 = dot(wc, axes.e1);
     const float w2e = dot(wc, axes.e2);
     const vec2 plus = vec2((w1 + sp * axes.e1.y) * b, (w2e + sp * axes.e2.y) * a);
@@ -250,9 +252,9 @@ vec3 capArc(ConeAxes axes, float sg, vec3 wc, float sp, bool above)
     const vec2 angles = atan2Pair(vec2(si, g * (minus.y * lp - plus.y * lm)),
                                   vec2(co, lpm + g2 * plus.y * minus.y));
     const float angle = angles.x;
-    // The arc runs from one end to the other by `angle` or by the rest of the full turn. Where it is
-    // nearly empty or nearly full (within atan(1 / 7) = 8 degrees) rounding could take either for the
-    // other, and the side of the horizon on which the centre lies decides.
+    // The arc from one end to the other is `angle` or the rest of the full turn. If it is nearly empty
+    // or nearly full (within atan(1 / 7) = 8 degrees), rounding could confuse the two, so the side of
+    // the horizon on which the centre lies decides.
     const bool full = co > 7.0 * abs(si) ? above : angle < 0.0;
     const float dt = full ? angle + 2.0 * PI : angle;
     return axes.e1 * (-b * g * oab * inv * angles.y) +
@@ -261,11 +263,11 @@ vec3 capArc(ConeAxes axes, float sg, vec3 wc, float sp, bool above)
            axes.e * (sg * a * b * dt * invSoab);
 }
 
-// The region of the part of a cap above the horizon, for caps that cross it, |NoC| < s.
+// Returns the region of the part above the horizon of a cap that crosses it, |NoC| < s.
 ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
 {
-    // The horizon comes first because it does not need the root below: so the two long chains of
-    // operations overlap.
+    // The horizon comes first because it does not need the root that makeCapCone computes, so that two
+    // long chains of operations can overlap.
     const Chord chord = makeChord(cap, f.sinC);
     const vec3 horizon = horizonArc(p, f, chord);
     const CapCone cone = makeCapCone(p, cap, f);
@@ -282,13 +284,13 @@ ConicRegion clippedCap(ConicPoint p, SphereCap cap, CapFrame f)
     return o;
 }
 
-// A whole cap that stands for the visible part of one too small to be clipped (SMALL_CAP).
+// A whole cap that replaces the visible part of a cap too small to be clipped (SMALL_CAP).
 struct SubstituteCap {
     vec3 c;
     float NoC, s2, omc;
 };
 
-// The substitute has the area of the visible part, a segment of a circle, and its centroid.
+// Returns the substitute: it has the area and the centroid of the visible part, a segment of a circle.
 SubstituteCap substituteCap(ConicPoint p, SphereCap cap)
 {
     const float sinC = sqrt(max(1.0 - cap.NoC * cap.NoC, 0.0));
@@ -297,7 +299,8 @@ SubstituteCap substituteCap(ConicPoint p, SphereCap cap)
     o.c = cap.c + p.n * (mean - cap.NoC);
     o.c *= inversesqrt(max(length2(o.c), MIN_LENGTH2));
     o.NoC = dot(p.n, o.c);
-    // Share of the cap's diameter above the horizon, then of its area (shared/conic_constants.h).
+    // u is the share of the cap's diameter above the horizon. The polynomial gives the share of its
+    // area (shared/conic_constants.h).
     const float u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
     o.omc = cap.omc * u * sqrt(u) * (CONIC_SEGMENT - u * (CONIC_SEGMENT_U + CONIC_SEGMENT_U2 * u));
     o.s2 = o.omc * (2.0 - o.omc);

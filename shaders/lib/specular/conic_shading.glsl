@@ -1,33 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shadowing and Fresnel over the region of a light (conic_region.glsl, conic_clip.glsl). The region's
-// integral and mean slope are exact; this is not: the mean of a function of the half vector is replaced
-// by its value at one node, the mean half vector, or at two nodes of N . L.
+// integral and mean slope are exact. The functions here are not: they replace the mean of a function of
+// the half vector by its value at one node, the mean half vector, or at two nodes of N . L.
 //
-// The response to a light is the integral over its half vectors of D (n . h), which the region has,
-// times Fresnel and
+// The response to a light is an integral over its half vectors of D (n . h), whose integral the region
+// has, times Fresnel and
 //   2 (v . m) NoL / (NoL smithV + NoV smith(NoL)).
-// That is G2 / (4 NoL NoV) (Heitz 2014, eq. 99) times NoL and 4 (v . h), which takes the solid angle of
-// half vectors to that of light directions (Walter et al. 2007, eq. 14), over the n . h of the lobe. In
-// slopes, n . l = 2 (v . m) / (m . m) - NoV and v . h = (v . m) / |m|. Both depend on m . m, whose mean
-// is 1 + |mean slope|^2 + the variance of the slopes.
+// This is G2 / (4 NoL NoV) (Heitz 2014, eq. 99) times NoL, times 4 (v . h), which converts the solid
+// angle of half vectors to that of light directions (Walter et al. 2007, eq. 14), and divided by the
+// lobe's n . h. In slopes, n . l = 2 (v . m) / (m . m) - NoV and v . h = (v . m) / |m|. Both depend on
+// m . m, whose mean is 1 + |mean slope|^2 + the variance of the slopes.
 //
 // The variance comes from the region's area. The lobe's density in slopes is 1 / (pi alpha^2 q^2) with
 // q = 1 + |slope|^2 / alpha^2, so a small region of a given integral has the area of a disc with
-//   squared slope radius = alpha^2 integral q^2,
-// whose variance is half of that, and a quarter along any line. Larger regions are no discs of constant
-// density: the factors are fitted. All of them, with what they weigh, are in shared/conic_constants.h.
+//   squared slope radius = alpha^2 integral q^2.
+// The variance of the disc is half of that, and a quarter along any line. Larger regions are not discs
+// of constant density, so the factors are fitted. shared/conic_constants.h has all of them and says
+// what each one scales.
 #ifndef CND_LIB_SPECULAR_CONIC_SHADING
 #define CND_LIB_SPECULAR_CONIC_SHADING
 
 #include "lib/specular/conic_region.glsl"
 
-// sqrt(a2 + (1 - a2) NoL^2), which is NoL (1 + 2 Lambda(NoL)) with Smith's Lambda (Heitz 2014, eq. 72).
+// Returns sqrt(a2 + (1 - a2) NoL^2), which is NoL (1 + 2 Lambda(NoL)) with Smith's Lambda (Heitz 2014,
+// eq. 72).
 float smith(ConicPoint p, float NoL)
 {
     return sqrt(p.a2 + p.oneMinusA2 * NoL * NoL);
 }
 
-// One node, the mean half vector. Without the variance in m . m the error is four times as large.
+// Returns the response with one node, the mean half vector. Without the variance in m . m the error
+// would be four times as large.
 vec2 shadeOneNode(ConicPoint p, ConicRegion o)
 {
     const float q = 1.0 + o.x2 * p.invA2;
@@ -39,8 +42,8 @@ vec2 shadeOneNode(ConicPoint p, ConicRegion o)
     return vec2(a, a * pow5(1.0 - VoH));
 }
 
-// N . L over the part of a cap above the horizon: its range, and its mean with every direction weighted
-// alike.
+// N . L over the part of a cap above the horizon: its range, and its mean with equal weights for all
+// directions.
 struct CapHeights {
     float low, high, mean;
 };
@@ -51,11 +54,11 @@ CapHeights capHeights(SphereCap cap, float sinC)
     CapHeights z;
     z.high = cap.NoC >= cosS ? 1.0 : cap.NoC * cosS + sinC * cap.s;
     z.low = max(0.0, cap.NoC * cosS - sinC * cap.s);
-    // Exact while nothing of the cap is below the horizon: N . L averages to NoC (1 + cos S) / 2.
+    // For a cap wholly above the horizon the mean of N . L is exactly NoC (1 + cos S) / 2.
     const float whole = cap.NoC * (1.0 - 0.5 * cap.omc);
-    // Where a part is below it, mean / high is close to 0.4..0.5 for every cap, and at most that of a
-    // cap about the normal, (1 + cos S) / 2. u = 1 where the cap leaves the horizon: towards it, the
-    // eighth power leads over to the exact mean.
+    // For a cap that crosses the horizon, mean / high is close to 0.4..0.5, and at most the value of a
+    // cap around the normal, (1 + cos S) / 2. u is 1 where the cap leaves the horizon; there the eighth
+    // power of u leads over to the exact mean.
     const float u = saturate(0.5 + 0.5 * cap.NoC / cap.s);
     const float u2 = u * u;
     const float fraction = CONIC_CUT_MEAN + u * (CONIC_CUT_MEAN_U + u *
@@ -66,66 +69,70 @@ CapHeights capHeights(SphereCap cap, float sinC)
     return z;
 }
 
-// N . L over a light, weighted with D, as wide lobes see it: range, mean and variance.
+// N . L over a light, weighted by D, as wide lobes see it: its range, mean and variance.
 struct LightHeights {
     float low, high;
     float mean, variance;
 };
 
-// The light is taken as two directions in the plane of n and its centre, at equal distances in N . L
-// from the mean; D at both gives their weights. With v1 = v_t . c_t / |c_t| (of the cap that the region
-// is made from), the half vector v + l of a direction with N . L = z has the squared length
-// (v1 + sqrt(1 - z^2))^2 + |v_t|^2 - v1^2 in the surface and (NoV + z)^2 along the normal.
-// The function needs no region. Callers ask for it first, so that its long chain of operations overlaps
-// that of the region's root.
+// Replaces the light by two directions in the plane of n and its centre, whose N . L are equally far
+// from the mean. D at both gives their weights. With v1 = v_t . c_t / |c_t| (for the c of the cap that
+// the region is made from), the half vector v + l of a direction with N . L = z has the squared length
+// (v1 + sqrt(1 - z^2))^2 + |v_t|^2 - v1^2 in the plane of the surface and (NoV + z)^2 along the normal.
+// The function does not need the region. Callers call it first, so that its long chain of operations
+// overlaps the computation of the region's root.
 LightHeights lightHeights(ConicPoint p, SphereCap cap, float sinC, float v1)
 {
     const CapHeights z = capHeights(cap, sinC);
     const float spread2 = CONIC_LIGHT_SPREAD * (z.mean - z.low) * (z.high - z.mean);
-    const float spread = min(sqrt(max(spread2, 0.0)), 0.98 * z.mean); // both above the horizon
+    const float spread = min(sqrt(max(spread2, 0.0)), 0.98 * z.mean); // keeps both above the horizon
     const float za = z.mean - spread;
     const float zb = min(z.mean + spread, 1.0);
     const float across = p.vv - v1 * v1;
     const float reachA = v1 + sqrt(max(1.0 - za * za, 0.0));
     const float reachB = v1 + sqrt(max(1.0 - zb * zb, 0.0));
-    const float ha = reachA * reachA + across; // in the surface, and, as ma and mb, along the normal
+    // Squared length of both half vectors in the plane of the surface (ha, hb) and along the normal.
+    const float ha = reachA * reachA + across;
     const float hb = reachB * reachB + across;
     const float ma = (p.NoV + za) * (p.NoV + za);
     const float mb = (p.NoV + zb) * (p.NoV + zb);
-    const float da = (ha + ma) * (hb + p.a2 * mb); // the two D are in the ratio of da^2 to db^2
+    const float da = (ha + ma) * (hb + p.a2 * mb); // D at both directions has the ratio da^2 : db^2
     const float db = (hb + mb) * (ha + p.a2 * ma);
     const float share = db * db / (da * da + db * db);
     const float gap = zb - za;
     return LightHeights(z.low, z.high, za + gap * share, gap * gap * share * (1.0 - share));
 }
 
-// Two nodes of N . L.
+// Returns the response with two nodes of N . L.
 //
-// 1. Narrow lobes see the half vector. Their mean of N . L is that at the mean slope. Their variance is
-//    that of the slopes along the gradient of N . L, as far as it fits into the light's range of N . L
-//    (1 / both = 1 / one + 1 / other). The gradient is gz d with d = v_t - tau slope, gz = 2 / (m . m)
-//    and tau = gz (v . m). The response weighs half vectors with v . m, which moves the mean.
-// 2. Wide lobes see the light: lightHeights. Both means and variances are blended by the width of the
-//    lobe against the light's range of N . L.
-// 3. N . L is taken to have the beta distribution of that mean and variance v on the light's range. Let
-//    L = (mean - low) (high - mean). The half skewness of the distribution is
+// 1. For narrow lobes the slopes determine N . L. The mean of N . L is its value at the mean slope. The
+//    variance is the variance of the slopes along the gradient of N . L, limited by the light's range
+//    of N . L: the two are combined by 1 / both = 1 / one + 1 / other. The gradient is gz d with
+//    d = v_t - tau slope, gz = 2 / (m . m) and tau = gz (v . m). The response weights half vectors by
+//    v . m, which shifts the mean.
+// 2. For wide lobes the light determines N . L (lightHeights). Means and variances of 1 and 2 are
+//    blended by the ratio of the lobe's width to the light's range of N . L.
+// 3. N . L is assumed to have the beta distribution with this mean and variance v on the light's range.
+//    Let L = (mean - low) (high - mean). The half skewness of the distribution is
 //      t = (low + high - 2 mean) sqrt(v) / (L + v),
 //    and the two nodes of Gauss quadrature are mean + sqrt(v) (t -+ sqrt(t^2 + 1)), with the weights
-//    (1 +- t / sqrt(t^2 + 1)) / 2: the nodes of any distribution that has these three moments. As nodes
-//    of a distribution on the range they lie in it.
-// 4. Shadowing is taken at both nodes; Fresnel at the half vectors that lead to them, steps along d.
+//    (1 +- t / sqrt(t^2 + 1)) / 2. They depend on these three moments only, and they lie in the range
+//    because the distribution does.
+// 4. Shadowing is evaluated at both nodes, and Fresnel at two half vectors that lead to them, which are
+//    steps along d.
 vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
 {
-    // The variance of the slopes grows as 1 / partial: that of the whole lobe has no bound.
+    // The variance of the slopes is proportional to 1 / partial, because the variance of the whole lobe
+    // is infinite.
     const float height = z.high - z.low;
     const float lobeWidth = p.a2 + CONIC_WIDTH_FROM_SLOPE * o.x2;
     const float q = 1.0 + o.x2 * p.invA2;
     const float m2 = 1.0 + o.x2;
     const float partial = 1.0 - CONIC_TAIL * o.integral;
     const float slopeRadius2 = p.a2 * min(o.integral * q * q, MAX_SLOPE_VARIANCE);
-    const float m2p = m2 * partial + CONIC_LENGTHENING * slopeRadius2; // m . m, times partial
+    const float m2p = m2 * partial + CONIC_LENGTHENING * slopeRadius2; // m . m times `partial`
     const float lobeAndLight = lobeWidth + CONIC_WIDTH_FROM_HEIGHT * p.oneMinusA2 * height * height;
-    const float invFirst = 1.0 / (lobeAndLight * m2p); // one division for two; so below
+    const float invFirst = 1.0 / (lobeAndLight * m2p); // one division for two reciprocals, as below
     const float wide = lobeWidth * m2p * invFirst;
     const float invM2p = lobeAndLight * invFirst;
     const float gz = 2.0 * partial * invM2p;
@@ -136,14 +143,14 @@ vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
     const float lobeHeight = clamp(tau - p.NoV, z.low, z.high);
     const float gdd = gz * dd;
     const float lobeVariance = CONIC_LOBE_VARIANCE * slopeRadius2 * invM2p * gdd;
-    // The variance that fits.
+    // The variance combined with the light's range.
     const float room = CONIC_RANGE_VARIANCE * (lobeHeight - z.low) * (z.high - lobeHeight);
     const float sum = lobeVariance + room + MIN_VARIANCE;
     const float invSecond = 1.0 / (sum * gdd * o.mu);
     const float shift2 = lobeVariance * room * gdd * o.mu * invSecond;
     const float shift = sqrt(shift2);
-    const float meanSlope = shift * sum * o.mu * invSecond; // the same deviation in slopes, along d
-    // Change of v . m over one standard deviation, relative to it.
+    const float meanSlope = shift * sum * o.mu * invSecond; // the same deviation as a slope along d
+    // Relative change of v . m over one standard deviation.
     const float rel = clamp(meanSlope * dv * sum * gdd * invSecond,
                             -CONIC_MAX_MEAN_SHIFT, CONIC_MAX_MEAN_SHIFT);
     const float fromLobe = clamp(lobeHeight + shift * rel, z.low, z.high);
@@ -151,7 +158,7 @@ vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
     const float mean = max(fromLobe + wide * (z.mean - fromLobe), 1e-6);
     const float largest = max(0.0, mean - z.low) * max(0.0, z.high - mean); // L
     const float blended = mix(CONIC_NARROW_VARIANCE * shift2, CONIC_WIDE_VARIANCE * z.variance, wide);
-    const float v = min(blended, 0.95 * largest); // no distribution has more than L
+    const float v = min(blended, 0.95 * largest); // the variance of any distribution is at most L
     // Steps from the mean to the nodes, in standard deviations. The half skewness is t / scale here.
     const float deviation = sqrt(v);
     const float scale = largest + v + MIN_VARIANCE;

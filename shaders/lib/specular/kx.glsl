@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cheap specular methods of sphere lights beside Karis: the centre alone, and the point of the sphere
-// next to the mirror ray with the exact peak of the lobe over the cap.
+// Two cheap specular methods for sphere lights: the centre as the only point, and the sphere's point
+// nearest to the mirror ray with the exact peak of the lobe over the cap.
 #ifndef CND_LIB_SPECULAR_KX
 #define CND_LIB_SPECULAR_KX
 
 #include "lib/brdf.glsl"
 #include "lib/lights/sphere_cap.glsl"
 
-// All light from the centre: irradiance pi s^2 on a surface facing it.
+// Returns the response if all light comes from the centre. The irradiance on a surface that faces the
+// light is pi s^2 for unit luminance.
 vec2 pointResponse(ShadingPoint p, SphereCap cap)
 {
     return min(PI * cap.s2 * specularResponse(p, cap.c), vec2(1.0));
 }
 
-// The lobe keeps its width; with the mirror direction in the middle of the cap, its integral over the
-// conic is that of the unwidened peak times 1 / sqrt((1 + q) (1 + q / VoH^2)), q = s^2 / (4 alpha^2):
-// right by construction there, too dark between core and tail.
+// Returns the response at the sphere's point nearest to the mirror ray, for a lobe of unchanged width.
+// It is scaled by 1 / sqrt((1 + q) (1 + q / VoH^2)), q = s^2 / (4 alpha^2), which is the mean of the
+// lobe over the cap, relative to its peak, if the mirror direction is in the middle of the cap. So the
+// response is right there; it is too dark between the core and the tail of the lobe.
 vec2 kxResponse(ShadingPoint p, SphereCap cap)
 {
     const vec3 toRay = dot(cap.c, p.mirror) * p.mirror - cap.c;

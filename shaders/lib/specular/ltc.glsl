@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heitz, Dupuy, Hill and Neubelt 2016, "Real-time polygonal-light shading with linearly transformed
-// cosines", with a fit of our own (tools/fit) whose maps keep the horizon in place: lights are cut at
-// the true horizon, nothing leaks from below it, and a light that fills the hemisphere gives the
-// lobe's directional albedo.
+// Linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016, "Real-time polygonal-light shading
+// with linearly transformed cosines"), with our own fit (tools/fit). Its maps keep the horizon in
+// place. So lights are cut at the true horizon, no light leaks from below it, and the response to a
+// light that fills the hemisphere is the lobe's directional albedo.
 #ifndef CND_LIB_SPECULAR_LTC
 #define CND_LIB_SPECULAR_LTC
 
@@ -12,10 +12,10 @@
 #include "lib/lights/rectangle.glsl"
 #include "lib/lights/tube.glsl"
 
-// An entry of the table of engine/tables/ltc_table.h; the includer defines it.
+// Returns an entry of the table of engine/tables/ltc_table.h. The includer defines this function.
 vec4 ltcTexel(uint index);
 
-// One lobe under a map with rows rowX, rowY and the normal: w = (rowX.l, rowY.l, n.l).
+// One lobe, given by a linear map with the rows rowX, rowY and n: w = (rowX.l, rowY.l, n.l).
 struct LtcLobe {
     vec3 rowX, rowY;
     float albedo;       // directional albedo
@@ -23,8 +23,9 @@ struct LtcLobe {
     float determinant2; // squared determinant of the map
 };
 
-// What does not depend on the light. Fresnel's part is a lobe of other shape and place, far from the
-// mirror direction; of a dielectric it is most of the light at grazing.
+// The lobes of a point, which do not depend on the light. The lobe with Schlick's Fresnel term has
+// another shape and direction than the one with F = 1: it lies far from the mirror direction, and for a
+// dielectric at grazing angles it reflects most of the light.
 struct LtcPoint {
     vec3 n;
     LtcLobe white;      // F = 1
@@ -56,13 +57,13 @@ LtcLobe makeLtcLobe(vec4 shape, vec3 n, vec3 tangent, float NoV, float invAlpha)
     return q;
 }
 
-// A view below LTC_MIN_NOV is tilted up to it.
+// Returns the lobes of a point. A view direction below LTC_MIN_NOV is tilted up to it.
 LtcPoint makeLtcPoint(ShadingPoint p)
 {
     const float cosine = dot(p.n, p.v);
     const vec3 across = p.v - cosine * p.n;
     const float across2 = length2(across);
-    // Straight on, any direction will do.
+    // If the view is along the normal, any tangent will do.
     const vec3 tangent = across2 > 1e-12 ? across * inversesqrt(across2) : anyPerpendicular(p.n);
     const float NoV = clamp(cosine, LTC_MIN_NOV, 1.0);
 
@@ -86,7 +87,8 @@ vec3 ltcMap(LtcLobe q, vec3 n, vec3 l)
 
 const vec3 LTC_NORMAL = vec3(0.0, 0.0, 1.0);
 
-// (A, B) from A and the response of the dielectric lobe, F0 (A - B) + B.
+// Returns the responses (A, B) with F = 1 and F = (1 - VoH)^5. `white` and `dielectric` are the form
+// factors of the light under both lobes; the response of the dielectric lobe is F0 (A - B) + B.
 vec2 ltcResponse(LtcPoint q, float white, float dielectric)
 {
     const float a = q.white.albedo * white;
@@ -95,10 +97,11 @@ vec2 ltcResponse(LtcPoint q, float white, float dielectric)
     return vec2(a, clamp(b, 0.0, a));
 }
 
-// Responses (F = 1, F = (1 - VoH)^5) to lights of unit luminance; arguments as in lib/lights.
+// The functions below return form factors under one lobe (ltc...Lobe) and the responses
+// (F = 1, F = (1 - VoH)^5) to lights of unit luminance. Their arguments are those of lib/lights.
 
-// A sphere around the unit direction c with sin^2 of the half angle s2. In the mapped space its dual
-// cone is s2 M M^T - w w^T, with w the mapped c, and needs no axes.
+// A sphere in the unit direction c; s2 is sin^2 of its half angle. In the mapped space its dual cone is
+// s2 M M^T - w w^T, where w is the mapped c, so no axes are needed.
 float ltcSphereLobe(LtcLobe q, vec3 n, vec3 c, float s2)
 {
     const vec3 w = ltcMap(q, n, c);
@@ -113,13 +116,13 @@ float ltcSphereLobe(LtcLobe q, vec3 n, vec3 c, float s2)
     return ellipticConeFormFactor(cone, w);
 }
 
-// One lobe, as published; B is the share that it has of a white surrounding.
+// The response of the white lobe alone, as published: B / A is the same as for a uniform environment.
 vec2 ltcSphere(LtcPoint q, vec3 c, float s2)
 {
     return ltcResponse(q, 1.0, 1.0) * ltcSphereLobe(q.white, q.n, c, min(s2, 0.9999));
 }
 
-// Ellipse with half axes u and v.
+// An ellipse with the half axes u and v.
 float ltcEllipseLobe(LtcLobe q, vec3 n, vec3 centre, vec3 u, vec3 v)
 {
     const vec3 c = ltcMap(q, n, centre);
@@ -130,7 +133,8 @@ vec2 ltcDisc(LtcPoint q, vec3 toCentre, vec3 normal, float radius, bool twoSided
 {
     if (!twoSided && dot(normal, toCentre) >= 0.0)
         return vec2(0.0);
-    // Two radii; any pair will do. At unit distance the cubic stays in the range of a float.
+    // Any two perpendicular radii of the disc will do. At unit distance the coefficients of the cubic
+    // stay in the range of a float.
     const float scale = inversesqrt(max(length2(toCentre), MIN_LENGTH2));
     const vec3 u = anyPerpendicular(normal) * (radius * scale);
     const vec3 v = cross(normal, u);

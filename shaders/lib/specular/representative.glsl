@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Representative points of area lights, after Karis 2013, "Real Shading in Unreal Engine 4": all light
-// comes from the emitter's point nearest to the mirror ray, and the lobe is scaled down as if it had
-// been widened by the emitter's extent, once per direction in which it extends:
+// Representative points of area lights, after Karis 2013, "Real Shading in Unreal Engine 4". All light
+// comes from the emitter's point nearest to the mirror ray. For each direction in which the emitter
+// extends, the lobe is scaled down as if the extent had widened it:
 //   alpha / min(alpha + extent / (2 d), 1).
-// Cheap, and wrong in the ways the accuracy benchmark shows.
+// This is cheap. The accuracy benchmark shows its errors.
 #ifndef CND_LIB_SPECULAR_REPRESENTATIVE
 #define CND_LIB_SPECULAR_REPRESENTATIVE
 
@@ -15,7 +15,8 @@ float narrowing(ShadingPoint p, float extent, float invDistance)
     return p.alpha / min(p.alpha + 0.5 * extent * invDistance, 1.0);
 }
 
-// `solidAngle` seen at `point`, scaled by `factor`. No lobe reflects more than it receives.
+// Returns the response to a light of the given solid angle in the direction of `point`, scaled by
+// `factor`. It is at most 1, because no lobe reflects more light than it receives.
 vec2 representativeResponse(ShadingPoint p, vec3 point, float solidAngle, float factor)
 {
     const vec3 l = point * inversesqrt(max(length2(point), MIN_LENGTH2));
@@ -23,15 +24,16 @@ vec2 representativeResponse(ShadingPoint p, vec3 point, float solidAngle, float 
     return response * min(1.0 / max(response.x, 1e-30), 1.0);
 }
 
-// Solid angle of a planar light, about: exact where it is small.
+// Returns approximately the solid angle of a planar light; it is exact in the limit of a small light.
 float planarSolidAngle(vec3 toCentre, vec3 normal, float area, float extent2)
 {
     const float invD = inversesqrt(max(length2(toCentre) + extent2, MIN_LENGTH2));
     return min(area * abs(dot(normal, toCentre)) * invD * invD * invD, 2.0 * PI);
 }
 
-// Where the mirror ray meets the plane of a light, relative to its centre. A ray that runs away from
-// the plane or along it is taken back to meet it far away, on the side it points to.
+// Returns the point where the mirror ray meets the plane of a light, relative to the light's centre. A
+// ray that does not approach the plane is bent until it meets the plane far away, on the side to which
+// it points.
 vec3 mirrorHit(ShadingPoint p, vec3 toCentre, vec3 normal)
 {
     const float facing = dot(normal, toCentre) < 0.0 ? -1.0 : 1.0;
@@ -70,7 +72,7 @@ vec2 representativeDisc(ShadingPoint p, vec3 toCentre, vec3 normal, float radius
                                   factor * factor);
 }
 
-// Nearest point of the segment to the mirror ray, then of the sphere around it.
+// Takes the segment's point nearest to the mirror ray, then the nearest point of the sphere around it.
 vec2 representativeTube(ShadingPoint p, vec3 toCentre, vec3 axis, float radius)
 {
     const float axis2 = max(length2(axis), MIN_LENGTH2);
@@ -84,14 +86,15 @@ vec2 representativeTube(ShadingPoint p, vec3 toCentre, vec3 axis, float radius)
     const vec3 point = onAxis + toRay * min(reach, 1.0);
     const float axisLength = sqrt(axis2);
     const float invD = inversesqrt(max(length2(onAxis), MIN_LENGTH2));
-    // A thin strip at the axis' distance between the elevations of both ends, and two half discs.
+    // The solid angle is that of a thin strip along the axis and of two half discs at its ends.
     const float along = dot(toCentre, axis) / axisLength;
     const float across2 = max(length2(toCentre) - along * along, radius * radius);
     const float far = along + axisLength;
     const float near = along - axisLength;
     const float invFar = inversesqrt(across2 + far * far);
     const float invNear = inversesqrt(across2 + near * near);
-    // 2 R / H (sin far - sin near), of the two elevations, without cancellation.
+    // The strip is 2 R / H (sin(elevation of far) - sin(elevation of near)), where H is the distance of
+    // the axis' line, written without cancellation.
     const float inv = invFar * invNear;
     const float cosBetween = (across2 + far * near) * inv;
     const float strip = 4.0 * radius * axisLength * sqrt(across2) * (invFar + invNear) * inv /

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stochastic evaluation of area lights: `count` points of a low-discrepancy sequence per light, equal
-// points for equal seeds. Without bias; the truth to compare with inside the engine.
+// Evaluation of area lights by sampling: `count` points of a low-discrepancy sequence per light, the
+// same points for the same seed. It has no bias, so the other methods can be compared with it inside
+// the engine.
 #ifndef CND_LIB_SPECULAR_SAMPLED
 #define CND_LIB_SPECULAR_SAMPLED
 
 #include "lib/brdf.glsl"
 #include "lib/lights/rectangle.glsl"
 
-// Jarzynski and Olano 2020, "Hash functions for GPU rendering": PCG.
+// The hash function PCG (Jarzynski and Olano 2020, "Hash functions for GPU rendering").
 uint pcgHash(uint x)
 {
     const uint state = x * 747796405u + 2891336453u;
@@ -15,8 +16,8 @@ uint pcgHash(uint x)
     return (word >> 22u) ^ word;
 }
 
-// Roberts 2018: the additive sequence of the plastic number in 32-bit fixed point, shifted by the seed
-// (Cranley and Patterson 1976). [0, 1).
+// Returns point i in [0, 1)^2 of the additive sequence of the plastic number (Roberts 2018), in 32-bit
+// fixed point and shifted by the seed (Cranley and Patterson 1976).
 vec2 lowDiscrepancy(uint i, uint seed)
 {
     const uint x = i * 3242174889u + pcgHash(seed);
@@ -24,8 +25,9 @@ vec2 lowDiscrepancy(uint i, uint seed)
     return vec2(x >> 8u, y >> 8u) * (1.0 / 16777216.0);
 }
 
-// What a surface element of size `area` around `point` adds, with the given cosine times distance
-// towards the receiver.
+// Returns the response to an element of the emitter with the given area around `point`.
+// `cosineTimesDistance`: cosine between its normal and the direction to the receiver, times the
+// distance.
 vec2 elementResponse(ShadingPoint p, vec3 point, float cosineTimesDistance, float area)
 {
     const float d2 = max(length2(point), MIN_LENGTH2);
@@ -34,7 +36,8 @@ vec2 elementResponse(ShadingPoint p, vec3 point, float cosineTimesDistance, floa
     return solidAngle * specularResponse(p, point * invD);
 }
 
-// Uniform in the solid angle of the cap around the unit direction c with 1 - cosine of its half angle.
+// The samples are uniform in the solid angle of the cap around the unit direction c.
+// `oneMinusCosine`: 1 - cosine of the cap's half angle.
 vec2 sampledSphere(ShadingPoint p, vec3 c, float oneMinusCosine, uint count, uint seed)
 {
     const vec3 u = anyPerpendicular(c);
@@ -56,7 +59,7 @@ vec2 sampledRectangle(ShadingPoint p, vec3 toCentre, vec3 axisU, vec3 axisV, boo
 {
     if (!facesRectangle(toCentre, axisU, axisV, twoSided))
         return vec2(0.0);
-    const vec3 areaNormal = cross(axisU, axisV); // a quarter of the area long
+    const vec3 areaNormal = cross(axisU, axisV); // its length is a quarter of the area
     const float facing = abs(dot(areaNormal, toCentre));
     vec2 sum = vec2(0.0);
     for (uint i = 0u; i < count; ++i) {
@@ -85,7 +88,8 @@ vec2 sampledDisc(ShadingPoint p, vec3 toCentre, vec3 normal, float radius, bool 
     return sum / float(max(count, 1u));
 }
 
-// The capsule's surface: even along its axis, caps included (Archimedes), and around it.
+// The samples are uniform on the capsule's surface: uniform around the axis and, by Archimedes' theorem
+// also on the end caps, uniform along the axis.
 vec2 sampledTube(ShadingPoint p, vec3 toCentre, vec3 axis, float radius, uint count, uint seed)
 {
     const float axisLength = sqrt(max(length2(axis), MIN_LENGTH2));
