@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shading cost without any search for lights: every pixel evaluates as many lights in each way as
-// contribute to it, taken from a tiny fixed list. The resulting image is meaningless.
+// Measures the cost of shading without any search for lights. Every pixel evaluates as many lights in
+// each way as contribute to it, but takes them from a tiny fixed list, so the image is meaningless.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/pixel_of_lane.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One lane per light. It visits the froxels covered by the bounds of the light's sphere; where the
-// sphere touches the froxel's box, it counts the light or enters it into the froxel's list.
+// One lane per light. It visits the froxels covered by the bounds of the light's sphere of influence.
+// If the sphere touches a froxel's box, it counts the light or enters it into the froxel's list.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

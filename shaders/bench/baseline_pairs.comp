@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// count_pairs.comp for the lists of a baseline. It also counts how often each pixel evaluates in which
-// way.
+// count_pairs.comp for the lists of a baseline. It also counts how many lights each pixel evaluates in
+// each way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require

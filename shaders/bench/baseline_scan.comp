@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prefix sum: light counts of froxels -> starts of their lists. One group; each lane sums a run, then
-// writes it.
+// A prefix sum that turns the light counts of the froxels into the starts of their lists. One group:
+// each lane sums a run of counts, then replaces it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/baselines.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Response to a disc of unit luminance.
+// The response to a disc of unit luminance.
 #include "lib/lights/disc.glsl"
 #include "lib/specular/representative.glsl"
 #include "lib/specular/sampled.glsl"

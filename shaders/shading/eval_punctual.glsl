@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Responses to lights without size.
+// The responses to punctual lights.
 #include "shading/light.glsl"
 
-// Response to unit illuminance on a surface that faces the light, from the unit direction l.
+// Returns the response to a light in the unit direction l that gives a surface facing it unit
+// illuminance.
 vec3 responseFrom(ShadingPoint p, vec3 l)
 {
     vec3 response = diffuseResponse(p, INV_PI * max(dot(p.n, l), 0.0));
@@ -11,7 +12,7 @@ vec3 responseFrom(ShadingPoint p, vec3 l)
     return response;
 }
 
-// Response to unit intensity (point: the same everywhere; spot: on its axis).
+// Returns the response to a light of unit intensity: in all directions (point) or on its axis (spot).
 vec3 intensityResponse(ShadingPoint p, Light light)
 {
     const float d2 = max(length2(light.toLight), MIN_LENGTH2);

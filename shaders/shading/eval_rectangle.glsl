@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Response to a rectangle of unit luminance.
+// The response to a rectangle of unit luminance.
 #include "lib/lights/rectangle.glsl"
 #include "lib/specular/representative.glsl"
 #include "lib/specular/sampled.glsl"

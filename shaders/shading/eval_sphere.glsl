@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Responses to spheres, near and distant, of unit luminance.
+// The responses to spheres, near and distant, of unit luminance.
 #include "lib/lights/sphere.glsl"
 #include "lib/lights/sphere_cap.glsl"
 #include "lib/specular/karis.glsl"
@@ -7,7 +7,8 @@
 #include "shading/light.glsl"
 
 #ifdef LIGHT_FAMILY_SPHERE
-// Response of the specular lobe to a sphere of unit luminance; the closed form is not among these.
+// Returns the response of the specular lobe to a sphere of unit luminance, by any method except the
+// closed form.
 vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 {
     switch (specularMethod) {
@@ -28,7 +29,8 @@ vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 }
 #endif
 
-// A sphere in the four evaluations.
+// Returns the response to a sphere above the horizon. The functions after it evaluate spheres across
+// the horizon, spheres near it, and spheres as points.
 vec3 sphereAbove(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
@@ -49,7 +51,7 @@ vec3 sphereAcross(Receiver r, Light light)
 #else
     const vec2 response = cheapSphereSpecular(r, light, cap);
 #endif
-    // The cap may be below the horizon: rounding, and a receiver inside the sphere.
+    // The cap may be below the horizon because of rounding, or if the receiver is inside the sphere.
     const vec2 specular = cap.NoC > -cap.s ? response : vec2(0.0);
     return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) + schlick(r.p, specular);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions that hosts' shaders include by the name of lib/forward.glsl, which says how to use
-// them, and the bindings of the set FORWARD_SET.
+// The functions that hosts' shaders get by including lib/forward.glsl, which says how to use them, and
+// the bindings of the descriptor set FORWARD_SET.
 #ifndef CND_SHADING_FORWARD
 #define CND_SHADING_FORWARD
 
@@ -31,12 +31,12 @@ layout(scalar, set = FORWARD_SET, binding = FORWARD_NODES) readonly buffer Forwa
 };
 layout(scalar, set = FORWARD_SET, binding = FORWARD_IDS) readonly buffer ForwardIds
 {
-    uint lightIds[]; // by number: low half of the CndLightId, or LIGHT_OF_DEVICE and an index
+    uint lightIds[]; // per light: low half of the CndLightId, or LIGHT_OF_DEVICE + an index
 };
 layout(set = FORWARD_SET, binding = FORWARD_DFG) uniform textureBuffer dfgTexels;
 layout(set = FORWARD_SET, binding = FORWARD_LTC) uniform textureBuffer ltcTexels;
 
-// The table of lib/dfg.glsl.
+// lib/dfg.glsl and lib/specular/ltc.glsl read their tables through these functions.
 vec4 dfgTexel(int entry)
 {
     return texelFetch(dfgTexels, entry);
@@ -57,7 +57,7 @@ vec4 lightEmission(uint light)
     return lightCore[light * LIGHT_CORE_STRIDE + 1u];
 }
 
-// Lights that were found and are not evaluated yet, all of one type.
+// Lights that were found and are to be evaluated. All of them are of one type.
 uint foundLights[PAGE_LIGHTS + 1u];
 
 uint lightAt(uint k)
@@ -68,25 +68,26 @@ uint lightAt(uint k)
 #define LIGHT_FAMILY_ALL
 #include "shading/light_walk.glsl"
 
-// Steps through the lights of one type that reach a position. One at a time.
+// Iterates over the lights of one type that reach a position. A shader may use one cursor at a time.
 struct LightCursor {
-    uint light; // behind nextLight(): its number, for evaluateLight()
+    uint light; // the light that nextLight() has found, an argument for evaluateLight()
     vec3 position;
-    uint next, end; // of the leaf at hand
+    uint next, end; // lights of the present leaf that are not tested yet
     TreeWalk walk;
 };
 
+// Returns a cursor that stands before the first light.
 LightCursor lightsAt(uint type, vec3 position)
 {
     lightType = type;
     const TreeShape tree = forwardView.trees[type];
-    if (IS_DISTANT) // all of them, without a tree
+    if (IS_DISTANT) // every distant light reaches every position, so there is no tree
         return LightCursor(0u, position, tree.firstLight, tree.firstLight + tree.lightCount,
                            TreeWalk(0u, 0u, 0u, 0u, true));
     return LightCursor(0u, position, 0u, 0u, beginTreeWalk(tree, TREE_LEVELS));
 }
 
-// Goes to the next light. False after the last one.
+// Goes to the next light. Returns false after the last one.
 bool nextLight(inout LightCursor c)
 {
     const TreeShape tree = forwardView.trees[lightType];
@@ -114,7 +115,7 @@ bool nextLight(inout LightCursor c)
     return found;
 }
 
-// What a surface prepares once for all lights.
+// Returns what a surface prepares once for all lights.
 Receiver forwardReceiver(Surface surface, vec3 position)
 {
     ShadingPoint p =
@@ -126,7 +127,7 @@ Receiver forwardReceiver(Surface surface, vec3 position)
     return makeReceiver(p, 0.0, 1u, 0u);
 }
 
-// Luminance towards the eye, cd/m^2, that a light of the cursor's type adds.
+// Returns the luminance towards the eye, in cd/m^2, that a light of the cursor's type adds.
 vec3 evaluateLight(Receiver receiver, uint light)
 {
     foundLights[0] = light;
@@ -135,7 +136,7 @@ vec3 evaluateLight(Receiver receiver, uint light)
     return total(sums);
 }
 
-// The first type from this one on that has lights, or LIGHT_TYPE_COUNT.
+// Returns `type` or the next type that has lights, or LIGHT_TYPE_COUNT if there is none.
 uint typeWithLights(uint type)
 {
     while (type < LIGHT_TYPE_COUNT &&
@@ -144,8 +145,8 @@ uint typeWithLights(uint type)
     return min(type, LIGHT_TYPE_COUNT);
 }
 
-// Luminance towards the eye, cd/m^2, of a surface under all lights: what the view's own pass adds to
-// the radiance of an opaque one, in the same order.
+// Returns the luminance towards the eye, in cd/m^2, of a surface under all lights. It is what the
+// view's own pass adds to the radiance of an opaque surface, summed in the same order.
 vec3 litSurface(Surface surface, vec3 position)
 {
     const Receiver receiver = forwardReceiver(surface, position);
@@ -155,8 +156,9 @@ vec3 litSurface(Surface surface, vec3 position)
         return luminance;
     LightCursor cursor = lightsAt(type, position);
     Sums sums = noLight();
-    // Conditions at the end, as of SHADE_FOUND; a lane that is done may run once more (Mesa 22.3): its
-    // cursor is after the last light then, or foundLights has room for one more.
+    // The loops test their conditions at the end, for the reason given at SHADE_FOUND. With Mesa 22.3 a
+    // lane whose condition is false may run once more. This is harmless, because its cursor is after
+    // the last light, or foundLights has room for one more.
     do {
         uint count = 0u;
         bool more;
@@ -177,8 +179,9 @@ vec3 litSurface(Surface surface, vec3 position)
     return luminance;
 }
 
-// Illuminance, lx, that a light of the cursor's type gives a surface that faces its centre, and the
-// unit direction towards that: for volumes, whose phase function is evaluated for that direction.
+// Returns the illuminance, in lx, that a light of the cursor's type gives a surface that faces its
+// centre, and the unit direction to the centre. It is meant for volumes, which evaluate their phase
+// function for this direction.
 vec3 illuminanceTowards(uint light, vec3 position, out vec3 direction)
 {
     direction = normalize(towardsLight(lightCentre(light).xyz, position));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light as a receiver sees it. The includer provides lightCentre() and lightEmission(); with
-// CANDELABRA_VISIBILITY lightIds[], and the host the shadow term.
+// A light as a receiver sees it. The includer provides lightCentre() and lightEmission() and, with
+// CANDELABRA_VISIBILITY, lightIds[]. The host then provides the shadow term.
 #ifndef CND_SHADING_LIGHT
 #define CND_SHADING_LIGHT
 
@@ -13,7 +13,7 @@
 #include "lib/shadow_query.glsl"
 #endif
 
-// (1 - (d / r)^4)^2 for d < r, else 0; 1 for infinite r. Lagarde and de Rousiers 2014, eq. 26.
+// Returns (1 - (d / r)^4)^2 for d < r, else 0; 1 for infinite r (Lagarde and de Rousiers 2014, eq. 26).
 float influenceWindow(float d2, float influenceRadius2)
 {
     const float x = min(d2 / influenceRadius2, 1.0);
@@ -21,12 +21,12 @@ float influenceWindow(float d2, float influenceRadius2)
     return w * w;
 }
 
-// What is known of a light at a point.
+// A light relative to a point.
 struct Light {
     uint index;
-    vec3 toLight;
-    float boundingRadius; // of the emitter
-    vec3 emission; // times the influence window
+    vec3 toLight; // from the point to the centre; distant lights: unit direction
+    float boundingRadius; // radius of a sphere around the centre that holds the emitter
+    vec3 emission; // times the influence window and the shadow term
 };
 
 Light readLight(Receiver r, uint index)
@@ -47,20 +47,20 @@ Light readLight(Receiver r, uint index)
     return light;
 }
 
-// Each light has samples of its own.
+// Returns a seed for sampling a light. Each pair of pixel and light has its own.
 uint lightSeed(Receiver r, uint light)
 {
     return pcgHash(r.sampleSeed ^ pcgHash(light));
 }
 
-// The diffuse lobe's response to light that gives a white surface so much.
+// Returns the response of the diffuse lobe to a light with this form factor.
 vec3 diffuseResponse(ShadingPoint p, float formFactor)
 {
     return HAS_DIFFUSE ? p.albedo * formFactor : vec3(0.0);
 }
 
-// The light at a distance of about 1, scaled by `scale`. The response to an area light does not depend
-// on the scale, and there no product of lengths overflows.
+// Returns the light scaled to a distance of about 1, and the scale. The response to an area light does
+// not depend on the scale, and at this distance no product of lengths overflows.
 Light atUnitDistance(Light light, out float scale)
 {
     const float size2 = light.boundingRadius * light.boundingRadius;

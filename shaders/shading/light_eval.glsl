@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outgoing luminance of one shaded point under one light. The includer provides lightCentre(),
-// lightEmission(), lightShapes[] and ltcTexel(); with CANDELABRA_VISIBILITY also lightIds[], and the
-// host the shadow term.
+// The outgoing luminance of one shaded point under one light. The includer provides lightCentre(),
+// lightEmission(), lightShapes[], ltcTexel() and, with CANDELABRA_VISIBILITY, lightIds[]. The host then
+// provides the shadow term.
 #ifndef CND_SHADING_LIGHT_EVAL
 #define CND_SHADING_LIGHT_EVAL
 
 #include "shading/light.glsl"
 
-// A file for each family of lights. That of the family at hand defines GENERAL_RESPONSE, the function
-// that gives the response to a light of unit emission.
+// Each family of lights has a file. The file of the family that the shader is compiled for defines
+// GENERAL_RESPONSE, the function that returns the response to a light of unit emission.
 #if defined(LIGHT_FAMILY_PUNCTUAL) || defined(LIGHT_FAMILY_ALL)
 #include "shading/eval_punctual.glsl"
 #endif
@@ -25,7 +25,8 @@
 #include "shading/eval_disc.glsl"
 #endif
 
-// The same for all families in one shader. Spheres are evaluated in more than one way.
+// The functions of GENERAL_RESPONSE for shaders with all families. The other ways in which spheres are
+// evaluated are not in this list.
 #define GENERAL_RESPONSES(X)                                                                       \
     X(PUNCTUAL, punctualResponse)                                                                  \
     X(SPHERE, sphereAcross)                                                                        \
@@ -33,8 +34,9 @@
     X(RECTANGLE, rectangleResponse)                                                                \
     X(DISC, discResponse)
 
-// Outgoing luminance by evaluation. A function each: drivers inline all of it at every call before
-// they drop what specialisation rules out, and one function for all took minutes to compile.
+// Defines a function that returns the outgoing luminance by one way of evaluation. Each way has a
+// function of its own: drivers inline a function at every call before they drop the code that
+// specialisation makes unreachable, and one function for all ways took minutes to compile.
 #define EVALUATION(name, response)                                                                 \
     vec3 name(Receiver r, uint index)                                                              \
     {                                                                                              \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The type of the lights at hand. All lights of a dispatch are of one type, a specialisation constant;
-// shaders of hosts go from type to type.
+// The type of the lights that are evaluated. All lights of a dispatch are of one type, which is a
+// specialisation constant. Shaders of hosts evaluate one type after the other.
 #ifndef CND_SHADING_LIGHT_TYPE
 #define CND_SHADING_LIGHT_TYPE
 
@@ -19,7 +19,7 @@ layout(constant_id = SPEC_LIGHT_TYPE) const uint lightType = LIGHT_SPHERE;
 const bool IS_DISTANT = (TYPES_WITH_POSITION >> lightType & 1u) == 0u;
 #endif
 
-// From the point to the light's centre; unit length for distant lights.
+// Returns the vector from the point to the light's centre, or the unit direction of a distant light.
 vec3 towardsLight(vec3 centre, vec3 position)
 {
     return IS_DISTANT ? centre : centre - position;

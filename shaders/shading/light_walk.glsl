@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks a pixel's lights in blocks: testing is in step, so its cost is one pass over the list; what the
-// lanes found differs little between neighbours, so shading it diverges little. Each way of evaluation
-// has its own loop and its own sum, in light order: results do not depend on where blocks begin.
-// The includer provides uint lightAt(uint k), the k-th light.
+// Walks a pixel's lights in blocks. First all lanes test the lights of a block in step, at the cost of
+// one pass over the list. Then each lane shades the lights that passed; these differ little between
+// neighbours, so the loops diverge little. Each way of evaluation has its own loop and its own sum, in
+// the order of the lights, so results do not depend on where blocks begin.
+// The includer provides uint lightAt(uint k), which returns the k-th light.
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 
 #include "shading/light_eval.glsl"
 
-const uint WALK_BLOCK = 64u; // lights tested together: bits of two words
+const uint WALK_BLOCK = 64u; // lights of a block, which are the bits of two words
 
-// One bit per light of a block, by evaluation.
+// The lights of a block that are to be evaluated in each way, one bit per light.
 struct Found {
     uvec2 asPoint, above, near, general;
 };
 
-// The same for half a block, raw: `reaching` holds all lights that reach the point; the others may also
-// hold lights that do not, and lights of those before them.
+// Results of the tests for half a block. `reaching` holds the lights that reach the point. The other
+// masks may also hold lights that do not reach it, and a light may be in several of them.
 struct FoundWord {
     uint reaching, asPoint, above, near;
 };
 
-// Lights first .. first + count - 1, 1..32 of them. Spheres are sorted by where they stand to the
-// horizon: no division, and one comparison each, because this runs for every light of a list.
-// `testInfluence`: leave out lights that are beyond their influence (they would add 0).
+// Tests the lights first .. first + count - 1, where count is 1..32. Spheres are sorted by their
+// position relative to the horizon, without a division and with few comparisons, because this runs for
+// every light of a list. `testInfluence`: leave out lights whose sphere of influence does not hold the
+// point (they would add 0).
 FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 {
     FoundWord found = FoundWord(0u, 0u, 0u, 0u);
@@ -44,7 +46,8 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
         found.above |= height >= r.aboveFrom * radius ? bit : 0u;
 #endif
 #ifdef LIGHT_FAMILY_CONIC
-        // Inside a sphere its cap is that of makeSphereCap; in its very centre all of this is 0.
+        // For a point inside the sphere the cap is limited as in makeSphereCap. At the centre both
+        // sides of the comparisons are 0.
         const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
         const bool whole = height * abs(height) > radius2;
         found.near |= whole || radius2 < r.smallCap * d2 ? bit : 0u;
@@ -57,7 +60,7 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
     return found;
 }
 
-// Up to WALK_BLOCK lights; without any, `first` still is one that can be read.
+// Tests up to WALK_BLOCK lights. Even if count is 0, lightAt(first) must be valid.
 Found findLights(Receiver r, uint first, uint count, bool testInfluence)
 {
     const FoundWord low = findWord(r, first, min(count, 32u), testInfluence);
@@ -82,7 +85,7 @@ Found findLights(Receiver r, uint first, uint count, bool testInfluence)
     return found;
 }
 
-// Index of the lowest bit, and the bits without it.
+// Returns the index of the lowest bit that is set.
 uint lowest(uvec2 bits)
 {
     return bits.x != 0u ? findLSB(bits.x) : 32u + findLSB(bits.y);
@@ -98,9 +101,9 @@ bool none(uvec2 bits)
     return (bits.x | bits.y) == 0u;
 }
 
-// Adds the lights of a block that are evaluated in one way to their sum. With the condition at the
-// end a loop runs as often as the lane with the most lights needs; at the front, once more on some
-// devices.
+// Adds the lights of a block that are evaluated in one way to their sum. The loop tests its condition
+// at the end, so that it runs as often as the lane with the most lights needs. With the condition at
+// the front some devices run it once more.
 #define SHADE_FOUND(sum, r, first, found, evaluate)                                                \
     if (!none(found)) {                                                                            \
         uvec2 left = found;                                                                        \
@@ -112,7 +115,7 @@ bool none(uvec2 bits)
 
 #define IF(condition, bits) ((condition) ? (bits) : uvec2(0u))
 
-// What lights add, by evaluation.
+// Sums over lights, one per way of evaluation.
 struct Sums {
     vec3 asPoint, above, near, general;
 };
@@ -127,7 +130,7 @@ vec3 total(Sums sums)
     return (sums.asPoint + sums.above) + (sums.near + sums.general);
 }
 
-// `first` and `count` as of findLights.
+// Adds the light of a block to the sums. The parameters are those of findLights.
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
     const Found found = findLights(r, first, count, testInfluence);
@@ -141,8 +144,8 @@ void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testIn
     SHADE_FOUND(sums.above, r, first, found.above, evaluateAbove)
 #endif
 #ifdef LIGHT_FAMILY_ALL
-    // The block is of one type. A loop each: what a device pays for branches that it does not take, it
-    // pays once for a block.
+    // All lights of the block are of one type. Each family has its own loop, so that a device that pays
+    // for branches that no lane takes pays for them only once per block.
     const uint family = FAMILY_OF_TYPE[lightType];
 #define X(FAMILY, response)                                                                        \
     SHADE_FOUND(sums.general, r, first, IF(family == FAMILY_##FAMILY, found.general),              \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the surfaces at hand may have: the class of their tile is a specialisation constant.
+// Which lobes the shaded surfaces may have. The class of their tile is a specialisation constant.
 #ifndef CND_SHADING_LOBES_OF_CLASS
 #define CND_SHADING_LOBES_OF_CLASS
 
@@ -11,7 +11,7 @@ const uint tileClass = CLASS_ANY;
 #else
 layout(constant_id = SPEC_TILE_CLASS) const uint tileClass = CLASS_ANY;
 #endif
-// CLASS_DIFFUSE is shaded by SPECULAR_NONE.
+// CLASS_DIFFUSE has no specular lobe because it is shaded with SPECULAR_NONE.
 const bool HAS_DIFFUSE = tileClass != CLASS_SPECULAR;
 
 #endif

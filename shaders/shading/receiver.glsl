@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The specular method, and what a surface point prepares once for all lights.
+// The specular method, and the values that a surface point prepares once for all lights.
 #ifndef CND_SHADING_RECEIVER
 #define CND_SHADING_RECEIVER
 
@@ -13,7 +13,7 @@
 #include "lib/specular/ltc.glsl"
 #endif
 
-// areaMethod: of tubes, rectangles and discs.
+// specularMethod is the method for spheres, areaMethod the one for tubes, rectangles and discs.
 #ifdef LIGHT_FAMILY_ALL
 const uint specularMethod = SPECULAR_CONIC;
 const uint areaMethod = SPECULAR_LTC;
@@ -26,32 +26,33 @@ const bool HAS_BUDGET = errorBudget != 0u;
 #endif
 const bool IS_LTC = areaMethod == SPECULAR_LTC;
 
-// The bound of the error of a point is not proven for errors of the specular lobe beyond this.
+// The error bound for lights evaluated as points was measured only for errors of the specular lobe up
+// to this.
 const float MAX_POINT_ERROR = 0.3;
 
 // Largest error, relative to the lobe's highest response, of one shading node for a light between one
-// and two of its half angles above the horizon, for F0 = 0.04 and F0 = 1: measured, 3,000 surfaces.
+// and two of its half angles above the horizon, for F0 = 0.04 and F0 = 1 (measured on 3,000 surfaces).
 const vec2 ONE_NODE_ERROR = vec2(0.21, 0.063);
 
-// What a pixel prepares once for all lights.
+// The values that a pixel prepares once for all lights.
 struct Receiver {
     ShadingPoint p;
 #ifdef HAS_COSINES
-    LtcPoint ltc; // IS_LTC
+    LtcPoint ltc; // set if IS_LTC
 #endif
-    uint sampleCount; // SPECULAR_SAMPLED
+    uint sampleCount; // SPECULAR_SAMPLED: samples per light
     uint sampleSeed;
-    float aboveFrom; // spheres: n . toLight / R from which one is evaluated as above the horizon
+    float aboveFrom; // spheres with n . toLight / R >= aboveFrom are evaluated as above the horizon
 #ifdef LIGHT_FAMILY_CONIC
     ConicPoint conic;
-    float smallCap;   // (R / d)^2 up to which a sphere across the horizon is not clipped
-    float pointLimit; // (R / d)^2 up to which one above the horizon is evaluated as a point
+    float smallCap;   // spheres across the horizon with (R / d)^2 < smallCap are not clipped
+    float pointLimit; // spheres above the horizon with (R / d)^2 < pointLimit are evaluated as points
 #endif
 };
 
-// An error budget as a share of the specular lobe's highest response. The diffuse part is exact, so
-// the budget grows by what that adds to the response: a specular peak of at most
-// F s^2 / (4 alpha^2 NoV) against albedo s^2.
+// Returns an error budget, which is relative to the highest response of both lobes, as a share of the
+// specular lobe's highest response. The diffuse response is exact, so the budget grows by its share:
+// albedo s^2, against a specular peak of at most F s^2 / (4 alpha^2 NoV).
 float specularShare(ShadingPoint p, float budget)
 {
     const vec3 F = mix(p.F0, vec3(p.F90), pow5(1.0 - p.NoV));
@@ -65,10 +66,11 @@ float lowestF0(ShadingPoint p)
     return min(p.F0.x, min(p.F0.y, p.F0.z));
 }
 
-// Largest (R / d)^2 whose evaluation as a point, at least two of its half angles above the horizon,
-// errs by at most `share` of the lobe's highest response. With q = (s^2 / 8 alpha^2) (1 + 1 / NoV^2)
-// the error was below 1.1 q for F0 = 1 and below (1.15 + 3.9 alpha) q for F0 = 0.04, whose Fresnel
-// term changes over the light: measured, q < 0.3, 1,400 surfaces with 80 lights each.
+// Returns the largest (R / d)^2 of a light at least two of its half angles above the horizon for which
+// the evaluation as a point has an error of at most `share` of the lobe's highest response. With
+// q = (s^2 / 8 alpha^2) (1 + 1 / NoV^2), the error was below 1.1 q for F0 = 1 and below
+// (1.15 + 3.9 alpha) q for F0 = 0.04, where Fresnel's term changes over the light (measured for q < 0.3
+// on 1,400 surfaces with 80 lights each).
 float pointLimit(ShadingPoint p, float share)
 {
     const float perQ = 1.15 + 3.9 * p.alpha * (1.0 - lowestF0(p));
@@ -76,7 +78,7 @@ float pointLimit(ShadingPoint p, float share)
     return q * 8.0 * p.alpha * p.alpha / (1.0 + 1.0 / (p.NoV * p.NoV));
 }
 
-// `sampleSeed`: of the pixel.
+// `budget`: largest error, relative to the highest response; `sampleSeed`: the seed of the pixel.
 Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampleSeed)
 {
     Receiver r;

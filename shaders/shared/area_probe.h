@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records of the probe of area lights.
+// Records that cross between tests/gpu/test_area_lights.cpp and probes/area_lights.comp.
 #ifndef CND_SHARED_AREA_PROBE_H
 #define CND_SHARED_AREA_PROBE_H
 
@@ -7,11 +7,12 @@
 
 GPU_BEGIN
 
-// Area lights: the point at the origin, normal +z, eye towards v.
+// One area light. The shaded point is at the origin, its normal is +z, the eye is in the direction
+// v.
 const uint AREA_PROBE_TABLE = 2u; // the table of linearly transformed cosines
 struct AreaProbeInput {
     uint type;     // LIGHT_SPHERE, LIGHT_TUBE, LIGHT_RECTANGLE or LIGHT_DISC
-    uint twoSided; // rectangle and disc
+    uint twoSided; // rectangles and discs
     uint seed;
     float alpha;
     vec3 v;
@@ -26,7 +27,7 @@ GPU_SIZE(AreaProbeInput, 68)
 struct AreaProbeOutput {
     float formFactor;
     vec2 ltc;
-    vec2 representative; // of a sphere: 0, it has its own
+    vec2 representative; // 0 for spheres, which have a method of their own
     vec2 sampled;        // AREA_PROBE_SAMPLES samples
 };
 GPU_SIZE(AreaProbeOutput, 28)

@@ -11,7 +11,7 @@ GPU_BEGIN
 
 const uint BENCH_GROUP = 64u;
 
-const uint BENCH_CORE = 0u; // lights as in lighting.h
+const uint BENCH_CORE = 0u; // lights, as in lighting.h
 const uint BENCH_CORE_WORDS = 1u;
 const uint BENCH_SHAPES = 2u;
 const uint BENCH_INPUT = 3u;
@@ -34,16 +34,16 @@ struct BenchReceiver {
 };
 GPU_SIZE(BenchReceiver, 28)
 
-// What a light of unit emission gives: the form factor, the specular response with F = 1 and with
-// F = (1 - VoH)^5.
+// The response to a light of unit emission: the form factor f, and the specular response with F = 1
+// (a) and with F = (1 - VoH)^5 (b).
 struct BenchResponse {
     float f, a, b;
 };
 GPU_SIZE(BenchResponse, 12)
 
-// Specialisation constants beside those of lighting.h.
+// Specialisation constants in addition to those of lighting.h.
 const uint SPEC_BENCH_EVALUATION = 16u; // time_lights: EVALUATE_*
-// The loops of shading/light_walk.glsl.
+// The ways in which shading/light_walk.glsl evaluates lights.
 const uint EVALUATE_POINT = 0u;   // sphere whose size is within the error budget
 const uint EVALUATE_ABOVE = 1u;   // sphere above the horizon
 const uint EVALUATE_NEAR = 2u;    // sphere that nearly touches the horizon, or tiny across it
@@ -53,7 +53,7 @@ const uint BENCH_FORM_FACTOR_NONE = 0u;   // the loop alone
 const uint BENCH_FORM_FACTOR_ROBUST = 1u; // lib/lights/sphere.glsl
 const uint BENCH_FORM_FACTOR_NAIVE = 2u;  // acos and atan
 
-// --- sweep_inputs: random and adversarial inputs, made from a seed and an index
+// --- sweep_inputs: random and adversarial inputs, generated from a seed and an index
 #define CND_SWEEP_SLICES(X)                                                                        \
     X(0, ANYTHING, "anything: roughness, view, size and direction drawn freely")                   \
     X(1, SCALES, "distances and sizes from 1e-6 to 1e7 m")                                         \
@@ -70,10 +70,10 @@ const uint BENCH_FORM_FACTOR_NAIVE = 2u;  // acos and atan
 CND_SWEEP_SLICES(X)
 #undef X
 
-const uint SWEEP_OUTPUT = 4u; // SweepRecord, one per lane (recording) or the first bad ones
+const uint SWEEP_OUTPUT = 4u; // SweepRecord: one per lane when recording, else the first bad ones
 const uint SWEEP_COUNTERS = 5u;
-const uint SWEEP_MAX_BAD = 64u;     // records of bad responses kept per dispatch
-const uint SPEC_SWEEP_RECORD = 18u; // 1: record every lane, the light with unit emission
+const uint SWEEP_MAX_BAD = 64u;     // how many bad responses a dispatch keeps
+const uint SPEC_SWEEP_RECORD = 18u; // 1: record every lane, with lights of unit emission
 struct SweepParams {
     uint count; // lanes
     uint slice; // SWEEP_*
@@ -85,21 +85,22 @@ struct SweepParams {
 };
 GPU_SIZE(SweepParams, 28)
 
+// Numbers of responses. bad: responses that are any of the other three.
 struct SweepCounters {
-    uint nan, infinite, negative, bad; // responses; bad: any of them
+    uint nan, infinite, negative, bad;
 };
 GPU_SIZE(SweepCounters, 16)
 
-// One configuration: the point and the light as light_eval.glsl sees them, and what came out.
+// One configuration: the point and the light that light_eval.glsl gets, and the response.
 struct SweepRecord {
     vec3 position; // m
     vec3 n;
     vec3 v;
     float perceptualRoughness;
-    vec4 centreRadius;      // bounding radius
-    vec4 emissionInfluence; // squared influence radius
+    vec4 centreRadius;      // centre, bounding radius
+    vec4 emissionInfluence; // emission, squared influence radius
     LightShape shape;
-    vec3 response; // recording: BenchResponse; else the outgoing luminance
+    vec3 response; // a BenchResponse when recording, else the outgoing luminance
     uint index;
 };
 GPU_SIZE(SweepRecord, 120)

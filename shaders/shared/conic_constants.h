@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every constant of the closed-form specular of sphere lights (lib/specular/conic*.glsl) that was
-// fitted or chosen. The shaders, their transcription in double precision (tools/transcription) read
-// them here. What is derived, and what only keeps a quotient or a root from rounding badly, stands
-// in the formulas.
+// fitted or chosen. The shaders and their transcription in double precision (tools/transcription)
+// read them here. Constants that are derived, or that only protect a quotient or a root from
+// rounding, are in the formulas.
 #ifndef CND_SHARED_CONIC_CONSTANTS_H
 #define CND_SHARED_CONIC_CONSTANTS_H
 
@@ -10,15 +10,16 @@
 
 GPU_BEGIN
 
-// --- Fitted together, to quadrature: X(name, value, what it weighs).
-// They place the nodes at which shadowing and Fresnel are taken (lib/specular/conic_shading.glsl
-// explains the terms). All are dimensionless and positive. Where the text names a value for a disc,
-// a derivation exists for a small disc of slopes in a lobe that is constant over it; the fit
-// corrects it for real lobes and lights. Residuals, in percent of the highest response: mean 0.05,
-// 99th percentile 1.0, largest 3.1 with Fresnel 1; 0.11, 2.2 and 12 with F0 = 0.04.
+// --- Fitted together, to results of quadrature: X(name, value, meaning).
+// They place the nodes at which shadowing and Fresnel are evaluated
+// (lib/specular/conic_shading.glsl explains the terms). All are dimensionless and positive. If the
+// meaning includes a value for a disc, that value was derived for a small disc of slopes in a lobe
+// that is constant over the disc; the fit corrects it for real lobes and lights. Residuals, in
+// percent of the highest response: with F = 1 mean 0.05, 99th percentile 1.0, largest 3.1; with F0
+// = 0.04 mean 0.11, 99th percentile 2.2, largest 12.
 //
-// The first five are the mean of N.L over the part of a cap above the horizon, divided by the
-// highest N.L there. u is the share of the cap's diameter above the horizon, 0..1.
+// The first five are the coefficients of the mean of N.L over the part of a cap above the horizon,
+// divided by the highest N.L there. u is the share of the cap's diameter above the horizon, 0..1.
 #define CND_CONIC_FITTED(X)                                                                        \
     X(CONIC_CUT_MEAN, 0.3653f, "mean over highest N.L of a cut cap, where it sets (u = 0)")        \
     X(CONIC_CUT_MEAN_U, 0.2182f, "mean over highest N.L: term in u")                               \
@@ -61,16 +62,17 @@ GPU_BEGIN
 CND_CONIC_FITTED(X)
 #undef X
 
-// --- Fitted alone, minimax (lib/specular/conic_clip.glsl).
-// Area of a segment of a circle over that of the circle, u: its height over the diameter, 0..1:
-//   u^(3/2) (CONIC_SEGMENT - u (CONIC_SEGMENT_U + CONIC_SEGMENT_U2 u)).
-// CONIC_SEGMENT is 16 / (3 pi), the start of the series, and all three together give 1 at u = 1, so
-// one number was left to fit. Largest error 0.0147 (the best value would leave 0.0102).
+// --- Fitted separately, minimax (lib/specular/conic_clip.glsl).
+// The area of a segment of a circle, divided by the area of the circle, is about
+//   u^(3/2) (CONIC_SEGMENT - u (CONIC_SEGMENT_U + CONIC_SEGMENT_U2 u)),
+// where u in 0..1 is the height of the segment, divided by the diameter. CONIC_SEGMENT is
+// 16 / (3 pi), the start of the series, and the sum is 1 at u = 1, so one number was left to fit.
+// The largest error is 0.0147 (with the best value it would be 0.0102).
 const float CONIC_SEGMENT = 1.698f;
 const float CONIC_SEGMENT_U = 0.438f;
 const float CONIC_SEGMENT_U2 = 0.26f;
-// atan(t) = t - T3 t^3 + T5 t^5 - ... - T15 t^15 for t in 0..1; largest error 5.3e-8 rad. The first
-// term is exactly t, because the arcs of small caps cancel down to it.
+// atan(t) = t - T3 t^3 + T5 t^5 - ... - T15 t^15 for t in 0..1, with a largest error of 5.3e-8 rad.
+// The first term is exactly t, because for small caps it is all that cancellation leaves.
 const float CONIC_ATAN_T3 = 0.33331659f;
 const float CONIC_ATAN_T5 = 0.19962704f;
 const float CONIC_ATAN_T7 = 0.13976583f;
@@ -79,27 +81,28 @@ const float CONIC_ATAN_T11 = 0.05777362f;
 const float CONIC_ATAN_T13 = 0.02304016f;
 const float CONIC_ATAN_T15 = 0.00435541f;
 
-// --- Chosen, from what float32 resolves.
-// Lowest NoV; below it the mean slope exceeds what float32 resolves. v is tilted up together with
-// the number: with the number alone clamped, v . n and NoV disagree and the cap is no conic.
+// --- Chosen for the resolution of float32.
+// The lowest NoV; below it the mean slope exceeds what float32 resolves. v is tilted together with
+// it: if only the number were clamped, v . n and NoV would disagree and the cap would be no conic.
 const float MIN_CONIC_NOV = 0.02f;
-// Lowest v . m at the mean slope: rounding can bring it to zero and below.
+// The lowest v . m at the mean slope, because rounding can make it zero or negative.
 const float MIN_CONIC_MU = 1e-6f;
 // Caps with s^2 <= SMALL_CAP alpha^2 (s: sine of the half angle) are not clipped exactly, because
 // the arcs of a tiny cone cancel in float32: the error is about eps (2 alpha / s)^2, with eps =
 // 6e-8.
 const float SMALL_CAP = 0.003f;
-// Upper bound of the squared slope radius, in units of alpha^2: reached far outside the lobe only.
+// Upper bound of the squared slope radius, in units of alpha^2. It is reached only far outside the
+// lobe.
 const float MAX_SLOPE_VARIANCE = 1e6f;
-// Keeps quotients of variances of N.L finite where the light is a point.
+// Keeps quotients of variances of N.L finite for lights as small as a point.
 const float MIN_VARIANCE = 1e-12f;
 
-// --- Classes of sphere lights by their height above the horizon. A class names the function of
-// lib/specular/conic.glsl that is meant for the light.
+// --- Classes of sphere lights by their height above the horizon. The class decides which function
+// of lib/specular/conic.glsl evaluates the light.
 const uint CONIC_BELOW = 0u;   // wholly below the horizon: no response
-const uint CONIC_ABOVE = 1u;   // n . c >= 2 s, a half angle between it and the horizon: conicAbove
-const uint CONIC_NEAR = 2u;    // above but nearer, or crossing the horizon and small: conicNear
-const uint CONIC_CLIPPED = 3u; // crossing: conicClipped
+const uint CONIC_ABOVE = 1u;   // n . c >= 2 s, about a half angle above the horizon: conicAbove
+const uint CONIC_NEAR = 2u;    // above but nearer, or small and crossing the horizon: conicNear
+const uint CONIC_CLIPPED = 3u; // crossing the horizon: conicClipped
 
 GPU_END
 

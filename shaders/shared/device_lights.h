@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights in a buffer of the host's on the device.
+// Lights in a buffer on the device that the host fills (CndDeviceLights).
 #ifndef CND_SHARED_DEVICE_LIGHTS_H
 #define CND_SHARED_DEVICE_LIGHTS_H
 
@@ -7,7 +7,7 @@
 
 GPU_BEGIN
 
-// CndDeviceLight.
+// The same members as CndDeviceLight.
 struct DeviceLight {
     vec3 position;
     float radius;
@@ -16,26 +16,28 @@ struct DeviceLight {
 };
 GPU_SIZE(DeviceLight, 32)
 
-// Beyond these the squares of lengths are no numbers.
+// Limits of coordinates and lengths in metres: beyond them, squares of lengths are infinite or 0 in
+// float32.
 const float MAX_LIGHT_COORDINATE = 1e15f;
 const float MIN_LIGHT_LENGTH = 1e-15f;
 
+// How many lights were valid and taken, and how many were not valid.
 struct DeviceLightCounts {
     uint taken, rejected;
 };
 GPU_SIZE(DeviceLightCounts, 8)
 
-// --- device_lights: into the first records of the light set, one lane per light
+// --- device_lights: writes the first records of the light set, one lane per light
 const uint DEVICE_LIGHTS_GROUP = 64u;
 const uint DEVICE_LIGHTS_FROM = 0u;
 const uint DEVICE_LIGHTS_COUNT = 1u;
 const uint DEVICE_LIGHTS_RECORDS = 2u;
-const uint DEVICE_LIGHTS_COUNTS = 3u; // cleared before
+const uint DEVICE_LIGHTS_COUNTS = 3u; // DeviceLightCounts, cleared before the dispatch
 struct DeviceLightsParams {
     uint type; // LIGHT_*
     uint maxCount;
     uint hasCount; // 0: there are maxCount lights
-    uint layers;   // of all of them
+    uint layers;   // layers of all these lights
 };
 GPU_SIZE(DeviceLightsParams, 16)
 

@@ -12,7 +12,7 @@ const uint PROBE_TABLE = 2u; // texel buffer
 
 struct DfgProbeInput {
     float NoV, alpha;
-    float albedo, F0, F90; // of a grey material
+    float albedo, F0, F90; // a grey material
     uint joining;          // LOBES_*
     uint energyCompensation;
 };

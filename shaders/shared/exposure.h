@@ -7,9 +7,10 @@
 
 GPU_BEGIN
 
-// Bins come from the bits of a float: exponent and 3 bits of mantissa make 8 bins per octave, of
-// equal width inside the octave, over 32 octaves from 2^-12 to 2^20 cd/m^2 (EV100 -9 to 23). Four
-// more bits of mantissa are summed per bin, so that the mean inside a bin is known too.
+// The bin of a luminance is taken from the bits of the float: the exponent and 3 bits of mantissa
+// make 8 bins per octave, of equal width inside the octave, over 32 octaves from 2^-12 to
+// 2^20 cd/m^2 (EV100 -9 to 23). The next 4 bits of mantissa are summed per bin, so that the mean
+// inside a bin is known too.
 const uint HISTOGRAM_BINS = 256u;
 const uint HISTOGRAM_BIN_SHIFT = 20u;
 const uint HISTOGRAM_FRACTION_SHIFT = 16u;
@@ -18,9 +19,9 @@ const uint HISTOGRAM_FIRST_CODE = 920u; // (127 - 12) * 8
 const int HISTOGRAM_MIN_EXPONENT = -12;
 const float HISTOGRAM_MIN_LUMINANCE = 0.000244140625f; // 2^-12
 const float HISTOGRAM_MAX_LUMINANCE = 1048576.0f;      // 2^20
-// Pixels below the smallest normal float (zero, negative) have no light at all: an empty
-// background, say. They are counted but do not take part in the average, unless there is nothing
-// else.
+// Pixels below the smallest normal float (also zero and negative ones) have no light at all, for
+// instance an empty background. They are counted but are not part of the average, unless there are
+// no other pixels.
 const float HISTOGRAM_BLACK = 1.17549435e-38f; // 2^-126; devices may flush what is smaller
 const uint MAX_METERING_WEIGHT = 15u;
 
@@ -32,24 +33,27 @@ struct HistogramData {
     uint counts[HISTOGRAM_BINS];     // sums of weights
     uvec2 fractions[HISTOGRAM_BINS]; // sums of weight * fraction, 64 bit: low, high
     uint invalidPixels;              // NaN luminance
-    uint blackWeight;                // the part of counts[0] that has no light at all
+    uint blackWeight;                // weight in counts[0] of pixels without any light
 };
 GPU_SIZE(HistogramData, 3080)
 
 struct ExposureState {
     float targetEv100;
     float adaptedEv100;
-    float exposure; // factor on luminance, compensation included
+    float exposure; // factor on luminance, including the exposure compensation
     uint owner;     // AdaptExposureParams::owner of the frame that wrote it
 };
 GPU_SIZE(ExposureState, 16)
-// Owners count up from a value that fresh memory hardly holds, and no two are equal, since memory
-// may come back from an object destroyed before: whatever was recorded but never submitted, the
-// first frame of an object that runs finds no history.
+// The number of the first exposure object. Each object has its own number, and takes a state with
+// another number for no history, because the memory may come from an object destroyed before. The
+// numbers count up from a value that fresh memory hardly holds. So the first frame of an object
+// that is executed starts without a history, even if frames before it were recorded but never
+// submitted.
 const uint EXPOSURE_FIRST_OWNER = 0xE5C0F10Eu;
 
-// --- luminance_histogram: one group per block of pixels. A group packs count and fraction sum of a
-// bin into one word: 1024 pixels * weight 15 < 2^14, times fraction 15 < 2^18.
+// --- luminance_histogram: one group per block of pixels. A group packs the count and the fraction
+// sum of a bin into one word: the count is at most 1024 pixels * weight 15 < 2^14, the fraction sum
+// at most 15 times that, < 2^18.
 const uint HISTOGRAM_GROUP_X = 32u;
 const uint HISTOGRAM_GROUP_Y = 8u;
 const uint HISTOGRAM_ROWS_PER_LANE = 4u;
@@ -74,8 +78,8 @@ struct AdaptExposureParams {
     float compensation;
     float minEv100, maxEv100;
     uint lowShare, highShare; // shares ignored at the dark and the bright end, times 2^32
-    float keepUp, keepDown;   // exp(-dt speed): share of the distance to the target that is left
-    uint owner;               // id of the exposure object
+    float keepUp, keepDown;   // exp(-dt speed): share of the distance to the target that remains
+    uint owner;               // number of the exposure object
 };
 GPU_SIZE(AdaptExposureParams, 44)
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The descriptor set through which shaders of the host's find the lights of a view
-// (lib/forward.glsl).
+// The descriptor set through which shaders of a host read the lights of a view (lib/forward.glsl).
 #ifndef CND_SHARED_FORWARD_H
 #define CND_SHARED_FORWARD_H
 
@@ -9,17 +8,17 @@
 GPU_BEGIN
 
 const uint FORWARD_VIEW = 0u;
-const uint FORWARD_CORE = 1u; // lights, shared/lighting.h
+const uint FORWARD_CORE = 1u; // lights (shared/lighting.h)
 const uint FORWARD_SHAPES = 2u;
-const uint FORWARD_NODES = 3u; // of the light trees, shared/clusters.h
-const uint FORWARD_DFG = 4u;   // texel buffers: shared/dfg.h
-const uint FORWARD_LTC = 5u;   // shared/ltc.h
-const uint FORWARD_IDS = 6u;   // of lights
+const uint FORWARD_NODES = 3u; // nodes of the light trees (shared/clusters.h)
+const uint FORWARD_DFG = 4u;   // texel buffer (shared/dfg.h)
+const uint FORWARD_LTC = 5u;   // texel buffer (shared/ltc.h)
+const uint FORWARD_IDS = 6u;   // ids of the lights
 
 struct ForwardView {
     Projection projection;
-    uint lobes;                        // as ShadeParams::lobes
-    TreeShape trees[LIGHT_TYPE_COUNT]; // by light type; distant types have lights, but no tree
+    uint lobes;                        // LOBES_*, plus COMPENSATE_ENERGY
+    TreeShape trees[LIGHT_TYPE_COUNT]; // by light type; distant types have lights but no nodes
 };
 GPU_SIZE(ForwardView, 60 + 12 * LIGHT_TYPE_COUNT)
 

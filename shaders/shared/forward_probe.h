@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses between tests/gpu/test_forward.cpp and probes/forward.comp. Set 0 is the probe's,
-// set 1 that of lib/forward.glsl.
+// What crosses between tests/gpu/test_forward.cpp and probes/forward.comp. Descriptor set 0 belongs
+// to the probe, set 1 to lib/forward.glsl.
 #ifndef CND_SHARED_FORWARD_PROBE_H
 #define CND_SHARED_FORWARD_PROBE_H
 
@@ -18,17 +18,17 @@ const uint FORWARD_PROBE_GROUP = 64u;
 
 struct ForwardProbeOutput {
     vec4 lit;           // litSurface()
-    vec4 stepped;       // the same light by light
+    vec4 stepped;       // the same, summed light by light with a cursor
     vec4 illuminance;   // rgb: sum of illuminanceTowards()
-    vec4 illuminanceBy; // rgb: the same, times the directions
+    vec4 illuminanceBy; // rgb: sum of illuminanceTowards() times the direction
 };
 GPU_SIZE(ForwardProbeOutput, 64)
 
 struct ForwardProbeParams {
     uvec2 size;        // pixels
-    vec2 invImageSize; // bit for bit that of the module
+    vec2 invImageSize; // the same bits as in the lighting module
     float clearDepth;
-    uint shadowed; // mask: of lights whose id has one of its bits a half is seen
+    uint shadowed; // mask: lights whose id has one of these bits have a visibility of 0.5
 };
 GPU_SIZE(ForwardProbeParams, 24)
 

@@ -27,20 +27,20 @@ const uint GBUFFER_LAYOUT_CUSTOM = 3u;
 const uint NORMAL_BITS_FULL = 24u;
 const uint NORMAL_BITS_COMPACT = 12u;
 
-// Largest angle between a unit normal and what unpacking returns, radians. At the middle of a face
-// a half step in both coordinates turns the normal by sqrt(18) half steps; FULL adds float
-// rounding.
+// Largest angle in radians between a unit normal and what unpacking returns. At the middle of a
+// face of the octahedron half a step in both coordinates turns the normal by sqrt(18) half steps;
+// the bound of FULL adds the rounding of floats.
 const float NORMAL_ERROR_FULL = 6e-7f;       // sqrt(18) / 2 / (2^23 - 1) = 2.53e-7
 const float NORMAL_ERROR_COMPACT = 1.04e-3f; // sqrt(18) / 2 / (2^11 - 1) = 1.036e-3
-// Largest error of perceptual roughness in [0, 1]: half a unorm step.
+// Largest error of the perceptual roughness in [0, 1]: half a step of the unorm.
 const float ROUGHNESS_ERROR_FULL = 7.7e-6f;
 const float ROUGHNESS_ERROR_COMPACT = 1.97e-3f;
 
-// normalRoughness of a COMPACT pixel that lighting must not touch (visible emitters): u holds the
-// code that is not a direction. FULL says the same with albedo, F0 and weight of 0.
+// COMPACT marks pixels that lights must not light (visible emitters) by the octahedral u that is
+// not a direction. FULL marks them by an albedo, F0 and specular weight of 0.
 const uint NORMAL_ROUGHNESS_UNLIT_COMPACT = 0x800u;
 
-// F0 of the dielectric part in COMPACT (glTF 2.0, index of refraction 1.5).
+// F0 of dielectrics in COMPACT (glTF 2.0, index of refraction 1.5).
 const float DIELECTRIC_F0 = 0.04f;
 
 GPU_END

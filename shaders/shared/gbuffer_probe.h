@@ -14,13 +14,13 @@ struct PackingProbeInput {
 };
 GPU_SIZE(PackingProbeInput, 16)
 
-// What comes back after packing and unpacking.
+// The surface after packing and unpacking.
 struct PackingProbeOutput {
     vec3 normalFull;
     float roughnessFull;
     vec3 normalCompact;
     float roughnessCompact;
-    vec3 unlit; // albedo, F0, weight of the unlit code, largest channel each
+    vec3 unlit; // unpacked from the unlit code: largest channel of albedo and of F0, weight
 };
 GPU_SIZE(PackingProbeOutput, 44)
 

@@ -7,16 +7,20 @@
 
 GPU_BEGIN
 
-// --- heat_map: pair image (CndLightingFrame::pairImage) -> false colours, one lane per pixel
+// --- heat_map: turns the pair image (CndLightingFrame::pairImage) into false colours, one lane per
+// pixel
 const uint HEAT_MAP_GROUP = 8u; // x and y
 const uint HEAT_MAP_PAIRS = 0u;
 const uint HEAT_MAP_DISPLAY = 1u;
-const uint HEAT_MAP_COLOURS = 2u; // packed RGBA8: the map, one per class, the legend row by row
-const uint HEAT_MAP_STEPS = 256u;
+// Packed RGBA8: the colours of the map, one colour per class, the pixels of the legend row by row.
+const uint HEAT_MAP_COLOURS = 2u;
+const uint HEAT_MAP_STEPS = 256u; // colours of the map
 const uint HEAT_MAP_CLASSES = 4u;
-const float HEAT_MAP_MOST = 1000.0f; // lights at the end of the map, which is logarithmic in 1 + n
+// The number of lights at the end of the map, which is logarithmic in 1 + lights.
+const float HEAT_MAP_MOST = 1000.0f;
 
-const uint HEAT_MAP_LISTED = 1u; // HeatMap
+// The program's enum HeatMap.
+const uint HEAT_MAP_LISTED = 1u;
 const uint HEAT_MAP_EVALUATED = 2u;
 const uint HEAT_MAP_EFFICIENCY = 3u;
 const uint HEAT_MAP_CLASS = 4u;

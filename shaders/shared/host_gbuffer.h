@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A layout of the G-buffer, the host's own among them (CndGBufferDesc), as one specialisation
-// constant: bit fields.
+// The layout of the G-buffer, which may be one of the host (CndGBufferDesc), as the bit fields of
+// one specialisation constant.
 #ifndef CND_SHARED_HOST_GBUFFER_H
 #define CND_SHARED_HOST_GBUFFER_H
 
@@ -8,14 +8,15 @@
 
 GPU_BEGIN
 
-const uint GBUFFER_LAYOUT_MASK = 3u; // CndGBufferLayout; the rest is of GBUFFER_LAYOUT_HOST
+const uint GBUFFER_LAYOUT_MASK =
+    3u; // CndGBufferLayout; the other fields describe GBUFFER_LAYOUT_HOST
 const uint GBUFFER_NORMAL_SHIFT = 2u;
 const uint GBUFFER_NORMAL_MASK = 3u; // CndNormalEncoding
 const uint GBUFFER_NORMAL_UNORM = 0u;
 const uint GBUFFER_NORMAL_SNORM = 1u;
 const uint GBUFFER_NORMAL_OCTAHEDRAL_UNORM = 2u;
 const uint GBUFFER_NORMAL_OCTAHEDRAL_SNORM = 3u;
-const uint GBUFFER_WORLD_SHIFT = 4u; // 1 bit: normals are of the world
+const uint GBUFFER_WORLD_SHIFT = 4u; // 1 bit: normals are in world space
 const uint GBUFFER_ROUGHNESS_KIND_SHIFT = 5u;
 const uint GBUFFER_ROUGHNESS_KIND_MASK = 3u; // CndRoughnessKind
 const uint GBUFFER_ROUGHNESS_ALPHA = 1u;
@@ -26,7 +27,7 @@ const uint GBUFFER_ROUGHNESS_SHIFT = 8u;
 const uint GBUFFER_METALNESS_SHIFT = 12u;
 const uint GBUFFER_F90_SHIFT = 16u;
 
-// What reading depends on besides, per frame.
+// The values of a frame that reading the G-buffer depends on.
 struct GBufferViewParams {
     mat3 viewFromWorld; // rotation
     float dielectricF0;

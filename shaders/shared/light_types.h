@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one list of light types and of what each has. Ids are stable: they are CndLightType.
+// The one list of light types and of the fields that each type uses. The ids are those of
+// CndLightType, so they are stable.
 #ifndef CND_SHARED_LIGHT_TYPES_H
 #define CND_SHARED_LIGHT_TYPES_H
 
 #include "shared/light_families.h"
 #include "shared/prelude.h"
 
-// X(id, NAME, family, fields of CndLight that the type uses). Types with the methods of spheres
-// belong to the family SPHERE here. A type without a position is distant: it has no place and no
-// influence radius, and its direction says where it is seen.
+// X(id, NAME, family, fields of CndLight that the type uses). Types that are shaded by the specular
+// methods of spheres are in the family SPHERE here. A type without a position is distant: it has no
+// influence radius, and its lights are seen in the same direction from everywhere.
 #define CND_LIGHT_TYPES(X)                                                                         \
     X(0, POINT, PUNCTUAL, LIGHT_HAS_POSITION)                                                      \
     X(1, SPHERE, SPHERE, LIGHT_HAS_POSITION | LIGHT_HAS_RADIUS)                                    \
@@ -22,7 +23,7 @@
 
 GPU_BEGIN
 
-// CndLightFieldBits.
+// The values of CndLightFieldBits.
 const uint LIGHT_HAS_POSITION = 1u;
 const uint LIGHT_HAS_RADIUS = 2u;
 const uint LIGHT_HAS_DIRECTION = 4u;
@@ -38,7 +39,8 @@ CND_LIGHT_TYPES(X)
 const uint LIGHT_TYPE_COUNT = 0u CND_LIGHT_TYPES(X);
 #undef X
 
-// Masks of 1 << type. As expressions of constants they may be used with specialisation constants.
+// Masks of 1 << type. They are constant expressions, so they may be combined with specialisation
+// constants.
 #define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_POSITION) != 0u ? 1u << id : 0u)
 const uint TYPES_WITH_POSITION = 0u CND_LIGHT_TYPES(X);
 #undef X

@@ -10,11 +10,12 @@ GPU_BEGIN
 
 // Entry (i, j), at index j * LTC_TABLE_SIZE + i:
 //   perceptual roughness r = LTC_MIN_ROUGHNESS + (1 - LTC_MIN_ROUGHNESS) i / (LTC_TABLE_SIZE - 1),
-//   NoV = LTC_MIN_NOV + (1 - LTC_MIN_NOV) (1 - v^2)^2, v = j / (LTC_TABLE_SIZE - 1): even in the
-//   angle near the normal, and dense at grazing, where the lobe changes most.
-// An entry is LTC_TEXELS vec4: of the lobe with F = 1, and of that with Schlick's Fresnel between
-// LTC_DIELECTRIC_F0 and 1. Each holds sharpness in the plane of incidence, sharpness across it,
-// shift (LtcShape of tools/fit says what they are) and directional albedo.
+//   NoV = LTC_MIN_NOV + (1 - LTC_MIN_NOV) (1 - v^2)^2, v = j / (LTC_TABLE_SIZE - 1).
+// Near the normal the steps of j are uniform in the angle; at grazing angles, where the lobe
+// changes most, they are small. An entry is LTC_TEXELS vec4: the first for the lobe with F = 1, the
+// second for the lobe with Schlick's Fresnel term between LTC_DIELECTRIC_F0 and 1. Each holds the
+// sharpness in the plane of incidence, the sharpness across it, the shift (LtcShape of tools/fit
+// defines them) and the directional albedo.
 const uint LTC_TABLE_SIZE = 32u;
 const uint LTC_TEXELS = 2u;
 const float LTC_MIN_ROUGHNESS = 0.0447213595f; // alpha 0.002

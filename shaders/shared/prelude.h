@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the headers of this folder compile as C++ and as GLSL (with scalar block layout). The only
-// file that knows which of the two is reading it. Data crosses this border, formulas never do.
-// The C++ half has a file of its own: hosts' shaders get this one alone, and it names no library.
+// Makes the headers of this folder compile as C++ and as GLSL (with scalar block layout). It is the
+// only file that distinguishes the two. The headers hold data, never formulas. The C++ half is a
+// file of its own, because hosts' shaders get only this file, which must not depend on a C++
+// library.
 #ifndef CND_SHARED_PRELUDE_H
 #define CND_SHARED_PRELUDE_H
 

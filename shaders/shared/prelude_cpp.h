@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++ half of prelude.h: GLSL's types by GLSL's names.
+// The C++ half of prelude.h: the types of GLSL under their GLSL names.
 #pragma once
 
 #include <cstdint>
@@ -27,5 +27,6 @@ using glm::vec4;
     namespace candelabra::gpu                                                                      \
     {
 #define GPU_END }
-// Size in bytes; push constant structs must fit Vulkan's guaranteed 128.
+// Checks the size of a struct in bytes. Structs of push constants must fit into the 128 bytes that
+// Vulkan guarantees.
 #define GPU_SIZE(Type, bytes) static_assert(sizeof(Type) == bytes);

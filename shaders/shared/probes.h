@@ -15,7 +15,8 @@ struct ProbeParams {
 };
 GPU_SIZE(ProbeParams, 4)
 
-// One shading point (at the origin, normal n, eye towards v) and one sphere light.
+// One shaded point (at the origin, with the normal n and the eye in the direction v) and one sphere
+// light.
 struct SphereProbeInput {
     vec3 n;
     vec3 v;
@@ -32,7 +33,8 @@ struct SphereProbeOutput {
 };
 GPU_SIZE(SphereProbeOutput, 12)
 
-// Specular of a sphere light: the point at the origin, normal +z, eye towards v, centre at toLight.
+// The specular response to a sphere light with its centre at toLight. The shaded point is at the
+// origin, its normal is +z, the eye is in the direction v.
 struct ConicProbeInput {
     vec3 v;
     vec3 toLight;
@@ -43,7 +45,7 @@ GPU_SIZE(ConicProbeInput, 32)
 
 // Responses with F = 1 and F = (1 - VoH)^5.
 struct ConicProbeOutput {
-    uint lightClass; // CONIC_..., lib/specular/conic.glsl
+    uint lightClass; // CONIC_*, shared/conic_constants.h
     vec2 conic, full, kx, point;
 };
 GPU_SIZE(ConicProbeOutput, 36)

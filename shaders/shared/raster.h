@@ -10,8 +10,8 @@ GPU_BEGIN
 
 // --- Records in texel buffers (vec4), which every vertex or pixel reads
 
-// One instance. Columns of the world-from-object matrix; the translation is hi + lo
-// (double-single).
+// One instance: the columns of its world-from-object matrix. The translation is hi + lo, a double
+// as the sum of two floats.
 struct InstanceRecord {
     vec3 axisX;
     float positionHiX;
@@ -20,7 +20,7 @@ struct InstanceRecord {
     vec3 axisZ;
     float positionHiZ;
     vec3 positionLo;
-    float material; // index, exact up to 2^24
+    float material; // index of the material, exact up to 2^24
 };
 GPU_SIZE(InstanceRecord, 64)
 const uint INSTANCE_TEXELS = 4u;
@@ -31,8 +31,8 @@ const uint TEXTURE_NORMAL = 2u;
 const uint TEXTURE_EMISSIVE = 3u;
 const uint TEXTURES_PER_MATERIAL = 4u;
 
-// One material, fields in the units of geometry.h. The first MATERIAL_PLAIN_TEXELS suffice without
-// textures.
+// One material, in the units of geometry.h. A material without textures needs only the first
+// MATERIAL_PLAIN_TEXELS texels.
 struct MaterialRecord {
     vec3 baseColor;
     float alpha;
@@ -52,10 +52,10 @@ const uint MATERIAL_PLAIN_TEXELS = 4u;
 
 // --- Culling
 
-const uint CHUNK_SIZE = 64u; // instances per chunk, all of one batch
+const uint CHUNK_SIZE = 64u; // instances per chunk; all of them belong to one batch
 
 struct InstanceBounds {
-    vec3 centerHi; // world space, hi + lo
+    vec3 centerHi; // world space; the centre is hi + lo
     vec3 centerLo;
     vec3 extent; // half size along the world axes, m
 };
@@ -64,13 +64,13 @@ GPU_SIZE(InstanceBounds, 36)
 struct Chunk {
     uint firstInstance;
     uint count;
-    uint firstChunk; // of the batch
-    uint lastChunk;  // of the batch
+    uint firstChunk; // first chunk of the batch
+    uint lastChunk;  // last chunk of the batch
     uint batch;
 };
 GPU_SIZE(Chunk, 20)
 
-// VkDrawIndexedIndirectCommand
+// The same members as VkDrawIndexedIndirectCommand.
 struct DrawCommand {
     uint indexCount;
     uint instanceCount;
@@ -87,19 +87,19 @@ const uint CULL_INSTANCES_BOUNDS = 1u;
 const uint CULL_INSTANCES_BITS = 2u;   // uvec2 per chunk: bit i = instance i is drawn
 const uint CULL_INSTANCES_COUNTS = 3u; // uint per chunk
 struct CullInstancesParams {
-    vec4 planes[6]; // inside: dot(xyz, p - camera) + w >= 0, unit normals, world axes
+    vec4 planes[6]; // unit normals in world space; p is inside if dot(xyz, p - camera) + w >= 0
     vec3 cameraHi;
     vec3 cameraLo;
     uint chunkCount;
 };
 GPU_SIZE(CullInstancesParams, 124)
 
-// compact_instances: ids of drawn instances in their old order, one lane per chunk
+// compact_instances: writes the ids of the drawn instances in their old order, one lane per chunk
 const uint COMPACT_INSTANCES_GROUP = 64u;
 const uint COMPACT_INSTANCES_CHUNKS = 0u;
 const uint COMPACT_INSTANCES_BITS = 1u;
 const uint COMPACT_INSTANCES_COUNTS = 2u;
-const uint COMPACT_INSTANCES_VISIBLE = 3u;  // uint per instance, each batch at its own place
+const uint COMPACT_INSTANCES_VISIBLE = 3u;  // uint per instance; each batch has a range of its own
 const uint COMPACT_INSTANCES_COMMANDS = 4u; // DrawCommand per batch
 struct CompactInstancesParams {
     uint chunkCount;
@@ -122,7 +122,7 @@ const uint MESH_TEXTURES = 2u; // 2, 3, 4, 5: TEXTURE_*
 struct MeshParams {
     mat3 viewFromWorld; // rotation
     mat4 clipFromView;
-    vec3 cameraHi; // world position, hi + lo
+    vec3 cameraHi; // world space; the position is hi + lo
     vec3 cameraLo;
 };
 GPU_SIZE(MeshParams, 124)
@@ -131,17 +131,18 @@ GPU_SIZE(MeshParams, 124)
 
 struct RasterFrame {
     mat4 clipFromView;
-    mat3 viewFromWorld;   // rotation
-    vec3 emitterOrigin;   // origin of the light set in view space, subtracted in double
-    vec3 rayOrigin[3];    // view space, affine in ndc: [0] + x [1] + y [2]; perspective: [0] = eye
-    vec3 rayDirection[3]; // the same; towards the scene, not normalised
+    mat3 viewFromWorld; // rotation
+    vec3 emitterOrigin; // origin of the light set in view space, subtracted in double
+    vec3 rayOrigin[3];  // view space: [0] + x [1] + y [2] with x, y in ndc; perspective: [0] is the
+                        // eye
+    vec3 rayDirection[3]; // likewise; towards the scene, not normalised
     vec2 size;            // pixels
     float perspective;    // 1, or 0: orthographic
     float nearDepth;      // depth of the near plane: 1 reversed, else 0
-    vec3 forward;         // unit viewing direction; orthographic: of every ray
+    vec3 forward;         // unit viewing direction; orthographic: direction of every ray
 };
 GPU_SIZE(RasterFrame, 212)
-const uint RAY_FRAME = 0u; // uniform buffer binding of both
+const uint RAY_FRAME = 0u; // uniform buffer binding of analytic surfaces and emitters
 
 const uint ANALYTIC_PLANE = 0u;
 const uint ANALYTIC_BALL = 1u;
@@ -174,14 +175,14 @@ struct EmitterRecord {
     vec3 luminance; // cd/m^2
     vec3 axisU;     // tube: half of its segment, m; rectangle: half a side, m; disc: unit normal
     vec3 axisV;     // rectangle: half the other side, m
-    float twoSided; // rectangle, disc: 1 when the back is seen as well
+    float twoSided; // rectangle, disc: 1 if the back is visible too
 };
 GPU_SIZE(EmitterRecord, 56)
 
 // --- Specialisation constants
 const uint RASTER_LAYOUT = 0u;   // CndGBufferLayout
 const uint RASTER_DETAILED = 1u; // meshes: textures, tangents and vertex colours
-const uint RASTER_MASKED = 2u;   // meshes: alpha mask
+const uint RASTER_MASKED = 2u;   // meshes: an alpha mask
 const uint RASTER_SHAPE = 1u;    // analytic: ANALYTIC_*; emitters: LIGHT_*
 
 GPU_END

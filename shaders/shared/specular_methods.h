@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one list of specular methods for sphere lights: id, NAME, name on the command line. Ids are
-// CndSpecularMethod and appear in recorded results.
+// The one list of specular methods for sphere lights: X(id, NAME, name on the command line). The
+// ids are those of CndSpecularMethod and appear in recorded results, so they are stable.
 #ifndef CND_SHARED_SPECULAR_METHODS_H
 #define CND_SHARED_SPECULAR_METHODS_H
 

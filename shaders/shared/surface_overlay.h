@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses to surface_overlay, the kernel that shows what is read of a G-buffer.
+// The interface of surface_overlay, the kernel that shows which surfaces the engine reads from a
+// G-buffer.
 #ifndef CND_SHARED_SURFACE_OVERLAY_H
 #define CND_SHARED_SURFACE_OVERLAY_H
 
@@ -7,7 +8,7 @@
 
 GPU_BEGIN
 
-// CndSurfaceQuantity.
+// The values of CndSurfaceQuantity.
 const uint SURFACE_ALL = 0u;
 const uint SURFACE_NORMAL = 1u;
 const uint SURFACE_ROUGHNESS = 2u;
@@ -15,10 +16,10 @@ const uint SURFACE_ALBEDO = 3u;
 const uint SURFACE_F0 = 4u;
 const uint SURFACE_POSITION = 5u;
 const uint SURFACE_FAULTS = 6u;
-const uint SURFACE_COLUMNS = 3u; // of SURFACE_ALL
+const uint SURFACE_COLUMNS = 3u; // SURFACE_ALL shows a grid of pictures
 const uint SURFACE_ROWS = 2u;
 
-// One lane per pixel. Bindings of the G-buffer are those of shade_tiles.
+// One lane per pixel. The bindings of the G-buffer are the same as in shade_tiles.
 const uint SURFACE_OVERLAY_GROUP = 8u; // x and y
 const uint SURFACE_OVERLAY_IMAGE = 7u;
 struct SurfaceOverlayParams {
@@ -27,18 +28,19 @@ struct SurfaceOverlayParams {
     vec2 invImageSize; // 1 / size
     float clearDepth;
     uint quantity; // SURFACE_*
-    vec3 eyeWorld; // m, of view space's origin, modulo SURFACE_PERIOD
+    vec3 eyeWorld; // m; the origin of view space in world space, modulo SURFACE_PERIOD
     mat3 worldFromView;
 };
 GPU_SIZE(SurfaceOverlayParams, 128)
-const float SURFACE_PERIOD = 2.0f; // m, of the colours of SURFACE_POSITION
+const float SURFACE_PERIOD = 2.0f; // m; period of the colours of SURFACE_POSITION
 
-// Faults. A normal of 8-bit channels is off by sqrt(3) / 255 at most, one blended on the way here
-// by much more.
+// Tolerances of SURFACE_FAULTS.
+// Error of a normal's length. 8-bit channels change it by at most sqrt(3) / 255, while blending
+// between normals changes it by much more.
 const float SURFACE_LENGTH_TOLERANCE = 0.02f;
-const float SURFACE_FACING_TOLERANCE =
-    0.17365f; // sine of 10 degrees: interpolated normals lean over
-// Half floats and filtered ends of a range.
+// Sine of 10 degrees: interpolated normals may lean away from the eye by this much.
+const float SURFACE_FACING_TOLERANCE = 0.17365f;
+// By this much a value may be outside its range, because of half floats and filtering.
 const float SURFACE_RANGE_TOLERANCE = 1e-3f;
 
 GPU_END
