@@ -5,10 +5,11 @@
 // Conventions
 //   Units: metres, seconds, radians, photometric light units (lm, cd, lx, cd/m^2). Colours are
 //   linear Rec.709. Matrices are column-major (element [column*4 + row]), vectors are columns.
+//   Modules: a module is a CndLighting together with its views, a CndEnvironment or a CndExposure.
 //   Ownership: a module borrows every Vulkan handle it is given and owns only what it created. It
 //   never creates a device or a queue, never submits and never waits. Recording allocates nothing.
-//   Threads: different objects may be used from different threads. Calls on one object, or on a
-//   view and the CndLighting it came from, must not overlap.
+//   Threads: different modules may be used from different threads at the same time. Calls on one
+//   module must not overlap: two views of one CndLighting must not be recorded at the same time.
 //   Errors: every function that can fail returns a CndResult. Where it has an `error` parameter
 //   that is not NULL, it also writes one sentence there that names the offending thing. Nothing is
 //   thrown across the ABI.

@@ -18,17 +18,21 @@ extern "C" {
 // exactly these.
 typedef enum CndHostFunctionBits {
     // `float candelabraVisibility(ShadowQuery query)`: a shadow term, 0 (in shadow) to 1 (fully
-    // lit), finite, by which every light is multiplied where it is evaluated. All members of the
-    // query are in view space, in metres: `light` is the low half of the light's CndLightId, which
-    // is unique within the set and below the largest number of lights that the set has ever had
-    // (for CndDeviceLights: LIGHT_OF_DEVICE plus the light's index); `type` is LIGHT_SPHERE,
-    // LIGHT_POINT ...; `position` and `normal` (unit) are those of the surface; `toLight` points
-    // from the surface to the light's centre, and is a unit vector for distant lights.
+    // lit), finite, by which every light is multiplied where it is evaluated. Members of the query
+    // are in view space, in metres:
+    // - `light` is the low half of the light's CndLightId. It is unique within the set and smaller
+    //   than the largest number of lights that the set has ever had, so it can index an array. For
+    //   CndDeviceLights it is LIGHT_OF_DEVICE plus the light's index.
+    // - `type` is LIGHT_SPHERE, LIGHT_POINT ...
+    // - `position` and `normal` (unit) are the surface's.
+    // - `toLight` points from the surface to the light's centre. For distant lights it is the unit
+    //   vector towards the light.
     CND_HOST_VISIBILITY_BIT = 1,
     // `Surface candelabraReadSurface(ivec2 pixel)`: the surface of a pixel, for CND_GBUFFER_CUSTOM.
     // It is called only for pixels whose depth holds a surface. Members to fill in: `normal`, in
-    // view space, of any length (compute it with `precise` variables, so that every kernel gets the
-    // same bits), `albedo`, `F0`, `specularWeight` (Schlick's F90) and `perceptualRoughness`. The
+    // view space, which the kernel normalises, of a length between 1e-6 and 1e6 (compute it with
+    // `precise` variables, so that every kernel gets the same bits), `albedo`, `F0`,
+    // `specularWeight` (Schlick's F90) and `perceptualRoughness`. The
     // camera's rotation is available as gbufferView.viewFromWorld.
     CND_HOST_READ_SURFACE_BIT = 2,
     CND_HOST_FUNCTION_MAX_ENUM = 0x7FFFFFFF
@@ -43,9 +47,9 @@ typedef struct CndCompileDesc {
     // and "shared/".
     const char* source;
     const char* sourceName; // name of the source in error messages; NULL: "source"
-    // What the lighting module will be asked for; fewer take less time to compile. `lightTypes` is
-    // a mask of 1 << CndLightType, 0 for all types; `specularMethods` is a mask of 1 <<
-    // CndSpecularMethod, 0 for CND_SPECULAR_CONIC alone.
+    // The light types and methods that the lighting module will use; the fewer, the faster is the
+    // compilation. `lightTypes` is a mask of 1 << CndLightType, 0 for all types; `specularMethods`
+    // is a mask of 1 << CndSpecularMethod, 0 for CND_SPECULAR_CONIC alone.
     uint32_t lightTypes, specularMethods;
 } CndCompileDesc;
 

@@ -47,11 +47,12 @@ CND_API uint32_t cndGetVersion(void);
 // What a block of device memory is used for.
 typedef enum CndMemoryKind {
     CND_MEMORY_BUFFER = 0, // buffers that only the GPU accesses
-    // Buffers that only the GPU accesses and whose contents need not survive between recordings.
-    // Two exceptions: contents are kept for a frame with CndLightingFrame::surfacesUnchanged, and
-    // for a forward set (cndGetForwardSet) until it has been used. The host may alias this memory
-    // with other memory that is not in use at the same time; the host then orders both uses with
-    // barriers (stages COMPUTE_SHADER, DRAW_INDIRECT and ALL_TRANSFER, with all their accesses).
+    // Buffers that only the GPU accesses. The host may use their memory for something else between
+    // two recordings and overwrite the contents, except in two cases. A frame with
+    // CndLightingFrame::surfacesUnchanged reuses what the previous frame of the view has written.
+    // The host's own shaders that use a forward set (cndGetForwardSet) read what the frame of that
+    // set has written. A host that uses the memory in between orders both uses with barriers
+    // (stages COMPUTE_SHADER, DRAW_INDIRECT and ALL_TRANSFER, with all their accesses).
     CND_MEMORY_SCRATCH = 1,
     CND_MEMORY_UPLOAD = 2,   // buffers that the host writes sequentially and the GPU reads
     CND_MEMORY_READBACK = 3, // buffers that the GPU writes and the host reads: statistics
@@ -94,10 +95,9 @@ typedef struct CndAllocator {
     void* user;
 } CndAllocator;
 
-// Device memory of a module, per CndMemoryKind. Scratch memory is transient; all other kinds are
-// persistent. A host that suballocates can hold all objects of a kind in one block of bytes +
-// allocations * alignment bytes, of a memory type in memoryTypeBits, by placing each object after
-// the previous one at the next multiple of its alignment.
+// Device memory of a module, per CndMemoryKind. A host that suballocates can hold all objects of a
+// kind in one block of bytes + allocations * alignment bytes, of a memory type in memoryTypeBits,
+// by placing each object after the previous one at the next multiple of its alignment.
 typedef struct CndMemoryUsage {
     uint32_t structSize;
     // Number of separate allocations.
@@ -154,17 +154,19 @@ CND_API void cndRequireFeatures(VkPhysicalDeviceFeatures* core10,
                                 VkPhysicalDeviceVulkan12Features* core12,
                                 VkPhysicalDeviceVulkan13Features* core13);
 
-// GPU time of one kernel (or of all its dispatches) in one frame.
+// GPU time of one pass in one frame, the sum over its dispatches.
 typedef struct CndKernelTime {
-    const char* name; // name of the shader, static storage
+    const char* name; // as in CndPassPlan; in modules without pass plans the name of the kernel;
+                      // static storage
     double ms;
 } CndKernelTime;
 
 #define CND_MAX_KERNEL_TIMES 16
 
-// One pass of a module and whether it ran in one frame; passes without work in that frame's content
-// are skipped. Rows of CndKernelTime have the same names. A pass that was recorded but whose work
-// the GPU found to be empty has a row of kernel time as well.
+// One pass of a module and whether it ran in one frame. Passes that have nothing to do are skipped.
+// Usually that is known when the frame is recorded, and a skipped pass has no CndKernelTime. If
+// only the GPU can find it out, the pass has been recorded: then `skipped` gives the reason, and
+// there is a CndKernelTime too.
 typedef struct CndPassPlan {
     const char* name;    // static storage
     const char* skipped; // NULL if the pass ran; otherwise the reason why it did not, static

@@ -38,7 +38,7 @@ typedef struct CndEnvironmentMap {
     VkImageView equirectangular;
 } CndEnvironmentMap;
 
-// One frame of one view. What holds on entry and exit, and the G-buffer, are as for
+// One frame of one view. The G-buffer, and the states of images on entry and on exit, are as for
 // CndLightingFrame. It may be recorded before or after the CndLightingFrame of the same view. The
 // host puts a memory barrier between the two when this one comes second; when it comes first, the
 // barrier at the start of cndRecordLighting is enough.
@@ -63,7 +63,7 @@ typedef struct CndEnvironmentFrame {
     VkBool32 background;
     CndLobeJoining lobes;
     // VK_TRUE: compensate the energy that single-scattering microfacet models lose to multiple
-    // bounces (Turquin 2019). Without it a white metal loses up to 69% of the light.
+    // bounces (Turquin 2019). Without it a white metal of roughness 1 loses up to 69% of the light.
     VkBool32 energyCompensation;
     VkDescriptorSet hostSet; // as CndLightingFrame::hostSet
 } CndEnvironmentFrame;
@@ -99,14 +99,15 @@ CND_API CndResult cndRecordEnvironmentMap(CndEnvironment environment, VkCommandB
                                           const CndEnvironmentMap* map, CndError* error);
 // Records the shading of one frame, which is one kernel; cndRecordEnvironmentMap must have been
 // recorded before. The specular term is a split-sum approximation: exact in surroundings of
-// constant luminance, otherwise the lobe has the shape that it has when viewed from above. There
-// are no shadows. Changes the same state as cndRecordEnvironmentMap (and compute descriptor set 1
-// with host kernels); must be recorded outside a render pass.
+// constant luminance, otherwise the lobe has the shape that it has when viewed along the normal.
+// There are no shadows. Changes the same state as cndRecordEnvironmentMap (and compute descriptor
+// set 1 with host kernels); must be recorded outside a render pass.
 CND_API CndResult cndRecordEnvironment(CndEnvironment environment, VkCommandBuffer cmd,
                                        const CndEnvironmentFrame* frame, CndError* error);
-// Writes kernel times of the last frame recorded in frameSlot, and of the last map. Returns
-// CND_NOT_READY until the GPU has finished both, CND_ERROR_INVALID_ARGUMENT before the first frame
-// of the slot.
+// Writes kernel times of the last frame recorded in frameSlot, and of the last map. With
+// CndEnvironmentDesc::timestamps, returns CND_NOT_READY until the GPU has finished both. Without
+// timestamps there is nothing to wait for: it returns CND_SUCCESS at once, with no kernel times.
+// Returns CND_ERROR_INVALID_ARGUMENT before the first frame of the slot.
 CND_API CndResult cndGetEnvironmentStats(CndEnvironment environment, uint32_t frameSlot,
                                          CndEnvironmentStats* stats);
 

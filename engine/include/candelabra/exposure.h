@@ -49,8 +49,8 @@ typedef struct CndExposureSettings {
     float manualEv100;        // -64..64; not limited by minEv100 and maxEv100
     float compensation;       // EV, -32..32; added brightness: +1 doubles the exposed values
     float minEv100, maxEv100; // -64..64, min <= max: range of the metered EV100
-    // Shares of the weighted histogram: what lies below low and above high is ignored.
-    // 0 <= low, low + 1e-6 <= high, high <= 1.
+    // The mean ignores the darkest lowPercentile and the brightest 1 - highPercentile of the
+    // histogram's weight. 0 <= lowPercentile, lowPercentile + 1e-6 <= highPercentile <= 1.
     float lowPercentile;
     float highPercentile;
     // Adaptation rates in 1/s, > 0, towards brighter (up) and darker (down) scenes:
@@ -102,11 +102,11 @@ typedef struct CndExposureFrame {
 
 typedef struct CndExposureStats {
     uint32_t structSize;
-    // The metered EV100, limited to minEv100..maxEv100, before adaptation; in manual mode
-    // manualEv100. When no pixel could be metered it is the history (with `reset`: EV 0), limited
-    // likewise.
+    // The metered EV100 before adaptation, limited to minEv100..maxEv100. In manual mode it is
+    // manualEv100. If no pixel could be metered, it is adaptedEv100 of the previous frame (with
+    // `reset`: 0), limited to the same range.
     float targetEv100;
-    float adaptedEv100;     // EV100 in use, before compensation; this is the history
+    float adaptedEv100;     // EV100 in use, before compensation; the next frame adapts from it
     float exposure;         // factor applied to luminance, compensation included
     uint32_t invalidPixels; // pixels whose luminance is NaN; they are left out of the histogram
     uint32_t histogram[CND_HISTOGRAM_BINS]; // weighted counts; all zero in manual mode

@@ -18,28 +18,36 @@ typedef struct CndLighting_T* CndLighting;
 typedef struct CndLightingView_T* CndLightingView;
 
 // How the specular lobe of sphere lights is evaluated; `candelabra bench accuracy` measures time
-// and error of each method. Tubes, rectangles and discs use a representative point with POINT,
-// KARIS and KX, and linearly transformed cosines with LTC, CONIC and CONIC_FULL.
+// and error of each method. Other lights have fewer methods. Tubes, rectangles and discs use a
+// representative point with POINT, KARIS and KX, linearly transformed cosines with LTC, CONIC and
+// CONIC_FULL, and samples with SAMPLED. Point, spot and directional lights need no approximation:
+// every method but NONE evaluates them exactly.
 typedef enum CndSpecularMethod {
     CND_SPECULAR_NONE = 0,  // no specular lobe, diffuse only
-    CND_SPECULAR_KARIS = 1, // normalised representative point (Karis 2013)
+    CND_SPECULAR_KARIS = 1, // representative point, normalised for a widened lobe (Karis 2013)
     CND_SPECULAR_POINT = 2, // the sphere is treated as a point at its centre
-    CND_SPECULAR_KX = 3,    // representative point, lobe not widened, its peak normalised exactly
+    CND_SPECULAR_KX = 3,    // representative point, normalised for the exact peak of the lobe
     CND_SPECULAR_LTC = 4,   // linearly transformed cosines (Heitz, Dupuy, Hill, Neubelt 2016)
-    CND_SPECULAR_CONIC = 5, // slope-conic closed form; two shading nodes near the horizon, one
-                            // elsewhere
-    CND_SPECULAR_CONIC_FULL = 6, // slope-conic closed form, two shading nodes everywhere
-    CND_SPECULAR_SAMPLED = 7,    // Monte Carlo: CndLightingFrame::sampleCount samples per light and
-                                 // pixel
+    // Closed form for spheres, derived in slope space, where the sphere is bounded by a conic: the
+    // GGX distribution is integrated exactly. Microfacet shadowing and Fresnel are evaluated at two
+    // directions where the sphere is near the horizon, and at one elsewhere.
+    CND_SPECULAR_CONIC = 5,
+    // The same closed form, with shadowing and Fresnel evaluated at two directions everywhere.
+    CND_SPECULAR_CONIC_FULL = 6,
+    CND_SPECULAR_SAMPLED = 7, // Monte Carlo: CndLightingFrame::sampleCount samples per light and
+                              // pixel
     CND_SPECULAR_METHOD_COUNT = 8,
     CND_SPECULAR_METHOD_MAX_ENUM = 0x7FFFFFFF
 } CndSpecularMethod;
 
 // How the lights of a pixel are found.
 typedef enum CndCulling {
-    CND_CULLING_CLUSTERED = 0, // exact light lists for clusters of surface samples
-    CND_CULLING_BRUTE = 1, // every light at every pixel, no lists, no bounds: for checks and as a
-                           // baseline
+    // Light lists for clusters of surface samples. A list may hold lights that add nothing to a
+    // sample of its cluster, but no light that adds something is missing.
+    CND_CULLING_CLUSTERED = 0,
+    // Every light at every pixel, without lists and bounds: for checks and as a baseline. Windows
+    // of influenceRadius still apply.
+    CND_CULLING_BRUTE = 1,
     CND_CULLING_MAX_ENUM = 0x7FFFFFFF
 } CndCulling;
 
@@ -56,20 +64,21 @@ typedef enum CndInfluenceRule {
     //
     // A light of peak intensity I (cd) gets the radius sqrt(I / E) and the window of
     // CND_INFLUENCE_GIVEN. E is one illuminance for all lights, chosen on the device in every
-    // frame: the error of a pixel counts everything that the cuts and windows of all lights
-    // together take from it.
+    // frame. The error of a pixel is the change of its display value when all lights are cut and
+    // windowed at once.
     //
     // The first frame, and the first frame with another maxError, measures every pixel (in images
     // larger than 1024x1024 at least 260,000 pixels) and takes about as long as brute force. Other
     // frames measure up to 4096 pixels: one of each NxN, another one in each frame. N is 8, or 16,
     // 32, 64 ... in images of more than 0.26, 1.0, 4.2 ... million pixels.
     //
-    // E falls at once when a measured pixel demands it. It rises, by half an octave per frame, to
-    // what the last full turn of N^2 frames has allowed. So the error of a few pixels that have
-    // just come into view may be larger until their turn comes.
+    // E falls at once when a measured pixel demands it. It rises by one step per frame (half an
+    // octave; two octaves for the lowest values), up to the highest value that all pixels allowed
+    // when they were measured in the last full round of N^2 frames. So the error of a few pixels
+    // that have just come into view may be larger until they are measured.
     //
-    // Tiles are not split in depth with this rule, and lists are rebuilt in every frame.
-    // CND_CULLING_BRUTE, the check, cuts nothing.
+    // Tiles are not split in depth with this rule, and lists are rebuilt in every frame. Frames
+    // with CND_CULLING_BRUTE ignore the rule: there every light reaches everything.
     CND_INFLUENCE_BY_ERROR = 2,
     CND_INFLUENCE_RULE_MAX_ENUM = 0x7FFFFFFF
 } CndInfluenceRule;
@@ -86,14 +95,14 @@ typedef struct CndInfluence {
     CndToneMap toneMap; // tone map that displays the frame, as in CndExposureSettings
 } CndInfluence;
 
-// How a pixel finds its lights (CndLightingFrame::pairImage). If light types differ, the class with
-// the highest value counts.
+// How a pixel finds its lights (CndLightingFrame::pairImage). If its class is not the same for all
+// light types, the class with the highest value counts.
 typedef enum CndPixelClass {
     CND_PIXEL_NO_SURFACE = 0,
     CND_PIXEL_OF_TILE = 1,  // one light list for all of the 8x8 pixel tile
     CND_PIXEL_OF_SLICE = 2, // the tile is deep and has a light list for each slice of depth
-    CND_PIXEL_UNLISTED = 3, // its cluster has no list, because there was no room for it or it was
-                            // too long: the pixel walks the light tree
+    CND_PIXEL_UNLISTED = 3, // its cluster has no list, because the list budget was used up or the
+                            // list was too long: the pixel walks the light tree
     CND_PIXEL_CLASS_MAX_ENUM = 0x7FFFFFFF
 } CndPixelClass;
 
@@ -109,31 +118,35 @@ typedef struct CndLightingDesc {
     uint32_t framesInFlight; // 1..8: frames that the host may have recorded or submitted and not
                              // yet waited for
     CndGBufferLayout gbufferLayout;
-    // VK_TRUE: measure the GPU time of every kernel. Each dispatch, plus one, takes a timestamp,
-    // about 50 us each on a software device. VK_FALSE records none.
+    // VK_TRUE: measure the GPU time of every pass. A frame then writes one timestamp at its start
+    // and one after every dispatch (passes of many dispatches, such as sorting the lights, write
+    // one at their end). A timestamp takes about 50 us on a software device.
     VkBool32 timestamps;
     // Mask of 1 << CndSpecularMethod: the methods that frames may ask for; 0: CND_SPECULAR_CONIC
-    // alone. Pipelines are created for these methods only. Those of a light type are created when a
-    // light set first contains that type (for spheres: in cndCreateLighting).
+    // alone. Pipelines are created for these methods only. The pipelines of a light type are
+    // created in cndCreateLighting for spheres and for the types in lightTypes, and for other types
+    // when a light set first contains the type.
     uint32_t specularMethods;
     CndGBufferDesc gbuffer; // read only with CND_GBUFFER_HOST
     // Stages (VK_SHADER_STAGE_VERTEX_BIT, _FRAGMENT_BIT, _COMPUTE_BIT) of the host's own shaders
     // that evaluate lights through cndGetForwardSet; 0: there are none.
     VkShaderStageFlags forwardStages;
-    // Mask of CndMaterialClass, 0: none. 8x8 pixel tiles in which all surfaces belong to one of
-    // these classes are shaded by pipelines without the missing lobe; the image is the same but for
-    // rounding. Use it only for scenes that have such materials: otherwise every tile is inspected
-    // in vain, and every class has pipelines of its own for every light type. Layouts that cannot
-    // store an F90 of 0 have no diffuse-only class. With hostKernels the diffuse-only class also
-    // needs the kernels of CND_SPECULAR_NONE.
+    // Mask of CndMaterialClass, 0: none. 8x8 pixel tiles in which all surfaces belong to the same
+    // class of this mask are shaded by pipelines without the missing lobe; the image differs by
+    // rounding only. Use it only for scenes that have such materials: inspecting the tiles takes
+    // time in every frame, and every class has pipelines of its own for every light type. Layouts
+    // that cannot store an F90 of 0 have no diffuse-only class. With hostKernels the diffuse-only
+    // class also needs the kernels of CND_SPECULAR_NONE.
     uint32_t materialClasses;
     // Kernels with functions of the host; all those that the light types, methods and layout need.
     CndHostKernels hostKernels;
-    // What creation prepares for. Light sets within lightCapacity and lightTypes need no more
-    // memory (except for staging buffers, see cndSetLights) and no more pipelines.
-    // Lights; 0: 1024. A larger set makes the capacity grow, by half at least.
+    // Number of lights that creation makes room for; 0: 1024. A larger light set makes the capacity
+    // grow, by half at least. Light sets within lightCapacity and lightTypes need no more memory
+    // (except for staging buffers, see cndSetLights) and no more pipelines.
     uint32_t lightCapacity;
-    uint32_t lightTypes; // mask of 1 << CndLightType; 0: pipelines for spheres only
+    // Light types that creation makes pipelines and list buffers for, a mask of 1 << CndLightType.
+    // Spheres have their pipelines in any case.
+    uint32_t lightTypes;
     // VK_TRUE: frames may use CND_INFLUENCE_BY_ERROR. The pipelines that measure it are created,
     // and each view takes up to 2.1 MB more. Not allowed with hostKernels: the measuring kernels do
     // not contain the host's functions.
@@ -177,9 +190,10 @@ typedef struct CndLightingFrame {
     uint32_t sampleCount;
     // With CND_SPECULAR_SAMPLED: the same seed gives the same image.
     uint32_t sampleSeed;
-    // 0..1. 0: every light is evaluated in full. Otherwise each light is evaluated as cheaply as an
-    // a-priori bound of the error allows, which is about this share of the highest response to that
-    // light (0.01: 1%) at most.
+    // 0..1. 0: every light is evaluated in full. Otherwise sphere lights with CND_SPECULAR_CONIC
+    // and CND_SPECULAR_CONIC_FULL are evaluated more cheaply wherever the error, estimated
+    // beforehand, is at most about this share of the highest response to the light (0.01: 1%).
+    // Other lights and methods ignore it.
     float errorBudget;
     CndLobeJoining lobes;
     // VK_TRUE: compensate the energy that single-scattering microfacet models lose to multiple
@@ -190,8 +204,10 @@ typedef struct CndLightingFrame {
     // because the error is judged on the sum.
     CndInfluence influence;
     // VK_TRUE promises that size, camera, clearDepth, depth and normals are those of the previous
-    // frame recorded with this view, and with materialClasses also albedo and specular. If lights
-    // and influence are unchanged too, clusters and lists of that frame are reused.
+    // frame recorded with this view, and with materialClasses also albedo and specular. The
+    // clusters and lists of that frame are then reused if the light set, layers, specularMethod,
+    // sampleCount and influence.rule are the same as well and both frames use
+    // CND_CULLING_CLUSTERED. With CND_INFLUENCE_BY_ERROR they are never reused.
     VkBool32 surfacesUnchanged;
     VkRect2D bruteRect; // with CND_CULLING_BRUTE: the pixels to shade; zero extent: all pixels
     // VK_TRUE: also count (pixel, light) pairs, with one more kernel. Ignored with
@@ -199,9 +215,10 @@ typedef struct CndLightingFrame {
     VkBool32 countPairs;
     // With countPairs: receives the cost of every pixel, or is VK_NULL_HANDLE. An
     // R32G32B32A32_SFLOAT storage image, with layout and visibility as for radiance. ADDED to it:
-    // in r the lights on the pixel's lists, in g the lights evaluated (including loop turns in
-    // which the pixel waits for its neighbours), in b the lights that contribute. a is raised to
-    // the pixel's CndPixelClass; pixels without a surface are left alone.
+    // in r the lights on the pixel's lists, in g the iterations of the loops that evaluate lights
+    // (including iterations in which the pixel only waits for others of its subgroup), in b the
+    // lights that contribute. a is raised to the pixel's CndPixelClass; pixels without a surface
+    // are left alone.
     VkImageView pairImage;
     // Mask of 1 << layer, layer < CND_LAYER_COUNT; 0: all layers. Lights that share no layer with
     // this mask do not exist in this frame, nor for shaders that use its forward set: lists do not
@@ -225,10 +242,11 @@ typedef enum CndSurfaceQuantity {
     // wrongly.
     CND_SURFACE_POSITION = 5,
     // Grey that darkens towards grazing view angles, with faults marked in colour: magenta, a NaN
-    // or infinite value; blue, a position that is not in front of the eye; yellow, a stored normal
-    // whose length differs from 1 by more than 2%; red, a normal that faces away from the eye by
-    // more than 10 degrees; cyan, roughness outside 0..1; orange, albedo, F0 or F90 outside 0..1.
-    // The first fault found in this order is shown.
+    // or infinite normal, roughness, albedo, F0 or F90; blue, a position that is not finite or not
+    // in front of the eye; yellow, a stored normal whose length differs from 1 by more than 2%;
+    // red, a normal that faces away from the eye by more than 10 degrees; cyan, roughness outside
+    // 0..1; orange, albedo, F0 or F90 outside 0..1. The first fault found in this order is shown.
+    // Yellow and cyan occur with CND_GBUFFER_HOST only.
     CND_SURFACE_FAULTS = 6,
     CND_SURFACE_QUANTITY_MAX_ENUM = 0x7FFFFFFF
 } CndSurfaceQuantity;
@@ -249,8 +267,8 @@ typedef struct CndLightingStats {
     // Lights of the set, in all layers; CndDeviceLights counts with its maxCount.
     uint32_t lightCount;
     uint32_t deviceLights; // valid lights read from CndDeviceLights
-    // Lights in CndDeviceLights that give no light: a field is outside its range, or there are more
-    // than maxCount.
+    // Lights in CndDeviceLights that give no light, because a member is outside its range or the
+    // light is beyond maxCount.
     uint32_t rejectedLights;
     // lightCount by light type. Types without lights have no passes.
     uint32_t lightTypeCounts[CND_LIGHT_TYPE_COUNT];
@@ -265,13 +283,14 @@ typedef struct CndLightingStats {
     // more lights than a loop of the device may take. Their pixels walk the light tree instead.
     uint32_t unlistedClusters;
     // With CND_INFLUENCE_BY_ERROR: illuminance (lx) at which lights are cut; 0: no light is cut.
-
     float cutBelow;
-    // (pixel, light) pairs, with countPairs, else 0. Only clusters that have lists are counted.
-    // listedPairs is the number of list entries walked, summed over surface pixels; distant lights
-    // of other layers are walked, and counted only here.
+    // The next four members count (pixel, light) pairs with countPairs, and are 0 without. A pixel
+    // whose cluster has no list for a light type (unlistedClusters) is not counted for that type.
+    // Lights that the pixels test: those on the pixel's lists, and all distant lights. Distant
+    // lights of other layers count here, but not in the members below.
     uint64_t listedPairs;
-    // Evaluations of a light by a lane, including lanes that wait for their neighbours.
+    // Iterations of the loops that evaluate lights, summed over shader invocations, including
+    // iterations in which an invocation only waits for others of its subgroup.
     uint64_t evaluatedPairs;
     uint64_t insidePairs;       // listed pairs with distance < influence radius
     uint64_t contributingPairs; // inside pairs whose emitter is not wholly below the horizon
@@ -293,8 +312,9 @@ CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLighti
 // The GPU must have finished all work recorded with the object or its views. Destroy the views
 // first. NULL is ignored.
 CND_API void cndDestroyLighting(CndLighting lighting);
-// Writes the memory that the module and its views hold now, including memory that will be freed
-// once frames in flight have finished.
+// Writes the memory that the module and its views hold now. This includes memory that frames in
+// flight may still use and that is no longer needed afterwards: a later call that sets or edits
+// lights frees it.
 CND_API CndResult cndGetLightingMemory(CndLighting lighting, CndMemoryUsage* usage,
                                        CndError* error);
 
@@ -341,9 +361,10 @@ CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
 
 // Records a picture of what the module reads from the G-buffer, to find mistakes in an integration.
 // It uses these members of `frame`: frameSlot, size, camera, clearDepth, hostSet and the G-buffer
-// images. Record at most one overlay per frame: each frame slot has one descriptor set for it. It
-// changes the same state as cndRecordLighting and has the same requirements; cndRecordLighting need
-// not be recorded.
+// images, which must be as on entry to cndRecordLighting. Record at most one overlay per frame:
+// each frame slot has one descriptor set for it. Changes the compute pipeline, compute descriptor
+// sets 0 and 1 and the push constants; must be recorded outside a render pass. It records no memory
+// barrier. It works with or without cndRecordLighting in the same frame.
 CND_API CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer cmd,
                                           const CndLightingFrame* frame,
                                           const CndSurfaceOverlay* overlay, CndError* error);
@@ -367,8 +388,9 @@ CND_API CndResult cndGetForwardSet(CndLightingView view, uint32_t frameSlot, VkD
                                    CndError* error);
 
 // Writes statistics of the last frame recorded in frameSlot. Returns CND_NOT_READY until the GPU
-// has finished that frame, which a lost device never does (with timestamps this is noticed:
-// CND_ERROR_DEVICE). Returns CND_ERROR_INVALID_ARGUMENT before the first frame of the slot.
+// has finished that frame; if the device is lost before that, it returns CND_NOT_READY for ever.
+// The host notices a lost device by the results of its own submissions and waits. Returns
+// CND_ERROR_INVALID_ARGUMENT before the first frame of the slot.
 CND_API CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot,
                                       CndLightingStats* stats);
 

@@ -28,7 +28,7 @@ typedef enum CndLightType {
 
 // Lights and frames have masks of layers, bits 0 to CND_LAYER_COUNT - 1. A light exists in the
 // frames that share a layer with it. The mask 0 stands for all layers, so that a zeroed struct is
-// in every layer; a light that should be in no layer is removed instead.
+// in every layer. To hide a light in all frames, remove it (cndRemoveLights).
 #define CND_LAYER_COUNT 16
 
 // One light. Fields that its type does not use are ignored.
@@ -60,8 +60,8 @@ typedef struct CndLight {
     float outerConeAngle;
     // Metres, length at least 1e-15, components within 1e15. Tube: axisU points from the centre to
     // one end of its segment. Rectangle: axisU points from the centre to the middle of one edge,
-    // axisV to the middle of an adjacent edge. Both are perpendicular (cosine of their angle within
-    // 1e-3). The rectangle faces axisU x axisV.
+    // axisV to the middle of an adjacent edge. They must be perpendicular: the cosine of their
+    // angle is within 1e-3 of 0. The rectangle faces axisU x axisV.
     float axisU[3];
     float axisV[3];
     VkBool32 twoSided; // rectangle, disc: VK_TRUE if the back emits as well
@@ -96,9 +96,9 @@ CND_API VkBool32 cndIsPunctual(uint32_t lightType);
 // is the sine of the angular radius. `light` must not be NULL; only its type and shape are read.
 CND_API float cndEmitterBoundingRadius(const CndLight* light);
 
-// Names a light for as long as it is in the set. A light of cndSetLights has its index in the set
-// as id. cndAddLights returns the ids of its lights; they are at least 2^32 and are never reused.
-// The id of a light that has been removed is refused.
+// Names a light for as long as it is in the set. The id of a light from cndSetLights is its index
+// in the set. cndAddLights returns the ids of its lights; they are at least 2^32 and are never
+// reused. The id of a light that has been removed is refused.
 typedef uint64_t CndLightId;
 
 // A light in a device buffer, written for instance by a particle simulation. 32 bytes, two vec4 in
@@ -114,8 +114,9 @@ typedef struct CndDeviceLight {
 //
 // The buffers are borrowed. The first recording after cndSetLights reads them; until the GPU has
 // finished that recording they must not change. To pass on lights that were written later, call
-// cndSetLights again with the same values, which then allocates nothing. On entry to the recording
-// the contents are visible to COMPUTE_SHADER / SHADER_STORAGE_READ.
+// cndSetLights again with the same values; that allocates at most a staging buffer (see
+// cndSetLights). On entry to the recording the contents are visible to COMPUTE_SHADER /
+// SHADER_STORAGE_READ.
 //
 // The host cannot check these lights: one with a value outside its range gives no light and is
 // counted in CndLightingStats::rejectedLights, as are lights beyond maxCount.
@@ -158,10 +159,10 @@ CND_API uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits);
 // the horizon: E = pi L s^2 cos, with s = R / d). E, Phi, I and L below are per Rec.709
 // channel.
 //
-// c_light: in rendering, the "colour" of a light often means what a white Lambertian surface shows
-// that faces it, E = pi c_light. In that convention directional lights have emission = pi c_light,
-// point lights at distance d have emission = pi c_light d^2, spheres and distant spheres have
-// emission = c_light / s^2.
+// c_light: in rendering, the "colour" of a light often means the luminance of a white Lambertian
+// surface that faces the light. That luminance is c_light = E / pi. In this convention directional
+// lights have emission = pi c_light, point lights at distance d have emission = pi c_light d^2,
+// and spheres and distant spheres, for which E = pi L s^2, have emission = c_light / s^2.
 //
 // The power functions compute in double precision, round once and check nothing: lengths must be >
 // 0.
@@ -202,11 +203,11 @@ CND_API CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousP
 #define CND_SUN_SINE 0.00465f
 
 // Converts a point light into a sphere with the same position and far field, L = I / (pi R^2).
-// `radius` is in metres and smaller than the distance to `at`. 0 chooses a thousandth of that
-// distance (or a quarter of influenceRadius if that is smaller): small enough to look like a point,
-// while the luminance is no more than a million times c_light, R is 10,000 steps of single
-// precision at that distance, and the form factor is in the range in which it has been measured (s
-// >= 1e-5).
+// `radius` is in metres, smaller than the distance to `at` and smaller than influenceRadius. 0
+// chooses a thousandth of that distance. That is small enough to look like a point and large enough
+// for single precision: the radius is at least 8,000 of its steps at that distance, the luminance
+// is a million times c_light, and s = 1e-3 is well inside the range in which the form factor has
+// been measured (s >= 1e-5). Where a quarter of influenceRadius is smaller, it is chosen instead.
 CND_API CndResult cndSphereFromPoint(const CndLight* point, float radius, const float at[3],
                                      CndLight* sphere, CndError* error);
 // Converts a sphere into the limit of that sphere as its radius shrinks, a point light: I = pi R^2

@@ -39,8 +39,8 @@ typedef enum CndGBufferLayout {
     CND_GBUFFER_LAYOUT_MAX_ENUM = 0x7FFFFFFF
 } CndGBufferLayout;
 
-// How normalRoughness encodes the normal. The decoded normal is normalised; a normal that is zero,
-// NaN or infinite is replaced by (0, 0, 1) in view space.
+// How normalRoughness encodes the normal. The decoded normal is normalised. A normal that is NaN,
+// or whose length is not between 1e-6 and 1e6, is replaced by (0, 0, 1) in view space.
 typedef enum CndNormalEncoding {
     CND_NORMAL_UNORM = 0,            // rgb holds 0.5 + 0.5 * normal
     CND_NORMAL_SNORM = 1,            // rgb holds the normal; needs a signed format (SNORM, SFLOAT)
