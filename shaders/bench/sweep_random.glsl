@@ -66,7 +66,7 @@ vec3 randomDirection()
     return vec3(r * cos(angle), r * sin(angle), z);
 }
 
-// Returns zero, about an ulp, or a little more: the difference in cases of equal or nearly equal values.
+// Returns zero, about an ulp, or a little more: a difference between equal or nearly equal values.
 float hair()
 {
     const uint which = randomBelow(4u);
