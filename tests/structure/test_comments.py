@@ -25,8 +25,8 @@ def sources():
 
 
 def beginnings(path, mark):
-    """Line number and text of the first line of every block of comments: a comment after code, or a
-    line of comment alone that does not continue, in the same column, the comment of the line before."""
+    """Yields the line number and the text of the first line of every comment. A line that has only a
+    comment, in the same column as the comment of the line before, continues that comment."""
     previous = -1  # column of the comment on the line before
     for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
         comment = re.search(rf"(?<![:\"'\w/]){mark}+!?<? ?(.*)", line)
@@ -40,5 +40,5 @@ found = [(path.relative_to(root).as_posix(), number, text) for path, mark in sou
          for number, text in beginnings(path, mark) if BEGINNING.match(text)]
 for name, number, text in found:
     print(f'{name}:{number}: the comment begins with "{BEGINNING.match(text)[1]}": {text}')
-print(f"{len(found)} comments begin so")
+print(f"{len(found)} comments begin with one of these words")
 sys.exit(1 if found else 0)

@@ -18,7 +18,7 @@ def fail(path, why):
 
 
 def files(pattern):
-    """Files of the repository by the end of their name: not of build folders, nor of git."""
+    """Returns the files of the repository with names that match, without build folders and .git."""
     return [p for p in sorted(root.rglob(pattern))
             if p.relative_to(root).parts[0] not in ("build", "out", ".git") and p.is_file()]
 
@@ -30,12 +30,12 @@ SOURCES = [p for p in files("*") if p.suffix in (".c", ".comp", ".cpp", ".frag",
 
 
 def without_code(text):
-    """The text without fenced listings and inline code, in which brackets are no links."""
+    """Returns the text without fenced listings and inline code, where brackets are not links."""
     return re.sub(r"`[^`\n]*`", "code", re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE))
 
 
 def anchors(path):
-    """The anchors that GitHub gives to the headings of a document."""
+    """Returns the anchors that GitHub gives to the headings of a document."""
     out = set()
     listing = False
     for line in path.read_text(encoding="utf-8").split("\n"):
@@ -53,7 +53,7 @@ def anchors(path):
 
 
 def check_link(document, target):
-    if re.match(r"[a-z]+:", target):  # of the web: needs a network
+    if re.match(r"[a-z]+:", target):  # a link to the web, which only a network could check
         return
     place, _, anchor = target.partition("#")
     path = (document.parent / place).resolve() if place else document
@@ -74,7 +74,7 @@ lines = README.read_text().count("\n")
 if lines > MAX_README_LINES:
     fail(README, f"has {lines} lines, at most {MAX_README_LINES}")
 
-# Its embedding listing is the sample that the package tests build and run.
+# The listing in README.md is part of a sample that the package tests build and run.
 sample = root / "samples/embed_minimal/main.cpp"
 parts = sample.read_text().split("// [readme]\n")
 if len(parts) != 3 or f"```cpp\n{parts[1]}```" not in README.read_text():
@@ -82,7 +82,7 @@ if len(parts) != 3 or f"```cpp\n{parts[1]}```" not in README.read_text():
 elif parts[1].count("\n") > MAX_LISTING_LINES:
     fail(sample, f"its listing has {parts[1].count(chr(10))} lines, at most {MAX_LISTING_LINES}")
 
-# Figures are those measured.
+# The figures in the documents are the measured ones.
 check = subprocess.run([sys.executable, root / "tools/update_results", "--check"],
                        capture_output=True, text=True)
 if check.returncode:
@@ -131,7 +131,7 @@ for document in (DECISIONS, DESIGN, RESULTS):
         if not fnmatch.filter(tests, pattern):
             fail(document, f"runs {pattern}, which no test is named like")
 
-# What the guides for hosts name is in the public headers.
+# Every name of the API in the guides for hosts is in the public headers.
 headers = "".join(p.read_text() for p in (root / "engine/include/candelabra").iterdir())
 for name in ("INTEGRATION.md", "UPDATE.md"):
     guide = root / "engine" / name

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""No function of C, C++ or GLSL is longer than a page. Usage: test_functions.py REPOSITORY"""
+"""No function of C, C++ or GLSL is longer than 80 lines. Usage: test_functions.py REPOSITORY"""
 import pathlib
 import re
 import sys
@@ -9,23 +9,23 @@ MAX_LINES = 80  # from the first line of its head to its closing brace
 
 SUFFIXES = {".c", ".comp", ".cpp", ".frag", ".glsl", ".h", ".hpp", ".vert"}
 
-# What braces do not count in: comments, preprocessor lines, raw strings, strings, numbers with digit
-# separators (which are no character literals) and characters.
+# Text in which braces are not counted: comments, preprocessor lines, raw strings, strings, numbers with
+# digit separators (whose quotes are not character literals) and characters.
 SKIPPED = re.compile(r"""//[^\n]*|/\*.*?\*/|^[ \t]*\#(?:[^\n\\]|\\.)*|R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"
                          |\b\d[\w']*|'(?:[^'\\\n]|\\.)*'""", re.DOTALL | re.MULTILINE | re.VERBOSE)
-# Heads of blocks in which functions stand. A head with a parenthesis is a function's, which may return
-# a struct.
+# Heads of blocks that contain functions. A head with a parenthesis belongs to a function, which may
+# return a struct.
 SCOPE = re.compile(r"^(?:inline |template\s*<.*?>\s*)*(?:namespace|class|struct|union|enum|extern)\b(?!.*\))|^layout\b",
                    re.DOTALL)
-# What stands before the brace of an initialiser; our formatter puts a space before the brace of a block.
+# Text before the brace of an initialiser. The formatter puts a space before the brace of a block.
 INITIALISED = re.compile(r"[\w>\]]\Z|[=(,]\s*\Z")
 
 
 def functions(text):
-    """First line, number of lines and head of every function that stands in no other."""
+    """Yields first line, number of lines and head of every function that is not inside another."""
     code = SKIPPED.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
     head_from, start = 0, None
-    blocks = []  # kinds of the braces that are open
+    blocks = []  # the kinds of the blocks that are open
     for token in re.finditer(r"[{};]", code):
         outside = all(block == "scope" for block in blocks)
         if token[0] == "{":

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Which file may include which. The tree is divided into rooms, each a folder; ROOMS lists them from
-the ground up and says what each may include. No include leads to a room that stands later in that list,
-and no file and no room includes itself by way of others. Usage: test_includes.py REPOSITORY"""
+"""Which file may include which. The tree is divided into rooms, each of them a folder. ROOMS lists them
+from the lowest to the highest and says what each may include. No include leads to a room later in that
+list, and no files or rooms include each other in a circle. Usage: test_includes.py REPOSITORY"""
 import pathlib
 import posixpath
 import re
@@ -10,8 +10,8 @@ import sys
 
 PUBLIC = "engine/include/candelabra"
 
-# (folder, what its files may include besides each other: folders and files of rooms that stand before
-# it, and headers that the build generates). A file belongs to the room with the longest matching name.
+# (folder, what its files may include besides each other: folders and files of earlier rooms, and headers
+# that the build generates). A file belongs to the room with the longest matching name.
 ROOMS = [
     ("shaders/shared", []),
     ("shaders/lib", ["shaders/shared"]),
@@ -26,7 +26,7 @@ ROOMS = [
     ("shaders/probes", ["shaders/shading", "shaders/lib/forward.glsl", "shaders/lib", "shaders/shared"]),
 
     (PUBLIC, []),
-    # The double-precision reference shares nothing with what it judges: no shader, no other room.
+    # The double-precision reference shares no code with what it judges: no shader, no other room.
     ("engine/reference", [f"{PUBLIC}/candelabra.h"]),
     # The engine's floors.
     ("engine/gpu", [PUBLIC]),
@@ -41,15 +41,15 @@ ROOMS = [
                      "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
     ("engine/lighting", ["engine/view", "engine/shading", "engine/clusters", "engine/lights", "engine/surfaces",
                          "engine/tables", "engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
-    # Beside the floors of lighting.
+    # Other modules, which lighting does not use.
     ("engine/environment", ["engine/surfaces", "engine/tables", "engine/gpu", "shaders/shared", PUBLIC,
                             "candelabra_shaders.h"]),
     ("engine/exposure", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_shaders.h"]),
     ("engine/gbuffer", ["engine/gpu", "shaders/shared", PUBLIC, "candelabra_gbuffer_shaders.h"]),
     ("engine/compiler", ["engine/shading/light_family.h", "engine/gpu/failure.h", PUBLIC]),
 
-    # The program: files and text; scenes, then their three origins, then what picks the origin; the
-    # double-precision truth of a scene.
+    # The program: files and text; scenes; the three origins of scenes (glTF, generators, JSON) and the
+    # room that chooses among them; the double-precision truth of a scene.
     ("tools/candelabra/io", []),
     ("tools/candelabra/scene", ["tools/candelabra/io", PUBLIC]),
     ("tools/candelabra/gltf", ["tools/candelabra/scene", PUBLIC]),
@@ -59,14 +59,14 @@ ROOMS = [
     ("tools/candelabra/load", ["tools/candelabra/json", "tools/candelabra/gltf", "tools/candelabra/generate",
                                "tools/candelabra/scene", PUBLIC]),
     ("tools/candelabra/truth", ["tools/candelabra/scene", "tools/candelabra/io", "engine/reference", PUBLIC]),
-    # The program draws its frames through the public face; of the engine's inside it may use the gpu
-    # floor and the raster pass, both of which are made to be used alone.
+    # The program renders through the public API. Besides that it may use engine/gpu and the raster pass,
+    # both of which are made to be used alone.
     ("tools/candelabra/render", ["tools/candelabra/scene", "tools/candelabra/io", PUBLIC, "engine/gpu",
                                  "engine/gbuffer", "shaders/shared/specular_methods.h",
                                  "shaders/shared/heat_map.h", "candelabra_commit.h",
                                  "candelabra_program_shaders.h"]),
-    # What measures compares with the double-precision truth, and may look below the public face where
-    # a list below names more of the engine than PUBLIC.
+    # The rooms that measure compare with the double-precision truth. Some of them may use internals of
+    # the engine: their lists name more of the engine than PUBLIC.
     ("tools/candelabra/measure/frame", ["tools/candelabra/render", "tools/candelabra/scene",
                                         "tools/candelabra/io", PUBLIC, "engine/reference",
                                         "shaders/shared/gbuffer.h"]),
@@ -109,7 +109,7 @@ ROOMS = [
     ("tools/transcription", ["shaders/shared/conic_constants.h"]),
     ("tools/fit", ["engine/reference", "shaders/shared/ltc.h"]),
 
-    # Written as if in a project of their own, which finds the installed engine.
+    # Samples are written like projects of their own, which find the installed engine.
     ("samples/common", []),
     ("samples/embed_c", ["samples/common"]),
     ("samples/embed_forward", ["samples/common", "shaders/lib/forward.glsl", "ball_frag.h", "ball_vert.h"]),
@@ -120,7 +120,7 @@ ROOMS = [
     ("tests", ["engine", "shaders", "tools", "candelabra_probes.h"]),
 ]
 
-# Where quoted includes of files in a folder are looked for, after the includer's own folder.
+# For the files of a folder: where their quoted includes are looked for, after the includer's own folder.
 SEARCHED = [
     ("engine", ["engine", "engine/include", "shaders"]),
     ("shaders", ["shaders"]),
@@ -141,24 +141,25 @@ def within(path, place):
 
 
 def is_generated(place):
-    """Whether an entry of a room's list is a header that the build generates."""
+    """Tells whether an entry of a room's list is a header that the build generates."""
     return "/" not in place and "." in place
 
 
 def room_of(path, rooms):
-    """The room that a file belongs to; None: it stands in no room."""
+    """Returns the room that a file belongs to, or None if there is none."""
     return max((folder for folder, _ in rooms if within(path, folder)), key=len, default=None)
 
 
 def resolve(path, include, files):
-    """The files that an include may mean."""
+    """Returns the files that an include may mean."""
     searched = next((places for folder, places in SEARCHED if within(path, folder)), [])
     places = [path.rpartition("/")[0]] + searched
     return {posixpath.normpath(f"{place}/{include}") for place in places} & files.keys()
 
 
 def cycles(edges):
-    """The strongly connected components of more than one node (Tarjan 1972), each in sorted order."""
+    """Returns the circles: strongly connected components with more than one node, and nodes with an edge
+    to themselves (Tarjan 1972). Each is sorted."""
     index, low, stack, found = {}, {}, [], []
 
     def visit(node):
@@ -182,7 +183,7 @@ def cycles(edges):
 
 
 def check_table(rooms):
-    """What is wrong with the list of rooms itself."""
+    """Yields what is wrong with the list of rooms itself."""
     order = [folder for folder, _ in rooms]
     for at, (folder, allowed) in enumerate(rooms):
         for place in allowed:
@@ -192,7 +193,7 @@ def check_table(rooms):
 
 
 def check(files, rooms):
-    """What is wrong with the includes of `files`, texts by path."""
+    """Yields what is wrong with the includes of `files`, a dictionary from path to text."""
     yield from check_table(rooms)
     allowed = dict(rooms)
     generated = {place for places in allowed.values() for place in places if is_generated(place)}
@@ -228,7 +229,7 @@ def check(files, rooms):
 
 
 def check_public(files):
-    """Includes with angle brackets in the headers that hosts include."""
+    """Yields forbidden includes with angle brackets in the headers that hosts include."""
     for path, text in sorted(files.items()):
         if within(path, PUBLIC):
             for include in re.findall(r"^\s*#\s*include <([^>]+)>", text, re.MULTILINE):
@@ -238,7 +239,7 @@ def check_public(files):
 
 
 def test_the_test():
-    """Plants one of each fault: every one is found, and nothing where there is none."""
+    """Checks that this test finds each kind of fault, and finds nothing in correct files."""
     rooms = [("engine/low", []), ("engine/high", ["engine/low"])]
     low, high = "engine/low/a.h", "engine/high/b.h"
 

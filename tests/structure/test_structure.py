@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Rules about files that no compiler checks: what every file starts with, how wide a line is, how names
-are chosen, what stands at the top level. Usage: test_structure.py REPOSITORY"""
+"""Rules about files that no compiler checks: the first line of a file, the width of lines, banned names,
+pure shader functions, complete lists of kernels, one version, the files at the top level.
+Usage: test_structure.py REPOSITORY"""
 import pathlib
 import re
 import sys
@@ -39,8 +40,9 @@ for path in SOURCES:
         if re.search(r"\bvk[A-Z]\w+\(", re.sub(r"//.*", "", path.read_text())):
             fail(path, "calls a Vulkan prototype instead of the host's function table")
 
-# What shaders/lib holds is pure: results follow from arguments and constants. Bindings, parameters,
-# specialisation constants and the state of a lane belong to shaders/shading and shaders/kernels.
+# The functions of shaders/lib are pure: results follow from arguments and constants. Bindings,
+# parameters, specialisation constants and the state of a lane belong to shaders/shading and
+# shaders/kernels.
 IMPURE = {
     "a layout": r"\blayout\s*\(",
     "the includer's params": r"\bparams\b",
@@ -55,7 +57,7 @@ for path in sorted((root / "shaders/lib").rglob("*.glsl")):
         if found := re.search(pattern, code, re.MULTILINE):
             fail(path, f"is not pure: it uses {what}: {found[0]}")
 
-# One #ifdef __cplusplus in shaders: prelude.h.
+# The only #ifdef __cplusplus of the shaders is in prelude.h.
 for path in SOURCES:
     name = path.relative_to(root).as_posix()
     if name.startswith("shaders/") and name != "shaders/shared/prelude.h":
@@ -76,7 +78,7 @@ for path in SOURCES:
     if name.startswith(("engine/include", "shaders/lib")) and BANNED.search(path.read_text()):
         fail(path, "uses a banned quantity name (brightness, roughness, color)")
 
-# The version that headers say is the one that packages carry.
+# The public header and the packages have the same version.
 project = re.search(r"project\(candelabra VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text())[1]
 core = root / "engine/include/candelabra/core.h"
 header = re.findall(r"#define CND_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", core.read_text())
