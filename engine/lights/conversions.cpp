@@ -18,8 +18,8 @@ using namespace candelabra;
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
-// Farther from the origin than this, squared distances are no finite floats.
+using std::numbers::pi;
+// Farther from the origin than this, squared distances are not finite floats.
 constexpr double maxCoordinate = 1e15;
 
 double tubeArea(double length, double radius)

@@ -15,7 +15,7 @@ namespace candelabra::reference
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Node {
     double x, weight; // on [0, 1]
@@ -65,7 +65,7 @@ DirectionalAlbedo azimuthSlice(double NoV, double alpha, double phi, const std::
     return sum;
 }
 
-DirectionalAlbedo integrate(double NoV, double alpha, int n)
+DirectionalAlbedo integrateSlices(double NoV, double alpha, int n)
 {
     const std::vector<Node> rule = tanhSinh(n);
     DirectionalAlbedo sum;
@@ -88,9 +88,9 @@ DirectionalAlbedo specularAlbedo(double NoV, double alpha, double tolerance)
 {
     if (!(NoV >= minNoV && NoV <= 1 && alpha >= 0.002 && alpha <= 1))
         throw std::domain_error("specularAlbedo: NoV must be 1e-4..1 and alpha 0.002..1");
-    DirectionalAlbedo previous = integrate(NoV, alpha, 16);
+    DirectionalAlbedo previous = integrateSlices(NoV, alpha, 16);
     for (int n = 32; n <= 512; n *= 2) {
-        const DirectionalAlbedo next = integrate(NoV, alpha, n);
+        const DirectionalAlbedo next = integrateSlices(NoV, alpha, n);
         if (std::abs(next.a - previous.a) <= tolerance &&
             std::abs(next.b - previous.b) <= tolerance)
             return next;

@@ -14,7 +14,7 @@ namespace candelabra::reference
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Polar coordinates around a pole, and the part of the outline above the horizon in them.
 class PolarRegion

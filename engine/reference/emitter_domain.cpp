@@ -10,6 +10,7 @@
 
 #include "reference/brdf.h"
 #include "reference/quadrature.h"
+#include "reference/vectors.h"
 
 namespace candelabra::reference
 {
@@ -17,13 +18,8 @@ namespace candelabra::reference
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-glm::dvec3 vec3(const float (&values)[3])
-{
-    return {values[0], values[1], values[2]};
-}
 
 struct Range {
     double low, high;

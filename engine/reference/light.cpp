@@ -8,17 +8,13 @@
 
 #include "reference/brdf.h"
 #include "reference/sphere_light.h"
+#include "reference/vectors.h"
 
 namespace candelabra::reference
 {
 
 namespace
 {
-
-glm::dvec3 vec3(const float (&values)[3])
-{
-    return {values[0], values[1], values[2]};
-}
 
 bool hasSpecular(const Material& material, CndSpecularMethod method)
 {

@@ -12,7 +12,7 @@ namespace candelabra::reference
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double wrapped(double angle)
 {

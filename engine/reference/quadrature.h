@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -170,7 +171,7 @@ inline constexpr double negligible = 1e-24;
 template <size_t Judged, class Active, class F>
 auto integratePanels(std::span<const double> breaks, double relative, Active&& active, F&& f)
 {
-    constexpr double pi = 3.14159265358979323846;
+    using std::numbers::pi;
     std::vector<std::array<double, 2>> panels;
     std::vector<double> ends = {0};
     for (size_t i = 0; i + 1 < breaks.size(); ++i)

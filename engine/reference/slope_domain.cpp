@@ -16,7 +16,7 @@ namespace candelabra::reference
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // The integration problem in a frame with the normal as z and the eye in the xz plane.
 class SlopeProblem

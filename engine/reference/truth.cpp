@@ -11,17 +11,13 @@
 #include "reference/light.h"
 #include "reference/slope_domain.h"
 #include "reference/sphere_light.h"
+#include "reference/vectors.h"
 
 namespace candelabra::reference
 {
 
 namespace
 {
-
-glm::dvec3 vec3(const float (&values)[3])
-{
-    return {values[0], values[1], values[2]};
-}
 
 LightResponse truthOfOutline(const SurfacePoint& surface, double alpha, const Outline& outline,
                              double relative)

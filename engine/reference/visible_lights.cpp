@@ -5,16 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/vectors.h"
+
 namespace candelabra::reference
 {
 
 namespace
 {
-
-glm::dvec3 vec3(const float (&values)[3])
-{
-    return {values[0], values[1], values[2]};
-}
 
 // Distances along a unit direction between which a ray is inside an emitter; from > to: never.
 struct Inside {

@@ -13,7 +13,7 @@ namespace candelabra::fit
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int latticeSize = 3000;
 constexpr int pointCount = 240;
 constexpr int capsPerSize = 16;

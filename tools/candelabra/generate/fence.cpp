@@ -4,6 +4,7 @@
 // the right, y = 0 is the ground, the camera looks along -z. Metres.
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <utility>
 
 #include "generate/generators.h"
@@ -17,7 +18,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr double cameraZ = 9, wallZ = -26, wallHeight = 21, halfWidth = 30;
 constexpr std::array<double, 6> rowZ = {4, 0, -5, -10, -15, -20};
 constexpr double slatPitch = 0.17;

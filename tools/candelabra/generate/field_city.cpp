@@ -2,8 +2,7 @@
 // Streets, blocks, houses, lamps and trees of the field.
 #include <algorithm>
 #include <cmath>
-
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "generate/field.h"
 
@@ -12,7 +11,7 @@ namespace candelabra::app::field
 namespace
 {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 // The distances from the default camera up to which details are worth their triangles. In a picture
 // with 720 lines a ledge of 0.3 m is one pixel high at about 250 m, and its house some 60 pixels
 // wide at 900 m.

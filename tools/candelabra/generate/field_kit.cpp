@@ -3,8 +3,6 @@
 #include <cmath>
 #include <string>
 
-#include <glm/gtc/constants.hpp>
-
 #include "generate/field.h"
 #include "generate/mesh_builder.h"
 #include "generate/shapes.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bridges, the big wheel and the masts of the field, and the hills around it.
 #include <cmath>
-
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "generate/field.h"
 
@@ -11,7 +10,7 @@ namespace candelabra::app::field
 namespace
 {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr double riverWidth = riverSouth - riverNorth;
 
 void addDeck(Kit& kit, double x)

@@ -2,8 +2,7 @@
 // Places the lights of the field.
 #include <algorithm>
 #include <cmath>
-
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "generate/field.h"
 
@@ -12,7 +11,7 @@ namespace candelabra::app::field
 namespace
 {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 // A zone of the city with its share of the lights. Lights become sparser with the distance from the
 // default camera: near streets have many small ones, and far districts are lit by few with a large

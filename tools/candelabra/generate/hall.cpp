@@ -2,9 +2,8 @@
 #include "generate/hall.h"
 #include "generate/generators.h"
 
+#include <numbers>
 #include <utility>
-
-#include <glm/gtc/constants.hpp>
 
 #include "generate/shapes.h"
 
@@ -15,7 +14,7 @@ namespace hall
 namespace
 {
 
-constexpr float pi = glm::pi<float>();
+using std::numbers::pi_v;
 
 Mesh makeColumnBase()
 {
@@ -94,7 +93,7 @@ void addMeshes(Kit& kit)
     kit.mesh.archedWall = b.addMesh(makeArchedWall(
         static_cast<float>(bayWidth), static_cast<float>(arcadeTop - springingHeight),
         static_cast<float>(arcadeDepth), static_cast<float>(archRadius), 24));
-    kit.mesh.archRing = b.addMesh(makeArchRing(1, 1.07f, 1, pi, 28));
+    kit.mesh.archRing = b.addMesh(makeArchRing(1, 1.07f, 1, pi_v<float>, 28));
     kit.mesh.vault = b.addMesh(makeVault(32));
     kit.mesh.ball = b.addMesh(makeSphere(14, 9));
     kit.mesh.fineBall = b.addMesh(makeSphere(28, 16));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Floor, columns, arcades, walls and vault of the hall.
 #include <cmath>
-
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "generate/hall.h"
 
@@ -11,7 +10,7 @@ namespace candelabra::app::hall
 namespace
 {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 void addFloor(Kit& kit, Random& random)
 {

@@ -2,8 +2,7 @@
 // What stands, hangs and lies about in the hall.
 #include <algorithm>
 #include <cmath>
-
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "generate/hall.h"
 
@@ -12,7 +11,7 @@ namespace candelabra::app::hall
 namespace
 {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 // Balls nearer than this to the default camera (x = -28) show facets when coarse.
 constexpr double fineUntilX = -22;
 

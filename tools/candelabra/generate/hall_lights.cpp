@@ -2,8 +2,7 @@
 // Where the hall's lights hang.
 #include <algorithm>
 #include <cmath>
-
-#include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "generate/hall.h"
 
@@ -12,7 +11,7 @@ namespace candelabra::app::hall
 namespace
 {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 // Positions are drawn again when they fall into stone, at most this often.
 constexpr int maxTries = 16;
 

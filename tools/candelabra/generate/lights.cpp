@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
-
-#include <glm/gtc/constants.hpp>
 
 #include "generate/light_overlaps.h"
 #include "io/table.h"
@@ -17,7 +16,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr float pi = glm::pi<float>();
+using std::numbers::pi_v;
 
 // Rec.709 luminance weights (ITU-R BT.709-6).
 glm::vec3 withUnitLuminance(const glm::vec3& rgb)
@@ -69,7 +68,7 @@ CndLight makeLight(const LightSite& site, const LightReach& reach, double scale,
         std::min(reach.radius, maxRadiusShare * static_cast<double>(light.influenceRadius)));
     // I = E d^2, Phi = 4 pi I.
     const float luminousPower =
-        4 * pi * site.edgeIlluminance * light.influenceRadius * light.influenceRadius;
+        4 * pi_v<float> * site.edgeIlluminance * light.influenceRadius * light.influenceRadius;
     const float luminance = cndSphereLuminanceFromPower(luminousPower, light.radius);
     for (int i = 0; i < 3; ++i) {
         light.position[i] = position[i];
@@ -113,11 +112,11 @@ glm::vec3 hueColour(float hue, float saturation)
 LightMotion circleMotion(Random& random, double height, float lightRadius, float radius,
                          float speed)
 {
-    const float azimuth = 2 * pi * random.uniform();
+    const float azimuth = 2 * pi_v<float> * random.uniform();
     const float tilt = random.uniform(-0.5f, 0.5f);
     const float turn = random.chance(0.5f) ? 1.0f : -1.0f;
     LightMotion motion;
-    motion.phase = 2 * pi * random.uniform();
+    motion.phase = 2 * pi_v<float> * random.uniform();
     motion.angularSpeed = turn * speed / radius;
     const glm::vec2 d{std::cos(azimuth), std::sin(azimuth)};
     // Half of the room below is left, so that rounding cannot bring the light down.

@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
 
 #include "scene/scene.h"
 

@@ -2,6 +2,7 @@
 #include "generate/shapes.h"
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "generate/mesh_builder.h"
@@ -12,7 +13,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr float pi = glm::pi<float>();
+using std::numbers::pi_v;
 
 // The position along a closed line. Its end is exactly its beginning, so that seams have no cracks.
 float closed(float turn)
@@ -24,13 +25,13 @@ float closed(float turn)
 glm::vec3 around(float turn)
 {
     turn = closed(turn);
-    return {std::cos(2 * pi * turn), 0, -std::sin(2 * pi * turn)};
+    return {std::cos(2 * pi_v<float> * turn), 0, -std::sin(2 * pi_v<float> * turn)};
 }
 
 glm::vec3 aroundTangent(float turn)
 {
     turn = closed(turn);
-    return {-std::sin(2 * pi * turn), 0, -std::cos(2 * pi * turn)};
+    return {-std::sin(2 * pi_v<float> * turn), 0, -std::cos(2 * pi_v<float> * turn)};
 }
 
 // The normals of a profile run in the (radius, height) plane. They are averaged where two pieces
@@ -153,8 +154,8 @@ Mesh makeSphere(uint32_t segments, uint32_t rings)
     Mesh mesh;
     appendGrid(mesh, segments, rings, [](float u, float v) {
         const bool pole = v == 0 || v == 1;
-        const float radius = pole ? 0 : std::sin(pi * v);
-        const glm::vec3 p = radius * around(u) - glm::vec3(0, std::cos(pi * v), 0);
+        const float radius = pole ? 0 : std::sin(pi_v<float> * v);
+        const glm::vec3 p = radius * around(u) - glm::vec3(0, std::cos(pi_v<float> * v), 0);
         return SurfacePoint{p, p, aroundTangent(u)};
     });
     return mesh;
@@ -164,7 +165,7 @@ Mesh makeTorus(float majorRadius, float minorRadius, uint32_t segments, uint32_t
 {
     Mesh mesh;
     appendGrid(mesh, segments, sides, [=](float u, float v) {
-        const glm::vec2 section = direction(2 * pi * closed(v));
+        const glm::vec2 section = direction(2 * pi_v<float> * closed(v));
         const glm::vec3 normal = around(u) * section.x + glm::vec3(0, section.y, 0);
         return SurfacePoint{around(u) * majorRadius + normal * minorRadius, normal,
                             aroundTangent(u)};
@@ -181,11 +182,11 @@ Mesh makeKnot(float tubeRadius, uint32_t segments, uint32_t sides)
     };
     Mesh mesh;
     appendGrid(mesh, segments, sides, [&](float u, float v) {
-        const float t = 2 * pi * closed(u), step = 0.01f;
+        const float t = 2 * pi_v<float> * closed(u), step = 0.01f;
         const glm::vec3 p = at(t), before = at(t - step), after = at(t + step);
         const glm::vec3 along = glm::normalize(after - before);
         const glm::vec3 binormal = glm::normalize(glm::cross(along, after - 2.0f * p + before));
-        const glm::vec2 section = direction(2 * pi * closed(v));
+        const glm::vec2 section = direction(2 * pi_v<float> * closed(v));
         const glm::vec3 normal = glm::cross(binormal, along) * section.x - binormal * section.y;
         return SurfacePoint{p + normal * tubeRadius, normal, along};
     });
@@ -245,8 +246,8 @@ Mesh makeArchedWall(float width, float height, float depth, float radius, uint32
         }
     };
     sweep(cornerAngle, sideSteps);
-    sweep(pi - cornerAngle, topSteps);
-    sweep(pi, sideSteps);
+    sweep(pi_v<float> - cornerAngle, topSteps);
+    sweep(pi_v<float>, sideSteps);
     for (size_t i = 0; i + 1 < angles.size(); ++i) {
         const glm::vec2 in0 = radius * direction(angles[i]);
         const glm::vec2 in1 = radius * direction(angles[i + 1]);
@@ -256,7 +257,7 @@ Mesh makeArchedWall(float width, float height, float depth, float radius, uint32
             appendQuad(mesh, {in0, s}, {out0, s}, {out1, s}, {in1, s}, {0, 0, s});
     }
     appendGrid(mesh, segments, 1, [=](float u, float v) {
-        const glm::vec2 d = direction(pi * u);
+        const glm::vec2 d = direction(pi_v<float> * u);
         return SurfacePoint{{radius * d, z - depth * v}, {-d, 0}, {-d.y, d.x, 0}};
     });
     for (const float s : {-1.0f, 1.0f}) {
@@ -288,7 +289,7 @@ Mesh makeArchRing(float inner, float outer, float depth, float angle, uint32_t s
             return SurfacePoint{{r * d, s * (2 * v - 1) * z}, {s * d, 0}, {-d.y, d.x, 0}};
         });
     }
-    if (angle < 2 * pi - 1e-3f) {
+    if (angle < 2 * pi_v<float> - 1e-3f) {
         for (const float end : {0.0f, angle}) {
             const glm::vec2 d = direction(end);
             const glm::vec3 out = glm::vec3(-d.y, d.x, 0) * (end > 0 ? 1.0f : -1.0f);
@@ -304,7 +305,7 @@ Mesh makeVault(uint32_t segments)
     appendGrid(mesh, 1, segments, [](float u, float v) {
         // v goes from +z over the top to -z. u goes along -x, because the cross product of +x and
         // +y at +z would point out.
-        const glm::vec2 d = direction(pi * v);
+        const glm::vec2 d = direction(pi_v<float> * v);
         return SurfacePoint{{0.5f - u, d.y, d.x}, {0, -d.y, -d.x}, {-1, 0, 0}};
     });
     return mesh;

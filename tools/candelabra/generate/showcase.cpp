@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <glm/gtc/constants.hpp>
-
 #include "generate/generators.h"
 #include "generate/lights.h"
 #include "generate/scene_builder.h"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "scene/json_value.h"
 #include "scene/scene_file.h"
@@ -13,7 +14,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 struct Emission {
     glm::dvec3 color{1};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
 // Vectors that are not longer than this count as zero.
 constexpr double minLength = 1e-6;

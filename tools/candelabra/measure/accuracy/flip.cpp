@@ -11,7 +11,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Plane = std::vector<glm::vec3>;
 
 struct Size {

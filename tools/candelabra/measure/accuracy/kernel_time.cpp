@@ -18,7 +18,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 glm::dvec3 direction(Random& random, double cosine)
 {

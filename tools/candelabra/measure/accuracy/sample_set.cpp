@@ -15,7 +15,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double degree = pi / 180;
 
 struct Group {

@@ -15,7 +15,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // The constants of one sweep, which are drawn at random.
 struct Path {
