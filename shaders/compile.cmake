@@ -30,8 +30,8 @@ string(REGEX REPLACE "((0x........,)(0x........,)(0x........,)(0x........,)(0x..
 file(WRITE ${OUTPUT} "#include \"gpu/spirv.h\"
 namespace candelabra::spirv
 {
-static const uint32_t words[] = {\n${words}};
+static const uint32_t ${SYMBOL}_words[] = {\n${words}};
 extern const gpu::Spirv ${SYMBOL};
-const gpu::Spirv ${SYMBOL}{\"${NAME}\", words};
+const gpu::Spirv ${SYMBOL}{\"${NAME}\", ${SYMBOL}_words};
 } // namespace candelabra::spirv
 ")

@@ -16,7 +16,7 @@ namespace candelabra::lighting
 namespace
 {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // Tests of clip coordinates are wider by this share of the magnitude of their terms, which is more
 // than the rounding error of the kernels' float32.
@@ -28,7 +28,7 @@ static_assert(gpu::ALL_LAYERS == (1u << CND_LAYER_COUNT) - 1);
 
 InfluenceBox endlessBox(uint32_t layers)
 {
-    return {glm::dvec3(-infinity), glm::dvec3(infinity), layers};
+    return {glm::dvec3(-unbounded), glm::dvec3(unbounded), layers};
 }
 
 InfluenceBoxes influenceBoxesOf(std::span<const CndLight> lights)
@@ -36,7 +36,7 @@ InfluenceBoxes influenceBoxesOf(std::span<const CndLight> lights)
     InfluenceBoxes out;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         out[type] = isDistant(type) ? endlessBox(0)
-                                    : InfluenceBox{glm::dvec3(infinity), glm::dvec3(-infinity)};
+                                    : InfluenceBox{glm::dvec3(unbounded), glm::dvec3(-unbounded)};
     for (const CndLight& light : lights) {
         InfluenceBox& box = out[light.type];
         box.layers |= layersOf(light.layers);
@@ -63,7 +63,7 @@ bool reachesView(const InfluenceBox& box, const double origin[3], const CndCamer
     for (int axis = 0; axis < 3; ++axis) {
         if (box.low[axis] > box.high[axis])
             return false;
-        if (box.low[axis] == -infinity || box.high[axis] == infinity)
+        if (box.low[axis] == -unbounded || box.high[axis] == unbounded)
             return true;
     }
     glm::dmat4 viewFromWorld;

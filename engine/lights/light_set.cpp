@@ -21,8 +21,6 @@ constexpr uint32_t defaultCapacity = 1024;
 // edited: the estimate costs as much as sorting 1024 numbers four times.
 constexpr uint32_t editsPerExtent = 16;
 
-constexpr VkDeviceSize recordBytes = sizeof(gpu::LightRecord);
-
 void checkSet(const gpu::Device& device, const CndLightSet& set)
 {
     if (set.structSize != sizeof set)

@@ -15,8 +15,6 @@ namespace candelabra::lighting
 namespace
 {
 
-constexpr VkDeviceSize recordBytes = sizeof(gpu::LightRecord);
-
 // Makes room for `more` elements. The capacity grows by half at least, so that many small calls do
 // not copy the vector each time.
 template <typename T>

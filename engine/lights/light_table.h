@@ -14,6 +14,9 @@
 namespace candelabra::lighting
 {
 
+// Size of a light on the device.
+inline constexpr VkDeviceSize recordBytes = sizeof(gpu::LightRecord);
+
 class LightTable
 {
 public:

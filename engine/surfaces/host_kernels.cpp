@@ -42,7 +42,7 @@ const BuiltIn builtIn[] = {
     {"surface_overlay", &spirv::surface_overlay_comp},
     {"shade_environment", &spirv::shade_environment_comp}};
 
-[[noreturn]] void fail(const std::string& sentence)
+[[noreturn]] void failKernels(const std::string& sentence)
 {
     gpu::failArgument("CndHostKernels: " + sentence);
 }
@@ -50,11 +50,11 @@ const BuiltIn builtIn[] = {
 const gpu::Spirv& find(const CndKernelCode& code)
 {
     if (!code.name || !code.words)
-        fail("the name or the words of a kernel are null");
+        failKernels("the name or the words of a kernel are null");
     const auto found =
         std::ranges::find(builtIn, std::string(code.name), [](const BuiltIn& b) { return b.name; });
     if (found == std::end(builtIn))
-        fail("there is no kernel " + std::string(code.name) + " to replace");
+        failKernels("there is no kernel " + std::string(code.name) + " to replace");
     return *found->spirv;
 }
 
@@ -64,15 +64,15 @@ HostKernels::HostKernels(const CndHostKernels& given, CndGBufferLayout layout)
     : setLayout_(given.setLayout), readSurfaces_(layout == CND_GBUFFER_CUSTOM)
 {
     if (given.count && !given.kernels)
-        fail("kernels is null but count is " + std::to_string(given.count));
+        failKernels("kernels is null but count is " + std::to_string(given.count));
     for (const CndKernelCode& code : std::span(given.kernels, given.count)) {
         const gpu::Spirv& replaced = find(code);
         std::vector<uint32_t> words(code.words, code.words + code.wordCount);
         gpu::Reflection reflection = gpu::reflect({code.name, words});
         const bool usesSet = std::exchange(reflection.usesHostSet, false);
         if (reflection != gpu::reflect(replaced))
-            fail(std::string("kernel ") + code.name +
-                 " has other bindings or parameters than this version's: compile it anew");
+            failKernels(std::string("kernel ") + code.name +
+                        " has other bindings or parameters than this version's: compile it anew");
         // Moving a vector leaves its elements where they are.
         const gpu::Spirv spirv{replaced.name, words};
         kernels_.push_back({&replaced, std::move(words), spirv, usesSet});
@@ -88,9 +88,9 @@ const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
     }
     const auto* const known = std::ranges::find(builtIn, &original, &BuiltIn::spirv);
     if (known != std::end(builtIn) && (readSurfaces_ || (!kernels_.empty() && known->evaluates)))
-        fail(std::string("kernel ") + known->name +
-             " is missing: name its light type and method in CndCompileDesc" +
-             (readSurfaces_ ? ", and CND_HOST_READ_SURFACE_BIT" : ""));
+        failKernels(std::string("kernel ") + known->name +
+                    " is missing: name its light type and method in CndCompileDesc" +
+                    (readSurfaces_ ? ", and CND_HOST_READ_SURFACE_BIT" : ""));
     return original;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/exposure_harness.h"
+#include "harness/constants.h"
 
 #include <cmath>
 #include <limits>
@@ -8,8 +9,6 @@ namespace candelabra::test
 {
 namespace
 {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 float specialValue(std::mt19937& random)
 {

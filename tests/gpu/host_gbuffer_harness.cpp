@@ -19,15 +19,16 @@ struct Texel {
     enum { Unorm, Snorm, Srgb, Half, Float } numbers;
 };
 
-constexpr Texel texels[] = {{VK_FORMAT_R8G8_UNORM, {8, 8}, Texel::Unorm},
-                            {VK_FORMAT_R8G8B8A8_UNORM, {8, 8, 8, 8}, Texel::Unorm},
-                            {VK_FORMAT_R8G8B8A8_SNORM, {8, 8, 8, 8}, Texel::Snorm},
-                            {VK_FORMAT_R8G8B8A8_SRGB, {8, 8, 8, 8}, Texel::Srgb},
-                            {VK_FORMAT_A2B10G10R10_UNORM_PACK32, {10, 10, 10, 2}, Texel::Unorm},
-                            {VK_FORMAT_R16G16_UNORM, {16, 16}, Texel::Unorm},
-                            {VK_FORMAT_R16G16_SNORM, {16, 16}, Texel::Snorm},
-                            {VK_FORMAT_R16G16B16A16_SFLOAT, {16, 16, 16, 16}, Texel::Half},
-                            {VK_FORMAT_R32G32B32A32_SFLOAT, {32, 32, 32, 32}, Texel::Float}};
+constexpr Texel texelFormats[] = {
+    {VK_FORMAT_R8G8_UNORM, {8, 8}, Texel::Unorm},
+    {VK_FORMAT_R8G8B8A8_UNORM, {8, 8, 8, 8}, Texel::Unorm},
+    {VK_FORMAT_R8G8B8A8_SNORM, {8, 8, 8, 8}, Texel::Snorm},
+    {VK_FORMAT_R8G8B8A8_SRGB, {8, 8, 8, 8}, Texel::Srgb},
+    {VK_FORMAT_A2B10G10R10_UNORM_PACK32, {10, 10, 10, 2}, Texel::Unorm},
+    {VK_FORMAT_R16G16_UNORM, {16, 16}, Texel::Unorm},
+    {VK_FORMAT_R16G16_SNORM, {16, 16}, Texel::Snorm},
+    {VK_FORMAT_R16G16B16A16_SFLOAT, {16, 16, 16, 16}, Texel::Half},
+    {VK_FORMAT_R32G32B32A32_SFLOAT, {32, 32, 32, 32}, Texel::Float}};
 
 double encodeSrgb(double x)
 {
@@ -128,7 +129,7 @@ CpuSurface fullSurface(const CndGBufferDesc& d, const HostSurface& s, double dep
 
 glm::dvec4 appendTexel(std::vector<std::byte>& out, VkFormat format, const glm::dvec4& value)
 {
-    for (const Texel& t : texels) {
+    for (const Texel& t : texelFormats) {
         if (t.format != format)
             continue;
         glm::dvec4 read(0, 0, 0, 1); // channels that do not exist read as these values

@@ -9,13 +9,12 @@
 #include <string>
 
 #include "gpu/lighting_harness.h"
+#include "harness/constants.h"
 #include "reference/tone_map.h"
 #include "shared/influence.h"
 
 namespace candelabra::test
 {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 inline double displayError(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b,
                            const CndInfluence& influence)

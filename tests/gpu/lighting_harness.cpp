@@ -37,7 +37,7 @@ glm::uvec2 packHalf4(const glm::vec4& v)
     return {glm::packHalf2x16({v.x, v.y}), glm::packHalf2x16({v.z, v.w})};
 }
 
-double uniform(std::mt19937& random)
+double uniformOf(std::mt19937& random)
 {
     return double(random()) / 4294967296.0;
 }
@@ -140,14 +140,14 @@ CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camer
         for (uint32_t x = 0; x < width; ++x) {
             // Vertical walls, 11 pixels wide, at 3..33 m, with bumps of a few centimetres.
             const uint32_t wall = (x / 11 * 7 + seed) % 5;
-            const double distance = 3 + 6 * wall + y * 0.01 + 0.05 * uniform(random);
+            const double distance = 3 + 6 * wall + y * 0.01 + 0.05 * uniformOf(random);
             const bool hole = (x / 5 + y / 7) % 9 == 0;
             g.depth.push_back(hole ? clearDepth : depthAt(camera, distance));
-            glm::dvec3 n(uniform(random) - 0.5, uniform(random) - 0.5, 0.4 + uniform(random));
-            const double roughness = 0.1 + 0.9 * uniform(random);
+            glm::dvec3 n(uniformOf(random) - 0.5, uniformOf(random) - 0.5, 0.4 + uniformOf(random));
+            const double roughness = 0.1 + 0.9 * uniformOf(random);
             g.normalRoughness.push_back(packNormal(glm::normalize(n), roughness));
-            const float metal = uniform(random) < 0.3 ? 1.0f : 0.0f;
-            const glm::vec3 base(uniform(random), uniform(random), uniform(random));
+            const float metal = uniformOf(random) < 0.3 ? 1.0f : 0.0f;
+            const glm::vec3 base(uniformOf(random), uniformOf(random), uniformOf(random));
             g.albedo.push_back(packHalf4(glm::vec4(base * (1 - metal), 0)));
             g.specular.push_back(packHalf4(glm::vec4(glm::mix(glm::vec3(0.04f), base, metal), 1)));
         }
@@ -170,13 +170,13 @@ std::vector<CndLight> randomSpheres(const CpuGBuffer& g, uint32_t count, uint32_
         const bool hole = g.depth[size_t(y) * g.width + x] == g.clearDepth;
         glm::dvec3 p = hole ? glm::dvec3(0, 0, -10) : viewPosition(g, x, y);
         for (int i = 0; i < 3; ++i)
-            p[i] += 3 * (uniform(random) - 0.5);
+            p[i] += 3 * (uniformOf(random) - 0.5);
         CndLight light{.type = CND_LIGHT_SPHERE,
                        .position = {float(p.x), float(p.y), float(p.z)},
-                       .radius = float(0.01 + 0.5 * std::pow(uniform(random), 3))};
+                       .radius = float(0.01 + 0.5 * std::pow(uniformOf(random), 3))};
         for (float& e : light.emission)
-            e = float(1000 * uniform(random));
-        light.influenceRadius = light.radius * 1.5f + float(3 * uniform(random));
+            e = float(1000 * uniformOf(random));
+        light.influenceRadius = light.radius * 1.5f + float(3 * uniformOf(random));
         lights.push_back(light);
     }
     return lights;

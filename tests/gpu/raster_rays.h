@@ -14,7 +14,7 @@
 namespace candelabra::test
 {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::infinity();
 
 struct Ray {
     glm::dvec3 origin, direction; // world space, direction unit
@@ -40,11 +40,11 @@ inline double hitPlane(const Ray& ray, const glm::dvec3& point, const glm::dvec3
 {
     const double height = glm::dot(ray.origin - point, normal);
     const double slope = glm::dot(ray.direction, normal);
-    return height > 0 && slope < 0 ? -height / slope : infinity;
+    return height > 0 && slope < 0 ? -height / slope : never;
 }
 
 struct SphereHit {
-    double near = infinity, far = infinity;
+    double near = never, far = never;
     double axisDistance; // distance of the ray from the centre
 };
 

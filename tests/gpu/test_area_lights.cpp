@@ -10,6 +10,7 @@
 
 #include "candelabra_probes.h"
 #include "gpu/probe.h"
+#include "harness/constants.h"
 #include "harness/full_tests.h"
 #include "reference/truth.h"
 #include "shared/area_probe.h"
@@ -20,8 +21,6 @@ namespace candelabra::test
 {
 namespace
 {
-
-constexpr double pi = std::numbers::pi;
 
 struct Percentiles {
     double mean = 0, median = 0, p99 = 0, largest = 0; // percent

@@ -10,6 +10,7 @@
 
 #include "candelabra_probes.h"
 #include "gpu/probe.h"
+#include "harness/constants.h"
 #include "harness/full_tests.h"
 #include "reference/truth.h"
 
@@ -17,8 +18,6 @@ namespace candelabra::test
 {
 namespace
 {
-
-constexpr double pi = std::numbers::pi;
 
 struct Record {
     gpu::ConicProbeInput input;

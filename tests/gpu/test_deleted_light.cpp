@@ -55,18 +55,18 @@ void VKAPI_CALL beginLabel(VkCommandBuffer cmd, const VkDebugUtilsLabelEXT* labe
     interposer.beginLabel(cmd, label);
 }
 
-PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name)
+PFN_vkVoidFunction VKAPI_CALL spyDeviceProcAddr(VkDevice device, const char* name)
 {
     if (std::string(name) == "vkCreateBuffer")
         return reinterpret_cast<PFN_vkVoidFunction>(createBuffer);
     return interposer.getDeviceProcAddr(device, name);
 }
 
-PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name)
+PFN_vkVoidFunction VKAPI_CALL spyInstanceProcAddr(VkInstance instance, const char* name)
 {
     const std::string function = name;
     if (function == "vkGetDeviceProcAddr")
-        return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
+        return reinterpret_cast<PFN_vkVoidFunction>(spyDeviceProcAddr);
     if (function == "vkSetDebugUtilsObjectNameEXT")
         return reinterpret_cast<PFN_vkVoidFunction>(setName);
     if (function == "vkCmdBeginDebugUtilsLabelEXT")
@@ -89,7 +89,7 @@ CndDeviceDesc interpose(const CndDeviceDesc& host)
     interposer.beginLabel =
         reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(find("vkCmdBeginDebugUtilsLabelEXT"));
     CndDeviceDesc desc = host;
-    desc.getInstanceProcAddr = getInstanceProcAddr;
+    desc.getInstanceProcAddr = spyInstanceProcAddr;
     return desc;
 }
 

@@ -35,7 +35,7 @@ F find(const CndDeviceDesc& desc, const char* name)
     return reinterpret_cast<F>(desc.getInstanceProcAddr(desc.instance, name));
 }
 
-PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name)
+PFN_vkVoidFunction VKAPI_CALL poorInstanceProcAddr(VkInstance instance, const char* name)
 {
     const std::string function = name;
     if (function == "vkGetPhysicalDeviceFeatures2")
@@ -45,14 +45,14 @@ PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const cha
     return realGetInstanceProcAddr(instance, name);
 }
 
-CndDeviceDesc interpose(const CndDeviceDesc& host)
+CndDeviceDesc poorDevice(const CndDeviceDesc& host)
 {
     realGetInstanceProcAddr = host.getInstanceProcAddr;
     realGetFeatures = find<PFN_vkGetPhysicalDeviceFeatures2>(host, "vkGetPhysicalDeviceFeatures2");
     realGetProperties =
         find<PFN_vkGetPhysicalDeviceProperties2>(host, "vkGetPhysicalDeviceProperties2");
     CndDeviceDesc desc = host;
-    desc.getInstanceProcAddr = getInstanceProcAddr;
+    desc.getInstanceProcAddr = poorInstanceProcAddr;
     return desc;
 }
 
@@ -67,7 +67,7 @@ TEST_F(LightingTest, MissingFeatureIsNamed)
               CND_SUCCESS)
         << missing;
     EXPECT_STREQ(missing, "");
-    const CndDeviceDesc poor = interpose(host);
+    const CndDeviceDesc poor = poorDevice(host);
     EXPECT_EQ(cndCheckDevice(poor.instance, poor.physicalDevice, poor.getInstanceProcAddr, missing,
                              sizeof missing),
               CND_ERROR_UNSUPPORTED);
@@ -98,7 +98,7 @@ TEST_F(LightingTest, SmallTexelBuffersChangeNothing)
 {
     const CpuGBuffer g = randomGBuffer(96, 64, 12);
     const auto lights = randomSpheres(g, 500, 12);
-    const CndDeviceDesc poor = interpose(deviceDesc());
+    const CndDeviceDesc poor = poorDevice(deviceDesc());
     const LightingResult texels = run(g, lights);
     const LightingResult words = run(g, lights, {.host = &poor});
     EXPECT_EQ(maxRelativeDifference(words.radiance, texels.radiance), 0);

@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "gpu/lighting_harness.h"
+#include "harness/constants.h"
 
 namespace candelabra::test
 {
 namespace
 {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
 CndDeviceLight onDevice(const CndLight& light)

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "gpu/environment_harness.h"
+#include "harness/constants.h"
 #include "reference/albedo.h"
 #include "reference/brdf.h"
 
@@ -17,7 +18,6 @@ namespace candelabra::test
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
 constexpr float surfaceDepth = 0.5f;
 const glm::vec4 white(1), noSpecular(0);
 

@@ -2,6 +2,7 @@
 // Tests histogram, adaptation and the contract of the exposure module against the double-precision
 // reference.
 #include "gpu/exposure_harness.h"
+#include "harness/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +16,6 @@ namespace candelabra::test
 {
 namespace
 {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 // Tolerance of EV100 against the double-precision reference: float32 sums of 256 products have a
 // relative error of 256 * 6e-8, for values up to 20. This is a hundredth of what could be visible

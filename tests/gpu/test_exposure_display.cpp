@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what the exposure module writes to the display, and the arguments that it refuses.
 #include "gpu/exposure_harness.h"
+#include "harness/constants.h"
 
 #include <cmath>
 #include <functional>
@@ -14,9 +15,6 @@ namespace candelabra::test
 {
 namespace
 {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 // Colours from far below black to far beyond white, including saturated ones.
 Picture colours(uint32_t width, uint32_t height)

@@ -10,14 +10,13 @@
 #include "candelabra_probes.h"
 #include "gpu/gbuffer_harness.h"
 #include "gpu/probe.h"
+#include "harness/constants.h"
 #include "shared/gbuffer_probe.h"
 
 namespace candelabra::test
 {
 namespace
 {
-
-constexpr double pi = std::numbers::pi;
 
 } // namespace
 

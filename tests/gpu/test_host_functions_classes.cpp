@@ -13,7 +13,7 @@ namespace candelabra::test
 namespace
 {
 
-constexpr const char* shadowSource = R"(
+constexpr const char* halfShadowSource = R"(
 float candelabraVisibility(ShadowQuery q)
 {
     return q.light % 2u == 0u ? 1.0 : 0.25;
@@ -24,7 +24,7 @@ float candelabraVisibility(ShadowQuery q)
 
 TEST_F(LightingTest, ClassesOfSurfacesThatTheHostReadsLookTheSame)
 {
-    const std::string source = std::string(surfaceSource) + shadowSource;
+    const std::string source = std::string(surfaceSource) + halfShadowSource;
     auto kernels = CompiledKernels::create(
         {.functions = CND_HOST_VISIBILITY_BIT | CND_HOST_READ_SURFACE_BIT,
          .source = source.c_str(),

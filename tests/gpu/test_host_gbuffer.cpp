@@ -17,7 +17,7 @@ namespace candelabra::test
 namespace
 {
 
-constexpr uint32_t width = 72, height = 48;
+constexpr uint32_t imageWidth = 72, imageHeight = 48;
 // Metres. With a nearer plane, depth that is not reversed would show how a device rounds 24 bits to
 // a float: at 0.1 m the last bit is 0.7 mm of the farthest wall.
 constexpr double nearPlane = 0.5;
@@ -97,7 +97,8 @@ const Layout layouts[] = {
 CndCamera camera(bool reversed)
 {
     CndCamera out;
-    setPerspective(out, 1.0, double(width) / height, nearPlane, reversed ? 0 : 60, reversed);
+    setPerspective(out, 1.0, double(imageWidth) / imageHeight, nearPlane, reversed ? 0 : 60,
+                   reversed);
     const glm::dmat4 viewFromWorld =
         glm::translate(glm::rotate(glm::dmat4(1), 1.1, glm::normalize(glm::dvec3(1, 2, -0.5))),
                        glm::dvec3(4, -7, 2));
@@ -110,8 +111,8 @@ HostPixels randomSurfaces(const Layout& layout)
 {
     const CndCamera c = camera(layout.reversed);
     const float clearDepth = layout.reversed ? 0.0f : 1.0f;
-    const CpuGBuffer walls = randomGBuffer(width, height, c, clearDepth, 4);
-    HostPacking packing(layout.desc, width, height, c, clearDepth);
+    const CpuGBuffer walls = randomGBuffer(imageWidth, imageHeight, c, clearDepth, 4);
+    HostPacking packing(layout.desc, imageWidth, imageHeight, c, clearDepth);
     std::mt19937 random(8);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (size_t i = 0; i < walls.depth.size(); ++i) {
@@ -163,7 +164,7 @@ protected:
                                                         .specularMethods = 1u << GetParam().method,
                                                         .gbuffer = pixels.desc});
         EXPECT_TRUE(lighting) << lighting.error().message;
-        auto view = lighting.value().createView({.maxWidth = width, .maxHeight = height});
+        auto view = lighting.value().createView({.maxWidth = imageWidth, .maxHeight = imageHeight});
         EXPECT_TRUE(view) << view.error().message;
         EXPECT_TRUE(lighting.value().setLights(lights, {0, 0, 0}));
         std::array<std::vector<glm::vec4>, 2> out;
@@ -345,9 +346,9 @@ TEST_F(SurfaceOverlay, ShowsWhatIsRead)
     };
     for (int q = CND_SURFACE_NORMAL; q <= CND_SURFACE_FAULTS; ++q) {
         const Picture& one = shown[size_t(q)];
-        for (uint32_t y = 0; y < height; ++y)
-            for (uint32_t x = 0; x < width; ++x) {
-                const size_t i = size_t(y) * width + x;
+        for (uint32_t y = 0; y < imageHeight; ++y)
+            for (uint32_t x = 0; x < imageWidth; ++x) {
+                const size_t i = size_t(y) * imageWidth + x;
                 const glm::vec4 albedo = storedHalf4(p.asFull.albedo[i]);
                 const glm::vec4 f0 = storedHalf4(p.asFull.specular[i]);
                 const glm::dvec4 world =
@@ -365,7 +366,8 @@ TEST_F(SurfaceOverlay, ShowsWhatIsRead)
                 }
                 const uint32_t column = uint32_t(q - 1) % 3, row = uint32_t(q - 1) / 3;
                 if (x % 3 == 0 && y % 2 == 0) { // 72 = 3 * 24, 48 = 2 * 24
-                    ASSERT_EQ(all[(row * 24 + y / 2) * width + column * 24 + x / 3].x, one[i].x);
+                    ASSERT_EQ(all[(row * 24 + y / 2) * imageWidth + column * 24 + x / 3].x,
+                              one[i].x);
                 }
             }
     }

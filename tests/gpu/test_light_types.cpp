@@ -35,9 +35,9 @@ CndCamera camera()
     return out;
 }
 
-// Errors relative to reflected luminance: mean and largest |image - truth|, divided by the mean and
-// the largest truth.
-struct Errors {
+// TypeErrors relative to reflected luminance: mean and largest |image - truth|, divided by the mean
+// and the largest truth.
+struct TypeErrors {
     double mean = 0, max = 0;
 };
 
@@ -79,8 +79,8 @@ protected:
         return sum;
     }
 
-    Errors errorsOf(const CpuGBuffer& g, const std::vector<CndLight>& lights,
-                    const RunOptions& options)
+    TypeErrors errorsOf(const CpuGBuffer& g, const std::vector<CndLight>& lights,
+                        const RunOptions& options)
     {
         const LightingResult image = run(g, lights, options);
         double sum = 0, sumTruth = 0, peak = 0, worst = 0;
@@ -153,7 +153,7 @@ TEST_F(LightTypes, DiffuseEqualsTruth)
 {
     const CpuGBuffer g = randomGBuffer(48, 32, camera(), 0, 7);
     for (const CndLightType type : allTypes()) {
-        const Errors e = errorsOf(g, lightsOf(type, g, 8, 2), {.specular = CND_SPECULAR_NONE});
+        const TypeErrors e = errorsOf(g, lightsOf(type, g, 8, 2), {.specular = CND_SPECULAR_NONE});
         std::cout << lightTypeName(type) << ": diffuse error mean " << e.mean
                   << ", largest over peak " << e.max << "\n";
         EXPECT_LE(e.mean, type == CND_LIGHT_TUBE ? 1e-3 : 3e-5) << lightTypeName(type);
@@ -161,14 +161,15 @@ TEST_F(LightTypes, DiffuseEqualsTruth)
     }
 }
 
-// Errors of the whole image: roughness 0.1 to 1, grazing normals, lights that cross the horizon.
+// TypeErrors of the whole image: roughness 0.1 to 1, grazing normals, lights that cross the
+// horizon.
 TEST_F(LightTypes, DefaultMethodIsCloseToTruth)
 {
     const CpuGBuffer g = randomGBuffer(36, 24, camera(), 0, 8);
     for (const CndLightType type : allTypes()) {
         const auto lights = lightsOf(type, g, 6, 3);
-        const Errors conic = errorsOf(g, lights, {.specular = CND_SPECULAR_CONIC});
-        const Errors sampled =
+        const TypeErrors conic = errorsOf(g, lights, {.specular = CND_SPECULAR_CONIC});
+        const TypeErrors sampled =
             errorsOf(g, lights, {.specular = CND_SPECULAR_SAMPLED, .sampleCount = 1024});
         std::cout << lightTypeName(type) << ": default method, error mean " << conic.mean
                   << ", largest over peak " << conic.max << "; 1024 samples " << sampled.mean

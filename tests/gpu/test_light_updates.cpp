@@ -15,44 +15,44 @@ namespace
 
 // Counts bytes copied between buffers and within one. Global because Vulkan's function pointers
 // carry no context.
-struct Interposer {
+struct CopyCounter {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     PFN_vkGetDeviceProcAddr getDeviceProcAddr = nullptr;
     PFN_vkCmdCopyBuffer copyBuffer = nullptr;
     VkDeviceSize copied = 0, moved = 0;
-} interposer;
+} copyCounter;
 
 void VKAPI_CALL copyBuffer(VkCommandBuffer cmd, VkBuffer from, VkBuffer to, uint32_t count,
                            const VkBufferCopy* regions)
 {
     for (uint32_t i = 0; i < count; ++i)
-        (from == to ? interposer.moved : interposer.copied) += regions[i].size;
-    interposer.copyBuffer(cmd, from, to, count, regions);
+        (from == to ? copyCounter.moved : copyCounter.copied) += regions[i].size;
+    copyCounter.copyBuffer(cmd, from, to, count, regions);
 }
 
-PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name)
+PFN_vkVoidFunction VKAPI_CALL countedDeviceProcAddr(VkDevice device, const char* name)
 {
     if (std::string(name) == "vkCmdCopyBuffer")
         return reinterpret_cast<PFN_vkVoidFunction>(copyBuffer);
-    return interposer.getDeviceProcAddr(device, name);
+    return copyCounter.getDeviceProcAddr(device, name);
 }
 
-PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name)
+PFN_vkVoidFunction VKAPI_CALL countedInstanceProcAddr(VkInstance instance, const char* name)
 {
     if (std::string(name) == "vkGetDeviceProcAddr")
-        return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
-    return interposer.getInstanceProcAddr(instance, name);
+        return reinterpret_cast<PFN_vkVoidFunction>(countedDeviceProcAddr);
+    return copyCounter.getInstanceProcAddr(instance, name);
 }
 
-CndDeviceDesc interpose(const CndDeviceDesc& host)
+CndDeviceDesc countCopies(const CndDeviceDesc& host)
 {
-    interposer.getInstanceProcAddr = host.getInstanceProcAddr;
-    interposer.getDeviceProcAddr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+    copyCounter.getInstanceProcAddr = host.getInstanceProcAddr;
+    copyCounter.getDeviceProcAddr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
         host.getInstanceProcAddr(host.instance, "vkGetDeviceProcAddr"));
-    interposer.copyBuffer = reinterpret_cast<PFN_vkCmdCopyBuffer>(
-        interposer.getDeviceProcAddr(host.device, "vkCmdCopyBuffer"));
+    copyCounter.copyBuffer = reinterpret_cast<PFN_vkCmdCopyBuffer>(
+        copyCounter.getDeviceProcAddr(host.device, "vkCmdCopyBuffer"));
     CndDeviceDesc desc = host;
-    desc.getInstanceProcAddr = getInstanceProcAddr;
+    desc.getInstanceProcAddr = countedInstanceProcAddr;
     return desc;
 }
 
@@ -66,7 +66,7 @@ protected:
             return;
         g_ = randomGBuffer(96, 72, 3);
         images_ = uploadImages(g_);
-        const CndDeviceDesc host = interpose(deviceDesc());
+        const CndDeviceDesc host = countCopies(deviceDesc());
         CndError error{};
         const CndLightingDesc desc{.structSize = sizeof desc,
                                    .framesInFlight = 2,
@@ -89,7 +89,7 @@ protected:
         CndError error{};
         CndLightingFrame f = frameOf(g_, images_, {});
         f.frameSlot = slot_ = 1 - slot_;
-        interposer.copied = interposer.moved = 0;
+        copyCounter.copied = copyCounter.moved = 0;
         context().submitAndWait([&](VkCommandBuffer cmd) {
             clearRadiance(cmd, images_);
             EXPECT_EQ(cndRecordLighting(view_, cmd, &f, &error), CND_SUCCESS) << error.message;
@@ -173,22 +173,22 @@ double cpuSeconds()
     return double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-constexpr double tolerance = 1e-6; // the order of lights depends on where the first set was
+constexpr double orderTolerance = 1e-6; // the order of lights depends on where the first set was
 
 TEST_F(LightUpdates, ShowTheSetGivenAnewAndUploadTheirOwnBytes)
 {
     std::vector<CndLight> lights = randomSpheres(g_, 20000, 4);
     set(lights);
     frame();
-    EXPECT_GE(interposer.copied, 20000u * 64);
+    EXPECT_GE(copyCounter.copied, 20000u * 64);
     const std::vector<CndLight> fresh = randomSpheres(g_, 1000, 5);
     updateSet(lights, 7000, fresh);
     const std::vector<glm::vec4> image = frame();
-    EXPECT_GE(interposer.copied, 1000u * 64);
-    EXPECT_LE(interposer.copied, 1000u * 64 + 1024); // plus statistics
-    EXPECT_LE(maxRelativeDifference(image, expected(lights)), tolerance);
+    EXPECT_GE(copyCounter.copied, 1000u * 64);
+    EXPECT_LE(copyCounter.copied, 1000u * 64 + 1024); // plus statistics
+    EXPECT_LE(maxRelativeDifference(image, expected(lights)), orderTolerance);
     const std::vector<glm::vec4> again = frame(); // nothing has changed
-    EXPECT_LE(interposer.copied, 1024u);
+    EXPECT_LE(copyCounter.copied, 1024u);
     EXPECT_EQ(maxRelativeDifference(again, image), 0);
 }
 
@@ -198,14 +198,14 @@ TEST_F(LightUpdates, OfMixedTypesAddUpUntilTheyAreRecorded)
     set(lights);
     updateSet(lights, 10, someLights(g_, 40, 7)); // before the set was recorded, and with other
                                                   // types
-    EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), tolerance);
+    EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), orderTolerance);
     updateSet(lights, 0, someLights(g_, 100, 8));
     updateSet(lights, 50, someLights(g_, 250, 9)); // overlaps the previous ones
     updateSet(lights, 299, someLights(g_, 1, 10));
-    EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), tolerance);
+    EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), orderTolerance);
     updateSet(lights, 0, someLights(g_, 300, 11)); // all
     updateSet(lights, 3, randomSpheres(g_, 5, 12));
-    EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), tolerance);
+    EXPECT_LE(maxRelativeDifference(frame(), expected(lights)), orderTolerance);
 }
 
 // Everything that may happen between two recordings, from no light to more than the buffers hold.
@@ -251,7 +251,7 @@ TEST_F(LightUpdates, OfAPopulationThatComesAndGoes)
             now.add(more, add(more));
         }
         if (random() % 8 == 0 || step == 39) {
-            EXPECT_LE(maxRelativeDifference(frame(), expected(now.lights)), tolerance) << step;
+            EXPECT_LE(maxRelativeDifference(frame(), expected(now.lights)), orderTolerance) << step;
         }
     }
     EXPECT_GT(now.ids.size(), 100u);
@@ -298,7 +298,7 @@ TEST_F(LightUpdates, OfAMillionCostTheirOwnBytes)
     set(lights);
     const double whole = cpuSeconds() - start;
     frame();
-    EXPECT_GE(interposer.copied, VkDeviceSize(all) * 64);
+    EXPECT_GE(copyCounter.copied, VkDeviceSize(all) * 64);
 
     std::vector<CndLightId> ids(some); // spread over the whole set
     for (uint32_t i = 0; i < some; ++i)
@@ -310,20 +310,20 @@ TEST_F(LightUpdates, OfAMillionCostTheirOwnBytes)
         std::cout << name << " 1,000 of 1,000,000: " << 1e3 * seconds << " ms of CPU time, the set "
                   << 1e3 * whole << " ms\n";
         const std::vector<glm::vec4> image = frame();
-        EXPECT_LE(interposer.copied, some * 64u + 1024); // plus statistics
-        EXPECT_LE(interposer.moved, some * 64u);
+        EXPECT_LE(copyCounter.copied, some * 64u + 1024); // plus statistics
+        EXPECT_LE(copyCounter.moved, some * 64u);
         return image;
     };
     const std::vector<CndLight> fresh = small(some, 26), more = small(some, 27);
     edit("update", [&] { update(ids, fresh); });
     edit("remove", [&] { remove(ids); });
-    EXPECT_GE(interposer.moved, (some - 1) * 64u); // the last of these may also be the last of all
-    EXPECT_LE(interposer.copied, 1024u);
+    EXPECT_GE(copyCounter.moved, (some - 1) * 64u); // the last of these may also be the last of all
+    EXPECT_LE(copyCounter.copied, 1024u);
     std::vector<CndLightId> added;
     const std::vector<glm::vec4> image = edit("add", [&] { added = add(more); });
     for (uint32_t i = 0; i < some; ++i)
         lights[ids[i]] = more[i];
-    EXPECT_LE(maxRelativeDifference(image, expected(lights)), tolerance);
+    EXPECT_LE(maxRelativeDifference(image, expected(lights)), orderTolerance);
 }
 
 TEST_F(LightUpdates, ThatAreWrongChangeNothing)
@@ -370,7 +370,7 @@ TEST_F(LightUpdates, ThatAreWrongChangeNothing)
     EXPECT_EQ(cndRemoveLights(lighting_, 0, nullptr, &error), CND_SUCCESS);
     EXPECT_EQ(cndAddLights(lighting_, 0, nullptr, nullptr, &error), CND_SUCCESS);
     EXPECT_EQ(maxRelativeDifference(frame(), before), 0);
-    EXPECT_LE(interposer.copied, 1024u);
+    EXPECT_LE(copyCounter.copied, 1024u);
     set(lights);
     refused("no light of the set has the id 50", {added[0]}); // an id of the previous set
 }

@@ -2,6 +2,7 @@
 // The lighting module through its C ABI: clustered against brute force and against the
 // double-precision reference, lists without room, growth, invalid input.
 #include "gpu/lighting_harness.h"
+#include "harness/constants.h"
 
 #include <cmath>
 #include <limits>
@@ -13,8 +14,6 @@ namespace candelabra::test
 {
 namespace
 {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 CndCamera defaultCamera(uint32_t width, uint32_t height)
 {
@@ -253,9 +252,8 @@ TEST_F(LightingTest, BadLightsAreRefusedByNameAndTheOldSetStays)
     CndLighting lighting{};
     ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
         << error.message;
-    const float nan = std::numeric_limits<float>::quiet_NaN();
     struct Case {
-        void (*spoil)(CndLight&, float nan);
+        void (*spoil)(CndLight&, float value);
         const char* word;
     };
     const Case cases[] = {

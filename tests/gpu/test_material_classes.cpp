@@ -15,7 +15,7 @@ namespace
 {
 
 // Tolerance per pixel: the formulas are the same, but in another order.
-constexpr double tolerance = 1e-5;
+constexpr double classTolerance = 1e-5;
 constexpr uint32_t bothClasses = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
 
 // Converts surfaces to the COMPACT layout: base colour and metalness, normals with 12 bits per
@@ -51,7 +51,7 @@ HostPixels hostPixels(const CpuGBuffer& g, const CndGBufferDesc& desc)
     return out;
 }
 
-constexpr CndGBufferDesc floats(CndGBufferChannel f90)
+constexpr CndGBufferDesc floatChannels(CndGBufferChannel f90)
 {
     return {.normalEncoding = CND_NORMAL_SNORM,
             .normalSpace = CND_NORMALS_VIEW,
@@ -80,9 +80,9 @@ struct Case {
 
 const Case cases[] = {
     {"CompactLayout", {.layout = CND_GBUFFER_COMPACT}, CND_LIGHT_SPHERE, false},
-    {"HostLayout", {.layout = CND_GBUFFER_HOST, .gbuffer = floats(CND_CHANNEL_SPECULAR_A)}},
+    {"HostLayout", {.layout = CND_GBUFFER_HOST, .gbuffer = floatChannels(CND_CHANNEL_SPECULAR_A)}},
     {"HostLayoutWithoutF90",
-     {.layout = CND_GBUFFER_HOST, .gbuffer = floats(CND_CHANNEL_NONE)},
+     {.layout = CND_GBUFFER_HOST, .gbuffer = floatChannels(CND_CHANNEL_NONE)},
      CND_LIGHT_SPHERE,
      false},
     {"NoSpecular", {.specular = CND_SPECULAR_NONE}},
@@ -114,7 +114,7 @@ TEST_P(MaterialClasses, LookTheSame)
     const LightingResult apart = run(g, lights, options);
     const double difference = maxPixelDifference(apart.radiance, together.radiance);
     std::cout << GetParam().name << ": largest difference of a pixel " << difference << '\n';
-    EXPECT_LE(difference, tolerance);
+    EXPECT_LE(difference, classTolerance);
     EXPECT_GT(apart.stats.contributingPairs, 0u);
     // Three columns of six tiles each, without the row that has other pixels; fewer if a tile has
     // no surface.
@@ -155,7 +155,7 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
         const LightingResult apart = run(g, lights, options);
         const double difference = maxPixelDifference(apart.radiance, together.radiance);
         std::cout << "type " << type << ": largest difference of a pixel " << difference << '\n';
-        EXPECT_LE(difference, tolerance) << type;
+        EXPECT_LE(difference, classTolerance) << type;
         EXPECT_EQ(together.stats.diffuseTileCount, 0u);
         EXPECT_EQ(together.stats.specularTileCount, 0u);
         EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);

@@ -11,7 +11,7 @@ namespace candelabra::test
 namespace
 {
 
-constexpr uint32_t width = 64, height = 48;
+constexpr uint32_t frameWidth = 64, frameHeight = 48;
 
 // Static, so that nothing of it is allocated while the heap fails.
 constexpr gbuffer::Vertex vertices[] = {
@@ -64,7 +64,7 @@ CndResult setEmitters(Host& h, uint32_t count, CndError* error)
 CndResult record(Host& h, CndError*)
 {
     gbuffer::FrameInputs in{
-        .attachments = h.targets->attachments(), .width = width, .height = height};
+        .attachments = h.targets->attachments(), .width = frameWidth, .height = frameHeight};
     for (int i = 0; i < 4; ++i)
         in.camera.viewFromWorld[5 * i] = 1;
     in.camera.clipFromView[0] = 1;
@@ -91,8 +91,8 @@ const std::vector<Step>& rasterSteps()
         {"create targets", false,
          [](Host& h, CndError* error) {
              return gpu::guard(error, [&] {
-                 h.targets = std::make_unique<gbuffer::Targets>(
-                     gbuffer::createTargets(*h.rasterDevice, CND_GBUFFER_FULL, width, height));
+                 h.targets = std::make_unique<gbuffer::Targets>(gbuffer::createTargets(
+                     *h.rasterDevice, CND_GBUFFER_FULL, frameWidth, frameHeight));
              });
          }},
         {"create geometry", false,

@@ -41,7 +41,7 @@ double peakOf(Configuration c)
     return respond(c).x;
 }
 
-class Random
+class RandomConfigurations
 {
 public:
     double operator()(double low, double high)
@@ -91,7 +91,7 @@ double largestJump(const std::function<double(double)>& at, int steps)
 // edge and twice its radius pass the horizon; neighbouring forms must agree there.
 TEST(ConicFormula, NoJumpWhereTheLightRises)
 {
-    Random random;
+    RandomConfigurations random;
     double worst = 0, worstEdge = 0;
     for (int i = 0; i < 1000; ++i) {
         Configuration c = random.configuration();
@@ -127,7 +127,7 @@ TEST(ConicFormula, NoJumpAlongAzimuthSizeViewAndRoughness)
         {"view", [](Configuration& c, double t) { c.NoV = 0.02 + 0.98 * t; }},
         {"alpha", [](Configuration& c, double t) { c.alpha = 0.002 + 0.998 * t; }}};
     for (const auto& [name, move] : sweeps) {
-        Random random;
+        RandomConfigurations random;
         double worst = 0;
         for (int i = 0; i < 300; ++i) {
             Configuration c = random.configuration();
@@ -149,7 +149,7 @@ TEST(ConicFormula, NoJumpAlongAzimuthSizeViewAndRoughness)
 // falls with s^2 down to the resolution of double.
 TEST(ConicFormula, LimitsAreTheHorizonAndThePointLight)
 {
-    Random random;
+    RandomConfigurations random;
     for (const double s : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
         double worst = 0;
         for (int i = 0; i < 2000; ++i) {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "candelabra/candelabra.hpp"
-#include "constants.h"
+#include "harness/constants.h"
 #include "reference/sphere_light.h"
 #include "reference/truth.h"
 
@@ -20,7 +20,7 @@ namespace candelabra::test
 namespace
 {
 
-glm::dvec3 vec(const float (&v)[3])
+glm::dvec3 doubleVector(const float (&v)[3])
 {
     return {v[0], v[1], v[2]};
 }
@@ -43,7 +43,7 @@ CndLight light(CndLightType type)
 // with the window; the whole emitter is above its horizon.
 double irradianceFacing(const CndLight& l, const glm::dvec3& at)
 {
-    const glm::dvec3 toLight = vec(l.position) - at;
+    const glm::dvec3 toLight = doubleVector(l.position) - at;
     const double distance = glm::length(toLight);
     const double emission = l.emission[1];
     const double w =
@@ -83,7 +83,7 @@ double powerThroughSphere(const CndLight& l)
             const glm::dvec3 x(normal.z, 0, -normal.x), u = glm::normalize(x);
             const glm::dvec3 direction =
                 z * normal + r * (std::cos(phi) * u + std::sin(phi) * glm::cross(normal, u));
-            const reference::SurfacePoint receiver{vec(l.position) + distance * direction,
+            const reference::SurfacePoint receiver{doubleVector(l.position) + distance * direction,
                                                    -direction, -direction};
             const double f = reference::truthResponse(receiver, 0, l, glm::dvec3(0), 1e-7).f;
             const double weight = weights[i % 6] / 2 * 2 * pi / 24 * distance * distance;
@@ -194,7 +194,7 @@ TEST(Conversions, IrradianceIsMatched)
         const double away = scale * std::pow(10, uniform(-2, 3));
         for (int k = 0; k < 3; ++k)
             point.position[k] = at[k] + float(away * uniform(0.2, 1));
-        const double distance = glm::length(vec(point.position) - receiver);
+        const double distance = glm::length(doubleVector(point.position) - receiver);
         point.emission[1] = float(std::pow(10, uniform(-6, 6)));
         if (i % 2)
             point.influenceRadius = float(distance * uniform(1.1, 30));
@@ -259,11 +259,12 @@ TEST(Conversions, ChosenSizesFitSinglePrecision)
         const CndLight sun = light(CND_LIGHT_DIRECTIONAL);
         auto sphere = sphereFromDirectional(sun, receiver);
         ASSERT_TRUE(sphere) << sphere.error().message;
-        const glm::dvec3 toLight = vec(sphere.value().position) - vec(receiver);
+        const glm::dvec3 toLight = doubleVector(sphere.value().position) - doubleVector(receiver);
         const double distance = glm::length(toLight);
         EXPECT_NEAR(distance / std::max(1e6, double(at)), 1, 1e-6);
         EXPECT_NEAR(double(sphere.value().radius) / distance, double(CND_SUN_SINE), 1e-8);
-        const double angle = glm::length(toLight / distance + glm::normalize(vec(sun.direction)));
+        const double angle =
+            glm::length(toLight / distance + glm::normalize(doubleVector(sun.direction)));
         std::cout << "receiver at " << at << " m: the light's direction is off by " << angle
                   << " rad\n";
         EXPECT_LE(angle, 1.2e-7);

@@ -8,15 +8,13 @@
 
 #include <gtest/gtest.h>
 
-#include "constants.h"
 #include "exposure/exposure.h"
+#include "harness/constants.h"
 
 namespace candelabra::test
 {
 namespace
 {
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 CndExposureSettings defaults()
 {

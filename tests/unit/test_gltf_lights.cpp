@@ -2,7 +2,7 @@
 // Tests KHR_lights_punctual and KHR_lights_area: units, directions, radii, influence.
 #include <cmath>
 
-#include "constants.h"
+#include "harness/constants.h"
 #include "unit/gltf_fixture.h"
 
 namespace candelabra::test

@@ -13,7 +13,7 @@
 #include <stb/stb_image.h>
 #include <sys/resource.h>
 
-#include "constants.h"
+#include "harness/constants.h"
 #include "io/image.h"
 #include "unit/gltf_builder.h"
 
@@ -24,8 +24,6 @@ namespace
 {
 
 using namespace candelabra::app;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 // Returns an image in which all values differ; magnitudes go from 2^-20 to 2^20.
 Image testImage(uint32_t width, uint32_t height, uint32_t channels)

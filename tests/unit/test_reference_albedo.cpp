@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "constants.h"
+#include "harness/constants.h"
 #include "reference/albedo.h"
 #include "reference/brdf.h"
 #include "test_reference_support.h"

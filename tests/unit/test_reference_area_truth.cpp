@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "constants.h"
+#include "harness/constants.h"
 #include "harness/full_tests.h"
 #include "reference/emitter_domain.h"
 #include "reference/truth.h"

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/constants.h"
 #include "reference/exposure.h"
 #include "test_reference_support.h"
 
@@ -20,7 +21,6 @@ namespace
 {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 CndExposureSettings automatic()
 {

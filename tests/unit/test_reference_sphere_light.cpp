@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "constants.h"
+#include "harness/constants.h"
 #include "reference/brdf.h"
 #include "reference/light.h"
 #include "reference/sphere_light.h"

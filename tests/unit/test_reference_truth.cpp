@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "constants.h"
+#include "harness/constants.h"
 #include "harness/full_tests.h"
 #include "reference/brdf.h"
 #include "reference/direction_domain.h"

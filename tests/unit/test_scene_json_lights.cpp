@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "constants.h"
+#include "harness/constants.h"
 #include "harness/paths.h"
 #include "load/load.h"
 #include "scene/light_types.h"
@@ -24,7 +24,7 @@ using namespace candelabra::app;
 
 const std::string everyLight = dataPath("every_light.json");
 
-glm::vec3 vec(const float (&v)[3])
+glm::vec3 vectorOf(const float (&v)[3])
 {
     return {v[0], v[1], v[2]};
 }
@@ -89,7 +89,7 @@ TEST_F(SceneJsonLights, EveryTypeArrivesAsWritten)
                                   CND_LIGHT_SPOT,           CND_LIGHT_DIRECTIONAL};
     for (size_t i = 0; i < l.size(); ++i)
         EXPECT_EQ(l[i].type, uint32_t(types[i])) << i;
-    expectNear(vec(l[0].emission), {400, 300, 200});
+    expectNear(vectorOf(l[0].emission), {400, 300, 200});
     EXPECT_NEAR(power(l[1], 0), 500, 1e-4);
     EXPECT_EQ(l[1].influenceRadius, 8);
     EXPECT_EQ(l[1].layers, 0x8004u);
@@ -98,22 +98,22 @@ TEST_F(SceneJsonLights, EveryTypeArrivesAsWritten)
     for (int c = 0; c < 3; ++c) // I = pi R^2 L
         EXPECT_NEAR(double(l[2].emission[c]) * pi * 0.01, 30 + 10 * c, 1e-4);
 
-    expectNear(vec(l[3].direction), glm::normalize(glm::vec3(-1, -2, 0)));
+    expectNear(vectorOf(l[3].direction), glm::normalize(glm::vec3(-1, -2, 0)));
     EXPECT_EQ(l[3].radius, 0.00465f);
     EXPECT_NEAR(double(l[3].emission[2]) * pi * 0.00465 * 0.00465, 18, 1e-5);
 
-    expectNear(vec(l[4].position), {0, 2.3f, -1});
-    expectNear(vec(l[4].axisU), {1, 0.1f, 0});
+    expectNear(vectorOf(l[4].position), {0, 2.3f, -1});
+    expectNear(vectorOf(l[4].axisU), {1, 0.1f, 0});
     EXPECT_EQ(l[4].radius, 0.05f);
     EXPECT_EQ(l[4].influenceRadius, 6);
     EXPECT_EQ(l[4].emission[1], 3000);
     EXPECT_NEAR(power(l[5], 0), 100, 1e-4);
 
-    expectNear(vec(l[6].axisU), {0.5f, 0, 0});
-    expectNear(vec(l[6].axisV), {0, 0.3f, 0.3f});
+    expectNear(vectorOf(l[6].axisU), {0.5f, 0, 0});
+    expectNear(vectorOf(l[6].axisV), {0, 0.3f, 0.3f});
     EXPECT_TRUE(l[6].twoSided);
     EXPECT_FALSE(l[7].twoSided);
-    expectNear(vec(l[7].direction), glm::normalize(glm::vec3(-1, -2, 1)));
+    expectNear(vectorOf(l[7].direction), glm::normalize(glm::vec3(-1, -2, 1)));
     EXPECT_NEAR(power(l[7], 2), 400, 1e-3);
 
     EXPECT_EQ(l[8].emission[0], 40);
@@ -139,8 +139,8 @@ TEST_F(SceneJsonLights, DistantLightsDoNotMoveTheOrigin)
     const Scene scene = loadScene(folder_.write("scene.json", json.dump()), {});
     EXPECT_EQ(brokenInvariant(scene), "");
     EXPECT_EQ(scene.lightOrigin, glm::dvec3(10000000.25, 0, 0));
-    expectNear(vec(scene.lights[1].axisU), {0.25f, 0, 0});
-    EXPECT_EQ(vec(scene.lights[0].position), glm::vec3(0));
+    expectNear(vectorOf(scene.lights[1].axisU), {0.25f, 0, 0});
+    EXPECT_EQ(vectorOf(scene.lights[0].position), glm::vec3(0));
     EXPECT_EQ(scene.lights[0].emission[0], 1.6e9f);
 }
 

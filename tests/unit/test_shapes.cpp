@@ -8,11 +8,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "constants.h"
 #include "generate/generators.h"
 #include "generate/mesh_builder.h"
 #include "generate/random.h"
 #include "generate/shapes.h"
+#include "harness/constants.h"
 #include "scene/scene_options.h"
 
 namespace candelabra::app

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -18,7 +19,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr double degrees = 180 / 3.14159265358979323846;
+constexpr double degreesPerRadian = 180 / std::numbers::pi;
 
 Json toJson(const glm::dvec3& v)
 {
@@ -47,7 +48,7 @@ Json cameraJson(const Camera& camera)
     Json out{{"position", toJson(camera.position)},
              {"look_at", toJson(camera.position + camera.forward)},
              {"up", toJson(camera.up)},
-             {"vertical_fov_degrees", camera.verticalFov * degrees}};
+             {"vertical_fov_degrees", camera.verticalFov * degreesPerRadian}};
     if (camera.aspect)
         out["aspect"] = *camera.aspect;
     addLayers(out, camera.layers);
@@ -105,9 +106,9 @@ Json keyJson(const CndLight& light, const glm::dvec3& centre, LightKeyMeaning me
     case LightKeyMeaning::AxisV:
         return toJson(toVec3(light.axisV));
     case LightKeyMeaning::InnerCone:
-        return double(light.innerConeAngle) * degrees;
+        return double(light.innerConeAngle) * degreesPerRadian;
     case LightKeyMeaning::OuterCone:
-        return double(light.outerConeAngle) * degrees;
+        return double(light.outerConeAngle) * degreesPerRadian;
     case LightKeyMeaning::TwoSided:
         return light.twoSided != 0;
     }

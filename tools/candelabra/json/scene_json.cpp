@@ -11,6 +11,7 @@
 // "material", if given, is used for the roughness and metalness of all materials.
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "generate/generators.h"
 #include "gltf/gltf.h"
@@ -26,7 +27,6 @@ namespace candelabra::app
 namespace
 {
 
-constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
 constexpr NumberRange unitInterval{0, 1};
 
 glm::vec3 color(const JsonValue& value, const NumberRange& range)
@@ -59,7 +59,7 @@ Camera readCamera(const JsonValue& json)
     camera.up = glm::cross(glm::normalize(right), camera.forward);
     const JsonValue fov = json.member("vertical_fov_degrees");
     const double degrees = fov.number(NumberRange::positive(179.9));
-    camera.verticalFov = degrees * 3.14159265358979323846 / 180;
+    camera.verticalFov = degrees * std::numbers::pi / 180;
     if (const auto aspect = json.find("aspect"))
         camera.aspect = aspect->number({1e-3, 1e3});
     if (const auto layers = json.find("layers"))

@@ -18,7 +18,6 @@ namespace
 {
 
 using std::numbers::pi;
-constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
 // Vectors that are not longer than this count as zero.
 constexpr double minLength = 1e-6;
 

@@ -17,9 +17,13 @@
 
 #include "scene/json_value.h"
 #include "scene/scene.h"
+#include "scene/scene_file.h"
 
 namespace candelabra::app
 {
+
+// What coordinates and lengths may be.
+inline constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
 
 // Reads layer numbers such as [0, 3] as the mask CndLight::layers. Throws SceneError.
 uint32_t readLayers(const JsonValue& json);

@@ -387,16 +387,16 @@ Skip dimLights(SkipStage& stage)
         for (float& e : dim[i].emission)
             e *= i % 10 ? starlight : 1;
     const CndInfluence uncut{.rule = CND_INFLUENCE_UNCUT};
-    const Drawing everywhere = stage.lighting(dim, {.influence = uncut});
-    const double mean = meanOf(imageOf(everywhere));
+    const Drawing uncutDrawing = stage.lighting(dim, {.influence = uncut});
+    const double mean = meanOf(imageOf(uncutDrawing));
     const CndInfluence byError{
         .rule = CND_INFLUENCE_BY_ERROR, .maxError = error, .exposure = float(middleGrey / mean)};
     return {{.name = "lights too dim to see",
              .against = "all of them, everywhere",
              .passes = "lighting",
              .bound = double(error)},
-            {shown(stage.lighting(dim, {.influence = byError}), byError.exposure), everywhere},
-            shown(everywhere, byError.exposure),
+            {shown(stage.lighting(dim, {.influence = byError}), byError.exposure), uncutDrawing},
+            shown(uncutDrawing, byError.exposure),
             Pair{stage.lighting(few, {.influence = byError}),
                  stage.lighting(few, {.influence = uncut})}};
 }

@@ -45,15 +45,15 @@ struct Quantity {
     std::function<double(const gpu::BenchResponse&)> shader;
 };
 
-const Quantity mirror{[](const reference::LightResponse& t) { return t.a; },
-                      [](const gpu::BenchResponse& r) { return double(r.a); }};
-const Quantity dielectric{
+const Quantity mirrorQuantity{[](const reference::LightResponse& t) { return t.a; },
+                              [](const gpu::BenchResponse& r) { return double(r.a); }};
+const Quantity dielectricQuantity{
     [](const reference::LightResponse& t) { return dielectricF0 * (t.a - t.b) + t.b; },
     [](const gpu::BenchResponse& r) {
         return dielectricF0 * (double(r.a) - double(r.b)) + double(r.b);
     }};
-const Quantity diffuse{[](const reference::LightResponse& t) { return t.f; },
-                       [](const gpu::BenchResponse& r) { return double(r.f); }};
+const Quantity diffuseQuantity{[](const reference::LightResponse& t) { return t.f; },
+                               [](const gpu::BenchResponse& r) { return double(r.f); }};
 
 std::vector<double> peaks(const SampleSet& set, const Quantity& quantity)
 {
@@ -119,11 +119,11 @@ Json toJson(const HorizonStatistics& s)
 
 KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
 {
-    KernelError out{.mirror = compare(set, responses, mirror),
-                    .dielectric = compare(set, responses, dielectric),
-                    .diffuse = compare(set, responses, diffuse),
+    KernelError out{.mirror = compare(set, responses, mirrorQuantity),
+                    .dielectric = compare(set, responses, dielectricQuantity),
+                    .diffuse = compare(set, responses, diffuseQuantity),
                     .scanL1 = scanL1(set, responses)};
-    const std::vector<double> peak = peaks(set, mirror);
+    const std::vector<double> peak = peaks(set, mirrorQuantity);
     for (size_t i = 0; i < set.samples.size(); ++i) {
         out.invalid += !isValid(responses[i]);
         if (set.samples[i].horizon == Horizon::Below && peak[set.samples[i].group] > 0)

@@ -31,7 +31,7 @@ std::vector<EvaluationClass> classesOf(uint32_t lightType)
 }
 
 // Progress counts samples; a round of timing weighs as much as these.
-constexpr double stepsPerRound = 3000;
+constexpr double samplesPerRound = 3000;
 
 void addErrors(const VulkanContext& context, const KernelLevelSettings& s, uint32_t lightType,
                Progress& progress, KernelLevel& out)
@@ -93,7 +93,7 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
               KernelLevel& out)
 {
     Plan plan;
-    std::vector<ClassPlan> classes;
+    std::vector<ClassPlan> plans;
     for (const uint32_t type : s.lightTypes)
         for (const EvaluationClass c : classesOf(type)) {
             const int diffuse = addEvaluation(plan, s, type, CND_SPECULAR_NONE, c, -1);
@@ -107,7 +107,7 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
                                      ? karis
                                      : addEvaluation(plan, s, type, method, c, karis);
                 out.points[i].classes.push_back({.evaluationClass = c, .both = {}});
-                classes.push_back({i, out.points[i].classes.size() - 1, both, diffuse});
+                plans.push_back({i, out.points[i].classes.size() - 1, both, diffuse});
             }
         }
     const auto addForm = [&](uint32_t form, EvaluationClass lights) {
@@ -128,14 +128,15 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
                   .evaluationClass = EvaluationClass::Point},
                  -1);
     progress.doing("timing kernels");
-    const std::vector<VariantTime> times = timeVariants(
-        context, plan.variants, plan.baseline, s.timing, [&] { progress.advance(stepsPerRound); });
+    const std::vector<VariantTime> times =
+        timeVariants(context, plan.variants, plan.baseline, s.timing,
+                     [&] { progress.advance(samplesPerRound); });
     if (times.empty()) {
         for (KernelPoint& p : out.points)
             p.classes.clear();
         return;
     }
-    for (const ClassPlan& c : classes) {
+    for (const ClassPlan& c : plans) {
         KernelPoint::Class& entry = out.points[c.point].classes[c.index];
         entry.both = times[size_t(c.both)];
         entry.specularNs = entry.both.medianNs - times[size_t(c.diffuse)].medianNs;
@@ -149,7 +150,7 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
 
 double kernelLevelSteps(const KernelLevelSettings& s)
 {
-    double steps = stepsPerRound * s.timing.rounds;
+    double steps = samplesPerRound * s.timing.rounds;
     for (const uint32_t type : s.lightTypes)
         steps += double(groupsOf(type, s.groups)) * samplesPerGroup;
     return steps;

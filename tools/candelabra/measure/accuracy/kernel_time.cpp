@@ -12,6 +12,7 @@
 #include "io/statistics.h"
 #include "lights/light_limits.h"
 #include "lights/light_types.h"
+#include "measure/kernels/vectors.h"
 
 namespace candelabra::app
 {
@@ -39,13 +40,6 @@ std::vector<gpu::BenchReceiver> receiversOf(const TimingSettings& s)
                        .perceptualRoughness = roughness});
     }
     return out;
-}
-
-void set(float (&out)[3], const glm::dvec3& v)
-{
-    out[0] = float(v.x);
-    out[1] = float(v.y);
-    out[2] = float(v.z);
 }
 
 // Makes lights of one type for which a class is meant: lights that cross the horizon (General),

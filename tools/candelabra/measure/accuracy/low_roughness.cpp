@@ -56,14 +56,13 @@ float naiveKaris(const Hit& hit)
     const float NoH = std::clamp(glm::dot(hit.n, h), 0.0f, 1.0f);
     const float a2 = alpha * alpha;
     const float f = NoH * NoH * (a2 - 1) + 1;
-    const float pi = std::numbers::pi_v<float>;
-    const float d = a2 / (pi * f * f);
+    const float d = a2 / (std::numbers::pi_v<float> * f * f);
     const float k = alpha / 2;
     const float visibility = 1 / (4 * (NoL * (1 - k) + k) * (NoV * (1 - k) + k));
     const float widened = std::clamp(alpha + radius / (2 * distance), 0.0f, 1.0f);
     const float narrowing = alpha / widened;
     const float s = radius / distance;
-    return pi * s * s * narrowing * narrowing * d * visibility * NoL;
+    return std::numbers::pi_v<float> * s * s * narrowing * narrowing * d * visibility * NoL;
 }
 
 LowRoughnessImage imageOf(const std::string& method, uint32_t size)

@@ -8,6 +8,7 @@
 
 #include "generate/random.h"
 #include "measure/kernels/parallel.h"
+#include "measure/kernels/vectors.h"
 #include "reference/truth.h"
 
 namespace candelabra::app
@@ -37,12 +38,6 @@ double logUniform(Random& random, double low, double high)
     return low * std::pow(high / low, double(random.uniform()));
 }
 
-glm::dvec3 polar(double angle, double azimuth)
-{
-    return {std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth),
-            std::cos(angle)};
-}
-
 bool isSphere(uint32_t type)
 {
     return type == CND_LIGHT_SPHERE || type == CND_LIGHT_DISTANT_SPHERE;
@@ -62,13 +57,6 @@ Group makeGroup(uint32_t type, uint32_t index, uint32_t groups, Random& random)
     g.tilt = uniform(random, 0, 75) * degree;
     g.aspect = logUniform(random, 1, 6);
     return g;
-}
-
-void set(float (&out)[3], const glm::dvec3& v)
-{
-    out[0] = float(v.x);
-    out[1] = float(v.y);
-    out[2] = float(v.z);
 }
 
 CndLight makeLight(uint32_t type, const Group& g, const glm::dvec3& direction)

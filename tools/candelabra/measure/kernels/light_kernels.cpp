@@ -16,8 +16,6 @@ namespace candelabra::app
 namespace
 {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 template <typename T>
 gpu::Buffer upload(const gpu::Device& device, const std::string& name, std::span<const T> data)
 {
@@ -128,7 +126,7 @@ LightEvaluator::evaluateBatch(std::span<const gpu::BenchReceiver> receivers,
                               std::vector<CndLight> lights) const
 {
     for (CndLight& light : lights) {
-        light.influenceRadius = infinity;
+        light.influenceRadius = std::numeric_limits<float>::infinity();
         std::fill(std::begin(light.emission), std::end(light.emission), 1.0f);
     }
     const gpu::Device& device = context_.device();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "generate/random.h"
+#include "measure/kernels/vectors.h"
 #include "measure/stability/stability.h"
 
 namespace candelabra::app
@@ -31,12 +32,6 @@ struct Place {
     double distance;      // of the light's centre
 };
 using Way = std::function<Place(const Path&, double)>;
-
-glm::dvec3 polar(double angle, double azimuth)
-{
-    return {std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth),
-            std::cos(angle)};
-}
 
 Place throughHorizon(const Path& p, double t)
 {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "candelabra_bench_shaders.h"
+#include "measure/kernels/vectors.h"
 
 namespace candelabra::app
 {
@@ -41,13 +42,6 @@ std::string text(const glm::vec3& v)
 std::string text(const glm::vec4& v)
 {
     return fmt::format("({}, {}, {}, {})", v.x, v.y, v.z, v.w);
-}
-
-void set(float (&out)[3], const glm::vec3& v)
-{
-    out[0] = v.x;
-    out[1] = v.y;
-    out[2] = v.z;
 }
 
 } // namespace

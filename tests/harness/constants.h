@@ -11,5 +11,6 @@ namespace candelabra::test
 
 inline constexpr double pi = std::numbers::pi;
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
+inline constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 } // namespace candelabra::test
