@@ -19,7 +19,7 @@ namespace
 {
 
 using std::numbers::pi;
-constexpr double cameraZ = 9, wallZ = -26, wallHeight = 21, halfWidth = 30;
+constexpr double cameraZ = 9, wallZ = -26, wallHeight = 21, wallHalfWidth = 30;
 constexpr std::array<double, 6> rowZ = {4, 0, -5, -10, -15, -20};
 constexpr double slatPitch = 0.17;
 constexpr uint32_t poleCount = 700, leavesPerPole = 9;
@@ -27,7 +27,7 @@ constexpr uint32_t poleCount = 700, leavesPerPole = 9;
 // Half the width of what is built at `z`: a little more than the camera sees.
 double reachAt(double z)
 {
-    return std::min(0.95 * (cameraZ - z) + 2, halfWidth);
+    return std::min(0.95 * (cameraZ - z) + 2, wallHalfWidth);
 }
 
 struct Pole {
@@ -136,7 +136,7 @@ LightSite anySite(const Kit& kit, Random& random)
         site.colour = hueColour(random.uniform(0.08f, 0.55f), random.uniform(0.3f, 0.7f));
         site.reach = 1.3f;
     } else if (where < 0.93) { // along the wall
-        site.position = {halfWidth * across, 0.3 + 14 * up, wallZ + 0.5};
+        site.position = {wallHalfWidth * across, 0.3 + 14 * up, wallZ + 0.5};
         site.colour = blackbodyColour(random.uniform(2200, 7000));
         site.reach = 2;
     } else {
@@ -174,9 +174,9 @@ Scene generateFence(const SceneOptions& options)
     addMaterials(kit);
     const double middle = 0.5 * (wallZ + cameraZ);
     kit.builder.place(kit.box, kit.ground, {0, -0.1, middle},
-                      {2 * halfWidth, 0.2, cameraZ - wallZ + 4});
+                      {2 * wallHalfWidth, 0.2, cameraZ - wallZ + 4});
     kit.builder.place(kit.box, kit.wall, {0, 0.5 * wallHeight, wallZ - 0.2},
-                      {2 * halfWidth, wallHeight, 0.4});
+                      {2 * wallHalfWidth, wallHeight, 0.4});
     Random random(options.seed);
     addFences(kit, random);
     addBamboo(kit, random);
