@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Rules about the documents: links and anchors resolve, figures are the measured ones, listings are
-what the tests build, decisions have their four parts, and the names that documents cite exist.
+what the tests build, decisions have their four parts, the names that documents cite exist, and DESIGN.md
+has all kernels and rooms.
 Usage: test_documents.py REPOSITORY"""
 import fnmatch
 import pathlib
 import re
 import subprocess
 import sys
+
+sys.dont_write_bytecode = True  # the source may be read-only
+import test_includes
 
 root = pathlib.Path(sys.argv[1]).resolve()
 failures = []
@@ -130,6 +134,45 @@ for document in (DECISIONS, DESIGN, RESULTS):
     for pattern in re.findall(r"--gtest_filter=([\w.*]+)", text):
         if not fnmatch.filter(tests, pattern):
             fail(document, f"runs {pattern}, which no test is named like")
+
+# DESIGN.md names every kernel. Its table has a row for every room of the engine and of the shaders, and says
+# of it what test_includes.py allows, except for public headers and headers that the build generates. The last
+# column names rooms and stands for what these may include as well.
+design = DESIGN.read_text(encoding="utf-8")
+for kernel in sorted((root / "shaders/kernels").glob("*.comp")):
+    if not re.search(rf"\b{kernel.stem}\b", design):
+        fail(DESIGN, f"does not name the kernel {kernel.stem}")
+
+
+def design_path(name):
+    """Returns the path from the root of the repository of what DESIGN.md names relative to itself."""
+    return (DESIGN.parent / name).resolve().relative_to(root).as_posix()
+
+
+def includable(room, rooms):
+    """Returns the rooms that may be included by a room, or by what it may include."""
+    direct = set(rooms.get(room, []))
+    return direct.union(*(includable(other, rooms) for other in direct))
+
+
+def check_rooms(rooms):
+    """Compares the table of DESIGN.md, lists of rooms by room, with the rooms of test_includes.py."""
+    for room, allowed in test_includes.ROOMS:
+        if "." in room or not room.startswith(("engine/", "shaders/")):
+            continue
+        expected = {other for other in allowed
+                    if not other.startswith((test_includes.PUBLIC, "candelabra_", "shaders/lib/forward.glsl"))}
+        if room not in rooms:
+            fail(DESIGN, f"has no row for {room}")
+        elif includable(room, rooms) != expected:
+            fail(DESIGN, f"says that {room} may include {', '.join(sorted(includable(room, rooms))) or 'nothing'}, "
+                         f"but it may include {', '.join(sorted(expected)) or 'nothing'}")
+    for room in rooms.keys() - dict(test_includes.ROOMS).keys():
+        fail(DESIGN, f"has a row for {room}, which is no room of test_includes.py")
+
+
+check_rooms({design_path(room): [design_path(name) for name in re.findall(r"`([^`]+)`", last)]
+             for room, last in re.findall(r"^\| `([^`]+)` \|[^|]*\|([^|]*)\|$", design, re.MULTILINE)})
 
 # Every name of the API in the guides for hosts is in the public headers.
 headers = "".join(p.read_text() for p in (root / "engine/include/candelabra").iterdir())
