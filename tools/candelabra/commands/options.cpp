@@ -265,8 +265,9 @@ void FrameArguments::addTo(CLI::App& command)
     command
         .add_option(
             "--error-budget", errorBudget,
-            "evaluate each light as cheaply as this bound of its error allows; the bound is a "
-            "share of the highest response (0.01: 1%); 0: evaluate every light in full")
+            "evaluate sphere lights by conic and conic-full more cheaply where the error is at "
+            "most about this share of the highest response (0.01: 1%); 0: evaluate every light in "
+            "full")
         ->type_name("E")
         ->capture_default_str();
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "layout of the G-buffer");
