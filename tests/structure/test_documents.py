@@ -119,8 +119,9 @@ for path in SOURCES + DOCUMENTS:
         if not 1 <= int(number) <= len(entries):
             fail(path, f"cites decision {number}, which does not exist")
 
-# Source files and tests that these documents name exist.
+# Source files, functions and tests that these documents name exist.
 source_names = {p.relative_to(root).as_posix() for p in SOURCES}
+source_texts = [p.read_text(encoding="utf-8") for p in SOURCES]
 tests = {f"{suite}.{name}" for path in files("test_*.cpp")
          for suite, name in re.findall(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", path.read_text(), re.MULTILINE)}
 for document in (DECISIONS, DESIGN, RESULTS):
@@ -131,6 +132,9 @@ for document in (DECISIONS, DESIGN, RESULTS):
     for name in re.findall(r"`([A-Z]\w+\.\w+)`", text):
         if name not in tests and not re.search(r"\.(md|txt)$", name):
             fail(document, f"names the test {name}, which does not exist")
+    for name in re.findall(r"`(?:\w+::)*(\w+)\(\)`", text):
+        if not any(re.search(rf"\b{name}\(", source) for source in source_texts):
+            fail(document, f"names the function {name}, which does not exist")
     for pattern in re.findall(r"--gtest_filter=([\w.*]+)", text):
         if not fnmatch.filter(tests, pattern):
             fail(document, f"runs {pattern}, which no test is named like")
@@ -174,10 +178,9 @@ def check_rooms(rooms):
 check_rooms({design_path(room): [design_path(name) for name in re.findall(r"`([^`]+)`", last)]
              for room, last in re.findall(r"^\| `([^`]+)` \|[^|]*\|([^|]*)\|$", design, re.MULTILINE)})
 
-# Every name of the API in the guides for hosts is in the public headers.
+# Every name of the API that these documents cite is in the public headers.
 headers = "".join(p.read_text() for p in (root / "engine/include/candelabra").iterdir())
-for name in ("INTEGRATION.md", "UPDATE.md"):
-    guide = root / "engine" / name
+for guide in (README, DESIGN, *(root / "engine" / name for name in ("CHANGELOG.md", "INTEGRATION.md", "UPDATE.md"))):
     text = guide.read_text()
     fields = re.findall(r"[{,]\s*\.(\w+) =", "".join(re.findall(r"```cpp\n(.*?)```", text, re.DOTALL)))
     for word in sorted(set(re.findall(r"\b(?:Cnd|cnd|CND_)\w+", text) + fields)):
