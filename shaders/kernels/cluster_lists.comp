@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of lights of each cluster, exact and in the order of the lights: a lane walks its parent's
-// list, or the light tree where there is none, and writes what it finds into pages of the entry
-// buffer. Where a page lies depends on the schedule, what a list holds does not. A list that finds no
-// page is marked unlisted, one too long for a loop of the device long: their tiles are shaded without
-// lists, with the same result.
+// Makes the list of lights of each cluster, in the order of the lights and without a limit of its
+// length. One invocation makes one list: it walks the list of the cluster's parent, or the light tree
+// if the parent has no list, and writes the lights that it finds into pages of the entry buffer. Where
+// a page lies depends on the schedule; which lights a list holds does not. A list that finds no page
+// is marked as unlisted, and a list that is too long for a loop of the device is marked as long. The
+// tiles of both are shaded without lists, with the same result (for long lists the last bit may
+// differ, DECISIONS 12).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/cluster_test.glsl"
