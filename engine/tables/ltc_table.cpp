@@ -6,7 +6,7 @@ namespace candelabra::tables
 namespace
 {
 
-// The table is generated with: candelabra_fit engine/tables/ltc_table.inc
+// The table is generated with: candelabra_fit ltc engine/tables/ltc_table.inc
 constexpr float table[] = {
 #include "tables/ltc_table.inc"
 };

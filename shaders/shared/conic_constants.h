@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every constant of the closed-form specular of sphere lights (lib/specular/conic*.glsl) that was
-// fitted or chosen. The shaders and their transcription in double precision (tools/transcription)
-// read them here. Constants that are derived, or that only protect a quotient or a root from
-// rounding, are in the formulas.
+// fitted or chosen. The shaders, their transcription in double precision (tools/transcription) and
+// the program that fits them (tools/fit) read them here. Constants that are derived, or that only
+// protect a quotient or a root from rounding, are in the formulas.
 #ifndef CND_SHARED_CONIC_CONSTANTS_H
 #define CND_SHARED_CONIC_CONSTANTS_H
 
@@ -10,13 +10,13 @@
 
 GPU_BEGIN
 
-// --- Fitted together, to results of quadrature: X(name, value, meaning).
+// --- Fitted together, to results of quadrature, by candelabra_fit conic: X(name, value, meaning).
 // They place the nodes at which shadowing and Fresnel are evaluated
 // (lib/specular/conic_shading.glsl explains the terms). All are dimensionless and positive. If the
 // meaning includes a value for a disc, that value was derived for a small disc of slopes in a lobe
-// that is constant over the disc; the fit corrects it for real lobes and lights. Residuals, in
-// percent of the highest response: with F = 1 mean 0.05, 99th percentile 1.0, largest 3.1; with F0
-// = 0.04 mean 0.11, 99th percentile 2.2, largest 12.
+// that is constant over the disc; the fit corrects it for real lobes and lights.
+// candelabra_fit conic prints the errors that remain; with F0 = 1 their mean is 0.05% of the
+// highest response, the largest 3.5%.
 //
 // The first five are the coefficients of the mean of N.L over the part of a cap above the horizon,
 // divided by the highest N.L there. u is the share of the cap's diameter above the horizon, 0..1.
@@ -62,16 +62,17 @@ GPU_BEGIN
 CND_CONIC_FITTED(X)
 #undef X
 
-// --- Fitted separately, minimax (lib/specular/conic_clip.glsl).
+// --- Fitted separately: minimax polynomials (lib/specular/conic_clip.glsl). candelabra_fit conic
+// prints their errors and those of the best polynomials of the same form.
 // The area of a segment of a circle, divided by the area of the circle, is about
 //   u^(3/2) (CONIC_SEGMENT - u (CONIC_SEGMENT_U + CONIC_SEGMENT_U2 u)),
 // where u in 0..1 is the height of the segment, divided by the diameter. CONIC_SEGMENT is
 // 16 / (3 pi), the start of the series, and the sum is 1 at u = 1, so one number was left to fit.
-// The largest error is 0.0147 (with the best value it would be 0.0102).
+// The largest error is 0.0147 (with CONIC_SEGMENT_U2 = 0.352 it would be 0.0080).
 const float CONIC_SEGMENT = 1.698f;
 const float CONIC_SEGMENT_U = 0.438f;
 const float CONIC_SEGMENT_U2 = 0.26f;
-// atan(t) = t - T3 t^3 + T5 t^5 - ... - T15 t^15 for t in 0..1, with a largest error of 5.3e-8 rad.
+// atan(t) = t - T3 t^3 + T5 t^5 - ... - T15 t^15 for t in 0..1, with a largest error of 5.5e-8 rad.
 // The first term is exactly t, because for small caps it is all that cancellation leaves.
 const float CONIC_ATAN_T3 = 0.33331659f;
 const float CONIC_ATAN_T5 = 0.19962704f;

@@ -107,7 +107,9 @@ ROOMS = [
                           "tools/candelabra/io"]),
     # The closed form's shader functions in double precision, for fits and tests.
     ("tools/transcription", ["shaders/shared/conic_constants.h"]),
-    ("tools/fit", ["engine/reference", "shaders/shared/ltc.h"]),
+    ("tools/fit", ["tools/transcription", "tools/candelabra/measure/accuracy", "tools/candelabra/render/provenance.h",
+                   "tools/candelabra/generate/random.h", "tools/candelabra/io", "engine/reference",
+                   "shaders/shared/ltc.h", "shaders/shared/conic_constants.h"]),
 
     # Samples are written like projects of their own, which find the installed engine.
     ("samples/common", []),
@@ -125,7 +127,7 @@ SEARCHED = [
     ("engine", ["engine", "engine/include", "shaders"]),
     ("shaders", ["shaders"]),
     ("tools/candelabra", ["tools/candelabra", "engine", "engine/include", "shaders"]),
-    ("tools", ["tools", "engine", "shaders"]),
+    ("tools", ["tools", "tools/candelabra", "engine", "shaders"]),
     ("samples", ["samples/common", "shaders"]),
     ("tests", ["tests", "tests/data", "tools/candelabra", "tools", "engine", "engine/include", "shaders"]),
 ]

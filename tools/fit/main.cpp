@@ -1,172 +1,118 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra_fit OUTPUT: makes the table of linearly transformed cosines that
-// engine/tables/ltc_table.cpp includes (ltc_table.inc), and prints how far it is from the BRDF.
-// The same table on every run; some five minutes of one core.
-#include <atomic>
-#include <cmath>
+// candelabra_fit computes the fitted numbers that the shaders contain. It is not built by default.
 #include <cstdio>
-#include <fstream>
-#include <functional>
-#include <iostream>
-#include <thread>
+#include <exception>
+#include <string>
 
-#include "fit/ltc_lobe.h"
-#include "shared/ltc.h"
+#include <CLI/CLI.hpp>
+
+#include "fit/commands.h"
+#include "io/error.h"
+#include "io/report.h"
+
+using namespace candelabra;
 
 namespace
 {
 
-using candelabra::fit::LtcLobe;
-using candelabra::fit::LtcShape;
-using namespace candelabra;
-
-constexpr int size = int(gpu::LTC_TABLE_SIZE);
-
-struct Entry {
-    LtcShape shape;
-    LtcLobe::Error error;
-    double albedo = 0;
-};
-
-LtcLobe lobeAt(double i, double j, double F0)
+void describeLtc(CLI::App& app, std::string& output)
 {
-    const double low = gpu::LTC_MIN_ROUGHNESS;
-    const double roughness = low + (1 - low) * i / (size - 1);
-    const double v = j / (size - 1);
-    const double lowest = gpu::LTC_MIN_NOV;
-    return {roughness * roughness, lowest + (1 - lowest) * (1 - v * v) * (1 - v * v), F0};
+    CLI::App* ltc = app.add_subcommand(
+        "ltc", "Make the table of linearly transformed cosines (engine/tables/ltc_table.inc)");
+    ltc->footer("Prints how far the fitted lobes are from the true ones. Every run makes the same\n"
+                "table. Takes some five minutes of one core.\n\n"
+                "Example:\n"
+                "  candelabra_fit ltc engine/tables/ltc_table.inc");
+    ltc->add_option("OUTPUT", output, "file to write the table to")->required();
 }
 
-// function(i) for every row i, on all cores.
-void forRows(const std::function<void(int)>& function)
+void describeConic(CLI::App& app, fit::ConicSettings& s)
 {
-    std::atomic<int> next = 0;
-    std::vector<std::jthread> threads;
-    for (unsigned t = 0; t < std::max(1u, std::thread::hardware_concurrency()); ++t)
-        threads.emplace_back([&] {
-            for (int i = next++; i < size; i = next++)
-                function(i);
-        });
+    CLI::App* conic =
+        app.add_subcommand("conic", "Fit the constants of the closed form of sphere lights "
+                                    "(shaders/shared/conic_constants.h) to the truth");
+    conic->footer(
+        "The truth is integrated in double precision. A group of samples is one roughness, one\n"
+        "view direction and one light size, with the light in 89 directions. An error is given in\n"
+        "percent of the highest true response of its group.\n\n"
+        "Prints the errors of the constants that the shaders have, on the groups that are fitted\n"
+        "to and on others that are not, then the constants that two searches find, with their\n"
+        "errors: one search starts from the shaders' constants, the other from bad ones. Shaders\n"
+        "are not changed; whoever adopts new constants edits the header and commits the record\n"
+        "(--json) as tools/bench/results/conic-fit.json. Takes some ten minutes of one core.\n\n"
+        "Examples:\n"
+        "  candelabra_fit conic --json tools/bench/results/conic-fit.json\n"
+        "  candelabra_fit conic --evaluations 0      errors of the shaders' constants, no search\n"
+        "  candelabra_fit conic --groups 40 --others 40 --hard 2 --held-out 40 --evaluations 100\n"
+        "                                            a search that is over in seconds");
+    const CLI::Range groups(1, 100000);
+    conic->add_option("--groups", s.training.groups, "number of random groups to fit to")
+        ->check(groups)
+        ->capture_default_str();
+    conic
+        ->add_option("--hard", s.training.hard,
+                     "number of hard groups to fit to in addition: the shaders' constants have "
+                     "their largest errors there")
+        ->check(CLI::Range(0, 100000))
+        ->capture_default_str();
+    conic
+        ->add_option("--others", s.training.others,
+                     "number of random groups from which the hard groups are chosen")
+        ->check(groups)
+        ->capture_default_str();
+    conic
+        ->add_option("--held-out", s.heldOut,
+                     "number of random groups that are not fitted to; errors are given for them")
+        ->check(groups)
+        ->capture_default_str();
+    conic
+        ->add_option("--seed", s.training.seed,
+                     "seed of the random numbers; the same seed gives the same groups and the same "
+                     "bad start")
+        ->capture_default_str();
+    conic
+        ->add_option("--evaluations", s.evaluations,
+                     "largest number of evaluations per search; 0 means no search")
+        ->check(CLI::Range(0, 10000000))
+        ->capture_default_str();
+    conic
+        ->add_option(
+            "--perturbation", s.perturbation,
+            "P: the bad start multiplies each constant by exp(P u) with a random u from -1 "
+            "to 1; 0 means no search from a bad start")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    conic->add_option("--json", s.json, "file to write all results to, as JSON");
 }
 
-using Table = std::vector<Entry>; // [j * size + i]
-
-// Keeps the better of the entry and what a fit from `start` finds.
-void improve(Entry& entry, const LtcLobe& lobe, const LtcShape& start,
-             std::initializer_list<double> steps)
+int complain(int exitCode, const char* sentence)
 {
-    const LtcShape shape = lobe.fitted(start, steps);
-    const LtcLobe::Error error = lobe.error(shape);
-    if (error.cost < entry.error.cost)
-        entry = {shape, error, lobe.albedo()};
-}
-
-// From the normal towards grazing, each entry starting where its predecessor ended; then twice from
-// all neighbours, which removes the jumps between different local minima.
-Table fitTable(double F0)
-{
-    Table table(size * size);
-    forRows([&](int i) {
-        LtcShape start;
-        for (int j = 0; j < size; ++j) {
-            Entry& entry = table[j * size + i];
-            entry.error.cost = INFINITY;
-            improve(entry, lobeAt(i, j, F0), start, {0.2, 0.05});
-            start = entry.shape;
-        }
-    });
-    for (int pass = 0; pass < 2; ++pass) {
-        const Table before = table;
-        forRows([&](int i) {
-            for (int j = 0; j < size; ++j) {
-                const LtcLobe lobe = lobeAt(i, j, F0);
-                for (const auto& [di, dj] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-                    if (i + di >= 0 && i + di < size && j + dj >= 0 && j + dj < size)
-                        improve(table[j * size + i], lobe, before[(j + dj) * size + i + di].shape,
-                                {0.05});
-            }
-        });
-    }
-    return table;
-}
-
-// Halfway between entries, where the shader interpolates.
-LtcLobe::Error interpolationError(const Table& table, double F0)
-{
-    LtcLobe::Error sum;
-    std::vector<LtcLobe::Error> rows(size);
-    forRows([&](int i) {
-        for (int j = 0; i + 1 < size && j + 1 < size; ++j) {
-            LtcShape mean{0, 0, 0};
-            for (const int k : {0, 1, size, size + 1}) {
-                const LtcShape& s = table[j * size + i + k].shape;
-                mean.sharpnessX += s.sharpnessX / 4;
-                mean.sharpnessY += s.sharpnessY / 4;
-                mean.shift += s.shift / 4;
-            }
-            const LtcLobe::Error error = lobeAt(i + 0.5, j + 0.5, F0).error(mean);
-            rows[i].mean += error.mean / ((size - 1) * (size - 1));
-            rows[i].largest = std::max(rows[i].largest, error.largest);
-        }
-    });
-    for (const LtcLobe::Error& row : rows) {
-        sum.mean += row.mean;
-        sum.largest = std::max(sum.largest, row.largest);
-    }
-    return sum;
-}
-
-std::string residuals(const char* lobe, const Table& table, double F0)
-{
-    std::vector<double> means;
-    double mean = 0, largest = 0;
-    for (const Entry& entry : table) {
-        means.push_back(entry.error.mean);
-        mean += entry.error.mean / (size * size);
-        largest = std::max(largest, entry.error.largest);
-    }
-    std::sort(means.begin(), means.end());
-    const LtcLobe::Error between = interpolationError(table, F0);
-    char text[512];
-    std::snprintf(
-        text, sizeof text,
-        "// %s: mean %.2f, largest %.1f; of the entries' means: median %.2f, 99th "
-        "percentile %.2f,\n//   largest %.2f; halfway between entries, interpolated: mean "
-        "%.2f, largest %.1f.\n",
-        lobe, 100 * mean, 100 * largest, 100 * means[means.size() / 2],
-        100 * means[means.size() * 99 / 100], 100 * means.back(), 100 * between.mean,
-        100 * between.largest);
-    return text;
+    std::fprintf(stderr, "candelabra_fit: %s\n", sentence);
+    return exitCode;
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-    if (argc != 2) {
-        std::cerr << "usage: candelabra_fit OUTPUT\n";
-        return 2;
-    }
-    const Table white = fitTable(1), dielectric = fitTable(double(gpu::LTC_DIELECTRIC_F0));
-    const std::string text = "// Residuals, percent of the highest response to a light of the same "
-                             "size.\n" +
-                             residuals("F = 1", white, 1) +
-                             residuals("dielectric", dielectric, double(gpu::LTC_DIELECTRIC_F0));
-    std::cout << text;
-    std::ofstream file(argv[1]);
-    file << "// Made by candelabra_fit; not edited by hand.\n" << text;
-    for (int i = 0; i < size * size; ++i) {
-        for (const Entry& e : {white[i], dielectric[i]}) {
-            char numbers[96];
-            std::snprintf(numbers, sizeof numbers, "%.7ef, %.7ef, %.7ef, %.7ef,",
-                          e.shape.sharpnessX, e.shape.sharpnessY, e.shape.shift, e.albedo);
-            file << numbers;
-        }
-        file << "\n";
-    }
-    file.close();
-    if (!file) {
-        std::cerr << "could not write " << argv[1] << "\n";
-        return 1;
+    CLI::App app{"Computes the fitted numbers that the shaders contain."};
+    app.require_subcommand(1);
+    std::string output;
+    fit::ConicSettings conic;
+    describeLtc(app, output);
+    describeConic(app, conic);
+    try {
+        app.parse(argc, argv);
+        if (app.got_subcommand("ltc"))
+            fit::runLtc(output);
+        else
+            fit::runConic(conic, app::commandLine(argc, argv, "candelabra_fit"));
+        return app::exitOk;
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? app::exitOk : app::exitUsage;
+    } catch (const app::UsageError& error) {
+        return complain(app::exitUsage, error.what());
+    } catch (const std::exception& error) {
+        return complain(app::exitFailed, error.what());
     }
 }

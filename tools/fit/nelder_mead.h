@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nelder and Mead 1965: minimises a function of a few variables without its derivative.
+// Minimises a function of a few variables without its derivative, by the method of Nelder and Mead
+// (1965). It stands here, although NLopt has the same method, because the unit tests use it and
+// build without NLopt, and because ltc_table.inc is made with it and must come out the same.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +18,8 @@ struct Minimum {
     double value = 0;
 };
 
-// Starts from a simplex of edge `step` at `start`; stops after `iterations` or when the values at
-// the corners agree to 1e-7. Deterministic.
+// Starts from a simplex with a corner at `start` and edges of length `step` along the axes. Stops
+// after `iterations`, or when the values at all corners agree to a relative 1e-7. Deterministic.
 template <size_t N, typename Function>
 Minimum<N> minimise(const Function& function, const std::array<double, N>& start, double step,
                     int iterations)

@@ -101,7 +101,7 @@ Chord makeChord(SphereCap cap, float sinC)
 // w = (l + v_t, alpha NoV), so |w|^2 = A0 + 2 v_t . l, and w x dw = (-alpha NoV l, 1 + v_t . l) times
 // the differential of the angle. What remains are the integrals of 1, v_t . l and v_t x l, each divided
 // by A0 + 2 v_t . l, over the angles from -pc to pc. The first, J0, is an arc tangent; the second is
-// pc - A0 J0 / 2; the third is a logarithm of |w|^2 at both ends.
+// pc - A0 J0 / 2; the third is half the logarithm of the ratio of |w|^2 at the two ends.
 vec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
 {
     const float hz = p.alpha * p.NoV;

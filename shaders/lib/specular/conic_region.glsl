@@ -26,7 +26,8 @@
 //    from its last column: no eigenvector is computed.
 //
 // The code is written in dot products, without a frame. v_t and c_t stand for the components of v and c
-// in the plane of the surface.
+// in the plane of the surface. Small numbers in max() and clamp() keep rounding from making a divisor
+// or the argument of a root zero or negative; none of them is fitted.
 #ifndef CND_LIB_SPECULAR_CONIC_REGION
 #define CND_LIB_SPECULAR_CONIC_REGION
 

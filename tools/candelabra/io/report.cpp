@@ -83,9 +83,9 @@ void requireWritable(const std::string& option, const std::string& path)
                                      std::strerror(errno)));
 }
 
-std::string commandLine(int argc, const char* const* argv)
+std::string commandLine(int argc, const char* const* argv, const std::string& program)
 {
-    std::string out = "candelabra";
+    std::string out = program;
     for (int i = 1; i < argc; ++i)
         out.append(" ").append(quoted(argv[i]));
     return out;

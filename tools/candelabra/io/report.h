@@ -24,6 +24,8 @@ void writeJson(const std::string& path, const Json& json);
 void requireWritable(const std::string& option, const std::string& path);
 
 // The command line as text, such as "candelabra render hall", with quotes where a shell needs them.
-std::string commandLine(int argc, const char* const* argv);
+// `program` is the name that stands in for argv[0].
+std::string commandLine(int argc, const char* const* argv,
+                        const std::string& program = "candelabra");
 
 } // namespace candelabra::app

@@ -2,6 +2,9 @@
 #include "render/provenance.h"
 
 #include <ctime>
+#include <thread>
+
+#include <sys/utsname.h>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -12,19 +15,41 @@
 namespace candelabra::app
 {
 
-Json provenance(const DeviceInfo& device, const std::string& commandLine)
+namespace
+{
+
+// `machine` describes what the numbers were computed on.
+Json provenanceOn(const Json& machine, const std::string& commandLine)
 {
     const uint32_t version = cndGetVersion();
     const std::time_t now = std::time(nullptr);
-    return {{"candelabra",
-             fmt::format("{}.{}.{}", version >> 22, (version >> 12) & 0x3ff, version & 0xfff)},
-            {"commit", commit},
-            {"utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))},
-            {"device", device.name},
-            {"deviceType", deviceTypeName(device.type)},
-            {"driver", device.driver},
-            {"vulkan", device.vulkanVersion},
-            {"commandLine", commandLine}};
+    Json out{{"candelabra",
+              fmt::format("{}.{}.{}", version >> 22, (version >> 12) & 0x3ff, version & 0xfff)},
+             {"commit", commit},
+             {"utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))}};
+    out.update(machine);
+    out["commandLine"] = commandLine;
+    return out;
+}
+
+} // namespace
+
+Json provenance(const DeviceInfo& device, const std::string& commandLine)
+{
+    return provenanceOn({{"device", device.name},
+                         {"deviceType", deviceTypeName(device.type)},
+                         {"driver", device.driver},
+                         {"vulkan", device.vulkanVersion}},
+                        commandLine);
+}
+
+Json provenance(const std::string& commandLine)
+{
+    utsname system{};
+    uname(&system);
+    return provenanceOn(
+        {{"processor", system.machine}, {"hardwareThreads", std::thread::hardware_concurrency()}},
+        commandLine);
 }
 
 } // namespace candelabra::app

@@ -13,5 +13,8 @@ namespace candelabra::app
 // Returns the program's version and commit, the device, its driver, the time (UTC) and the command
 // line.
 Json provenance(const DeviceInfo& device, const std::string& commandLine);
+// The same for results that no device was used for: with the processor's architecture and number of
+// hardware threads in place of device and driver.
+Json provenance(const std::string& commandLine);
 
 } // namespace candelabra::app
