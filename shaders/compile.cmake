@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Compiles one shader: GLSL -> SPIR-V (warnings are errors) -> spirv-val -> C++ array.
+# Compiles one shader from GLSL to SPIR-V (warnings are errors), validates it with spirv-val, and writes
+# it as a C++ array.
 get_filename_component(dir ${OUTPUT} DIRECTORY)
 file(MAKE_DIRECTORY ${dir})
 if(FAMILY)
@@ -19,7 +20,7 @@ execute_process(COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layou
 if(failed)
     message(FATAL_ERROR "spirv-val ${INPUT}:\n${log}")
 endif()
-# glslang names the .spv as the target; the build system wants the C++ file.
+# glslang's depfile names the .spv file as its target; the build system needs the C++ file there.
 file(READ ${OUTPUT}.d.in deps)
 string(REPLACE "${spv}" "${OUTPUT}" deps "${deps}")
 file(WRITE ${OUTPUT}.d "${deps}")
