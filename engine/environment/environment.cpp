@@ -151,7 +151,7 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
             {cubeSampled(gpu::ENVIRONMENT_PREFILTER_SOURCE, source_, sampler_.get()),
              Binding::storage(gpu::ENVIRONMENT_PREFILTER_OUTPUT, prefiltered_.mips[level].get())});
     const uint32_t sourceMip =
-        mips - mipCount(gpu::ENVIRONMENT_IRRADIANCE_SOURCE_SIZE); // below cubeSize
+        mips - mipCount(gpu::ENVIRONMENT_IRRADIANCE_SOURCE_SIZE); // at least 1: cubeSize >= 64
     sets_.irradiance.write(
         0, {Binding::storage(gpu::ENVIRONMENT_IRRADIANCE_SOURCE, source_.mips[sourceMip].get()),
             Binding::storage(gpu::ENVIRONMENT_IRRADIANCE_OUTPUT, irradiance_.mips[0].get())});

@@ -33,7 +33,7 @@ struct Readback {
     uint32_t marker; // written last: the frame is done
 };
 
-// Returns another number for every Exposure of the process.
+// Returns a number that no other Exposure of this process has.
 uint32_t nextOwner() noexcept
 {
     static std::atomic<uint32_t> next{gpu::EXPOSURE_FIRST_OWNER};

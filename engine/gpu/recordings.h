@@ -76,7 +76,8 @@ private:
 class RecordingSlots
 {
 public:
-    // `name` and `readBytes`: of the buffers that are read back. All others must outlive it.
+    // `name` and `readBytes` are the debug name and the size in bytes of the buffers that are read
+    // back. `recordings` and `device` must outlive this object.
     RecordingSlots(Recordings& recordings, const Device& device, const std::string& name,
                    uint32_t count, VkDeviceSize readBytes);
     ~RecordingSlots() { std::erase(recordings_.views_, this); }
@@ -102,7 +103,7 @@ public:
 
 private:
     friend class Recordings;
-    // As Recordings has them, but 0 when there is none.
+    // The same numbers as in Recordings, for this view alone; 0 when there is none.
     uint64_t oldestRunning() const;
     uint64_t oldestPending() const;
     uint32_t& marker(uint32_t slot) const;

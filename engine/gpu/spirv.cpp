@@ -124,7 +124,7 @@ private:
             decorations_[at[1]].memberMatrixStride[at[2]] = at[4];
     }
 
-    // Returns the smallest length in words of an instruction, or of those words that are read here.
+    // Returns the least number of words that an instruction must have for this class to read it.
     static size_t leastLength(uint32_t op, const uint32_t* at, size_t length)
     {
         switch (op) {

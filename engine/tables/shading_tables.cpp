@@ -11,7 +11,7 @@ namespace
 gpu::Buffer createLtcBuffer(const gpu::Device& device)
 {
     const VkDeviceSize bytes = ltcTable().size_bytes();
-    constexpr VkDeviceSize maxUpdate = 65536; // of vkCmdUpdateBuffer
+    constexpr VkDeviceSize maxUpdate = 65536; // bytes, the limit of vkCmdUpdateBuffer
     static_assert(gpu::LTC_TABLE_SIZE * gpu::LTC_TABLE_SIZE * gpu::LTC_TEXELS * sizeof(glm::vec4) <=
                   maxUpdate);
     gpu::Buffer out = gpu::createBuffer(device, "transformed cosines", bytes,

@@ -17,13 +17,14 @@ using std::numbers::pi;
 constexpr int latticeSize = 3000;
 constexpr int pointCount = 240;
 constexpr int capsPerSize = 16;
-// Half angles, degrees. Lights are thought of as spread evenly over the logarithm of their half
-// angle from 0.1 to 80 degrees, as in the test set the result is judged by.
+// Half angles of the lights that the fit uses, in degrees. The fit assumes that the logarithm of
+// the half angle is uniformly distributed from 0.1 to 80 degrees, as it is in the sample set on
+// which methods are compared.
 constexpr std::array capHalfAngles = {1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 70.0};
 constexpr double smallestLight = 0.1, largestLight = 80;
 
-// Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": the two-dimensional
-// additive sequence of the plastic number.
+// Returns point i of a low-discrepancy sequence in the unit square: the additive sequence of the
+// plastic number (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
 glm::dvec2 lattice(int i)
 {
     constexpr double g = 1.32471795724474602596;
@@ -36,8 +37,9 @@ glm::dvec3 polar(double angle, double azimuth)
             std::cos(angle)};
 }
 
-// Angle from the mirror direction of the i-th light: half of them within 1.4 (alpha + s / 2), with
-// the long tail of a Cauchy distribution.
+// Maps uniform u to the angle between a light and the mirror direction. Half of the lights are
+// within 1.4 (alpha + s / 2), with s the half angle; the rest are in the long tail of a Cauchy
+// distribution.
 double tailAngle(double u, double alpha, double halfAngle)
 {
     return std::min(0.7 * (2 * alpha + halfAngle) * std::tan(pi * u / 2), 2.8);
@@ -56,7 +58,7 @@ LtcLobe::LtcLobe(double alpha, double NoV, double F0) : alpha_(alpha), NoV_(NoV)
     makeLattice();
     makePoints();
     for (const double degrees : capHalfAngles)
-        if (glm::radians(degrees) > 0.7 * alpha) // smaller lights are points to this lobe
+        if (glm::radians(degrees) > 0.7 * alpha) // smaller lights act as points in this lobe
             makeCaps(glm::radians(degrees));
     const double logAlpha = std::log(glm::degrees(alpha) / smallestLight);
     pointShare_ = std::clamp(logAlpha / std::log(largestLight / smallestLight), 0.05, 0.95);
@@ -72,8 +74,9 @@ LtcLobe::Direction LtcLobe::direction(const glm::dvec3& l, double solidAngle) co
     return {{glm::dot(l, x_), l.y, glm::dot(l, mirror_)}, response, solidAngle};
 }
 
-// Half of the directions have half vectors distributed as D cos, half are distributed as the
-// cosine; each is weighted by the density of both (the balance heuristic of Veach 1997).
+// Half of the directions are chosen so that their half vectors have the density D cos, the other
+// half so that the directions have the density of a cosine. Each is weighted by the sum of both
+// densities (the balance heuristic of Veach 1997).
 void LtcLobe::makeLattice()
 {
     for (int i = 0; i < latticeSize; ++i) {
@@ -143,7 +146,7 @@ void LtcLobe::makeCaps(double halfAngle)
                 response += lattice_[k].response * lattice_[k].solidAngle;
             }
         if (response <= 0)
-            continue; // wholly below the horizon, where both are exactly 0
+            continue; // wholly below the horizon, where the lobe and the fit are exactly 0
         peak = std::max(peak, response);
         caps_.push_back(std::move(cap));
     }
@@ -197,7 +200,7 @@ LtcShape LtcLobe::fitted(const LtcShape& start, std::initializer_list<double> st
     };
     const auto cost = [&](const std::array<double, 3>& p) {
         const LtcShape s = shape(p);
-        // Maps that are nearly singular or turn the lobe around; no good fit is near them.
+        // The map is nearly singular or turns the lobe around. No good fit is near such maps.
         const double determinant = NoV_ * s.sharpnessX / alpha_ - eye_.x * s.shift;
         const bool sound = s.sharpnessX > 0.1 * NoV_ && s.sharpnessY > 0.1 * NoV_ &&
                            s.sharpnessX < 5 && s.sharpnessY < 5 && determinant > 0.1;

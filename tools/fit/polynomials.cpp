@@ -15,7 +15,8 @@ namespace
 constexpr double pi = std::numbers::pi;
 constexpr int gridSteps = 4000;
 
-// Solves a x = b by elimination with row pivots; a is square, row by row.
+// Solves the linear equations a x = b by Gaussian elimination with row pivots. a[row] is a row of
+// the square matrix.
 std::vector<double> solve(std::vector<std::vector<double>> a, std::vector<double> b)
 {
     const size_t n = b.size();
@@ -49,7 +50,7 @@ double largestOnGrid(double low, double high, const Function& error)
     return largest;
 }
 
-// The points of largest error, one in each run of equal signs.
+// Returns the points of largest error: one for each interval in which the error keeps its sign.
 std::vector<double> extrema(double low, double high, const Function& error)
 {
     std::vector<double> points;
@@ -88,7 +89,9 @@ Minimax minimax(const std::vector<Function>& basis, const Function& target, doub
         for (size_t i = 0; i <= n; ++i) {
             for (size_t k = 0; k < n; ++k)
                 a[i][k] = basis[k](points[i]);
-            a[i][n] = i % 2 ? -1 : 1; // the error at the points, of alternating sign
+            a[i][n] =
+                i % 2 ? -1
+                      : 1; // coefficient of the error, whose sign alternates from point to point
             b[i] = target(points[i]);
         }
         Minimax now{solve(std::move(a), std::move(b)), 0};
@@ -104,7 +107,7 @@ Minimax minimax(const std::vector<Function>& basis, const Function& target, doub
             break;
         best = now;
         points = extrema(low, high, error);
-        while (points.size() > n + 1) // signs go on alternating only without one of the ends
+        while (points.size() > n + 1) // removing an end keeps the signs alternating
             points.erase(std::abs(error(points.front())) < std::abs(error(points.back()))
                              ? points.begin()
                              : points.end() - 1);
@@ -137,7 +140,7 @@ PolynomialFit fitArcTangent()
 
 PolynomialFit fitCircleSegment()
 {
-    // Area over that of the circle of radius 1 below the chord at x = 2 u - 1.
+    // The part of a circle of radius 1 below the chord at x = 2 u - 1, over the whole area.
     const Function area = [](double u) {
         const double x = 2 * u - 1;
         return (std::acos(-x) + x * std::sqrt(std::max(0.0, 1 - x * x))) / pi;
@@ -154,7 +157,7 @@ PolynomialFit fitCircleSegment()
                                                             gpu::CONIC_SEGMENT_U2) -
                                                        area(u);
                                             }),
-            // c1 = start - 1 - c2 makes it 1 at u = 1; what is left is linear in c2.
+            // With c1 = start - 1 - c2 the polynomial is 1 at u = 1. What remains is linear in c2.
             .best = minimax(
                 {[&](double u) { return form(u, 0, -1, 1); }},
                 [&](double u) { return area(u) - form(u, start, start - 1, 0); }, 0, 1)};

@@ -12,24 +12,24 @@ namespace candelabra::fit
 
 using Function = std::function<double(double)>;
 
-// target(x) is approximated by the sum of coefficients[i] basis[i](x).
+// An approximation of a function target(x) by the sum of coefficients[i] basis[i](x).
 struct Minimax {
     std::vector<double> coefficients;
     double largestError = 0; // absolute, over the interval
 };
 
-// The coefficients with the least largest error on [low, high], by the exchange algorithm of Remez
-// on 4,001 points. The basis should be a Chebyshev system inside the interval, as powers are: then
-// the best error takes its largest size with alternating signs once more often than there are
-// functions. Deterministic.
+// Finds the coefficients whose largest error on [low, high] is least, by the exchange algorithm of
+// Remez on 4,001 points. The algorithm is right if the basis is a Chebyshev system inside the
+// interval, as powers are: then the error of the best approximation reaches its largest size, with
+// alternating signs, at one point more than there are functions. Deterministic.
 Minimax minimax(const std::vector<Function>& basis, const Function& target, double low,
                 double high);
 
-// One of the polynomials: what the shaders have, and the best of the same form.
+// The errors of one of the polynomials, and the best polynomial of the same form.
 struct PolynomialFit {
     std::string name;
-    double committedError = 0; // largest, of the shaders' coefficients
-    Minimax best;              // free coefficients only
+    double committedError = 0; // largest error of the coefficients that the shaders have
+    Minimax best;              // it has only the coefficients that are not given by conditions
 };
 PolynomialFit fitArcTangent();
 PolynomialFit fitCircleSegment();

@@ -4,7 +4,7 @@
 namespace candelabra::transcription
 {
 
-// shaders/lib/specular/conic_clip.glsl
+// Transcribed from shaders/lib/specular/conic_clip.glsl.
 glm::dvec2 atanTail(glm::dvec2 t2)
 {
     glm::dvec2 k = -double(gpu::CONIC_ATAN_T15) * t2 + double(gpu::CONIC_ATAN_T13);
@@ -238,7 +238,7 @@ SubstituteCap substituteCap(ConicPoint p, SphereCap cap, const ConicConstants& k
     return o;
 }
 
-// shaders/lib/specular/conic.glsl
+// Transcribed from shaders/lib/specular/conic.glsl.
 
 unsigned conicClass(double heightAbove, double radius, double d2, double a2)
 {

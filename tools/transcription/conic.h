@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaders' sphere light specular in double precision: the same formulas, term by term, so that
-// the share of float32 in the error can be told from that of the formulas, and so that their
-// constants can be fitted. Whether the formulas are right is not asked here (engine/reference knows
-// the truth and shares nothing with this). The shaders explain the formulas; the functions here
-// have their names.
+// The shaders' formulas for the specular light of spheres, transcribed term by term in double
+// precision. Tests use them to separate the rounding errors of float32 from the errors of the
+// formulas, and tools/fit uses them to fit the constants of the formulas. The transcription does
+// not say whether the formulas are right: that is found by comparison with engine/reference, which
+// shares no code with it. The shaders explain the formulas; functions here have the names that they
+// have there.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,7 +14,8 @@
 namespace candelabra::transcription
 {
 
-// Unit normal and direction to the eye; NoV and mirror as the shaders clamp them.
+// n and v are unit: the normal and the direction to the eye. NoV and the mirror direction are
+// clamped as in the shaders.
 struct ShadingPoint {
     glm::dvec3 n, v, mirror;
     double NoV, alpha, smithV;
@@ -37,8 +39,8 @@ struct ConicPoint {
     double smithV;
 };
 
-// The fitted constants of shaders/shared/conic_constants.h under the same names, as variables for
-// the program that fits them; by default, what the shaders have.
+// The fitted constants of shaders/shared/conic_constants.h under the same names, as variables, so
+// that tools/fit can change them. The defaults are the values that the shaders have.
 struct ConicConstants {
 #define X(name, value, meaning) double name = value;
     CND_CONIC_FITTED(X)

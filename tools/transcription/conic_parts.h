@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the files of the transcription share among themselves.
+// Constants, structs and small functions that several files of the transcription use.
 #pragma once
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 namespace candelabra::transcription
 {
 
-// shaders/lib/lights/sphere_cap.glsl
+// Transcribed from shaders/lib/lights/sphere_cap.glsl.
 
 SphereCap makeSphereCap(glm::dvec3 n, glm::dvec3 toLight, double radius)
 {
@@ -22,7 +22,7 @@ SphereCap makeSphereCap(glm::dvec3 n, glm::dvec3 toLight, double radius)
     return cap;
 }
 
-// shaders/lib/specular/conic_region.glsl
+// Transcribed from shaders/lib/specular/conic_region.glsl.
 
 ConicPoint makeConicPoint(ShadingPoint s)
 {
@@ -100,7 +100,7 @@ ConicRegion wholeCap(ConicPoint p, glm::dvec3 c, double NoC, double s2, double o
     return o;
 }
 
-// shaders/lib/specular/conic_shading.glsl
+// Transcribed from shaders/lib/specular/conic_shading.glsl.
 
 double smith(ConicPoint p, double NoL)
 {

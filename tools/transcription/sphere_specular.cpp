@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lib/brdf.glsl, lib/specular/kx.glsl
+// Transcribed from shaders/lib/brdf.glsl and shaders/lib/specular/kx.glsl.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
