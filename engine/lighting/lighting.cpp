@@ -54,7 +54,8 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
     if (const uint32_t batch = lightsPerBatch(device_, 0); batch != UINT32_MAX)
         device_.say(CND_MESSAGE_INFO,
                     "cndCreateLighting: the device ends loops after %u iterations: lists of more "
-                    "than %u lights are shaded in parts, slower",
+                    "than %u sphere lights, or of fewer lights of other types, are shaded in "
+                    "parts, slower",
                     device_.maxLoopIterations, batch);
     if (!lightsAsTexels(device_))
         device_.say(CND_MESSAGE_INFO,

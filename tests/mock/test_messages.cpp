@@ -89,7 +89,8 @@ TEST(Messages, TellOfWhatTheDeviceLacks)
     vulkan.limits.maxTexelBufferElements = 1u << 27;
     vulkan.driver = VK_DRIVER_ID_MESA_LLVMPIPE;
     ASSERT_TRUE(Lighting::create(device, {.framesInFlight = 1}));
-    log.expect(CND_MESSAGE_INFO, "ends loops after 65535 iterations");
+    log.expect(CND_MESSAGE_INFO, "ends loops after 65535 iterations: lists of more than 12287 "
+                                 "sphere lights, or of fewer lights of other types,");
     vulkan.driver = VkDriverId(0);
     device.debugUtilsEnabled = VK_TRUE; // the mock does not have the extension
     ASSERT_TRUE(Lighting::create(device, {.framesInFlight = 1}));
