@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histogram -> target EV100 -> adapted EV100 -> exposure. Counts go up to 15 * 2^28: a place in the
-// sorted pixels is an integer and a fraction, so nothing is lost to float32 before two of them are
-// subtracted.
+// Computes the target EV100 from the histogram, adapts to it, and derives the exposure. Counts go up to
+// 15 * 2^28, which float32 cannot hold exactly. So a position among the sorted pixels is an integer and
+// a fraction, and nothing is rounded before two positions are subtracted.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/exposure.h"
@@ -23,14 +23,14 @@ layout(scalar, binding = ADAPT_STATE) buffer State
 shared uint prefixes[HISTOGRAM_BINS];
 shared vec2 sums[HISTOGRAM_BINS];
 
-// log2 of the mean luminance inside a bin.
+// Returns log2 of the mean luminance inside a bin.
 float binLog2Luminance(uint bin, float meanFraction)
 {
     const float step = float(bin % 8u) + (meanFraction + 0.5) / float(HISTOGRAM_FRACTIONS);
     return float(int(bin / 8u) + HISTOGRAM_MIN_EXPONENT) + log2(1.0 + step / 8.0);
 }
 
-// Inclusive, into `prefixes`. Hillis and Steele 1986.
+// Writes the inclusive prefix sums of the lanes' values to `prefixes` (Hillis and Steele 1986).
 void addPrefixes(uint value)
 {
     const uint lane = gl_LocalInvocationIndex;
@@ -44,7 +44,7 @@ void addPrefixes(uint value)
     }
 }
 
-// Over all lanes, pairwise; the result is lane 0's.
+// Sums the values of all lanes pairwise. Only lane 0 gets the result.
 vec2 sumOverLanes(vec2 value)
 {
     const uint lane = gl_LocalInvocationIndex;
@@ -58,12 +58,13 @@ vec2 sumOverLanes(vec2 value)
     return sums[0];
 }
 
+// A position among the pixels sorted by luminance, whose weights add up to the total.
 struct Place {
     uint whole;
     float fraction; // [0, 1]
 };
 
-// total * share / 2^32.
+// Returns total * share / 2^32.
 Place placeFromBottom(uint total, uint share)
 {
     uint whole, rest;
@@ -71,6 +72,7 @@ Place placeFromBottom(uint total, uint share)
     return Place(whole, float(rest) * exp2(-32.0));
 }
 
+// Returns total - total * share / 2^32.
 Place placeFromTop(uint total, uint share)
 {
     const Place p = placeFromBottom(total, share);
@@ -78,7 +80,7 @@ Place placeFromTop(uint total, uint share)
                             : Place(total - p.whole, 0.0);
 }
 
-// How much of the counts from `below` to `above` lies between the two places.
+// Returns how much of the interval from `below` to `above` lies between the two places.
 float countInside(uint below, uint above, Place first, Place last)
 {
     if (below > first.whole)
@@ -90,7 +92,7 @@ float countInside(uint below, uint above, Place first, Place last)
     return max(float(last.whole - first.whole) + (last.fraction - first.fraction), 0.0);
 }
 
-// Lane 0: (sum of log2 luminance, mass) between the two percentiles.
+// Returns to lane 0 the weighted sum of log2 luminance between the two percentiles, and the weight.
 vec2 measure()
 {
     const uint bin = gl_LocalInvocationIndex;
@@ -119,7 +121,7 @@ void main()
     float target = params.manualEv100;
     float adapted = target;
     if (params.manual == 0u) {
-        // EV100 = log2(L 100 / 12.5) = log2(L) + 3. Nothing measured: stay.
+        // EV100 = log2(L 100 / 12.5) = log2(L) + 3. If nothing was measured, EV100 stays as it was.
         target = measured.y > 0.0 ? measured.x / measured.y + 3.0 : previous;
         target = clamp(target, params.minEv100, params.maxEv100);
         const float start = reset ? target : previous;
@@ -128,7 +130,7 @@ void main()
     }
     state.targetEv100 = target;
     state.adaptedEv100 = adapted;
-    // Saturation-based speed, ISO 12232; Lagarde and de Rousiers 2014, eq. 85.
+    // The exposure for saturation-based speed (ISO 12232; Lagarde and de Rousiers 2014, eq. 85).
     state.exposure = 1.0 / (1.2 * exp2(adapted - params.compensation));
     state.owner = params.owner;
 }

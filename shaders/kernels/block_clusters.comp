@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clusters of blocks of tiles, or of blocks of blocks: what lies within a slice of their depth. One
-// lane per slice; those of a block walk its children in step.
+// Makes the clusters of blocks of tiles, or of blocks of blocks: one per slice of a block's depth. One
+// lane per slice, so that the lanes of a block walk its children in step.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/clusters.h"
@@ -19,8 +19,9 @@ layout(scalar, binding = BLOCK_CLUSTERS_TILES) buffer Tiles
     TileClusters tiles[];
 };
 
-// Slope of a cone around `ray` that holds a child's. With t = p.childRay, a sample p of the child has
-// |p| <= q t, |p x ray| <= slope t + d |p| and p.ray >= t - d |p|, d the distance of the two rays.
+// Returns the slope of a cone around `ray` that holds a child's cone. Let d be the distance between the
+// two rays. A sample p of the child with t = p . childRay has |p| <= q t, |p x ray| <= slope t + d |p|
+// and p . ray >= t - d |p|.
 float slopeAround(vec3 ray, Cluster child)
 {
     const float q = sqrt(1.0 + child.slope * child.slope);
@@ -68,7 +69,7 @@ void main()
             for (uint k = 0u; k < count; ++k) {
                 const uint at = child.first + k;
                 const uint bits = clusters[at].depthBits;
-                // Without samples, the bits are the largest number.
+                // A cluster without samples has the largest number as its bits, and is left out.
                 if (bits <= highest && (bits - lowest) >> shift == slice) {
                     merged.min = min(merged.min, clusters[at].min);
                     merged.max = max(merged.max, clusters[at].max);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The highest cut at which no sample's display changes by more than the error. The window takes from
-// lights that are not cut, too: of a light 1 / x times as bright as the cut, (1 - x^2)^2 is left.
+// Finds the highest cut at which the display of no sample changes by more than the allowed error. The
+// window also takes light from lights that still reach the sample: of a light that gives 1 / x times
+// the illuminance of the cut, (1 - x^2)^2 remains.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -23,6 +24,7 @@ layout(scalar, binding = CHOOSE_INFLUENCE_SUMS) readonly buffer Sums
 layout(binding = CHOOSE_INFLUENCE_DEPTH) uniform texture2D depthImage;
 layout(binding = CHOOSE_INFLUENCE_RADIANCE, rgba32f) uniform readonly image2D radianceImage;
 
+// Returns what the display shows of a luminance.
 vec3 shown(vec3 luminance)
 {
     return encodeSrgb(toneMap(data.frame.toneMap, expose(luminance, data.frame.exposure)));
@@ -47,13 +49,14 @@ void main()
     const vec3 all = imageLoad(radianceImage, ivec2(pixel)).rgb +
                      sums[firstSlot + INFLUENCE_DISTANT] + placed;
     const vec3 uncut = shown(all);
-    // Light of the bins from the cut up, weighted by x^2 and by x^4 and summed.
+    // Sums of the light in the bins from the cut upwards, weighted by x^2 and by x^4.
     vec3 squares = vec3(0.0), fourths = vec3(0.0);
-    vec3 below = placed; // the cut
+    vec3 below = placed; // light in the bins below the cut
     uint allowed = INFLUENCE_BINS - 1u;
     for (uint cut = INFLUENCE_BINS - 1u; cut > 0u; --cut) {
         const vec3 bin = sums[firstSlot + cut];
-        const float x2 = cut < INFLUENCE_COARSE_BINS ? 1.0 / 16.0 : 0.5; // between two cuts
+        // By how much x^2 changes from one cut to the next.
+        const float x2 = cut < INFLUENCE_COARSE_BINS ? 1.0 / 16.0 : 0.5;
         squares = bin + x2 * squares;
         fourths = bin + x2 * x2 * fourths;
         below = max(below - bin, 0.0);

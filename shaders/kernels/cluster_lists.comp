@@ -49,7 +49,8 @@ layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
 #include "kernels/common/cluster_of_lane.glsl"
 #include "kernels/common/list_pages.glsl"
 
-// Leaves found before their lights are tested: lanes take turns at walking and testing together.
+// The number of leaves that a lane finds before it tests their lights, so that the lanes walk the tree
+// together and then test lights together.
 const uint QUEUE = 16u;
 
 // Appends the tile of a cluster that lights touch to the tiles that are shaded with lists or to those
@@ -77,8 +78,8 @@ void main()
     const uint parent = params.hasParents != 0u ? lists[cluster.parent] : LIST_UNLISTED;
     const bool byParent = parent != LIST_UNLISTED && parent != LIST_LONG;
 
-    // A block without a page for its list is of no use. `expected` counts the lights that the loops
-    // should have tested: devices may cut loops short without a word.
+    // The list of a block is useless without a page, so the loops end. `expected` counts the lights
+    // that the loops should have tested, because devices may end loops early without an error.
     const bool isBlock = params.which == LISTS_OF_BLOCKS;
     uint steps = 0u, expected = 0u;
     ListWriter list = beginList();
@@ -98,13 +99,15 @@ void main()
     }
     bool cut = from != NO_PAGE || list.tested != expected;
 
-    // What has no room is walked for its length alone: shade_unlisted goes the way through the tree.
+    // A list without room is walked only to count the steps that shade_unlisted will need through the
+    // tree.
     const bool measure = list.full && !isBlock && params.maxUnlistedSteps != 0xFFFFFFFFu;
     if (byParent && measure)
         steps = list.found = 0u;
     const uint lightEnd = params.tree.firstLight + params.tree.lightCount;
     const uint lastLeaf = (params.tree.lightCount - 1u) / TREE_WIDTH;
-    const uint missing = (lastLeaf + 1u) * TREE_WIDTH - params.tree.lightCount; // of a full leaf
+    // How many lights the last leaf lacks.
+    const uint missing = (lastLeaf + 1u) * TREE_WIDTH - params.tree.lightCount;
     uint leaves[QUEUE];
     TreeWalk walk = beginTreeWalk(params.tree, TREE_LEVELS);
     walk.done = walk.done || (byParent && !measure);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ids of the visible instances of each batch, densely and in their old order, and the draw's instance
-// count. One lane per chunk sums the counts of the chunks before it in the batch (batches are split on
-// the host so that this sum stays short): the result does not depend on scheduling.
+// Writes the ids of the visible instances of each batch, densely and in their old order, and the
+// instance count of its draw. One lane per chunk sums the counts of the batch's chunks before it. The
+// result does not depend on scheduling. The host splits batches so that this sum stays short.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster.h"
@@ -42,7 +42,7 @@ void main()
     for (uint i = chunk.firstChunk; i < index; ++i)
         count += counts[i];
 
-    // All chunks of a batch but the last are full.
+    // All chunks of a batch except the last are full.
     const uint first = chunk.firstInstance - (index - chunk.firstChunk) * CHUNK_SIZE;
     const uvec2 words = bits[index];
     for (uint word = 0; word < 2u; ++word) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which instances may be in the view: one lane tests the bounds of one chunk of instances against the
-// planes of the view and writes a bit each. Conservative: it may keep what is outside, never the
-// reverse. No atomics, so the order of what follows is that of the input.
+// Finds the instances that may be in the view: one lane tests the bounds of one chunk of instances
+// against the planes of the view and writes one bit per instance. The test is conservative: it may keep
+// instances that are outside, but drops none that is inside. Without atomics the order of the instances
+// stays that of the input.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster.h"
@@ -28,8 +29,8 @@ layout(scalar, binding = CULL_INSTANCES_COUNTS) writeonly buffer Counts
     uint counts[];
 };
 
-// Share of the magnitudes involved that a sum of rounded products may be off: 8 roundings of 2^-24,
-// with a margin of 20.
+// Largest error of a sum of rounded products, relative to the magnitudes in it: 8 roundings of 2^-24,
+// times a safety factor of 20.
 const float SLACK = 1e-5;
 
 bool mayBeVisible(InstanceBounds b)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radii of influence for the illuminance that the frame is cut at. Every lane takes the step of the
-// history by itself.
+// Computes the radii of influence for the illuminance at which the frame cuts its lights. Every lane
+// computes the next state of the history by itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/influence.glsl"
@@ -28,11 +28,11 @@ layout(scalar, binding = CUT_LIGHTS_COUNTERS) writeonly buffer Counters
     LightingCounters counters;
 };
 
-// Squared radius of lights that nothing sees: 0 would say that there is none, and 0 / 0 is no number.
+// Squared radius of lights that no pixel shows. 0 would mean that there is no light, and 0 / 0 is NaN.
 const float NOWHERE = 1e-30;
 
-// Cuts fall at once to what the frame's samples allow; they rise a step per frame to what the samples
-// of a whole period have allowed.
+// Returns the next state. The cut falls at once to what the frame's samples allow. It rises by one step
+// per frame to what the samples of a whole period have allowed.
 InfluenceState stepFrom(InfluenceState before)
 {
     const InfluenceFrame f = data.frame;
@@ -67,7 +67,7 @@ void main()
     const uint light = params.firstLight + i;
     const uint at = light * LIGHT_CORE_STRIDE + 1u;
     const vec4 emission = core[at];
-    if (emission.w <= 0.0) // no light (device_lights), or none of the frame
+    if (emission.w <= 0.0) // not a light (device_lights), or a light of other layers than the frame's
         return;
     const float intensity =
         peakIntensity(params.type, emission.xyz, core[at - 1u].w, shapes[light]);

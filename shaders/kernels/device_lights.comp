@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that were written on the device, checked like the host checks its own. What is no light
-// becomes a record without influence: no list, no box of the light tree holds it.
+// Turns the lights that the host wrote on the device into records. It applies the checks that the CPU
+// applies to other lights. An invalid light becomes a record without influence, which is in no list and
+// in no box of the light tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/device_lights.h"
@@ -28,7 +29,7 @@ layout(scalar, binding = DEVICE_LIGHTS_COUNTS) buffer Counts
     DeviceLightCounts counts;
 };
 
-// Every comparison is false for NaN.
+// Tells whether a light is valid. Every comparison is false for NaN.
 bool isLight(DeviceLight light, float radius)
 {
     const float largest = uintBitsToFloat(0x7F7FFFFFu);
@@ -46,7 +47,7 @@ void main()
     if (i >= params.maxCount)
         return;
     const uint written = params.hasCount != 0u ? count : params.maxCount;
-    // Far away, so that no distance to it is 0.
+    // A record without a light is far away, so that no distance to it is 0.
     LightRecord record = LightRecord(vec3(MAX_LIGHT_COORDINATE), 0.0, vec3(0.0), 0.0, vec3(0.0),
                                      LIGHT_OF_DEVICE | i, vec3(0.0),
                                      params.type | params.layers << LIGHT_LAYERS_SHIFT);

@@ -13,11 +13,12 @@ layout(push_constant, scalar) uniform Push
 };
 layout(scalar, binding = DFG_TABLE_ENTRIES) writeonly buffer Entries
 {
-    vec2 entries[]; // two per entry
+    vec2 entries[]; // two vec2 per entry of the table
 };
 
-// Share of a white surrounding that the lobe reflects towards v = (sqrt(1 - NoV^2), 0, NoV): the
-// mean over visible normals of G2 / G1 (Heitz 2018, eq. 19), plain and times (1 - VoH)^5.
+// Returns the share of a uniform white environment's light that the lobe reflects towards
+// v = (sqrt(1 - NoV^2), 0, NoV): the mean over visible normals of G2 / G1 (Heitz 2018, eq. 19), without
+// and with the factor (1 - VoH)^5.
 vec2 directionalAlbedo(float NoV, float alpha)
 {
     const vec3 v = vec3(sqrt(max(1.0 - NoV * NoV, 0.0)), 0.0, NoV);

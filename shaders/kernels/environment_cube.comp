@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Equirectangular radiance image -> cube.
+// Converts an equirectangular radiance image into a cube.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -15,7 +15,8 @@ layout(binding = ENVIRONMENT_CUBE_IMAGE) uniform texture2D equirectangularImage;
 layout(binding = ENVIRONMENT_CUBE_OUTPUT, rgba32f) uniform writeonly image2DArray cube;
 layout(binding = ENVIRONMENT_CUBE_MIRROR, rgba32f) uniform writeonly image2DArray mirror;
 
-// Files hold anything: NaN and negative values are 0, infinity is the largest luminance.
+// Returns the luminance of a texel. Files may contain any value: NaN and negative values become 0,
+// infinity becomes ENVIRONMENT_MAX_LUMINANCE.
 vec3 luminanceAt(ivec2 texel)
 {
     const ivec2 size = ivec2(params.imageSize);
@@ -24,7 +25,8 @@ vec3 luminanceAt(ivec2 texel)
     return mix(vec3(0.0), min(value, ENVIRONMENT_MAX_LUMINANCE), greaterThan(value, vec3(0.0)));
 }
 
-// Bilinear, around in x. Without a sampler, so that any format and any usage of the host's will do.
+// Returns the luminance from a direction, interpolated bilinearly; in x the image wraps around. It uses
+// no sampler, so that the host's image may have any format and usage.
 vec3 luminanceTowards(vec3 direction)
 {
     const vec2 at = equirectangular(normalize(direction)) * vec2(params.imageSize) - 0.5;

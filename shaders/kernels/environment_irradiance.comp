@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiance over pi of every normal, from every texel of one mip.
+// Computes the irradiance divided by pi for every normal, as a sum over all texels of one mip.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/environment.h"
@@ -27,7 +27,7 @@ void main()
             for (uint x = 0u; x < params.sourceSize; ++x) {
                 const vec2 uv = cubeTexelCentre(uvec2(x, y), params.sourceSize);
                 const vec3 d = cubeDirection(face, uv);
-                // cos dOmega: the solid angle has |d|^-3, the cosine |d|^-1.
+                // Cosine times solid angle: the solid angle contributes |d|^-3, the cosine |d|^-1.
                 const float invD2 = 1.0 / dot(d, d);
                 const float w = max(dot(n, d), 0.0) * invD2 * invD2;
                 rowSum += w * imageLoad(source, ivec3(x, y, face)).rgb;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One mip of a cube from the one before.
+// Computes one mip of a cube from the next finer one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/environment.h"

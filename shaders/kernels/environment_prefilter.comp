@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One level of the prefiltered cube.
+// Computes one level of the prefiltered cube.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/environment.h"
@@ -14,8 +14,8 @@ layout(push_constant, scalar) uniform Push
 layout(binding = ENVIRONMENT_PREFILTER_SOURCE) uniform samplerCube source;
 layout(binding = ENVIRONMENT_PREFILTER_OUTPUT, rgba32f) uniform writeonly image2DArray prefiltered;
 
-// Any two unit vectors perpendicular to n and each other: Duff et al. 2017, "Building an Orthonormal
-// Basis, Revisited".
+// Returns n as the third column and two unit vectors perpendicular to it and to each other (Duff et al.
+// 2017, "Building an Orthonormal Basis, Revisited").
 mat3 basisAround(vec3 n)
 {
     const float s = n.z >= 0.0 ? 1.0 : -1.0;
@@ -24,7 +24,7 @@ mat3 basisAround(vec3 n)
     return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
 }
 
-// Van der Corput sequence in base 2.
+// Returns an element of the van der Corput sequence in base 2.
 float radicalInverse(uint i)
 {
     return float(bitfieldReverse(i)) * 2.3283064365386963e-10; // 2^-32
@@ -42,7 +42,8 @@ void main()
     vec3 sum = vec3(0.0);
     float weight = 0.0;
     for (uint i = 0u; i < ENVIRONMENT_PREFILTER_SAMPLES; ++i) {
-        // Microfacet normals by D NoH (Walter et al. 2007, eq. 35); v = n, so VoH = NoH.
+        // The microfacet normals have the density D NoH (Walter et al. 2007, eq. 35). v = n, so
+        // VoH = NoH.
         const float u = (float(i) + 0.5) / float(ENVIRONMENT_PREFILTER_SAMPLES);
         const float phi = 2.0 * PI * radicalInverse(i);
         const float c2 = (1.0 - u) / (1.0 + (a2 - 1.0) * u);

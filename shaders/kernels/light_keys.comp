@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lights are sorted by: type, class of influence radius, place along a Morton curve. Equal types
-// have a shader in common; equal sizes and places make tight boxes in the light tree.
+// Makes the keys that lights are sorted by: type, class of influence radius, position along a Morton
+// curve. Lights of one type share a shader; similar sizes and positions make tight boxes in the light
+// tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/light_order.h"
@@ -37,7 +38,8 @@ uint morton(vec3 position)
     return spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
 }
 
-// Two octaves of influence radii each; the last holds all that are larger.
+// Returns the class of an influence radius. A class spans two octaves; the last one holds all larger
+// radii.
 uint sizeClass(float influenceRadius)
 {
     const int exponent = int(floatBitsToUint(influenceRadius) >> 23) - 127;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two levels of the light tree from the one below. A lane makes one node of the upper level and the
-// nodes under it.
+// Builds two levels of the light tree from the level below. A lane makes one node of the upper level
+// and its children.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/clusters.h"
@@ -18,10 +18,11 @@ layout(scalar, binding = LIGHT_TREE_NODES) buffer Nodes
     vec4 nodes[];
 };
 
-const float LARGEST = 1e30; // of a box: infinite influence, but products with 0 are 0
+// Bound of a box's coordinates. It stands for infinity, but its product with 0 is 0.
+const float LARGEST = 1e30;
 
-// Share of a light's centre and influence radius by which a box is made larger, so that rounding here
-// and in the tests against it loses nothing.
+// A box is enlarged by this share of its light's centre and influence radius, so that neither rounding
+// here nor in the tests of the box loses a light.
 const float BOX_MARGIN = 1.0 / 1048576.0;
 
 void childBox(uint child, out vec3 lowest, out vec3 highest)
@@ -33,7 +34,7 @@ void childBox(uint child, out vec3 lowest, out vec3 highest)
     }
     lowest = vec3(LARGEST);
     highest = vec3(-LARGEST);
-    if (lightEmission(child).w <= 0.0) // no light (device_lights), or of another layer
+    if (lightEmission(child).w <= 0.0) // not a light (device_lights), or a light of other layers
         return;
     const vec3 centre = lightCentre(child).xyz;
     const vec3 size = abs(centre);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Weighted histogram of log2 luminance. Counts are equal on any device that rounds to nearest:
-// luminance is a fixed sequence of roundings, bins come from its bits, weights are integers.
+// Makes a weighted histogram of log2 luminance. The counts are the same on every device that rounds to
+// nearest: luminance is computed in a fixed order, the bin follows from its bits, and weights are
+// integers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -26,7 +27,7 @@ shared uint bins[HISTOGRAM_BINS];
 shared uint invalidPixels;
 shared uint blackWeight;
 
-// Integer weight of a pixel; the products fit 32 bits up to 16384 x 16384.
+// Returns the integer weight of a pixel. The products fit into 32 bits up to 16384 x 16384 pixels.
 uint weightOf(uvec2 pixel)
 {
     const uvec2 size = params.size;
@@ -42,7 +43,7 @@ uint weightOf(uvec2 pixel)
     return 1u;
 }
 
-// ITU-R BT.709 luminance in a fixed order without contraction.
+// Returns the ITU-R BT.709 luminance, computed in a fixed order without fused operations.
 float luminance(vec3 c)
 {
     precise float red = 0.2126 * c.r;
@@ -57,7 +58,7 @@ void count(uvec2 pixel)
 {
     const float y = luminance(texelFetch(radianceImage, ivec2(pixel), 0).rgb);
     const uint bits = floatBitsToUint(y);
-    if ((bits & 0x7FFFFFFFu) > 0x7F800000u) { // NaN, which isnan() need not see
+    if ((bits & 0x7FFFFFFFu) > 0x7F800000u) { // NaN; isnan() may be compiled to false
         atomicAdd(invalidPixels, 1u);
         return;
     }
@@ -103,7 +104,7 @@ void main()
             continue;
         atomicAdd(data.counts[bin], packed >> HISTOGRAM_COUNT_SHIFT);
         const uint fraction = packed & ((1u << HISTOGRAM_COUNT_SHIFT) - 1u);
-        // 64-bit sum: the addition that wraps carries.
+        // A 64-bit sum: the addition that overflows the low word carries.
         if (atomicAdd(data.fractions[bin].x, fraction) + fraction < fraction)
             atomicAdd(data.fractions[bin].y, 1u);
     }

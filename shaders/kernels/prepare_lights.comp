@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights in sorted order, from the light set's frame to view space, split into what every loop reads
-// and the rest.
+// Writes the lights in sorted order, transformed from the coordinates of the light set to view space
+// and split into the part that every loop reads and the rest.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/light_shape.glsl"
@@ -45,7 +45,7 @@ void main()
     const bool inFrame = (light.flags >> LIGHT_LAYERS_SHIFT & params.layers) != 0u;
     core[i * LIGHT_CORE_STRIDE] = vec4(params.viewFromWorld * light.position + origin,
                                        inFrame ? light.boundingRadius : BOUNDING_RADIUS_OF_NONE);
-    // A radius of 0 says that there is no light (device_lights).
+    // A radius of 0 means that this is not a light (device_lights).
     const bool endless = params.uncut != 0u && light.influenceRadius > 0.0;
     const float influence2 = endless ? uintBitsToFloat(0x7F800000u) // infinite
                                      : light.influenceRadius * light.influenceRadius;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often each digit occurs in each run of lights.
+// Counts how often each digit occurs in each run of lights.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/sort_run.glsl"

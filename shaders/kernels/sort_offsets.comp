@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exclusive sums of the totals of sort_sums, in one group.
+// Replaces the totals of sort_sums by their exclusive prefix sums, in one group.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/sort_run.glsl"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves lights to where the sums over counted digits put them; equal digits keep their order.
+// Moves each light to the position that the sums over counted digits give it. Lights with equal digits
+// keep their order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/sort_run.glsl"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exclusive sums of the counters, by lanes of SORT_SUM counters each, and each lane's total.
+// Replaces the counters by their exclusive prefix sums. Each lane sums SORT_SUM counters by itself and
+// writes their total.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/sort_run.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene luminance -> exposed -> tone mapped -> sRGB, dithered to 8 bits.
+// Exposes the scene radiance, applies the tone curve and the sRGB encoding, and dithers to 8 bits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -18,7 +18,7 @@ layout(scalar, binding = TONE_MAP_STATE) readonly buffer State
 };
 layout(binding = TONE_MAP_DISPLAY, rgba8) uniform writeonly image2D displayImage;
 
-// pcg3d: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
+// The hash function pcg3d (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering").
 uvec3 hash(uvec3 v)
 {
     v = v * 1664525u + 1013904223u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cluster a lane of cluster_lists makes the list of, and the work lists of tiles it is for. The
+// Finds the cluster whose list a lane of cluster_lists makes, and appends tiles to the work lists. The
 // includer provides params, counters, tiles[] and splits.
 #ifndef CND_COMMON_CLUSTER_OF_LANE
 #define CND_COMMON_CLUSTER_OF_LANE
@@ -15,7 +15,7 @@ layout(scalar, binding = CLUSTER_LISTS_UNLISTED) buffer Unlisted
     uint unlistedTiles[];
 };
 
-// The cluster of this lane; false without one.
+// Sets the cluster of this lane. Returns false if the lane has none.
 bool takeCluster(out uint at)
 {
     const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
@@ -37,7 +37,7 @@ bool takeCluster(out uint at)
            tiles[at].lowest <= tiles[at].highest;
 }
 
-// A tile is on a work list once per light type, by whichever lane comes first.
+// Appends a tile to a work list unless another lane has done so for this light type.
 #define APPEND_TILE(works, workTiles, tile, firstBit)                                              \
     const uint bit = 1u << ((firstBit) + params.lightType);                                        \
     const uint before = atomicOr(tiles[tile].onLists, bit);                                        \
@@ -49,13 +49,13 @@ bool takeCluster(out uint at)
             atomicAdd(works[tileClass].groupsY, 1u);                                               \
     }
 
-// For shade_tiles.
+// Appends a tile to the work lists of shade_tiles.
 void appendLit(uint tile)
 {
     APPEND_TILE(lit, litTiles, tile, LIT_BITS)
 }
 
-// For shade_unlisted.
+// Appends a tile to the work lists of shade_unlisted, and counts the cluster.
 void appendUnlisted(uint tile)
 {
     atomicAdd(counters.unlistedClusters, 1u);

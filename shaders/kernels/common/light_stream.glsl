@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the hot light data. The includer defines LIGHT_STREAM_CORE and LIGHT_STREAM_CORE_WORDS, the
-// binding ids. Texel buffers are about five times cheaper than storage buffers on lavapipe; devices
-// whose texel buffers are too small for the light count read the same bytes as storage.
+// Reads the part of the light data that every loop needs. The includer defines the binding ids
+// LIGHT_STREAM_CORE and LIGHT_STREAM_CORE_WORDS. On lavapipe texel buffers are about five times faster
+// to read than storage buffers. If a device's texel buffers are too small for its largest number of
+// lights, the same bytes are read from a storage buffer.
 #extension GL_EXT_samplerless_texture_functions : require
 
 layout(constant_id = SPEC_LIGHTS_AS_TEXELS) const uint lightsAsTexels = 1u;
@@ -11,14 +12,14 @@ layout(scalar, binding = LIGHT_STREAM_CORE_WORDS) readonly buffer LightWords
     vec4 lightWords[];
 };
 
-// Centre in view space and emitter radius.
+// Returns the centre in view space and the bounding radius of the emitter.
 vec4 lightCentre(uint light)
 {
     const uint at = light * LIGHT_CORE_STRIDE;
     return lightsAsTexels != 0u ? texelFetch(lightTexels, int(at)) : lightWords[at];
 }
 
-// Emission and squared influence radius.
+// Returns the emission and the squared influence radius.
 vec4 lightEmission(uint light)
 {
     const uint at = light * LIGHT_CORE_STRIDE + 1u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the light tree like lights (light_stream.glsl, to be included before); the includer defines
-// TREE_NODES and TREE_NODE_WORDS, the binding ids.
+// Reads nodes of the light tree in the same way as light_stream.glsl reads lights. Include it after
+// that file. The includer defines the binding ids TREE_NODES and TREE_NODE_WORDS.
 #ifndef CND_COMMON_LIGHT_TREE
 #define CND_COMMON_LIGHT_TREE
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run of consecutive lights that one lane of a sorting pass works on.
+// What the kernels of a sorting pass share: their parameters, and the digit of a key.
 #include "shared/light_order.h"
 
 layout(local_size_x = SORT_GROUP) in;
