@@ -184,15 +184,15 @@ void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const 
     const Binding depth = Binding::sampled(TILE_CLUSTERS_DEPTH, in.gbuffer.depth);
     const Binding normals = Binding::sampled(TILE_CLUSTERS_NORMALS, in.gbuffer.packedNormal);
     const Binding hostNormals = Binding::sampled(TILE_CLUSTERS_HOST_NORMALS, in.gbuffer.hostNormal);
-    const Binding gbufferView = in.gbuffer.params(TILE_CLUSTERS_GBUFFER_VIEW);
-    tileSets_.write(slot, {depth, normals, hostNormals, gbufferView,
+    const Binding frame = in.uniforms.at(slot, TILE_CLUSTERS_FRAME);
+    tileSets_.write(slot, {depth, normals, hostNormals, frame,
                            Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
                            Binding::of(TILE_CLUSTERS_TILES, tiles_),
                            Binding::of(TILE_CLUSTERS_SURFACES, surfaces_),
                            Binding::of(TILE_CLUSTERS_SPLITS, splits_),
                            Binding::sampled(TILE_CLUSTERS_ALBEDO, in.gbuffer.albedo),
                            Binding::sampled(TILE_CLUSTERS_SPECULAR, in.gbuffer.specular)});
-    splitSets_.write(slot, {depth, normals, hostNormals, gbufferView,
+    splitSets_.write(slot, {depth, normals, hostNormals, frame,
                             Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
                             Binding::of(TILE_CLUSTERS_TILES, tiles_),
                             Binding::of(TILE_CLUSTERS_SPLITS, splits_)});
@@ -257,11 +257,13 @@ void Clusters::recordTree(const gpu::Frame& f, const gpu::TreeShape& tree) const
     }
 }
 
-void Clusters::recordClusters(const gpu::Frame& f, gpu::TileClustersParams params,
+void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float splitLength,
                               bool forLists) const noexcept
 {
-    params.firstSplit = firstSplit();
-    params.splitCapacity = splitCapacity_;
+    const gpu::TileClustersParams params{.tileCount = area(tileCount),
+                                         .firstSplit = firstSplit(),
+                                         .splitCapacity = splitCapacity_,
+                                         .splitLength = splitLength};
     kernels_.tileClusters.dispatch(f, tileSets_.set(f.slot), params,
                                    divideUp(params.tileCount, gpu::TILE_CLUSTERS_GROUP));
     f.barrier();
@@ -269,7 +271,7 @@ void Clusters::recordClusters(const gpu::Frame& f, gpu::TileClustersParams param
         return;
     kernels_.splitTiles.dispatchIndirect(f, splitSets_.set(f.slot), params, splits_);
     f.barrier();
-    const auto level = levels({params.tileCountX, params.tileCount / params.tileCountX});
+    const auto level = levels(tileCount);
     for (size_t i = 1; i < level.size(); ++i) {
         const uint32_t blockCount = area(level[i].count);
         kernels_.blockClusters.dispatch(

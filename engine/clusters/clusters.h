@@ -9,6 +9,7 @@
 #include "gpu/recordings.h"
 #include "lights/light_types.h"
 #include "shared/clusters.h"
+#include "surfaces/frame_uniforms.h"
 #include "surfaces/host_gbuffer.h"
 #include "surfaces/host_kernels.h"
 
@@ -63,6 +64,7 @@ public:
 
     struct Inputs {
         const surfaces::GBufferViews& gbuffer;
+        const surfaces::FrameUniforms& uniforms;
         const gpu::Buffer &core, &counters;
     };
     void writeBindings(uint32_t slot, const LightTypeCounts& types, const Inputs& inputs) const;
@@ -71,8 +73,9 @@ public:
     // own or leaves it to the caller as said.
     void recordReset(const gpu::Frame& frame, const LightTypeCounts& types) const noexcept;
     void recordTree(const gpu::Frame& frame, const gpu::TreeShape& tree) const noexcept;
-    // Without lists only the tiles that hold a surface are found.
-    void recordClusters(const gpu::Frame& frame, gpu::TileClustersParams params,
+    // Bounds of tiles, their slices and blocks. Unless `forLists`, only finds the tiles that hold a
+    // surface. Tiles longer than `splitLength` metres are split into slices.
+    void recordClusters(const gpu::Frame& frame, glm::uvec2 tileCount, float splitLength,
                         bool forLists) const noexcept;
     // `longest`: list that shading can walk.
     void recordLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,

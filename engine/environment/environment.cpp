@@ -117,7 +117,7 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
     : device_(device),
       desc_(checked(desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
-      gbufferParams_(device_, desc_.framesInFlight),
+      uniforms_(device_, desc_.framesInFlight),
       timer_(device_, "environment", desc_.framesInFlight + 1, desc_.timestamps),
       dfg_(device_),
       cube_(device_, spirv::environment_cube_comp),
@@ -282,17 +282,15 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
 {
     using namespace gpu;
     validate(frame);
-    const Projection projection =
-        surfaces::projectionOf(frame.camera.clipFromView, frame.clearDepth);
-    gbufferParams_.write(frame.frameSlot, gbuffer_, frame.camera);
-    const surfaces::GBufferViews images = gbuffer_.views(frame, gbufferParams_);
+    uniforms_.write(frame.frameSlot, surfaces::frameParams(frame, gbuffer_.dielectricF0()));
+    const surfaces::GBufferViews images = gbuffer_.views(frame);
     sets_.shade.write(frame.frameSlot,
                       {Binding::sampled(SHADE_ENVIRONMENT_NORMAL_ROUGHNESS, images.packedNormal),
                        Binding::sampled(SHADE_ENVIRONMENT_HOST_NORMAL, images.hostNormal),
                        Binding::sampled(SHADE_ENVIRONMENT_ALBEDO, images.albedo),
                        Binding::sampled(SHADE_ENVIRONMENT_SPECULAR, images.specular),
                        Binding::sampled(SHADE_ENVIRONMENT_DEPTH, images.depth),
-                       images.params(SHADE_ENVIRONMENT_GBUFFER_VIEW),
+                       uniforms_.at(frame.frameSlot, SHADE_ENVIRONMENT_FRAME),
                        Binding::storage(SHADE_ENVIRONMENT_RADIANCE, frame.radiance),
                        cubeSampled(SHADE_ENVIRONMENT_CUBE, source_, sampler_.get()),
                        cubeSampled(SHADE_ENVIRONMENT_PREFILTERED, prefiltered_, sampler_.get()),
@@ -305,23 +303,15 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
     const glm::dmat3 environmentFromView =
         glm::transpose(glm::dmat3(viewFromWorld) *
                        rotationOf(frame.worldFromEnvironment)); // inverse of a rotation
-    uint32_t flags = 0;
-    flags |= frame.background ? ENVIRONMENT_BACKGROUND : 0;
-    flags |= frame.lobes == CND_LOBES_SUM ? ENVIRONMENT_SUM : 0;
-    flags |= frame.energyCompensation ? ENVIRONMENT_COMPENSATE : 0;
 
     const Frame f{device_, cmd, timer_, frame.frameSlot, frame.hostSet};
     device_.beginLabel(cmd, "candelabra environment");
     timer_.begin(cmd, f.slot);
     shade_.dispatch(f, sets_.shade.set(f.slot),
                     {.environmentFromView = glm::mat3(environmentFromView),
-                     .projection = projection,
-                     .size = {frame.width, frame.height},
-                     .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
-                     .clearDepth = frame.clearDepth,
                      .lastLevel = float(prefiltered_.mips.size() - 1),
                      .scale = frame.scale,
-                     .flags = flags},
+                     .showsBackground = frame.background != VK_FALSE},
                     divideUp(frame.width, SHADE_ENVIRONMENT_GROUP),
                     divideUp(frame.height, SHADE_ENVIRONMENT_GROUP));
     device_.endLabel(cmd);

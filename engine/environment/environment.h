@@ -7,6 +7,7 @@
 
 #include "gpu/kernel.h"
 #include "shared/environment.h"
+#include "surfaces/frame_uniforms.h"
 #include "surfaces/host_gbuffer.h"
 #include "surfaces/host_kernels.h"
 #include "tables/dfg_table.h"
@@ -43,7 +44,7 @@ private:
     gpu::Device device_;
     CndEnvironmentDesc desc_;
     surfaces::GBufferSource gbuffer_;
-    surfaces::GBufferParams gbufferParams_;
+    surfaces::FrameUniforms uniforms_;
     gpu::Timer timer_;
     tables::DfgTable dfg_;
     gpu::Kernel<gpu::EnvironmentCubeParams> cube_;

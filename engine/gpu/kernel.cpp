@@ -250,7 +250,8 @@ void KernelBase::bind(const Frame& frame, VkDescriptorSet set, const void* param
     const VkDescriptorSet sets[] = {set, frame.hostSet};
     d.CmdBindDescriptorSets(frame.cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0,
                             reflection_.usesHostSet ? 2 : 1, sets, 0, nullptr);
-    d.CmdPushConstants(frame.cmd, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, size, params);
+    if (size)
+        d.CmdPushConstants(frame.cmd, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, size, params);
 }
 
 } // namespace candelabra::gpu

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "gpu/memory.h"
@@ -112,18 +113,24 @@ private:
     Handle<VkPipeline> pipeline_;
 };
 
+// The parameter struct of kernels without push constants.
+struct NoParams {
+};
+
 // A kernel with a typed parameter struct. Params is the shader's push constant struct, from
 // shaders/shared.
 template <typename Params>
 class Kernel : public KernelBase
 {
+    static constexpr uint32_t paramsSize = std::is_empty_v<Params> ? 0 : sizeof(Params);
+
 public:
     Kernel() = default;
     // `hostLayout`: layout of descriptor set 1, for kernels that use it.
     Kernel(const Device& device, const Spirv& spirv,
            std::initializer_list<SpecConstant> constants = {},
            VkDescriptorSetLayout hostLayout = VK_NULL_HANDLE)
-        : KernelBase(device, spirv, sizeof(Params), constants, hostLayout)
+        : KernelBase(device, spirv, paramsSize, constants, hostLayout)
     {
     }
     // Records a dispatch of x * y * z work groups. With a count of 0 only the timer row is
@@ -131,14 +138,14 @@ public:
     void dispatch(const Frame& frame, VkDescriptorSet set, const Params& params, uint32_t x,
                   uint32_t y = 1, uint32_t z = 1) const noexcept
     {
-        dispatchRaw(frame, set, &params, sizeof params, x, y, z);
+        dispatchRaw(frame, set, &params, paramsSize, x, y, z);
     }
     // Records a dispatch whose group counts (VkDispatchIndirectCommand) are read from `arguments`,
     // at byte `at`.
     void dispatchIndirect(const Frame& frame, VkDescriptorSet set, const Params& params,
                           const Buffer& arguments, VkDeviceSize at = 0) const noexcept
     {
-        dispatchIndirectRaw(frame, set, &params, sizeof params, arguments.get(), at);
+        dispatchIndirectRaw(frame, set, &params, paramsSize, arguments.get(), at);
     }
 };
 

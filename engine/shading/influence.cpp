@@ -114,7 +114,7 @@ void Influence::writeBindings(uint32_t slot, const Inputs& in) const
          Binding::sampled(SHADE_NORMAL_ROUGHNESS, g.packedNormal),
          Binding::sampled(SHADE_HOST_NORMAL, g.hostNormal),
          Binding::sampled(SHADE_ALBEDO, g.albedo), Binding::sampled(SHADE_SPECULAR, g.specular),
-         Binding::sampled(SHADE_DEPTH, g.depth), g.params(SHADE_GBUFFER_VIEW),
+         Binding::sampled(SHADE_DEPTH, g.depth), in.uniforms.at(slot, SHADE_FRAME),
          Binding::ofTexels(SHADE_DFG, in.directionalAlbedo),
          Binding::ofTexels(SHADE_LTC, in.transformedCosines),
          Binding::of(MEASURE_INFLUENCE_DATA, data_), Binding::of(MEASURE_INFLUENCE_SUMS, sums_)});
@@ -160,7 +160,7 @@ void Influence::recordRound(const gpu::Frame& f) const noexcept
 }
 
 void Influence::recordMeasure(const gpu::Frame& f, const MeasureKernel& kernel,
-                              const gpu::ShadeParams& params) const noexcept
+                              const gpu::MeasureInfluenceParams& params) const noexcept
 {
     constexpr uint32_t perGroup = gpu::MEASURE_INFLUENCE_GROUP / gpu::MEASURE_INFLUENCE_LANES;
     kernel.dispatch(f, measure_.set(f.slot), params, gpu::divideUp(area(frame_.samples), perGroup));

@@ -30,7 +30,7 @@ struct InfluenceKernels {
 class Influence
 {
 public:
-    using MeasureKernel = gpu::Kernel<gpu::ShadeParams>;
+    using MeasureKernel = gpu::Kernel<gpu::MeasureInfluenceParams>;
     // `measure`: a kernel of ShadeKernels, since binding layouts are the same for all. `maxSize`:
     // pixels of frames. `kernels` must outlive it.
     Influence(const gpu::Device& device, const InfluenceKernels& kernels,
@@ -38,6 +38,7 @@ public:
 
     struct Inputs {
         const surfaces::GBufferViews& gbuffer;
+        const surfaces::FrameUniforms& uniforms;
         VkImageView radiance;
         const gpu::Buffer &core, &shapes, &ids, &directionalAlbedo, &transformedCosines, &counters;
     };
@@ -47,9 +48,8 @@ public:
     // are called once per round, recordMeasure as often as lights need it. Returns the rounds.
     uint32_t recordBegin(const gpu::Frame& f, const CndLightingFrame& frame) noexcept;
     void recordRound(const gpu::Frame& f) const noexcept;
-    // `params` as of shade_brute, with the round.
     void recordMeasure(const gpu::Frame& f, const MeasureKernel& kernel,
-                       const gpu::ShadeParams& params) const noexcept;
+                       const gpu::MeasureInfluenceParams& params) const noexcept;
     void recordChoice(const gpu::Frame& f, uint32_t round) const noexcept;
     // `types`: those of the frame, not 0; one has a place at least.
     void recordCut(const gpu::Frame& f, const LightTypeCounts& types,

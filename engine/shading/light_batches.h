@@ -19,15 +19,15 @@ uint32_t lightsPerBatch(const gpu::Device& device, uint32_t loopIterations);
 uint32_t lightsPerBatch(const gpu::Device& device, uint32_t lightType, CndSpecularMethod method,
                         uint32_t sampleCount);
 
-// Calls `record` with `params` for one batch of consecutive lights after another, until all lights
-// of `params` have had their turn. `largest`: lights of a batch, at most.
+// Splits `lights` into consecutive batches of at most `largest` lights and calls `record` with
+// each.
 template <typename Record>
-void inBatches(gpu::ShadeParams params, uint32_t largest, Record&& record) noexcept
+void inBatches(gpu::LightBatch lights, uint32_t largest, Record&& record) noexcept
 {
-    const uint32_t end = params.firstLight + params.lightCount;
-    for (; params.firstLight < end; params.firstLight += params.lightCount) {
-        params.lightCount = std::min(largest, end - params.firstLight);
-        record(params);
+    const uint32_t end = lights.first + lights.count;
+    for (gpu::LightBatch batch{lights.first, 0}; batch.first < end; batch.first += batch.count) {
+        batch.count = std::min(largest, end - batch.first);
+        record(batch);
     }
 }
 

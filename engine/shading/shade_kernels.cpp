@@ -48,45 +48,43 @@ bool ShadeKernels::require(uint32_t lightType)
     return true;
 }
 
-ShadeKernels::Kernel ShadeKernels::makeKernel(const gpu::Spirv& spirv, uint32_t lightType,
-                                              CndSpecularMethod method, bool withBudget,
-                                              uint32_t tileClass) const
+template <typename Params>
+gpu::Kernel<Params> ShadeKernels::makeKernel(std::span<const gpu::Spirv* const> families,
+                                             uint32_t lightType, CndSpecularMethod method,
+                                             bool withBudget, uint32_t tileClass) const
 {
-    return Kernel(*device_, host_->of(spirv),
-                  {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
-                   {gpu::SPEC_SPECULAR_METHOD, uint32_t(method)},
-                   {gpu::SPEC_LIGHT_TYPE, lightType},
-                   {gpu::SPEC_GBUFFER, gbuffer_},
-                   {gpu::SPEC_ERROR_BUDGET, withBudget},
-                   {gpu::SPEC_TILE_CLASS, tileClass}},
-                  host_->setLayout());
+    return gpu::Kernel<Params>(*device_, host_->of(*families[familyOf(lightType, method)]),
+                               {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
+                                {gpu::SPEC_SPECULAR_METHOD, uint32_t(method)},
+                                {gpu::SPEC_LIGHT_TYPE, lightType},
+                                {gpu::SPEC_GBUFFER, gbuffer_},
+                                {gpu::SPEC_ERROR_BUDGET, withBudget},
+                                {gpu::SPEC_TILE_CLASS, tileClass}},
+                               host_->setLayout());
 }
 
 ShadeKernels::Tiles ShadeKernels::makeTiles(uint32_t lightType, CndSpecularMethod method,
                                             bool withBudget, uint32_t tileClass) const
 {
-    const auto make = [&](auto& families) {
-        return makeKernel(*families[familyOf(lightType, method)], lightType, method, withBudget,
-                          tileClass);
-    };
-    return {.shade = make(spirv::shade_tiles_comp),
-            .unlisted = make(spirv::shade_unlisted_comp),
-            .countPairs = make(spirv::count_pairs_comp)};
+    return {.shade = makeKernel<gpu::ShadeTilesParams>(spirv::shade_tiles_comp, lightType, method,
+                                                       withBudget, tileClass),
+            .unlisted = makeKernel<gpu::ShadeUnlistedParams>(spirv::shade_unlisted_comp, lightType,
+                                                             method, withBudget, tileClass),
+            .countPairs = makeKernel<gpu::CountPairsParams>(spirv::count_pairs_comp, lightType,
+                                                            method, withBudget, tileClass)};
 }
 
 ShadeKernels::Variant ShadeKernels::makeVariant(uint32_t lightType, CndSpecularMethod method,
                                                 bool withBudget) const
 {
-    const auto make = [&](auto& families) {
-        return makeKernel(*families[familyOf(lightType, method)], lightType, method, withBudget,
-                          gpu::CLASS_ANY);
-    };
     Variant out{.any = makeTiles(lightType, method, withBudget, gpu::CLASS_ANY),
-                .brute = make(spirv::shade_brute_comp)};
+                .brute = makeKernel<gpu::ShadeBruteParams>(spirv::shade_brute_comp, lightType,
+                                                           method, withBudget, gpu::CLASS_ANY)};
     if (tellsApart(gpu::CLASS_SPECULAR))
         out.specular = makeTiles(lightType, method, withBudget, gpu::CLASS_SPECULAR);
     if (measures_ && !withBudget)
-        out.measure = make(spirv::measure_influence_comp);
+        out.measure = makeKernel<gpu::MeasureInfluenceParams>(
+            spirv::measure_influence_comp, lightType, method, withBudget, gpu::CLASS_ANY);
     return out;
 }
 

@@ -2,8 +2,11 @@
 // The pipelines that shade: one set per light type and specular method that are in use.
 #pragma once
 
+#include <span>
+
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
+#include "shared/influence.h"
 #include "shared/lighting.h"
 #include "surfaces/host_kernels.h"
 
@@ -19,7 +22,6 @@ uint32_t tileClassesOf(const CndLightingDesc& desc);
 class ShadeKernels
 {
 public:
-    using Kernel = gpu::Kernel<gpu::ShadeParams>;
     // `methods`: mask of 1 << CndSpecularMethod.
     // `gbuffer`: value of SPEC_GBUFFER. `tileClasses`: as of tileClassesOf. `host` must outlive it.
     // `measures`: CndLightingDesc::influenceByError.
@@ -31,12 +33,14 @@ public:
     bool allows(CndSpecularMethod method) const { return methods_ >> method & 1; }
     // The kernels for tiles of one material class.
     struct Tiles {
-        Kernel shade, unlisted, countPairs;
+        gpu::Kernel<gpu::ShadeTilesParams> shade;
+        gpu::Kernel<gpu::ShadeUnlistedParams> unlisted;
+        gpu::Kernel<gpu::CountPairsParams> countPairs;
     };
     struct Variant {
         Tiles any, specular; // CLASS_ANY, CLASS_SPECULAR
-        Kernel brute;
-        Kernel measure; // where it is asked for, without a budget
+        gpu::Kernel<gpu::ShadeBruteParams> brute;
+        gpu::Kernel<gpu::MeasureInfluenceParams> measure; // where it is asked for, without a budget
     };
     const Variant& variant(uint32_t type, CndSpecularMethod method, bool withBudget) const;
     bool tellsApart(uint32_t tileClass) const { return tileClasses_ >> tileClass & 1; }
@@ -56,8 +60,10 @@ private:
     Variant makeVariant(uint32_t lightType, CndSpecularMethod method, bool withBudget) const;
     Tiles makeTiles(uint32_t lightType, CndSpecularMethod method, bool withBudget,
                     uint32_t tileClass) const;
-    Kernel makeKernel(const gpu::Spirv& spirv, uint32_t lightType, CndSpecularMethod method,
-                      bool withBudget, uint32_t tileClass) const;
+    template <typename Params>
+    gpu::Kernel<Params> makeKernel(std::span<const gpu::Spirv* const> families, uint32_t lightType,
+                                   CndSpecularMethod method, bool withBudget,
+                                   uint32_t tileClass) const;
 
     const gpu::Device* device_;
     const surfaces::HostKernels* host_;

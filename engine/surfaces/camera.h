@@ -3,7 +3,7 @@
 #pragma once
 
 #include "candelabra/candelabra.h"
-#include "shared/lighting.h"
+#include "shared/frame.h"
 
 namespace candelabra::surfaces
 {

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surfaces/host_gbuffer.h"
 
-#include <cstring>
-
-#include <glm/mat3x3.hpp>
-#include <glm/mat4x4.hpp>
-
 namespace candelabra::surfaces
 {
 namespace
@@ -75,22 +70,6 @@ void GBufferSource::record(const gpu::Frame& frame) noexcept
                                 .imageMemoryBarrierCount = 1,
                                 .pImageMemoryBarriers = &barrier};
     frame.device.CmdPipelineBarrier2(frame.cmd, &info);
-}
-
-GBufferParams::GBufferParams(const gpu::Device& device, uint32_t slots)
-    : buffer_(gpu::createBuffer(device, "G-buffer view", slots * stride,
-                                VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryUse::Upload))
-{
-}
-
-void GBufferParams::write(uint32_t slot, const GBufferSource& source,
-                          const CndCamera& camera) const noexcept
-{
-    glm::dmat4 viewFromWorld;
-    std::memcpy(&viewFromWorld, camera.viewFromWorld, sizeof viewFromWorld);
-    const gpu::GBufferViewParams params{.viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
-                                        .dielectricF0 = source.dielectricF0()};
-    std::memcpy(buffer_.mapped + offset(slot), &params, sizeof params);
 }
 
 } // namespace candelabra::surfaces

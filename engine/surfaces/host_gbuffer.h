@@ -12,8 +12,6 @@
 namespace candelabra::surfaces
 {
 
-class GBufferParams;
-
 // Throws gpu::Failure, with a sentence, when the layout cannot be, or cannot be of the formats that
 // are told, or the device cannot read those.
 void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& desc);
@@ -21,16 +19,6 @@ void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndG
 // What a frame binds. Each normal binding has an image that it can read, whichever is used.
 struct GBufferViews {
     VkImageView packedNormal, hostNormal, albedo, specular, depth;
-    VkBuffer paramsBuffer;
-    VkDeviceSize paramsOffset;
-
-    gpu::Binding params(uint32_t binding) const
-    {
-        return {.binding = binding,
-                .buffer = paramsBuffer,
-                .offset = paramsOffset,
-                .range = sizeof(gpu::GBufferViewParams)};
-    }
 };
 
 // One layout, for all views.
@@ -62,7 +50,15 @@ public:
             require("specular", f.specular);
     }
     template <typename Frame>
-    GBufferViews views(const Frame& f, const GBufferParams& params) const;
+    GBufferViews views(const Frame& f) const
+    {
+        const VkImageView albedo = isCustom() ? f.depth : f.albedo; // any that is read as floats
+        return {.packedNormal = isPacked() ? f.normalRoughness : standIn_.view.get(),
+                .hostNormal = isHosts() ? f.normalRoughness : albedo,
+                .albedo = albedo,
+                .specular = f.specular && !isCustom() ? f.specular : albedo,
+                .depth = f.depth};
+    }
 
     // The first time: makes the image that stands in for packed normals readable.
     void record(const gpu::Frame& frame) noexcept;
@@ -79,34 +75,5 @@ private:
     gpu::Image standIn_; // with a layout of the host's, or none
     bool standInReady_ = false;
 };
-
-// GBufferViewParams of the frames in flight of one view.
-class GBufferParams
-{
-public:
-    GBufferParams(const gpu::Device& device, uint32_t slots);
-    // The GPU must have finished the slot's previous frame.
-    void write(uint32_t slot, const GBufferSource& source, const CndCamera& camera) const noexcept;
-    VkBuffer buffer() const { return buffer_.get(); }
-    static VkDeviceSize offset(uint32_t slot) { return slot * stride; }
-
-private:
-    // No device asks for a larger alignment of uniform buffers (Vulkan: at most 256).
-    static constexpr VkDeviceSize stride = 256;
-    gpu::Buffer buffer_;
-};
-
-template <typename Frame>
-GBufferViews GBufferSource::views(const Frame& f, const GBufferParams& params) const
-{
-    const VkImageView albedo = isCustom() ? f.depth : f.albedo; // any that is read as floats
-    return {.packedNormal = isPacked() ? f.normalRoughness : standIn_.view.get(),
-            .hostNormal = isHosts() ? f.normalRoughness : albedo,
-            .albedo = albedo,
-            .specular = f.specular && !isCustom() ? f.specular : albedo,
-            .depth = f.depth,
-            .paramsBuffer = params.buffer(),
-            .paramsOffset = GBufferParams::offset(f.frameSlot)};
-}
 
 } // namespace candelabra::surfaces

@@ -7,20 +7,22 @@ namespace candelabra::lighting
 
 using gpu::Binding;
 
-void View::writeBindings(const CndLightingFrame& frame) const
+void View::writeBindings(const FramePlan& plan) const
 {
+    const CndLightingFrame& frame = plan.frame;
     const uint32_t slot = frame.frameSlot;
     const LightSet& lights = module_.lights;
     const tables::ShadingTables& tables = module_.tables;
-    gbufferParams_.write(slot, module_.gbuffer, frame.camera);
-    const surfaces::GBufferViews images = module_.gbuffer.views(frame, gbufferParams_);
+    uniforms_.write(slot, plan.params);
+    const surfaces::GBufferViews images = module_.gbuffer.views(frame);
     sets_.prepareLights.write(slot, {Binding::of(gpu::PREPARE_LIGHTS_RECORDS, lights.records()),
                                      Binding::of(gpu::PREPARE_LIGHTS_CORE, core_),
                                      Binding::of(gpu::PREPARE_LIGHTS_SHAPES, shapes_),
                                      Binding::of(gpu::PREPARE_LIGHTS_ORDER, lights.order()),
                                      Binding::of(gpu::PREPARE_LIGHTS_IDS, ids_)});
-    clusters_.writeBindings(slot, lights.typeCounts(),
-                            {.gbuffer = images, .core = core_, .counters = counters_});
+    clusters_.writeBindings(
+        slot, lights.typeCounts(),
+        {.gbuffer = images, .uniforms = uniforms_, .core = core_, .counters = counters_});
     if (forward_.wanted())
         forward_.write(slot, {.core = core_,
                               .shapes = shapes_,
@@ -30,6 +32,7 @@ void View::writeBindings(const CndLightingFrame& frame) const
                               .transformedCosines = tables.transformedCosines()});
     if (influence_)
         influence_->writeBindings(slot, {.gbuffer = images,
+                                         .uniforms = uniforms_,
                                          .radiance = frame.radiance,
                                          .core = core_,
                                          .shapes = shapes_,
@@ -59,7 +62,7 @@ void View::writeBruteBindings(const CndLightingFrame& frame,
          Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal),
          Binding::sampled(SHADE_ALBEDO, images.albedo),
          Binding::sampled(SHADE_SPECULAR, images.specular),
-         Binding::sampled(SHADE_DEPTH, images.depth), images.params(SHADE_GBUFFER_VIEW),
+         Binding::sampled(SHADE_DEPTH, images.depth), uniforms_.at(frame.frameSlot, SHADE_FRAME),
          Binding::storage(SHADE_RADIANCE, frame.radiance),
          Binding::ofTexels(SHADE_DFG, tables.directionalAlbedo()),
          Binding::ofTexels(SHADE_LTC, tables.transformedCosines())});
@@ -81,7 +84,7 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Binding albedo = Binding::sampled(SHADE_ALBEDO, images.albedo);
     const Binding f0 = Binding::sampled(SHADE_SPECULAR, images.specular);
     const Binding depth = Binding::sampled(SHADE_DEPTH, images.depth);
-    const Binding gbufferView = images.params(SHADE_GBUFFER_VIEW);
+    const Binding uniforms = uniforms_.at(frame.frameSlot, SHADE_FRAME);
     const Binding radiance = Binding::storage(SHADE_RADIANCE, frame.radiance);
     const Binding dfg = Binding::ofTexels(SHADE_DFG, tables.directionalAlbedo());
     const Binding ltc = Binding::ofTexels(SHADE_LTC, tables.transformedCosines());
@@ -93,16 +96,16 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
     sets_.shadeTiles.write(set,
                            {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0, depth,
-                            gbufferView, radiance, dfg, ltc, tiles, heads, entries, toShade});
+                            uniforms, radiance, dfg, ltc, tiles, heads, entries, toShade});
     sets_.shadeUnlisted.write(set, {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0,
-                                    depth, gbufferView, radiance, dfg, ltc, tiles, heads, unlisted,
+                                    depth, uniforms, radiance, dfg, ltc, tiles, heads, unlisted,
                                     Binding::of(SHADE_CLUSTERS, clusters_.clusters()),
                                     Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
                                     Binding::of(SHADE_NODE_WORDS, clusters_.nodes())});
     // Without an image for pairs count_pairs writes none, but every binding must be given.
     const VkImageView pairs = frame.pairImage ? frame.pairImage : frame.radiance;
     sets_.countPairs.write(set, {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0,
-                                 depth, gbufferView, dfg, ltc, tiles, heads, entries, surfaces,
+                                 depth, uniforms, dfg, ltc, tiles, heads, entries, surfaces,
                                  Binding::of(SHADE_COUNTERS, counters_),
                                  Binding::storage(SHADE_PAIRS, pairs)});
 }

@@ -7,7 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-#include "surfaces/camera.h"
+#include "surfaces/frame_uniforms.h"
 
 namespace candelabra::lighting
 {
@@ -30,6 +30,15 @@ LightTypeCounts typesOf(const LightSet& lights, const CndLightingFrame& frame)
                : lights.countsInLayers(layers); // they may reach the view from anywhere
 }
 
+gpu::FrameParams frameParams(const Module& module, const CndLightingFrame& frame)
+{
+    gpu::FrameParams out = surfaces::frameParams(frame, module.gbuffer.dielectricF0());
+    out.errorBudget = frame.errorBudget;
+    out.sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount;
+    out.sampleSeed = frame.sampleSeed;
+    return out;
+}
+
 gpu::PrepareLightsParams prepareParams(const LightSet& lights, const CndLightingFrame& frame)
 {
     glm::dmat4 viewFromWorld;
@@ -48,13 +57,10 @@ FramePlan planFrame(const Module& module, const CndLightingFrame& frame)
 {
     const LightSet& lights = module.lights;
     return {.frame = frame,
-            .projection = surfaces::projectionOf(frame.camera.clipFromView, frame.clearDepth),
-            .size = {frame.width, frame.height},
-            .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
+            .params = frameParams(module, frame),
             .tileCount = {tilesAlong(frame.width), tilesAlong(frame.height)},
             .lights = typesOf(lights, frame),
             .trees = treeShapes(lights.typeCounts()),
-            .sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount,
             // Radii other than those that lights were given are known on the device alone.
             .splitLength = influenceOf(frame) == CND_INFLUENCE_GIVEN
                                ? splitLength * lights.extent().influenceRadius

@@ -9,14 +9,11 @@ namespace candelabra::lighting
 
 struct FramePlan {
     const CndLightingFrame& frame;
-    gpu::Projection projection;
-    glm::uvec2 size;        // pixels
-    glm::vec2 invImageSize; // one value for all kernels: GPU divisions may differ in the last bit
+    gpu::FrameParams params; // for the frame's uniform buffer
     glm::uvec2 tileCount;
     LightTypeCounts lights; // by type, 0 for types that the frame can do without
     TreeShapes trees;
-    uint32_t sampleCount; // of CND_SPECULAR_SAMPLED
-    float splitLength;    // gpu::TileClustersParams
+    float splitLength; // gpu::TileClustersParams
     gpu::PrepareLightsParams prepare;
 };
 
@@ -28,12 +25,6 @@ FramePlan planFrame(const Module& module, const CndLightingFrame& frame);
 inline uint32_t tilesAlong(uint32_t pixels)
 {
     return gpu::divideUp(pixels, gpu::TILE_SIZE);
-}
-
-// The value of ShadeParams::lobes.
-inline uint32_t lobesOf(const CndLightingFrame& frame)
-{
-    return uint32_t(frame.lobes) | (frame.energyCompensation ? gpu::COMPENSATE_ENERGY : 0);
 }
 
 } // namespace candelabra::lighting

@@ -25,26 +25,14 @@ void byClass(const ShadeKernels& kernels, const CndLightingFrame& frame, uint32_
                    workListAt(tileClass));
 }
 
-gpu::ShadeParams shadeParams(const FramePlan& p, uint32_t type)
+gpu::LightBatch allLights(const FramePlan& p, uint32_t type)
 {
-    return {.projection = p.projection,
-            .size = p.size,
-            .origin = {0, 0},
-            .firstLight = p.trees[type].firstLight,
-            .lightCount = p.trees[type].lightCount,
-            .tileCountX = p.tileCount.x,
-            .clearDepth = p.frame.clearDepth,
-            .invImageSize = p.invImageSize,
-            .sampleCount = p.sampleCount,
-            .sampleSeed = p.frame.sampleSeed,
-            .errorBudget = p.frame.errorBudget,
-            .lobes = lobesOf(p.frame),
-            .tree = p.trees[type]};
+    return {p.trees[type].firstLight, p.trees[type].lightCount};
 }
 
 gpu::ForwardView forwardView(const FramePlan& p)
 {
-    gpu::ForwardView view{.projection = p.projection, .lobes = lobesOf(p.frame), .trees = {}};
+    gpu::ForwardView view{.projection = p.params.projection, .lobes = p.params.lobes, .trees = {}};
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (p.lights[type])
             view.trees[type] = p.trees[type];
@@ -57,7 +45,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
 {
     checkFrame(module_, desc_, frame);
     const FramePlan plan = planFrame(module_, frame);
-    writeBindings(frame);
+    writeBindings(plan);
 
     const uint32_t slot = frame.frameSlot;
     const bool keep = keepsLists(plan);
@@ -91,8 +79,8 @@ bool View::keepsLists(const FramePlan& p)
     const CndLightingFrame& frame = p.frame;
     ListsKey key;
     if (frame.culling == CND_CULLING_CLUSTERED && module_.lights.count())
-        key = {module_.lights.number(), frame.specularMethod, p.sampleCount, layersOf(frame.layers),
-               influenceOf(frame)};
+        key = {module_.lights.number(), frame.specularMethod, p.params.sampleCount,
+               layersOf(frame.layers), influenceOf(frame)};
     // What an error allows depends on the other light of the image as well, and is measured at
     // other pixels in each frame.
     const bool same = frame.surfacesUnchanged && key.lightSet &&
@@ -165,14 +153,12 @@ void View::recordInfluence(const gpu::Frame& f, const FramePlan& p) noexcept
             const Influence::MeasureKernel& kernel =
                 module_.kernels.shade.variant(type, p.frame.specularMethod, false).measure;
             measured = kernel.name();
-            gpu::ShadeParams params = shadeParams(p, type);
-            params.batchLevel = round;
             // The lanes of a sample share the lights out among them.
             const uint64_t largest =
                 uint64_t(lightsPerBatch(p, type)) * gpu::MEASURE_INFLUENCE_LANES;
-            inBatches(params, uint32_t(std::min<uint64_t>(largest, UINT32_MAX)),
-                      [&](const gpu::ShadeParams& batch) {
-                          influence_->recordMeasure(u, kernel, batch);
+            inBatches(allLights(p, type), uint32_t(std::min<uint64_t>(largest, UINT32_MAX)),
+                      [&](const gpu::LightBatch& batch) {
+                          influence_->recordMeasure(u, kernel, {batch, round});
                       });
         }
         influence_->recordChoice(u, round);
@@ -185,15 +171,7 @@ void View::recordClusters(const gpu::Frame& f, const FramePlan& p,
                           const FramePasses& passes) const noexcept
 {
     if (passes.runs(Pass::TileClusters)) {
-        clusters_.recordClusters(f,
-                                 {.projection = p.projection,
-                                  .size = p.size,
-                                  .tileCountX = p.tileCount.x,
-                                  .tileCount = p.tileCount.x * p.tileCount.y,
-                                  .clearDepth = p.frame.clearDepth,
-                                  .invImageSize = p.invImageSize,
-                                  .splitLength = p.splitLength},
-                                 passes.runs(Pass::BlockClusters));
+        clusters_.recordClusters(f, p.tileCount, p.splitLength, passes.runs(Pass::BlockClusters));
         recordTileCounts(f);
     }
     if (passes.runs(Pass::LightTree))
@@ -227,25 +205,25 @@ void View::recordLists(const gpu::Frame& f, const FramePlan& p) const noexcept
 
 uint32_t View::lightsPerBatch(const FramePlan& p, uint32_t type) const noexcept
 {
-    return lighting::lightsPerBatch(module_.device, type, p.frame.specularMethod, p.sampleCount);
+    return lighting::lightsPerBatch(module_.device, type, p.frame.specularMethod,
+                                    p.params.sampleCount);
 }
 
 void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
 {
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
-    const gpu::ShadeParams params = shadeParams(p, type);
-    const auto shade = [&](const gpu::ShadeParams& batch) {
+    const auto shade = [&](const gpu::LightBatch& batch) {
         byClass(module_.kernels.shade, p.frame, type,
                 [&](const ShadeKernels::Tiles& kernels, VkDeviceSize workList) {
-                    kernels.shade.dispatchIndirect(f, sets_.shadeTiles.set(set), batch,
+                    kernels.shade.dispatchIndirect(f, sets_.shadeTiles.set(set), {batch},
                                                    clusters_.tilesToShade(type), workList);
                 });
         f.barrier();
     };
     if (isDistant(type)) { // they light every surface: no lists
-        inBatches(params, lightsPerBatch(p, type), shade);
+        inBatches(allLights(p, type), lightsPerBatch(p, type), shade);
     } else {
-        shade(params);
+        shade(allLights(p, type));
         recordUnlisted(f, p, type);
     }
     if (p.frame.countPairs)
@@ -260,7 +238,7 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
     gpu::Timer untimed; // the parts are one row
     const gpu::Frame u{f.device, f.cmd, untimed, f.slot, f.hostSet};
-    const auto record = [&](const gpu::ShadeParams& part) {
+    const auto record = [&](const gpu::ShadeUnlistedParams& part) {
         byClass(kernels, p.frame, type,
                 [&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
                     tiles.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
@@ -268,18 +246,24 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
                 });
         u.barrier();
     };
-    gpu::ShadeParams params = shadeParams(p, type);
-    record(params);
+    record({.listHead = gpu::LIST_UNLISTED,
+            .topLevel = gpu::TREE_LEVELS,
+            .batch = allLights(p, type),
+            .tree = p.trees[type]});
     if (module_.device.maxLoopIterations != UINT32_MAX) {
         // A row of eight pixels may hold four clusters that take turns at walking the tree;
         // besides, finding a light takes about as many iterations as evaluating it.
         const uint32_t largest =
             std::max(lightsPerBatch(p, type) / (2 * gpu::SLICES), gpu::TREE_WIDTH);
-        uint32_t size = gpu::TREE_WIDTH;
-        for (params.batchLevel = 1; params.batchLevel < 3 && size * gpu::TREE_WIDTH <= largest;
-             ++params.batchLevel)
+        uint32_t level = 1, size = gpu::TREE_WIDTH; // of the nodes that batches consist of
+        for (; level < 3 && size * gpu::TREE_WIDTH <= largest; ++level)
             size *= gpu::TREE_WIDTH;
-        inBatches(params, largest / size * size, record);
+        inBatches(allLights(p, type), largest / size * size, [&](const gpu::LightBatch& batch) {
+            record({.listHead = gpu::LIST_LONG,
+                    .topLevel = level,
+                    .batch = batch,
+                    .tree = p.trees[type]});
+        });
     }
     f.timer.stamp(f.cmd, kernels.anyVariant().any.unlisted.name());
 }
@@ -287,8 +271,8 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
 void View::recordCountPairs(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
 {
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
-    gpu::ShadeParams params = shadeParams(p, type);
-    params.batchLevel = p.frame.pairImage ? 1 : 0;
+    const gpu::CountPairsParams params{.batch = allLights(p, type),
+                                       .writesImage = p.frame.pairImage != VK_NULL_HANDLE};
     byClass(module_.kernels.shade, p.frame, type,
             [&](const ShadeKernels::Tiles& kernels, VkDeviceSize workList) {
                 kernels.countPairs.dispatchIndirect(f, sets_.countPairs.set(set), params,
@@ -302,14 +286,15 @@ void View::recordBrute(const gpu::Frame& f, const FramePlan& p, uint32_t type) c
 {
     const ShadeKernels::Variant& kernels =
         module_.kernels.shade.variant(type, p.frame.specularMethod, p.frame.errorBudget > 0);
-    gpu::ShadeParams all = shadeParams(p, type);
+    gpu::ShadeBruteParams params{.batch = {}, .first = {0, 0}, .end = p.params.size};
     const VkRect2D& r = p.frame.bruteRect;
     if (r.extent.width && r.extent.height) {
-        all.origin = {r.offset.x, r.offset.y};
-        all.size = all.origin + glm::uvec2(r.extent.width, r.extent.height);
+        params.first = {r.offset.x, r.offset.y};
+        params.end = params.first + glm::uvec2(r.extent.width, r.extent.height);
     }
-    const glm::uvec2 pixels = all.size - all.origin;
-    inBatches(all, lightsPerBatch(p, type), [&](const gpu::ShadeParams& params) {
+    const glm::uvec2 pixels = params.end - params.first;
+    inBatches(allLights(p, type), lightsPerBatch(p, type), [&](const gpu::LightBatch& batch) {
+        params.batch = batch;
         kernels.brute.dispatch(f, sets_.shadeBrute.set(f.slot), params, tilesAlong(pixels.x),
                                tilesAlong(pixels.y));
         f.barrier();

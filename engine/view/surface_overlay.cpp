@@ -7,7 +7,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-#include "surfaces/camera.h"
 #include "view/frame_checks.h"
 #include "view/view.h"
 
@@ -34,17 +33,16 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
         failArgument("CndSurfaceOverlay: quantity is not a CndSurfaceQuantity");
     if (!overlay.image)
         failArgument("CndSurfaceOverlay: image is null");
-    const Projection projection =
-        surfaces::projectionOf(frame.camera.clipFromView, frame.clearDepth);
-    gbufferParams_.write(frame.frameSlot, module_.gbuffer, frame.camera);
-    const surfaces::GBufferViews images = module_.gbuffer.views(frame, gbufferParams_);
+    overlayUniforms_.write(frame.frameSlot,
+                           surfaces::frameParams(frame, module_.gbuffer.dielectricF0()));
+    const surfaces::GBufferViews images = module_.gbuffer.views(frame);
     sets_.surfaceOverlay.write(frame.frameSlot,
                                {Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal),
                                 Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal),
                                 Binding::sampled(SHADE_ALBEDO, images.albedo),
                                 Binding::sampled(SHADE_SPECULAR, images.specular),
                                 Binding::sampled(SHADE_DEPTH, images.depth),
-                                images.params(SHADE_GBUFFER_VIEW),
+                                overlayUniforms_.at(frame.frameSlot, SHADE_FRAME),
                                 Binding::storage(SURFACE_OVERLAY_IMAGE, overlay.image)});
 
     glm::dmat4 viewFromWorld;
@@ -61,13 +59,7 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
     module_.gbuffer.record(f);
     module_.kernels.surfaceOverlay.dispatch(
         f, sets_.surfaceOverlay.set(f.slot),
-        {.projection = projection,
-         .size = {frame.width, frame.height},
-         .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
-         .clearDepth = frame.clearDepth,
-         .quantity = uint32_t(overlay.quantity),
-         .eyeWorld = eyeInPeriod,
-         .worldFromView = glm::mat3(worldFromView)},
+        {.quantity = uint32_t(overlay.quantity), .eyeWorld = eyeInPeriod},
         divideUp(frame.width, SURFACE_OVERLAY_GROUP),
         divideUp(frame.height, SURFACE_OVERLAY_GROUP));
     f.device.endLabel(cmd);

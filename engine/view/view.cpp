@@ -53,7 +53,8 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
                  .tileClasses = module.desc.materialClasses ? gpu::TILE_CLASSES : 1,
                  .maxTiles = {tilesAlong(desc_.maxWidth), tilesAlong(desc_.maxHeight)},
                  .listBudget = desc_.listBudget}),
-      gbufferParams_(module.device, module.desc.framesInFlight),
+      uniforms_(module.device, module.desc.framesInFlight),
+      overlayUniforms_(module.device, module.desc.framesInFlight),
       counters_(gpu::createBuffer(module.device, "lighting counters", sizeof(gpu::LightingCounters),
                                   storageUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT,

@@ -60,7 +60,7 @@ private:
     uint32_t lightsPerBatch(const FramePlan& plan, uint32_t type) const noexcept;
 
     // bindings.cpp
-    void writeBindings(const CndLightingFrame& frame) const;
+    void writeBindings(const FramePlan& plan) const;
     void writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBufferViews& images,
                             uint32_t type) const;
     void writeBruteBindings(const CndLightingFrame& frame,
@@ -81,7 +81,10 @@ private:
     CndLightingViewDesc desc_;
     gpu::Timer timer_;
     Clusters clusters_;
-    surfaces::GBufferParams gbufferParams_;
+    surfaces::FrameUniforms uniforms_;
+    // An overlay may be recorded after the lighting of its slot, with another camera or other
+    // settings, before the GPU has read what the lighting wrote: it needs a buffer of its own.
+    surfaces::FrameUniforms overlayUniforms_;
     Sets sets_;
     gpu::Buffer core_, shapes_, ids_; // one per light; when nobody reads ids, one in all
     gpu::Buffer counters_;            // gpu::LightingCounters

@@ -3,7 +3,7 @@
 // each way as contribute to it, but takes them from a tiny fixed list, so the image is meaningless.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/pixel_of_lane.glsl"
+#include "lib/tile_pixels.glsl"
 #include "kernels/common/shade_receiver.glsl"
 #include "shared/baselines.h"
 
@@ -33,17 +33,17 @@ layout(scalar, binding = BASELINE_FOUND) readonly buffer FoundPerPixel
 void main()
 {
     const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane(gl_LocalInvocationIndex);
-    if (any(greaterThanEqual(pixel, params.size)))
+    if (any(greaterThanEqual(pixel, frameParams.size)))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == params.clearDepth)
+    if (depth == frameParams.clearDepth)
         return;
-    const uint found = foundPerPixel[pixel.y * params.size.x + pixel.x];
+    const uint found = foundPerPixel[pixel.y * frameParams.size.x + pixel.x];
     const uint above = found & 255u, near = found >> 8 & 255u, general = found >> 16;
     if (found == 0u)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
-                                    params.sampleCount, pixelSeed(pixel));
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
+                                    frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
     EVALUATE(sums.near, near, evaluateNear)
     EVALUATE(sums.above, above, evaluateAbove)

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_vote : require
-#include "lib/pixel_of_lane.glsl"
+#include "lib/tile_pixels.glsl"
 #include "kernels/common/shade_receiver.glsl"
 #include "bench/baseline_walk.glsl"
 #include "shading/light_walk.glsl"
@@ -43,9 +43,9 @@ uint turns(uvec2 found)
 void main()
 {
     const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane(gl_LocalInvocationIndex);
-    const bool inside = all(lessThan(pixel, params.size));
-    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : params.clearDepth;
-    const bool surface = depth != params.clearDepth;
+    const bool inside = all(lessThan(pixel, frameParams.size));
+    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    const bool surface = depth != frameParams.clearDepth;
     uint listed = 0u, evaluated = 0u, influenced = 0u;
     uvec3 found3 = uvec3(0u); // lights evaluated above, near and across the horizon (general)
     Block block = Block(0u, 0u, 0u);
@@ -53,7 +53,7 @@ void main()
     if (surface) {
         const ShadingPoint p = readShadingPoint(pixel, depth);
         block = beginWalk(pixel, -p.position.z);
-        r = makeReceiver(p, params.errorBudget, 1u, 0u);
+        r = makeReceiver(p, frameParams.errorBudget, 1u, 0u);
     }
     while (subgroupAny(block.count != 0u)) {
         Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
@@ -72,7 +72,7 @@ void main()
     }
     const uvec3 kept = min(found3, uvec3(255u));
     if (inside)
-        foundPerPixel[pixel.y * params.size.x + pixel.x] = kept.x | kept.y << 8 | kept.z << 16;
+        foundPerPixel[pixel.y * frameParams.size.x + pixel.x] = kept.x | kept.y << 8 | kept.z << 16;
     COUNT(counters.listedPairs, listed)
     COUNT(counters.evaluatedPairs, evaluated)
     COUNT(counters.insidePairs, influenced)

@@ -2,7 +2,7 @@
 // shade_tiles.comp for the lists of a baseline.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/pixel_of_lane.glsl"
+#include "lib/tile_pixels.glsl"
 #include "kernels/common/shade_receiver.glsl"
 #include "bench/baseline_walk.glsl"
 #include "shading/light_walk.glsl"
@@ -13,16 +13,17 @@ layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
 void main()
 {
     const uvec2 pixel = TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane(gl_LocalInvocationIndex);
-    if (any(greaterThanEqual(pixel, params.size)))
+    if (any(greaterThanEqual(pixel, frameParams.size)))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == params.clearDepth)
+    if (depth == frameParams.clearDepth)
         return;
     const ShadingPoint p = readShadingPoint(pixel, depth);
     Block block = beginWalk(pixel, -p.position.z);
     if (block.count == 0u)
         return;
-    const Receiver r = makeReceiver(p, params.errorBudget, params.sampleCount, pixelSeed(pixel));
+    const Receiver r =
+        makeReceiver(p, frameParams.errorBudget, frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
     do {
         shadeBlock(sums, r, block.first, block.count, true);

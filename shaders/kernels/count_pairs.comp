@@ -6,6 +6,12 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_vote : require
 #include "kernels/common/shade_receiver.glsl"
+
+layout(push_constant, scalar) uniform Push
+{
+    CountPairsParams params;
+};
+
 #include "kernels/common/tile_walk.glsl"
 #include "shading/light_walk.glsl"
 
@@ -52,13 +58,13 @@ void main()
     uint tile;
     uvec2 pixel;
     const bool inside = takeTile(tile, pixel);
-    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : params.clearDepth;
-    const bool surface = inside && depth != params.clearDepth;
+    const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    const bool surface = inside && depth != frameParams.clearDepth;
     uint listed = 0u, evaluated = 0u, influenced = 0u, contributing = 0u;
     Block block = surface ? beginWalk(tile, depth) : Block(0u, 0u, 0u);
     Receiver r;
     if (surface)
-        r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget, 1u, 0u);
+        r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget, 1u, 0u);
     while (subgroupAny(block.count != 0u)) {
         Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
         if (block.count != 0u)
@@ -74,7 +80,7 @@ void main()
         }
         block = nextBlock(block);
     }
-    if (surface && params.batchLevel != 0u) {
+    if (surface && params.writesImage != 0u) {
         const vec4 before = imageLoad(pairImage, ivec2(pixel));
         imageStore(pairImage, ivec2(pixel),
                    vec4(before.xyz + vec3(listed, evaluated, contributing),

@@ -7,6 +7,11 @@
 #include "lib/influence.glsl"
 #include "kernels/common/shade_receiver.glsl"
 
+layout(push_constant, scalar) uniform Push
+{
+    MeasureInfluenceParams params;
+};
+
 const uint LANES = MEASURE_INFLUENCE_LANES;
 const uint SAMPLES_OF_GROUP = MEASURE_INFLUENCE_GROUP / LANES;
 
@@ -14,7 +19,7 @@ const uint SAMPLES_OF_GROUP = MEASURE_INFLUENCE_GROUP / LANES;
 uint lightAt(uint k)
 {
     const uint lane = gl_LocalInvocationIndex % LANES;
-    return params.firstLight + min(k * LANES + lane, params.lightCount - 1u);
+    return params.batch.first + min(k * LANES + lane, params.batch.count - 1u);
 }
 
 #include "shading/light_walk.glsl"
@@ -69,10 +74,10 @@ void measure(uvec2 pixel, float depth)
 {
     for (uint row = 0u; row < ROWS; ++row)
         laneSums[row * MEASURE_INFLUENCE_GROUP + gl_LocalInvocationIndex] = 0.0;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), 0.0, params.sampleCount,
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), 0.0, frameParams.sampleCount,
                                     pixelSeed(pixel));
     const uint lane = gl_LocalInvocationIndex % LANES;
-    const uint count = (params.lightCount + LANES - 1u - lane) / LANES;
+    const uint count = (params.batch.count + LANES - 1u - lane) / LANES;
     for (uint first = 0u; first < count; first += WALK_BLOCK) {
         const Found found = findLights(r, first, min(WALK_BLOCK, count - first), false);
 #ifdef LIGHT_FAMILY_CONIC
@@ -90,15 +95,15 @@ void main()
     const uint sampleIndex =
         gl_WorkGroupID.x * SAMPLES_OF_GROUP + gl_LocalInvocationIndex / LANES;
     const bool exists = sampleIndex < data.frame.samples.x * data.frame.samples.y;
-    const uint turn = influenceTurn(data.frame, data.states[data.frame.previous], params.batchLevel);
+    const uint turn = influenceTurn(data.frame, data.states[data.frame.previous], params.round);
     const uvec2 pixel = influencePixel(data.frame, sampleIndex, turn);
-    const bool inside = exists && all(lessThan(pixel, params.size));
+    const bool inside = exists && all(lessThan(pixel, frameParams.size));
     const float depth =
-        inside ? texelFetch(depthImage, ivec2(pixel), 0).x : params.clearDepth;
-    if (depth != params.clearDepth)
+        inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    if (depth != frameParams.clearDepth)
         measure(pixel, depth);
     barrier();
-    if (depth == params.clearDepth)
+    if (depth == frameParams.clearDepth)
         return;
     // Each lane begins with its own column: no two read the same bank.
     const uint lane = gl_LocalInvocationIndex % LANES;

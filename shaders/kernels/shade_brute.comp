@@ -3,13 +3,18 @@
 // against, and the baseline it is timed against.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/pixel_of_lane.glsl"
+#include "lib/tile_pixels.glsl"
 #include "kernels/common/shade_receiver.glsl"
+
+layout(push_constant, scalar) uniform Push
+{
+    ShadeBruteParams params;
+};
 
 // The k-th light of the batch.
 uint lightAt(uint k)
 {
-    return params.firstLight + k;
+    return params.batch.first + k;
 }
 
 #include "shading/light_walk.glsl"
@@ -20,17 +25,17 @@ layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
 void main()
 {
     const uvec2 pixel =
-        params.origin + TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane(gl_LocalInvocationIndex);
-    if (any(greaterThanEqual(pixel, params.size)))
+        params.first + TILE_SIZE * gl_WorkGroupID.xy + pixelOfLane(gl_LocalInvocationIndex);
+    if (any(greaterThanEqual(pixel, params.end)))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == params.clearDepth)
+    if (depth == frameParams.clearDepth)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
-                                    params.sampleCount, pixelSeed(pixel));
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
+                                    frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
-    for (uint first = 0u; first < params.lightCount; first += WALK_BLOCK)
-        shadeBlock(sums, r, first, min(WALK_BLOCK, params.lightCount - first), false);
+    for (uint first = 0u; first < params.batch.count; first += WALK_BLOCK)
+        shadeBlock(sums, r, first, min(WALK_BLOCK, params.batch.count - first), false);
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
     imageStore(radianceImage, ivec2(pixel), before + vec4(total(sums), 0.0));
 }

@@ -7,7 +7,7 @@
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_PACKED SHADE_ENVIRONMENT_NORMAL_ROUGHNESS
 #define GBUFFER_NORMAL SHADE_ENVIRONMENT_HOST_NORMAL
-#define GBUFFER_VIEW SHADE_ENVIRONMENT_GBUFFER_VIEW
+#define FRAME_PARAMS SHADE_ENVIRONMENT_FRAME
 #define GBUFFER_ALBEDO SHADE_ENVIRONMENT_ALBEDO
 #define GBUFFER_SPECULAR SHADE_ENVIRONMENT_SPECULAR
 #include "kernels/common/read_gbuffer.glsl"
@@ -36,10 +36,10 @@ vec4 dfgTexel(int entry)
 // What the eye sees beyond all surfaces: from the mip whose texels are as large as the pixel.
 vec3 background(uvec2 pixel)
 {
-    const float texels = params.invImageSize.y * float(textureSize(environment, 0).x) /
-                         abs(params.projection.m11);
-    const float mip = params.projection.eyeIsPoint * max(log2(texels), 0.0);
-    const vec3 view = viewRay(params.projection, pixel, params.invImageSize);
+    const float texels = frameParams.invImageSize.y * float(textureSize(environment, 0).x) /
+                         abs(frameParams.projection.m11);
+    const float mip = frameParams.projection.eyeIsPoint * max(log2(texels), 0.0);
+    const vec3 view = viewRay(frameParams.projection, pixel, frameParams.invImageSize);
     return textureLod(environment, params.environmentFromView * view, mip).rgb;
 }
 
@@ -49,8 +49,8 @@ vec3 background(uvec2 pixel)
 vec3 shade(ShadingPoint p)
 {
     const vec2 albedo = directionalAlbedo(p.NoV, p.alpha);
-    joinLobes(p, albedo, (params.flags & ENVIRONMENT_SUM) != 0u ? LOBES_SUM : LOBES_CONSERVING,
-              params.flags & ENVIRONMENT_COMPENSATE);
+    joinLobes(p, albedo, frameParams.lobes & (COMPENSATE_ENERGY - 1u),
+              frameParams.lobes & COMPENSATE_ENERGY);
     // Level k stands for alpha = 2^(k - last); below level 1 the lobe fades into the mirror image.
     const float level = params.lastLevel + log2(p.alpha);
     const float fade = p.alpha * exp2(params.lastLevel - 1.0);
@@ -63,20 +63,20 @@ vec3 shade(ShadingPoint p)
 void main()
 {
     const uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(pixel, params.size)))
+    if (any(greaterThanEqual(pixel, frameParams.size)))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == params.clearDepth) {
-        if ((params.flags & ENVIRONMENT_BACKGROUND) == 0u)
+    if (depth == frameParams.clearDepth) {
+        if (params.showsBackground == 0u)
             return;
         const vec3 seen = params.scale * background(pixel);
         imageStore(radianceImage, ivec2(pixel),
                    vec4(imageLoad(radianceImage, ivec2(pixel)).rgb + seen, 1.0));
         return;
     }
-    const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
+    const vec3 position = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
     const vec3 light = shade(makeShadingPoint(readSurface(ivec2(pixel)), position,
-                                              towardsEye(params.projection, position)));
+                                              towardsEye(frameParams.projection, position)));
     const vec4 before = imageLoad(radianceImage, ivec2(pixel));
     imageStore(radianceImage, ivec2(pixel), before + vec4(params.scale * light, 0.0));
 }

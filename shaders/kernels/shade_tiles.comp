@@ -3,6 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/shade_receiver.glsl"
+
+layout(push_constant, scalar) uniform Push
+{
+    ShadeTilesParams params;
+};
+
 #include "kernels/common/tile_walk.glsl"
 #include "shading/light_walk.glsl"
 
@@ -16,13 +22,13 @@ void main()
     if (!takeTile(tile, pixel))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == params.clearDepth)
+    if (depth == frameParams.clearDepth)
         return;
     Block block = beginWalk(tile, depth);
     if (block.count == 0u)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
-                                    params.sampleCount, pixelSeed(pixel));
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
+                                    frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
     do { // a lane that is done may run once more (Mesa 22.3): its block is empty then
         shadeBlock(sums, r, block.first, block.count, true);

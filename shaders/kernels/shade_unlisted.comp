@@ -5,6 +5,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/shade_receiver.glsl"
+
+layout(push_constant, scalar) uniform Push
+{
+    ShadeUnlistedParams params;
+};
+
 #include "lib/cluster_test.glsl"
 #include "kernels/common/tile_of_group.glsl"
 #define TREE_NODES SHADE_NODES
@@ -35,27 +41,23 @@ void main()
     if (!takeTile(tile, pixel))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == params.clearDepth)
+    if (depth == frameParams.clearDepth)
         return;
     const uint cluster = clusterOf(tile, depth);
     const uint list = lists[cluster];
-    const bool inBatches = params.batchLevel != 0u;
-    if (list != (inBatches ? LIST_LONG : LIST_UNLISTED))
+    if (list != params.listHead)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), params.errorBudget,
-                                    params.sampleCount, pixelSeed(pixel));
+    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
+                                    frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
     page[0] = params.tree.firstLight; // read when there is none
     const uint end = params.tree.firstLight + params.tree.lightCount;
     const ClusterBounds bounds = makeClusterBounds(clusters[cluster]);
-    TreeWalk walk = beginTreeWalk(params.tree, inBatches ? params.batchLevel : TREE_LEVELS);
-    uint endOfTop = treeLevelSize(params.tree, walk.top);
-    if (inBatches) {
-        const uint bits = walk.top * TREE_WIDTH_BITS;
-        const uint firstAfter = params.firstLight + params.lightCount - params.tree.firstLight;
-        walk.index = (params.firstLight - params.tree.firstLight) >> bits;
-        endOfTop = (firstAfter + (1u << bits) - 1u) >> bits;
-    }
+    TreeWalk walk = beginTreeWalk(params.tree, params.topLevel);
+    const uint bits = walk.top * TREE_WIDTH_BITS;
+    const uint firstAfter = params.batch.first + params.batch.count - params.tree.firstLight;
+    walk.index = (params.batch.first - params.tree.firstLight) >> bits;
+    const uint endOfTop = (firstAfter + (1u << bits) - 1u) >> bits;
     while (!walk.done) {
         uint inPage = 0u;
         while (!walk.done && inPage + TREE_WIDTH <= PAGE_LIGHTS) {

@@ -25,14 +25,14 @@ void main()
         return;
     const uint tile = splitTiles[split];
     const TileClusters at = tiles[tile];
-    const uvec2 first = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX);
-    const uvec2 end = min(first + TILE_SIZE, params.size);
+    const uvec2 first = firstPixelOfTile(tile, frameParams.size.x);
+    const uvec2 end = min(first + TILE_SIZE, frameParams.size);
     Cluster cluster = emptyCluster(tile);
     for (uint y = first.y; y < end.y; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const float depth = depthAt(uvec2(x, y));
             const bool here = (depthBits(depth) - at.lowest) >> at.shift == slice;
-            if (depth != params.clearDepth && here)
+            if (depth != frameParams.clearDepth && here)
                 addSample(cluster, uvec2(x, y), depth);
         }
     clusters[at.first + slice] = withMargins(cluster);

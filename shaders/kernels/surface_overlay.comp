@@ -6,7 +6,7 @@
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_PACKED SHADE_NORMAL_ROUGHNESS
 #define GBUFFER_NORMAL SHADE_HOST_NORMAL
-#define GBUFFER_VIEW SHADE_GBUFFER_VIEW
+#define FRAME_PARAMS SHADE_FRAME
 #define GBUFFER_ALBEDO SHADE_ALBEDO
 #define GBUFFER_SPECULAR SHADE_SPECULAR
 #include "kernels/common/read_gbuffer.glsl"
@@ -46,7 +46,7 @@ float roughnessBeforeReading(HostTexels t, float perceptualRoughness)
 // The first fault that is found.
 vec3 faults(Surface s, HostTexels t, vec3 position)
 {
-    const vec3 view = normalize(towardsEye(params.projection, position));
+    const vec3 view = normalize(towardsEye(frameParams.projection, position));
     const float facing = dot(s.normal, view);
     const vec3 stored = normalBeforeReading(t, s.normal);
     const float rough = roughnessBeforeReading(t, s.perceptualRoughness);
@@ -54,8 +54,8 @@ vec3 faults(Surface s, HostTexels t, vec3 position)
     if (!isFinite(vec4(stored, rough)) || !isFinite(reflected) || !isFinite(vec4(s.F0, 0.0)))
         return vec3(1.0, 0.0, 1.0);
     // The eye looks along -z or +z, as the projection has it.
-    const vec3 ahead = viewRay(params.projection, params.size / 2u, params.invImageSize);
-    const bool inFront = params.projection.eyeIsPoint == 0.0 || dot(position, ahead) > 0.0;
+    const vec3 ahead = viewRay(frameParams.projection, frameParams.size / 2u, frameParams.invImageSize);
+    const bool inFront = frameParams.projection.eyeIsPoint == 0.0 || dot(position, ahead) > 0.0;
     if (!inFront || !isFinite(vec4(position, 0.0)))
         return vec3(0.0, 0.0, 1.0);
     if (abs(length(stored) - 1.0) > SURFACE_LENGTH_TOLERANCE)
@@ -73,13 +73,13 @@ vec3 faults(Surface s, HostTexels t, vec3 position)
 vec3 quantityAt(uint quantity, uvec2 pixel)
 {
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == params.clearDepth)
+    if (depth == frameParams.clearDepth)
         return vec3(0.0);
     const Surface s = readSurface(ivec2(pixel));
-    const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
+    const vec3 position = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
     switch (quantity) {
     case SURFACE_NORMAL:
-        return 0.5 + 0.5 * (params.worldFromView * s.normal);
+        return 0.5 + 0.5 * (transpose(frameParams.viewFromWorld) * s.normal);
     case SURFACE_ROUGHNESS:
         return vec3(s.perceptualRoughness);
     case SURFACE_ALBEDO:
@@ -87,7 +87,7 @@ vec3 quantityAt(uint quantity, uvec2 pixel)
     case SURFACE_F0:
         return encodeSrgb(s.F0);
     case SURFACE_POSITION: {
-        const vec3 world = params.worldFromView * position + params.eyeWorld;
+        const vec3 world = transpose(frameParams.viewFromWorld) * position + params.eyeWorld;
         return abs(fract(world / SURFACE_PERIOD) * 2.0 - 1.0);
     }
     default:
@@ -98,16 +98,16 @@ vec3 quantityAt(uint quantity, uvec2 pixel)
 void main()
 {
     const uvec2 at = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(at, params.size)))
+    if (any(greaterThanEqual(at, frameParams.size)))
         return;
     uint quantity = params.quantity;
     uvec2 pixel = at;
     if (quantity == SURFACE_ALL) {
         const uvec2 panels = uvec2(SURFACE_COLUMNS, SURFACE_ROWS);
-        const uvec2 panel = at * panels / params.size;
-        const uvec2 first = (panel * params.size + panels - 1u) / panels;
+        const uvec2 panel = at * panels / frameParams.size;
+        const uvec2 first = (panel * frameParams.size + panels - 1u) / panels;
         quantity = SURFACE_NORMAL + panel.y * SURFACE_COLUMNS + panel.x;
-        pixel = min((at - first) * panels, params.size - 1u);
+        pixel = min((at - first) * panels, frameParams.size - 1u);
     }
     imageStore(overlayImage, ivec2(at), vec4(quantityAt(quantity, pixel), 1.0));
 }

@@ -30,14 +30,14 @@ void main()
     const uint tile = gl_GlobalInvocationID.x;
     if (tile >= params.tileCount)
         return;
-    const uvec2 first = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX);
-    const uvec2 end = min(first + TILE_SIZE, params.size);
+    const uvec2 first = firstPixelOfTile(tile, frameParams.size.x);
+    const uvec2 end = min(first + TILE_SIZE, frameParams.size);
     // The range of depth alone. Where there is no surface, the loops over samples end at once.
     uint lowest = 0xFFFFFFFFu, highest = 0u;
     for (uint y = first.y; y < end.y; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const float depth = depthAt(uvec2(x, y));
-            if (depth != params.clearDepth) {
+            if (depth != frameParams.clearDepth) {
                 lowest = min(lowest, depthBits(depth));
                 highest = max(highest, depthBits(depth));
             }
@@ -47,7 +47,7 @@ void main()
     for (uint y = first.y; y < end.y && !empty; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const float depth = depthAt(uvec2(x, y));
-            if (depth != params.clearDepth)
+            if (depth != frameParams.clearDepth)
                 addSample(cluster, uvec2(x, y), depth);
         }
     if (empty) {

@@ -20,7 +20,7 @@ const uint BENCH_LTC = 6u; // also in sweep_inputs
 struct BenchParams {
     uint count;       // lanes
     uint lightCount;  // time_lights: lights that every lane evaluates
-    uint sampleCount; // as in ShadeParams
+    uint sampleCount; // as in FrameParams
     uint sampleSeed;
     float errorBudget;
 };
@@ -79,7 +79,7 @@ struct SweepParams {
     uint slice; // SWEEP_*
     uint seed;
     uint firstIndex;
-    uint sampleCount; // as in ShadeParams
+    uint sampleCount; // as in FrameParams
     uint sampleSeed;
     float errorBudget;
 };

@@ -100,19 +100,15 @@ const uint TILE_CLUSTERS_TILES = 3u;
 const uint TILE_CLUSTERS_SURFACES = 4u;     // WorkLists, by class, of tiles with a surface
 const uint TILE_CLUSTERS_SPLITS = 5u;       // WorkList of tiles to be split
 const uint TILE_CLUSTERS_HOST_NORMALS = 6u; // kernels/common/read_gbuffer.glsl
-const uint TILE_CLUSTERS_GBUFFER_VIEW = 7u; // GBufferViewParams
+const uint TILE_CLUSTERS_FRAME = 7u;        // FrameParams
 const uint TILE_CLUSTERS_ALBEDO = 8u;       // tile_clusters alone
 const uint TILE_CLUSTERS_SPECULAR = 9u;     // tile_clusters alone
 struct TileClustersParams {
-    Projection projection;
-    uvec2 size; // pixels
-    uint tileCountX, tileCount;
-    float clearDepth;
-    vec2 invImageSize;              // 1 / size; bit for bit that of ShadeParams
+    uint tileCount;
     uint firstSplit, splitCapacity; // first cluster of split tiles; tiles that can be split
-    float splitLength;              // m: tiles longer than this are
+    float splitLength;              // m: longer tiles are split
 };
-GPU_SIZE(TileClustersParams, 96)
+GPU_SIZE(TileClustersParams, 16)
 
 // --- split_tiles: bounds of the slices of deep tiles, one lane per slice; bindings as above
 const uint SPLIT_TILES_GROUP = 64u;

@@ -79,23 +79,15 @@ const uint SHADE_ENVIRONMENT_CUBE = 5u;
 const uint SHADE_ENVIRONMENT_PREFILTERED = 6u;
 const uint SHADE_ENVIRONMENT_IRRADIANCE = 7u;
 const uint SHADE_ENVIRONMENT_DFG = 8u;
-const uint SHADE_ENVIRONMENT_HOST_NORMAL = 9u;   // kernels/common/read_gbuffer.glsl
-const uint SHADE_ENVIRONMENT_GBUFFER_VIEW = 10u; // GBufferViewParams
-// Bits of ShadeEnvironmentParams::flags.
-const uint ENVIRONMENT_BACKGROUND = 1u; // fill pixels without a surface
-const uint ENVIRONMENT_SUM = 2u;        // LOBES_SUM, else LOBES_CONSERVING
-const uint ENVIRONMENT_COMPENSATE = 4u; // energy compensation
+const uint SHADE_ENVIRONMENT_HOST_NORMAL = 9u; // kernels/common/read_gbuffer.glsl
+const uint SHADE_ENVIRONMENT_FRAME = 10u;      // FrameParams
 struct ShadeEnvironmentParams {
     mat3 environmentFromView; // rotation
-    Projection projection;
-    uvec2 size;
-    vec2 invImageSize; // 1 / size
-    float clearDepth;
-    float lastLevel; // of the prefiltered cube
-    float scale;     // factor on the environment's luminance
-    uint flags;      // ENVIRONMENT_*
+    float lastLevel;          // of the prefiltered cube
+    float scale;              // factor on the environment's luminance
+    uint showsBackground;     // 1: pixels without a surface show the environment
 };
-GPU_SIZE(ShadeEnvironmentParams, 124)
+GPU_SIZE(ShadeEnvironmentParams, 48)
 
 GPU_END
 

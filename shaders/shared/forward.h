@@ -17,7 +17,7 @@ const uint FORWARD_IDS = 6u;   // ids of the lights
 
 struct ForwardView {
     Projection projection;
-    uint lobes;                        // LOBES_*, plus COMPENSATE_ENERGY
+    uint lobes;                        // as FrameParams::lobes
     TreeShape trees[LIGHT_TYPE_COUNT]; // by light type; distant types have lights but no nodes
 };
 GPU_SIZE(ForwardView, 60 + 12 * LIGHT_TYPE_COUNT)

@@ -27,13 +27,6 @@ const uint GBUFFER_ROUGHNESS_SHIFT = 8u;
 const uint GBUFFER_METALNESS_SHIFT = 12u;
 const uint GBUFFER_F90_SHIFT = 16u;
 
-// The values of a frame that reading the G-buffer depends on.
-struct GBufferViewParams {
-    mat3 viewFromWorld; // rotation
-    float dielectricF0;
-};
-GPU_SIZE(GBufferViewParams, 40)
-
 GPU_END
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef CND_SHARED_INFLUENCE_H
 #define CND_SHARED_INFLUENCE_H
 
-#include "shared/prelude.h"
+#include "shared/lighting.h"
 
 GPU_BEGIN
 
@@ -61,13 +61,18 @@ struct InfluenceData {
 };
 GPU_SIZE(InfluenceData, 116)
 
-// --- measure_influence: lights of one type. ShadeParams and bindings as of shade_brute, which it
-// otherwise is, but for SHADE_RADIANCE; batchLevel: the round. The lanes of a sample share out the
-// lights; each has sums of its own in shared memory, of which any device has room for 32 lanes.
+// --- measure_influence: lights of one type. The kernel evaluates lights as shade_brute does and
+// has the same bindings except SHADE_RADIANCE. Several lanes share one sample: each takes some of
+// the lights and keeps its own sums in shared memory. Every device has shared memory for 32 lanes.
 const uint MEASURE_INFLUENCE_GROUP = 32u;
-const uint MEASURE_INFLUENCE_LANES = 16u; // of a sample
+const uint MEASURE_INFLUENCE_LANES = 16u; // per sample
 const uint MEASURE_INFLUENCE_DATA = 40u;
 const uint MEASURE_INFLUENCE_SUMS = 41u; // vec3, INFLUENCE_SLOTS per sample
+struct MeasureInfluenceParams {
+    LightBatch batch;
+    uint round; // the frame's round of measuring, from 0
+};
+GPU_SIZE(MeasureInfluenceParams, 12)
 
 // --- choose_influence: one lane per sample
 const uint CHOOSE_INFLUENCE_GROUP = 64u;
@@ -77,7 +82,7 @@ const uint CHOOSE_INFLUENCE_DEPTH = 2u;
 const uint CHOOSE_INFLUENCE_RADIANCE = 3u;
 struct ChooseInfluenceParams {
     uint samples;
-    uint round; // of the frame, from 0
+    uint round; // the frame's round of measuring, from 0
 };
 GPU_SIZE(ChooseInfluenceParams, 8)
 

@@ -5,6 +5,7 @@
 #define CND_SHARED_LIGHTING_H
 
 #include "shared/dfg.h"
+#include "shared/frame.h"
 #include "shared/host_gbuffer.h"
 #include "shared/light_types.h"
 #include "shared/prelude.h"
@@ -51,15 +52,6 @@ const uint ALL_LAYERS = 0xFFFFu;
 const float BOUNDING_RADIUS_OF_NONE = -1e30f;
 const float INFLUENCE2_OF_NONE = -1.0f;
 const uint LIGHT_CORE_STRIDE = 2u;
-
-// Non-zero elements of clipFromView (m<column><row>), enough for perspective and orthographic, and
-// the way back from pixel and depth to view space.
-struct Projection {
-    float m00, m11, m20, m21, m30, m31, m22, m32, m23, m33;
-    vec3 eye;         // position of the eye (perspective: 0) or direction towards it (orthographic)
-    float eyeIsPoint; // 1 perspective, 0 orthographic
-};
-GPU_SIZE(Projection, 56)
 
 const uint TILE_SIZE = 8u; // pixels; one shading workgroup per tile
 // The light tree (shared/clusters.h) over the lights of one type.
@@ -113,7 +105,6 @@ GPU_SIZE(PrepareLightsParams, 60)
 
 // --- shade_tiles, shade_unlisted, shade_brute, count_pairs: 8x8 pixels per group, one lane per
 // pixel
-// one lane per pixel
 const uint SHADE_CORE = 0u;
 const uint SHADE_CORE_WORDS = 1u;
 const uint SHADE_SHAPES = 2u;
@@ -133,40 +124,54 @@ const uint SHADE_COUNTERS = 14u; // count_pairs
 const uint SHADE_CLUSTERS = 15u; // shade_unlisted
 const uint SHADE_NODES = 16u;    // shade_unlisted
 const uint SHADE_NODE_WORDS = 17u;
-const uint SHADE_PAIRS = 18u;        // count_pairs: CndLightingFrame::pairImage
-const uint SHADE_HOST_NORMAL = 19u;  // all that shade (kernels/common/read_gbuffer.glsl)
-const uint SHADE_GBUFFER_VIEW = 20u; // all that shade: GBufferViewParams
-const uint SHADE_LIGHT_IDS = 21u;    // all that shade: read for the host's shadow term alone
-const uint PIXEL_OF_TILE = 1u;       // CndPixelClass
+const uint SHADE_PAIRS = 18u;       // count_pairs: CndLightingFrame::pairImage
+const uint SHADE_HOST_NORMAL = 19u; // all that shade (kernels/common/read_gbuffer.glsl)
+const uint SHADE_FRAME = 20u;       // all that shade: FrameParams
+const uint SHADE_LIGHT_IDS = 21u;   // all that shade: read for the host's shadow term alone
+const uint PIXEL_OF_TILE = 1u;      // CndPixelClass
 const uint PIXEL_OF_SLICE = 2u;
 const uint PIXEL_UNLISTED = 3u;
-const uint COMPENSATE_ENERGY = 256u;
-struct ShadeParams {
-    Projection projection;
-    uvec2 size;
-    uvec2 origin;    // shade_brute: first pixel of the rectangle (size: its end)
-    uint firstLight; // of the batch
-    uint lightCount; // of the batch
-    uint tileCountX;
-    float clearDepth;
-    vec2 invImageSize; // 1 / pixels of the whole image
-    uint sampleCount;  // SPECULAR_SAMPLED: samples per light
-    uint sampleSeed;
-    float errorBudget; // relative to the highest response; 0: every light in full
-    uint lobes;        // LOBES_*, plus COMPENSATE_ENERGY
-    uint batchLevel;   // shade_unlisted: 0: clusters without a page; else those of too many
-                       //   lights, by parts of the light tree, nodes of this level.
-                       //   count_pairs: 1: also writes the image
-    TreeShape tree;    // shade_unlisted
+
+// Consecutive lights of one type: all of them, or as many as one dispatch takes on devices that
+// limit the length of loops.
+struct LightBatch {
+    uint first, count;
 };
-GPU_SIZE(ShadeParams, 128)
+GPU_SIZE(LightBatch, 8)
+
+struct ShadeTilesParams {
+    LightBatch batch; // read for distant lights alone, which have no lists
+};
+GPU_SIZE(ShadeTilesParams, 8)
+
+struct ShadeUnlistedParams {
+    uint listHead;    // LIST_UNLISTED or LIST_LONG (shared/clusters.h): the dispatch shades the
+                      //   clusters with this list head
+    uint topLevel;    // the walk begins at this level of the light tree, or at its highest if lower
+    LightBatch batch; // the lights that the walk visits: whole nodes of topLevel, apart from the
+                      //   last, which ends where the tree ends
+    TreeShape tree;
+};
+GPU_SIZE(ShadeUnlistedParams, 28)
+
+struct ShadeBruteParams {
+    LightBatch batch;
+    uvec2 first, end; // pixels of the rectangle: first <= pixel < end
+};
+GPU_SIZE(ShadeBruteParams, 24)
+
+struct CountPairsParams {
+    LightBatch batch; // as in ShadeTilesParams
+    uint writesImage; // 1: also adds its counts to the image (SHADE_PAIRS)
+};
+GPU_SIZE(CountPairsParams, 12)
 
 // Specialisation constants of the kernels above.
 const uint SPEC_LIGHTS_AS_TEXELS = 0u; // read core as a texel buffer (else as a storage buffer)
 const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
 const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
 const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer.h)
-const uint SPEC_ERROR_BUDGET = 4u;     // 1: ShadeParams::errorBudget may be > 0
+const uint SPEC_ERROR_BUDGET = 4u;     // 1: FrameParams::errorBudget may be > 0
 const uint SPEC_TILE_CLASS = 5u;       // CLASS_* of the tiles: their work list, and what they lack
 const uint SPEC_TILE_CLASSES = 6u;     // tile_clusters: mask of 1 << CLASS_* to be told apart
 

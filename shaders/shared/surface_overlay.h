@@ -23,15 +23,10 @@ const uint SURFACE_ROWS = 2u;
 const uint SURFACE_OVERLAY_GROUP = 8u; // x and y
 const uint SURFACE_OVERLAY_IMAGE = 7u;
 struct SurfaceOverlayParams {
-    Projection projection;
-    uvec2 size;
-    vec2 invImageSize; // 1 / size
-    float clearDepth;
     uint quantity; // SURFACE_*
     vec3 eyeWorld; // m; the origin of view space in world space, modulo SURFACE_PERIOD
-    mat3 worldFromView;
 };
-GPU_SIZE(SurfaceOverlayParams, 128)
+GPU_SIZE(SurfaceOverlayParams, 16)
 const float SURFACE_PERIOD = 2.0f; // m; period of the colours of SURFACE_POSITION
 
 // Tolerances of SURFACE_FAULTS.

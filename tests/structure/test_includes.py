@@ -89,7 +89,7 @@ ROOMS = [
     ("tools/candelabra/measure/culling", ["tools/candelabra/measure/frame", "tools/candelabra/measure/kernels",
                                           "tools/candelabra/render", "tools/candelabra/load",
                                           "tools/candelabra/scene", "tools/candelabra/io", PUBLIC, "engine/gpu",
-                                          "engine/lights", "engine/surfaces/camera.h",
+                                          "engine/lights", "engine/surfaces/frame_uniforms.h",
                                           "engine/tables/dfg_table.h",
                                           "shaders/shared/baselines.h", "shaders/shared/light_order.h",
                                           "candelabra_shaders.h", "candelabra_bench_shaders.h"]),

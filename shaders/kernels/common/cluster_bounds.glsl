@@ -6,9 +6,10 @@
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_PACKED TILE_CLUSTERS_NORMALS
 #define GBUFFER_NORMAL TILE_CLUSTERS_HOST_NORMALS
-#define GBUFFER_VIEW TILE_CLUSTERS_GBUFFER_VIEW
+#define FRAME_PARAMS TILE_CLUSTERS_FRAME
 #include "kernels/common/read_gbuffer.glsl"
 #include "lib/projection.glsl"
+#include "lib/tile_pixels.glsl"
 
 layout(push_constant, scalar) uniform Push
 {
@@ -27,9 +28,8 @@ float depthAt(uvec2 pixel)
 Cluster emptyCluster(uint tile)
 {
     const float infinity = uintBitsToFloat(0x7F800000u);
-    const uvec2 tileXY = uvec2(tile % params.tileCountX, tile / params.tileCountX);
-    const vec3 ray = viewRay(params.projection, TILE_SIZE * tileXY + TILE_SIZE / 2u,
-                             params.invImageSize);
+    const uvec2 middle = firstPixelOfTile(tile, frameParams.size.x) + TILE_SIZE / 2u;
+    const vec3 ray = viewRay(frameParams.projection, middle, frameParams.invImageSize);
     return Cluster(vec3(infinity), tile, vec3(-infinity), 0u, vec3(0.0), infinity, -infinity, 1.0,
                    0xFFFFFFFFu, normalize(ray), 0.0);
 }
@@ -42,7 +42,7 @@ bool isEmpty(Cluster c)
 // The axis is the normal of the first sample.
 void addSample(inout Cluster c, uvec2 pixel, float depth)
 {
-    const vec3 p = viewPosition(params.projection, pixel, params.invImageSize, depth);
+    const vec3 p = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
     const vec3 n = readNormal(ivec2(pixel));
     c.axis = isEmpty(c) ? n : c.axis;
     c.depthBits = min(c.depthBits, depthBits(depth));
@@ -70,7 +70,7 @@ Cluster withMargins(Cluster c)
     c.minCos -= COS_MARGIN;
     c.slope = c.slope * (1.0 + DOT_MARGIN) + DOT_MARGIN;
     // Orthographic: the box has the ray's direction. Infinite: a wide view in one tile.
-    if (params.projection.eyeIsPoint == 0.0 || isinf(c.slope)) {
+    if (frameParams.projection.eyeIsPoint == 0.0 || isinf(c.slope)) {
         c.ray = vec3(0.0);
         c.slope = 0.0;
     }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a G-buffer of any layout. The layout is a specialisation constant, so that what it does not
 // need is compiled away. The includer defines the numbers of the bindings: GBUFFER_CODE (of the
-// constant), GBUFFER_PACKED (normals of our layouts), GBUFFER_NORMAL (of the host's), GBUFFER_VIEW
+// constant), GBUFFER_PACKED (normals of our layouts), GBUFFER_NORMAL (of the host's), FRAME_PARAMS
 // and, unless it reads normals only, GBUFFER_ALBEDO and GBUFFER_SPECULAR; with CANDELABRA_READ_SURFACE,
 // the host defines candelabraReadSurface(), for the custom layout.
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/host_gbuffer.h"
+#include "kernels/common/frame_params.glsl"
 #include "lib/gbuffer.glsl"
 
 layout(constant_id = GBUFFER_CODE) const uint gbufferCode = 0u;
@@ -20,10 +21,6 @@ const uint f90Channel = (gbufferCode >> GBUFFER_F90_SHIFT) & GBUFFER_CHANNEL_MAS
 
 layout(binding = GBUFFER_PACKED) uniform utexture2D packedNormalImage;
 layout(binding = GBUFFER_NORMAL) uniform texture2D normalImage;
-layout(scalar, binding = GBUFFER_VIEW) uniform GBufferView
-{
-    GBufferViewParams gbufferView;
-};
 
 // As the host stored it: its space, any length.
 vec3 storedNormal(vec4 texel)
@@ -47,7 +44,7 @@ vec3 hostNormal(vec4 texel)
 {
     precise vec3 n = storedNormal(texel);
     if (normalsOfWorld) {
-        const mat3 m = gbufferView.viewFromWorld;
+        const mat3 m = frameParams.viewFromWorld;
         precise vec3 turned = m[0] * n.x + m[1] * n.y + m[2] * n.z;
         n = turned;
     }
@@ -55,6 +52,9 @@ vec3 hostNormal(vec4 texel)
 }
 
 #ifdef CANDELABRA_READ_SURFACE
+// The host's function may read gbufferView.viewFromWorld (candelabra/compiler.h).
+#define gbufferView frameParams
+
 Surface candelabraReadSurface(ivec2 pixel);
 
 Surface customSurface(ivec2 pixel)
@@ -122,7 +122,7 @@ Surface hostSurface(HostTexels t)
     }
     const float metalness = metalnessChannel == 0u ? 0.0 : channelOf(t, metalnessChannel);
     s.albedo = t.albedo.rgb * (1.0 - metalness);
-    s.F0 = mix(vec3(gbufferView.dielectricF0), t.albedo.rgb, metalness);
+    s.F0 = mix(vec3(frameParams.dielectricF0), t.albedo.rgb, metalness);
     s.specularWeight = 1.0;
     return s;
 }

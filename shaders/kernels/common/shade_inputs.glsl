@@ -4,7 +4,7 @@
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_PACKED SHADE_NORMAL_ROUGHNESS
 #define GBUFFER_NORMAL SHADE_HOST_NORMAL
-#define GBUFFER_VIEW SHADE_GBUFFER_VIEW
+#define FRAME_PARAMS SHADE_FRAME
 #define GBUFFER_ALBEDO SHADE_ALBEDO
 #define GBUFFER_SPECULAR SHADE_SPECULAR
 #include "kernels/common/read_gbuffer.glsl"
@@ -14,10 +14,6 @@
 #define LIGHT_STREAM_CORE_WORDS SHADE_CORE_WORDS
 #include "kernels/common/light_stream.glsl"
 
-layout(push_constant, scalar) uniform Push
-{
-    ShadeParams params;
-};
 layout(scalar, binding = SHADE_SHAPES) readonly buffer LightShapes
 {
     LightShape lightShapes[];

@@ -21,17 +21,17 @@ vec4 ltcTexel(uint index)
 
 ShadingPoint readShadingPoint(uvec2 pixel, float depth)
 {
-    const vec3 position = viewPosition(params.projection, pixel, params.invImageSize, depth);
+    const vec3 position = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
     ShadingPoint p = makeShadingPoint(readSurface(ivec2(pixel)), position,
-                                      towardsEye(params.projection, position));
-    if (params.lobes != LOBES_SUM)
-        joinLobes(p, directionalAlbedo(p.NoV, p.alpha), params.lobes & (COMPENSATE_ENERGY - 1u),
-                  params.lobes & COMPENSATE_ENERGY);
+                                      towardsEye(frameParams.projection, position));
+    if (frameParams.lobes != LOBES_SUM)
+        joinLobes(p, directionalAlbedo(p.NoV, p.alpha), frameParams.lobes & (COMPENSATE_ENERGY - 1u),
+                  frameParams.lobes & COMPENSATE_ENERGY);
     return p;
 }
 
 // Samples differ between pixels and frames.
 uint pixelSeed(uvec2 pixel)
 {
-    return params.sampleSeed * 0x9E3779B9u + pixel.y * 0x10000u + pixel.x;
+    return frameParams.sampleSeed * 0x9E3779B9u + pixel.y * 0x10000u + pixel.x;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The class of a tile: which lobe none of its surfaces has. The includer provides params and
-// depthAt(), and reads the whole G-buffer.
+// The class of a tile: which lobe none of its surfaces has. The includer provides depthAt() and
+// includes kernels/common/read_gbuffer.glsl for the whole G-buffer.
 #ifndef CND_COMMON_TILE_CLASS
 #define CND_COMMON_TILE_CLASS
 
@@ -22,7 +22,7 @@ uint classOfSurfaces(uvec2 first, uvec2 end)
     bool diffuse = FINDS_DIFFUSE, specular = FINDS_SPECULAR;
     for (uint y = first.y; y < end.y && (diffuse || specular); ++y)
         for (uint x = first.x; x < end.x && (diffuse || specular); ++x) {
-            if (depthAt(uvec2(x, y)) == params.clearDepth)
+            if (depthAt(uvec2(x, y)) == frameParams.clearDepth)
                 continue;
             const Surface s = readSurface(ivec2(x, y));
             diffuse = diffuse && isBlack(s.F0) && s.specularWeight == 0.0;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tile that a workgroup shades, one of the WorkList of its class, and the lists of its pixels.
+// The tile that a workgroup shades, one of the WorkList of its class, and the lists of its pixels. The
+// includer includes kernels/common/frame_params.glsl first.
 #ifndef CND_COMMON_TILE_OF_GROUP
 #define CND_COMMON_TILE_OF_GROUP
 
 #include "shared/clusters.h"
 #include "shading/lobes_of_class.glsl"
-#include "lib/pixel_of_lane.glsl"
+#include "lib/tile_pixels.glsl"
 #include "lib/projection.glsl"
 
 layout(scalar, binding = SHADE_TILES) readonly buffer Tiles
@@ -40,9 +41,8 @@ bool takeTile(out uint tile, out uvec2 pixel)
     // and tiles that take longer come last.
     const uint firsts = (work.count + 1u) / 2u;
     tile = workTiles[work.first + (at < firsts ? 2u * at : 2u * (at - firsts) + 1u)];
-    pixel = TILE_SIZE * uvec2(tile % params.tileCountX, tile / params.tileCountX) +
-            pixelOfLane(gl_LocalInvocationIndex);
-    return all(lessThan(pixel, params.size));
+    pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(gl_LocalInvocationIndex);
+    return all(lessThan(pixel, frameParams.size));
 }
 
 #endif

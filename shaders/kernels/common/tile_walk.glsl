@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights of a pixel's cluster, as blocks for light_walk.glsl. Distant lights have no lists: every
-// one of them is every cluster's.
+// The lights of a pixel's cluster, as blocks for light_walk.glsl. Distant lights have no lists, since
+// they light every cluster: the includer's push constants name them as `params.batch`, a LightBatch.
 #include "shading/light_type.glsl"
 #include "kernels/common/tile_of_group.glsl"
 
@@ -29,8 +29,8 @@ Block pageBlock(uint page)
 // The next block of a batch of which `at` lights are done.
 Block batchBlock(uint at)
 {
-    const uint left = params.lightCount - at;
-    return Block(params.firstLight + at, min(left, PAGE_WORDS),
+    const uint left = params.batch.count - at;
+    return Block(params.batch.first + at, min(left, PAGE_WORDS),
                  left > PAGE_WORDS ? at + PAGE_WORDS : 0u);
 }
 

@@ -14,7 +14,6 @@
 #include "lights/pack_lights.h"
 #include "measure/kernels/light_kernels.h"
 #include "shared/light_order.h"
-#include "surfaces/camera.h"
 
 namespace candelabra::app
 {
@@ -52,7 +51,7 @@ Baselines::Kernels::Kernels(const gpu::Device& device)
       scan(device, spirv::baseline_scan_comp)
 {
     const auto make = [&](const gpu::Spirv& spirv, uint32_t baseline) {
-        return gpu::Kernel<gpu::ShadeParams>(
+        return gpu::Kernel<gpu::NoParams>(
             device, spirv,
             {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
              {gpu::SPEC_SPECULAR_METHOD, CND_SPECULAR_CONIC},
@@ -74,13 +73,15 @@ Baselines::Baselines(const VulkanContext& context, Renderer& renderer, const Sce
       renderer_(renderer),
       options_(options),
       frame_(renderer.lightingFrame(0, options)),
-      projection_(surfaces::projectionOf(frame_.camera.clipFromView, frame_.clearDepth)),
+      params_(surfaces::frameParams(frame_, 0)),
       kernels_(context.device()),
       timer_(context.device(), "baselines", 1, true),
       dfg_(context.device()),
-      ltc_(uploadLtcTable(context.device()))
+      ltc_(uploadLtcTable(context.device())),
+      uniforms_(context.device(), 1)
 {
     const gpu::Device& device = context.device();
+    uniforms_.write(0, params_);
     createLights(scene);
     const auto buffer = [&](const char* name, VkDeviceSize bytes, MemoryUse use) {
         return gpu::createBuffer(device, name, bytes, storageUse, use);
@@ -94,9 +95,6 @@ Baselines::Baselines(const VulkanContext& context, Renderer& renderer, const Sce
     ranges_ = buffer("baseline ranges", tiles * sizeof(glm::vec2), MemoryUse::Readback);
     boxes_ = texels(device, "froxel boxes", 2 * froxels, MemoryUse::Upload);
     cursors_ = buffer("froxel cursors", froxels * sizeof(uint32_t), MemoryUse::Device);
-    gbufferView_ =
-        gpu::createBuffer(device, "baseline G-buffer view", sizeof(gpu::GBufferViewParams),
-                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryUse::Device);
     found_ = buffer("baseline evaluations", size.x * size.y * sizeof(uint32_t), MemoryUse::Device);
     for (size_t i = 0; i < 2; ++i) {
         Lists& l = lists_[i];
@@ -170,7 +168,7 @@ void Baselines::createFroxels()
     grid.slicesPerOctave = float(gpu::FROXEL_SLICES / std::log2(farthest / nearest));
     froxels_ = grid;
     const auto boxes = boxes_.as<glm::vec4>();
-    const gpu::Projection& m = projection_;
+    const gpu::Projection& m = params_.projection;
     const glm::dvec2 size(frame_.width, frame_.height);
     size_t at = 0;
     for (uint32_t z = 0; z < gpu::FROXEL_SLICES; ++z)
@@ -226,7 +224,7 @@ void Baselines::writeBindings()
     const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame_.normalRoughness);
     // These are for G-buffer layouts of hosts. Here they are bound, but not read.
     const Binding hostNormals = Binding::sampled(SHADE_HOST_NORMAL, frame_.albedo);
-    const Binding gbufferView = Binding::of(SHADE_GBUFFER_VIEW, gbufferView_);
+    const Binding uniforms = uniforms_.at(0, SHADE_FRAME);
     const Binding albedo = Binding::sampled(SHADE_ALBEDO, frame_.albedo);
     const Binding specular = Binding::sampled(SHADE_SPECULAR, frame_.specular);
     const Binding depth = Binding::sampled(SHADE_DEPTH, frame_.depth);
@@ -239,13 +237,13 @@ void Baselines::writeBindings()
         const Binding entries = Binding::of(BASELINE_ENTRIES, lists_[i].entries);
         const Binding grid = Binding::of(BASELINE_GRID, lists_[i].grid);
         sets_.shade[i].write(0,
-                             {core, coreWords, shapes, ids, normals, hostNormals, gbufferView,
-                              albedo, specular, depth, radiance, dfg, ltc, heads, entries, grid});
-        sets_.pairs[i].write(0, {core, coreWords, shapes, ids, normals, hostNormals, gbufferView,
+                             {core, coreWords, shapes, ids, normals, hostNormals, uniforms, albedo,
+                              specular, depth, radiance, dfg, ltc, heads, entries, grid});
+        sets_.pairs[i].write(0, {core, coreWords, shapes, ids, normals, hostNormals, uniforms,
                                  albedo, specular, depth, dfg, ltc, heads, entries, grid,
                                  Binding::of(BASELINE_COUNTERS, lists_[i].counters), found});
     }
-    sets_.floor.write(0, {core, coreWords, shapes, ids, normals, hostNormals, gbufferView, albedo,
+    sets_.floor.write(0, {core, coreWords, shapes, ids, normals, hostNormals, uniforms, albedo,
                           specular, depth, radiance, dfg, ltc, found});
 }
 
@@ -298,7 +296,7 @@ void Baselines::countPairs(Baseline baseline)
     const size_t i = size_t(baseline);
     submit([&](const gpu::Frame& f) {
         recordCulling(f, baseline);
-        kernels_.pairs[i].dispatch(f, sets_.pairs[i].set(0), shadeParams(), groups().x, groups().y);
+        kernels_.pairs[i].dispatch(f, sets_.pairs[i].set(0), {}, groups().x, groups().y);
     });
     const gpu::BaselineCounters c = counters(baseline);
     BaselineStats& stats = lists_[i].stats;
@@ -311,20 +309,6 @@ void Baselines::countPairs(Baseline baseline)
 glm::uvec2 Baselines::groups() const
 {
     return {divideUp(frame_.width, gpu::TILE_SIZE), divideUp(frame_.height, gpu::TILE_SIZE)};
-}
-
-gpu::ShadeParams Baselines::shadeParams() const
-{
-    return {.projection = projection_,
-            .size = {frame_.width, frame_.height},
-            .lightCount = lightCount_,
-            .tileCountX = groups().x,
-            .clearDepth = frame_.clearDepth,
-            .invImageSize = 1.0f / glm::vec2(frame_.width, frame_.height),
-            .sampleCount = 64,
-            .errorBudget = 0,
-            .lobes =
-                uint32_t(frame_.lobes) | (frame_.energyCompensation ? gpu::COMPENSATE_ENERGY : 0)};
 }
 
 void Baselines::recordLights(const gpu::Frame& f) const
@@ -347,7 +331,7 @@ void Baselines::recordLights(const gpu::Frame& f) const
 void Baselines::recordTiles(const gpu::Frame& f) const
 {
     const glm::uvec2 count = lists_[0].grid.as<gpu::BaselineGrid>()[0].count;
-    gpu::BaselineTilesParams params{.projection = projection_,
+    gpu::BaselineTilesParams params{.projection = params_.projection,
                                     .size = {frame_.width, frame_.height},
                                     .tileCountX = count.x,
                                     .tileCount = count.x * count.y,
@@ -374,7 +358,7 @@ void Baselines::recordTiles(const gpu::Frame& f) const
 void Baselines::recordFroxels(const gpu::Frame& f) const
 {
     const uint32_t capacity = uint32_t(lists_[1].entries.size / sizeof(uint32_t));
-    const gpu::BaselineFroxelsParams params{.projection = projection_,
+    const gpu::BaselineFroxelsParams params{.projection = params_.projection,
                                             .froxelCount = froxels_.count,
                                             .pixelsPerNdc =
                                                 0.5f * glm::vec2(frame_.width, frame_.height),
@@ -410,12 +394,12 @@ std::vector<PassTime> Baselines::draw(Baseline baseline)
     submit([&](const gpu::Frame& f) {
         const auto [x, y] = std::pair(groups().x, groups().y);
         if (baseline == Baseline::Floor) {
-            kernels_.floor.dispatch(f, sets_.floor.set(0), shadeParams(), x, y);
+            kernels_.floor.dispatch(f, sets_.floor.set(0), {}, x, y);
             return;
         }
         const size_t i = size_t(baseline);
         recordCulling(f, baseline);
-        kernels_.shade[i].dispatch(f, sets_.shade[i].set(0), shadeParams(), x, y);
+        kernels_.shade[i].dispatch(f, sets_.shade[i].set(0), {}, x, y);
     });
     std::vector<CndKernelTime> times(CND_MAX_KERNEL_TIMES);
     uint32_t count = 0;

@@ -12,6 +12,7 @@
 #include "gpu/kernel.h"
 #include "render/renderer.h"
 #include "shared/baselines.h"
+#include "surfaces/frame_uniforms.h"
 #include "tables/dfg_table.h"
 
 namespace candelabra::app
@@ -47,7 +48,7 @@ private:
         gpu::Kernel<gpu::BaselineTilesParams> tiles;
         gpu::Kernel<gpu::BaselineFroxelsParams> count, enter;
         gpu::Kernel<gpu::BaselineScanParams> scan;
-        gpu::Kernel<gpu::ShadeParams> shade[2], pairs[2], floor;
+        gpu::Kernel<gpu::NoParams> shade[2], pairs[2], floor;
     };
     struct Lists {
         gpu::Buffer heads, entries, counters, grid;
@@ -64,14 +65,13 @@ private:
     void recordCulling(const gpu::Frame& f, Baseline baseline) const;
     void submit(const std::function<void(const gpu::Frame&)>& record);
     gpu::BaselineCounters counters(Baseline baseline) const;
-    gpu::ShadeParams shadeParams() const;
     glm::uvec2 groups() const; // workgroups of the shading kernels
 
     const VulkanContext& context_;
     Renderer& renderer_;
     FrameOptions options_;
     CndLightingFrame frame_;
-    gpu::Projection projection_;
+    gpu::FrameParams params_; // of frame_
     Kernels kernels_;
     gpu::Timer timer_;
     tables::DfgTable dfg_;
@@ -79,7 +79,8 @@ private:
     uint32_t lightCount_ = 0;
     glm::dvec3 lightOrigin_{0};
     gpu::Buffer records_, order_, core_, shapes_, spheres_;
-    gpu::Buffer ranges_, boxes_, cursors_, found_, gbufferView_;
+    gpu::Buffer ranges_, boxes_, cursors_, found_;
+    surfaces::FrameUniforms uniforms_;
     Lists lists_[2];
     gpu::BaselineGrid froxels_{};
     struct Sets {

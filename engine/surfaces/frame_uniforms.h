@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parameters that all kernels of a frame share (shared/frame.h): how they follow from a frame
+// of the host, and the uniform buffer that holds them.
+#pragma once
+
+#include <cstring>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "gpu/kernel.h"
+#include "shared/frame.h"
+#include "surfaces/camera.h"
+
+namespace candelabra::surfaces
+{
+
+// `frame` is a CndLightingFrame or a CndEnvironmentFrame: both have these members. Its camera has
+// passed checkCamera. errorBudget, sampleCount and sampleSeed are left at 0. Throws gpu::Failure
+// when the kernels cannot take the projection.
+template <typename Frame>
+gpu::FrameParams frameParams(const Frame& frame, float dielectricF0)
+{
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
+    return {.viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
+            .projection = projectionOf(frame.camera.clipFromView, frame.clearDepth),
+            .size = {frame.width, frame.height},
+            .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
+            .clearDepth = frame.clearDepth,
+            .dielectricF0 = dielectricF0,
+            .lobes =
+                uint32_t(frame.lobes) | (frame.energyCompensation ? gpu::COMPENSATE_ENERGY : 0)};
+}
+
+// A uniform buffer with room for the parameters of one frame per frame slot.
+class FrameUniforms
+{
+public:
+    // `device` must outlive it.
+    FrameUniforms(const gpu::Device& device, uint32_t slots);
+    // The GPU must have finished the slot's previous frame.
+    void write(uint32_t slot, const gpu::FrameParams& params) const noexcept;
+    // The slot's parameters, to be bound at `binding`.
+    gpu::Binding at(uint32_t slot, uint32_t binding) const;
+
+private:
+    // Vulkan's largest minUniformBufferOffsetAlignment.
+    static constexpr VkDeviceSize stride = 256;
+    static_assert(sizeof(gpu::FrameParams) <= stride);
+    gpu::Buffer buffer_;
+};
+
+} // namespace candelabra::surfaces

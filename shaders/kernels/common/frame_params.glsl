@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The uniform buffer with the parameters of the frame. The includer defines FRAME_PARAMS, the number
+// of the binding.
+#ifndef CND_COMMON_FRAME_PARAMS
+#define CND_COMMON_FRAME_PARAMS
+
+#include "shared/frame.h"
+
+layout(scalar, binding = FRAME_PARAMS) uniform Frame
+{
+    FrameParams frameParams;
+};
+
+#endif
