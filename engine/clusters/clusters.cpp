@@ -24,8 +24,9 @@ static_assert(gpu::UNLISTED_BITS + CND_LIGHT_TYPE_COUNT <= gpu::LIT_BITS &&
 
 constexpr uint32_t maxRow = 65535; // groups that every device takes in one dimension
 
-// With more lights, blocks walk the tree themselves: blocks of blocks hold so many that their lists
-// are no shorter a way. Between the counts where either was measured to be faster (DECISIONS 25).
+// With more lights than this, blocks find their lights in the tree instead of in the lists of the
+// blocks of blocks, which are then so long that they save nothing. The number lies between the
+// counts at which the one and the other were measured to be faster (DECISIONS 25).
 constexpr uint32_t largeBlockLights = 131072;
 
 uint32_t nodeCount(uint32_t lights)
@@ -33,7 +34,7 @@ uint32_t nodeCount(uint32_t lights)
     uint32_t count = 0;
     for (uint32_t level = lights; level; level = level > 1 ? divideUp(level, gpu::TREE_WIDTH) : 0)
         count += divideUp(level, gpu::TREE_WIDTH);
-    return lights == 1 ? 2 : count; // levels are made in pairs
+    return lights == 1 ? 2 : count; // light_tree makes levels in pairs
 }
 
 glm::uvec2 blocks(glm::uvec2 below)
@@ -101,8 +102,9 @@ Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
                              " tiles of 8x8 pixels need " + std::to_string(fixed) +
                              " clusters, the device's maxStorageBufferRange holds " +
                              std::to_string(largest));
-    // All tiles, unless the frame is too large for the device's buffers. Those that find no room
-    // keep one cluster: as right, only less tight, and which they are depends on the schedule.
+    // There is room to split all tiles, unless that exceeds the device's limit for buffers. Then
+    // deep tiles without room keep one cluster, whose list is longer but as correct. Which tiles
+    // these are depends on the order in which the device runs them.
     splitCapacity_ =
         uint32_t(std::min<VkDeviceSize>(splitCapacity_, (largest - fixed) / gpu::SLICES));
     if (splitCapacity_ < area(maxTiles))
@@ -127,7 +129,8 @@ Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
     entries_ = make("list entries", std::max(sizes.listBudget, 2 * pageBytes), storageUse);
 }
 
-// Clusters: one per tile of the largest frame, the slices of split tiles, then of blocks.
+// The buffer of clusters holds one per tile of the largest frame, then the slices of split tiles,
+// then the slices of blocks.
 std::array<Clusters::Level, 1 + gpu::BLOCK_LEVELS> Clusters::levels(glm::uvec2 tileCount) const
 {
     std::array<Level, 1 + gpu::BLOCK_LEVELS> out{};
@@ -142,7 +145,7 @@ std::array<Clusters::Level, 1 + gpu::BLOCK_LEVELS> Clusters::levels(glm::uvec2 t
     return out;
 }
 
-// All tiles may be of one class, whichever it is.
+// Each class has room for all tiles, since all may be of the same class.
 VkDeviceSize Clusters::tileWorkBytes() const
 {
     return workBytes(gpu::TILE_CLASSES, sizes_.tileClasses * maxTileCount());
@@ -160,7 +163,8 @@ Clusters::Lists Clusters::createLists() const
 
 void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
 {
-    // Enough for any split of the lights into types: each type may round up on every level.
+    // Enough nodes however the lights are distributed over the types: on every level the number of
+    // nodes of each type is rounded up.
     const VkDeviceSize nodes = nodeCount(lightCapacity) + CND_LIGHT_TYPE_COUNT * gpu::TREE_LEVELS;
     const VkDeviceSize bytes = nodes * gpu::TREE_NODE_STRIDE * sizeof(glm::vec4);
     if (bytes > nodes_.size) {
@@ -299,8 +303,8 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
                                    .pageCount = uint32_t(entries_.size / pageBytes) / 2,
                                    .longest = UINT32_MAX,
                                    .maxSteps = loops == UINT32_MAX ? loops : loops / 4 * 3,
-                                   // In shade_unlisted four clusters may share a row of pixels, and
-                                   // the lights found are evaluated as well.
+                                   // In shade_unlisted the walks of four clusters may run one
+                                   // after the other, and the lights found are evaluated as well.
                                    .maxUnlistedSteps = loops == UINT32_MAX ? loops : loops / 16,
                                    .lightType = type,
                                    .which = gpu::LISTS_OF_BLOCKS,
@@ -319,7 +323,7 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
         f.barrier();
         params.hasParents = 1;
     }
-    params.pageCount *= 2; // blocks only help: tiles have at least half of the budget
+    params.pageCount *= 2; // the lists of blocks took at most half, so that tiles have the rest
     params.longest = longest;
     params.which = gpu::LISTS_OF_TILES;
     params.firstCluster = 0;

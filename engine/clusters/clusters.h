@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clusters of surface samples, the light tree, and the lists that the one gives the other: the
-// buffers of one view and the passes that fill them (shared/clusters.h).
+// Clusters of surface samples, the light tree, and the light lists that each cluster gets from the
+// tree: the buffers of one view and the passes that fill them (shared/clusters.h).
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace candelabra::lighting
 {
 
 struct ClusterKernels {
-    // `gbuffer`: value of SPEC_GBUFFER; `tileClasses`: of SPEC_TILE_CLASSES.
+    // `gbuffer` and `tileClasses`: values of SPEC_GBUFFER and SPEC_TILE_CLASSES.
     ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host, uint32_t gbuffer,
                    uint32_t tileClasses);
     gpu::Kernel<gpu::LightTreeParams> lightTree;
@@ -26,12 +26,12 @@ struct ClusterKernels {
     gpu::Kernel<gpu::ClusterListsParams> clusterLists;
 };
 
-// Byte offset of the work list of one material class in a buffer with a list per class.
+// Returns the byte offset of the work list of a material class in a buffer with one list per class.
 constexpr VkDeviceSize workListAt(uint32_t list)
 {
     return list * sizeof(gpu::WorkList);
 }
-// Over all classes.
+// Returns the number of tiles with a surface, of all classes.
 inline uint32_t surfaceTileCount(const gpu::LightingCounters& counters)
 {
     uint32_t count = 0;
@@ -41,7 +41,7 @@ inline uint32_t surfaceTileCount(const gpu::LightingCounters& counters)
 }
 
 using TreeShapes = std::array<gpu::TreeShape, CND_LIGHT_TYPE_COUNT>;
-// Trees of lights that are sorted by type.
+// Returns the trees over lights that are sorted by type.
 TreeShapes treeShapes(const LightTypeCounts& counts);
 
 class Clusters
@@ -50,16 +50,16 @@ public:
     struct Sizes {
         uint32_t slots;          // frames in flight
         uint32_t tileClasses;    // classes of tiles that work lists have room for
-        glm::uvec2 maxTiles;     // of a frame
+        glm::uvec2 maxTiles;     // tiles of the largest frame, in x and y
         VkDeviceSize listBudget; // bytes for the pages of lists
     };
-    // Throws gpu::Failure when the device's buffers are too small for so many tiles. All that are
-    // referred to must outlive it.
+    // Throws gpu::Failure if the device's limit for buffers is too small for so many tiles. The
+    // device, the kernels and the recordings must outlive this object.
     Clusters(const gpu::Device& device, const ClusterKernels& kernels, gpu::Recordings& recordings,
              const Sizes& sizes);
 
-    // Makes room for a set of lights; buffers that are too small are retired, and what they held
-    // is lost.
+    // Makes room for a set of lights. Replaces buffers that are too small, and does not keep what
+    // they contain.
     void grow(uint32_t lightCapacity, const LightTypeCounts& types);
 
     struct Inputs {
@@ -69,37 +69,42 @@ public:
     };
     void writeBindings(uint32_t slot, const LightTypeCounts& types, const Inputs& inputs) const;
 
-    // Each begins with what the one before it wrote made visible, and ends with a barrier of its
-    // own or leaves it to the caller as said.
+    // Each of these functions needs what the previous one has written to be visible. recordTree and
+    // recordClusters end with a barrier; after recordReset and recordLists the caller records one.
     void recordReset(const gpu::Frame& frame, const LightTypeCounts& types) const noexcept;
     void recordTree(const gpu::Frame& frame, const gpu::TreeShape& tree) const noexcept;
-    // Bounds of tiles, their slices and blocks. Unless `forLists`, only finds the tiles that hold a
-    // surface. Tiles longer than `splitLength` metres are split into slices.
+    // Computes the bounds of tiles, of their slices and of blocks. Unless `forLists`, finds only
+    // the tiles that hold a surface. Tiles longer than `splitLength` metres are split into slices.
     void recordClusters(const gpu::Frame& frame, glm::uvec2 tileCount, float splitLength,
                         bool forLists) const noexcept;
-    // `longest`: list that shading can walk.
+    // `longest`: number of lights in the longest list that shading can walk.
     void recordLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,
                      glm::uvec2 tileCount, uint32_t longest) const noexcept;
 
     // The light lists of one light type.
     struct Lists {
-        gpu::Buffer heads;         // per cluster
-        gpu::Buffer lit, unlisted; // WorkLists of tiles, by class
+        gpu::Buffer heads;    // per cluster
+        gpu::Buffer lit;      // WorkLists by class: tiles with lists that hold lights
+        gpu::Buffer unlisted; // WorkLists by class: tiles with clusters that have no list
     };
     const Lists& lists(uint32_t type) const { return lists_[type]; }
-    // WorkLists of the tiles that shade_tiles takes: all with a surface where there are no lists.
+    // Returns the WorkLists of the tiles that shade_tiles takes. For distant lights, which have no
+    // lists, these are all tiles with a surface.
     const gpu::Buffer& tilesToShade(uint32_t type) const;
     const gpu::Buffer& tiles() const { return tiles_; }
     const gpu::Buffer& clusters() const { return clusters_; }
     const gpu::Buffer& entries() const { return entries_; }
     const gpu::Buffer& nodes() const { return nodes_; }
     const gpu::Buffer& splits() const { return splits_; }
-    // The number of tiles that were split, where `asked` tiles asked for it: there is limited room.
+    // Returns how many tiles have been split if `asked` tiles were deep: there may be room for
+    // fewer.
     uint32_t splitTileCount(uint32_t asked) const { return std::min(asked, splitCapacity_); }
-    const gpu::Buffer& surfaces() const { return surfaces_; } // WorkLists of tiles, by class
+    // WorkLists by class: tiles with a surface.
+    const gpu::Buffer& surfaces() const { return surfaces_; }
 
 private:
-    // Where the records of a level lie: tiles, then blocks of rising size.
+    // The position of a level's records in their buffers. Level 0 are the tiles, level 1 the blocks
+    // of tiles, level 2 the blocks of those.
     struct Level {
         glm::uvec2 count;      // tiles or blocks
         uint32_t first;        // in the buffer of TileClusters
@@ -107,7 +112,7 @@ private:
     };
     std::array<Level, 1 + gpu::BLOCK_LEVELS> levels(glm::uvec2 tileCount) const;
     uint32_t maxTileCount() const { return sizes_.maxTiles.x * sizes_.maxTiles.y; }
-    uint32_t firstSplit() const { return maxTileCount(); } // cluster of split tiles
+    uint32_t firstSplit() const { return maxTileCount(); } // first cluster of split tiles
     VkDeviceSize tileWorkBytes() const;
     Lists createLists() const;
 
@@ -118,7 +123,7 @@ private:
     uint32_t splitCapacity_, clusterCount_;
     gpu::Bindings treeSets_, tileSets_, splitSets_, blockSets_; // per slot
     gpu::Bindings listSets_;                                    // per slot and type
-    gpu::Buffer nodes_;                                         // per light
+    gpu::Buffer nodes_;                                         // of the light trees
     gpu::Buffer tiles_, clusters_, surfaces_, splits_;
     gpu::Buffer entries_;
     Lists lists_[CND_LIGHT_TYPE_COUNT];

@@ -21,11 +21,12 @@ static_assert(gpu::TONEMAP_ACES == CND_TONEMAP_ACES);
 static_assert(gpu::TONEMAP_PBR_NEUTRAL == CND_TONEMAP_PBR_NEUTRAL);
 static_assert(gpu::TONEMAP_AGX == CND_TONEMAP_AGX);
 
-// The display error that samples may have is this share of what all pixels may have: those between
-// them have more (DECISIONS 30).
+// The display error that sampled pixels may have, as a share of the error that all pixels may have:
+// pixels between the samples have larger errors (DECISIONS 30).
 constexpr float sampleShare = 0.5f;
 
-// Another one for every history of the process; memory that is new hardly holds it.
+// Returns a number that marks one history of cuts in device memory. No two histories of the process
+// have the same number, and memory that was never written is unlikely to hold it by chance.
 uint32_t nextOwner() noexcept
 {
     static std::atomic<uint32_t> next{0x1F10E4CEu};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radii of influence from an error (CND_INFLUENCE_BY_ERROR): what a view keeps for it, and the
-// passes between prepare_lights and everything that reads how far lights reach
-// (shared/influence.h).
+// Radii of influence that follow from an error of the display (CND_INFLUENCE_BY_ERROR,
+// shared/influence.h): what a view stores for this, and the passes that compute the radii. They run
+// after prepare_lights and before every pass that reads radii.
 #pragma once
 
 #include "candelabra/candelabra.h"
@@ -14,12 +14,15 @@
 namespace candelabra::lighting
 {
 
-// The rule that a frame follows: brute force and frames without an exposure cut nothing.
+// Returns the rule that a frame follows. It is CND_INFLUENCE_UNCUT instead of
+// CND_INFLUENCE_BY_ERROR for brute force and for frames without an exposure.
 CndInfluenceRule influenceOf(const CndLightingFrame& frame);
-// Throws gpu::Failure. `byError`: CndLightingDesc::influenceByError.
+// Throws gpu::Failure naming the first member outside its documented range. `byError`:
+// CndLightingDesc::influenceByError.
 void checkInfluence(const CndInfluence& influence, bool byError);
 
-// Besides those that measure: shading has one for every light type and method.
+// The kernels that know no light type. Those that measure are in ShadeKernels, one for each light
+// type and specular method.
 struct InfluenceKernels {
     InfluenceKernels() = default;
     explicit InfluenceKernels(const gpu::Device& device);
@@ -31,8 +34,8 @@ class Influence
 {
 public:
     using MeasureKernel = gpu::Kernel<gpu::MeasureInfluenceParams>;
-    // `measure`: a kernel of ShadeKernels, since binding layouts are the same for all. `maxSize`:
-    // pixels of frames. `kernels` must outlive it.
+    // `measure`: any of the measuring kernels of ShadeKernels, since all have the same bindings.
+    // `maxSize`: largest size of a frame in pixels. `kernels` must outlive this object.
     Influence(const gpu::Device& device, const InfluenceKernels& kernels,
               const MeasureKernel& measure, uint32_t slots, glm::uvec2 maxSize);
 
@@ -44,21 +47,23 @@ public:
     };
     void writeBindings(uint32_t slot, const Inputs& inputs) const;
 
-    // They are called in this order, and each ends with a barrier. All but the first and the last
-    // are called once per round, recordMeasure as often as lights need it. Returns the rounds.
+    // These functions are called in this order, and each ends with a barrier. recordBegin returns
+    // the number of rounds. Every round takes one call of recordRound, one of recordMeasure per
+    // light type and batch of lights, and one of recordChoice. recordCut follows the last round.
     uint32_t recordBegin(const gpu::Frame& f, const CndLightingFrame& frame) noexcept;
     void recordRound(const gpu::Frame& f) const noexcept;
     void recordMeasure(const gpu::Frame& f, const MeasureKernel& kernel,
                        const gpu::MeasureInfluenceParams& params) const noexcept;
     void recordChoice(const gpu::Frame& f, uint32_t round) const noexcept;
-    // `types`: those of the frame, not 0; one has a place at least.
+    // `types`: number of lights by type, 0 for types that the frame leaves out. At least one type
+    // that is not distant is present.
     void recordCut(const gpu::Frame& f, const LightTypeCounts& types,
                    const TreeShapes& lights) const noexcept;
 
 private:
     const InfluenceKernels& kernels_;
-    gpu::InfluenceFrame frame_{}; // recorded last
-    float maxError_ = 0;          // of the history
+    gpu::InfluenceFrame frame_{}; // the frame recorded last
+    float maxError_ = 0;          // CndInfluence::maxError of the frame recorded last
     gpu::Buffer data_, sums_;
     gpu::Bindings measure_, choose_, cut_; // per slot
 };

@@ -21,13 +21,14 @@ uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t s
 
 } // namespace
 
-// Shading a list takes at most this many loop iterations per light: a test, a turn in each of four
-// classes (the lanes of a vector may differ), and per block of 63 the exits of its loops.
+// Shading a list takes at most 5 loop iterations per light besides those inside its evaluation: one
+// for the test, and one in each of the four loops that evaluate (the invocations that run together
+// may each need another loop). The exits of the loops of a block take up to 8 per 32 lights.
 uint32_t lightsPerBatch(const gpu::Device& device, uint32_t loopIterations)
 {
     if (device.maxLoopIterations == UINT32_MAX)
         return UINT32_MAX;
-    constexpr uint32_t fixedIterations = 1024; // before and after the walk
+    constexpr uint32_t fixedIterations = 1024; // of loops before and after the walk
     const uint64_t per32 = 32 * (5 + uint64_t(loopIterations)) + 8;
     const uint64_t lights = uint64_t(device.maxLoopIterations - fixedIterations) * 32 / per32;
     return uint32_t(std::max<uint64_t>(lights, gpu::TREE_WIDTH));

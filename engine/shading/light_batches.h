@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Devices that end loops after some iterations get long lists of lights in batches, one dispatch
-// each.
+// Some devices end loops after a number of iterations. On these, lights are shaded in batches, with
+// one dispatch each.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 namespace candelabra::lighting
 {
 
-// Lights of a list that a shader invocation can evaluate: UINT32_MAX where the device does not
-// limit loops. `loopIterations`: those inside the evaluation of one light.
+// Returns how many lights one shader invocation can evaluate: UINT32_MAX if the device does not
+// limit loops. `loopIterations`: loop iterations inside the evaluation of one light.
 uint32_t lightsPerBatch(const gpu::Device& device, uint32_t loopIterations);
-// The same for lights of a type. `sampleCount`: of CND_SPECULAR_SAMPLED.
+// Returns the same for lights of a type. `sampleCount`: samples per light of CND_SPECULAR_SAMPLED.
 uint32_t lightsPerBatch(const gpu::Device& device, uint32_t lightType, CndSpecularMethod method,
                         uint32_t sampleCount);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which family of shared/light_families.h evaluates a light type by a specular method.
+// The family of kernels (shared/light_families.h) that evaluates a light type by a specular method.
 #pragma once
 
 #include "candelabra/lighting.h"
@@ -19,14 +19,16 @@ constexpr uint32_t familyOf(uint32_t lightType, CndSpecularMethod method)
                                                        : baseFamilyOf(lightType);
 }
 
-// Whether an error budget changes the evaluation: the closed form of spheres has cheaper bounds.
+// Tells whether an error budget changes the evaluation. It does for the closed form of spheres
+// alone, which knows how large the error of cheaper evaluations may be.
 constexpr bool takesBudget(uint32_t lightType, CndSpecularMethod method)
 {
     return familyOf(lightType, method) == gpu::FAMILY_CONIC;
 }
 
-// Returns the method that stands for `method` where the light type has fewer: punctual lights have
-// one; area lights other than spheres have a representative point, transformed cosines and samples.
+// Returns the method by which lights of the type are evaluated if the frame asks for `method`.
+// Spheres know all methods and punctual lights one. The other area lights know three:
+// representative point (KARIS), transformed cosines (LTC) and samples (SAMPLED).
 constexpr CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method)
 {
     if (method == CND_SPECULAR_NONE || isSphere(lightType))

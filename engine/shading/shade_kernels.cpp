@@ -11,7 +11,7 @@
 namespace candelabra::lighting
 {
 
-// The build found every family of shared/light_families.h.
+// The CMake build has compiled this kernel for every family of shared/light_families.h.
 static_assert(std::size(spirv::shade_tiles_comp) == gpu::FAMILY_COUNT);
 
 uint32_t tileClassesOf(const CndLightingDesc& desc)

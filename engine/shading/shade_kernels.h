@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pipelines that shade: one set per light type and specular method that are in use.
+// The pipelines that shade: one set for each light type and specular method in use.
 #pragma once
 
 #include <span>
@@ -13,21 +13,22 @@
 namespace candelabra::lighting
 {
 
-// Mask of 1 << CLASS_*: the classes of tiles that are told apart, CLASS_ANY among them. Only those
-// that the layout of the G-buffer can store.
+// Returns the material classes that tiles are divided into, as a mask of 1 << CLASS_*. CLASS_ANY is
+// always one of them. The others are those that the host asks for
+// (CndLightingDesc::materialClasses) and the layout of the G-buffer can store.
 uint32_t tileClassesOf(const CndLightingDesc& desc);
 
-// Kernels that know light types and specular methods, one pipeline for each pair that lights and
-// frames may ask for: what is absent costs nothing.
+// The kernels that are specialised for a light type and a specular method. Pipelines are created
+// only for light types that have been present and for methods that frames may ask for.
 class ShadeKernels
 {
 public:
-    // `methods`: mask of 1 << CndSpecularMethod.
-    // `gbuffer`: value of SPEC_GBUFFER. `tileClasses`: as of tileClassesOf. `host` must outlive it.
-    // `measures`: CndLightingDesc::influenceByError.
+    // `gbuffer`: value of SPEC_GBUFFER. `methods`: mask of 1 << CndSpecularMethod. `tileClasses`:
+    // what tileClassesOf returns. `measures`: CndLightingDesc::influenceByError. `device` and
+    // `host` must outlive this object.
     ShadeKernels(const gpu::Device& device, const surfaces::HostKernels& host, uint32_t gbuffer,
                  uint32_t methods, uint32_t tileClasses, bool measures);
-    // Makes the pipelines of a light type unless they exist; whether it did.
+    // Creates the pipelines of the light type that are missing. Returns true if any was created.
     bool require(uint32_t lightType);
 
     bool allows(CndSpecularMethod method) const { return methods_ >> method & 1; }
@@ -40,21 +41,23 @@ public:
     struct Variant {
         Tiles any, specular; // CLASS_ANY, CLASS_SPECULAR
         gpu::Kernel<gpu::ShadeBruteParams> brute;
-        gpu::Kernel<gpu::MeasureInfluenceParams> measure; // where it is asked for, without a budget
+        // Only if `measures` is set, and only in variants without an error budget.
+        gpu::Kernel<gpu::MeasureInfluenceParams> measure;
     };
     const Variant& variant(uint32_t type, CndSpecularMethod method, bool withBudget) const;
+    // Tells whether tiles of this class have a work list and kernels of their own.
     bool tellsApart(uint32_t tileClass) const { return tileClasses_ >> tileClass & 1; }
-    // For a class that is told apart.
+    // Returns the kernels for tiles of a class, for which tellsApart is true.
     const Tiles& tiles(uint32_t type, CndSpecularMethod method, bool withBudget,
                        uint32_t tileClass) const;
-    // One of them: binding layouts are the same for all.
+    // Returns some variant that exists: all have the same binding layouts.
     const Variant& anyVariant() const;
 
 private:
     struct OfType {
         bool made = false;
         Variant variants[CND_SPECULAR_METHOD_COUNT][2]; // [1]: with an error budget
-        Tiles diffuse;                                  // CLASS_DIFFUSE: one for all methods
+        Tiles diffuse; // CLASS_DIFFUSE: without a specular lobe, so the same for all methods
     };
     OfType make(uint32_t lightType) const;
     Variant makeVariant(uint32_t lightType, CndSpecularMethod method, bool withBudget) const;

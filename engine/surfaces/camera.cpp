@@ -24,9 +24,9 @@ void checkCamera(const CndCamera& camera)
     const glm::dmat3 identity = glm::transpose(r) * r;
     for (int c = 0; c < 3; ++c)
         for (int row = 0; row < 3; ++row)
-            if (std::abs(identity[c][row] - (c == row)) > 1e-5) // float cameras reach 1e-6
+            if (std::abs(identity[c][row] - (c == row)) > 1e-5) // matrices of floats reach 1e-6
                 gpu::failArgument("CndCamera: viewFromWorld must be a rotation and a translation");
-    if (glm::determinant(r) < 0) // a reflection would turn one-sided lights around
+    if (glm::determinant(r) < 0) // one-sided lights would face the wrong way
         gpu::failArgument("CndCamera: viewFromWorld must not be a reflection");
 }
 
@@ -56,7 +56,8 @@ gpu::Projection projectionOf(const float (&m)[16], float clearDepth)
                           "projection");
     p.eyeIsPoint = perspective ? 1.0f : 0.0f;
     if (orthographic) {
-        // Depth grows along m22 z / m33; the eye looks from the near depth to clearDepth.
+        // Depth changes by m22 / m33 per metre of z. The eye looks the way in which depth changes
+        // from that of the near end to clearDepth.
         const bool depthGrowsWithZ = p.m22 / p.m33 > 0;
         const bool farIsOne = clearDepth == 1;
         p.eye = {0, 0, depthGrowsWithZ == farIsOne ? -1.0f : 1.0f};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels need of a CndCamera, and which cameras they can take.
+// Checks a CndCamera and turns its projection into what kernels read.
 #pragma once
 
 #include "candelabra/candelabra.h"
@@ -8,11 +8,12 @@
 namespace candelabra::surfaces
 {
 
-// Throws gpu::Failure when viewFromWorld is not a finite rotation and translation.
+// Throws gpu::Failure if viewFromWorld is anything but a finite rotation and translation.
 void checkCamera(const CndCamera& camera);
 
-// The projection as the kernels read it: perspective or orthographic, any depth convention. Throws
-// gpu::Failure for anything else. `clearDepth` (0 or 1) is the depth of the far end.
+// Returns the projection as kernels read it. It may be perspective or orthographic, with any depth
+// convention. Throws gpu::Failure for any other matrix. `clearDepth` (0 or 1) is the depth of the
+// far end.
 gpu::Projection projectionOf(const float (&clipFromView)[16], float clearDepth);
 
 } // namespace candelabra::surfaces

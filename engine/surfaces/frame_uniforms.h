@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters that all kernels of a frame share (shared/frame.h): how they follow from a frame
-// of the host, and the uniform buffer that holds them.
+// The parameters that all kernels of a frame share (shared/frame.h): made from a frame of the host,
+// and held in a uniform buffer.
 #pragma once
 
 #include <cstring>
@@ -15,9 +15,9 @@
 namespace candelabra::surfaces
 {
 
-// `frame` is a CndLightingFrame or a CndEnvironmentFrame: both have these members. Its camera has
-// passed checkCamera. errorBudget, sampleCount and sampleSeed are left at 0. Throws gpu::Failure
-// when the kernels cannot take the projection.
+// Returns the parameters of a frame, apart from errorBudget, sampleCount and sampleSeed, which are
+// 0. `frame` is a CndLightingFrame or a CndEnvironmentFrame, whose camera has passed checkCamera.
+// Throws gpu::Failure if the projection is none that projectionOf takes.
 template <typename Frame>
 gpu::FrameParams frameParams(const Frame& frame, float dielectricF0)
 {
@@ -41,11 +41,12 @@ public:
     FrameUniforms(const gpu::Device& device, uint32_t slots);
     // The GPU must have finished the slot's previous frame.
     void write(uint32_t slot, const gpu::FrameParams& params) const noexcept;
-    // The slot's parameters, to be bound at `binding`.
+    // Returns the parameters of the slot as a binding of number `binding`.
     gpu::Binding at(uint32_t slot, uint32_t binding) const;
 
 private:
-    // Vulkan's largest minUniformBufferOffsetAlignment.
+    // The offset of each slot is a multiple of this, the largest minUniformBufferOffsetAlignment
+    // that Vulkan allows a device.
     static constexpr VkDeviceSize stride = 256;
     static_assert(sizeof(gpu::FrameParams) <= stride);
     gpu::Buffer buffer_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which layouts of a G-buffer there can be.
+// Checks the host's description of its G-buffer.
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -11,7 +11,8 @@ namespace candelabra::surfaces
 namespace
 {
 
-enum class Numbers { Unsigned, Signed, Encoded }; // of colour: 0..1 or up, both signs, sRGB
+// The values that a format stores: 0 and more, both signs, or sRGB-encoded colours.
+enum class Numbers { Unsigned, Signed, Encoded };
 
 struct ColourFormat {
     VkFormat format;
@@ -24,7 +25,7 @@ struct ColourFormat {
     {                                                                                              \
         VK_FORMAT_##name, channels, Numbers::numbers, #name                                        \
     }
-// The formats of G-buffer channels that shaders read as floats.
+// The formats of G-buffer images that shaders read as floats.
 constexpr ColourFormat colourFormats[] = {FORMAT(R8_UNORM, 1, Unsigned),
                                           FORMAT(R8_SNORM, 1, Signed),
                                           FORMAT(R8G8_UNORM, 2, Unsigned),
@@ -80,8 +81,8 @@ void requireSampled(const gpu::Device& device, const char* member, VkFormat form
 struct Image {
     const char* name;
     VkFormat format;
-    const ColourFormat* known; // null: not told
-    uint32_t taken;            // channels that hold the normal or a colour, from red on
+    const ColourFormat* known; // null: the host has not told the format
+    uint32_t taken;            // how many channels, from red on, hold the normal or a colour
     const char* takenBy;
 };
 
@@ -106,7 +107,7 @@ void checkTaken(const Image& image)
              std::to_string(image.known->channels));
 }
 
-// A scalar that shares an image with others.
+// Checks the channel of a scalar, such as roughness, which shares an image with other values.
 void checkChannel(const char* member, CndGBufferChannel channel, const Image (&images)[3])
 {
     constexpr const char* letters[] = {"red", "green", "blue", "alpha"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the surfaces of a host are read: what of its G-buffer is checked, and what the shaders of
-// kernels/common/read_gbuffer.glsl get.
+// How the G-buffer of a host is read: checks of its layout, and the layout and images as
+// kernels/common/read_gbuffer.glsl takes them.
 #pragma once
 
 #include <string>
@@ -12,28 +12,29 @@
 namespace candelabra::surfaces
 {
 
-// Throws gpu::Failure, with a sentence, when the layout cannot be, or cannot be of the formats that
-// are told, or the device cannot read those.
+// Throws gpu::Failure, with a sentence, if the layout contradicts itself or the formats that the
+// host has told, or if the device cannot sample these formats.
 void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& desc);
 
-// What a frame binds. Each normal binding has an image that it can read, whichever is used.
+// The images that the kernels of a frame bind. There are two bindings for normals, of which a
+// layout uses one; the other one gets an image of a type that it can read.
 struct GBufferViews {
     VkImageView packedNormal, hostNormal, albedo, specular, depth;
 };
 
-// One layout, for all views.
+// The layout of the G-buffer, which is the same for all views of a module.
 class GBufferSource
 {
 public:
     // Checks the layout (checkGBuffer).
     GBufferSource(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& desc);
 
-    // The value of SPEC_GBUFFER.
+    // Returns the layout as the value of the specialisation constant SPEC_GBUFFER.
     uint32_t code() const { return code_; }
     float dielectricF0() const { return dielectricF0_; }
 
-    // Throws gpu::Failure where a view that is read is null. Frames of both modules that shade
-    // surfaces have the same members for them.
+    // Throws gpu::Failure if an image view that kernels read is null. `f` is a CndLightingFrame or
+    // a CndEnvironmentFrame, and `frameName` the name of its type.
     template <typename Frame>
     void requireImages(const char* frameName, const Frame& f) const
     {
@@ -52,7 +53,8 @@ public:
     template <typename Frame>
     GBufferViews views(const Frame& f) const
     {
-        const VkImageView albedo = isCustom() ? f.depth : f.albedo; // any that is read as floats
+        // Kernels do not read albedo with a custom layout: any image of floats will do.
+        const VkImageView albedo = isCustom() ? f.depth : f.albedo;
         return {.packedNormal = isPacked() ? f.normalRoughness : standIn_.view.get(),
                 .hostNormal = isHosts() ? f.normalRoughness : albedo,
                 .albedo = albedo,
@@ -60,7 +62,7 @@ public:
                 .depth = f.depth};
     }
 
-    // The first time: makes the image that stands in for packed normals readable.
+    // The first call records a barrier that makes the stand-in for packed normals readable.
     void record(const gpu::Frame& frame) noexcept;
 
 private:
@@ -72,7 +74,7 @@ private:
     uint32_t code_;
     float dielectricF0_;
     bool readsSpecular_;
-    gpu::Image standIn_; // with a layout of the host's, or none
+    gpu::Image standIn_; // of one texel, bound as packed normals if the layout has none
     bool standInReady_ = false;
 };
 

@@ -15,14 +15,14 @@ namespace candelabra::surfaces
 namespace
 {
 
-// A kernel that may be replaced, in either module.
+// A kernel of the lighting or the environment module that a host may replace.
 struct BuiltIn {
     const char* name;
     const gpu::Spirv* spirv;
-    bool evaluates = false; // lights, with the shadow term of the host where there is one
+    bool evaluates = false; // evaluates lights, so that a host's shadow term must be in it
 };
 
-// All that read surfaces.
+// The kernels that read surfaces, apart from measure_influence, which hosts cannot replace.
 const BuiltIn builtIn[] = {
 #define X(index, NAME, iterations) {"shade_tiles:" #NAME, spirv::shade_tiles_comp[index], true},
     CND_LIGHT_FAMILIES(X)
@@ -73,7 +73,7 @@ HostKernels::HostKernels(const CndHostKernels& given, CndGBufferLayout layout)
         if (reflection != gpu::reflect(replaced))
             failKernels(std::string("kernel ") + code.name +
                         " has other bindings or parameters than this version's: compile it anew");
-        // Moving a vector leaves its elements where they are.
+        // `spirv` points to the words. They stay where they are when the vector is moved.
         const gpu::Spirv spirv{replaced.name, words};
         kernels_.push_back({&replaced, std::move(words), spirv, usesSet});
     }
@@ -83,7 +83,8 @@ const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
 {
     const auto host = std::ranges::find(kernels_, &original, &Code::builtIn);
     if (host != kernels_.end()) {
-        needsSet_ = needsSet_ || (host->usesSet && setLayout_); // without: refused as a pipeline
+        // A kernel that uses the set needs its layout, or creating the pipeline fails.
+        needsSet_ = needsSet_ || (host->usesSet && setLayout_);
         return host->spirv;
     }
     const auto* const known = std::ranges::find(builtIn, &original, &BuiltIn::spirv);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels with functions of the host's in them, in place of the built-in ones.
+// Kernels that contain functions of the host and replace built-in ones (CndHostKernels).
 #pragma once
 
 #include <string>
@@ -14,17 +14,18 @@ namespace candelabra::surfaces
 class HostKernels
 {
 public:
-    // Throws gpu::Failure, with a sentence, on what is no kernel, or none of this version.
-    // `layout`: CND_GBUFFER_CUSTOM needs all that read the G-buffer.
+    // Throws gpu::Failure, with a sentence, if `given` has a kernel that cannot be replaced, or
+    // whose bindings or parameters are not those of this version. With the layout
+    // CND_GBUFFER_CUSTOM, of() requires every kernel that reads the G-buffer to be the host's.
     HostKernels(const CndHostKernels& given, CndGBufferLayout layout);
 
     bool empty() const { return kernels_.empty(); }
-    // The host's in place of `builtIn`, or that. Throws gpu::Failure when the host's is needed and
-    // was not given.
+    // Returns the host's kernel that replaces `builtIn`, or `builtIn` if there is none. Throws
+    // gpu::Failure if the host's kernel is required and was not given.
     const gpu::Spirv& of(const gpu::Spirv& builtIn) const;
     VkDescriptorSetLayout setLayout() const { return setLayout_; }
-    // Throws gpu::Failure when a kernel that was taken reads the set of a frame, and it is missing.
-    // `frame`: its type, for the message.
+    // Throws gpu::Failure if `set`, the host's descriptor set in a frame, is null although a kernel
+    // that of() returned uses it. `frame`: name of the frame's type, for the message.
     void requireSet(const char* frame, VkDescriptorSet set) const;
 
 private:
@@ -37,8 +38,8 @@ private:
 
     std::vector<Code> kernels_;
     VkDescriptorSetLayout setLayout_;
-    mutable bool needsSet_ = false; // a kernel that of() gave away uses the set
-    bool readSurfaces_;             // every kernel that reads the G-buffer is the host's
+    mutable bool needsSet_ = false; // a kernel that of() has returned uses the host's set
+    bool readSurfaces_;             // CND_GBUFFER_CUSTOM: every kernel that reads it is the host's
 };
 
 } // namespace candelabra::surfaces

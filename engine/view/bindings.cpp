@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each kernel of a frame reads and writes.
+// The bindings of each kernel of a frame.
 #include "view/view.h"
 
 namespace candelabra::lighting
@@ -102,7 +102,7 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
                                     Binding::of(SHADE_CLUSTERS, clusters_.clusters()),
                                     Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
                                     Binding::of(SHADE_NODE_WORDS, clusters_.nodes())});
-    // Without an image for pairs count_pairs writes none, but every binding must be given.
+    // Every binding needs an image, even if the frame has no pairImage and count_pairs writes none.
     const VkImageView pairs = frame.pairImage ? frame.pairImage : frame.radiance;
     sets_.countPairs.write(set, {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0,
                                  depth, uniforms, dfg, ltc, tiles, heads, entries, surfaces,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What shaders of the host's bind to find the lights of a view (shaders/lib/forward.glsl).
+// What the host's own shaders bind to light points by the lights of a view (lib/forward.glsl).
 #pragma once
 
 #include "gpu/kernel.h"
@@ -8,14 +8,16 @@
 namespace candelabra::lighting
 {
 
+// Creates the layout of the descriptor sets, or none if `stages` is 0. Throws gpu::Failure if
+// `stages` has other stages than vertex, fragment and compute.
 gpu::Handle<VkDescriptorSetLayout> createForwardLayout(const gpu::Device& device,
                                                        VkShaderStageFlags stages);
 
-// The descriptor sets and constants by which the host's shaders find the lights of one view.
+// The descriptor sets of one view, one per slot, and the buffer with the view's ForwardView.
 class ForwardLights
 {
 public:
-    ForwardLights() = default; // none
+    ForwardLights() = default; // for hosts without such shaders: wanted() is false
     // `device` must outlive it.
     ForwardLights(const gpu::Device& device, VkShaderStageFlags stages, uint32_t slots);
     bool wanted() const { return stages_ != 0; }
@@ -25,8 +27,9 @@ public:
         const gpu::Buffer &core, &shapes, &nodes, &ids, &directionalAlbedo, &transformedCosines;
     };
     void write(uint32_t slot, const Inputs& inputs) const;
-    // Waits for shaders that read what the commands behind write; and at the end, for what these
-    // wrote. Nothing when none are wanted.
+    // Both do nothing unless wanted(). recordBegin makes the commands that follow wait until the
+    // host's shaders have read the previous frame's lights, and writes `view`. recordEnd makes what
+    // the commands before it have written visible to the host's shaders.
     void recordBegin(const gpu::Frame& frame, const gpu::ForwardView& view) const noexcept;
     void recordEnd(const gpu::Frame& frame) const noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame may ask of a view.
+// Checks of what the host says in a frame.
 #pragma once
 
 #include "view/module.h"
@@ -7,11 +7,11 @@
 namespace candelabra::lighting
 {
 
-// Both throw gpu::Failure naming the first field outside its documented range. `view`: how the view
-// was created.
+// Both functions throw gpu::Failure naming the first field outside its documented range. `view` is
+// what the view was created with.
 void checkFrame(const Module& module, const CndLightingViewDesc& view,
                 const CndLightingFrame& frame);
-// Only what describes the surfaces, which an overlay reads as well.
+// Checks only the fields that describe the surfaces, which are those that an overlay reads.
 void checkSurfaces(const Module& module, const CndLightingViewDesc& view,
                    const CndLightingFrame& frame);
 

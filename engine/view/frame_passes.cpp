@@ -8,7 +8,7 @@ namespace candelabra::lighting
 namespace
 {
 
-// By Pass: names of kernels.
+// The name of each Pass, which is that of its kernel.
 constexpr std::array<const char*, passCount> names = {
     "device_lights", "light_order",   "dfg_table",      "prepare_lights", "measure_influence",
     "cut_lights",    "tile_clusters", "split_tiles",    "block_clusters", "light_tree",
@@ -30,7 +30,7 @@ FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
         skip(Pass::DeviceLights, "lights unchanged");
     if (!c.lightsChanged)
         skip(Pass::LightOrder, "lights unchanged");
-    // A light set travels with the first recording, whatever it shows.
+    // The lights are uploaded and sorted by the first recording, even if none reaches its view.
     if (!c.placedInView && !c.distantInView)
         for (size_t pass = size_t(Pass::LightOrder) + 1; pass < passCount; ++pass)
             skip(Pass(pass),
@@ -75,7 +75,7 @@ void FramePasses::skip(Pass pass, const char* reason)
 
 void FramePasses::addFindings(const gpu::LightingCounters& counters)
 {
-    if (!runs(Pass::ShadeTiles)) // brute force, or nothing at all
+    if (!runs(Pass::ShadeTiles)) // brute force, or no light
         return;
     if (!surfaceTileCount(counters))
         for (const Pass pass : {Pass::SplitTiles, Pass::ShadeTiles, Pass::CountPairs})

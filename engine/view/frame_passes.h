@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan of a frame: which passes its content asks for, and why it does without the others.
+// The passes of a frame: which of them its content needs, and the reason why each other is left
+// out.
 #pragma once
 
 #include <array>
@@ -30,21 +31,21 @@ enum class Pass : uint8_t {
 inline constexpr size_t passCount = size_t(Pass::CountPairs) + 1;
 static_assert(passCount <= CND_MAX_PASSES);
 
-// What the host knows of a frame before it is recorded.
+// What is known about a frame before it is recorded.
 struct FrameContent {
-    bool lights = false;   // there are any
-    bool inLayers = false; // some may have a layer of the view's
-    // Some reach the view: of the types that have a place, of the distant ones.
+    bool lights = false;   // there is a light
+    bool inLayers = false; // some light may be in a layer of the frame
+    // Some light may reach the view: one with a position, a distant one.
     bool placedInView = false, distantInView = false;
-    bool lightsChanged = false; // since the frame before
-    bool deviceLights = false;  // some come from the device
+    bool lightsChanged = false; // some changes are not uploaded yet
+    bool deviceLights = false;  // some lights come from the device (CndDeviceLights)
     bool deviceLightsChanged = false;
     bool brute = false;
-    bool listsKept = false; // those of the frame before are this frame's
+    bool listsKept = false; // this frame uses the lists of the previous one
     bool readsAlbedoTable = false, albedoTableFilled = false;
-    bool cutByError = false; // CND_INFLUENCE_BY_ERROR, and it can be measured
+    bool cutByError = false; // the frame follows CND_INFLUENCE_BY_ERROR (influenceOf)
     bool countPairs = false;
-    bool forward = false; // shaders of the host's walk the light tree
+    bool forward = false; // shaders of the host walk the light tree
 };
 
 class FramePasses
@@ -54,15 +55,15 @@ public:
     explicit FramePasses(const FrameContent& content);
 
     bool runs(Pass pass) const { return !skipped_[size_t(pass)]; }
-    // What the GPU found to be empty: its indirect dispatches had no groups.
+    // Adds the passes that had nothing to do because the GPU found their work lists to be empty.
     void addFindings(const gpu::LightingCounters& counters);
     void write(CndPassPlan (&out)[CND_MAX_PASSES], uint32_t& count) const;
 
 private:
-    void skip(Pass pass, const char* reason); // the first reason stays
+    void skip(Pass pass, const char* reason); // a pass keeps the reason that it got first
 
     std::array<const char*, passCount> skipped_{};
-    bool listsAlone_ = true; // no distant lights, which every surface has
+    bool listsAlone_ = true; // there are no distant lights, which light surfaces without lists
 };
 
 } // namespace candelabra::lighting

@@ -14,20 +14,20 @@ namespace candelabra::lighting
 namespace
 {
 
-// Tiles longer than so many radii of influence are split. Half and twice of it are as fast
-// (DECISIONS 25).
+// Tiles longer than this many radii of influence are split into slices. Half and twice as many were
+// measured to be as fast (DECISIONS 25).
 constexpr float splitLength = 2;
 constexpr uint32_t defaultSampleCount = 64;
 
-// Lights by type, 0 for types that the frame can do without.
+// Returns the number of lights by type, or 0 for types that the frame leaves out.
 LightTypeCounts typesOf(const LightSet& lights, const CndLightingFrame& frame)
 {
-    if (frame.culling == CND_CULLING_BRUTE) // the check: it knows no bound
+    if (frame.culling == CND_CULLING_BRUTE) // what culling is compared with: it leaves nothing out
         return lights.typeCounts();
     const uint32_t layers = layersOf(frame.layers);
     return influenceOf(frame) == CND_INFLUENCE_GIVEN
                ? lights.countsInView(frame.camera, layers)
-               : lights.countsInLayers(layers); // they may reach the view from anywhere
+               : lights.countsInLayers(layers); // each light may reach the view, wherever it is
 }
 
 gpu::FrameParams frameParams(const Module& module, const CndLightingFrame& frame)
@@ -61,7 +61,7 @@ FramePlan planFrame(const Module& module, const CndLightingFrame& frame)
             .tileCount = {tilesAlong(frame.width), tilesAlong(frame.height)},
             .lights = typesOf(lights, frame),
             .trees = treeShapes(lights.typeCounts()),
-            // Radii other than those that lights were given are known on the device alone.
+            // Radii that do not come from the host are known on the device alone.
             .splitLength = influenceOf(frame) == CND_INFLUENCE_GIVEN
                                ? splitLength * lights.extent().influenceRadius
                                : std::numeric_limits<float>::infinity(),

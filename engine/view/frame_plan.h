@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one frame of a view is made with: everything that its dispatches are sized with and given.
+// What is computed about a frame before its passes are recorded: the parameters of its kernels and
+// the numbers that determine the sizes of dispatches.
 #pragma once
 
 #include "view/module.h"
@@ -11,17 +12,17 @@ struct FramePlan {
     const CndLightingFrame& frame;
     gpu::FrameParams params; // for the frame's uniform buffer
     glm::uvec2 tileCount;
-    LightTypeCounts lights; // by type, 0 for types that the frame can do without
+    LightTypeCounts lights; // by type; 0 for types that the frame leaves out
     TreeShapes trees;
     float splitLength; // gpu::TileClustersParams
     gpu::PrepareLightsParams prepare;
 };
 
-// `frame` is valid and must outlive the plan. Throws gpu::Failure when the kernels cannot take its
-// projection.
+// `frame` has passed checkFrame and must outlive the plan. Throws gpu::Failure if its projection is
+// none that projectionOf takes.
 FramePlan planFrame(const Module& module, const CndLightingFrame& frame);
 
-// Tiles in a row of so many pixels.
+// Returns the number of tiles in a row of `pixels` pixels.
 inline uint32_t tilesAlong(uint32_t pixels)
 {
     return gpu::divideUp(pixels, gpu::TILE_SIZE);

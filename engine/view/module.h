@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all views of a lighting module share: its pipelines, its lights, its tables, and how it was
-// created. Lighting owns all of it and hands it to each view.
+// What all views of a lighting module share: its pipelines, its lights, its tables, and the
+// description that it was created with. Lighting owns all of this and passes it to each view.
 #pragma once
 
 #include "gpu/recordings.h"
@@ -16,8 +16,8 @@ namespace candelabra::lighting
 {
 
 struct Kernels {
-    // `gbuffer`: value of SPEC_GBUFFER. `withIds`: prepare_lights writes the ids of lights. `host`
-    // must outlive it.
+    // `gbuffer`: value of SPEC_GBUFFER. `withIds`: prepare_lights writes the ids of lights.
+    // `device` and `host` must outlive this object.
     Kernels(const gpu::Device& device, const surfaces::HostKernels& host,
             const CndLightingDesc& desc, uint32_t gbuffer, bool withIds);
     gpu::Kernel<gpu::PrepareLightsParams> prepareLights;
@@ -38,8 +38,8 @@ struct Module {
     LightSet& lights;
 };
 
-// Shaders may ask which light a light is: those of the host's forward passes, or functions of the
-// host's in our kernels.
+// Tells whether ids of lights are needed on the device: forward shaders of the host and functions
+// of the host in our kernels may read them.
 inline bool readsLightIds(const CndLightingDesc& desc)
 {
     return desc.forwardStages || desc.hostKernels.count;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame: View::record is the order of its passes, the functions after it are the passes.
+// Records one frame: View::record has its passes in their order, the functions after it have the
+// passes.
 #include <algorithm>
 
 #include "shading/light_batches.h"
@@ -13,8 +14,8 @@ namespace
 
 using gpu::divideUp;
 
-// Calls `record` with the kernels and the work list of each class of tiles: no two have a tile in
-// common.
+// Calls `record` for each material class of tiles, with its kernels and the offset of its work
+// list. No tile is on two of these lists, so their dispatches need no barriers between them.
 template <typename Record>
 void byClass(const ShadeKernels& kernels, const CndLightingFrame& frame, uint32_t type,
              Record&& record) noexcept
@@ -57,7 +58,7 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     timer_.begin(cmd, slot);
 
     forward_.recordBegin(f, forwardView(plan));
-    f.barrier(); // against the frame before, which uses the same buffers
+    f.barrier(); // the previous frame uses the same buffers
     module_.lights.recordUpload(f, recording);
     // Counters of reused lists keep their values: those lists are not made again in this frame.
     const VkDeviceSize firstCounter =
@@ -73,7 +74,8 @@ void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
     f.device.endLabel(cmd);
 }
 
-// Whether the lists of the frame recorded before are this one's; remembers what this one's are for.
+// Tells whether this frame can use the lists of the previous frame. Stores what this frame's lists
+// are made for.
 bool View::keepsLists(const FramePlan& p)
 {
     const CndLightingFrame& frame = p.frame;
@@ -81,8 +83,8 @@ bool View::keepsLists(const FramePlan& p)
     if (frame.culling == CND_CULLING_CLUSTERED && module_.lights.count())
         key = {module_.lights.number(), frame.specularMethod, p.params.sampleCount,
                layersOf(frame.layers), influenceOf(frame)};
-    // What an error allows depends on the other light of the image as well, and is measured at
-    // other pixels in each frame.
+    // Radii by error depend on light from elsewhere in the image too, and each frame measures them
+    // at other pixels. So lists that are made with such radii are not kept.
     const bool same = frame.surfacesUnchanged && key.lightSet &&
                       key.rule != CND_INFLUENCE_BY_ERROR && key == lists_;
     lists_ = key;
@@ -136,10 +138,10 @@ void View::recordPasses(const gpu::Frame& f, const FramePlan& p, const FramePass
         }
 }
 
-// The radii of influence at which the display misses no more light than the frame allows.
+// Sets the radii of influence so that the display differs by no more than the frame allows.
 void View::recordInfluence(const gpu::Frame& f, const FramePlan& p) noexcept
 {
-    gpu::Timer untimed; // all rounds are one row
+    gpu::Timer untimed; // the rounds share one row of times
     const gpu::Frame u{f.device, f.cmd, untimed, f.slot};
     const char* measured = nullptr;
     const uint32_t rounds = influence_->recordBegin(u, p.frame);
@@ -148,12 +150,11 @@ void View::recordInfluence(const gpu::Frame& f, const FramePlan& p) noexcept
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
             if (!p.lights[type])
                 continue;
-            // Lights are measured in full, whatever the frame's error budget: the kernel has no
-            // variant for one.
+            // The kernel has no variant with an error budget, so it evaluates lights in full.
             const Influence::MeasureKernel& kernel =
                 module_.kernels.shade.variant(type, p.frame.specularMethod, false).measure;
             measured = kernel.name();
-            // The lanes of a sample share the lights out among them.
+            // Each of the lanes of a sample takes only its share of the lights.
             const uint64_t largest =
                 uint64_t(lightsPerBatch(p, type)) * gpu::MEASURE_INFLUENCE_LANES;
             inBatches(allLights(p, type), uint32_t(std::min<uint64_t>(largest, UINT32_MAX)),
@@ -180,7 +181,7 @@ void View::recordClusters(const gpu::Frame& f, const FramePlan& p,
                 clusters_.recordTree(f, p.trees[type]);
 }
 
-// The lengths of work lists are statistics as well.
+// Copies the lengths of the work lists of tiles into the counters, since they are statistics.
 void View::recordTileCounts(const gpu::Frame& f) const noexcept
 {
     const auto count = [&](const gpu::Buffer& work, uint32_t list, VkDeviceSize counter) {
@@ -230,13 +231,14 @@ void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t typ
         recordCountPairs(f, p, type);
 }
 
-// Clusters whose list found no page; then, where the device limits loops, those of too many lights,
-// by parts of the light tree.
+// Shades the clusters whose lists found no page. Then, if the device limits loops, shades the
+// clusters with more lights than a loop can take, in several dispatches that walk a part of the
+// tree each.
 void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
 {
     const ShadeKernels& kernels = module_.kernels.shade;
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
-    gpu::Timer untimed; // the parts are one row
+    gpu::Timer untimed; // the dispatches share one row of times
     const gpu::Frame u{f.device, f.cmd, untimed, f.slot, f.hostSet};
     const auto record = [&](const gpu::ShadeUnlistedParams& part) {
         byClass(kernels, p.frame, type,
@@ -251,11 +253,13 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
             .batch = allLights(p, type),
             .tree = p.trees[type]});
     if (module_.device.maxLoopIterations != UINT32_MAX) {
-        // A row of eight pixels may hold four clusters that take turns at walking the tree;
-        // besides, finding a light takes about as many iterations as evaluating it.
+        // Eight pixels of a row may belong to four clusters, whose walks run one after the other if
+        // the device runs these pixels together. Besides, finding a light takes about as many loop
+        // iterations as evaluating it.
         const uint32_t largest =
             std::max(lightsPerBatch(p, type) / (2 * gpu::SLICES), gpu::TREE_WIDTH);
-        uint32_t level = 1, size = gpu::TREE_WIDTH; // of the nodes that batches consist of
+        // Batches consist of whole nodes of this level, which hold this many lights.
+        uint32_t level = 1, size = gpu::TREE_WIDTH;
         for (; level < 3 && size * gpu::TREE_WIDTH <= largest; ++level)
             size *= gpu::TREE_WIDTH;
         inBatches(allLights(p, type), largest / size * size, [&](const gpu::LightBatch& batch) {
@@ -281,7 +285,7 @@ void View::recordCountPairs(const gpu::Frame& f, const FramePlan& p, uint32_t ty
     f.barrier();
 }
 
-// Every light at every pixel of the frame, or of a rectangle of it.
+// Shades every pixel of the frame, or of bruteRect, by every light of the type.
 void View::recordBrute(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
 {
     const ShadeKernels::Variant& kernels =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of what is read of a G-buffer: one kernel.
+// The surface overlay, a picture of what kernels read from the G-buffer, which one kernel draws.
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -50,10 +50,10 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
     const glm::dmat3 worldFromView = glm::transpose(glm::dmat3(viewFromWorld)); // a rotation
     const glm::dvec3 eye = -(worldFromView * glm::dvec3(viewFromWorld[3]));
     glm::vec3 eyeInPeriod;
-    for (int i = 0; i < 3; ++i) // float32 would not resolve metres far from the origin
+    for (int i = 0; i < 3; ++i) // far from the origin float32 would be too coarse
         eyeInPeriod[i] = float(std::fmod(eye[i], double(SURFACE_PERIOD)));
 
-    Timer untimed; // times are of cndRecordLighting
+    Timer untimed; // kernel times are those of cndRecordLighting
     const Frame f{module_.device, cmd, untimed, frame.frameSlot, frame.hostSet};
     f.device.beginLabel(cmd, "candelabra surface overlay");
     module_.gbuffer.record(f);

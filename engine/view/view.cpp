@@ -11,7 +11,7 @@ namespace
 
 constexpr VkDeviceSize defaultListBudget = 64u << 20;
 constexpr uint32_t maxGroupsPerDimension = 65535; // Vulkan's guaranteed maxComputeWorkGroupCount
-constexpr uint32_t maxSide = 16384;               // pixels, of a view
+constexpr uint32_t maxSide = 16384;               // pixels; largest width and height of a view
 static_assert(maxSide / gpu::TILE_SIZE * (maxSide / gpu::TILE_SIZE) <=
               maxGroupsPerDimension * gpu::TILE_CLUSTERS_GROUP);
 
@@ -85,7 +85,7 @@ void View::makeRoom(uint32_t lightCapacity, LightTypeCounts types)
 {
     const gpu::Device& device = module_.device;
     const VkDeviceSize lights = lightCapacity;
-    lists_ = {}; // new buffers hold no trees and no lists
+    lists_ = {}; // the next frame makes its lists anew, since buffers may be new
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         types[type] += module_.desc.lightTypes >> type & 1;
     clusters_.grow(lightCapacity, types);

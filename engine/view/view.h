@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// View: the buffers of one view, and the passes of its frames in their order.
+// One view: its buffers, and the passes of its frames in their order.
 #pragma once
 
 #include <optional>
@@ -15,25 +15,26 @@ namespace candelabra::lighting
 class View
 {
 public:
-    // `module` must outlive it.
+    // `module` must outlive the view.
     View(const Module& module, const CndLightingViewDesc& desc);
     View(const View&) = delete;
     View& operator=(const View&) = delete;
 
-    // Both throw gpu::Failure on arguments out of range; once recording starts nothing can fail.
+    // Both throw gpu::Failure, before anything is recorded, if an argument is out of range.
     void record(VkCommandBuffer cmd, const CndLightingFrame& frame);
     void recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
                        const CndSurfaceOverlay& overlay); // surface_overlay.cpp
 
     CndResult stats(uint32_t slot, CndLightingStats& stats) const noexcept;
-    // Tells the host of statistics that it should do something about, once.
+    // Sends the host a message, once, for each statistic that shows a problem.
     void tell(const CndLightingStats& stats) const noexcept;
-    VkDescriptorSet forwardSet(uint32_t slot) const; // throws gpu::Failure when there is none
-    // Makes room for a set of lights that the module is about to take; throws when that fails.
+    VkDescriptorSet forwardSet(uint32_t slot) const; // throws gpu::Failure if there is none
+    // Makes room for a set of lights before the module takes it. Throws gpu::Failure if that fails.
     void makeRoom(uint32_t lightCapacity, LightTypeCounts types);
 
 private:
-    // What the lists of a frame were made for, besides its surfaces.
+    // What the lists of a frame depend on besides its surfaces: a frame may reuse the lists of the
+    // previous one if these values are the same.
     struct ListsKey {
         uint64_t lightSet = 0; // 0: there are no lists
         CndSpecularMethod method = CND_SPECULAR_NONE;
@@ -66,12 +67,13 @@ private:
     void writeBruteBindings(const CndLightingFrame& frame,
                             const surfaces::GBufferViews& images) const;
 
-    // One set per slot; of the kernels that shade clusters one per slot and light type.
+    // One descriptor set per slot. shadeTiles, shadeUnlisted and countPairs have one per slot and
+    // light type.
     struct Sets {
         gpu::Bindings prepareLights, shadeTiles, shadeUnlisted, shadeBrute, countPairs,
             surfaceOverlay;
     };
-    // What statistics of a slot's recording say that the device does not count.
+    // The part of the statistics of a slot's recording that the device does not count.
     struct SlotPlan {
         LightTypeCounts lights{};
         FramePasses passes;
@@ -82,19 +84,21 @@ private:
     gpu::Timer timer_;
     Clusters clusters_;
     surfaces::FrameUniforms uniforms_;
-    // An overlay may be recorded after the lighting of its slot, with another camera or other
-    // settings, before the GPU has read what the lighting wrote: it needs a buffer of its own.
+    // The overlay's parameters have a buffer of their own: an overlay with another camera may be
+    // recorded for the same slot before the GPU has read the parameters of the lighting.
     surfaces::FrameUniforms overlayUniforms_;
     Sets sets_;
-    gpu::Buffer core_, shapes_, ids_; // one per light; when nobody reads ids, one in all
+    gpu::Buffer core_, shapes_, ids_; // per light; ids_ holds one element if nothing reads ids
     gpu::Buffer counters_;            // gpu::LightingCounters
-    gpu::RecordingSlots slots_;       // they read the counters back
+    gpu::RecordingSlots slots_;       // through which the host reads the counters
     std::vector<SlotPlan> plans_;     // per slot
     ForwardLights forward_;
     std::optional<Influence> influence_; // CndLightingDesc::influenceByError
-    ListsKey lists_;                     // of the frame recorded last
+    ListsKey lists_;                     // what the lists of the last frame were made for
+    // What tell() has already sent a message about: clusters without lists, and rejected lights of
+    // the light set of this number.
     mutable bool toldUnlisted_ = false;
-    mutable uint64_t toldRejected_ = 0; // light set
+    mutable uint64_t toldRejected_ = 0;
 };
 
 } // namespace candelabra::lighting
