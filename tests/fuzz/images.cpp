@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzzes the loaders of floating-point images; the first byte chooses the format.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <half.h>
+
 #include "fuzz/fuzz_target.h"
 #include "io/image.h"
 
@@ -7,6 +13,26 @@ namespace
 {
 
 constexpr const char* extensions[] = {".hdr", ".exr", ".pfm"};
+
+// Writes an EXR file as others do: with channels of halves, one of which is not read.
+void writeHalves(const std::string& path, Imf::Compression compression)
+{
+    constexpr int width = 19, height = 5;
+    half plane[width * height];
+    for (int i = 0; i < width * height; ++i)
+        plane[i] = float(i / 4) * 0.25f;
+    Imf::Header header(width, height);
+    header.compression() = compression;
+    Imf::FrameBuffer slices;
+    for (const char* name : {"A", "B", "G", "R"}) {
+        header.channels().insert(name, Imf::Channel(Imf::HALF));
+        slices.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(plane), sizeof(half),
+                                       sizeof(half) * width));
+    }
+    Imf::OutputFile file(path.c_str(), header, 0);
+    file.setFrameBuffer(slices);
+    file.writePixels(height);
+}
 
 } // namespace
 
@@ -27,6 +53,12 @@ Seeds fuzzSeeds()
                 out.push_back(char('0' + format) + fileText(path));
             }
         }
+    for (const Imf::Compression compression :
+         {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::PIZ_COMPRESSION}) {
+        const std::string path = fuzzFile(nullptr, 0, ".exr");
+        writeHalves(path, compression);
+        out.push_back('1' + fileText(path));
+    }
     return out;
 }
 

@@ -9,7 +9,18 @@
 #include <limits>
 #include <memory>
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDeepScanLineOutputFile.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
+#include <half.h>
 #include <stb/stb_image.h>
 #include <sys/resource.h>
 
@@ -95,21 +106,169 @@ TEST(ImageFiles, PfmIsLittleEndianFromTheBottom)
     expectSame(loadPfm(folder.write("big.pfm", big)), image);
 }
 
-TEST(ImageFiles, ExrHasZipScanlinesOfFloats)
+// Our files are read by the C++ classes of OpenEXR, of which our code uses nothing.
+TEST(ImageFiles, ExrIsReadByOthers)
 {
     const TemporaryFolder folder;
-    saveExr(folder.path("image.exr"), testImage(64, 64, 3));
-    const Bytes bytes = readBytes(folder.path("image.exr"));
-    const std::string text(bytes.begin(), bytes.end());
-    const auto attribute = [&](const std::string& name, const std::string& type, size_t offset) {
-        const size_t at = text.find(name + '\0' + type + '\0');
-        return at == std::string::npos ? -1
-                                       : int{bytes[at + name.size() + type.size() + 6 + offset]};
+    const std::string path = folder.path("image.exr");
+    for (const auto& [width, height] : sizes)
+        for (const uint32_t channels : {1u, 3u}) {
+            const Image image = testImage(width, height, channels);
+            saveExr(path, image);
+            Imf::InputFile file(path.c_str(), 0);
+            const Imf::Header& header = file.header();
+            EXPECT_EQ(header.compression(), Imf::ZIP_COMPRESSION);
+            EXPECT_EQ(header.lineOrder(), Imf::INCREASING_Y);
+            EXPECT_EQ(header.dataWindow(), header.displayWindow());
+            const Imath::Box2i window({0, 0}, {int(width) - 1, int(height) - 1});
+            ASSERT_EQ(header.dataWindow(), window);
+            Image back{width, height, channels, std::vector<float>(image.pixels.size())};
+            Imf::FrameBuffer slices;
+            const std::string names = channels == 3 ? "RGB" : "Y";
+            size_t found = 0;
+            for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++found) {
+                ASSERT_NE(names.find(c.name()), std::string::npos) << c.name();
+                EXPECT_EQ(c.channel().type, Imf::FLOAT);
+                const size_t pixel = channels * sizeof(float);
+                slices.insert(c.name(), Imf::Slice(Imf::FLOAT,
+                                                   reinterpret_cast<char*>(
+                                                       &back.pixels[names.find(c.name())]),
+                                                   pixel, pixel * width));
+            }
+            EXPECT_EQ(found, channels);
+            file.setFrameBuffer(slices);
+            file.readPixels(0, int(height) - 1);
+            expectSame(back, image);
+        }
+}
+
+// An EXR file as other programs write it, with channels that need not be ours.
+struct ForeignExr {
+    std::string channels = "BGR"; // names of one letter
+    Imf::PixelType type = Imf::FLOAT;
+    Imf::Compression compression = Imf::ZIP_COMPRESSION;
+    Imf::LineOrder order = Imf::INCREASING_Y;
+    int width = 37, height = 70, left = 0, top = 0;
+    int sampling = 1; // of the first channel
+
+    // What half, float and int can hold.
+    float value(size_t channel, int x, int y) const
+    {
+        return float((x * 7 + y * 31 + int(channel) * 113) % 1021);
+    }
+    Imf::Header header() const
+    {
+        const Imath::Box2i window({left, top}, {left + width - 1, top + height - 1});
+        Imf::Header out(window, window, 1, {0, 0}, 1, order, compression);
+        for (size_t c = 0; c < channels.size(); ++c)
+            out.channels().insert(channels.substr(c, 1),
+                                  Imf::Channel(type, c == 0 ? sampling : 1, c == 0 ? sampling : 1));
+        return out;
+    }
+    template <typename T>
+    void write(const std::string& path) const
+    {
+        std::vector<std::vector<T>> planes;
+        Imf::FrameBuffer slices;
+        for (size_t c = 0; c < channels.size(); ++c) {
+            const int n = c == 0 ? sampling : 1;
+            std::vector<T>& plane = planes.emplace_back();
+            for (int y = 0; y < height / n; ++y)
+                for (int x = 0; x < width / n; ++x)
+                    plane.push_back(T(value(c, x, y)));
+        }
+        for (size_t c = 0; c < channels.size(); ++c) {
+            const int n = c == 0 ? sampling : 1;
+            const size_t row = size_t(width / n) * sizeof(T);
+            char* origin = reinterpret_cast<char*>(planes[c].data()) -
+                           ptrdiff_t(sizeof(T)) * (left / n) - ptrdiff_t(row) * (top / n);
+            slices.insert(channels.substr(c, 1), Imf::Slice(type, origin, sizeof(T), row, n, n));
+        }
+        Imf::OutputFile file(path.c_str(), header(), 0);
+        file.setFrameBuffer(slices);
+        file.writePixels(height);
+    }
+    void write(const std::string& path) const
+    {
+        type == Imf::HALF    ? write<half>(path)
+        : type == Imf::FLOAT ? write<float>(path)
+                             : write<unsigned>(path);
+    }
+    // What must be read of it, if `wanted` are the channels in the order of our pixels.
+    Image expected(const std::string& wanted) const
+    {
+        Image out{uint32_t(width), uint32_t(height), uint32_t(wanted.size()), {}};
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (const char name : wanted)
+                    out.pixels.push_back(value(channels.find(name), x, y));
+        return out;
+    }
+};
+
+TEST(ImageFiles, ExrOfOthersIsRead)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path("foreign.exr");
+    for (const Imf::Compression compression :
+         {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
+          Imf::PIZ_COMPRESSION})
+        for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT})
+            for (const auto& [channels, wanted] : {std::pair{"Y", "Y"},
+                                                   {"BGR", "RGB"},
+                                                   {"ABGR", "RGB"},
+                                                   {"ABGRZ", "RGB"},
+                                                   {"AGR", "A"},
+                                                   {"ABGZ", "A"},
+                                                   {"XY", "X"}}) {
+                SCOPED_TRACE(channels + std::string(" ") + std::to_string(int(compression)) +
+                             (type == Imf::HALF ? " half" : " float"));
+                ForeignExr foreign{.channels = channels, .type = type, .compression = compression};
+                foreign.write(path);
+                expectSame(loadExr(path), foreign.expected(wanted));
+            }
+    ForeignExr foreign{.order = Imf::DECREASING_Y, .left = -3, .top = 11};
+    foreign.write(path);
+    expectSame(loadExr(path), foreign.expected("RGB"));
+}
+
+TEST(ImageFiles, ExrsOfOtherKindsAreRefused)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path("foreign.exr");
+    const auto expectRefused = [&](const std::string& reason) {
+        EXPECT_EQ(errorOf([&] { loadExr(path); }), "cannot read " + path + ": " + reason);
     };
-    EXPECT_EQ(attribute("compression", "compression", 0), 3); // ZIP, blocks of 16 rows
-    EXPECT_EQ(attribute("channels", "chlist", 0), 'B');       // alphabetical
-    EXPECT_EQ(attribute("channels", "chlist", 2), 2);         // float
-    EXPECT_EQ(bytes[5], 0);                                   // flags: neither tiled nor deep
+    ForeignExr{.type = Imf::UINT}.write(path);
+    expectRefused("channel B has integers");
+    ForeignExr{.width = 36, .sampling = 2}.write(path);
+    expectRefused("channel B is subsampled, which is not supported");
+    for (const Imf::Compression compression :
+         {Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION,
+          Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+        ForeignExr{.type = Imf::HALF, .compression = compression}.write(path);
+        expectRefused("has lossy compression (PXR24, B44 or DWA), which is not supported");
+    }
+
+    // For the rest the header is enough.
+    Imf::Header header = ForeignExr().header();
+    header.setTileDescription({16, 16, Imf::ONE_LEVEL});
+    Imf::TiledOutputFile(path.c_str(), header, 0);
+    expectRefused("is tiled, which is not supported");
+
+    header = ForeignExr().header();
+    header.setType(Imf::SCANLINEIMAGE);
+    header.setName("left");
+    Imf::Header second = header;
+    second.setName("right");
+    const Imf::Header parts[] = {header, second};
+    Imf::MultiPartOutputFile(path.c_str(), parts, 2, false, 0);
+    expectRefused("is a multi-part or deep EXR file");
+
+    header = ForeignExr{.compression = Imf::ZIPS_COMPRESSION}.header();
+    header.setType(Imf::DEEPSCANLINE);
+    Imf::DeepScanLineOutputFile(path.c_str(), header, 0);
+    expectRefused("is a multi-part or deep EXR file");
 }
 
 TEST(ImageFiles, HdrKeepsEightBits)
@@ -295,25 +454,114 @@ TEST(ImageFiles, AFullDiskLeavesTheOldFile)
     EXPECT_EQ(files, 1u); // no temporary file is left
 }
 
-// Found by libFuzzer: tinyexr allocates whatever size the data window claims.
+// The most memory that this process had so far, in MiB.
+long peakMemory()
+{
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;
+}
+
+// Overwrites 32-bit values of an attribute. `type` is the name of its type.
+Bytes edited(Bytes bytes, const std::string& attribute, const std::string& type,
+             std::initializer_list<int32_t> values)
+{
+    const std::string key = attribute + '\0' + type + '\0';
+    const auto at = std::search(bytes.begin(), bytes.end(), key.begin(), key.end());
+    if (at == bytes.end())
+        throw std::runtime_error("no attribute " + attribute);
+    auto byte = at + long(key.size()) + 4; // after the size of the value
+    for (const int32_t value : values)
+        for (int i = 0; i < 4; ++i)
+            *byte++ = static_cast<uint8_t>(static_cast<uint32_t>(value) >> (8 * i));
+    return bytes;
+}
+
+// libFuzzer once found an EXR file that asked for 2^63 bytes.
 TEST(ImageFiles, ExrsOfAbsurdSizesAreRefused)
 {
     const TemporaryFolder folder;
     saveExr(folder.path("image.exr"), testImage(8, 8, 3));
-    Bytes bytes = readBytes(folder.path("image.exr"));
-    const std::string name = "dataWindow";
-    const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
-    ASSERT_NE(at, bytes.end());
-    const auto corner = at + 11 + 6 + 4; // skips the name, the type "box2i" and the size; then x,
-                                         // y, x, y
-    for (const int32_t y : {std::numeric_limits<int32_t>::min(), -20'000, 8}) {
-        for (int i = 0; i < 4; ++i)
-            corner[4 + i] = static_cast<uint8_t>(static_cast<uint32_t>(y) >> (8 * i));
+    const Bytes whole = readBytes(folder.path("image.exr"));
+    const long before = peakMemory();
+    const auto errorOfBytes = [&](const Bytes& bytes) {
         const std::string path = folder.write("absurd.exr", bytes);
-        EXPECT_NE(errorOf([&] { loadExr(path); }).find("its data window has 8 x "),
-                  std::string::npos)
-            << y << ": " << errorOf([&] { loadExr(path); });
+        const std::string message = errorOf([&] { loadExr(path); }),
+                          start = "cannot read " + path + ": ";
+        EXPECT_EQ(message.find(start), 0u) << message;
+        return message.substr(std::min(start.size(), message.size()));
+    };
+    const auto errorOfWindow = [&](int32_t left, int32_t top, int32_t right, int32_t bottom) {
+        return errorOfBytes(edited(whole, "dataWindow", "box2i", {left, top, right, bottom}));
+    };
+    EXPECT_EQ(errorOfWindow(0, std::numeric_limits<int32_t>::min(), 7, 7).find("Invalid data"), 0u);
+    EXPECT_EQ(errorOfWindow(0, 8, 7, 7).find("Invalid data window"), 0u);
+    EXPECT_EQ(errorOfWindow(0, -20'000, 7, 7),
+              "its data window has 8 x 20008 pixels; 1 to 16384 a side can be read");
+    EXPECT_EQ(errorOfWindow(-1000, 0, 1'000'000'000, 7),
+              "its data window has 1000001001 x 8 pixels; 1 to 16384 a side can be read");
+    // A size that can be read, but its 3 GiB of pixels are not in the file.
+    EXPECT_NE(errorOfWindow(0, 0, 16383, 16383), "");
+
+    // An attribute that claims 2^31 - 1 bytes, in place of one of 4 bytes.
+    Bytes bytes = whole;
+    const std::string from = std::string("pixelAspectRatio") + '\0' + "float" + '\0',
+                      to = std::string("comment") + '\0' + "string" + '\0' + "\xff\xff\xff\x7f";
+    const auto at = std::search(bytes.begin(), bytes.end(), from.begin(), from.end());
+    ASSERT_NE(at, bytes.end());
+    std::copy(to.begin(), to.end(), at);
+    EXPECT_NE(errorOfBytes(bytes), "");
+
+    // A block of rows that would take 400 MiB: 200 channels whose rows are 16384 pixels long.
+    Imf::Header header =
+        ForeignExr{.channels = "", .compression = Imf::PIZ_COMPRESSION, .width = 16, .height = 32}
+            .header();
+    float zeros[16] = {};
+    Imf::FrameBuffer slices;
+    for (int c = 0; c < 200; ++c) {
+        header.channels().insert("c" + std::to_string(c), Imf::Channel(Imf::FLOAT));
+        slices.insert("c" + std::to_string(c),
+                      Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(zeros), sizeof(float), 0));
     }
+    {
+        Imf::OutputFile file(folder.path("wide.exr").c_str(), header, 0);
+        file.setFrameBuffer(slices);
+        file.writePixels(32);
+    }
+    EXPECT_EQ(errorOfBytes(edited(readBytes(folder.path("wide.exr")), "dataWindow", "box2i",
+                                  {0, 0, 16383, 31})),
+              "Unable to allocate 419430400 bytes");
+    EXPECT_LT(peakMemory() - before, 64) << "MiB";
+}
+
+// A file that is cut off must be an error at every length, and so must blocks that are shorter than
+// their rows.
+TEST(ImageFiles, DamagedExrIsOneSentence)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path("image.exr");
+    for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::ZIP_COMPRESSION}) {
+        const ForeignExr foreign{.compression = compression, .width = 5, .height = 3};
+        foreign.write(path);
+        const Bytes good = readBytes(path);
+        // The headers are the same.
+        size_t length = compression == Imf::NO_COMPRESSION ? 0 : good.size() - 100;
+        for (; length < good.size(); ++length) {
+            const std::string cut =
+                folder.write("cut.exr", Bytes(good.begin(), good.begin() + long(length)));
+            const std::string message = errorOf([&] { loadExr(cut); });
+            EXPECT_EQ(message.find("cannot read " + cut + ": "), 0u) << length << " " << message;
+        }
+    }
+    // Without compression a block holds one row: its number and size in bytes, then the pixels.
+    ForeignExr{.compression = Imf::NO_COMPRESSION, .width = 5, .height = 1}.write(path);
+    Bytes bytes = readBytes(path);
+    constexpr size_t pixels = 5 * 3 * sizeof(float);
+    bytes[bytes.size() - pixels - 4] = pixels - 4;
+    const std::string shorter = folder.write("short.exr", bytes);
+    EXPECT_EQ(errorOf([&] { loadExr(shorter); }),
+              "cannot read " + shorter +
+                  ": is damaged: a block of rows has 56 bytes instead of 60");
 }
 
 TEST(ImageFiles, BrokenFilesAreRefused)

@@ -59,8 +59,8 @@ void savePfm(const std::string& path, const Image& image);
 void saveImageByExtension(const std::string& path, const Image& image);
 
 // Readers. HDR files give RGB images. EXR files must be single-part scanline files with half or
-// float channels. Their R, G and B are read; if one of the three is missing, the first channel
-// becomes a grey image. Further channels are ignored.
+// float channels, without subsampling or lossy compression. Their R, G and B are read; if one of
+// the three is missing, the first channel becomes a grey image. Further channels are ignored.
 Image loadPfm(const std::string& path);
 Image loadExr(const std::string& path);
 Image loadHdr(const std::string& path);
