@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what shade_tiles does: entries walked, lanes that evaluate (masked ones
-// too), lights within their influence, lights that can contribute.
+// Counts the work of shade_tiles in pairs of pixel and light: entries of lists that are walked, pairs
+// that are evaluated (also by lanes that are masked out), lights whose influence reaches the pixel, and
+// lights that can contribute to it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -39,13 +40,14 @@ uint bits(uvec2 x)
     return uint(bitCount(x.x) + bitCount(x.y));
 }
 
-// Lanes that run the loop over `found`, those that wait for others included, per lane.
+// Returns how often this lane runs the loop over `found`, including the turns in which it waits for
+// other lanes.
 uint turns(uvec2 found)
 {
     return subgroupMax(bits(found));
 }
 
-// 64-bit sum: the addition that wraps carries. (The compiler has no 64-bit atomics to ask for.)
+// Adds to a 64-bit counter without 64-bit atomics: the addition that overflows the low word carries.
 #define COUNT(counter, n)                                                                          \
     {                                                                                              \
         const uint more = subgroupAdd(n);                                                          \

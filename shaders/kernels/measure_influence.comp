@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every light at some pixels, uncut: luminance by the illuminance that lights give there at most, which
-// is what they are cut by. The lanes of a pixel take turns at its lights and add them up each for
-// itself; their sums are added in one order, so that every run has the same bits.
+// Evaluates every light at some pixels, without cuts, and sums luminance by bins of the largest
+// illuminance that a light may give there, which decides whether a cut ends the light. The lanes of a
+// pixel share its lights, and each has its own sums. These are added in a fixed order, so that every
+// run has the same bits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/influence.glsl"
@@ -15,7 +16,7 @@ layout(push_constant, scalar) uniform Push
 const uint LANES = MEASURE_INFLUENCE_LANES;
 const uint SAMPLES_OF_GROUP = MEASURE_INFLUENCE_GROUP / LANES;
 
-// The k-th light of the lane's; behind them the last of the batch.
+// Returns the k-th light of this lane, or the last light of the batch if the lane has fewer lights.
 uint lightAt(uint k)
 {
     const uint lane = gl_LocalInvocationIndex % LANES;
@@ -31,11 +32,11 @@ layout(scalar, binding = MEASURE_INFLUENCE_DATA) readonly buffer Data
 };
 layout(scalar, binding = MEASURE_INFLUENCE_SUMS) buffer SampleSums
 {
-    float sums[]; // vec3 by slot
+    float sums[]; // a vec3 per slot
 };
 
 const uint ROWS = 3u * INFLUENCE_SLOTS;
-// By row and lane: lanes of a group never meet in a bank of memory.
+// Indexed by row and lane, so that the lanes of a group never use the same bank of memory.
 shared float laneSums[ROWS * MEASURE_INFLUENCE_GROUP];
 
 uint slotOf(Receiver r, uint light)
@@ -57,7 +58,7 @@ void addToLane(uint slot, vec3 luminance)
     laneSums[at + 2u * MEASURE_INFLUENCE_GROUP] += luminance.z;
 }
 
-// As SHADE_FOUND. A lane that is done may run once more: what it finds then counts for nothing.
+// A loop like SHADE_FOUND. A lane whose condition is false may run once more; it then adds 0.
 #define MEASURE_FOUND(r, first, found, evaluate)                                                   \
     if (!none(found)) {                                                                            \
         uvec2 left = found;                                                                        \
@@ -69,7 +70,7 @@ void addToLane(uint slot, vec3 luminance)
         } while (!none(left));                                                                     \
     }
 
-// The lane's share of all lights at the pixel.
+// Sums this lane's share of the lights at the pixel.
 void measure(uvec2 pixel, float depth)
 {
     for (uint row = 0u; row < ROWS; ++row)
@@ -105,7 +106,7 @@ void main()
     barrier();
     if (depth == frameParams.clearDepth)
         return;
-    // Each lane begins with its own column: no two read the same bank.
+    // Each lane begins with its own column, so that no two lanes read the same bank.
     const uint lane = gl_LocalInvocationIndex % LANES;
     const uint firstLane = gl_LocalInvocationIndex - lane;
     for (uint row = lane; row < ROWS; row += LANES) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every light at every pixel of a rectangle: no list, no bound. What the clustered path is checked
-// against, and the baseline it is timed against.
+// Evaluates every light at every pixel of a rectangle, without lists or bounds. The images and times of
+// the clustered path are compared with those of this kernel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/tile_pixels.glsl"
@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push
     ShadeBruteParams params;
 };
 
-// The k-th light of the batch.
+// Returns the k-th light of the batch.
 uint lightAt(uint k)
 {
     return params.batch.first + k;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the environment's light to every surface pixel, and the environment itself where there is no
-// surface: to distant lights that are seen there already, as surfaces get the light of both.
+// Adds the environment's light to every pixel with a surface, and the environment itself to the other
+// pixels. Distant lights visible there stay, because surfaces are lit by both as well.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/environment.h"
@@ -27,13 +27,13 @@ layout(binding = SHADE_ENVIRONMENT_PREFILTERED) uniform samplerCube prefiltered;
 layout(binding = SHADE_ENVIRONMENT_IRRADIANCE) uniform samplerCube irradiance;
 layout(binding = SHADE_ENVIRONMENT_DFG) uniform textureBuffer dfgTexels;
 
-// The table of lib/dfg.glsl.
+// lib/dfg.glsl reads its table through this function.
 vec4 dfgTexel(int entry)
 {
     return texelFetch(dfgTexels, entry);
 }
 
-// What the eye sees beyond all surfaces: from the mip whose texels are as large as the pixel.
+// Returns what the eye sees beyond all surfaces, from the mip whose texels are as large as the pixel.
 vec3 background(uvec2 pixel)
 {
     const float texels = frameParams.invImageSize.y * float(textureSize(environment, 0).x) /
@@ -43,15 +43,15 @@ vec3 background(uvec2 pixel)
     return textureLod(environment, params.environmentFromView * view, mip).rgb;
 }
 
-// Split sum (Karis 2013): the lobe's mean radiance, prefiltered for v = n and taken around the mirror
-// direction, times its directional albedo. Exact for a white surrounding; elsewhere lobes seen at
-// grazing angles are rounder than they should be.
+// Returns the reflected light by the split sum (Karis 2013): the lobe's mean radiance, prefiltered for
+// v = n and looked up in the mirror direction, times its directional albedo. It is exact for a uniform
+// environment. In others, lobes seen at grazing angles are rounder than they should be.
 vec3 shade(ShadingPoint p)
 {
     const vec2 albedo = directionalAlbedo(p.NoV, p.alpha);
     joinLobes(p, albedo, frameParams.lobes & (COMPENSATE_ENERGY - 1u),
               frameParams.lobes & COMPENSATE_ENERGY);
-    // Level k stands for alpha = 2^(k - last); below level 1 the lobe fades into the mirror image.
+    // Level k is for alpha = 2^(k - last). Below level 1 the lobe fades into the mirror image.
     const float level = params.lastLevel + log2(p.alpha);
     const float fade = p.alpha * exp2(params.lastLevel - 1.0);
     const vec3 mirrored = textureLod(prefiltered, params.environmentFromView * p.mirror,

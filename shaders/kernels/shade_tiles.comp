@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the lights of each cluster's list to the scene radiance, in the tiles that hold a surface.
+// Adds the light of each cluster's list to the scene radiance, in the tiles of a work list.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/shade_receiver.glsl"
@@ -30,7 +30,7 @@ void main()
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
                                     frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
-    do { // a lane that is done may run once more (Mesa 22.3): its block is empty then
+    do { // a lane that is done may run once more (Mesa 22.3); its block is then empty
         shadeBlock(sums, r, block.first, block.count, true);
         block = nextBlock(block);
     } while (block.count != 0u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights the pixels whose cluster has no list, by walking the light tree: same lights, same order,
-// same bits, more time. Where the device limits loops, clusters of too many lights are lit in batches:
-// parts of the tree.
+// Lights the pixels whose cluster has no list, by walking the light tree: with the same lights in the
+// same order, so with the same bits, but more slowly. On devices that limit loops, clusters with too
+// many lights are lit in batches, which are parts of the tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/shade_receiver.glsl"
@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push
 #define TREE_NODE_WORDS SHADE_NODE_WORDS
 #include "kernels/common/light_tree.glsl"
 
-// The page of a list that has none in memory.
+// The lights that a walk has found, in place of a page of a list.
 uint page[PAGE_LIGHTS];
 
 uint lightAt(uint k)
@@ -50,7 +50,7 @@ void main()
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
                                     frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
-    page[0] = params.tree.firstLight; // read when there is none
+    page[0] = params.tree.firstLight; // may be read even if no light is found
     const uint end = params.tree.firstLight + params.tree.lightCount;
     const ClusterBounds bounds = makeClusterBounds(clusters[cluster]);
     TreeWalk walk = beginTreeWalk(params.tree, params.topLevel);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clusters of deep tiles: one per slice of depth that holds samples. One lane per slice, so that
-// those of a tile walk its pixels in step.
+// Makes the clusters of deep tiles: one per slice of depth. One lane per slice, so that the lanes of a
+// tile walk its pixels in step.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/cluster_bounds.glsl"

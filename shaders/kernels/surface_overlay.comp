@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows what is read of the G-buffer, and marks what cannot be right.
+// Shows the surfaces that are read from the G-buffer, and marks faulty values.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/surface_overlay.h"
@@ -32,7 +32,8 @@ bool isOutside(vec4 x)
     return any(lessThan(x, vec4(-margin))) || any(greaterThan(x, vec4(1.0 + margin)));
 }
 
-// The normal as stored. Only the host's layout can hold one whose length is not 1.
+// Returns the normal as it is stored. Only a layout of the host can store normals whose length is not
+// 1.
 vec3 normalBeforeReading(HostTexels t, vec3 normal)
 {
     return gbufferLayout == GBUFFER_LAYOUT_HOST ? storedNormal(t.normal) : normal;
@@ -43,7 +44,7 @@ float roughnessBeforeReading(HostTexels t, float perceptualRoughness)
     return gbufferLayout == GBUFFER_LAYOUT_HOST ? storedRoughness(t) : perceptualRoughness;
 }
 
-// The first fault that is found.
+// Returns the colour of the first fault that is found, or a shade of grey if there is none.
 vec3 faults(Surface s, HostTexels t, vec3 position)
 {
     const vec3 view = normalize(towardsEye(frameParams.projection, position));
@@ -53,7 +54,7 @@ vec3 faults(Surface s, HostTexels t, vec3 position)
     const vec4 reflected = vec4(s.albedo, s.specularWeight);
     if (!isFinite(vec4(stored, rough)) || !isFinite(reflected) || !isFinite(vec4(s.F0, 0.0)))
         return vec3(1.0, 0.0, 1.0);
-    // The eye looks along -z or +z, as the projection has it.
+    // The projection decides whether the eye looks along -z or +z.
     const vec3 ahead = viewRay(frameParams.projection, frameParams.size / 2u, frameParams.invImageSize);
     const bool inFront = frameParams.projection.eyeIsPoint == 0.0 || dot(position, ahead) > 0.0;
     if (!inFront || !isFinite(vec4(position, 0.0)))
@@ -69,7 +70,7 @@ vec3 faults(Surface s, HostTexels t, vec3 position)
     return vec3(0.5 * max(facing, 0.0));
 }
 
-// As the display takes it.
+// Returns a quantity at a pixel as a display colour.
 vec3 quantityAt(uint quantity, uvec2 pixel)
 {
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;

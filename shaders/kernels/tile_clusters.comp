@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clusters of surface samples: one per 8x8 pixel tile, or one per slice of its depth where the tile is
-// deep (split_tiles makes those). Tiles without a surface are in no list and cost nothing later; the
-// others are on the work list of their class.
+// Makes clusters of surface samples: one per 8x8 pixel tile. A deep tile has one cluster per slice of
+// its depth instead, which split_tiles makes. A tile without a surface is on no list and costs nothing
+// later; every other tile is put on the work list of its class.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GBUFFER_ALBEDO TILE_CLUSTERS_ALBEDO
@@ -32,7 +32,7 @@ void main()
         return;
     const uvec2 first = firstPixelOfTile(tile, frameParams.size.x);
     const uvec2 end = min(first + TILE_SIZE, frameParams.size);
-    // The range of depth alone. Where there is no surface, the loops over samples end at once.
+    // First the range of depth alone: if there is no surface, the loop over samples ends at once.
     uint lowest = 0xFFFFFFFFu, highest = 0u;
     for (uint y = first.y; y < end.y; ++y)
         for (uint x = first.x; x < end.x; ++x) {

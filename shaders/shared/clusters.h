@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light tree, clusters of surface samples, and the lists that the one gives the other.
+// The light tree, the clusters of surface samples, and the lists of lights of the clusters.
 #ifndef CND_SHARED_CLUSTERS_H
 #define CND_SHARED_CLUSTERS_H
 
@@ -7,16 +7,17 @@
 
 GPU_BEGIN
 
-// --- The light tree: over the sorted lights of one type, an implicit tree of boxes. A node of
-// level k (1: leaves) stands for TREE_WIDTH^k consecutive lights, so there are no pointers. The
-// levels lie one after the other, leaves first; the highest has at most TREE_WIDTH nodes.
+// --- The light tree: a tree of boxes over the sorted lights of one type. A node of level k
+// (1: leaves) stands for TREE_WIDTH^k consecutive lights, so the tree needs no pointers. The levels
+// lie one after the other, leaves first; the highest level has at most TREE_WIDTH nodes.
 const uint TREE_WIDTH_BITS = 3u;
 const uint TREE_WIDTH = 8u;
-const uint TREE_LEVELS = 8u; // at most: 8^8 lights
-// Two texels per node: (min, 0), (max, 0) of its lights' influence, metres, view space.
+const uint TREE_LEVELS = 8u; // the most levels, for 8^8 lights
+// A node has two texels, (min, 0) and (max, 0): the box around the spheres of influence of its
+// lights, in view space, in metres.
 const uint TREE_NODE_STRIDE = 2u;
 
-// --- light_tree: builds two levels from the one below; one lane per node of the upper one
+// --- light_tree: builds two levels from the level below, one lane per node of the upper level
 const uint LIGHT_TREE_GROUP = 64u;
 const uint LIGHT_TREE_CORE = 0u;
 const uint LIGHT_TREE_CORE_WORDS = 1u;
@@ -24,109 +25,115 @@ const uint LIGHT_TREE_NODES = 2u;
 struct LightTreeParams {
     uint childFirst, childCount; // lights, or nodes of the level below
     uint lowerFirst, upperFirst; // first nodes of the two levels
-    uint fromLights;             // 1: children are lights
+    uint fromLights;             // 1: the children are lights
 };
 GPU_SIZE(LightTreeParams, 20)
 
-// --- Clusters: samples of a tile, of a slice of its depth where it is deep, or of a slice of a
-// block of tiles. Blocks of two sizes lead from the whole frame to the tiles: what cannot reach a
+// --- Clusters: the samples of a tile, of a slice of a deep tile's depth, or of a slice of a block
+// of tiles. Blocks of two sizes lead from the whole frame to the tiles: a light that cannot reach a
 // block need not be tested against its tiles.
-const uint SLICE_BITS = 2u; // of a split tile
+const uint SLICE_BITS = 2u; // slices of a deep tile
 const uint SLICES = 4u;
-const uint BLOCK_SLICE_BITS = 3u; // of a block
+const uint BLOCK_SLICE_BITS = 3u; // slices of a block
 const uint BLOCK_SLICES = 8u;
-const uint BLOCK_SIDE = 4u; // tiles, or blocks of the level below
+const uint BLOCK_SIDE = 4u; // side of a block, in tiles or blocks of the level below
 const uint BLOCK_LEVELS = 2u;
 
-// Samples of a cluster, view space, metres. Empty: min > max.
+// Bounds of the samples of a cluster, in view space, in metres. min > max: there is no sample.
 struct Cluster {
     vec3 min;
-    uint tile; // not of blocks
+    uint tile; // index of the tile; blocks do not use it
     vec3 max;
-    uint parent;            // the cluster of a block that it is part of
+    uint parent;            // index of the cluster of the block that holds this cluster
     vec3 axis;              // unit, near the normals of the samples; 0 for blocks
-    float slabMin, slabMax; // of dot(axis, sample)
-    float minCos;           // of the angles between axis and normals
-    uint depthBits;         // of the lowest depth
-    // Unit: the samples lie in a cone around it with its apex in the eye; 0 (and slope 0): unknown.
+    float slabMin, slabMax; // range of dot(axis, sample)
+    float minCos;           // lowest cosine between the axis and a normal
+    uint depthBits;         // bits of the lowest depth
+    // The samples lie in a cone around the unit vector `ray` with its apex in the eye. `slope` is
+    // the tangent of its half angle. Both are 0 if there is no such cone.
     vec3 ray;
     float slope;
 };
 GPU_SIZE(Cluster, 76)
 
-// Where the samples of a tile find their cluster: first + ((depth bits - lowest) >> shift). Of
-// blocks: where the clusters of the level below find theirs.
+// A sample of a tile belongs to the cluster first + ((depth bits - lowest) >> shift). In blocks the
+// same holds for the clusters of the level below and their parents.
 struct TileClusters {
     uint first;
-    uint lowest, highest; // depth bits; lowest > highest: no sample
+    uint lowest, highest; // range of the depth bits; lowest > highest: no sample
     uint shift;
-    uint onLists; // bit per light type, from each of these on; CLASS_*, from CLASS_BITS on
+    // Which work lists hold the tile: a bit per light type from UNLISTED_BITS on and from LIT_BITS
+    // on. The tile's class, CLASS_*, is stored from CLASS_BITS on.
+    uint onLists;
 };
 GPU_SIZE(TileClusters, 20)
-const uint UNLISTED_BITS = 0u; // the tiles of shade_unlisted
-const uint LIT_BITS = 15u;     // the tiles of shade_tiles: some cluster has lights
+const uint UNLISTED_BITS = 0u; // work lists of shade_unlisted
+const uint LIT_BITS = 15u;     // work lists of shade_tiles: some cluster has lights
 const uint CLASS_BITS = 30u;
 const uint UNSPLIT = 31u; // shift of a tile with one cluster
 
-// A list of lights: pages of the entry buffer. A page begins with a header, the number of its
-// lights and, above PAGE_COUNT_BITS, the next page (0: none).
+// A list of lights consists of pages of the entry buffer. The first word of a page is its header:
+// the number of its lights and, from bit PAGE_COUNT_BITS on, the next page (0: none).
 const uint PAGE_WORDS = 64u;
 const uint PAGE_LIGHTS = 63u;
 const uint PAGE_COUNT_BITS = 6u;
-// List heads that are no page.
+// Heads of lists without pages.
 const uint LIST_EMPTY = 0u;
-const uint LIST_UNLISTED = 0xFFFFFFFFu; // over the budget: walk the tree
-const uint LIST_LONG = 0xFFFFFFFEu;     // longer than a loop may be: walk all lights in batches
+const uint LIST_UNLISTED = 0xFFFFFFFFu; // no page was left: the tree is walked per pixel
+const uint LIST_LONG = 0xFFFFFFFEu;     // too long for a loop: all lights are walked in batches
 
-// Arguments of an indirect dispatch, and what it is for: `count` of the indices after the list, or
-// lists, of a buffer, from `first` on. Groups come in rows, since devices limit the groups of one
-// dimension; rows are short where groups are few, since some devices deal out groups in equal
-// shares, the idle ones of the last row included.
+// Arguments of an indirect dispatch and the range of indices that it works on. A buffer begins with
+// its work lists; the indices follow, and the range is `count` of them from `first` on. Groups are
+// arranged in rows, because devices limit the number of groups in one dimension. Rows are short if
+// there are few groups, because some devices divide groups into equal shares and count the idle
+// groups of the last row.
 struct WorkList {
-    uint groupsX, groupsY, groupsZ; // groups of a row, rows begun, 1
+    uint groupsX, groupsY, groupsZ; // groups per row, number of rows, 1
     uint count, first;
 };
 GPU_SIZE(WorkList, 20)
 const uint TILE_ROW = 256u; // one group per tile
 const uint SPLIT_ROW = 8u;  // SPLIT_TILES_GROUP / SLICES tiles per group
 
-// --- tile_clusters: bounds of each tile, one lane per tile. 128: 16384 x 16384 pixels are 32768
-// groups, of 65535 that every device allows.
+// --- tile_clusters: bounds of each tile, one lane per tile. With 128 lanes per group,
+// 16384 x 16384 pixels need 32768 groups; every device allows 65535.
 const uint TILE_CLUSTERS_GROUP = 128u;
 const uint TILE_CLUSTERS_DEPTH = 0u;
 const uint TILE_CLUSTERS_NORMALS = 1u;
 const uint TILE_CLUSTERS_CLUSTERS = 2u;
 const uint TILE_CLUSTERS_TILES = 3u;
-const uint TILE_CLUSTERS_SURFACES = 4u;     // WorkLists, by class, of tiles with a surface
-const uint TILE_CLUSTERS_SPLITS = 5u;       // WorkList of tiles to be split
+const uint TILE_CLUSTERS_SURFACES = 4u;     // a WorkList per class: tiles with a surface
+const uint TILE_CLUSTERS_SPLITS = 5u;       // WorkList: tiles to be split
 const uint TILE_CLUSTERS_HOST_NORMALS = 6u; // kernels/common/read_gbuffer.glsl
 const uint TILE_CLUSTERS_FRAME = 7u;        // FrameParams
-const uint TILE_CLUSTERS_ALBEDO = 8u;       // tile_clusters alone
-const uint TILE_CLUSTERS_SPECULAR = 9u;     // tile_clusters alone
+const uint TILE_CLUSTERS_ALBEDO = 8u;       // not in split_tiles
+const uint TILE_CLUSTERS_SPECULAR = 9u;     // not in split_tiles
 struct TileClustersParams {
     uint tileCount;
-    uint firstSplit, splitCapacity; // first cluster of split tiles; tiles that can be split
-    float splitLength;              // m: longer tiles are split
+    uint firstSplit, splitCapacity; // first cluster of split tiles; how many tiles can be split
+    float splitLength;              // m; tiles whose box has a longer diagonal are split
 };
 GPU_SIZE(TileClustersParams, 16)
 
-// --- split_tiles: bounds of the slices of deep tiles, one lane per slice; bindings as above
+// --- split_tiles: bounds of the slices of deep tiles, one lane per slice; bindings of
+// tile_clusters
 const uint SPLIT_TILES_GROUP = 64u;
 
-// --- block_clusters: clusters of blocks from those of the level below, one lane per slice
+// --- block_clusters: clusters of blocks from the clusters of the level below, one lane per slice
 const uint BLOCK_CLUSTERS_GROUP = 64u;
 const uint BLOCK_CLUSTERS_CLUSTERS = 0u;
 const uint BLOCK_CLUSTERS_TILES = 1u;
 struct BlockClustersParams {
-    uint childFirst; // in the buffer of TileClusters
+    uint childFirst; // index in the buffer of TileClusters
     uint childCountX, childCountY;
-    uint blockFirst; // in the buffer of TileClusters
+    uint blockFirst; // index in the buffer of TileClusters
     uint blockCountX, blockCount;
     uint clusterFirst;
 };
 GPU_SIZE(BlockClustersParams, 28)
 
-// --- cluster_lists: tree, or list of the parent -> exact ordered list; one lane per cluster
+// --- cluster_lists: makes the ordered list of a cluster from the list of its parent or from the
+// tree; one lane per cluster
 const uint CLUSTER_LISTS_GROUP = 64u;
 const uint CLUSTER_LISTS_CORE = 0u;
 const uint CLUSTER_LISTS_CORE_WORDS = 1u;
@@ -137,19 +144,19 @@ const uint CLUSTER_LISTS_TILES = 5u;
 const uint CLUSTER_LISTS_SPLITS = 6u;
 const uint CLUSTER_LISTS_LISTS = 7u;
 const uint CLUSTER_LISTS_ENTRIES = 8u;
-const uint CLUSTER_LISTS_UNLISTED = 9u; // WorkLists, by class, of tiles with unlisted clusters
+const uint CLUSTER_LISTS_UNLISTED = 9u; // a WorkList per class: tiles with unlisted clusters
 const uint CLUSTER_LISTS_COUNTERS = 10u;
-const uint CLUSTER_LISTS_LIT = 11u; // WorkLists, by class, of tiles with lists that hold lights
-// Which clusters:
-const uint LISTS_OF_BLOCKS = 0u; // firstCluster, clusterCount
-const uint LISTS_OF_TILES = 1u;  // that are not split; block by block, so that lanes share parents
-const uint LISTS_OF_SLICES = 2u; // of split tiles; firstCluster
+const uint CLUSTER_LISTS_LIT = 11u; // a WorkList per class: tiles with lists that hold lights
+// The clusters whose lists are made:
+const uint LISTS_OF_BLOCKS = 0u; // those of firstCluster and clusterCount
+const uint LISTS_OF_TILES = 1u;  // tiles that are not split, block by block: lanes share parents
+const uint LISTS_OF_SLICES = 2u; // slices of split tiles, from firstCluster on
 struct ClusterListsParams {
     TreeShape tree;
-    uint pageCount;        // of the entry buffer
-    uint longest;          // list that shading can walk
-    uint maxSteps;         // of the walk through the tree or the parent's list
-    uint maxUnlistedSteps; // of shade_unlisted through the tree
+    uint pageCount;        // pages of the entry buffer
+    uint longest;          // longest list that shading can walk
+    uint maxSteps;         // most steps through the tree or the parent's list
+    uint maxUnlistedSteps; // most steps of shade_unlisted through the tree
     uint lightType;
     uint which; // LISTS_OF_*
     uint firstCluster, clusterCount;

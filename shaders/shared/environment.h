@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything that crosses between the environment module and its kernels.
 //
-// Directions: the environment's own space, y up. A cube face is a square of side 2 at distance 1;
-// its texels are numbered as Vulkan numbers them (faces +x -x +y -y +z -z). The equirectangular
-// image has y up at the top row, -z in the middle, +x to the right of it.
+// Directions are in the environment's own space, with y up. A cube face is a square of side 2 at
+// distance 1; faces and texels are numbered as in Vulkan (faces +x -x +y -y +z -z). The top row of
+// the equirectangular image is +y, its middle is -z, and +x is to the right of the middle.
 #ifndef CND_SHARED_ENVIRONMENT_H
 #define CND_SHARED_ENVIRONMENT_H
 
@@ -11,13 +11,14 @@
 
 GPU_BEGIN
 
-// Radiance beyond this is cut when the environment is read: 1000 times that of the Sun's disc, and
-// its sums over a cube are still finite.
+// Larger luminances are clamped to this when the environment is read. It is 1000 times the
+// luminance of the Sun's disc, and its sums over a cube are still finite.
 const float ENVIRONMENT_MAX_LUMINANCE = 2e12f;
 
-// --- environment_cube: equirectangular image -> mip 0, one lane per texel, z = face. `samples` by
-// `samples` bilinear look-ups per texel, so that none of the image's texels is skipped.
-const uint ENVIRONMENT_GROUP = 8u; // x and y, of all kernels that write cubes
+// --- environment_cube: makes mip 0 from the equirectangular image, one lane per texel, z = face. A
+// texel is the mean of `samples` by `samples` bilinear look-ups, so that no texel of the image is
+// skipped.
+const uint ENVIRONMENT_GROUP = 8u; // x and y, for all kernels that write cubes
 const uint ENVIRONMENT_CUBE_IMAGE = 0u;
 const uint ENVIRONMENT_CUBE_OUTPUT = 1u;
 const uint ENVIRONMENT_CUBE_MIRROR = 2u; // level 0 of the prefiltered cube
@@ -29,40 +30,42 @@ struct EnvironmentCubeParams {
 };
 GPU_SIZE(EnvironmentCubeParams, 16)
 
-// --- environment_mip: the mean of four texels weighted by their solid angles, so that integrals
-// over the sphere are those of mip 0.
+// --- environment_mip: a texel is the mean of four texels of the finer mip, weighted by their solid
+// angles, so that integrals over the sphere are the same in every mip.
 const uint ENVIRONMENT_MIP_INPUT = 0u;
 const uint ENVIRONMENT_MIP_OUTPUT = 1u;
 struct EnvironmentMipParams {
-    uint size; // of the output
+    uint size; // size of the output
 };
 GPU_SIZE(EnvironmentMipParams, 4)
 
-// --- environment_prefilter: mean radiance over the GGX lobe, shadowing and cosine included, of a
-// surface that faces both the eye and the direction (v = n: Karis 2013, "Real Shading in Unreal
-// Engine 4"; his weight is NoL, this is the lobe's own, exact for v = n).
-// Filtered importance sampling (Krivanek and Colbert 2008): each sample reads a mip whose texels
-// are twice as wide as the sample's share of the lobe, so that neighbours overlap.
+// --- environment_prefilter: mean radiance over the GGX lobe, including shadowing and cosine, of a
+// surface that faces both the eye and the direction (v = n, as in Karis 2013, "Real Shading in
+// Unreal Engine 4"). Karis weights samples by NoL; the weights here are those of the lobe itself,
+// which are exact for v = n. It uses filtered importance sampling (Krivanek and Colbert 2008): each
+// sample reads a mip whose texels are twice as wide as the sample's share of the lobe, so that
+// neighbours overlap.
 const uint ENVIRONMENT_PREFILTER_SOURCE = 0u;
 const uint ENVIRONMENT_PREFILTER_OUTPUT = 1u;
 const uint ENVIRONMENT_PREFILTER_SAMPLES = 1024u;
 struct EnvironmentPrefilterParams {
-    uint size; // of the output
+    uint size; // size of the output
     uint sourceSize;
     float alpha;
 };
 GPU_SIZE(EnvironmentPrefilterParams, 12)
-// Levels of the prefiltered cube: the last is for alpha 1, and each one before has twice the size
-// and half the alpha; level 0 is the mirror image in place of the lobe it would have.
+// The last level of the prefiltered cube is for alpha = 1. Each level before it has twice the size
+// and half the alpha, except that level 0 is the mirror image.
 const uint ENVIRONMENT_LAST_LEVEL_SIZE = 8u;
 
-// --- environment_irradiance: mean radiance of a white diffuse surface (irradiance / pi) per
-// normal, summed over the texels of one mip of the source. Largest error 0.05% of the brightest
-// normal's for a cloudy sky, 0.2% for a small sun alone, where nine spherical harmonics err by 9%.
+// --- environment_irradiance: radiance of a white diffuse surface (irradiance / pi) for each
+// normal, summed over the texels of one mip of the source. The largest error, relative to the
+// brightest normal, is 0.05% for a cloudy sky and 0.2% for a small sun alone, where nine spherical
+// harmonics have an error of 9%.
 const uint ENVIRONMENT_IRRADIANCE_SOURCE = 0u;
 const uint ENVIRONMENT_IRRADIANCE_OUTPUT = 1u;
 const uint ENVIRONMENT_IRRADIANCE_SIZE = 32u;
-const uint ENVIRONMENT_IRRADIANCE_SOURCE_SIZE = 32u; // of the source's mip
+const uint ENVIRONMENT_IRRADIANCE_SOURCE_SIZE = 32u; // size of the source's mip
 struct EnvironmentIrradianceParams {
     uint sourceSize;
 };
@@ -83,7 +86,7 @@ const uint SHADE_ENVIRONMENT_HOST_NORMAL = 9u; // kernels/common/read_gbuffer.gl
 const uint SHADE_ENVIRONMENT_FRAME = 10u;      // FrameParams
 struct ShadeEnvironmentParams {
     mat3 environmentFromView; // rotation
-    float lastLevel;          // of the prefiltered cube
+    float lastLevel;          // last level of the prefiltered cube
     float scale;              // factor on the environment's luminance
     uint showsBackground;     // 1: pixels without a surface show the environment
 };

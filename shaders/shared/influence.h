@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radii of influence from an error (CND_INFLUENCE_BY_ERROR): what crosses between the lighting
-// module and the kernels that measure the error and choose the radii.
+// Radii of influence from an error bound (CND_INFLUENCE_BY_ERROR): what crosses between the
+// lighting module and the kernels that measure the error and choose the radii.
 #ifndef CND_SHARED_INFLUENCE_H
 #define CND_SHARED_INFLUENCE_H
 
@@ -8,55 +8,58 @@
 
 GPU_BEGIN
 
-// One illuminance is cut at for all lights of a frame: a light of peak intensity I reaches as far
-// as I / d^2 is above it. Candidates begin at the lower ends of bins of exposed illuminance
-// (illuminance times exposure): half octaves from 2^INFLUENCE_FINEST, and a few bins of two octaves
-// below, where only lights end that nobody sees. Cut b leaves out bins 0 .. b - 1; cut 0 leaves out
-// nothing.
+// All lights of a frame are cut at one illuminance: a light of peak intensity I reaches to the
+// distance d where I / d^2 falls to it. The candidates for this illuminance are the lower ends of
+// bins of exposed illuminance (illuminance times exposure). The bins are half octaves from
+// 2^INFLUENCE_FINEST on; below that are a few bins of two octaves, for illuminances that nobody can
+// see. Cut b leaves out the bins 0 .. b - 1; cut 0 leaves out nothing.
 const uint INFLUENCE_BINS = 40u;
 const uint INFLUENCE_COARSE_BINS = 6u;
 const float INFLUENCE_FINEST = -22.0f;
-// What a sample keeps: the luminance of the lights of each bin, and that of distant lights.
+// A sample stores one luminance per slot: that of the lights of each bin, and that of distant
+// lights.
 const uint INFLUENCE_DISTANT = 40u;
 const uint INFLUENCE_SLOTS = 41u;
 
-// Pixels that are measured lie in squares of `spacing` pixels, one each, another one every frame.
-// Squares grow with the image, so that there are no more than this. After spacing^2 frames, a
-// period, all pixels have been measured, and cuts may rise to what all of them allowed.
+// The image is divided into squares with sides of `spacing` pixels. In every frame another pixel of
+// each square is measured. The squares grow with the image, so that there are at most
+// INFLUENCE_MAX_SAMPLES of them. After a period, spacing^2 frames, all pixels have been measured,
+// and cuts may rise to what all of them allowed.
 const uint INFLUENCE_MAX_SAMPLES = 4096u;
 const uint INFLUENCE_MIN_SPACING = 8u;
-// A history begins with the pixels of so many frames at once, at most; those of later frames follow
-// behind them.
+// The first frame of a history measures the pixels of up to this many frames at once. Later frames
+// continue after them.
 const uint INFLUENCE_MAX_ROUNDS = 256u;
 
 struct InfluenceFrame {
     uvec2 size;    // pixels
     uvec2 samples; // squares
     uint spacing;  // a power of two
-    uint rounds;   // that a history begins with
-    uint owner;    // number of the history; states of another one are none
-    uint previous; // index of the state of the frame before; this frame's is the other
+    uint rounds;   // how many pixels per square the first frame of a history measures
+    uint owner;    // number of the history; states with another number do not count
+    uint previous; // index of the previous frame's state; this frame has the other one
     uint toneMap;  // TONEMAP_*
     float clearDepth;
     float exposure; // > 0
-    float maxError; // of the display, 0..1
+    float maxError; // largest change of a display value, 0..1
 };
 GPU_SIZE(InfluenceFrame, 48)
 
 struct InfluenceState {
     uint owner;
-    uint frame;  // of the history
-    uvec2 size;  // of the image; another one begins a new period
-    uint seen;   // frames of this period, with this one
-    uint cut;    // of the frame
-    uint target; // towards which cuts rise
-    uint lowest; // allowed by the frames of this period
+    uint frame;  // number of the frame in its history
+    uvec2 size;  // size of the image; a new size begins a new period
+    uint seen;   // frames of this period, including this one
+    uint cut;    // cut of this frame
+    uint target; // the cut rises to this
+    uint lowest; // lowest cut that a frame of this period allowed
 };
 GPU_SIZE(InfluenceState, 32)
 
 struct InfluenceData {
-    InfluenceFrame frame; // written with every frame
-    uint allowed;         // likewise: INFLUENCE_BINS - 1; becomes the lowest over all samples
+    InfluenceFrame frame; // written in every frame
+    // Written as INFLUENCE_BINS - 1 in every frame. It becomes the lowest cut that a sample allows.
+    uint allowed;
     InfluenceState states[2];
 };
 GPU_SIZE(InfluenceData, 116)

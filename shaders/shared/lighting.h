@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything that crosses between the lighting module and its kernels: records, parameters, binding
-// ids, group sizes. Positions are in view space, metres.
+// ids, group sizes. Positions are in view space, in metres.
 #ifndef CND_SHARED_LIGHTING_H
 #define CND_SHARED_LIGHTING_H
 
@@ -13,7 +13,7 @@
 
 GPU_BEGIN
 
-// The shape of an emitter. Members that a type does not have are without meaning (light_types.h).
+// The shape of an emitter. Only the members that its type uses (light_types.h) have a meaning.
 struct LightShape {
     vec3 axisU;   // m; disc: unit normal; spot: unit, the way the light travels
     float radius; // m; distant sphere: the sine of its angular radius
@@ -22,17 +22,18 @@ struct LightShape {
 };
 GPU_SIZE(LightShape, 32)
 
-// A light as the host sends it, relative to the light set's origin. Made by pack_lights.cpp, in any
-// order: light_order.h sorts them by type, since each type has its own shading pipeline.
+// A light as the CPU sends it, relative to the light set's origin. pack_lights.cpp makes the
+// records in any order. Then they are sorted by type (light_order.h), because each type has its own
+// shading pipeline.
 struct LightRecord {
-    vec3 position;         // m; distant types: unit direction towards the light
-    float boundingRadius;  // m, of a sphere around the centre that holds the emitter; distant
-                           //   sphere: the sine of its angular radius
-    vec3 emission;         // as CndLight
-    float influenceRadius; // m, may be infinite
-    vec3 axisU;            // as LightShape, as are axisV and flags
+    vec3 position;        // m; distant types: unit direction towards the light
+    float boundingRadius; // m; radius of a sphere around the centre that holds the emitter; distant
+                          //   sphere: the sine of its angular radius
+    vec3 emission;        // as in CndLight
+    float influenceRadius; // m; may be infinite
+    vec3 axisU;            // as in LightShape, like axisV and flags
     uint id;               // low half of the CndLightId, or LIGHT_OF_DEVICE and an index
-    vec3 axisV;            // types with a radius and axisU alone: (radius, 0, 0)
+    vec3 axisV;            // types with a radius and axisU but no axisV: (radius, 0, 0)
     uint flags;            // LIGHT_*, plus LIGHT_TWO_SIDED, plus layers << LIGHT_LAYERS_SHIFT
 };
 GPU_SIZE(LightRecord, 64)
@@ -42,13 +43,12 @@ const uint LIGHT_LAYERS_SHIFT = 16u;
 const uint LIGHT_OF_DEVICE = 0x80000000u;
 const uint ALL_LAYERS = 0xFFFFu;
 
-// After prepare_lights, in view space: two vec4 per light, hot in every loop,
+// Lights as prepare_lights writes them, in view space. Each has two vec4 that every loop reads,
 //   core[2 i]     = position, bounding radius
 //   core[2 i + 1] = emission, squared influence radius
-// and a LightShape, read only by the types that need it.
-// Lights of other layers than the frame's light nothing: their bounding radius and squared
-// influence radius are these, so that no box of the tree and no list holds them, and none is above
-// a horizon.
+// and a LightShape that only some types read.
+// A light that is in none of the frame's layers gets the two values below. They keep it out of the
+// boxes of the tree and out of all lists, and below every horizon.
 const float BOUNDING_RADIUS_OF_NONE = -1e30f;
 const float INFLUENCE2_OF_NONE = -1.0f;
 const uint LIGHT_CORE_STRIDE = 2u;
@@ -57,27 +57,28 @@ const uint TILE_SIZE = 8u; // pixels; one shading workgroup per tile
 // The light tree (shared/clusters.h) over the lights of one type.
 struct TreeShape {
     uint firstLight, lightCount;
-    uint firstNode; // in the node buffer
+    uint firstNode; // index in the node buffer
 };
 GPU_SIZE(TreeShape, 12)
 
-// Classes of tiles by what all their surfaces lack; each has a work list and kernels of its own.
-// Classes that a module was not asked for have no tiles.
+// Classes of tiles by the lobe that all their surfaces lack. Each class has its own work list and
+// kernels. A class that the host did not request (CndLightingDesc::materialClasses) has no tiles.
 const uint CLASS_ANY = 0u;
 const uint CLASS_DIFFUSE = 1u;  // no specular lobe
 const uint CLASS_SPECULAR = 2u; // no diffuse lobe
 const uint TILE_CLASSES = 3u;
 
-// Counters of one frame, cleared before and read back after.
+// Counters of one frame, cleared before it and read back after it.
 struct LightingCounters {
-    uint pageCursor; // pages of lists in use; page 0 is none
+    uint pageCursor; // pages in use; page 0 is never used
     uint listEntries;
     uint maxListLength;
     uint unlistedClusters;
     uint splitTiles;
     uint surfaceTiles[TILE_CLASSES];
     uint deviceLights, rejectedLights; // shared/device_lights.h
-    float cutBelow;                    // lx (shared/influence.h); 0: nothing is
+    float cutBelow;                    // lx; lights are cut at this illuminance
+                                       // (shared/influence.h); 0: no light is cut
     uvec2 listedPairs;                 // 64 bit: low, high
     uvec2 evaluatedPairs;
     uvec2 insidePairs;
@@ -85,21 +86,21 @@ struct LightingCounters {
 };
 GPU_SIZE(LightingCounters, 76)
 
-// --- prepare_lights: world -> view, one lane per light
+// --- prepare_lights: transforms lights to view space, one lane per light
 const uint PREPARE_LIGHTS_GROUP = 64u;
 const uint PREPARE_LIGHTS_RECORDS = 0u;
 const uint PREPARE_LIGHTS_CORE = 1u;
 const uint PREPARE_LIGHTS_SHAPES = 2u;
 const uint PREPARE_LIGHTS_ORDER = 3u; // shared/light_order.h
-const uint PREPARE_LIGHTS_IDS = 4u;   // LightRecord::id, in that order
-// Specialisation constant: 1: write ids; 0: nobody reads them.
+const uint PREPARE_LIGHTS_IDS = 4u;   // LightRecord::id, in sorted order
+// Specialisation constant. 1: write the ids; 0: no kernel or shader reads them.
 const uint PREPARE_LIGHTS_WITH_IDS = 0u;
 struct PrepareLightsParams {
     mat3 viewFromWorld; // rotation
-    vec3 originView;    // the light set's origin in view space, subtracted in double
+    vec3 originView;    // the light set's origin in view space, subtracted in double precision
     uint lightCount;
-    uint layers; // of the frame
-    uint uncut;  // 1: lights reach everything, whatever their records say
+    uint layers; // layers of the frame
+    uint uncut;  // 1: ignore the influence radii of the records, so that lights reach everything
 };
 GPU_SIZE(PrepareLightsParams, 60)
 
@@ -113,22 +114,22 @@ const uint SHADE_ALBEDO = 4u;
 const uint SHADE_SPECULAR = 5u;
 const uint SHADE_DEPTH = 6u;
 const uint SHADE_RADIANCE = 7u;
-const uint SHADE_DFG = 8u; // all that shade: directional albedo (shared/dfg.h)
-const uint SHADE_LTC = 9u; // all that shade: transformed cosines (shared/ltc.h)
-// Not in shade_brute (shared/clusters.h):
+const uint SHADE_DFG = 8u; // table of the directional albedo (shared/dfg.h)
+const uint SHADE_LTC = 9u; // table of linearly transformed cosines (shared/ltc.h)
+// The next four are not in shade_brute (shared/clusters.h):
 const uint SHADE_TILES = 10u;
 const uint SHADE_LISTS = 11u;
 const uint SHADE_ENTRIES = 12u;
-const uint SHADE_WORK = 13u;     // WorkLists, by class, of the tiles to shade
+const uint SHADE_WORK = 13u;     // a WorkList per class: the tiles to shade
 const uint SHADE_COUNTERS = 14u; // count_pairs
 const uint SHADE_CLUSTERS = 15u; // shade_unlisted
 const uint SHADE_NODES = 16u;    // shade_unlisted
 const uint SHADE_NODE_WORDS = 17u;
 const uint SHADE_PAIRS = 18u;       // count_pairs: CndLightingFrame::pairImage
-const uint SHADE_HOST_NORMAL = 19u; // all that shade (kernels/common/read_gbuffer.glsl)
-const uint SHADE_FRAME = 20u;       // all that shade: FrameParams
-const uint SHADE_LIGHT_IDS = 21u;   // all that shade: read for the host's shadow term alone
-const uint PIXEL_OF_TILE = 1u;      // CndPixelClass
+const uint SHADE_HOST_NORMAL = 19u; // kernels/common/read_gbuffer.glsl
+const uint SHADE_FRAME = 20u;       // FrameParams
+const uint SHADE_LIGHT_IDS = 21u;   // read only for the host's shadow term
+const uint PIXEL_OF_TILE = 1u;      // the values of CndPixelClass
 const uint PIXEL_OF_SLICE = 2u;
 const uint PIXEL_UNLISTED = 3u;
 
@@ -140,16 +141,17 @@ struct LightBatch {
 GPU_SIZE(LightBatch, 8)
 
 struct ShadeTilesParams {
-    LightBatch batch; // read for distant lights alone, which have no lists
+    LightBatch batch; // read only for distant lights, which are in no list
 };
 GPU_SIZE(ShadeTilesParams, 8)
 
 struct ShadeUnlistedParams {
     uint listHead;    // LIST_UNLISTED or LIST_LONG (shared/clusters.h): the dispatch shades the
                       //   clusters with this list head
-    uint topLevel;    // the walk begins at this level of the light tree, or at its highest if lower
-    LightBatch batch; // the lights that the walk visits: whole nodes of topLevel, apart from the
-                      //   last, which ends where the tree ends
+    uint topLevel;    // the walk begins at this level of the light tree, or at the tree's highest
+                      //   level if that is lower
+    LightBatch batch; // the lights that the walk visits: whole nodes of topLevel, except that the
+                      //   last node may end with the tree
     TreeShape tree;
 };
 GPU_SIZE(ShadeUnlistedParams, 28)
@@ -167,16 +169,16 @@ struct CountPairsParams {
 GPU_SIZE(CountPairsParams, 12)
 
 // Specialisation constants of the kernels above.
-const uint SPEC_LIGHTS_AS_TEXELS = 0u; // read core as a texel buffer (else as a storage buffer)
+const uint SPEC_LIGHTS_AS_TEXELS = 0u; // 1: read core as a texel buffer; 0: as a storage buffer
 const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
 const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
 const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer.h)
 const uint SPEC_ERROR_BUDGET = 4u;     // 1: FrameParams::errorBudget may be > 0
-const uint SPEC_TILE_CLASS = 5u;       // CLASS_* of the tiles: their work list, and what they lack
-const uint SPEC_TILE_CLASSES = 6u;     // tile_clusters: mask of 1 << CLASS_* to be told apart
+const uint SPEC_TILE_CLASS = 5u;   // CLASS_* of the tiles: which work list, which lobe is absent
+const uint SPEC_TILE_CLASSES = 6u; // tile_clusters: mask of 1 << CLASS_*, the classes to find
 
-// Specular is evaluated at alpha >= this: below it float32 NoH loses the peak (measured: relative
-// error of D up to 7e-5 at 0.002, growing as 1/alpha^2).
+// The lowest alpha of the specular lobe. Below it a float32 NoH cannot resolve the peak (measured:
+// the relative error of D is up to 7e-5 at 0.002 and grows as 1 / alpha^2).
 const float MIN_ALPHA = 0.002f;
 
 GPU_END

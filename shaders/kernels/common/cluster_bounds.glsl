@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds of surface samples: a box, a slab along an axis near their normals, and a cone of normals.
-// Exact positions, not a frustum slice, so lights are culled against what is really there.
+// Bounds of surface samples: a box, a slab along an axis near their normals, a cone of normals and a
+// cone of view rays. They are made from the exact positions instead of a slice of the frustum, so that
+// lights are culled against the surfaces that are there.
 #include "shared/clusters.h"
 #include "lib/bounds.glsl"
 #define GBUFFER_CODE SPEC_GBUFFER
@@ -39,7 +40,7 @@ bool isEmpty(Cluster c)
     return c.min.x > c.max.x;
 }
 
-// The axis is the normal of the first sample.
+// Adds a sample to a cluster, whose axis is the normal of the first sample.
 void addSample(inout Cluster c, uvec2 pixel, float depth)
 {
     const vec3 p = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
@@ -57,11 +58,11 @@ void addSample(inout Cluster c, uvec2 pixel, float depth)
     c.slope = max(c.slope, ahead > 0.0 ? slope : uintBitsToFloat(0x7F800000u));
 }
 
-// Error of the cosine of two normals that are unit to 2 ulp each. Its sine is far less exact,
-// and a light just above the horizon must not be taken for one below.
+// Error of the cosine between two normals whose lengths are 1 within 2 ulp. The error of the sine of a
+// small angle is far larger, and a light just above the horizon must not be taken for one below it.
 const float COS_MARGIN = 16.0 / 16777216.0;
 
-// Wider by what rounding may have taken.
+// Returns the cluster widened by the largest effect of rounding.
 Cluster withMargins(Cluster c)
 {
     const float margin = DOT_MARGIN * max(largest(c.min), largest(c.max));
@@ -69,7 +70,8 @@ Cluster withMargins(Cluster c)
     c.slabMax += margin;
     c.minCos -= COS_MARGIN;
     c.slope = c.slope * (1.0 + DOT_MARGIN) + DOT_MARGIN;
-    // Orthographic: the box has the ray's direction. Infinite: a wide view in one tile.
+    // There is no cone of view rays in orthographic views, whose boxes are aligned with the rays, and
+    // in very wide views, where the slope of a tile may be infinite.
     if (frameParams.projection.eyeIsPoint == 0.0 || isinf(c.slope)) {
         c.ray = vec3(0.0);
         c.slope = 0.0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a G-buffer of any layout. The layout is a specialisation constant, so that what it does not
-// need is compiled away. The includer defines the numbers of the bindings: GBUFFER_CODE (of the
-// constant), GBUFFER_PACKED (normals of our layouts), GBUFFER_NORMAL (of the host's), FRAME_PARAMS
-// and, unless it reads normals only, GBUFFER_ALBEDO and GBUFFER_SPECULAR; with CANDELABRA_READ_SURFACE,
-// the host defines candelabraReadSurface(), for the custom layout.
+// Reads a G-buffer of any layout. The layout is a specialisation constant, so that code for other
+// layouts is compiled away. The includer defines GBUFFER_CODE, the id of that constant, and the numbers
+// of the bindings: GBUFFER_PACKED (normals of the engine's layouts), GBUFFER_NORMAL (normals of the
+// host's layout), FRAME_PARAMS and, unless it reads only normals, GBUFFER_ALBEDO and GBUFFER_SPECULAR.
+// With CANDELABRA_READ_SURFACE the host defines candelabraReadSurface() for the custom layout.
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/host_gbuffer.h"
 #include "kernels/common/frame_params.glsl"
@@ -22,7 +22,7 @@ const uint f90Channel = (gbufferCode >> GBUFFER_F90_SHIFT) & GBUFFER_CHANNEL_MAS
 layout(binding = GBUFFER_PACKED) uniform utexture2D packedNormalImage;
 layout(binding = GBUFFER_NORMAL) uniform texture2D normalImage;
 
-// As the host stored it: its space, any length.
+// Returns the normal that the host stored, in its space and with any length.
 vec3 storedNormal(vec4 texel)
 {
     if (normalEncoding == GBUFFER_NORMAL_OCTAHEDRAL_UNORM)
@@ -32,14 +32,16 @@ vec3 storedNormal(vec4 texel)
     return normalEncoding == GBUFFER_NORMAL_UNORM ? 2.0 * texel.xyz - 1.0 : texel.xyz;
 }
 
+// Returns the normalised normal, or +z if it has no usable length.
 vec3 unitNormal(vec3 n)
 {
     const float length2 = dot(n, n);
-    // False for NaN; the ends keep the square root away from denormals and infinity.
+    // The condition is false for NaN. The limits avoid denormals and infinity in the square root.
     return length2 > 1e-12 && length2 < 1e12 ? normalize(n) : vec3(0.0, 0.0, 1.0);
 }
 
-// Unit, view space. Precise: every kernel gets the same bits.
+// Returns the unit normal in view space. It is computed as `precise`, so that every kernel gets the
+// same bits.
 vec3 hostNormal(vec4 texel)
 {
     precise vec3 n = storedNormal(texel);
@@ -100,7 +102,7 @@ float channelOf(HostTexels t, uint channel)
     return texel[(channel - 1u) & 3u];
 }
 
-// Perceptual, as the host stored it: may be out of range.
+// Returns the perceptual roughness that the host stored, which may be out of range.
 float storedRoughness(HostTexels t)
 {
     const float stored = channelOf(t, roughnessChannel);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bindings and G-buffer reading shared by the kernels that walk lights per pixel.
+// The bindings that the kernels share which evaluate lights per pixel.
 #include "shared/lighting.h"
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_PACKED SHADE_NORMAL_ROUGHNESS

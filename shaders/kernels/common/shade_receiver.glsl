@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixel that a shading kernel lights, with its lobes joined.
+// Reads the surface that a shading kernel lights, and joins its lobes.
 #include "kernels/common/shade_inputs.glsl"
 #include "lib/dfg.glsl"
 #include "lib/joining.glsl"
@@ -7,13 +7,13 @@
 layout(binding = SHADE_DFG) uniform textureBuffer dfgTexels;
 layout(binding = SHADE_LTC) uniform textureBuffer ltcTexels;
 
-// The table of lib/dfg.glsl.
+// lib/dfg.glsl reads its table through this function.
 vec4 dfgTexel(int entry)
 {
     return texelFetch(dfgTexels, entry);
 }
 
-// The table of lib/specular/ltc.glsl.
+// lib/specular/ltc.glsl reads its table through this function.
 vec4 ltcTexel(uint index)
 {
     return texelFetch(ltcTexels, int(index));
@@ -30,7 +30,7 @@ ShadingPoint readShadingPoint(uvec2 pixel, float depth)
     return p;
 }
 
-// Samples differ between pixels and frames.
+// Returns a seed for sampling lights, which differs between pixels and frames.
 uint pixelSeed(uvec2 pixel)
 {
     return frameParams.sampleSeed * 0x9E3779B9u + pixel.y * 0x10000u + pixel.x;

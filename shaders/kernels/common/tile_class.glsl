@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The class of a tile: which lobe none of its surfaces has. The includer provides depthAt() and
+// Finds the class of a tile: which lobe none of its surfaces has. The includer provides depthAt() and
 // includes kernels/common/read_gbuffer.glsl for the whole G-buffer.
 #ifndef CND_COMMON_TILE_CLASS
 #define CND_COMMON_TILE_CLASS
@@ -10,13 +10,14 @@ layout(constant_id = SPEC_TILE_CLASSES) const uint tileClasses = 0u;
 const bool FINDS_DIFFUSE = (tileClasses >> CLASS_DIFFUSE & 1u) != 0u;
 const bool FINDS_SPECULAR = (tileClasses >> CLASS_SPECULAR & 1u) != 0u;
 
-// NaN is not 0: such a surface has the lobe.
+// Tells whether a colour is 0. A NaN is not 0, so a surface with a NaN has the lobe.
 bool isBlack(vec3 colour)
 {
     return colour.x == 0.0 && colour.y == 0.0 && colour.z == 0.0;
 }
 
-// Class of the pixels first .. end - 1. The loop ends as soon as no class is possible any more.
+// Returns the class of the pixels first .. end - 1. The loop ends as soon as only CLASS_ANY is
+// possible.
 uint classOfSurfaces(uvec2 first, uvec2 end)
 {
     bool diffuse = FINDS_DIFFUSE, specular = FINDS_SPECULAR;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tile that a workgroup shades, one of the WorkList of its class, and the lists of its pixels. The
-// includer includes kernels/common/frame_params.glsl first.
+// Finds the tile that a workgroup shades, on the work list of its class, and the clusters of its
+// pixels. The includer includes kernels/common/frame_params.glsl first.
 #ifndef CND_COMMON_TILE_OF_GROUP
 #define CND_COMMON_TILE_OF_GROUP
 
@@ -23,12 +23,14 @@ layout(scalar, binding = SHADE_WORK) readonly buffer Work
     uint workTiles[];
 };
 
+// Returns the cluster of a sample with this depth.
 uint clusterOf(uint tile, float depth)
 {
     return tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
 }
 
-// False after the last tile and outside the image.
+// Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
+// outside the image.
 bool takeTile(out uint tile, out uvec2 pixel)
 {
     const WorkList work = works[tileClass];
@@ -37,8 +39,8 @@ bool takeTile(out uint tile, out uvec2 pixel)
     pixel = uvec2(0u);
     if (at >= work.count)
         return false;
-    // Every second tile, then the others: some devices deal out groups in equal shares from the front,
-    // and tiles that take longer come last.
+    // Takes every second tile of the work list first, then the others. Some devices divide the groups
+    // into equal consecutive shares, and tiles that take longer are at the end of the list.
     const uint firsts = (work.count + 1u) / 2u;
     tile = workTiles[work.first + (at < firsts ? 2u * at : 2u * (at - firsts) + 1u)];
     pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(gl_LocalInvocationIndex);

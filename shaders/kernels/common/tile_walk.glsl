@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights of a pixel's cluster, as blocks for light_walk.glsl. Distant lights have no lists, since
-// they light every cluster: the includer's push constants name them as `params.batch`, a LightBatch.
+// The lights of a pixel's cluster, as blocks for light_walk.glsl. Distant lights are in no list,
+// because they light every cluster. The includer's push constants name them: params.batch, a
+// LightBatch.
 #include "shading/light_type.glsl"
 #include "kernels/common/tile_of_group.glsl"
 
@@ -8,15 +9,15 @@ layout(scalar, binding = SHADE_ENTRIES) readonly buffer Entries
 {
     uint entries[];
 };
-// The k-th light; blocks count in the same numbers.
+// Returns the light with index k. Blocks are ranges of such indices.
 uint lightAt(uint k)
 {
     return IS_DISTANT ? k : entries[k];
 }
 
 struct Block {
-    uint first, count; // count 0: no more; first still is one that can be read
-    uint next;         // 0: none
+    uint first, count; // a count of 0 ends the walk; `first` is a readable index even then
+    uint next;         // where the next block begins; 0: there is none
 };
 
 Block pageBlock(uint page)
@@ -26,7 +27,7 @@ Block pageBlock(uint page)
                  header >> PAGE_COUNT_BITS);
 }
 
-// The next block of a batch of which `at` lights are done.
+// Returns the block of a batch that begins after its first `at` lights.
 Block batchBlock(uint at)
 {
     const uint left = params.batch.count - at;
@@ -34,7 +35,7 @@ Block batchBlock(uint at)
                  left > PAGE_WORDS ? at + PAGE_WORDS : 0u);
 }
 
-// The first block of a sample, without lights where there are none.
+// Returns the first block of a sample. It is empty if no light reaches the sample's cluster.
 Block beginWalk(uint tile, float depth)
 {
     if (IS_DISTANT)
