@@ -59,8 +59,7 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
               pointOf(level, CND_SPECULAR_KARIS).error.mirror.all.mean);
     const auto json = nlohmann::json::parse(kernelJson(settings, level).dump());
     EXPECT_EQ(json["points"].size(), 3u);
-    EXPECT_EQ(test::JsonSchema("bench_accuracy.schema.json").faultOfPart(json, "#/$defs/kernels"),
-              "");
+    EXPECT_EQ(test::schemaFaults(json, "bench_accuracy.schema.json", "#/$defs/kernels"), "");
     EXPECT_NE(kernelTables(level).find("rectangle ltc"), std::string::npos);
 }
 
@@ -107,9 +106,9 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
     const std::vector<ImageScene> scenes = measureImages(context(), settings, progress);
     ASSERT_EQ(scenes.size(), benchScenes().size());
     const auto json = nlohmann::json::parse(imageJson(settings, scenes, {})["scenes"].dump());
-    EXPECT_EQ(test::JsonSchema("bench_accuracy.schema.json")
-                  .faultOfPart(json, "#/$defs/images/properties/scenes"),
-              "");
+    EXPECT_EQ(
+        test::schemaFaults(json, "bench_accuracy.schema.json", "#/$defs/images/properties/scenes"),
+        "");
     for (const ImageScene& scene : scenes) {
         ASSERT_EQ(scene.points.size(), 2u);
         const ImageDifference &karis = scene.points[0].error, &conic = scene.points[1].error;

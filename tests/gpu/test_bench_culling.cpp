@@ -48,9 +48,8 @@ TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
     EXPECT_EQ(cullingFailures(points).size(), 0u);
     const auto json = nlohmann::json::parse(cullingJson(settings, points).dump());
     EXPECT_EQ(json["points"].size(), 3u);
-    EXPECT_EQ(test::JsonSchema("bench_culling.schema.json")
-                  .faultOfPart(json["points"], "#/properties/points"),
-              "");
+    EXPECT_EQ(
+        test::schemaFaults(json["points"], "bench_culling.schema.json", "#/properties/points"), "");
     EXPECT_EQ(cullingPlots(points, context().info()).size(), 3u);
     EXPECT_NE(cullingTables(points).find("200x120"), std::string::npos);
 }
@@ -102,9 +101,8 @@ TEST_F(BenchCulling, BruteForceOverTheLimitIsListedWithItsEstimate)
     EXPECT_GT(points[0].of(bruteName).skippedMs.value_or(0), 0);
     EXPECT_NE(cullingTables(points).find("skipped"), std::string::npos);
     const auto json = nlohmann::json::parse(cullingJson(settings, points).dump());
-    EXPECT_EQ(test::JsonSchema("bench_culling.schema.json")
-                  .faultOfPart(json["points"], "#/properties/points"),
-              "");
+    EXPECT_EQ(
+        test::schemaFaults(json["points"], "bench_culling.schema.json", "#/properties/points"), "");
     const auto brute = json["points"][0]["contenders"][3];
     EXPECT_EQ(brute["skipped"], true);
     EXPECT_GT(brute["estimatedMs"].get<double>(), 0);

@@ -31,9 +31,8 @@ TEST_F(BenchSkip, ImagesAreThoseOfFramesThatSkipNothing)
     EXPECT_TRUE(skipFailures(rows).empty());
     const auto json = nlohmann::json::parse(skipJson(settings, rows).dump());
     EXPECT_EQ(json["skips"].size(), rows.size());
-    EXPECT_EQ(
-        test::JsonSchema("bench_skip.schema.json").faultOfPart(json["skips"], "#/properties/skips"),
-        "");
+    EXPECT_EQ(test::schemaFaults(json["skips"], "bench_skip.schema.json", "#/properties/skips"),
+              "");
     EXPECT_NE(skipTable(rows).find("manual exposure"), std::string::npos);
 
     std::vector<SkipRow> wrong = rows;

@@ -102,7 +102,7 @@ TEST_F(ProgramTest, RenderWritesImagesAndFigures)
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const auto json = nlohmann::json::parse(outcome.out);
-    EXPECT_EQ(test::JsonSchema("render.schema.json").fault(json), "");
+    EXPECT_EQ(test::schemaFaults(json, "render.schema.json"), "");
     EXPECT_EQ(json["scene"]["lights"], 150);
     EXPECT_EQ(json["image"]["widthPixels"], 96);
     EXPECT_EQ(json["scene"]["lobes"], "conserving");
@@ -183,7 +183,7 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
     for (const char* word : {"shade_tiles", "p95 ms", "lights per tile", "identical", "Try next"})
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     const auto json = nlohmann::json::parse(text("s.json"));
-    EXPECT_EQ(test::JsonSchema("stress.schema.json").fault(json), "");
+    EXPECT_EQ(test::schemaFaults(json, "stress.schema.json"), "");
     ASSERT_EQ(json["points"].size(), 2u);
     for (const auto& point : json["points"]) {
         EXPECT_LE(point["bruteForce"]["maxDifferenceOverMaxRadiance"], 1e-6);
@@ -204,7 +204,7 @@ TEST_F(ProgramTest, ProfileTimesEveryPass)
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("shade_tiles"), std::string::npos) << outcome.out;
     const auto json = nlohmann::json::parse(text("p.json"));
-    EXPECT_EQ(test::JsonSchema("profile.schema.json").fault(json), "");
+    EXPECT_EQ(test::schemaFaults(json, "profile.schema.json"), "");
     EXPECT_EQ(json["lightCosts"]["lights"].size(), 5u);
     ASSERT_EQ(json["variants"].size(), 1u);
     const auto& time = json["variants"][0]["time"];
@@ -231,7 +231,7 @@ TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
                                 "--trace t.json --json p.json --validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto trace = nlohmann::json::parse(text("t.json"));
-    EXPECT_EQ(test::JsonSchema("trace.schema.json").fault(trace), "");
+    EXPECT_EQ(test::schemaFaults(trace, "trace.schema.json"), "");
     if (context().getCalibratedTimestamps()) {
         EXPECT_EQ(trace["otherData"]["clocksAlignedBy"], context().calibratedTimestampsExtension());
     }
@@ -289,7 +289,7 @@ TEST_F(ProgramTest, ProfileTellsADifferenceFromNone)
                                 "--ab '' '--specular sampled --samples 256'");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
-    EXPECT_EQ(test::JsonSchema("profile.schema.json").fault(json), "");
+    EXPECT_EQ(test::schemaFaults(json, "profile.schema.json"), "");
     EXPECT_EQ(json["variants"][0]["settings"]["specular"], "conic");
     EXPECT_EQ(json["variants"][1]["settings"]["specular"], "sampled");
     bool found = false;
@@ -332,7 +332,7 @@ TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
         EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
     EXPECT_EQ(page.find("://"), std::string::npos);
     const auto json = nlohmann::json::parse(text("r/report.json"));
-    EXPECT_EQ(test::JsonSchema("report.schema.json").fault(json), "");
+    EXPECT_EQ(test::schemaFaults(json, "report.schema.json"), "");
     EXPECT_GT(json["profile"]["time"]["gpu"]["medianMs"], 0);
     EXPECT_EQ(run("report --parts profile,colour --out r").exitCode, 2);
 }
@@ -370,7 +370,7 @@ TEST_F(ProgramTest, DevicesListsTheOneUnderTest)
     const Outcome outcome = run("devices --json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
-    EXPECT_EQ(test::JsonSchema("devices.schema.json").fault(json), "");
+    EXPECT_EQ(test::schemaFaults(json, "devices.schema.json"), "");
     bool found = false;
     for (const auto& device : json["devices"])
         found |= device["name"] == context().info().name && device["missing"] == "";

@@ -19,6 +19,11 @@ std::string programWord()
     return shellWord(CANDELABRA_PROGRAM);
 }
 
+std::string pythonWord()
+{
+    return shellWord(CANDELABRA_PYTHON);
+}
+
 std::string shellWord(const std::string& text)
 {
     std::string word = "'";

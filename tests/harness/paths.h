@@ -15,6 +15,8 @@ std::string dataPath(const std::string& name);
 // Returns the path of the candelabra program that was built with the tests, quoted as one word of a
 // shell command.
 std::string programWord();
+// Returns the path of the Python interpreter of the build, quoted likewise.
+std::string pythonWord();
 // Returns any text quoted as one word of a shell command.
 std::string shellWord(const std::string& text);
 
