@@ -14,9 +14,9 @@ GPU_BEGIN
 // They place the nodes at which shadowing and Fresnel are evaluated
 // (lib/specular/conic_shading.glsl explains the terms). All are dimensionless and positive. If the
 // meaning includes a value for a disc, that value was derived for a small disc of slopes in a lobe
-// that is constant over the disc; the fit corrects it for real lobes and lights.
-// candelabra_fit conic prints the errors that remain; with F0 = 1 their mean is 0.05% of the
-// highest response, the largest 3.5%.
+// that is constant over the disc; the fit corrects it for real lobes and lights. What errors remain
+// is in tools/bench/RESULTS.md (decision 22): with F0 = 1 their mean is 0.05% of the highest
+// response, the largest 3.5%. A unit test (ConicFit) fails when a value changes without a new fit.
 //
 // The first five are the coefficients of the mean of N.L over the part of a cap above the horizon,
 // divided by the highest N.L there. u is the share of the cap's diameter above the horizon, 0..1.

@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that each fitted constant of the closed form is near its optimum, and that the parts of the
-// fit compute what they should.
+// Tests that the record of the fit (tools/bench/results/conic-fit.json) was made with the constants
+// that the shaders have, that each constant is near its optimum, and that the parts of the fit
+// compute what they should.
 #include <cmath>
+#include <fstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "fit/conic_objective.h"
 #include "fit/polynomials.h"
+#include "harness/paths.h"
 
 namespace candelabra::test
 {
 namespace
 {
+
+nlohmann::json conicFitRecord()
+{
+    return nlohmann::json::parse(std::ifstream(sourcePath("tools/bench/results/conic-fit.json")));
+}
 
 const fit::ConicObjective& checkObjective()
 {
@@ -19,7 +28,42 @@ const fit::ConicObjective& checkObjective()
     return objective;
 }
 
+void expectRecorded(const nlohmann::json& recorded, const fit::ErrorFigures& figures)
+{
+    // The truth is integrated to a relative error of 1e-5.
+    EXPECT_NEAR(figures.mean, recorded["meanPercent"], 1e-3 * figures.mean);
+    EXPECT_NEAR(figures.rms, recorded["rmsPercent"], 1e-3 * figures.rms);
+    EXPECT_NEAR(figures.p99, recorded["p99Percent"], 1e-3 * figures.p99);
+    EXPECT_NEAR(figures.largest, recorded["maxPercent"], 1e-3 * figures.largest);
+}
+
 } // namespace
+
+TEST(ConicFit, RecordHoldsTheCommittedConstants)
+{
+    const nlohmann::json constants = conicFitRecord()["committed"]["constants"];
+    EXPECT_EQ(constants.size(), fit::conicConstants().size());
+    for (const fit::ConicConstant& c : fit::conicConstants()) {
+        ASSERT_TRUE(constants.contains(c.name)) << c.name;
+        EXPECT_EQ(float(constants[c.name]), float(c.committed)) << c.name;
+    }
+}
+
+TEST(ConicFit, RecordHoldsTheirResidualsOnAFewGroups)
+{
+    const nlohmann::json check = conicFitRecord()["check"];
+    const fit::ConicResiduals residuals = checkObjective().residuals({});
+    for (const auto& [method, figures] :
+         {std::pair{"conic", &residuals.conic}, {"conic-full", &residuals.conicFull}}) {
+        const nlohmann::json& recorded = check["residuals"][method];
+        expectRecorded(recorded["fresnel1"]["all"], figures->mirror.all);
+        expectRecorded(recorded["fresnel1"]["above"], figures->mirror.above);
+        expectRecorded(recorded["F0_0.04"]["all"], figures->dielectric.all);
+        expectRecorded(recorded["F0_0.04"]["above"], figures->dielectric.above);
+    }
+    const double cost = checkObjective().cost({});
+    EXPECT_NEAR(cost, check["cost"], 1e-3 * cost);
+}
 
 // Half or twice the value of any constant, with the others unchanged, changes the cost and lowers
 // it by less than 1%. (Some constants matter little: on these few groups, changing one of them

@@ -39,7 +39,7 @@ void describeConic(CLI::App& app, fit::ConicSettings& s)
         "to and on others that are not, then the constants that two searches find, with their\n"
         "errors: one search starts from the shaders' constants, the other from bad ones. Shaders\n"
         "are not changed; whoever adopts new constants edits the header and commits the record\n"
-        "(--json) as tools/bench/results/conic-fit.json. Takes some ten minutes of one core.\n\n"
+        "(--json) as tools/bench/results/conic-fit.json. Takes some five minutes of CPU time.\n\n"
         "Examples:\n"
         "  candelabra_fit conic --json tools/bench/results/conic-fit.json\n"
         "  candelabra_fit conic --evaluations 0      errors of the shaders' constants, no search\n"
