@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fuzzing driver: runs the seeds, then mutations of them, always the same sequence.
+// A fuzzing driver for g++, which has no libFuzzer: runs the seeds, then mutations of them, always
+// the same sequence.
 //   fuzz_X [EXECUTIONS] [FILE...]        each FILE is run unchanged
 #include <algorithm>
 #include <random>

@@ -114,6 +114,11 @@ std::string fishCompletions(const CLI::App& root)
     return out;
 }
 
+// The manual page is not made by help2man, which reads the text of one --help. Of this program it
+// (1.49 was tried) makes one page per command, 16 in all, each under the name of candelabra(1),
+// without the exit status, and the examples of a command run together into one paragraph. Here the
+// options come from the parser itself, as those of the completions do.
+
 // Text of a manual page: backslashes and dashes are themselves, no line is a request.
 std::string roff(const std::string& text)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the elements of glTF accessors, which may have any component type and may be strided,
-// normalised or sparse. Internal to the glTF loader. All functions throw SceneError.
+// normalised or sparse. TinyGLTF leaves this to its users. Internal to the glTF loader. All
+// functions throw SceneError.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statistics of repeated measurements on a machine that does other things as well.
+// Statistics of repeated measurements on a machine that does other things as well. GSL, which has
+// medians and percentiles, is not used: its licence, the GPL, would become that of the program.
 #pragma once
 
 #include <span>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line plot with logarithmic axes as an SVG file.
+// A line plot with logarithmic axes as an SVG file. It is drawn here, because it is the only kind
+// of plot: Debian's plotting libraries draw many kinds into many formats (PLplot, MathGL), or run
+// gnuplot, which users would have to install.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table: aligned columns for the terminal.
+// Table: aligned columns for the terminal. Debian has no C++ library for this; fmt aligns single
+// cells, when the widths of the columns are known.
 #pragma once
 
 #include <cstddef>

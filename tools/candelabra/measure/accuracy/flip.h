@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// FLIP: the difference that a viewer sees when alternating between two displayed images.
+// FLIP: the difference that a viewer sees when alternating between two displayed images. Debian has
+// no package of it.
 #pragma once
 
 #include <cstdint>
