@@ -4,14 +4,17 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <set>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "generate/generators.h"
+#include "generate/hall.h"
 #include "generate/lights.h"
 #include "generate/ray_caster.h"
 #include "generate/shapes.h"
+#include "generate/textures.h"
 #include "scene/scene_error.h"
 #include "scene/scene_options.h"
 #include "unit/scene_invariants.h"
@@ -296,6 +299,141 @@ TEST(LightColours, HaveUnitLuminance)
     EXPECT_GT(blackbodyColour(2000).r, 5 * blackbodyColour(2000).b);
     EXPECT_GT(blackbodyColour(20000).b, 1.5f * blackbodyColour(20000).r);
     EXPECT_EQ(hueColour(1.0f / 3.0f, 1).r, 0);
+}
+
+// Returns the value of the brightest channel.
+float peakOf(const CndLight& light)
+{
+    return std::max({light.emission[0], light.emission[1], light.emission[2]});
+}
+
+size_t keyLightCount()
+{
+    Random random(1);
+    return hall::keyLights(defaultLightCount, false, random).size();
+}
+
+TEST(Hall, KeyLightsAreTheSameForAnyNumberOfLights)
+{
+    const Scene usual = generateHall({});
+    const size_t keys = keyLightCount();
+    EXPECT_LT(keys, 250u);
+    for (const uint32_t count : {300u, 1000u, 16000u, 64000u}) {
+        const Scene scene = generateHall(withLights(count));
+        // The lamps of the chandeliers come first. They are meant to reach 13 m.
+        EXPECT_NEAR(scene.lights[0].influenceRadius, 13, 0.15 * 13) << count;
+        for (size_t i = 0; i < keys; ++i) {
+            const CndLight &a = scene.lights[i], &b = usual.lights[i];
+            ASSERT_EQ(0, std::memcmp(a.position, b.position, sizeof(a.position))) << i;
+            ASSERT_EQ(0, std::memcmp(a.emission, b.emission, sizeof(a.emission))) << i;
+            ASSERT_EQ(a.radius, b.radius) << i;
+        }
+    }
+}
+
+// Their emitters are far too bright for a display, so none may be seen, not even in part.
+TEST(Hall, KeyLightsAreOutOfSight)
+{
+    const Scene scene = generateHall(withLights(300));
+    RayCaster caster(scene);
+    for (const Camera& camera : scene.cameras) {
+        const glm::dvec3 right = glm::cross(camera.forward, camera.up);
+        for (size_t i = 0; i < keyLightCount(); ++i) {
+            const CndLight& light = scene.lights[i];
+            const double radius = light.radius;
+            for (const glm::dvec3& offset : {glm::dvec3(0), radius * right, -radius * right,
+                                             radius * camera.up, -radius * camera.up}) {
+                const glm::dvec3 target =
+                    scene.lightOrigin + offset +
+                    glm::dvec3(light.position[0], light.position[1], light.position[2]);
+                const double distance = glm::length(target - camera.position);
+                const auto hit =
+                    caster.cast({camera.position, (target - camera.position) / distance});
+                ASSERT_TRUE(hit) << camera.name << " " << i;
+                EXPECT_LT(hit->distance, distance - (offset == glm::dvec3(0) ? radius : 0))
+                    << camera.name << " " << i;
+            }
+        }
+    }
+}
+
+TEST(Hall, LightsInSightAreSmallAndKeepTheirLuminance)
+{
+    for (const uint32_t count : {1000u, 16000u}) {
+        const Scene scene = generateHall(withLights(count));
+        for (size_t i = keyLightCount(); i < scene.lights.size(); ++i) {
+            const CndLight& light = scene.lights[i];
+            ASSERT_LE(light.radius, 0.0221f * light.influenceRadius) << i;
+            ASSERT_GT(peakOf(light), 279) << i;
+            ASSERT_LT(peakOf(light), 561) << i;
+        }
+    }
+}
+
+TEST(Showcase, LampsAreDimEnoughForADisplayToShowTheirColour)
+{
+    const Scene scene = generateShowcase({});
+    for (const CndLight& light : scene.lights) {
+        if (cndIsPunctual(light.type))
+            continue;
+        EXPECT_LT(peakOf(light), 7.01f) << light.type;
+        EXPECT_GT(peakOf(light),
+                  3 * std::min({light.emission[0], light.emission[1], light.emission[2]}))
+            << light.type;
+    }
+    // What holds the lamps is left out where they move.
+    EXPECT_LT(generateShowcase({.moving = true}).analyticObjects.size(),
+              scene.analyticObjects.size());
+}
+
+TEST(Textures, AreWhatTheScenesPaint)
+{
+    const Texture gradient = makeGradient({{1, 0, 0}, {0, 0, 1}, {0, 0.2140411f, 0}});
+    EXPECT_EQ(gradient.width, 1u);
+    EXPECT_EQ(gradient.height, 3u);
+    EXPECT_TRUE(gradient.srgb);
+    EXPECT_FALSE(gradient.repeatV);
+    // sRGB encodes 0.2140411 as 0.5.
+    EXPECT_EQ(gradient.rgba,
+              (std::vector<uint8_t>{255, 0, 0, 255, 0, 0, 255, 255, 0, 128, 0, 255}));
+
+    const Texture glass = makeLeadedGlass();
+    ASSERT_EQ(glass.rgba.size(), size_t{4} * glass.width * glass.height);
+    EXPECT_EQ(glass.rgba, makeLeadedGlass().rgba);
+    std::set<uint32_t> colours;
+    for (uint32_t y = 0; y < glass.height; ++y) {
+        for (uint32_t x = 0; x < glass.width; ++x) {
+            const uint8_t* texel = &glass.rgba[size_t{4} * (glass.width * y + x)];
+            colours.insert(texel[0] << 16u | texel[1] << 8u | texel[2]);
+            if (x == 0 || y == 0) { // the lead at the edges
+                ASSERT_LT(std::max({texel[0], texel[1], texel[2]}), 20);
+            }
+        }
+    }
+    EXPECT_GT(colours.size(), 100u);
+}
+
+// Every other light is below the floor, which only the part above the horizon passes.
+TEST(SphereLights, KeepTheLuminanceThatTheirSiteGives)
+{
+    Scene scene = makeRoom();
+    Random random(5);
+    std::vector<LightSite> sites(600);
+    for (size_t i = 0; i < sites.size(); ++i) {
+        sites[i].position = {95 + 10 * random.uniform(), i % 2 ? 4 * random.uniform() : -0.05f,
+                             6 * random.uniform() - 3};
+        sites[i].radius = 0.3f;
+        sites[i].radiusShare = 0.08f;
+        sites[i].colour = hueColour(0.3f, 0.5f);
+        sites[i].luminance = luminanceOfPeak(sites[i].colour, 50);
+    }
+    addSphereLights(scene, sites, {});
+    expectSphereLights(scene, sites.size());
+    for (const CndLight& light : scene.lights) {
+        ASSERT_NEAR(peakOf(light), 50, 1e-4);
+        ASSERT_FLOAT_EQ(light.radius, std::min(0.3f, 0.08f * light.influenceRadius));
+    }
+    EXPECT_NEAR(meanContributing(scene, seenPoints(scene, 83, 47)), 8, 0.4);
 }
 
 TEST(RandomLights, FillTheBoundsAndReachTheOverlaps)

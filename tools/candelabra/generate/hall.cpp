@@ -2,10 +2,16 @@
 #include "generate/hall.h"
 #include "generate/generators.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numbers>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "generate/shapes.h"
+#include "generate/textures.h"
 
 namespace candelabra::app
 {
@@ -67,6 +73,34 @@ Mesh makeVase()
                      14);
 }
 
+// Makes the shade of a lamp, a closed pear of glass.
+Mesh makeShade()
+{
+    return makeLathe({{{0, 0},
+                       {0.14f, 0.02f},
+                       {0.27f, 0.12f},
+                       {0.335f, 0.28f},
+                       {0.345f, 0.43f},
+                       {0.30f, 0.60f},
+                       {0.20f, 0.73f},
+                       {0.12f, 0.80f}}},
+                     20);
+}
+
+// Makes the metal at both ends of a shade.
+Mesh makeShadeCap()
+{
+    return makeLathe(
+        {{{0, -0.12f}, {0.04f, -0.08f}, {0.02f, -0.03f}, {0.10f, -0.01f}, {0.16f, 0.025f}},
+         {{0.19f, 0.735f},
+          {0.2f, 0.75f},
+          {0.13f, 0.84f},
+          {0.04f, 0.91f},
+          {0.03f, 1.0f},
+          {0, 1.02f}}},
+        14);
+}
+
 Mesh makeBaluster()
 {
     return makeLathe({{{0.045f, 0},
@@ -104,17 +138,84 @@ void addMeshes(Kit& kit)
     kit.mesh.rod = b.addMesh(makeCylinder(6));
     kit.mesh.link = b.addMesh(makeTorus(1, 0.24f, 10, 4));
     kit.mesh.disc = b.addMesh(makeCylinder(32));
+    kit.mesh.shade = b.addMesh(makeShade());
+    kit.mesh.shadeCap = b.addMesh(makeShadeCap());
 }
+
+namespace
+{
+
+// Makes the glow of a shade: brightest where the lamp inside is nearest, and redder where its light
+// has had a longer way.
+Texture makeShadeGlow()
+{
+    std::vector<glm::vec3> colours;
+    constexpr int steps = 64;
+    for (int i = 0; i < steps; ++i) {
+        const float away = (static_cast<float>(i) / (steps - 1) - 0.47f) / 0.30f;
+        const float glow = 0.12f + 0.88f * std::exp(-away * away);
+        colours.push_back({glow, std::pow(glow, 1.25f), std::pow(glow, 1.6f)});
+    }
+    return makeGradient(colours);
+}
+
+// Adds the materials that glow. Emission is in cd/m^2; stone beside it has 1 to 5.
+void addGlass(Kit& kit)
+{
+    SceneBuilder& b = kit.builder;
+    Materials& m = kit.material;
+    const auto textured = [&](Texture texture) {
+        b.scene.textures.push_back(std::move(texture));
+        TextureRef ref;
+        ref.texture = static_cast<int32_t>(b.scene.textures.size() - 1);
+        return ref;
+    };
+    const TextureRef glow = textured(makeShadeGlow());
+    m.alabaster = b.addMaterial({.name = "alabaster",
+                                 .baseColor = {0.6f, 0.5f, 0.4f},
+                                 .perceptualRoughness = 0.4f,
+                                 .emission = 8.0f * glm::vec3(1, 0.60f, 0.27f),
+                                 .emissiveTexture = glow});
+    m.amberGlass = b.addMaterial({.name = "amber glass",
+                                  .baseColor = {0.3f, 0.2f, 0.1f},
+                                  .perceptualRoughness = 0.3f,
+                                  .emission = 7.0f * glm::vec3(1, 0.40f, 0.09f),
+                                  .emissiveTexture = glow});
+    for (int hue = 0; hue < lanternHueCount; ++hue) {
+        const glm::vec3 colour = lanternColour(hue, 0);
+        m.lantern.push_back(
+            b.addMaterial({.name = "lantern glass " + std::to_string(hue),
+                           .baseColor = 0.3f * colour / std::max({colour.r, colour.g, colour.b}),
+                           .perceptualRoughness = 0.3f,
+                           .emission = luminanceOfPeak(colour, 6) * colour,
+                           .emissiveTexture = glow}));
+    }
+    // Stained glass before an evening sky. Each window shows another part of the pattern.
+    TextureRef leads = textured(makeLeadedGlass());
+    const glm::vec3 panes[] = {{4, 8.5f, 25}, {20, 6.5f, 4}, {4, 13.5f, 12}, {20, 12.5f, 4}};
+    for (size_t i = 0; i < std::size(panes); ++i) {
+        const float offset = static_cast<float>(i) / static_cast<float>(std::size(panes));
+        leads.uRow = {0.5f, 0, offset};
+        leads.vRow = {0, 0.5f, offset};
+        m.glass.push_back(b.addMaterial({.name = "stained glass",
+                                         .baseColor = glm::vec3(0.02f),
+                                         .perceptualRoughness = 0.12f,
+                                         .emission = panes[i],
+                                         .emissiveTexture = leads}));
+    }
+}
+
+} // namespace
 
 void addMaterials(Kit& kit)
 {
     SceneBuilder& b = kit.builder;
     Materials& m = kit.material;
     // F0 of metals: Lagarde 2011, "Feeding a physically based shading model" (linear).
-    m.gold = b.addMetal("gold", {1.0f, 0.766f, 0.336f}, 0.16f);
+    m.gold = b.addMetal("gold", {1.0f, 0.766f, 0.336f}, 0.28f);
     m.copper = b.addMetal("copper", {0.955f, 0.637f, 0.538f}, 0.28f);
     m.iron = b.addMetal("iron", {0.56f, 0.57f, 0.58f}, 0.45f);
-    m.chrome = b.addMetal("chrome", {0.549f, 0.556f, 0.554f}, 0.06f);
+    m.chrome = b.addMetal("chrome", {0.549f, 0.556f, 0.554f}, 0.12f);
     m.silver = b.addMetal("silver", {0.972f, 0.960f, 0.915f}, 0.22f);
     m.bronze = b.addMetal("bronze", {0.80f, 0.58f, 0.36f}, 0.38f);
     m.marble = b.addDielectric("white marble", {0.72f, 0.69f, 0.64f}, 0.22f);
@@ -150,15 +251,7 @@ void addMaterials(Kit& kit)
         m.glaze.push_back(b.addDielectric("glaze " + std::to_string(i), glazes[i],
                                           roughnesses[i % std::size(roughnesses)]));
     }
-    // Moonlit stained glass, cd/m^2: visible beside stone under some 30 lx (about 5 cd/m^2).
-    const glm::vec3 panes[] = {
-        {0.6f, 1.4f, 5.5f}, {4.0f, 0.8f, 0.5f}, {0.5f, 3.0f, 1.8f}, {4.5f, 2.6f, 0.5f}};
-    for (const glm::vec3& pane : panes) {
-        m.glass.push_back(b.addMaterial({.name = "stained glass",
-                                         .baseColor = glm::vec3(0.02f),
-                                         .perceptualRoughness = 0.12f,
-                                         .emission = pane}));
-    }
+    addGlass(kit);
 }
 
 } // namespace hall

@@ -55,21 +55,25 @@ constexpr double hanging(double height, double sag, double t)
 {
     return height - 4 * sag * t * (1 - t);
 }
-constexpr double cableY = 6.6, cableSag = 1.6;     // across the nave at every column
+constexpr double cableY = 6.6, cableSag = 1.6; // across the nave at every column
+constexpr double cableHalf = naveHalf - 0.4;
 constexpr double garlandY = 5.3, garlandSag = 0.9; // along the arcades
 
 struct Meshes {
     uint32_t box, tile, shaft, columnBase, capital, archedWall, archRing, vault;
     uint32_t ball, fineBall, ring, vase, knot, baluster, rod, link, disc;
+    uint32_t shade, shadeCap; // of lamps, from y = 0 to 0.8
 };
 
 struct Materials {
     uint32_t gold, copper, iron, chrome, bronze, silver;
     uint32_t marble, darkMarble, sandstone, plaster, wood, grout;
-    std::vector<uint32_t> floor; // from mirror-smooth to rough
-    std::vector<uint32_t> stone; // wall blocks
-    std::vector<uint32_t> glaze; // coloured dielectrics of all roughnesses
-    std::vector<uint32_t> glass; // faintly glowing window panes
+    std::vector<uint32_t> floor;    // from mirror-smooth to rough
+    std::vector<uint32_t> stone;    // wall blocks
+    std::vector<uint32_t> glaze;    // coloured dielectrics of all roughnesses
+    std::vector<uint32_t> glass;    // glowing window panes
+    uint32_t alabaster, amberGlass; // shades of lit lamps
+    std::vector<uint32_t> lantern;  // shades of coloured lanterns, one for each hue
 };
 
 struct Kit {
@@ -88,6 +92,17 @@ void addMaterials(Kit& kit);
 void addArchitecture(Kit& kit, Random& random);
 void addFurnishings(Kit& kit, Random& random);
 
+// Adds the shades of the lamps and what holds them.
+void addLampFixtures(Kit& kit);
+// Returns the colour of a lantern by its hue: 0 to lanternHueCount - 1, and on from 0 again.
+// `variation` is added to its place on the colour circle.
+constexpr int lanternHueCount = 5;
+glm::vec3 lanternColour(int hue, float variation);
+// Returns the lamps inside the shades and the light that comes in from outside, the most important
+// first. They are the first lights of a hall of `lightCount` lights. `random` is for motion alone.
+std::vector<LightSite> keyLights(uint32_t lightCount, bool moving, Random& random);
+
+// Returns all lights: the key lights, then small ones.
 std::vector<LightSite> lightSites(uint32_t count, const SceneOptions& options);
 
 } // namespace candelabra::app::hall

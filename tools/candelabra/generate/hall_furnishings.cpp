@@ -50,7 +50,6 @@ void addChandelier(Kit& kit, double x)
             b.placeRod(kit.mesh.rod, m.bronze, glm::dvec3(x, chandelierY + 0.1, 0), cup, 0.02);
         }
     }
-    b.place(kit.mesh.fineBall, m.chrome, {x, chandelierY - 0.05, 0}, glm::dvec3(0.28));
 }
 
 // Thin cables between points of one height, in straight pieces.
@@ -70,7 +69,7 @@ void addCables(Kit& kit)
     for (int column = 0; column <= bays; ++column) {
         const double x = columnX(column);
         if (column > 0 && column < bays)
-            addCable(kit, {x, cableY, -naveHalf + 0.4}, {x, cableY, naveHalf - 0.4}, cableSag, 12);
+            addCable(kit, {x, cableY, -cableHalf}, {x, cableY, cableHalf}, cableSag, 12);
         if (column < bays) {
             for (const double side : {-1.0, 1.0}) {
                 addCable(kit, {x + 0.3, garlandY, side * naveHalf},
@@ -211,6 +210,7 @@ void addFurnishings(Kit& kit, Random& random)
 {
     for (int i = 0; i < chandeliers; ++i)
         addChandelier(kit, chandelierX(i));
+    addLampFixtures(kit);
     addCables(kit);
     addGalleryRailings(kit);
     for (int bay = 0; bay < bays; ++bay) {

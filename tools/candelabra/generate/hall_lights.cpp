@@ -54,6 +54,21 @@ bool isFree(const glm::dvec3& p, double radius)
     return above * above + side * side < free * free;
 }
 
+// Sets how bright a light in sight is. `peak` is the radiance of its brightest channel in cd/m^2.
+// That is too bright for a display, so the light must be small in the picture: its radius is at
+// most a small share of how far it reaches.
+void setGlow(LightSite& site, float peak)
+{
+    site.luminance = luminanceOfPeak(site.colour, peak);
+    site.radiusShare = 0.022f;
+}
+
+// Returns the colour of a small lamp of coloured glass.
+glm::vec3 glassColour(Random& random, int hue)
+{
+    return lanternColour(hue, random.uniform(-0.02f, 0.02f));
+}
+
 LightSite onChandelier(Random& random)
 {
     LightSite site;
@@ -63,10 +78,10 @@ LightSite onChandelier(Random& random)
     site.position = glm::dvec3(chandelierX(chandelier), chandelierY + 0.25, 0) +
                     chandelierRadius * glm::dvec3(std::cos(angle), 0, std::sin(angle)) +
                     glm::dvec3(0.3, 0.25, 0.3) * jitter;
-    site.radius = skewed(random, 0.025f, 0.08f);
+    site.radius = skewed(random, 0.03f, 0.08f);
     site.colour = blackbodyColour(random.uniform(1900, 2700));
     site.reach = 1.5f;
-    site.edgeIlluminance = 1.5f;
+    setGlow(site, 280);
     return site;
 }
 
@@ -80,11 +95,9 @@ LightSite onCable(Random& random)
     site.position = {columnX(static_cast<int>(column)) + 0.15 * along,
                      hanging(cableY, cableSag, t) - 0.08 - 0.25 * drop,
                      (2 * t - 1) * (naveHalf - 0.6)};
-    site.radius = skewed(random, 0.02f, 0.09f);
-    // Neighbouring cables differ; bulbs of one cable stay within a third of the circle.
-    const float hue = 0.381966f * static_cast<float>(column) + 0.33f * random.uniform();
-    site.colour = hueColour(hue, random.uniform(0.45f, 0.8f));
-    site.edgeIlluminance = 1.6f;
+    site.radius = skewed(random, 0.04f, 0.15f);
+    site.colour = glassColour(random, static_cast<int>(column));
+    setGlow(site, 280);
     return site;
 }
 
@@ -95,9 +108,9 @@ LightSite onGarland(Random& random)
     const float side = sideOf(random), t = random.uniform(), drop = random.uniform();
     site.position = {columnX(bay) + 0.3 + t * (bayWidth - 0.6),
                      hanging(garlandY, garlandSag, t) - 0.06 - 0.15 * drop, side * naveHalf};
-    site.radius = skewed(random, 0.02f, 0.06f);
+    site.radius = skewed(random, 0.03f, 0.09f);
     site.colour = blackbodyColour(random.uniform(2300, 3600));
-    site.edgeIlluminance = 1.4f;
+    setGlow(site, 280);
     return site;
 }
 
@@ -111,28 +124,26 @@ LightSite aroundColumn(Random& random)
     const double distance = columnRadius + 0.12 + 0.25 * out * out;
     site.position = {columnX(column) + distance * std::cos(angle), 0.75 + 4.1 * t,
                      side * naveHalf + distance * std::sin(angle)};
-    site.radius = skewed(random, 0.02f, 0.06f);
-    site.colour = hueColour(0.08f + 0.08f * t + 0.45f * static_cast<float>(column % 3),
-                            random.uniform(0.5f, 0.8f));
-    site.edgeIlluminance = 1.2f;
+    site.radius = skewed(random, 0.03f, 0.09f);
+    site.colour = glassColour(random, column);
+    setGlow(site, 320);
     return site;
 }
 
-// Lanterns between the things on the floor; each bay has its hue.
+// Lights between the things on the floor. Each side of a bay has its hue.
 LightSite onFloor(Random& random)
 {
     LightSite site;
     const int bay = static_cast<int>(random.below(bays));
     const float side = sideOf(random), across = random.bell(), along = random.uniform();
     const float size = random.uniform();
-    site.radius = 0.03f + 0.32f * size * size * size;
+    site.radius = 0.07f + 0.25f * size * size;
     const float lift = random.uniform();
     const bool aisle = random.chance(0.35f);
     site.position = {columnX(bay) + bayWidth * along, site.radius + 0.05 + 0.7 * lift * lift,
                      side * (aisle ? 9.2 + 2.3 * across : 3.9 + 1.9 * across)};
-    const float hue = 0.618034f * static_cast<float>(bay) + (side > 0 ? 0.5f : 0.0f);
-    site.colour = hueColour(hue + 0.1f * random.uniform(), random.uniform(0.5f, 0.85f));
-    site.edgeIlluminance = 1.8f;
+    site.colour = glassColour(random, bay + (side > 0 ? 2 : 0));
+    setGlow(site, 280);
     return site;
 }
 
@@ -141,14 +152,14 @@ LightSite onWall(Random& random)
     LightSite site;
     const int column = static_cast<int>(random.below(bays + 1));
     const float side = sideOf(random), up = random.uniform(), along = random.bell();
-    site.radius = skewed(random, 0.04f, 0.20f);
+    site.radius = skewed(random, 0.06f, 0.20f);
     site.position = {columnX(column) + 1.4 * along, 2.2 + 4.5 * up,
                      side * (halfWidth - 0.75 - site.radius)};
     const bool teal = random.chance(0.4f);
     const float vary = random.uniform();
     site.colour =
         teal ? hueColour(0.47f + 0.08f * vary, 0.65f) : blackbodyColour(1800 + 900 * vary);
-    site.edgeIlluminance = 2;
+    setGlow(site, 280);
     return site;
 }
 
@@ -156,11 +167,11 @@ LightSite onGallery(Random& random)
 {
     LightSite site;
     const float along = random.uniform(-1, 1), side = sideOf(random), up = random.uniform();
-    site.radius = skewed(random, 0.03f, 0.10f);
+    site.radius = skewed(random, 0.04f, 0.12f);
     site.position = {along * (halfLength - 0.5), gallery + 0.95 + 0.5 * up,
                      side * (naveHalf - 0.55)};
     site.colour = blackbodyColour(random.uniform(4000, 9000));
-    site.edgeIlluminance = 1.4f;
+    setGlow(site, 280);
     return site;
 }
 
@@ -173,28 +184,27 @@ LightSite underVault(Random& random)
     const double distance = vaultRadius - 0.75;
     site.position = {columnX(rib) + 0.8 * along, vaultSpringing + distance * std::sin(angle),
                      distance * std::cos(angle)};
-    site.radius = skewed(random, 0.03f, 0.10f);
+    site.radius = skewed(random, 0.05f, 0.16f);
     const float hue = random.uniform(0.58f, 0.86f);
     site.colour = hueColour(hue, random.uniform(0.4f, 0.7f));
-    site.edgeIlluminance = 1.5f;
+    setGlow(site, 320);
     return site;
 }
 
-// Paper moons that float in nave and aisles: few, large, and far-reaching. They fill the space
-// between the small lights.
+// Lights that float in nave and aisles.
 LightSite floating(Random& random)
 {
     LightSite site;
     const float along = random.uniform(-1, 1), across = random.bell(), up = random.uniform();
     const bool aisle = random.chance(0.35f);
     const float side = sideOf(random);
-    site.radius = random.uniform(0.10f, 0.28f);
+    site.radius = random.uniform(0.08f, 0.22f);
     site.position =
         aisle ? glm::dvec3(along * (halfLength - 2), 2.5 + 4.5 * up, side * (9 + 1.5 * across))
               : glm::dvec3(along * (halfLength - 2), 2.5 + 9 * up, 4.5 * across);
-    site.reach = 3.5f;
-    site.colour = blackbodyColour(random.uniform(2500, 6500));
-    site.edgeIlluminance = 0.5f;
+    site.reach = 1.5f;
+    site.colour = blackbodyColour(random.uniform(1900, 2600));
+    setGlow(site, 280);
     return site;
 }
 
@@ -209,7 +219,7 @@ LightSite firefly(Random& random)
     site.reach = 1.2f;
     const float hue = random.uniform(0.1f, 0.2f);
     site.colour = hueColour(hue, random.uniform(0.3f, 0.6f));
-    site.edgeIlluminance = 0.8f;
+    setGlow(site, 560);
     return site;
 }
 
@@ -222,7 +232,7 @@ LightSite inPavement(Random& random)
     site.radius = random.uniform(0.02f, 0.045f);
     site.position = {cell - halfLength + 0.08 * along, 0.03 + site.radius, 3.9 * across};
     site.colour = blackbodyColour(random.uniform(2200, 5000));
-    site.edgeIlluminance = 1;
+    setGlow(site, 480);
     return site;
 }
 
@@ -234,7 +244,7 @@ LightSite onShrine(Random& random)
     site.radius = skewed(random, 0.03f, 0.12f);
     site.position = {22.5 + 6.5 * along, 1.2 + 5 * up, 4.5 * across};
     site.colour = blackbodyColour(random.uniform(1900, 3200));
-    site.edgeIlluminance = 2.5f;
+    setGlow(site, 280);
     return site;
 }
 
@@ -269,9 +279,10 @@ std::vector<LightSite> lightSites(uint32_t count, const SceneOptions& options)
     // Streams of their own: the hall is the same for any number of lights, and resting and moving
     // lights start from the same places.
     Random random(options.seed, 1), motionRandom(options.seed, 2);
-    std::vector<LightSite> sites;
+    std::vector<LightSite> sites = keyLights(count, options.moving, motionRandom);
+    sites.resize(std::min<size_t>(sites.size(), count));
     sites.reserve(count);
-    for (uint32_t i = 0; i < count; ++i) {
+    while (sites.size() < count) {
         const MakeSite make = anyKind(random);
         LightSite site = make(random);
         for (int attempt = 1; attempt < maxTries && !isFree(site.position, site.radius);

@@ -77,7 +77,7 @@ double criticalScale(const SurfaceSample& sample, const LightReach& light)
         // The centre is below the horizon: the radius must reach above it.
         if (light.radius <= -height)
             return std::numeric_limits<double>::infinity();
-        needed = std::max(needed, -height / maxRadiusShare);
+        needed = std::max(needed, -height / light.radiusShare);
     }
     return needed / light.reach;
 }
@@ -135,7 +135,7 @@ double unlimitedScale(const std::vector<SurfaceSample>& samples,
                       const std::vector<LightReach>& lights)
 {
     glm::dvec3 low = samples.front().position, high = low;
-    double minReach = lights.front().reach;
+    double minReach = lights.front().reach, minShare = maxRadiusShare;
     for (const SurfaceSample& sample : samples) {
         low = glm::min(low, sample.position);
         high = glm::max(high, sample.position);
@@ -144,9 +144,10 @@ double unlimitedScale(const std::vector<SurfaceSample>& samples,
         low = glm::min(low, light.position);
         high = glm::max(high, light.position);
         minReach = std::min(minReach, light.reach);
+        minShare = std::min(minShare, light.radiusShare);
     }
-    // Below the horizon a light needs distance / maxRadiusShare; 1% on top makes it strict.
-    return 1.01 * std::max(glm::length(high - low), 1e-3) / (maxRadiusShare * minReach);
+    // Below the horizon a light needs distance / radiusShare; 1% on top makes it strict.
+    return 1.01 * std::max(glm::length(high - low), 1e-3) / (minShare * minReach);
 }
 
 std::vector<SurfaceSample> thinned(const std::vector<SurfaceSample>& samples, double overlaps)

@@ -27,11 +27,12 @@ std::vector<SurfaceSample> visibleSamples(const Scene& scene);
 constexpr double maxRadiusShare = 0.25;
 
 // A light before its reach is known. With a scale s, its influence radius is s * reach and its
-// radius min(radius, maxRadiusShare * s * reach).
+// radius min(radius, radiusShare * s * reach).
 struct LightReach {
-    glm::dvec3 position{0}; // as the samples
-    double reach = 1;       // > 0
-    double radius = 0;      // > 0
+    glm::dvec3 position{0};              // as the samples
+    double reach = 1;                    // > 0
+    double radius = 0;                   // > 0
+    double radiusShare = maxRadiusShare; // > 0, at most maxRadiusShare
 };
 
 // The scale at which a mean of `overlaps` lights contributes to a sample: nearer than the influence

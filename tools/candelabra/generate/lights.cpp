@@ -65,11 +65,12 @@ CndLight makeLight(const LightSite& site, const LightReach& reach, double scale,
     const glm::vec3 position(site.position - origin);
     light.influenceRadius = static_cast<float>(scale * reach.reach);
     light.radius = static_cast<float>(
-        std::min(reach.radius, maxRadiusShare * static_cast<double>(light.influenceRadius)));
+        std::min(reach.radius, reach.radiusShare * static_cast<double>(light.influenceRadius)));
     // I = E d^2, Phi = 4 pi I.
     const float luminousPower =
         4 * pi_v<float> * site.edgeIlluminance * light.influenceRadius * light.influenceRadius;
-    const float luminance = cndSphereLuminanceFromPower(luminousPower, light.radius);
+    const float luminance =
+        site.luminance.value_or(cndSphereLuminanceFromPower(luminousPower, light.radius));
     for (int i = 0; i < 3; ++i) {
         light.position[i] = position[i];
         light.emission[i] = luminance * site.colour[i];
@@ -107,6 +108,11 @@ glm::vec3 hueColour(float hue, float saturation)
     const glm::vec3 wave = glm::abs(glm::fract(hue + glm::vec3(0, 2, 1) / 3.0f) * 6.0f - 3.0f);
     const glm::vec3 pure = glm::clamp(wave - 1.0f, 0.0f, 1.0f);
     return withUnitLuminance(glm::mix(glm::vec3(1), pure, saturation));
+}
+
+float luminanceOfPeak(const glm::vec3& colour, float peak)
+{
+    return peak / std::max({colour.r, colour.g, colour.b});
 }
 
 LightMotion circleMotion(Random& random, double height, float lightRadius, float radius,
@@ -153,8 +159,10 @@ void addSphereLights(Scene& scene, const std::vector<LightSite>& sites, const Sc
         1.0, std::sqrt(static_cast<double>(defaultLightCount) / static_cast<double>(sites.size())));
     std::vector<LightReach> reaches;
     reaches.reserve(sites.size());
-    for (const LightSite& site : sites)
-        reaches.push_back({startOf(site), site.reach, crowding * site.radius});
+    for (const LightSite& site : sites) {
+        const double radius = site.luminance ? double{site.radius} : crowding * site.radius;
+        reaches.push_back({startOf(site), site.reach, radius, site.radiusShare});
+    }
     const double scale = findScale(scene, reaches, options).scale;
 
     scene.lights.reserve(scene.lights.size() + sites.size());

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "generate/light_overlaps.h"
 #include "generate/random.h"
 #include "scene/scene.h"
 #include "scene/scene_options.h"
@@ -19,12 +21,16 @@ constexpr double defaultOverlaps = 8;
 
 // A sphere light before its influence radius is known.
 struct LightSite {
-    glm::dvec3 position{0};    // world space
-    float radius = 0.05f;      // metres; shrinks in crowds, see addSphereLights
-    float reach = 1;           // influence radius relative to that of the others, > 0
-    glm::vec3 colour{1};       // linear Rec.709 with luminance 1
-    float edgeIlluminance = 2; // lx, from the light at the distance of its influence radius,
-                               // facing it and before the window
+    glm::dvec3 position{0}; // world space
+    // The radius in metres, and as a share of the influence radius; the smaller one is taken.
+    float radius = 0.05f;
+    float radiusShare = static_cast<float>(maxRadiusShare);
+    float reach = 1;     // influence radius relative to that of the others, > 0
+    glm::vec3 colour{1}; // linear Rec.709 with luminance 1
+    // How bright the light is: its luminance in cd/m^2. Without one, the illuminance in lx at the
+    // distance of the influence radius, on a surface that faces the light and before the window.
+    std::optional<float> luminance;
+    float edgeIlluminance = 2;
     LightMotion motion;
 };
 
@@ -32,6 +38,11 @@ struct LightSite {
 glm::vec3 blackbodyColour(float kelvin);
 // Hue 0..1 around the colour circle (0 red, 1/3 green, 2/3 blue), saturation 0..1; luminance 1.
 glm::vec3 hueColour(float hue, float saturation);
+
+// Returns the luminance at which the brightest channel of an emitter of this colour has the value
+// `peak` (cd/m^2). Tone curves fade bright colours to white by their brightest channel, so emitters
+// of equal peak keep their colours equally well, whatever their hue.
+float luminanceOfPeak(const glm::vec3& colour, float peak);
 
 // A level to slightly tilted circle of `radius` metres around `position`, walked at about `speed`
 // m/s, that stays above the floor `height` metres below it.
@@ -44,11 +55,14 @@ void checkLightOptions(const std::string& name, uint32_t count, const SceneOptio
 
 // Adds the sites as lights, their influence radii scaled so that a mean of options.overlaps lights
 // (default 8, or half of what is possible when that is less) contributes to what the default camera
-// sees; lights that the scene has already do not count. A light's illuminance at its influence
-// radius is fixed, so its power grows with the square of the radius and the picture keeps its
-// brightness for any number of lights. Radii shrink with the square root of the count above the
-// default count, to keep the share of the picture that emitters cover. `scene.lightOrigin` must be
-// final. Throws SceneError when explicit overlaps cannot be reached.
+// sees; lights that the scene has already do not count. The more lights, the less far each of them
+// reaches. The picture keeps its brightness for any number of lights in one of two ways:
+// - Lights with a luminance keep it. Where the radius is a share of the influence radius, the
+//   illuminance at the influence radius stays the same, too.
+// - Other lights keep their illuminance at the influence radius, so their power grows with the
+//   square of that radius. Their radii shrink with the square root of the count above the default
+//   count, to keep the share of the picture that emitters cover.
+// `scene.lightOrigin` must be final. Throws SceneError when explicit overlaps cannot be reached.
 void addSphereLights(Scene& scene, const std::vector<LightSite>& sites,
                      const SceneOptions& options);
 

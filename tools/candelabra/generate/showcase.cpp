@@ -20,9 +20,13 @@ namespace
 
 // Stations stand in a row along x, one per type of light that has a place; the camera looks along
 // -z.
-constexpr double spacing = 1.7; // metres
-constexpr double ballRadius = 0.36;
-constexpr float luminousPower = 600; // lm of each lamp: a bulb of 40 W of old
+constexpr double spacing = 1.62; // metres
+constexpr double ballRadius = 0.38;
+// The radiance of the brightest channel of lamps with a size, in cd/m^2: beside a floor at dusk a
+// display still shows it in colour.
+constexpr float lampPeak = 7;
+// The same for lamps without a size, in cd: about as much light, of a spot in its cone.
+constexpr float pointPeak = 12, spotPeak = 40;
 
 // The types of the lamps: those without a size first.
 std::vector<uint32_t> lampTypes()
@@ -40,27 +44,30 @@ double stationX(size_t station, size_t count)
     return (double(station) - 0.5 * double(count - 1)) * spacing;
 }
 
+void addBall(SceneBuilder& b, const glm::dvec3& center, double radius, uint32_t material)
+{
+    AnalyticObject ball;
+    ball.type = AnalyticObject::Type::Ball;
+    ball.point = center;
+    ball.radius = radius;
+    ball.material = material;
+    b.scene.analyticObjects.push_back(ball);
+}
+
 void addBalls(SceneBuilder& b, size_t stations)
 {
-    const auto add = [&](const glm::dvec3& center, uint32_t material) {
-        AnalyticObject ball;
-        ball.type = AnalyticObject::Type::Ball;
-        ball.point = center;
-        ball.radius = ballRadius;
-        ball.material = material;
-        b.scene.analyticObjects.push_back(ball);
-    };
     constexpr float roughnesses[] = {0.08f, 0.2f, 0.35f, 0.5f, 0.7f, 1.0f};
+    const glm::vec3 paints[] = {{0.5f, 0.06f, 0.04f}, {0.5f, 0.45f, 0.36f}, {0.05f, 0.16f, 0.42f}};
     for (size_t i = 0; i < stations; ++i) {
         const float perceptualRoughness = roughnesses[i % std::size(roughnesses)];
         const std::string roughness = std::to_string(perceptualRoughness).substr(0, 4);
         // F0 of aluminium: Lagarde 2011, "Feeding a physically based shading model" (linear).
-        add({stationX(i, stations) - 0.41, ballRadius, 0.1},
-            b.addMetal("aluminium, roughness " + roughness, {0.913f, 0.921f, 0.925f},
-                       perceptualRoughness));
-        add({stationX(i, stations) + 0.41, ballRadius, 0.1},
-            b.addDielectric("red paint, roughness " + roughness, {0.5f, 0.06f, 0.04f},
-                            perceptualRoughness));
+        addBall(b, {stationX(i, stations) - 0.41, ballRadius, 0.1}, ballRadius,
+                b.addMetal("aluminium, roughness " + roughness, {0.913f, 0.921f, 0.925f},
+                           perceptualRoughness));
+        addBall(b, {stationX(i, stations) + 0.41, ballRadius, 0.1}, ballRadius,
+                b.addDielectric("paint, roughness " + roughness, paints[i % std::size(paints)],
+                                perceptualRoughness));
     }
 }
 
@@ -70,22 +77,13 @@ void set(float (&out)[3], const glm::vec3& v)
         out[i] = v[i];
 }
 
-// Emission of `colour` (luminance 1), scaled so that the lamp emits luminousPower.
-void setPower(CndLight& light, const glm::vec3& colour)
-{
-    set(light.emission, glm::vec3(1));
-    float power[3] = {};
-    cndLuminousPowerOfLight(&light, power, nullptr);
-    set(light.emission, luminousPower / power[1] * colour);
-}
-
-// A lamp over the station, a little behind the balls; flat ones face down and towards the camera.
+// Makes a lamp over the station; flat ones face down and towards the camera.
 CndLight makeLamp(uint32_t type, double x, const glm::vec3& colour)
 {
     const uint32_t fields = cndLightFields(type);
     CndLight light = lightTypeInfo(type).lamp;
     light.type = type;
-    set(light.position, {static_cast<float>(x), 1.75f, -0.9f});
+    set(light.position, {static_cast<float>(x), 1.5f, -0.15f});
     light.influenceRadius = 7;
     const glm::vec3 down = glm::normalize(glm::vec3(0, -1, 0.7f));
     const glm::vec3 up = glm::cross(glm::vec3(1, 0, 0), down); // in the plane of a flat lamp
@@ -95,25 +93,51 @@ CndLight makeLamp(uint32_t type, double x, const glm::vec3& colour)
         const bool facesDown = glm::dot(glm::cross(glm::vec3(1, 0, 0), up), down) >= 0;
         set(light.axisV, (facesDown ? light.axisV[0] : -light.axisV[0]) * up);
     }
-    setPower(light, colour);
+    const float peak = !cndIsPunctual(type)                     ? lampPeak
+                       : fields & CND_LIGHT_FIELD_DIRECTION_BIT ? spotPeak
+                                                                : pointPeak;
+    set(light.emission, luminanceOfPeak(colour, peak) * colour);
     return light;
 }
 
-// Weak, so that the lamps are what is seen: dusk.
+// Adds the brass balls that hold a lamp: at the corners of a rectangle, at the ends of a tube, at
+// the back of what has a direction, else on top.
+void addHolders(SceneBuilder& b, const CndLight& light, uint32_t brass)
+{
+    const auto vec = [](const float(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
+    const glm::dvec3 centre = vec(light.position), u = vec(light.axisU), v = vec(light.axisV);
+    const double radius = light.radius;
+    const uint32_t fields = cndLightFields(light.type);
+    if (fields & CND_LIGHT_FIELD_AXIS_V_BIT) {
+        for (const glm::dvec3& corner : {u + v, u - v, v - u, -u - v})
+            addBall(b, centre + corner, 0.05, brass);
+    } else if (fields & CND_LIGHT_FIELD_AXIS_U_BIT) {
+        for (const double side : {-1.0, 1.0})
+            addBall(b, centre + side * u, 1.3 * radius, brass);
+    } else if (fields & CND_LIGHT_FIELD_DIRECTION_BIT) {
+        const double gap = cndIsPunctual(light.type) ? 0.11 : 0; // a spot stays outside
+        addBall(b, centre - gap * vec(light.direction), 0.1, brass);
+    } else {
+        addBall(b, centre + glm::dvec3(0, 0.85 * radius + 0.04, 0), std::max(0.5 * radius, 0.06),
+                brass);
+    }
+}
+
+// Adds what comes from afar: a cool sky from the front, which shows the form of what the lamps
+// leave dark, and a low wide sun in the picture.
 void addDistantLights(Scene& scene)
 {
     CndLight sky{};
     sky.type = CND_LIGHT_DIRECTIONAL;
     set(sky.direction, glm::normalize(glm::vec3(0.5f, -1, -0.6f)));
-    set(sky.emission, 6.0f * blackbodyColour(12000)); // lx
+    set(sky.emission, 4.0f * hueColour(0.6f, 0.4f)); // lx
     scene.lights.push_back(sky);
-    // A sun four times as wide as the real one, behind the lamps in the picture.
-    CndLight evening{};
-    evening.type = CND_LIGHT_DIRECTIONAL;
-    set(evening.direction, glm::normalize(glm::vec3(-0.16f, -0.1f, 1)));
-    set(evening.emission, 8.0f * blackbodyColour(2400)); // lx, facing it
     CndLight sun{};
-    cndDistantSphereFromDirectional(&evening, 4 * CND_SUN_SINE, &sun, nullptr);
+    sun.type = CND_LIGHT_DISTANT_SPHERE;
+    sun.radius = 0.035f; // the sine of its angular radius
+    set(sun.direction, glm::normalize(glm::vec3(-0.16f, -0.047f, 1)));
+    const glm::vec3 colour = hueColour(0.05f, 0.93f);
+    set(sun.emission, luminanceOfPeak(colour, 4) * colour); // cd/m^2
     scene.lights.push_back(sun);
 }
 
@@ -126,15 +150,24 @@ Scene generateShowcase(const SceneOptions& options)
     SceneBuilder b;
     b.scene.name = "showcase";
     AnalyticObject ground;
-    ground.material = b.addDielectric("floor", {0.22f, 0.23f, 0.25f}, 0.25f);
+    ground.material = b.addMaterial({.name = "polished stone",
+                                     .baseColor = glm::vec3(0.2f),
+                                     .perceptualRoughness = 0.15f,
+                                     .dielectricF0 = glm::vec3(0.1f)});
     b.scene.analyticObjects.push_back(ground);
     const std::vector<uint32_t> lamps = lampTypes();
     addBalls(b, lamps.size());
 
-    constexpr float kelvins[] = {2700, 6500, 3500, 7500, 4200, 3000};
-    for (size_t i = 0; i < lamps.size(); ++i)
-        b.scene.lights.push_back(makeLamp(lamps[i], stationX(i, lamps.size()),
-                                          blackbodyColour(kelvins[i % std::size(kelvins)])));
+    const uint32_t brass = b.addMetal("brass", {0.91f, 0.78f, 0.42f}, 0.3f);
+    const glm::vec3 colours[] = {hueColour(0.09f, 0.8f),   hueColour(0.57f, 0.8f),
+                                 hueColour(0.065f, 0.97f), hueColour(0.46f, 0.95f),
+                                 hueColour(0.65f, 0.9f),   hueColour(0.95f, 0.93f)};
+    for (size_t i = 0; i < lamps.size(); ++i) {
+        b.scene.lights.push_back(
+            makeLamp(lamps[i], stationX(i, lamps.size()), colours[i % std::size(colours)]));
+        if (!options.moving) // lamps that move would leave their holders
+            addHolders(b, b.scene.lights.back(), brass);
+    }
     addDistantLights(b.scene);
     if (options.moving)
         for (size_t i = 0; i < b.scene.lights.size(); ++i)
@@ -144,8 +177,8 @@ Scene generateShowcase(const SceneOptions& options)
                                             .phase = static_cast<float>(i)});
 
     Scene scene = std::move(b.scene);
-    scene.background = {0.02f, 0.03f, 0.05f}; // cd/m^2
-    scene.cameras = {makeUprightCamera("front", {0, 2.3, 8.6}, {0, -1.35, -8.6}, 0.72),
+    scene.background = {0.6f, 0.38f, 0.5f}; // cd/m^2
+    scene.cameras = {makeUprightCamera("front", {0, 2.7, 8.6}, {0, -1.8, -8.6}, 0.62),
                      makeUprightCamera("above", {-2.5, 6.5, 4.2}, {0.4, -1.2, -0.75}, 0.8)};
     return scene;
 }
