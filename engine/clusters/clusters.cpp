@@ -163,8 +163,8 @@ Clusters::Lists Clusters::createLists() const
 
 void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
 {
-    // Enough nodes however the lights are distributed over the types: on every level the number of
-    // nodes of each type is rounded up.
+    // There are enough nodes however the lights are distributed over the types: on every level the
+    // number of nodes of each type is rounded up.
     const VkDeviceSize nodes = nodeCount(lightCapacity) + CND_LIGHT_TYPE_COUNT * gpu::TREE_LEVELS;
     const VkDeviceSize bytes = nodes * gpu::TREE_NODE_STRIDE * sizeof(glm::vec4);
     if (bytes > nodes_.size) {

@@ -6,8 +6,10 @@ struct Box {
     vec3 min, max;
 };
 
-// sphereTouches multiplies the squared radius by this. Three products, two sums and one square each
-// round by at most half an ulp on either side of the comparison, together below 8 ulp = 8 * 2^-24.
+// Tests of bounds multiply the squared radius of a light by this. Shading compares the squared distance
+// of a point to the light with the same squared radius. Rounded differences of coordinates keep their
+// order, so what remains are the roundings of the two squared distances (three each: a product and two
+// sums) and of the product with this margin: seven, each of at most 2^-24 of the value.
 const float BOUNDS_MARGIN = 1.0 + 8.0 / 16777216.0;
 
 // Times the largest coordinate of a vector, this exceeds the rounding error of its dot product with a

@@ -177,7 +177,7 @@ TEST_F(Conic, NeverNanNegativeOrAboveOne)
                                           .toLight = l * distance,
                                           .radius = s * std::max(distance, 1e-6f),
                                           .alpha = alpha});
-    // Lights whose centre or edge touches the horizon, or twice their radius, to the last bit.
+    // Lights whose centre is -1, 0, 1 or 2 radii above the horizon, exactly or nearly.
     for (int i = 0; i < 300000; ++i) {
         gpu::ConicProbeInput in = randomInput(0);
         const float edges[] = {-1, 0, 1, 2, -0.999999f, 1e-7f, 0.9999999f, 1.0000001f};

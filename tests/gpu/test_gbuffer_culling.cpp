@@ -18,8 +18,8 @@ class GBufferCulling : public RasterTest
 protected:
     static constexpr uint32_t instanceCount = 3000;
 
-    // Boxes and spheres of very different sizes, some mirrored; one batch is much longer than a
-    // chunk.
+    // Boxes, spheres and quads of very different sizes, some mirrored. One batch is much longer
+    // than a chunk.
     static RasterScene crowd()
     {
         Random random(5);

@@ -57,8 +57,8 @@ TEST_F(InfluenceTest, HistoriesRepeatAndNeitherJumpNorFlicker)
     EXPECT_TRUE(sameBits(run(g, brightAndDim(g), {.influence = influence}).radiance, first));
 }
 
-// An image with so many 8x8 squares that 16x16 squares are used: cuts rise after 256 frames instead
-// of 64.
+// An image with so many 8x8 squares that 16x16 squares are used: cuts rise only after a full period
+// of 256 frames (instead of 64) in which no frame cut less.
 TEST_F(InfluenceTest, CutsOfLargeImagesRiseOnceAllPixelsWereSeen)
 {
     CndCamera camera;

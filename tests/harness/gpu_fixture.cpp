@@ -66,7 +66,8 @@ private:
 
 ContextOwner& owner()
 {
-    // GoogleTest deletes its environments. This one is registered before main in every test binary.
+    // GoogleTest deletes its environments. The initialiser of `registered` below adds this one
+    // before main.
     static auto* const environment =
         static_cast<ContextOwner*>(::testing::AddGlobalTestEnvironment(new ContextOwner));
     return *environment;

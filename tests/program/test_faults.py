@@ -48,7 +48,7 @@ def fault(what, why):
 
 
 def contents(path):
-    """The bytes of a file; of one that this user may not read, when it was written and how long it is."""
+    """Returns the bytes of a file, or its size and time of change if this user may not read it."""
     try:
         return path.read_bytes()
     except PermissionError:

@@ -139,9 +139,9 @@ for document in (DECISIONS, DESIGN, RESULTS):
         if not fnmatch.filter(tests, pattern):
             fail(document, f"runs {pattern}, which no test is named like")
 
-# DESIGN.md names every kernel. Its table has a row for every room of the engine and of the shaders, and says
-# of it what test_includes.py allows, except for public headers and headers that the build generates. The last
-# column names rooms and stands for what these may include as well.
+# DESIGN.md names every kernel. Its table has a row for every room of the engine and of the shaders. The rooms
+# in the last column, with what these may include in turn, are those that test_includes.py allows. Public headers
+# and headers that the build generates are not compared.
 design = DESIGN.read_text(encoding="utf-8")
 for kernel in sorted((root / "shaders/kernels").glob("*.comp")):
     if not re.search(rf"\b{kernel.stem}\b", design):

@@ -194,7 +194,8 @@ struct ForeignExr {
         : type == Imf::FLOAT ? write<float>(path)
                              : write<unsigned>(path);
     }
-    // What must be read of it, if `wanted` are the channels in the order of our pixels.
+    // Returns the image that reading the file must give. `wanted` names its channels in the order
+    // of our pixels.
     Image expected(const std::string& wanted) const
     {
         Image out{uint32_t(width), uint32_t(height), uint32_t(wanted.size()), {}};

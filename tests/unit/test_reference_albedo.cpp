@@ -83,9 +83,9 @@ TEST(ReferenceAlbedo, staysBetweenZeroAndOneAndNearsOneForSmoothSurfaces)
     EXPECT_NEAR(specularAlbedo(0.5, 0.002).a, 1, 1e-4);
 }
 
-// The reason why `conserving` scales the diffuse lobe by the albedo table instead of, as glTF 2.0
-// (appendix B), per light by 1 - F(VoH): with glTF's mix a white dielectric would be brighter than
-// its uniform surroundings.
+// Shows why `conserving` scales the diffuse lobe by the albedo table. glTF 2.0 (appendix B) scales
+// it for each light by 1 - F(VoH), and a white dielectric would then be brighter than its uniform
+// surroundings.
 TEST(ReferenceAlbedo, glTFMixReflectsMoreThanThereIs)
 {
     const double F0 = 0.04;

@@ -243,8 +243,9 @@ TEST_F(TruthCommand, LightsOfOtherLayersAreLeftOut)
     EXPECT_EQ(count(6), 2u);
 }
 
-// Tests every shape of light against the plain meaning of its parameters: what the middle of the
-// image shows when seen from the front, from behind and from beside it.
+// Tests rectangles, discs, tubes and distant spheres against the plain meaning of their parameters:
+// a camera that looks at a point of the light sees its luminance. A camera that looks just past the
+// light's edge, or at the dark back of a one-sided light, does not.
 TEST_F(TruthCommand, EveryShapeOfLightIsSeen)
 {
     const auto seen = [&](const std::string& light, const char* eye, const char* target) {

@@ -18,8 +18,8 @@ constexpr int latticeSize = 3000;
 constexpr int pointCount = 240;
 constexpr int capsPerSize = 16;
 // Half angles of the lights that the fit uses, in degrees. The fit assumes that the logarithm of
-// the half angle is uniformly distributed from 0.1 to 80 degrees, as it is in the sample set on
-// which methods are compared.
+// the half angle is uniformly distributed from 0.1 to 80 degrees, as it is for sphere lights in the
+// sample set on which methods are compared.
 constexpr std::array capHalfAngles = {1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 70.0};
 constexpr double smallestLight = 0.1, largestLight = 80;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One lobe of the specular BRDF (isotropic GGX, height-correlated Smith, F = 1, cosine included)
-// and how far a linearly transformed cosine is from it.
+// One lobe of the specular BRDF (isotropic GGX, height-correlated Smith, Schlick's Fresnel with
+// F90 = 1, cosine included) and how far a linearly transformed cosine is from it.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ class LtcLobe
 {
 public:
     // 0.002 <= alpha <= 1, 0 < NoV <= 1, 0 <= F0 <= 1. Computes the lobe in a few thousand
-    // directions, the same ones every time.
+    // directions, which follow from the arguments alone.
     LtcLobe(double alpha, double NoV, double F0);
 
     // The lobe's integral over the hemisphere.

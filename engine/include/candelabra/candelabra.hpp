@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// C++20 face of the C ABI: owning handles, results instead of out-parameters, structSize filled in.
+// The C++20 interface of the C ABI: handles that own their objects, results instead of
+// out-parameters, and structSize filled in.
 // Units, ranges, ownership and thread rules are those of candelabra.h. Nothing throws.
 #pragma once
 
@@ -380,7 +381,7 @@ public:
     }
 };
 
-// Returns the lumens per channel that a light emits. Directional and distant lights fail.
+// Returns the lumens per channel that a light emits. Fails for directional and distant lights.
 inline Result<std::array<float, 3>> luminousPowerOfLight(const CndLight& light) noexcept
 {
     std::array<float, 3> power{};
@@ -390,7 +391,8 @@ inline Result<std::array<float, 3>> luminousPowerOfLight(const CndLight& light) 
     return power;
 }
 
-// Conversions between types of lights; see lights.h. An argument of 0 lets the library choose.
+// Conversions between types of lights; see lights.h. With 0 for radius, sine or distance the
+// library chooses it.
 
 inline Result<CndLight> sphereFromPoint(const CndLight& point, const float (&at)[3],
                                         float radius = 0) noexcept

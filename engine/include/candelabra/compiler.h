@@ -29,11 +29,11 @@ typedef enum CndHostFunctionBits {
     //   vector towards the light.
     CND_HOST_VISIBILITY_BIT = 1,
     // `Surface candelabraReadSurface(ivec2 pixel)`: the surface of a pixel, for CND_GBUFFER_CUSTOM.
-    // It is called only for pixels whose depth holds a surface. Members to fill in: `normal`, in
-    // view space, which the kernel normalises, of a length between 1e-6 and 1e6 (compute it with
-    // `precise` variables, so that every kernel gets the same bits), `albedo`, `F0`,
-    // `specularWeight` (Schlick's F90) and `perceptualRoughness`. The
-    // camera's rotation is available as gbufferView.viewFromWorld.
+    // It is called only for pixels whose depth holds a surface. It must fill in `normal`, `albedo`,
+    // `F0`, `specularWeight` (Schlick's F90) and `perceptualRoughness`. `normal` is in view space
+    // and has any length between 1e-6 and 1e6: the kernel normalises it. Compute it with `precise`
+    // variables, so that every kernel gets the same bits. The camera's rotation is available as
+    // gbufferView.viewFromWorld.
     CND_HOST_READ_SURFACE_BIT = 2,
     CND_HOST_FUNCTION_MAX_ENUM = 0x7FFFFFFF
 } CndHostFunctionBits;
@@ -47,9 +47,9 @@ typedef struct CndCompileDesc {
     // and "shared/".
     const char* source;
     const char* sourceName; // name of the source in error messages; NULL: "source"
-    // The light types and methods that the lighting module will use; the fewer, the faster is the
-    // compilation. `lightTypes` is a mask of 1 << CndLightType, 0 for all types; `specularMethods`
-    // is a mask of 1 << CndSpecularMethod, 0 for CND_SPECULAR_CONIC alone.
+    // The light types and methods that the lighting module will use. Fewer of them compile faster.
+    // `lightTypes` is a mask of 1 << CndLightType, 0 for all types; `specularMethods` is a mask of
+    // 1 << CndSpecularMethod, 0 for CND_SPECULAR_CONIC alone.
     uint32_t lightTypes, specularMethods;
 } CndCompileDesc;
 

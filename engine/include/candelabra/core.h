@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by every module: version, results, the device contract, memory, kernel times, pass plans.
+// What every module shares: version, results, the Vulkan device and what it must support, memory,
+// kernel times, pass plans.
 #ifndef CANDELABRA_CORE_H
 #define CANDELABRA_CORE_H
 
@@ -96,7 +97,7 @@ typedef struct CndAllocator {
 } CndAllocator;
 
 // Device memory of a module, per CndMemoryKind. A host that suballocates can hold all objects of a
-// kind in one block of bytes + allocations * alignment bytes, of a memory type in memoryTypeBits,
+// kind in one block of `bytes + allocations * alignment` bytes, of a memory type in memoryTypeBits,
 // by placing each object after the previous one at the next multiple of its alignment.
 typedef struct CndMemoryUsage {
     uint32_t structSize;

@@ -29,9 +29,9 @@ typedef struct CndEnvironmentDesc {
 
 // An equirectangular (latitude-longitude) image: up (+y) is the top row, -z is the middle, +x is to
 // the right of the middle. It holds luminance in cd/m^2 per Rec.709 channel. NaN and negative
-// values are read as 0, values above 2e12 as 2e12. On entry: a float format in
-// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to COMPUTE_SHADER / SHADER_SAMPLED_READ. The
-// image is not needed any more once the GPU has finished the recording.
+// values are read as 0, values above 2e12 as 2e12. On entry the image has a float format, is in
+// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL and is visible to COMPUTE_SHADER / SHADER_SAMPLED_READ.
+// It is not needed any more once the GPU has finished the recording.
 typedef struct CndEnvironmentMap {
     uint32_t structSize;
     uint32_t width, height; // texels, 1..16384
@@ -71,9 +71,9 @@ typedef struct CndEnvironmentFrame {
 // Kernel times in milliseconds. The host sets structSize before the call.
 typedef struct CndEnvironmentStats {
     uint32_t structSize;
-    uint32_t kernelTimeCount; // rows of the frame; 0 without timestamps
+    uint32_t kernelTimeCount; // number of elements in kernelTimes; 0 without timestamps
     CndKernelTime kernelTimes[CND_MAX_KERNEL_TIMES];
-    uint32_t mapKernelTimeCount; // rows of the last cndRecordEnvironmentMap
+    uint32_t mapKernelTimeCount; // likewise in mapKernelTimes, of the last cndRecordEnvironmentMap
     CndKernelTime mapKernelTimes[CND_MAX_KERNEL_TIMES];
 } CndEnvironmentStats;
 

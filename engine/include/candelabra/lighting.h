@@ -18,10 +18,10 @@ typedef struct CndLighting_T* CndLighting;
 typedef struct CndLightingView_T* CndLightingView;
 
 // How the specular lobe of sphere lights is evaluated; `candelabra bench accuracy` measures time
-// and error of each method. Other lights have fewer methods. Tubes, rectangles and discs use a
-// representative point with POINT, KARIS and KX, linearly transformed cosines with LTC, CONIC and
-// CONIC_FULL, and samples with SAMPLED. Point, spot and directional lights need no approximation:
-// every method but NONE evaluates them exactly.
+// and error of each method. Other lights have fewer methods. With POINT, KARIS and KX, tubes,
+// rectangles and discs use a representative point; with LTC, CONIC and CONIC_FULL, linearly
+// transformed cosines; with SAMPLED, samples. Point, spot and directional lights need no
+// approximation: every method but NONE evaluates them exactly.
 typedef enum CndSpecularMethod {
     CND_SPECULAR_NONE = 0,  // no specular lobe, diffuse only
     CND_SPECULAR_KARIS = 1, // representative point, normalised for a widened lobe (Karis 2013)
@@ -59,8 +59,9 @@ typedef enum CndInfluenceRule {
     // Every light reaches everything, as real light does. influenceRadius must be valid but is
     // ignored.
     CND_INFLUENCE_UNCUT = 1,
-    // Each light reaches as far as its cut could be seen on the display, up to an error of
-    // CndInfluence::maxError. influenceRadius must be valid but is ignored.
+    // Each light reaches only so far that cutting all lights there changes the display value of a
+    // measured pixel by at most CndInfluence::maxError. influenceRadius must be valid but is
+    // ignored.
     //
     // A light of peak intensity I (cd) gets the radius sqrt(I / E) and the window of
     // CND_INFLUENCE_GIVEN. E is one illuminance for all lights, chosen on the device in every
@@ -138,7 +139,9 @@ typedef struct CndLightingDesc {
     // that cannot store an F90 of 0 have no diffuse-only class. With hostKernels the diffuse-only
     // class also needs the kernels of CND_SPECULAR_NONE.
     uint32_t materialClasses;
-    // Kernels with functions of the host; all those that the light types, methods and layout need.
+    // Kernels with functions of the host. If there are any, they must include every kernel that
+    // evaluates lights for the light types and methods in use; with CND_GBUFFER_CUSTOM they must
+    // include every kernel in use that reads the G-buffer.
     CndHostKernels hostKernels;
     // Number of lights that creation makes room for; 0: 1024. A larger light set makes the capacity
     // grow, by half at least. Light sets within lightCapacity and lightTypes need no more memory
@@ -221,8 +224,8 @@ typedef struct CndLightingFrame {
     // are left alone.
     VkImageView pairImage;
     // Mask of 1 << layer, layer < CND_LAYER_COUNT; 0: all layers. Lights that share no layer with
-    // this mask do not exist in this frame, nor for shaders that use its forward set: lists do not
-    // contain them and brute force skips them.
+    // this mask do not exist in this frame, and neither for shaders that use its forward set: lists
+    // do not contain them and brute force skips them.
     uint32_t layers;
     // The host's descriptor set 1, of layout CndHostKernels::setLayout, if
     // CndLightingDesc::hostKernels use one. The host makes what the set refers to visible to
@@ -369,10 +372,10 @@ CND_API CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer 
                                           const CndLightingFrame* frame,
                                           const CndSurfaceOverlay* overlay, CndError* error);
 
-// Lights in the host's own shaders: transparent surfaces, particles, volumes. Needs
-// CndLightingDesc::forwardStages. The shaders include lib/forward.glsl of the installed shaders,
-// which shades with CND_SPECULAR_CONIC and the lobes of the frame, at any position that the frame's
-// camera can show.
+// The functions below are for lights in the host's own shaders: transparent surfaces, particles,
+// volumes. They need CndLightingDesc::forwardStages. The shaders include lib/forward.glsl of the
+// installed shaders, which shades with CND_SPECULAR_CONIC and the lobes of the frame, at any
+// position that the frame's camera can show.
 
 // Writes the layout of the forward set, for pipeline layouts: storage buffers and uniform texel
 // buffers. The layout lives as long as the module. Fails with CND_ERROR_INVALID_ARGUMENT if

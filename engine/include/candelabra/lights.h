@@ -39,8 +39,8 @@ typedef enum CndLightType {
 // have no window.
 typedef struct CndLight {
     uint32_t type; // CndLightType
-    // Centre in metres, relative to CndLightSet::origin, each component within 1e15. All types but
-    // directional and distant sphere.
+    // Centre in metres, relative to CndLightSet::origin, each component within 1e15. Used by all
+    // types but directional and distant sphere.
     float position[3];
     // 1e-15..1e15. Sphere, tube, disc: metres. Distant sphere: its radius divided by its distance,
     // which is the sine of its angular radius, <= 1 (the Sun: 0.00465).
@@ -51,7 +51,7 @@ typedef struct CndLight {
     float emission[3]; // >= 0 and finite; unit by type, per Rec.709 channel
     // Metres, > 0, or INFINITY; greater than the distance from the centre to the farthest point of
     // the emitter (cndEmitterBoundingRadius; sphere and disc: radius; tube: |axisU| + radius;
-    // rectangle: half its diagonal). All types but directional and distant sphere.
+    // rectangle: half its diagonal). Used by all types but directional and distant sphere.
     float influenceRadius;
     // Spot: half angle of the cone with full intensity, radians, 0 <= inner < outer.
     float innerConeAngle;
@@ -164,8 +164,8 @@ CND_API uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits);
 // lights have emission = pi c_light, point lights at distance d have emission = pi c_light d^2,
 // and spheres and distant spheres, for which E = pi L s^2, have emission = c_light / s^2.
 //
-// The power functions compute in double precision, round once and check nothing: lengths must be >
-// 0.
+// The power functions compute in double precision and round once. The functions that return a float
+// check nothing: radius, width and height must be > 0.
 
 // Returns the luminance (cd/m^2) of a sphere of `radius` metres that emits `luminousPower` lumens
 // evenly: Phi = 4 pi^2 R^2 L. Keeping the power while changing the radius keeps the far field.
@@ -194,10 +194,10 @@ CND_API CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousP
                                           CndError* error);
 
 // Conversions of one type of light into another that has the same irradiance at a receiver,
-// whatever the receiver's orientation, as long as the whole emitter is above its horizon. `at` is
-// the receiver's position in metres, relative to the origin of the light set like
-// CndLight::position. They compute in double precision. influenceRadius and layers are kept where
-// the new type has them. On error nothing is written.
+// whatever the receiver's orientation, as long as the whole emitter is above the receiver's
+// horizon. `at` is the receiver's position in metres, relative to the origin of the light set like
+// CndLight::position. The conversions compute in double precision. influenceRadius and layers are
+// kept where the new type has them. On error nothing is written.
 
 // Sine of the Sun's angular radius, 695,700 km / 149.6e6 km (IAU 2015 B3, 2012 B2).
 #define CND_SUN_SINE 0.00465f

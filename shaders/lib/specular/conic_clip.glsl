@@ -101,7 +101,8 @@ Chord makeChord(SphereCap cap, float sinC)
 // w = (l + v_t, alpha NoV), so |w|^2 = A0 + 2 v_t . l, and w x dw = (-alpha NoV l, 1 + v_t . l) times
 // the differential of the angle. What remains are the integrals of 1, v_t . l and v_t x l, each divided
 // by A0 + 2 v_t . l, over the angles from -pc to pc. The first, J0, is an arc tangent; the second is
-// pc - A0 J0 / 2; the third is half the logarithm of the ratio of |w|^2 at the two ends.
+// pc - A0 J0 / 2; the third is half the logarithm of the ratio of |w|^2 at the two ends. Here v_t is
+// the component of v in the plane of the surface, and +-pc are the angles of the ends of the chord.
 vec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
 {
     const float hz = p.alpha * p.NoV;

@@ -116,7 +116,8 @@ float ltcSphereLobe(LtcLobe q, vec3 n, vec3 c, float s2)
     return ellipticConeFormFactor(cone, w);
 }
 
-// The response of the white lobe alone, as published: B / A is the same as for a uniform environment.
+// Returns the responses to a sphere by the form factor under the white lobe alone, as the method was
+// published: B / A is then the same as in a uniform environment.
 vec2 ltcSphere(LtcPoint q, vec3 c, float s2)
 {
     return ltcResponse(q, 1.0, 1.0) * ltcSphereLobe(q.white, q.n, c, min(s2, 0.9999));

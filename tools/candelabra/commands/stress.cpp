@@ -84,7 +84,8 @@ void makeDirectory(const std::string& path)
     requireWritable("--out", path + "/stress.json");
 }
 
-// Every path that may be typed is checked here, before the long part.
+// Returns the path of the JSON results: --json, or stress.json in the directory of --out. A path
+// that cannot be written is refused here, before anything is measured.
 std::string jsonPath(const StressArguments& a)
 {
     const std::string path =

@@ -143,9 +143,9 @@ void addPunctual(const GltfDocument& document, size_t index, const glm::dmat4& w
     out.positions.push_back(glm::dvec3(worldFromNode[3]));
 }
 
-// The direction in which the -z side of a node's xy plane faces. It is perpendicular to the plane
-// whatever the node's transform, and points to the other side if the transform mirrors. If z is
-// scaled to 0, it is unknown whether the transform mirrors; it is then taken not to.
+// Returns the unit normal of a node's xy plane on the side of the node's -z axis, whatever the
+// node's transform. If z is scaled to 0, that side is unknown; the transform is then taken not to
+// mirror.
 glm::dvec3 facing(const glm::dmat4& worldFromNode)
 {
     const glm::dvec3 x(worldFromNode[0]), y(worldFromNode[1]), z(worldFromNode[2]);

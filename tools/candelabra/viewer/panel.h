@@ -14,8 +14,8 @@
 namespace candelabra::app
 {
 
-// The A/B comparison ("wipe"): left of a line the image is shaded as PanelState::frame says, right
-// of it with the settings here.
+// The A/B comparison ("wipe"): left of a line the image is shaded as PanelState::frame says. From
+// the line on, the settings here replace those of PanelState::frame.
 struct Wipe {
     bool on = false;
     float at = 0.5f; // place of the line, as a fraction of the window's width

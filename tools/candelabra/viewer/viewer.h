@@ -73,8 +73,9 @@ private:
     void fitToWindow();
     void collectStats(const FrameRing::Frame& frame);
     Swapchain::Target acquire(uint32_t slot);
-    // How the pixels of column `x` are shaded: the user's settings left of the wipe's line, those
-    // of the wipe from the line on.
+    // Returns how the pixels of column `x` are shaded: left of the wipe's line with the user's
+    // settings; from the line on with the wipe's specular method, culling and error budget instead,
+    // and without a heat map.
     FrameOptions optionsAt(int32_t x) const;
     // The first column right of the wipe's line; the image's width if there is no wipe.
     int32_t wipeColumn() const;

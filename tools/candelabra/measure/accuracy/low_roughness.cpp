@@ -37,8 +37,8 @@ std::vector<Hit> hitsOf(uint32_t size)
     return out;
 }
 
-// The method of Karis 2013 as it is usually written, in float32: alpha may be as small as
-// roughness^2, the distribution uses NoH^2 (a2 - 1) + 1, shadowing is the separable Schlick-Smith
+// The method of Karis 2013 as it is usually written, in float32: alpha is roughness^2 without a
+// lower limit, the distribution uses NoH^2 (a2 - 1) + 1, shadowing is the separable Schlick-Smith
 // form, and nothing guards against rounding.
 float naiveKaris(const Hit& hit)
 {

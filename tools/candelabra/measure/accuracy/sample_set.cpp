@@ -100,7 +100,8 @@ std::vector<glm::dvec3> directionsOf(const Group& g, Random& random)
     const reference::Frame frame = reference::frameAround(mirror, {0, 0, 1});
     std::vector<glm::dvec3> out;
     for (int i = 0; i < 26; ++i) {
-        // The last percent of the tail would all be opposite the mirror direction.
+        // Leaves out the last percent of the tail, where most groups would give nothing but pi, the
+        // direction opposite the mirror direction.
         const double angle = std::min(scale * std::tan(0.5 * pi * uniform(random, 0, 0.99)), pi);
         const glm::dvec3 d = polar(angle, uniform(random, 0, 2 * pi));
         out.push_back(d.x * frame.x + d.y * frame.y + d.z * frame.z);

@@ -15,7 +15,8 @@ namespace candelabra::app
 {
 
 // The times of one variant of the frame, with a value per frame in every series. The time that the
-// timestamps themselves take on the GPU is subtracted.
+// timestamps themselves take on the GPU is subtracted from the times of the GPU (passes, gpuMs,
+// spanMs), but not from frameMs.
 struct FrameSeries {
     struct Pass {
         std::string name;
