@@ -314,13 +314,13 @@ void LightingTest::setLights(CndLighting lighting, const std::vector<CndLight>& 
     EXPECT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;
 }
 
-LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
-                                 const RunOptions& options)
+// The number of frame slots that run() draws with in turn.
+constexpr uint32_t runFramesInFlight = 2;
+
+CndLighting LightingTest::lightingFor(const RunOptions& options)
 {
-    const Images images = uploadImages(g);
-    CndError error{};
     const CndLightingDesc desc{.structSize = sizeof desc,
-                               .framesInFlight = 2,
+                               .framesInFlight = runFramesInFlight,
                                .gbufferLayout = options.layout,
                                .timestamps = true,
                                .specularMethods = 1u << options.specular,
@@ -329,13 +329,33 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
                                .hostKernels = options.hostKernels,
                                .influenceByError =
                                    options.influence.rule == CND_INFLUENCE_BY_ERROR};
-    CndLighting lighting = options.lighting;
-    if (!lighting) {
-        EXPECT_EQ(cndCreateLighting(options.host ? options.host : &deviceDesc(), &desc, &lighting,
-                                    &error),
-                  CND_SUCCESS)
-            << error.message;
-    }
+    CndLighting lighting{};
+    CndError error{};
+    EXPECT_EQ(
+        cndCreateLighting(options.host ? options.host : &deviceDesc(), &desc, &lighting, &error),
+        CND_SUCCESS)
+        << error.message;
+    return lighting;
+}
+
+CndLighting LightingTest::sharedLighting(const RunOptions& options)
+{
+    return shared_.emplace_back(lightingFor(options));
+}
+
+void LightingTest::TearDown()
+{
+    for (const CndLighting lighting : shared_)
+        cndDestroyLighting(lighting);
+    GpuTest::TearDown();
+}
+
+LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
+                                 const RunOptions& options)
+{
+    const Images images = uploadImages(g);
+    CndError error{};
+    const CndLighting lighting = options.lighting ? options.lighting : lightingFor(options);
     const CndLightingViewDesc viewDesc{.structSize = sizeof viewDesc,
                                        .maxWidth = g.width,
                                        .maxHeight = g.height,
@@ -354,7 +374,7 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     LightingResult result;
     result.stats.structSize = sizeof result.stats;
     for (int i = 0; i < options.frames; ++i) {
-        frame.frameSlot = uint32_t(i) % desc.framesInFlight;
+        frame.frameSlot = uint32_t(i) % runFramesInFlight;
         frame.surfacesUnchanged = options.unchanged && i > 0;
         options.beforeFrame();
         context().submitAndWait([&](VkCommandBuffer cmd) {

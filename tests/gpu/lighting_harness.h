@@ -104,8 +104,16 @@ struct RunOptions {
 class LightingTest : public GpuTest
 {
 protected:
+    void TearDown() override;
+
+    // Draws with a view of its own and, unless the options name a lighting, with a lighting of its
+    // own.
     LightingResult run(const CpuGBuffer& g, const std::vector<CndLight>& lights,
                        const RunOptions& options = {});
+    // Returns a lighting for RunOptions::lighting with what the other options ask for. It lives
+    // until the test ends. Without a GPU, making the pipelines of a lighting takes longer than the
+    // frame: tests that draw often and do not check what a new lighting does share one.
+    CndLighting sharedLighting(const RunOptions& options = {});
 
     // Creates a lighting and a view for `g`, which the caller must destroy.
     std::pair<CndLighting, CndLightingView> createLighting(const CpuGBuffer& g,
@@ -138,6 +146,11 @@ protected:
     std::vector<glm::vec4> readRadiance(const Images& images) const;
     void clearRadiance(VkCommandBuffer cmd, const Images& images);
     CndLightingFrame frameOf(const CpuGBuffer& g, const Images& images, const RunOptions& options);
+
+private:
+    CndLighting lightingFor(const RunOptions& options);
+
+    std::vector<CndLighting> shared_;
 };
 
 bool sameBits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b);

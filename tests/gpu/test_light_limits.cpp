@@ -122,12 +122,15 @@ TEST_F(LightLaws, NothingComesFromBelowTheHorizon)
             light.radius = 0.9f;
         lights.push_back(light);
     }
-    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
-        for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE})
-            for (const glm::vec4& pixel :
-                 run(g, lights, {.specular = CndSpecularMethod(method), .culling = culling})
-                     .radiance)
+    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method) {
+        RunOptions options{.specular = CndSpecularMethod(method)};
+        options.lighting = sharedLighting(options);
+        for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
+            options.culling = culling;
+            for (const glm::vec4& pixel : run(g, lights, options).radiance)
                 ASSERT_EQ(pixel, glm::vec4(0)) << "method " << method;
+        }
+    }
 }
 
 // The Sun as a sphere at a distance of 149.6 million km with a radius of 696,000 km, and as a

@@ -118,6 +118,7 @@ TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
             if (!sphere && (stands || (later && !fullTests())))
                 continue;
             RunOptions options{.specular = CndSpecularMethod(method), .sampleCount = 4};
+            options.lighting = sharedLighting(options);
             const LightingResult clustered = run(g, lights, options);
             options.culling = CND_CULLING_BRUTE;
             const LightingResult brute = run(g, lights, options);

@@ -74,10 +74,12 @@ TEST_P(LightingSizes, ClusteredEqualsBrute)
 {
     const auto [size, count] = GetParam();
     const CpuGBuffer g = randomGBuffer(size.x, size.y, defaultCamera(size.x, size.y), 0, count + 1);
+    const CndLighting lighting = sharedLighting();
     for (const bool mixed : {false, true}) {
         const auto lights = mixed ? mixedLights(g, count, 7) : randomSpheres(g, count, 7);
-        const LightingResult clustered = run(g, lights, {.countPairs = true});
-        const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
+        const LightingResult clustered = run(g, lights, {.countPairs = true, .lighting = lighting});
+        const LightingResult brute =
+            run(g, lights, {.culling = CND_CULLING_BRUTE, .lighting = lighting});
         EXPECT_LE(maxRelativeDifference(clustered.radiance, brute.radiance), equalToBrute);
         EXPECT_EQ(clustered.stats.lightCount, count);
         EXPECT_EQ(clustered.stats.unlistedClusters, 0u);
@@ -113,12 +115,14 @@ TEST_F(LightingTest, ClusteredEqualsBruteUnderEveryProjection)
     setOrthographic(cameras[5].second, 10, 1.5, 0.1, 100);
     cameras[6].first = "orthographic standard";
     setOrthographic(cameras[6].second, 10, 1.5, 0.1, 100, false);
+    const CndLighting lighting = sharedLighting();
     for (auto& [name, camera] : cameras) {
         const bool standard = std::string(name).find("standard") != std::string::npos;
         const CpuGBuffer g = randomGBuffer(120, 80, camera, standard ? 1.0f : 0.0f, 3);
         const auto lights = mixedLights(g, 300, 5);
-        const LightingResult clustered = run(g, lights);
-        const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
+        const LightingResult clustered = run(g, lights, {.lighting = lighting});
+        const LightingResult brute =
+            run(g, lights, {.culling = CND_CULLING_BRUTE, .lighting = lighting});
         EXPECT_LE(maxRelativeDifference(clustered.radiance, brute.radiance), equalToBrute) << name;
         EXPECT_GT(peak(brute.radiance), 0) << name;
     }
@@ -178,8 +182,11 @@ TEST_F(LightingTest, ListsOverBudgetLoseNothing)
     for (const auto& [lights, method] :
          {std::pair(spheres, CND_SPECULAR_KARIS), std::pair(spheres, CND_SPECULAR_CONIC),
           std::pair(mixed, CND_SPECULAR_CONIC), std::pair(mixed, CND_SPECULAR_KARIS)}) {
-        const LightingResult whole = run(g, lights, {.specular = method});
-        const LightingResult tiny = run(g, lights, {.specular = method, .listBudget = 4096});
+        RunOptions options{.specular = method};
+        options.lighting = sharedLighting(options);
+        const LightingResult whole = run(g, lights, options);
+        options.listBudget = 4096;
+        const LightingResult tiny = run(g, lights, options);
         EXPECT_EQ(whole.stats.unlistedClusters, 0u);
         EXPECT_GT(tiny.stats.unlistedClusters, 0u);
         EXPECT_LE(tiny.stats.listEntries, 1024u);
@@ -192,11 +199,15 @@ TEST_F(LightingTest, RunsAreBitIdentical)
     const CpuGBuffer g = randomGBuffer(203, 117, defaultCamera(203, 117), 0, 4);
     const auto lights = mixedLights(g, 900, 1);
     const LightingResult first = run(g, lights);
-    for (int i = 0; i < 20; ++i)
-        EXPECT_TRUE(sameBits(first.radiance, run(g, lights, {.frames = i % 4 + 1}).radiance));
+    const CndLighting shared = sharedLighting();
+    for (int i = 0; i < 20; ++i) // the first four with a new lighting each
+        EXPECT_TRUE(sameBits(
+            first.radiance,
+            run(g, lights, {.lighting = i < 4 ? nullptr : shared, .frames = i % 4 + 1}).radiance));
     // Which lists find a page depends on the schedule, but the image must not.
     for (int i = 0; i < 5; ++i)
-        EXPECT_TRUE(sameBits(first.radiance, run(g, lights, {.listBudget = 100000}).radiance));
+        EXPECT_TRUE(sameBits(first.radiance,
+                             run(g, lights, {.listBudget = 100000, .lighting = shared}).radiance));
 }
 
 TEST_F(LightingTest, FarFromTheOriginLooksTheSame)

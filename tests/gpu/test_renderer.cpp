@@ -35,6 +35,12 @@ protected:
         cndDefaultExposureSettings(&frame.exposure);
         return frame;
     }
+    // Asks for the pipelines of one specular method alone: without a GPU, those of all methods take
+    // much longer than the frames. The viewer's tests create them all.
+    static RendererOptions optionsOf(PixelSize size)
+    {
+        return {.size = size, .specularMethods = 1u << FrameOptions{}.specular};
+    }
     FrameStats draw(Renderer& renderer, const FrameOptions& frame) const
     {
         context().submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });
@@ -65,7 +71,7 @@ TEST_F(RendererTest, ClusteredIsBruteForceAtOddSizes)
     const Scene scene = hall(300);
     const FrameOptions frame = frameOf(scene);
     for (const PixelSize size : {PixelSize{1, 1}, {17, 3}, {161, 91}}) {
-        Renderer renderer(context(), scene, {.size = size});
+        Renderer renderer(context(), scene, optionsOf(size));
         const Image clustered = radiance(renderer, frame);
         const BruteCheck check =
             compareWithBruteForce(context(), renderer, frame, clustered,
@@ -83,7 +89,7 @@ TEST_F(RendererTest, BruteForceCheckNoticesOneWrongPixel)
     const Scene scene = hall(100);
     const FrameOptions frame = frameOf(scene);
     const PixelSize size{64, 40};
-    Renderer renderer(context(), scene, {.size = size});
+    Renderer renderer(context(), scene, optionsOf(size));
     const Image clustered = radiance(renderer, frame);
     const auto check = [&](const Image& image) {
         return compareWithBruteForce(context(), renderer, frame, image,
@@ -105,8 +111,8 @@ TEST_F(RendererTest, TwoRenderersGiveTheSameBits)
     FrameOptions frame = frameOf(scene);
     frame.time = 1.25;
     frame.lightsVisible = true;
-    Renderer first(context(), scene, {.size = {160, 90}});
-    Renderer second(context(), scene, {.size = {160, 90}});
+    Renderer first(context(), scene, optionsOf({160, 90}));
+    Renderer second(context(), scene, optionsOf({160, 90}));
     draw(second, frameOf(scene)); // an earlier frame at another time must leave no trace
     EXPECT_EQ(firstDifference(radiance(first, frame), radiance(second, frame)), -1);
     EXPECT_EQ(readDisplay(context(), first), readDisplay(context(), second));
@@ -118,7 +124,7 @@ TEST_F(RendererTest, WarmUpFramesLeaveNoTrace)
     const Scene scene = hall(200, true);
     const FrameOptions frame = frameOf(scene);
     const auto after = [&](uint32_t warmUp) {
-        Renderer renderer(context(), scene, {.size = {160, 90}});
+        Renderer renderer(context(), scene, optionsOf({160, 90}));
         const MeasuredFrames frames = renderFrames(context(), renderer, frame,
                                                    {.warmUp = warmUp, .measured = 3}, true, [] {});
         return std::tuple(frames.last.exposure.adaptedEv100, readRadiance(context(), renderer),
@@ -135,7 +141,7 @@ TEST_F(RendererTest, MovingLightsMove)
 {
     const Scene scene = hall(200, true);
     FrameOptions frame = frameOf(scene);
-    Renderer renderer(context(), scene, {.size = {160, 90}});
+    Renderer renderer(context(), scene, optionsOf({160, 90}));
     const Image before = radiance(renderer, frame);
     frame.time = 0.5;
     EXPECT_NE(firstDifference(before, radiance(renderer, frame)), -1);
@@ -147,7 +153,7 @@ TEST_F(RendererTest, ResizeGivesTheFrameOfThatSizeAndKeepsExposure)
 {
     const Scene scene = hall(200);
     FrameOptions frame = frameOf(scene);
-    Renderer renderer(context(), scene, {.size = {200, 120}});
+    Renderer renderer(context(), scene, optionsOf({200, 120}));
     const float converged = draw(renderer, frame).exposure.adaptedEv100;
     renderer.resize({96, 64});
     frame.camera.forward = -frame.camera.forward; // a new measurement of this view would give
@@ -157,7 +163,7 @@ TEST_F(RendererTest, ResizeGivesTheFrameOfThatSizeAndKeepsExposure)
     EXPECT_EQ(draw(renderer, frame).exposure.adaptedEv100, converged);
 
     frame = frameOf(scene);
-    Renderer fresh(context(), scene, {.size = {96, 64}});
+    Renderer fresh(context(), scene, optionsOf({96, 64}));
     EXPECT_EQ(firstDifference(radiance(renderer, frame), radiance(fresh, frame)), -1);
     EXPECT_EQ(readDisplay(context(), renderer), readDisplay(context(), fresh));
 }
@@ -169,7 +175,7 @@ TEST_F(RendererTest, EnvironmentLightsTheSceneAndItsBackground)
     const Scene dark = generateField({.lights = 100});
     const FrameOptions frame = frameOf(dark);
     const PixelSize size{160, 90};
-    Renderer night(context(), dark, {.size = size});
+    Renderer night(context(), dark, optionsOf(size));
     const Image before = radiance(night, frame);
 
     Image sky{.width = 64, .height = 32, .channels = 3};
@@ -178,7 +184,7 @@ TEST_F(RendererTest, EnvironmentLightsTheSceneAndItsBackground)
             sky.pixels.push_back(channel);
     Scene scene = dark;
     scene.environment = SceneEnvironment{.radiance = sky, .rotation = 1, .scale = 0.5};
-    Renderer day(context(), scene, {.size = size});
+    Renderer day(context(), scene, optionsOf(size));
     const Image lit = radiance(day, frame);
     for (size_t i = 0; i < lit.pixels.size(); ++i)
         ASSERT_GE(lit.pixels[i], before.pixels[i]) << i;
@@ -212,7 +218,7 @@ TEST_F(RendererTest, EnvironmentDoesNotCoverSuns)
     scene.lights.push_back(sun);
     scene.environment = SceneEnvironment{
         .radiance = {.width = 2, .height = 1, .channels = 1, .pixels = {100, 100}}};
-    Renderer renderer(context(), scene, {.size = {160, 90}});
+    Renderer renderer(context(), scene, optionsOf({160, 90}));
     const Image hidden = radiance(renderer, frame);
     frame.lightsVisible = true;
     const Image seen = radiance(renderer, frame);
@@ -251,7 +257,7 @@ TEST_F(RendererTest, EmittersAreSeenInTheirLayers)
         return out;
     };
     const PixelSize size{160, 90};
-    Renderer renderer(context(), scene, {.size = size}), only(context(), odd, {.size = size});
+    Renderer renderer(context(), scene, optionsOf(size)), only(context(), odd, optionsOf(size));
     const std::vector<float> expected = emitters(only, 0), all = emitters(renderer, 0);
     EXPECT_GT(std::ranges::count_if(expected, [](float x) { return x > 0; }), 20);
     EXPECT_EQ(emitters(renderer, 2), expected);
@@ -266,7 +272,7 @@ TEST_F(RendererTest, EmittersAreBrighterThanWhatTheyLight)
 {
     const Scene scene = hall(200);
     FrameOptions frame = frameOf(scene);
-    Renderer renderer(context(), scene, {.size = {320, 180}});
+    Renderer renderer(context(), scene, optionsOf({320, 180}));
     const Image without = radiance(renderer, frame);
     frame.lightsVisible = true;
     const Image with = radiance(renderer, frame);
@@ -314,7 +320,9 @@ TEST_F(RendererTest, CompactGBufferIsCloseToFull)
     const Scene scene = hall(200);
     FrameOptions frame = frameOf(scene);
     const auto render = [&](CndGBufferLayout layout) {
-        Renderer renderer(context(), scene, {.size = {160, 90}, .gbufferLayout = layout});
+        Renderer renderer(
+            context(), scene,
+            {.size = {160, 90}, .gbufferLayout = layout, .specularMethods = 1u << frame.specular});
         return radiance(renderer, frame);
     };
     for (const CndSpecularMethod method : {CND_SPECULAR_KARIS, CND_SPECULAR_CONIC}) {
@@ -335,7 +343,7 @@ TEST_F(RendererTest, CompactGBufferIsCloseToFull)
 TEST_F(RendererTest, FramesInFlightAreTimedAndCounted)
 {
     const Scene scene = hall(300, true);
-    Renderer renderer(context(), scene, {.size = {160, 90}});
+    Renderer renderer(context(), scene, optionsOf({160, 90}));
     uint32_t calls = 0;
     const MeasuredFrames frames = renderFrames(
         context(), renderer, frameOf(scene), {.warmUp = 2, .measured = 5}, true, [&] { ++calls; });
@@ -361,8 +369,8 @@ TEST_F(RendererTest, FramesInFlightAreTimedAndCounted)
 TEST_F(RendererTest, KeptFramesHaveTheSameBits)
 {
     const Scene scene = hall(300, true);
-    Renderer keeping(context(), scene, {.size = {160, 90}}),
-        fresh(context(), scene, {.size = {160, 90}});
+    Renderer keeping(context(), scene, optionsOf({160, 90})),
+        fresh(context(), scene, optionsOf({160, 90}));
     FrameOptions frame = frameOf(scene);
     frame.deltaTime = 0.01f;
     const auto runs = [](const FrameStats& stats, const std::string& pass) {
@@ -413,7 +421,7 @@ TEST_F(RendererTest, KeptFramesHaveTheSameBits)
 TEST_F(RendererTest, HeatMapsShowWhatWasCounted)
 {
     const Scene scene = hall(400);
-    Renderer renderer(context(), scene, {.size = {320, 400}}); // leaves room beside the legend
+    Renderer renderer(context(), scene, optionsOf({320, 400})); // leaves room beside the legend
     FrameOptions frame = frameOf(scene);
     const Image plain = radiance(renderer, frame);
     std::vector<std::vector<uint8_t>> pictures{readDisplay(context(), renderer)};

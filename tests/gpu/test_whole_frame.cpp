@@ -68,7 +68,8 @@ protected:
         FrameOptions frame{
             .camera = selectCamera(scene, ""), .lightsVisible = false, .specular = specular};
         cndDefaultExposureSettings(&frame.exposure);
-        Renderer renderer(context(), scene, {.size = size});
+        // The pipelines of other methods would take longer than the frame.
+        Renderer renderer(context(), scene, {.size = size, .specularMethods = 1u << specular});
         context().submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, frame); });
         return readRadiance(context(), renderer);
     }
