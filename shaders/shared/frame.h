@@ -24,9 +24,8 @@ struct FrameParams {
     mat3 viewFromWorld; // rotation
     Projection projection;
     uvec2 size;         // size of the image in pixels
-    vec2 invImageSize;  // 1 / size; divided on the CPU, because divisions on the GPU may differ in
-                        // the
-                        //   last bit between kernels
+    vec2 invImageSize;  // 1 / size; divided on the CPU, because kernels may differ in the last bit
+                        //   of a division
     float clearDepth;   // depth of pixels without a surface
     float dielectricF0; // F0 of non-metals, for layouts of the G-buffer that do not store F0
     uint lobes;         // LOBES_* (shared/dfg.h), plus COMPENSATE_ENERGY
