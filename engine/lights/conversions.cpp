@@ -12,6 +12,7 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/failure.h"
+#include "lights/light_types.h"
 
 using namespace candelabra;
 
@@ -21,16 +22,6 @@ namespace
 using std::numbers::pi;
 // Farther from the origin than this, squared distances are not finite floats.
 constexpr double maxCoordinate = 1e15;
-
-double tubeArea(double length, double radius)
-{
-    return 2 * pi * radius * (length + 2 * radius);
-}
-
-double sides(VkBool32 twoSided)
-{
-    return twoSided ? 2 : 1;
-}
 
 glm::dvec3 vec(const float (&v)[3])
 {
@@ -99,41 +90,17 @@ double window(double distance, double influenceRadius)
     return t * t;
 }
 
-double luminousPowerPerEmission(const CndLight& light)
+// The luminance of an area light of this shape that emits `luminousPower` lumens.
+float luminanceFromPower(float luminousPower, const CndLight& light)
 {
-    const double radius = light.radius;
-    switch (light.type) {
-    case CND_LIGHT_POINT:
-        return 4 * pi;
-    case CND_LIGHT_SPOT: {
-        // Between the cones the attenuation is the square of a linear function of the cosine, from
-        // 0 to 1: its mean is 1/3.
-        const double inner = std::cos(double(light.innerConeAngle));
-        const double outer = std::cos(double(light.outerConeAngle));
-        return 2 * pi * (1 - inner + (inner - outer) / 3);
-    }
-    case CND_LIGHT_SPHERE:
-        return 4 * pi * pi * radius * radius;
-    case CND_LIGHT_TUBE:
-        return pi * tubeArea(2 * glm::length(vec(light.axisU)), radius);
-    case CND_LIGHT_RECTANGLE:
-        return 4 * pi * glm::length(vec(light.axisU)) * glm::length(vec(light.axisV)) *
-               sides(light.twoSided);
-    case CND_LIGHT_DISC:
-        return pi * pi * radius * radius * sides(light.twoSided);
-    case CND_LIGHT_DIRECTIONAL:
-    case CND_LIGHT_DISTANT_SPHERE:
-        gpu::failArgument("a directional or distant light has no luminous power");
-    default:
-        gpu::failArgument("type is not a CndLightType");
-    }
+    return float(double(luminousPower) / lighting::luminousPowerPerEmission(light));
 }
 
 } // namespace
 
 float cndSphereLuminanceFromPower(float luminousPower, float radius)
 {
-    return float(double(luminousPower) / (4 * pi * pi * double(radius) * double(radius)));
+    return luminanceFromPower(luminousPower, {.type = CND_LIGHT_SPHERE, .radius = radius});
 }
 
 float cndSphereLuminanceFromIntensity(float intensity, float radius)
@@ -143,19 +110,23 @@ float cndSphereLuminanceFromIntensity(float intensity, float radius)
 
 float cndTubeLuminanceFromPower(float luminousPower, float length, float radius)
 {
-    return float(double(luminousPower) / (pi * tubeArea(length, radius)));
+    return luminanceFromPower(
+        luminousPower, {.type = CND_LIGHT_TUBE, .radius = radius, .axisU = {length / 2, 0, 0}});
 }
 
 float cndRectangleLuminanceFromPower(float luminousPower, float width, float height,
                                      VkBool32 twoSided)
 {
-    return float(double(luminousPower) / (pi * double(width) * double(height) * sides(twoSided)));
+    return luminanceFromPower(luminousPower, {.type = CND_LIGHT_RECTANGLE,
+                                              .axisU = {width / 2, 0, 0},
+                                              .axisV = {0, height / 2, 0},
+                                              .twoSided = twoSided});
 }
 
 float cndDiscLuminanceFromPower(float luminousPower, float radius, VkBool32 twoSided)
 {
-    return float(double(luminousPower) /
-                 (pi * pi * double(radius) * double(radius) * sides(twoSided)));
+    return luminanceFromPower(luminousPower,
+                              {.type = CND_LIGHT_DISC, .radius = radius, .twoSided = twoSided});
 }
 
 float cndLuminousPowerFromWatts(float watts)
@@ -168,7 +139,7 @@ CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousPower[3],
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndLuminousPowerOfLight", {light, luminousPower});
         CndLight power{}; // its emission is the power
-        setEmission(power, *light, luminousPowerPerEmission(*light));
+        setEmission(power, *light, lighting::luminousPowerPerEmission(*light));
         for (int i = 0; i < 3; ++i)
             luminousPower[i] = power.emission[i];
     });

@@ -74,4 +74,8 @@ constexpr bool isPunctual(uint32_t lightType)
 // punctual lights, and the sine of the angular radius for distant spheres.
 float boundingRadiusOf(const CndLight& light);
 
+// Returns the luminous power in lm of a light of this type and shape whose emission is 1, without
+// its window. Throws gpu::Failure for directional and distant lights, which have none.
+double luminousPowerPerEmission(const CndLight& light);
+
 } // namespace candelabra::lighting

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "reference/brdf.h"
@@ -263,6 +264,16 @@ void addHemisphere(const Receiver& receiver, const glm::dvec3& center, const glm
     accumulate(out, integrate<3, 200>(std::span<const double>(breaks), relative, 0, along));
 }
 
+LightResponse surfaceOfSphere(const Receiver& receiver, const glm::dvec3& center, double radius,
+                              double relative)
+{
+    const glm::dvec3& n = receiver.surface.normal; // any direction does
+    LightResponse out;
+    addHemisphere(receiver, center, n, radius, relative, out);
+    addHemisphere(receiver, center, -n, radius, relative, out);
+    return out;
+}
+
 } // namespace
 
 LightResponse emitterDomainResponse(const SurfacePoint& surface, double alpha,
@@ -275,6 +286,8 @@ LightResponse emitterDomainResponse(const SurfacePoint& surface, double alpha,
                             glm::normalize(2 * glm::dot(n, lifted.toEye) * n - lifted.toEye)};
     const glm::dvec3 center = lightOrigin + vec3(light.position) - surface.position;
     switch (light.type) {
+    case CND_LIGHT_SPHERE:
+        return surfaceOfSphere(receiver, center, light.radius, relative);
     case CND_LIGHT_RECTANGLE: {
         const glm::dvec3 u = vec3(light.axisU), v = vec3(light.axisV);
         if (!light.twoSided && !(glm::dot(glm::cross(u, v), center) < 0))
@@ -299,7 +312,8 @@ LightResponse emitterDomainResponse(const SurfacePoint& surface, double alpha,
         return out;
     }
     default:
-        throw std::invalid_argument("the light is neither rectangle, disc nor tube");
+        throw std::invalid_argument("light type " + std::to_string(light.type) +
+                                    " has no surface to integrate over");
     }
 }
 

@@ -19,6 +19,7 @@ namespace candelabra::reference
 namespace
 {
 
+// Integrates over the directions to the light (direction_domain.h).
 LightResponse truthOfOutline(const SurfacePoint& surface, double alpha, const Outline& outline,
                              double relative)
 {
@@ -32,6 +33,7 @@ LightResponse truthOfOutline(const SurfacePoint& surface, double alpha, const Ou
     return out;
 }
 
+// The cap of sphereCap(). At the very centre the form factor is that of c = 0.
 LightResponse truthOfSphere(const SurfacePoint& surface, double alpha, const glm::dvec3& toCenter,
                             double radius, double relative)
 {
@@ -42,6 +44,8 @@ LightResponse truthOfSphere(const SurfacePoint& surface, double alpha, const glm
     return out;
 }
 
+// Inside a tube and at its surface: the hemisphere towards the nearest point of its segment, which
+// is continuous as for the sphere. On the segment: as at the centre of a sphere.
 LightResponse truthOfTube(const SurfacePoint& surface, double alpha, const CndLight& light,
                           const glm::dvec3& toCenter, double relative)
 {
@@ -57,6 +61,8 @@ LightResponse truthOfTube(const SurfacePoint& surface, double alpha, const CndLi
     return truthOfOutline(surface, alpha, *outline, relative);
 }
 
+// Whether a receiver sees a flat light: not from behind unless it is two-sided, and not from a
+// point in its plane.
 bool sees(const glm::dvec3& normal, const glm::dvec3& toCenter, VkBool32 twoSided)
 {
     const double height = -glm::dot(normal, toCenter);
@@ -97,7 +103,7 @@ LightResponse truthResponse(const SurfacePoint& surface, double alpha, const Cnd
     switch (light.type) {
     case CND_LIGHT_SPHERE:
         return truthOfSphere(surface, alpha, toCenter, light.radius, relative);
-    case CND_LIGHT_DISTANT_SPHERE: {
+    case CND_LIGHT_DISTANT_SPHERE: { // the cap of sine `radius` around the opposite of `direction`
         const double s = std::min(double(light.radius), 1.0);
         return truthOfCap(surface, alpha, {-glm::normalize(vec3(light.direction)), s * s},
                           relative);

@@ -21,14 +21,9 @@ SphereCap sphereCap(const glm::dvec3& toCenter, double radius);
 LightResponse truthOfCap(const SurfacePoint& surface, double alpha, const SphereCap& cap,
                          double relative);
 
-// Returns the response to an area light of luminance 1, whatever its emission; without the window:
-//   sphere          the cap of sphereCap(); its form factor at the very centre is that of c = 0.
-//   distant sphere  the cap of sine `radius` around the opposite of `direction`.
-//   tube            inside it or at its surface: the hemisphere towards the nearest point of its
-//                   segment, continuous as for the sphere; on the segment as at a sphere's centre.
-//   rectangle, disc no light from behind unless twoSided, and none for receivers in its plane.
-// Tubes, rectangles and discs are integrated over light directions (direction_domain.h). With alpha
-// = 0 the specular lobe is left out (a = b = 0). Punctual and unknown types throw
+// Returns the response to an area light of luminance 1, whatever its emission; without the window.
+// What a receiver inside an emitter, in its plane or at its back sees is said in truth.cpp, type by
+// type. With alpha = 0 the specular lobe is left out (a = b = 0). Punctual and unknown types throw
 // std::invalid_argument.
 LightResponse truthResponse(const SurfacePoint& surface, double alpha, const CndLight& light,
                             const glm::dvec3& lightOrigin, double relative);

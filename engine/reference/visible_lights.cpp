@@ -91,12 +91,20 @@ std::optional<double> intersectLight(const CndLight& light, const glm::dvec3& li
     const glm::dvec3 direction = ray.direction / length;
     const glm::dvec3 toCenter = lightOrigin + vec3(light.position) - ray.origin;
     Inside inside;
-    if (light.type == CND_LIGHT_SPHERE)
+    switch (light.type) {
+    case CND_LIGHT_SPHERE:
         addSphere(inside, direction, toCenter, light.radius);
-    else if (light.type == CND_LIGHT_TUBE)
+        break;
+    case CND_LIGHT_TUBE:
         inside = insideTube(direction, toCenter, vec3(light.axisU), light.radius);
-    else if (light.type == CND_LIGHT_RECTANGLE || light.type == CND_LIGHT_DISC)
+        break;
+    case CND_LIGHT_RECTANGLE:
+    case CND_LIGHT_DISC:
         inside = insideFlat(light, direction, toCenter);
+        break;
+    default: // punctual or distant
+        break;
+    }
     if (!(inside.to > 0))
         return std::nullopt;
     return (inside.from > 0 ? inside.from : inside.to) / length;

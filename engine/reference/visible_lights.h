@@ -18,9 +18,8 @@ struct Ray {
 };
 
 // Returns the distance at which the ray first meets the emitter, or leaves it if the origin is
-// inside a sphere or tube. Rectangles and discs are visible from their front, and from behind if
-// two-sided. Empty for rays that miss and for lights that have no surface at a finite distance:
-// point, spot, directional, distant sphere.
+// inside. Flat emitters are visible from their front, and from behind if two-sided. Empty for rays
+// that miss and for lights that have no surface at a finite distance: punctual and distant ones.
 std::optional<double> intersectLight(const CndLight& light, const glm::dvec3& lightOrigin,
                                      const Ray& ray);
 

@@ -11,7 +11,7 @@
 namespace candelabra::lighting
 {
 
-// The CMake build has compiled this kernel for every family of shared/light_families.h.
+// The CMake build has compiled this kernel for every family of shared/light_types.h.
 static_assert(std::size(spirv::shade_tiles_comp) == gpu::FAMILY_COUNT);
 
 uint32_t tileClassesOf(const CndLightingDesc& desc)

@@ -8,7 +8,7 @@
 
 #include "candelabra_shaders.h"
 #include "gpu/failure.h"
-#include "shared/light_families.h"
+#include "shared/light_types.h"
 
 namespace candelabra::surfaces
 {

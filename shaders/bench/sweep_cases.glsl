@@ -66,6 +66,48 @@ vec4 sweepDirection(uint slice, SweepPoint p)
     return vec4(directionAt(p.n, randomRange(-1.0, 1.0)), s);
 }
 
+// Whether lights of the type use a field of CndLight; `types` is TYPES_WITH_*.
+bool usesField(uint types)
+{
+    return (types >> lightType & 1u) != 0u;
+}
+
+// Returns the shape of a light that has a position, about `size` metres large, with axes along the
+// unit vectors u or w and cross(u, w). Sets the bounding radius.
+LightShape makeSweepShape(float size, vec3 u, vec3 w, float aspect, out float boundingRadius)
+{
+    const bool hasRadius = usesField(TYPES_WITH_RADIUS);
+    const bool hasAxisU = usesField(TYPES_WITH_AXIS_U);
+    const bool hasAxisV = usesField(TYPES_WITH_AXIS_V);
+    LightShape shape = LightShape(vec3(0.0), 0.0, vec3(0.0), 0u);
+    boundingRadius = 0.0;
+    if (hasAxisV) {
+        shape.axisU = max(size, 2e-15) * w;
+        shape.axisV = max(size * aspect, 2e-15) * cross(u, w);
+        boundingRadius = length(vec2(length(shape.axisU), length(shape.axisV)));
+    } else if (hasAxisU) {
+        shape.axisU = max(size, 2e-15) * u;
+        boundingRadius = length(shape.axisU);
+    } else if (usesField(TYPES_WITH_DIRECTION)) {
+        shape.axisU = u;
+    }
+    if (hasRadius) {
+        // A light along one axis is slender.
+        shape.radius = max(hasAxisU && !hasAxisV ? size * aspect : size, 1e-30);
+        boundingRadius += shape.radius;
+        if (hasAxisV)
+            shape.radius = boundingRadius; // as in shapeOfRecord()
+    }
+    if (usesField(TYPES_WITH_SIDES))
+        shape.flags = chance(0.5) ? LIGHT_TWO_SIDED : 0u;
+    if (usesField(TYPES_WITH_CONE)) {
+        const float outer = randomRange(0.01, 1.5);
+        const float between = max(cos(outer * random01()) - cos(outer), 1e-6);
+        shape.axisV = vec3(1.0 / between, -cos(outer) / between, 0.0);
+    }
+    return shape;
+}
+
 void makeSweepLight(uint slice, SweepPoint p)
 {
     const vec4 at = sweepDirection(slice, p);
@@ -94,36 +136,14 @@ void makeSweepLight(uint slice, SweepPoint p)
     else if (slice == SWEEP_DENORMAL)
         emission = 1e-30 * randomLog10(-15.0, 0.0);
     const vec3 tint = vec3(1.0, random01(), chance(0.2) ? 0.0 : random01());
-    LightShape shape = LightShape(vec3(0.0), 0.0, vec3(0.0), 0u);
     float boundingRadius = 0.0;
-    if (lightType == LIGHT_SPHERE) {
-        boundingRadius = shape.radius = size;
-    } else if (lightType == LIGHT_TUBE) {
-        shape.radius = max(size * aspect, 1e-30);
-        shape.axisU = max(size, 2e-15) * u;
-        boundingRadius = length(shape.axisU) + shape.radius;
-    } else if (lightType == LIGHT_RECTANGLE) {
-        shape.axisU = max(size, 2e-15) * w;
-        shape.axisV = max(size * aspect, 2e-15) * cross(u, w);
-        shape.flags = chance(0.5) ? LIGHT_TWO_SIDED : 0u;
-        boundingRadius = length(vec2(length(shape.axisU), length(shape.axisV)));
-    } else if (lightType == LIGHT_DISC) {
-        shape.axisU = u;
-        shape.radius = max(size, 1e-30);
-        shape.flags = chance(0.5) ? LIGHT_TWO_SIDED : 0u;
-        boundingRadius = shape.radius;
-    } else if (lightType == LIGHT_SPOT) {
-        const float outer = randomRange(0.01, 1.5);
-        const float between = max(cos(outer * random01()) - cos(outer), 1e-6);
-        shape.axisU = u;
-        shape.axisV = vec3(1.0 / between, -cos(outer) / between, 0.0);
-    }
-    lightShapes[0] = shape;
-    centreRadius = vec4(centre, boundingRadius);
     if (IS_DISTANT) {
-        const float sine = lightType == LIGHT_DISTANT_SPHERE ? max(at.w, 1e-7) : 0.0;
+        const float sine = usesField(TYPES_WITH_RADIUS) ? max(at.w, 1e-7) : 0.0;
+        lightShapes[0] = LightShape(vec3(0.0), sine, vec3(0.0), 0u);
         centreRadius = vec4(normalize(at.xyz), sine);
-        lightShapes[0].radius = sine;
+    } else {
+        lightShapes[0] = makeSweepShape(size, u, w, aspect, boundingRadius);
+        centreRadius = vec4(centre, boundingRadius);
     }
     const float infinity = uintBitsToFloat(0x7F800000u);
     const float influence = chance(0.5) ? infinity : boundingRadius * 1.01 + 3.0 * d + 1e-12;

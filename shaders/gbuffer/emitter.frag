@@ -17,19 +17,6 @@ layout(location = 1) flat in vec3 inLuminance;
 layout(location = 2) flat in vec3 inAxisU; // view space
 layout(location = 3) flat in vec4 inAxisV; // view space; w: whether it is two-sided
 
-EmitterHit intersectEmitter(Ray ray)
-{
-    const vec3 center = inCenter.xyz;
-    const bool twoSided = inAxisV.w > 0.5;
-    if (shape == LIGHT_TUBE)
-        return intersectTube(ray, center, inAxisU, inCenter.w);
-    if (shape == LIGHT_RECTANGLE)
-        return intersectRectangle(ray, center, inAxisU, inAxisV.xyz, twoSided);
-    if (shape == LIGHT_DISC)
-        return intersectDisc(ray, center, inAxisU, inCenter.w, twoSided);
-    return intersectBall(ray, center, inCenter.w);
-}
-
 void main()
 {
     const Ray ray = pixelRay(pixelNdc(gl_FragCoord.xy));
@@ -42,7 +29,8 @@ void main()
         writeEmitter(-inCenter.xyz, inLuminance);
         return;
     }
-    const EmitterHit hit = intersectEmitter(ray);
+    const EmitterHit hit = intersectEmitter(ray, shape, inCenter.xyz, inCenter.w, inAxisU, inAxisV.xyz,
+                                            inAxisV.w > 0.5);
     const bool perspective = frame.perspective > 0.5;
     const bool inside = perspective && hit.near <= 0.0;
     const float farDepth = depthOf(ray.origin + hit.far * ray.direction);

@@ -100,4 +100,18 @@ EmitterHit intersectRectangle(Ray ray, vec3 center, vec3 axisU, vec3 axisV, bool
     return rectangle;
 }
 
+// Intersects a ray with the emitter of a light of any type that has a position. `type` is LIGHT_*,
+// the other parameters are the members of EmitterRecord.
+EmitterHit intersectEmitter(Ray ray, uint type, vec3 center, float radius, vec3 axisU, vec3 axisV,
+                            bool twoSided)
+{
+    if (type == LIGHT_TUBE)
+        return intersectTube(ray, center, axisU, radius);
+    if (type == LIGHT_RECTANGLE)
+        return intersectRectangle(ray, center, axisU, axisV, twoSided);
+    if (type == LIGHT_DISC)
+        return intersectDisc(ray, center, axisU, radius, twoSided);
+    return intersectBall(ray, center, radius);
+}
+
 #endif

@@ -186,10 +186,9 @@ CND_API float cndDiscLuminanceFromPower(float luminousPower, float radius, VkBoo
 // Returns the luminous power (lm) of `watts` of radiation at 555 nm: 683 lm/W (SI definition of the
 // candela).
 CND_API float cndLuminousPowerFromWatts(float watts);
-// Writes the luminous power (lm) that `light` emits, ignoring its window: spheres, tubes,
-// rectangles and discs as above, points 4 pi I, spots 2 pi I (1 - cos inner + (cos inner - cos
-// outer) / 3). Fails with CND_ERROR_INVALID_ARGUMENT for directional and distant lights, which have
-// none.
+// Writes the luminous power (lm) that `light` emits, ignoring its window: area lights pi A L as
+// above, points 4 pi I, spots 2 pi I (1 - cos inner + (cos inner - cos outer) / 3). Fails with
+// CND_ERROR_INVALID_ARGUMENT for directional and distant lights, which have none.
 CND_API CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousPower[3],
                                           CndError* error);
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "generate/random.h"
+#include "lights/light_types.h"
 #include "measure/kernels/parallel.h"
 #include "measure/kernels/vectors.h"
 #include "reference/truth.h"
@@ -38,11 +39,6 @@ double logUniform(Random& random, double low, double high)
     return low * std::pow(high / low, double(random.uniform()));
 }
 
-bool isSphere(uint32_t type)
-{
-    return type == CND_LIGHT_SPHERE || type == CND_LIGHT_DISTANT_SPHERE;
-}
-
 Group makeGroup(uint32_t type, uint32_t index, uint32_t groups, Random& random)
 {
     Group g{};
@@ -50,8 +46,8 @@ Group makeGroup(uint32_t type, uint32_t index, uint32_t groups, Random& random)
         float(0.045 + (1 - 0.045) * (index + double(random.uniform())) / groups);
     const double viewAngle = uniform(random, 0, 88.85) * degree;
     g.v = polar(viewAngle, uniform(random, 0, 2 * pi));
-    g.halfAngle =
-        degree * (isSphere(type) ? logUniform(random, 0.1, 80) : logUniform(random, 1, 60));
+    g.halfAngle = degree * (lighting::isSphere(type) ? logUniform(random, 0.1, 80)
+                                                     : logUniform(random, 1, 60));
     g.distance = logUniform(random, 0.3, 30);
     g.turn = uniform(random, 0, 2 * pi);
     g.tilt = uniform(random, 0, 75) * degree;
@@ -83,10 +79,12 @@ CndLight makeLight(uint32_t type, const Group& g, const glm::dvec3& direction)
     light.radius = float(half);
     set(light.axisU, half * u);
     set(light.axisV, half / g.aspect * glm::cross(w, u));
-    if (type == CND_LIGHT_TUBE) {
-        // Short enough to leave the receiver outside whichever way it points.
+    const uint32_t fields = cndLightFields(type);
+    if (fields & CND_LIGHT_FIELD_AXIS_U_BIT && fields & CND_LIGHT_FIELD_RADIUS_BIT) {
+        // A body: small enough to leave the receiver outside whichever way it points.
         const double length = std::min(half, 0.6 * g.distance);
         set(light.axisU, length * u);
+        set(light.axisV, length / g.aspect * glm::cross(w, u));
         light.radius = float(length / (2 * g.aspect));
     }
     return light;
@@ -127,6 +125,11 @@ std::pair<double, double> heights(const CndLight& light)
     const double radius = light.radius;
     if (cndIsDistant(light.type))
         return {-light.direction[2] - radius, -light.direction[2] + radius};
+    // A body with two axes is taken as its bounding sphere.
+    if (fields & CND_LIGHT_FIELD_AXIS_V_BIT && fields & CND_LIGHT_FIELD_RADIUS_BIT) {
+        const double bound = cndEmitterBoundingRadius(&light);
+        return {light.position[2] - bound, light.position[2] + bound};
+    }
     double half = 0;
     if (fields & CND_LIGHT_FIELD_AXIS_U_BIT)
         half += std::abs(double(light.axisU[2]));

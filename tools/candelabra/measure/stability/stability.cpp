@@ -26,8 +26,9 @@ std::vector<Evaluation> evaluations(const StabilitySettings& s)
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         for (const CndSpecularMethod method : methodsOf(type))
             out.push_back({.lightType = type, .method = method, .sampleCount = s.sampleCount});
-    for (const CndLightType type : {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE})
-        out.push_back({.lightType = type, .method = CND_SPECULAR_CONIC, .errorBudget = 0.01f});
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (lighting::takesBudget(type, CND_SPECULAR_CONIC))
+            out.push_back({.lightType = type, .method = CND_SPECULAR_CONIC, .errorBudget = 0.01f});
     return out;
 }
 
