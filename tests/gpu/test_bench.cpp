@@ -13,6 +13,7 @@
 #include "measure/stability/stability.h"
 #include "render/setting_names.h"
 #include "scene/light_types.h"
+#include "shading/light_family.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -82,6 +83,21 @@ TEST_F(Bench, SweepsAreReproducibleAndValid)
         largest = std::max(largest, double(a[i].response.y));
     }
     EXPECT_GT(largest, 0);
+}
+
+TEST_F(Bench, ResponsesToEveryTypeAreValidInTheSweep)
+{
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        const Evaluation evaluation{.lightType = type,
+                                    .method = lighting::canonicalMethod(type, CND_SPECULAR_CONIC)};
+        Sweep sweep(context(), evaluation, 6);
+        for (uint32_t slice = 0; slice < sweepSliceCount; ++slice) {
+            const SweepCount count = sweep.count(slice, 0, 4000, [](uint64_t) {});
+            EXPECT_EQ(count.invalid(), 0u)
+                << lightTypeName(type) << ", " << sliceText(slice) << ": "
+                << (count.bad.empty() ? "" : describeRecord(count.bad[0]));
+        }
+    }
 }
 
 // The representative point is continuous; a jump would reveal a wrong classification.

@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "gpu/raster_rays.h"
+#include "harness/constants.h"
 #include "shared/gbuffer.h"
 
 namespace candelabra::test

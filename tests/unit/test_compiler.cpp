@@ -99,11 +99,13 @@ TEST(Compiler, RefusesWhatIsOutOfRange)
               "CndCompileDesc: functions must be a mask of CndHostFunctionBits");
     EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT}),
               "CndCompileDesc: source is null");
-    EXPECT_EQ(
-        compileError({.functions = CND_HOST_VISIBILITY_BIT, .source = shadow, .lightTypes = 256}),
-        "CndCompileDesc: lightTypes has bits beyond the last CndLightType");
-    EXPECT_EQ(compileError(
-                  {.functions = CND_HOST_VISIBILITY_BIT, .source = shadow, .specularMethods = 256}),
+    EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT,
+                            .source = shadow,
+                            .lightTypes = 1u << CND_LIGHT_TYPE_COUNT}),
+              "CndCompileDesc: lightTypes has bits beyond the last CndLightType");
+    EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT,
+                            .source = shadow,
+                            .specularMethods = 1u << CND_SPECULAR_METHOD_COUNT}),
               "CndCompileDesc: specularMethods has bits beyond the last CndSpecularMethod");
     CndCompileDesc desc{.structSize = 1, .functions = CND_HOST_VISIBILITY_BIT, .source = shadow};
     CndCompiledKernels kernels{};

@@ -76,10 +76,10 @@ double powerThroughSphere(const CndLight& l)
             const double node = i % 12 < 6 ? nodes[i % 6] : -nodes[i % 6];
             const double z = (i < 12 ? 0.5 : -0.5) * (1 + node);
             const double phi = 2 * pi * (k + 0.5) / 24, r = std::sqrt(1 - z * z);
-            // The luminance of disc and rectangle jumps at their plane, so z is taken along the
-            // normal.
-            const glm::dvec3 normal =
-                l.type == CND_LIGHT_DISC ? glm::dvec3(0.6, -0.8, 0) : glm::dvec3(0, -0.8, 0.6);
+            // The luminance of a flat light jumps at its plane, so z is taken along the normal.
+            const glm::dvec3 normal = cndLightFields(l.type) & CND_LIGHT_FIELD_DIRECTION_BIT
+                                          ? glm::dvec3(0.6, -0.8, 0)
+                                          : glm::dvec3(0, -0.8, 0.6);
             const glm::dvec3 x(normal.z, 0, -normal.x), u = glm::normalize(x);
             const glm::dvec3 direction =
                 z * normal + r * (std::cos(phi) * u + std::sin(phi) * glm::cross(normal, u));
@@ -94,10 +94,11 @@ double powerThroughSphere(const CndLight& l)
 
 TEST(Conversions, PowerIsWhatASurroundingSphereReceives)
 {
-    for (const CndLightType type :
-         {CND_LIGHT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC})
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         for (const bool twoSided : {false, true}) {
-            CndLight l = light(type);
+            if (cndIsDistant(type) || cndIsPunctual(type))
+                continue;
+            CndLight l = light(CndLightType(type));
             l.twoSided = twoSided;
             float power[3];
             CndError error{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the truth about rectangles, discs and tubes: closed forms, limits, and a second integrator
-// over the emitter's surface.
+// Tests the truth about area lights: closed forms and limits of rectangles, discs and tubes, and
+// for every type a second integrator over the emitter's surface.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -78,7 +78,13 @@ TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
         const double across = std::sqrt(1 - z * z);
         return glm::dvec3(across * std::cos(phi), across * std::sin(phi), z);
     };
-    for (const uint32_t type : {CND_LIGHT_RECTANGLE, CND_LIGHT_DISC, CND_LIGHT_TUBE}) {
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        if (cndIsDistant(type) || cndIsPunctual(type))
+            continue;
+        const uint32_t fields = cndLightFields(type);
+        const bool alongAxis =
+            fields & CND_LIGHT_FIELD_AXIS_U_BIT && !(fields & CND_LIGHT_FIELD_AXIS_V_BIT);
+        const bool flat = fields & CND_LIGHT_FIELD_TWO_SIDED_BIT;
         std::mt19937_64 random(3);
         std::uniform_real_distribution<double> unit(0, 1);
         std::vector<double> differences;
@@ -102,12 +108,12 @@ TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
             set(light.axisU, size * u);
             set(light.axisV, size * (0.1 + unit(random)) * v);
             set(light.direction, unitVector(random));
-            const bool tube = type == CND_LIGHT_TUBE;
-            light.radius = static_cast<float>(tube ? 0.02 * std::pow(30, unit(random)) : size);
+            light.radius = static_cast<float>(alongAxis ? 0.02 * std::pow(30, unit(random)) : size);
             const glm::dvec3 center(light.position[0], light.position[1], light.position[2]);
-            const double along = std::clamp(-glm::dot(center, u), -size, size);
-            if (tube && glm::length(center + along * u) < 1.01 * light.radius)
-                continue; // inside the tube both use different models
+            const double along = alongAxis ? std::clamp(-glm::dot(center, u), -size, size) : 0;
+            const double radius = alongAxis ? light.radius : cndEmitterBoundingRadius(&light);
+            if (!flat && glm::length(center + along * u) < 1.01 * radius)
+                continue; // inside a body both use different models
             const LightResponse a = truthResponse(surface, alpha, light, glm::dvec3(0), 1e-6);
             const LightResponse b =
                 emitterDomainResponse(surface, alpha, light, glm::dvec3(0), 1e-5);
