@@ -33,7 +33,7 @@ struct SkipRow {
     std::string passes;  // which passes the times are of
     double bar = 0; // the greatest ratio of the times with and without the skip; 0: none is set
     // The difference of the images relative to the largest value, and its bound, which is 0 unless
-    // the order of sums may change.
+    // the order of sums may change or lights that are too dim to see are left out.
     double bound = 0;
     double difference = 0;
     PassTimes with, without;

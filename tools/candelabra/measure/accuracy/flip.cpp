@@ -20,7 +20,7 @@ struct Size {
 
 // --- Colour spaces, all relative to the white of the Rec.709 primaries
 
-// The rows of the matrix from linear RGB to XYZ (IEC 61966-2-1).
+// Returns the XYZ of a linear RGB colour (IEC 61966-2-1).
 glm::dvec3 xyzFromLinear(const glm::dvec3& c)
 {
     return {0.4123865632529917 * c.x + 0.3575914909206253 * c.y + 0.1804504912035637 * c.z,
@@ -127,8 +127,9 @@ Filter contrastSensitivity(double pixelsPerDegree)
     return out;
 }
 
-// The first and second derivative of a Gaussian along x, in the components x and y. Positive
-// weights add up to 1, negative ones to -1.
+// The first and second derivative of a Gaussian, in the components x and y of the weights. They are
+// taken along the image's x axis or, if `alongX` is false, along its y axis. Positive weights add
+// up to 1, negative ones to -1.
 Filter features(double pixelsPerDegree, bool alongX)
 {
     const double sd = 0.5 * 0.082 * pixelsPerDegree;

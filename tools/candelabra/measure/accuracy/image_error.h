@@ -19,13 +19,15 @@ struct WorstPixel {
 
 // The differences of all channels of all pixels, where d = value - truth.
 struct ImageDifference {
-    double relMse = 0; // mean of d^2 / (truth^2 + 0.01 mean(truth)^2)
-    double relL1 = 0;  // sum |d| / sum truth
-    double maxOverPeak = 0;
-    double energy = 0; // sum value / sum truth - 1
-    // The same over lit channels only: those whose truth is above 0.001 of its largest value.
+    double relMse = 0;      // mean of d^2 / (truth^2 + 0.01 mean(truth)^2)
+    double relL1 = 0;       // sum |d| / sum truth
+    double maxOverPeak = 0; // largest |d| / largest truth
+    double energy = 0;      // sum value / sum truth - 1
+    // Over lit channels only (those whose truth is above 0.001 of its largest value): the mean of
+    // (d / truth)^2, and the mean, the 99th percentile and the largest value of |d| / truth.
     double litRelMse = 0, litMeanRel = 0, litP99Rel = 0, litMaxRel = 0;
-    double flip = 0;               // the mean of FLIP over the pixels of the displayed images
+    // The mean of FLIP over the pixels of the displayed images. imageDifference leaves it 0.
+    double flip = 0;
     size_t invalid = 0;            // values that are NaN or infinite, which count as 0
     std::vector<WorstPixel> worst; // the pixels with the largest |d|, the largest first
 };

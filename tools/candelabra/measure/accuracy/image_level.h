@@ -68,7 +68,7 @@ struct BudgetSweep {
     std::vector<BudgetPoint> points; // karis, then conic with growing budgets
 };
 
-// The benchmark's own scenes of planes and balls, which together hold lights of every kind.
+// The benchmark's own scenes of planes and balls, which together hold area lights of every type.
 std::vector<Scene> benchScenes();
 
 double imageLevelSteps(const ImageLevelSettings& settings);

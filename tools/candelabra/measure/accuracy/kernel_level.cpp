@@ -57,7 +57,7 @@ void addErrors(const VulkanContext& context, const KernelLevelSettings& s, uint3
     }
 }
 
-// The variants to time, and which point and class each belongs to.
+// The variants to time, and for each the index of the variant that it is compared with, or -1.
 struct Plan {
     std::vector<TimedVariant> variants;
     std::vector<int> baseline;

@@ -37,8 +37,10 @@ struct KernelPoint {
     std::vector<Class> classes; // empty without timestamps
 };
 
-// Without the loop, the light's direction and the product of cosine and s^2, which is all that the
-// engine evaluates for a light above the horizon; the naive form does not tell them apart.
+// The time that the form factor of a sphere takes: as the engine computes it and in the naive form
+// for lights that cross the horizon, and in the naive form for lights above it. The engine then
+// needs only the product of cosine and s^2. That product is subtracted from all three, like the
+// loop over the lights and the light's direction.
 struct FormFactorTime {
     double robustNs = 0, naiveNs = 0, naiveAboveNs = 0;
 };

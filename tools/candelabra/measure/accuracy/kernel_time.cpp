@@ -42,8 +42,9 @@ std::vector<gpu::BenchReceiver> receiversOf(const TimingSettings& s)
     return out;
 }
 
-// Makes lights of one type for which a class is meant: lights that cross the horizon (General),
-// that touch it from above (Near), or that are well above it (Above, Point).
+// Makes lights of one type for which a class is meant: spheres that cross the horizon (General),
+// lights that end 0.05 to 0.95 radii above it (Near), or lights that are higher (Above, Point, and
+// General of other types).
 std::vector<CndLight> lightsOf(uint32_t type, EvaluationClass c, const TimingSettings& s)
 {
     Random random(s.seed, 200 + uint64_t(type) * 8 + uint64_t(c));

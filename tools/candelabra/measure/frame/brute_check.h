@@ -45,8 +45,8 @@ constexpr uint32_t minSampledTiles = 16;
 // CPU core busy.
 constexpr uint32_t sampledTile = 16;
 
-// Returns the pixels that a check compares, as rectangles that do not overlap. None is larger than
-// what one submission should shade.
+// Returns the pixels that a check compares, as rectangles that do not overlap: tiles, or bands of
+// as many rows as one submission should shade, but at least 8.
 std::vector<VkRect2D> checkRects(PixelSize size, uint64_t lights, CheckExtent extent);
 
 // Shades the rectangles by brute force and compares them with `clustered`, the image that

@@ -37,13 +37,13 @@ MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
                             const FrameOptions& options, FrameCounts counts, bool moving,
                             const std::function<void()>& onFrame);
 
-// Renders one more frame like `options`, counts its (pixel, light) pairs, and returns its
-// statistics.
+// Renders one more frame like `options`, but with clustered culling and without a heat map, counts
+// its (pixel, light) pairs, and returns its statistics.
 CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, FrameOptions options);
 
 std::string passTable(const PassTimes& times);
-// Returns a line with the number of lights of each type, then a line per pass, which says that the
-// pass runs or why it was skipped.
+// Returns a line with the number of lights of each type, if the frame was lit, then a line per
+// pass, which says that the pass runs or why it was skipped.
 std::string planText(const FrameStats& frame);
 
 Json toJson(const PassTimes& times);

@@ -22,7 +22,7 @@ struct PickedLight {
     uint32_t light = 0;     // index in the scene
     double distance = 0;    // metres from the surface to its centre; 0: infinitely far away
     glm::dvec3 radiance{0}; // cd/m^2, evaluated on the device
-    glm::dvec3 truth{0};    // cd/m^2, integrated in double (reference/truth.h)
+    glm::dvec3 truth{0};    // cd/m^2, computed in double; area lights: by reference/truth.h
 };
 
 struct Pick {

@@ -33,7 +33,9 @@ struct FrameSeries {
     std::vector<double> stamps;   // the number of timestamps in the frame
 
     void add(const FrameStats& frame, const CpuSpans& cpu, double stampMs);
-    double shadingMs() const; // the sum of the medians of the passes that evaluate lights
+    // The sum of the medians of the passes that evaluate the lights of clusters: shade_tiles and
+    // shade_unlisted.
+    double shadingMs() const;
 };
 
 // The times of a whole frame. In tables their rows follow the rows of the passes.
@@ -52,8 +54,8 @@ constexpr WholeTime wholeTimes[] = {
 // What timing costs a frame.
 struct ProfilingOverhead {
     double stamps = 0; // timestamps in a frame, median
-    double share = 0;  // their share of the GPU time from the first timestamp to the last
-    double passes = 0; // the share of that time that the passes add up to, median of the frames
+    double share = 0;  // the time of these timestamps divided by the median of spanMs
+    double passes = 0; // gpuMs divided by spanMs, median of the frames
 };
 
 enum class CameraPath { Still, Turn };

@@ -33,8 +33,9 @@ constexpr size_t minRuns = 4, minPairedRuns = 6;
 // Compares every quantity. All intervals hold together with 95% confidence: of twenty comparisons
 // of runs that are alike, one has an interval without 1, however many quantities are compared.
 //
-// The method is a permutation test. The runs are dealt to A and B in every possible way or, if
-// there are more than 20,000, in 20,000 random ways, which are always the same. The distribution of
+// The method is a permutation test. The runs are dealt to A and B in every possible way (with
+// `paired`, the two runs of each pair go to different sides) or, if there are more than 20,000, in
+// 20,000 random ways, which are always the same. The distribution of
 // the largest t statistic of all quantities then shows what chance alone can do (Westfall and Young
 // 1993, single step). The test is exact for any distribution of noise that is the same for A and B.
 //

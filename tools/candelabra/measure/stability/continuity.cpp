@@ -140,7 +140,7 @@ ContinuityCheck check(const VulkanContext& context, const Evaluation& evaluation
                       const std::vector<Path>& paths, const Named& named)
 {
     constexpr size_t steps = 512;
-    constexpr int bisections = 24; // after so many, neighbouring t are neighbouring floats
+    constexpr int bisections = 24; // after so many, both ends differ by about a step of a float
     const Follow follow(context, evaluation, paths, named.way);
     std::vector<double> t;
     for (size_t i = 0; i < paths.size(); ++i)
