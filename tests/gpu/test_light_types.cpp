@@ -132,11 +132,13 @@ TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
 TEST_F(LightTypes, TypesMixInOneSet)
 {
     const CpuGBuffer g = randomGBuffer(72, 48, camera(), 0, 6);
+    RunOptions options{.specular = CND_SPECULAR_CONIC};
+    options.lighting = sharedLighting(options);
     std::vector<CndLight> mixed;
     std::vector<glm::vec4> sum(g.depth.size(), glm::vec4(0));
     for (const CndLightType type : allTypes()) {
         const auto lights = lightsOf(type, g, 20, 4 + type);
-        const auto image = run(g, lights, {.specular = CND_SPECULAR_CONIC}).radiance;
+        const auto image = run(g, lights, options).radiance;
         for (size_t i = 0; i < sum.size(); ++i)
             sum[i] += image[i];
         mixed.insert(mixed.end(), lights.begin(), lights.end());
@@ -145,7 +147,7 @@ TEST_F(LightTypes, TypesMixInOneSet)
     for (uint32_t i = 0; i < 20; ++i)
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
             interleaved.push_back(mixed[type * 20 + i]);
-    const auto image = run(g, interleaved, {.specular = CND_SPECULAR_CONIC}).radiance;
+    const auto image = run(g, interleaved, options).radiance;
     EXPECT_LE(maxRelativeDifference(image, sum), 1e-6);
 }
 
@@ -153,8 +155,10 @@ TEST_F(LightTypes, TypesMixInOneSet)
 TEST_F(LightTypes, DiffuseEqualsTruth)
 {
     const CpuGBuffer g = randomGBuffer(48, 32, camera(), 0, 7);
+    RunOptions options{.specular = CND_SPECULAR_NONE};
+    options.lighting = sharedLighting(options);
     for (const CndLightType type : allTypes()) {
-        const TypeErrors e = errorsOf(g, lightsOf(type, g, 8, 2), {.specular = CND_SPECULAR_NONE});
+        const TypeErrors e = errorsOf(g, lightsOf(type, g, 8, 2), options);
         std::cout << lightTypeName(type) << ": diffuse error mean " << e.mean
                   << ", largest over peak " << e.max << "\n";
         EXPECT_LE(e.mean, type == CND_LIGHT_TUBE ? 1e-3 : 3e-5) << lightTypeName(type);
@@ -167,11 +171,14 @@ TEST_F(LightTypes, DiffuseEqualsTruth)
 TEST_F(LightTypes, DefaultMethodIsCloseToTruth)
 {
     const CpuGBuffer g = randomGBuffer(36, 24, camera(), 0, 8);
+    RunOptions closedForm{.specular = CND_SPECULAR_CONIC};
+    closedForm.lighting = sharedLighting(closedForm);
+    RunOptions samples{.specular = CND_SPECULAR_SAMPLED, .sampleCount = 1024};
+    samples.lighting = sharedLighting(samples);
     for (const CndLightType type : allTypes()) {
         const auto lights = lightsOf(type, g, 6, 3);
-        const TypeErrors conic = errorsOf(g, lights, {.specular = CND_SPECULAR_CONIC});
-        const TypeErrors sampled =
-            errorsOf(g, lights, {.specular = CND_SPECULAR_SAMPLED, .sampleCount = 1024});
+        const TypeErrors conic = errorsOf(g, lights, closedForm);
+        const TypeErrors sampled = errorsOf(g, lights, samples);
         std::cout << lightTypeName(type) << ": default method, error mean " << conic.mean
                   << ", largest over peak " << conic.max << "; 1024 samples " << sampled.mean
                   << ", " << sampled.max << "\n";
