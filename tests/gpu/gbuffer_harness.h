@@ -37,7 +37,7 @@ struct RasterScene {
 RasterScene::MeshData quadMesh();
 // A cube with faces at +-1.
 RasterScene::MeshData cubeMesh();
-// A sphere of radius 1 with about 2 * rings^2 triangles.
+// A sphere of radius 1 with 4 * rings * (rings - 1) triangles.
 RasterScene::MeshData sphereMesh(uint32_t rings);
 
 // Points the camera at `target` (view space: x right, y up, looking along -z).

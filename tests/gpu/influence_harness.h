@@ -35,7 +35,7 @@ inline double displayError(const std::vector<glm::vec4>& a, const std::vector<gl
     return largest;
 }
 
-// Returns the exposure that displays the mean luminance of the lit pixels as middle grey.
+// Returns the exposure that displays the mean green channel of the lit pixels as middle grey.
 inline float exposureFor(const std::vector<glm::vec4>& radiance)
 {
     double sum = 0, lit = 0;

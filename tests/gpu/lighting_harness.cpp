@@ -138,7 +138,8 @@ CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camer
     CpuGBuffer g{.width = width, .height = height, .camera = camera, .clearDepth = clearDepth};
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x) {
-            // Vertical walls, 11 pixels wide, at 3..33 m, with bumps of a few centimetres.
+            // Vertical walls, 11 pixels wide, at 3 to 27 m in the top row and 1 cm farther in each
+            // row, with bumps of up to 5 cm.
             const uint32_t wall = (x / 11 * 7 + seed) % 5;
             const double distance = 3 + 6 * wall + y * 0.01 + 0.05 * uniformOf(random);
             const bool hole = (x / 5 + y / 7) % 9 == 0;

@@ -35,9 +35,10 @@ public:
     void add(VkImage image, VkImageView view) { views_[view] = image; }
     // States the queue family to which `cmd` will be submitted.
     void begin(VkCommandBuffer cmd, uint32_t family) { families_[cmd] = family; }
-    // Records barriers of the host. With two different families, the first use of a barrier
-    // releases the image and the second acquires it. A barrier from VK_IMAGE_LAYOUT_UNDEFINED takes
-    // the image from whoever owned it.
+    // Records barriers of the host. A barrier with two different families releases the image if it
+    // is recorded for the source family, and acquires it if it is recorded for the destination
+    // family. A barrier from VK_IMAGE_LAYOUT_UNDEFINED without a transfer takes the image from
+    // whoever owned it.
     void barrier(VkCommandBuffer cmd, std::span<const VkImageMemoryBarrier2> barriers);
     // Runs code that records modules, to which other rules apply than to the host.
     template <typename Record>

@@ -277,7 +277,8 @@ TEST_F(AreaLights, FormFactorsAreExact)
                 light.radius = float(size);
                 area = pi * size * size;
             } else if (c.type == gpu::LIGHT_TUBE) {
-                // Only outside the tube; inside it only continuity matters, which is tested below.
+                // Only outside the tube. Inside it the value must only be finite and not negative,
+                // which is tested below.
                 const double along = std::clamp(glm::dot(l * distance, axis), -size, size);
                 const double gap = glm::length(l * distance - along * axis);
                 if (gap < 0.05 * distance)
@@ -313,7 +314,7 @@ TEST_F(AreaLights, FormFactorsAreExact)
 }
 
 // Degenerate geometry: receivers in the plane of a light, on it, inside it, at its edge and on its
-// axis; grazing views and lights and those below the horizon; sizes from 1e-18 to 1e12.
+// axis; grazing views and lights and those below the horizon; sizes from 1e-14 to 1e10.
 TEST_F(AreaLights, NeverNanNegativeInfiniteOrFromBelow)
 {
     std::vector<gpu::AreaProbeInput> inputs;

@@ -27,7 +27,8 @@ struct Record {
 };
 
 // Each group has 26 directions around the mirror direction with a heavy tail of scale s + 2 alpha,
-// 14 directions over everything visible, and 49 along the plane of incidence.
+// 14 directions over everything visible, and 49 along the plane of incidence. Directions in which
+// the whole light is below the horizon are left out.
 std::vector<Record> drawRecords(int groups)
 {
     std::mt19937 random(2024);

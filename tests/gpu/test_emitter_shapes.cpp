@@ -296,8 +296,8 @@ TEST_F(GBufferEmitterShapes, DistantSpheresShowWhereNothingElseIs)
                               winner ? winner->emission[c] : options.background[c])
                         << x << " " << y;
             }
-        // The wide sun shows about 36 x 36 pixels minus those that the lamp hides. Parallel rays
-        // see only one direction of the sky.
+        // The wide sun shows about 520 pixels, 26 across, minus those that the lamp hides. Parallel
+        // rays see only one direction of the sky.
         std::printf("projection %d: pixels of the wide sun %zu, of the Sun %zu\n", kind, suns[0],
                     suns[1]);
         if (kind != 3) {

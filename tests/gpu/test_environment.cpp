@@ -21,7 +21,7 @@ namespace
 constexpr float surfaceDepth = 0.5f;
 const glm::vec4 white(1), noSpecular(0);
 
-// An orthographic camera: every pixel is seen along +z of view space.
+// An orthographic camera: from every pixel the eye is in the direction +z of view space.
 CpuGBuffer orthographic(uint32_t width, uint32_t height)
 {
     CpuGBuffer g{.width = width, .height = height};

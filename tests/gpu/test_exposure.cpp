@@ -290,7 +290,7 @@ TEST_F(ExposureTest, manualBuildsNoHistogram)
     EXPECT_STREQ(adapted.passes[2].skipped, "no display image");
 }
 
-// Frames that are submitted without waiting adapt like the same frames submitted one by one.
+// Frames that are recorded into one command buffer adapt like the same frames submitted one by one.
 TEST_F(ExposureTest, framesInFlightFollowOneAnother)
 {
     const gpu::Image images[] = {toDevice(wildPicture(97, 61, 5)), toDevice(spreadPicture(9)),

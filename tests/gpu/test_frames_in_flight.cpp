@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames that really overlap: three slots, two views of one light set, and sets that grow and
 // shrink while earlier frames are still on the GPU. Every image must equal that of a single frame
-// rendered alone.
+// rendered alone, or brute force in the same frame.
 #include "gpu/lighting_harness.h"
 #include "harness/full_tests.h"
 

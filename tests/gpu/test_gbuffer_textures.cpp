@@ -165,11 +165,11 @@ TEST_F(GBufferTexture, VertexColorsAreInterpolated)
 }
 
 // The texel is a direction in the frame (tangent, bitangent, normal). Tested with both
-// handednesses, with mirrored and squeezed instances, with and without normal scale.
+// handednesses, with and without a mirrored instance, with and without normal scale.
 TEST_F(GBufferTexture, NormalMapsTurnTheNormal)
 {
     constexpr Texel texel{200, 90, 220, 255};
-    material.doubleSided = true; // mirroring along z shows the back
+    material.doubleSided = true; // so that no side is left out, however the quad is mirrored
     for (int variant = 0; variant < 8; ++variant) {
         SCOPED_TRACE(variant);
         scene = {};
@@ -215,8 +215,8 @@ TEST_F(GBufferTexture, MaskShowsWhatIsBehind)
     }
 }
 
-// With eight repeats of a checkerboard per pixel the result is the average of linear values, not of
-// codes.
+// With all 8 x 8 texels of a checkerboard in every pixel the result is the average of linear
+// values, not of codes.
 TEST_F(GBufferTexture, MinifiedTexturesAreAveragedInLinearSpace)
 {
     std::vector<uint8_t> checker;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests G-buffers of hosts: every layout that CndGBufferDesc can describe is lit like the FULL
-// layout of the same surfaces. Because layouts round differently, both get the surfaces as they are
-// after the host's rounding; what that rounding costs is printed.
+// Tests G-buffers of hosts: five layouts, which together use every encoding of normals and of
+// roughness, are lit like the FULL layout of the same surfaces. Because layouts round differently,
+// both get the surfaces as they are after the host's rounding; what that rounding costs is printed.
 #include "gpu/host_gbuffer_harness.h"
 
 #include <array>
@@ -19,7 +19,7 @@ namespace
 
 constexpr uint32_t imageWidth = 72, imageHeight = 48;
 // Metres. With a nearer plane, depth that is not reversed would show how a device rounds 24 bits to
-// a float: at 0.1 m the last bit is 0.7 mm of the farthest wall.
+// a float: at 0.1 m the last bit is 0.5 mm of the farthest wall.
 constexpr double nearPlane = 0.5;
 
 struct Layout {
@@ -232,7 +232,7 @@ const CndGBufferDesc floats{.normalEncoding = CND_NORMAL_SNORM,
                             .specularFormat = VK_FORMAT_R8G8_UNORM,
                             .depthFormat = VK_FORMAT_R32_SFLOAT};
 
-// One row of pixels, as they are stored.
+// A pixel as it is stored, and the colour in which the overlay must show it.
 struct Planted {
     const char* what;
     glm::dvec4 normalRoughness, albedoMetalness;

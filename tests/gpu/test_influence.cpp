@@ -13,7 +13,7 @@ namespace candelabra::test
 namespace
 {
 
-// Whole frames of the generated scenes.
+// Whole frames of two generated scenes.
 TEST_F(InfluenceTest, ScenesStayWithinTheError)
 {
     using namespace app;

@@ -88,7 +88,8 @@ TEST_F(LightLimits, EyeAndLightAreExchangeable)
 class LightLaws : public LightingTest
 {
 protected:
-    // Returns a plane seen from above that faces the camera.
+    // Returns a plane across the view at this distance. All its pixels have the same normal, a
+    // random one.
     CpuGBuffer plane(uint32_t size, double distance)
     {
         CndCamera camera{};

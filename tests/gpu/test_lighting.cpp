@@ -33,7 +33,7 @@ double peak(const std::vector<glm::vec4>& image)
     return p;
 }
 
-// Returns lights of every type, some of them uncut.
+// Returns spheres, points, spots and directional lights, some of them uncut.
 std::vector<CndLight> mixedLights(const CpuGBuffer& g, uint32_t count, uint32_t seed)
 {
     std::vector<CndLight> lights = randomSpheres(g, count, seed);

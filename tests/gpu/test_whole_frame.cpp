@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests whole frames of the program, from the scene description to radiance, against an independent
-// path tracer (Lambertian surfaces) and against the double-precision reference of the same model
-// (every material).
+// path tracer (Lambertian surfaces and a dielectric) and against the double-precision reference of
+// the same model (every material).
 #include <cmath>
 #include <fstream>
 #include <iostream>

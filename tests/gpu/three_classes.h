@@ -15,7 +15,7 @@ inline glm::uvec2 half4(const glm::vec4& v)
 }
 
 // Returns columns of tiles, from the left: without a specular lobe, without a diffuse lobe, with
-// both. In the second row every tile has one pixel that differs from the others.
+// both. In the second row every tile has one pixel with both lobes.
 inline CpuGBuffer threeClasses(uint32_t width, uint32_t height)
 {
     constexpr uint32_t tile = 8;
