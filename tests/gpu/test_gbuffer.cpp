@@ -15,11 +15,6 @@
 
 namespace candelabra::test
 {
-namespace
-{
-
-} // namespace
-
 class GBufferPacking : public ProbeTest
 {
 };

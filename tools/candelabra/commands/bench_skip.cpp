@@ -92,8 +92,9 @@ void addBenchSkip(CLI::App& bench, Run& run)
         "without it, from interleaved rounds; what looking for the skip costs in frames that\n"
         "cannot use it (\"nothing\" if that is known before recording, or if the GPU finds it\n"
         "anyway); and how much the two images differ.\n"
-        "The exit code is 1 if they differ by more than the row allows: by anything at all, or\n"
-        "by 1e-6 of the largest radiance where sums may change their order.\n\n"
+        "The exit code is 1 if they differ by more than the row allows: by anything at all; where\n"
+        "sums may change their order, by 1e-6 of the largest radiance; for lights too dim to be\n"
+        "seen, by the display error that they were cut with.\n\n"
         "Examples:\n"
         "  candelabra bench skip\n"
         "  candelabra bench skip --scene field --lights 16000 --rounds 15");
