@@ -43,11 +43,20 @@ def parts(schema):
     """Yields a schema and all schemas within it."""
     yield schema
     for key, rule in schema.items():
-        if key in ("properties", "$defs"):
-            for member in rule.values():
+        if key in ("const", "enum"):  # their values are no schemas
+            continue
+        if key in ("properties", "patternProperties", "dependentSchemas", "$defs"):  # schemas by name
+            members = rule.values()
+        else:
+            members = rule if isinstance(rule, list) else [rule]
+        for member in members:
+            if isinstance(member, dict):
                 yield from parts(member)
-        elif isinstance(rule, dict) and key != "const":
-            yield from parts(rule)
+
+
+def unchecked_keywords(schema):
+    """Returns the keywords anywhere in a schema that jsonschema does not check."""
+    return {key for part in parts(schema) for key in part.keys() - KEYWORDS}
 
 
 def committed_results_are_valid():
@@ -67,9 +76,20 @@ def schemas_say_nothing_that_is_not_checked():
     for path in schemas:
         schema = json_schema.load(path)
         json_schema.Validator.check_schema(schema)
-        for part in parts(schema):
-            unknown = part.keys() - KEYWORDS
-            require(not unknown, f"{path.name} has {unknown}, which jsonschema does not check")
+        unchecked = unchecked_keywords(schema)
+        require(not unchecked, f"{path.name} has {unchecked}, which jsonschema does not check")
+
+
+def misspelt_keywords_are_found_at_any_depth():
+    misspelt = {"type": "number", "minimun": 0}
+    places = [{key: [{"type": "string"}, misspelt]} for key in ("allOf", "anyOf", "oneOf", "prefixItems")]
+    places += [{key: misspelt} for key in ("items", "additionalProperties", "not", "if")]
+    places += [{key: {"title": misspelt}} for key in ("properties", "patternProperties", "dependentSchemas", "$defs")]
+    for place in [misspelt, *places, {"properties": {"size": {"items": places[0]}}}]:
+        found = unchecked_keywords(place)
+        require(found == {"minimun"}, f"the misspelt keyword of {place}: {found}")
+    values = {"const": misspelt, "enum": [misspelt]}
+    require(not unchecked_keywords(values), "values are taken for schemas")
 
 
 def figures_have_bounds():
@@ -103,6 +123,7 @@ def reports_hold_the_figures_of_their_commands():
 
 committed_results_are_valid()
 schemas_say_nothing_that_is_not_checked()
+misspelt_keywords_are_found_at_any_depth()
 figures_have_bounds()
 integers_are_written_as_such()
 reports_hold_the_figures_of_their_commands()
