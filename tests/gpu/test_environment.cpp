@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
-#include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 

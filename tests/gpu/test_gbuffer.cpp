@@ -2,7 +2,6 @@
 // Tests the G-buffer: packing bounds, depth and material factors of meshes, transforms.
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -4,7 +4,6 @@
 #include "gpu/lighting_harness.h"
 
 #include <cmath>
-#include <limits>
 
 #include "harness/full_tests.h"
 #include "reference/light.h"

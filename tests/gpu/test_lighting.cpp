@@ -5,7 +5,6 @@
 #include "harness/constants.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "reference/light.h"

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
-#include <numbers>
 #include <numeric>
 #include <span>
 

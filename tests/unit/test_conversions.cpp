@@ -2,7 +2,6 @@
 // Tests the photometric conversions of the public interface against irradiance computed in double
 // precision.
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <random>
 #include <string>

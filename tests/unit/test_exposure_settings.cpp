@@ -2,7 +2,6 @@
 // Tests defaults, ranges and conversions of the exposure module: everything that needs no device.
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 

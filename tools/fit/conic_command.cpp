@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -59,18 +60,27 @@ struct Search {
 
 struct Progress {
     const ConicObjective& objective;
+    nlopt_opt optimiser;
     uint32_t evaluations = 0;
     double best = std::numeric_limits<double>::infinity();
+    std::exception_ptr failure; // what an evaluation threw: exceptions must not pass through C code
 };
 
 double evaluate(unsigned, const double* logFactors, double*, void* data)
 {
     Progress& progress = *static_cast<Progress*>(data);
-    const double cost = progress.objective.cost(constantsAt(logFactors));
-    progress.best = std::min(progress.best, cost);
-    if (++progress.evaluations % 500 == 0)
-        fmt::print(stderr, "  {} evaluations, cost {:.4f}\n", progress.evaluations, progress.best);
-    return std::isfinite(cost) ? cost : 1e9;
+    try {
+        const double cost = progress.objective.cost(constantsAt(logFactors));
+        progress.best = std::min(progress.best, cost);
+        if (++progress.evaluations % 500 == 0)
+            fmt::print(stderr, "  {} evaluations, cost {:.4f}\n", progress.evaluations,
+                       progress.best);
+        return std::isfinite(cost) ? cost : 1e9;
+    } catch (...) {
+        progress.failure = std::current_exception();
+        nlopt_force_stop(progress.optimiser);
+        return 1e9;
+    }
 }
 
 Search search(const ConicObjective& objective, const std::string& start, Factors at,
@@ -79,10 +89,10 @@ Search search(const ConicObjective& objective, const std::string& start, Factors
     Search out{.start = start, .startCost = objective.cost(constantsAt(at.data()))};
     const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
         nlopt_create(NLOPT_LN_SBPLX, unsigned(at.size())), nlopt_destroy);
-    Progress progress{objective};
-    fmt::print(stderr, "searching from {} constants ...\n", start);
     if (!optimiser)
         throw app::RunError("NLopt could not make its optimiser");
+    Progress progress{.objective = objective, .optimiser = optimiser.get()};
+    fmt::print(stderr, "searching from {} constants ...\n", start);
     nlopt_set_min_objective(optimiser.get(), evaluate, &progress);
     nlopt_set_lower_bounds1(optimiser.get(), -bound);
     nlopt_set_upper_bounds(optimiser.get(), upperBounds().data());
@@ -91,6 +101,8 @@ Search search(const ConicObjective& objective, const std::string& start, Factors
     nlopt_set_ftol_rel(optimiser.get(), 1e-8);
     nlopt_set_maxeval(optimiser.get(), int(evaluations));
     const nlopt_result result = nlopt_optimize(optimiser.get(), at.data(), &out.cost);
+    if (progress.failure)
+        std::rethrow_exception(progress.failure);
     if (result < 0 && result != NLOPT_ROUNDOFF_LIMITED)
         throw app::RunError(fmt::format("NLopt failed: {}", nlopt_result_to_string(result)));
     out.evaluations = progress.evaluations;

@@ -62,7 +62,7 @@ constexpr double garlandY = 5.3, garlandSag = 0.9; // along the arcades
 struct Meshes {
     uint32_t box, tile, shaft, columnBase, capital, archedWall, archRing, vault;
     uint32_t ball, fineBall, ring, vase, knot, baluster, rod, link, disc;
-    uint32_t shade, shadeCap; // of lamps, from y = 0 to 0.8
+    uint32_t shade, shadeCap; // of lamps; the shade is from y = 0 to 0.8
 };
 
 struct Materials {

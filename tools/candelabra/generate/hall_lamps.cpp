@@ -21,7 +21,7 @@ constexpr float lampSway = 0.2f;
 struct ShadedLamp {
     glm::dvec3 position{0};
     glm::dvec3 shade{1};
-    int hue = -1; // index into lanternHues; -1 is a warm white
+    int hue = -1; // hue of lanternColour(); -1 is the colour of all lamps of its kind
 
     // The middle of the shade's bottom. The lamp is where the shade is widest.
     glm::dvec3 foot() const { return position - glm::dvec3(0, 0.42 * shade.y, 0); }

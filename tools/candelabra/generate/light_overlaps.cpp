@@ -16,7 +16,7 @@ namespace
 {
 
 // 5184 samples: about 1.4% standard error of a mean whose spread is its own size. 16:9.
-constexpr uint32_t columns = 96, rows = 54;
+constexpr uint32_t sampleColumns = 96, sampleRows = 54;
 // Fewer hits than this and the camera does not speak for the scene.
 constexpr size_t fewHits = 256;
 constexpr uint32_t spreadSampleCount = 4096;
@@ -169,9 +169,10 @@ std::vector<SurfaceSample> visibleSamples(const Scene& scene)
     std::vector<SurfaceSample> samples;
     if (!scene.cameras.empty()) {
         RayCaster caster(scene);
-        for (uint32_t y = 0; y < rows; ++y) {
-            for (uint32_t x = 0; x < columns; ++x) {
-                const auto hit = caster.cast(cameraRay(scene.cameras.front(), x, y, columns, rows));
+        for (uint32_t y = 0; y < sampleRows; ++y) {
+            for (uint32_t x = 0; x < sampleColumns; ++x) {
+                const auto hit =
+                    caster.cast(cameraRay(scene.cameras.front(), x, y, sampleColumns, sampleRows));
                 if (hit)
                     samples.push_back({hit->position, hit->normal});
             }

@@ -58,9 +58,10 @@ void savePfm(const std::string& path, const Image& image);
 // extensions are errors.
 void saveImageByExtension(const std::string& path, const Image& image);
 
-// Readers. HDR files give RGB images. EXR files must be single-part scanline files with half or
-// float channels, without subsampling or lossy compression. Their R, G and B are read; if one of
-// the three is missing, the first channel becomes a grey image. Further channels are ignored.
+// Readers. HDR files give RGB images. EXR files must be single-part scanline files without
+// subsampling or lossy compression. Their R, G and B are read; if one of the three is missing, the
+// first channel becomes a grey image. What is read must be half or float. Further channels are
+// ignored.
 Image loadPfm(const std::string& path);
 Image loadExr(const std::string& path);
 Image loadHdr(const std::string& path);

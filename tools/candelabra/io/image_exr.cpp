@@ -52,9 +52,16 @@ void* allocate(size_t bytes)
 void keepError(exr_const_context_t context, exr_result_t, const char* message)
 {
     void* stream = nullptr;
-    if (context && exr_get_user_data(context, &stream) == EXR_ERR_SUCCESS)
-        if (std::string& error = static_cast<ExrStream*>(stream)->error; error.empty())
-            error = message;
+    if (!context || exr_get_user_data(context, &stream) != EXR_ERR_SUCCESS)
+        return;
+    std::string& error = static_cast<ExrStream*>(stream)->error;
+    if (!error.empty())
+        return;
+    try { // exceptions must not pass through C code
+        error = message;
+    } catch (const std::bad_alloc&) {
+        error.clear(); // reasonOf() then gives OpenEXR's text for the result
+    }
 }
 
 int64_t sizeOfInput(exr_const_context_t, void* stream)

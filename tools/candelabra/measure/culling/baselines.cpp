@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numeric>
 
 #include "candelabra_bench_shaders.h"
 #include "candelabra_shaders.h"

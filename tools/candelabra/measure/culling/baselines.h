@@ -5,8 +5,6 @@
 // differ. Lights are sphere lights in the order of the scene, and the camera is a perspective one.
 #pragma once
 
-#include <array>
-#include <memory>
 #include <vector>
 
 #include "gpu/kernel.h"
