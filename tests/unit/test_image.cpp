@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -146,6 +147,7 @@ TEST(ImageFiles, ExrIsReadByOthers)
 struct ForeignExr {
     std::string channels = "BGR"; // names of one letter
     Imf::PixelType type = Imf::FLOAT;
+    std::map<char, Imf::PixelType> otherTypes = {}; // of channels that do not have `type`
     Imf::Compression compression = Imf::ZIP_COMPRESSION;
     Imf::LineOrder order = Imf::INCREASING_Y;
     int width = 37, height = 70, left = 0, top = 0;
@@ -156,43 +158,48 @@ struct ForeignExr {
     {
         return float((x * 7 + y * 31 + int(channel) * 113) % 1021);
     }
+    Imf::PixelType typeOf(size_t channel) const
+    {
+        const auto other = otherTypes.find(channels[channel]);
+        return other == otherTypes.end() ? type : other->second;
+    }
     Imf::Header header() const
     {
         const Imath::Box2i window({left, top}, {left + width - 1, top + height - 1});
         Imf::Header out(window, window, 1, {0, 0}, 1, order, compression);
         for (size_t c = 0; c < channels.size(); ++c)
-            out.channels().insert(channels.substr(c, 1),
-                                  Imf::Channel(type, c == 0 ? sampling : 1, c == 0 ? sampling : 1));
+            out.channels().insert(
+                channels.substr(c, 1),
+                Imf::Channel(typeOf(c), c == 0 ? sampling : 1, c == 0 ? sampling : 1));
         return out;
     }
     template <typename T>
+    std::vector<char> plane(size_t channel, int n) const // every n-th pixel and row
+    {
+        std::vector<T> values;
+        for (int y = 0; y < height / n; ++y)
+            for (int x = 0; x < width / n; ++x)
+                values.push_back(T(value(channel, x, y)));
+        const auto* bytes = reinterpret_cast<const char*>(values.data());
+        return {bytes, bytes + values.size() * sizeof(T)};
+    }
     void write(const std::string& path) const
     {
-        std::vector<std::vector<T>> planes;
+        std::vector<std::vector<char>> planes(channels.size());
         Imf::FrameBuffer slices;
         for (size_t c = 0; c < channels.size(); ++c) {
             const int n = c == 0 ? sampling : 1;
-            std::vector<T>& plane = planes.emplace_back();
-            for (int y = 0; y < height / n; ++y)
-                for (int x = 0; x < width / n; ++x)
-                    plane.push_back(T(value(c, x, y)));
-        }
-        for (size_t c = 0; c < channels.size(); ++c) {
-            const int n = c == 0 ? sampling : 1;
-            const size_t row = size_t(width / n) * sizeof(T);
-            char* origin = reinterpret_cast<char*>(planes[c].data()) -
-                           ptrdiff_t(sizeof(T)) * (left / n) - ptrdiff_t(row) * (top / n);
-            slices.insert(channels.substr(c, 1), Imf::Slice(type, origin, sizeof(T), row, n, n));
+            planes[c] = typeOf(c) == Imf::HALF    ? plane<half>(c, n)
+                        : typeOf(c) == Imf::FLOAT ? plane<float>(c, n)
+                                                  : plane<unsigned>(c, n);
+            const size_t size = typeOf(c) == Imf::HALF ? 2 : 4, row = size_t(width / n) * size;
+            char* origin =
+                planes[c].data() - ptrdiff_t(size) * (left / n) - ptrdiff_t(row) * (top / n);
+            slices.insert(channels.substr(c, 1), Imf::Slice(typeOf(c), origin, size, row, n, n));
         }
         Imf::OutputFile file(path.c_str(), header(), 0);
         file.setFrameBuffer(slices);
         file.writePixels(height);
-    }
-    void write(const std::string& path) const
-    {
-        type == Imf::HALF    ? write<half>(path)
-        : type == Imf::FLOAT ? write<float>(path)
-                             : write<unsigned>(path);
     }
     // Returns the image that reading the file must give. `wanted` names its channels in the order
     // of our pixels.
@@ -213,7 +220,7 @@ TEST(ImageFiles, ExrOfOthersIsRead)
     const std::string path = folder.path("foreign.exr");
     for (const Imf::Compression compression :
          {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
-          Imf::PIZ_COMPRESSION})
+          Imf::PIZ_COMPRESSION}) {
         for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT})
             for (const auto& [channels, wanted] : {std::pair{"Y", "Y"},
                                                    {"BGR", "RGB"},
@@ -228,6 +235,22 @@ TEST(ImageFiles, ExrOfOthersIsRead)
                 foreign.write(path);
                 expectSame(loadExr(path), foreign.expected(wanted));
             }
+        // Channels of other types, of other sizes in bytes, before, between and after those that
+        // are read. Integers are no fault in a channel that is not read.
+        for (const auto& [channels, otherTypes] :
+             {std::pair{"BGIR", std::map<char, Imf::PixelType>{{'I', Imf::UINT}}},
+              {"BGRZ", {{'Z', Imf::FLOAT}}},
+              {"ABGIRZ", {{'A', Imf::FLOAT}, {'I', Imf::UINT}, {'Z', Imf::FLOAT}}},
+              {"BGR", {{'G', Imf::FLOAT}}}}) {
+            SCOPED_TRACE(channels + std::string(" ") + std::to_string(int(compression)));
+            const ForeignExr foreign{.channels = channels,
+                                     .type = Imf::HALF,
+                                     .otherTypes = otherTypes,
+                                     .compression = compression};
+            foreign.write(path);
+            expectSame(loadExr(path), foreign.expected("RGB"));
+        }
+    }
     ForeignExr foreign{.order = Imf::DECREASING_Y, .left = -3, .top = 11};
     foreign.write(path);
     expectSame(loadExr(path), foreign.expected("RGB"));
