@@ -2,8 +2,10 @@
 // Tests that the record of the fit (tools/bench/results/conic-fit.json) was made with the constants
 // that the shaders have, that each constant is near its optimum, and that the parts of the fit
 // compute what they should.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -26,6 +28,20 @@ const fit::ConicObjective& checkObjective()
 {
     static const fit::ConicObjective objective(fit::drawCheckSamples());
     return objective;
+}
+
+// Returns the largest error of one group (conic, F0 = 1), in percent.
+double largestErrorOf(const app::SampleSet& set, uint32_t group)
+{
+    app::SampleSet alone{.lightType = set.lightType, .groups = 1};
+    for (size_t i = 0; i < set.samples.size(); ++i)
+        if (set.samples[i].group == group) {
+            alone.receivers.push_back(set.receivers[i]);
+            alone.lights.push_back(set.lights[i]);
+            alone.samples.push_back(set.samples[i]);
+            alone.samples.back().group = 0;
+        }
+    return fit::ConicObjective(std::move(alone)).residuals({}).conic.mirror.all.largest;
 }
 
 void expectRecorded(const nlohmann::json& recorded, const fit::ErrorFigures& figures)
@@ -92,6 +108,14 @@ TEST(ConicFit, HardGroupsAreThoseWithTheLargestErrors)
 {
     const std::vector<uint32_t> groups = checkObjective().worstGroups({}, 3);
     ASSERT_EQ(groups.size(), 3u);
+    const app::SampleSet& set = checkObjective().set();
+    std::vector<double> errors;
+    for (uint32_t group = 0; group < set.groups; ++group)
+        errors.push_back(largestErrorOf(set, group));
+    std::sort(errors.begin(), errors.end(), std::greater<>());
+    EXPECT_GT(errors[0], errors[2]); // otherwise the order could not be wrong
+    for (size_t i = 0; i < groups.size(); ++i)
+        EXPECT_EQ(largestErrorOf(set, groups[i]), errors[i]) << i;
     // With seed 13 the `others` are drawn with seed 14: they are the groups of checkObjective.
     const fit::ConicObjective hard(
         fit::drawTrainingSamples({.groups = 1, .others = 60, .hard = 1, .seed = 13}));
