@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests visible area lights of every shape against double precision: silhouette, depth, luminance.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -121,6 +122,48 @@ CndLight randomLight(CndLightType type, Random& random, double size, float mark)
     set(l.direction, u);
     l.twoSided = random.uniform(0, 1) < 0.5;
     return l;
+}
+
+// hitOther() enlarges the ends of tubes and the borders of flat lights by another distance than the
+// other functions do, but by no less than `grow` and by no more than they do for twice as much.
+TEST(EmitterRayCast, TheReferenceAgreesWithTheImplementationsOfThisFile)
+{
+    const glm::dvec3 origin(3e5, 200, -7e5);
+    Random random(5);
+    for (const CndLightType type :
+         {CND_LIGHT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC}) {
+        SCOPED_TRACE(type);
+        int hits = 0, misses = 0, gained = 0, lost = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const CndLight l = randomLight(type, random, 6, 1);
+            const double smallest =
+                std::min({double(l.radius), glm::length(vec(l.axisU)), glm::length(vec(l.axisV))});
+            const double grow = 0.2 * smallest;
+            const glm::dvec3 eye = origin + random.box(12);
+            const glm::dvec3 target = origin + vec(l.position) + random.box(2);
+            const Ray ray{eye, glm::normalize(target - eye)};
+            const double own = hitLight(ray, origin, l, 0), other = hitOther(ray, origin, l, 0);
+            // From the smallest light to the largest: a ray that meets one meets the next.
+            const bool met[] = {hitLight(ray, origin, l, -2 * grow) < infinity,
+                                hitOther(ray, origin, l, -grow) < infinity, own < infinity,
+                                hitOther(ray, origin, l, grow) < infinity,
+                                hitLight(ray, origin, l, 2 * grow) < infinity};
+            ASSERT_TRUE(std::is_sorted(std::begin(met), std::end(met))) << i;
+            hits += met[0];
+            misses += !met[4];
+            gained += met[3] && !met[2];
+            lost += met[2] && !met[1];
+            if (met[0]) {
+                ASSERT_NEAR(other, own, 1e-6 * own) << i;
+            } else if (!met[4]) {
+                ASSERT_EQ(other, infinity) << i;
+            }
+        }
+        EXPECT_GT(hits, 200);
+        EXPECT_GT(misses, 200);
+        EXPECT_GT(gained, 20);
+        EXPECT_GT(lost, 20);
+    }
 }
 
 class GBufferEmitterShapes : public RasterTest
