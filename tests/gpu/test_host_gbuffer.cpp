@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iostream>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -255,6 +256,13 @@ protected:
         const Images images = uploadImages(full);
         return show(surfaceFrame<CndLightingFrame>(full, images), CND_GBUFFER_FULL, {});
     }
+    // Returns an image to record pictures into.
+    gpu::Image createPicture(uint32_t width, uint32_t height)
+    {
+        return gpu::createImage(device(), "overlay", VK_FORMAT_R8G8B8A8_UNORM, width, height,
+                                VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                VK_IMAGE_ASPECT_COLOR_BIT);
+    }
 
 private:
     static CndLightingFrame frameOf(const CpuGBuffer& g)
@@ -265,10 +273,7 @@ private:
     std::vector<Picture> show(const CndLightingFrame& frame, CndGBufferLayout layout,
                               const CndGBufferDesc& gbuffer)
     {
-        const gpu::Image picture = gpu::createImage(
-            device(), "overlay", VK_FORMAT_R8G8B8A8_UNORM, frame.width, frame.height,
-            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-            VK_IMAGE_ASPECT_COLOR_BIT);
+        const gpu::Image picture = createPicture(frame.width, frame.height);
         auto lighting = Lighting::create(deviceDesc(), {.framesInFlight = 1,
                                                         .gbufferLayout = layout,
                                                         .specularMethods = 1u << CND_SPECULAR_NONE,
@@ -401,6 +406,62 @@ TEST_F(SurfaceOverlay, MarksNothingThatIsRight)
                                 255 * std::abs(2 * (at[k] - std::floor(at[k])) - 1), 1.1);
             }
         }
+}
+
+// One command buffer holds the lighting and the overlay of one slot, with different cameras, in
+// either order. The device runs both after the host has written the parameters of both: each must
+// still read its own.
+TEST_F(SurfaceOverlay, AndLightingOfTheSameSlotHaveTheirOwnCameras)
+{
+    const CpuGBuffer g = randomGBuffer(imageWidth, imageHeight, 9);
+    const Images images = uploadImages(g);
+    const gpu::Image picture = createPicture(g.width, g.height);
+    const auto [lighting, view] = createLighting(g, 1);
+    setLights(lighting, randomSpheres(g, 40, 9));
+    const CndLightingFrame frame = LightingTest::frameOf(g, images, {});
+    CndLightingFrame zoomed = frame;
+    setPerspective(zoomed.camera, 0.3, double(g.width) / g.height, nearPlane);
+
+    using Record = std::function<void(VkCommandBuffer)>;
+    const auto lightingOf = [&](const CndLightingFrame& f) -> Record {
+        return [&, view = view](VkCommandBuffer cmd) {
+            CndError error{};
+            EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
+        };
+    };
+    const auto overlayOf = [&](const CndLightingFrame& f) -> Record {
+        return [&, view = view](VkCommandBuffer cmd) {
+            const CndSurfaceOverlay position{sizeof position, CND_SURFACE_POSITION,
+                                             picture.view.get()};
+            CndError error{};
+            EXPECT_EQ(cndRecordSurfaceOverlay(view, cmd, &f, &position, &error), CND_SUCCESS)
+                << error.message;
+        };
+    };
+    // Returns the radiance and the picture after one command buffer.
+    const auto draw = [&](const std::vector<Record>& records) {
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            clearRadiance(cmd, images);
+            transition(cmd, picture.image.get(), VK_IMAGE_ASPECT_COLOR_BIT,
+                       VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+            for (const Record& record : records)
+                record(cmd);
+        });
+        return std::pair{readRadiance(images),
+                         readImage(picture, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL, 4)};
+    };
+    const std::vector<glm::vec4> radiance = draw({lightingOf(frame)}).first;
+    const std::vector<std::byte> shown = draw({overlayOf(zoomed)}).second;
+    EXPECT_FALSE(sameBits(draw({lightingOf(zoomed)}).first, radiance)); // the cameras do matter
+    EXPECT_NE(draw({overlayOf(frame)}).second, shown);
+    for (const auto& both : {std::vector{lightingOf(frame), overlayOf(zoomed)},
+                             std::vector{overlayOf(zoomed), lightingOf(frame)}}) {
+        const auto [lit, over] = draw(both);
+        EXPECT_TRUE(sameBits(lit, radiance));
+        EXPECT_EQ(over, shown);
+    }
+    cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
 }
 
 } // namespace
