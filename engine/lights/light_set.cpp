@@ -232,7 +232,7 @@ LightSet::Staging& LightSet::freeStaging()
     for (Staging& staging : store_.staging)
         if (staging.recording < running)
             return staging;
-    store_.staging.emplace_back(createStaging(capacity_));
+    store_.staging.push_back({createStaging(capacity_)});
     device_.say(CND_MESSAGE_INFO,
                 "lights have %zu staging buffers of %llu bytes now, because frames in flight "
                 "still read the others",
@@ -255,7 +255,7 @@ LightSet::Store LightSet::createStore(uint32_t capacity) const
                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                           gpu::MemoryUse::Device);
     store.sort = sorting_.createState(capacity, store.records);
-    store.staging.emplace_back(createStaging(capacity)); // the first upload needs one
+    store.staging.push_back({createStaging(capacity)}); // the first upload needs one
     return store;
 }
 

@@ -36,8 +36,9 @@ void ShadingTables::record(const gpu::Frame& frame, bool directionalAlbedo) noex
     if (ltcFilled_)
         return;
     ltcFilled_ = true;
-    const std::span<const float> table = ltcTable();
-    frame.device.CmdUpdateBuffer(frame.cmd, ltc_.get(), 0, table.size_bytes(), table.data());
+    const std::span<const float> transformedCosines = ltcTable();
+    frame.device.CmdUpdateBuffer(frame.cmd, ltc_.get(), 0, transformedCosines.size_bytes(),
+                                 transformedCosines.data());
 }
 
 } // namespace candelabra::tables
