@@ -11,6 +11,7 @@
 #include "commands/messages.h"
 #include "io/error.h"
 #include "io/progress.h"
+#include "io/report.h"
 #include "io/table.h"
 #include "load/load.h"
 #include "reference/render.h"
