@@ -50,7 +50,7 @@ class SkipStage
 {
 public:
     // `context` and `scene` must outlive the stage and its drawings.
-    SkipStage(const VulkanContext& context, const Scene& scene, const SkipSettings& settings);
+    SkipStage(const VulkanContext& context, const Scene& scene, PixelSize size);
 
     using Lights = std::vector<CndLight>;
     const Lights& lights() const { return scene_.lights; }
@@ -72,12 +72,11 @@ private:
     Renderer renderer_;
 };
 
-SkipStage::SkipStage(const VulkanContext& context, const Scene& scene, const SkipSettings& settings)
+SkipStage::SkipStage(const VulkanContext& context, const Scene& scene, PixelSize size)
     : context_(context),
       scene_(scene),
-      options_{
-          .camera = selectCamera(scene, ""), .lightsVisible = false, .specular = settings.specular},
-      renderer_(context, scene, {.size = settings.size, .specularMethods = 1u << settings.specular})
+      options_{.camera = selectCamera(scene, ""), .lightsVisible = false},
+      renderer_(context, scene, {.size = size, .specularMethods = 1u << CND_SPECULAR_CONIC})
 {
     cndDefaultExposureSettings(&options_.exposure);
 }
@@ -93,7 +92,6 @@ Drawing SkipStage::lighting(const Lights& lights, const LightingWay& way)
     own->lighting = take(Lighting::create(
         context_.desc(), {.framesInFlight = 1,
                           .timestamps = VK_TRUE,
-                          .specularMethods = 1u << options_.specular,
                           .materialClasses = way.materialClasses,
                           .influenceByError = way.influence.rule == CND_INFLUENCE_BY_ERROR}));
     const auto [width, height] = renderer_.size();
@@ -495,7 +493,7 @@ std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettin
         progress.doing(skip.row.name);
         rows.push_back(measure(std::move(skip), rounds, [&] { progress.advance(1); }));
     };
-    SkipStage stage(context, scene, settings);
+    SkipStage stage(context, scene, settings.size);
     const auto ofStage = {noLights,         noSurface,      lightsOutOfView,
                           otherTypesAbsent, unchangedLists, manualExposure};
     for (Skip (*make)(SkipStage&) : ofStage)
@@ -503,17 +501,17 @@ std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettin
     add(otherTypesNeverMet(stage), settings.pointRounds);
     add(dimLights(stage), settings.rounds);
     {
-        SkipStage other(context, scene, settings);
+        SkipStage other(context, scene, settings.size);
         add(unchangedFrame(stage, other), settings.rounds);
     }
     for (const bool metal : {false, true}) {
         const Scene changed = withMaterials(scene, metal);
-        SkipStage lacking(context, changed, settings);
+        SkipStage lacking(context, changed, settings.size);
         add(metal ? withoutLobe(lacking, stage, CND_MATERIAL_SPECULAR_ONLY, "metals alone")
                   : withoutLobe(lacking, stage, CND_MATERIAL_DIFFUSE_ONLY, "no specular materials"),
             settings.rounds);
     }
-    SkipStage shaded(context, black, settings);
+    SkipStage shaded(context, black, settings.size);
     add(noEnvironment(stage, shaded), settings.rounds);
     return rows;
 }

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "candelabra/candelabra.h"
 #include "io/parse.h"
 #include "io/progress.h"
 #include "io/report.h"
@@ -24,7 +23,6 @@ struct SkipSettings {
     uint32_t rounds = 7;
     uint32_t pointRounds = 50; // rounds of the row that compares point lights with point lights
     uint32_t seed = 1;
-    CndSpecularMethod specular = CND_SPECULAR_CONIC;
 };
 
 struct SkipRow {
