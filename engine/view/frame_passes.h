@@ -31,7 +31,8 @@ enum class Pass : uint8_t {
 inline constexpr size_t passCount = size_t(Pass::CountPairs) + 1;
 static_assert(passCount <= CND_MAX_PASSES);
 
-// What is known about a frame before it is recorded.
+// FrameContent lists the facts about a frame, known before its recording begins, that decide which
+// of its passes have work.
 struct FrameContent {
     bool lights = false;   // there is a light
     bool inLayers = false; // some light may be in a layer of the frame

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is computed about a frame before its passes are recorded: the parameters of its kernels and
-// the numbers that determine the sizes of dispatches.
+// A FramePlan holds the parameters of a frame's kernels and the counts that give the sizes of its
+// dispatches. It is computed before the first pass of the frame is recorded.
 #pragma once
 
 #include "view/module.h"
