@@ -66,28 +66,30 @@ CND_LIGHT_TYPES(X)
 const uint LIGHT_TYPE_COUNT = 0u CND_LIGHT_TYPES(X);
 #undef X
 
-// Masks of 1 << type. They are constant expressions, so they may be combined with specialisation
-// constants.
-#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_POSITION) != 0u ? 1u << id : 0u)
+// Masks of 1 << type, which hold the types that use a field. They are constant expressions, so they
+// may be combined with specialisation constants.
+#define X(id, NAME, family, fields) | (((fields)&FIELD) != 0u ? 1u << id : 0u)
+#define FIELD LIGHT_HAS_POSITION
 const uint TYPES_WITH_POSITION = 0u CND_LIGHT_TYPES(X);
-#undef X
-#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_RADIUS) != 0u ? 1u << id : 0u)
+#undef FIELD
+#define FIELD LIGHT_HAS_RADIUS
 const uint TYPES_WITH_RADIUS = 0u CND_LIGHT_TYPES(X);
-#undef X
-#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_DIRECTION) != 0u ? 1u << id : 0u)
+#undef FIELD
+#define FIELD LIGHT_HAS_DIRECTION
 const uint TYPES_WITH_DIRECTION = 0u CND_LIGHT_TYPES(X);
-#undef X
-#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_CONE) != 0u ? 1u << id : 0u)
+#undef FIELD
+#define FIELD LIGHT_HAS_CONE
 const uint TYPES_WITH_CONE = 0u CND_LIGHT_TYPES(X);
-#undef X
-#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_AXIS_U) != 0u ? 1u << id : 0u)
+#undef FIELD
+#define FIELD LIGHT_HAS_AXIS_U
 const uint TYPES_WITH_AXIS_U = 0u CND_LIGHT_TYPES(X);
-#undef X
-#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_AXIS_V) != 0u ? 1u << id : 0u)
+#undef FIELD
+#define FIELD LIGHT_HAS_AXIS_V
 const uint TYPES_WITH_AXIS_V = 0u CND_LIGHT_TYPES(X);
-#undef X
-#define X(id, NAME, family, fields) | (((fields)&LIGHT_HAS_SIDES) != 0u ? 1u << id : 0u)
+#undef FIELD
+#define FIELD LIGHT_HAS_SIDES
 const uint TYPES_WITH_SIDES = 0u CND_LIGHT_TYPES(X);
+#undef FIELD
 #undef X
 // Types whose lights have a size.
 #define X(id, NAME, family, fields) | (FAMILY_##family != FAMILY_PUNCTUAL ? 1u << id : 0u)
