@@ -87,6 +87,7 @@ Device::Device(const CndDeviceDesc& desc)
                                            .pNext = &driver};
     GetPhysicalDeviceProperties2(physicalDevice, &properties);
     limits = properties.properties.limits;
+    lanesAreCpuVector = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE)
         maxLoopIterations = 65535;
     GetPhysicalDeviceMemoryProperties(physicalDevice, &memory);

@@ -37,6 +37,12 @@ public:
     CndMessageCallback message; // may be null
     void* messageUser;
     VkPhysicalDeviceLimits limits{};
+    // The device is llvmpipe, which runs the lanes of a subgroup as one vector of a CPU. Some costs
+    // are then the reverse of a GPU's. Storage reads, shared memory, atomics and subgroup
+    // operations cost every lane, texel reads cost a fifth of storage reads, and a long serial loop
+    // in each lane is cheaper than lanes that share its work. Kernels that have a form for each
+    // kind of device choose by this.
+    bool lanesAreCpuVector = false;
     // Loop iterations that one shader invocation may execute, over all its loops. llvmpipe ends
     // loops silently after 65535 (LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm); other devices
     // have no limit.

@@ -20,10 +20,14 @@ uint32_t maxLights(const VkPhysicalDeviceLimits& limits)
     return uint32_t(std::min({countable, stored, dispatched}));
 }
 
+bool texelBuffersHoldAllLights(const VkPhysicalDeviceLimits& limits)
+{
+    return limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >= maxLights(limits);
+}
+
 uint32_t lightsAsTexels(const gpu::Device& device)
 {
-    return device.limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >=
-           maxLights(device.limits);
+    return device.lanesAreCpuVector && texelBuffersHoldAllLights(device.limits);
 }
 
 } // namespace candelabra::lighting

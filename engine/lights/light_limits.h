@@ -10,9 +10,12 @@ namespace candelabra::lighting
 // Returns the number of lights in the largest set that a device with these limits can take.
 uint32_t maxLights(const VkPhysicalDeviceLimits& limits);
 
-// Returns the value of SPEC_LIGHTS_AS_TEXELS. It is 1 if the device's texel buffers can hold
-// maxLights() lights: then kernels read lights from a texel buffer. Otherwise it is 0, and kernels
-// read lights from a storage buffer.
+// Tells whether a texel buffer of a device with these limits can hold maxLights() lights.
+bool texelBuffersHoldAllLights(const VkPhysicalDeviceLimits& limits);
+
+// Returns the value of SPEC_LIGHTS_AS_TEXELS. It is 0 on GPUs: their kernels read lights from a
+// storage buffer. It is 1 on a device whose lanes are a CPU vector, where texel reads are cheaper,
+// if its texel buffers can hold all lights: then kernels read lights from a texel buffer.
 uint32_t lightsAsTexels(const gpu::Device& device);
 
 } // namespace candelabra::lighting

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Devices that lack something: the host's functions are interposed to hide a feature or a limit.
 #include "candelabra/candelabra.hpp"
+#include "gpu/gpu_like_device.h"
 #include "gpu/lighting_harness.h"
 
 namespace candelabra::test
@@ -90,6 +91,24 @@ TEST_F(LightingTest, StatsOfFramesThatNeverWereAreAnError)
     for (const uint32_t slot : {0u, 2u}) { // never recorded, and not existing
         EXPECT_EQ(view.value().stats(slot).error().code, CND_ERROR_INVALID_ARGUMENT) << slot;
         EXPECT_EQ(exposure.value().stats(slot).error().code, CND_ERROR_INVALID_ARGUMENT) << slot;
+    }
+}
+
+// What the engine chooses for GPUs, such as reading lights from storage buffers, gives the bits of
+// what it chooses for llvmpipe.
+TEST_F(LightingTest, FormsForGpusGiveTheSameBits)
+{
+    const CpuGBuffer g = randomGBuffer(96, 64, 12);
+    const CndDeviceDesc gpu = gpuLike(deviceDesc());
+    for (const CndLightType type : {CND_LIGHT_SPHERE, CND_LIGHT_TUBE}) {
+        const auto lights = lightsOf(type, g, 500, 12);
+        const RunOptions options{.specular = CND_SPECULAR_CONIC};
+        RunOptions onGpu = options;
+        onGpu.host = &gpu;
+        const LightingResult expected = run(g, lights, options);
+        const LightingResult got = run(g, lights, onGpu);
+        EXPECT_TRUE(sameBits(got, expected)) << type;
+        EXPECT_EQ(got.stats.listEntries, expected.stats.listEntries) << type;
     }
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the part of the light data that every loop needs. The includer defines the binding ids
-// LIGHT_STREAM_CORE and LIGHT_STREAM_CORE_WORDS. On lavapipe texel buffers are about five times faster
-// to read than storage buffers. If a device's texel buffers are too small for its largest number of
-// lights, the same bytes are read from a storage buffer.
+// LIGHT_STREAM_CORE and LIGHT_STREAM_CORE_WORDS. The same bytes are bound as a storage buffer, which
+// GPUs read, and as a texel buffer, which llvmpipe reads five times faster (engine/lights/light_limits.h).
 #extension GL_EXT_samplerless_texture_functions : require
 
 layout(constant_id = SPEC_LIGHTS_AS_TEXELS) const uint lightsAsTexels = 1u;
