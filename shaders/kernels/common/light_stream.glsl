@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the part of the light data that every loop needs. The includer defines the binding ids
 // LIGHT_STREAM_CORE and LIGHT_STREAM_CORE_WORDS. The same bytes are bound as a storage buffer, which
-// GPUs read, and as a texel buffer, which llvmpipe reads five times faster (engine/lights/light_limits.h).
+// GPUs read, and as a texel buffer, which llvmpipe reads five times faster
+// (engine/lights/light_limits.h).
 #extension GL_EXT_samplerless_texture_functions : require
 
 layout(constant_id = SPEC_LIGHTS_AS_TEXELS) const uint lightsAsTexels = 1u;
