@@ -2,12 +2,12 @@
 #include "exposure/exposure.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <string>
 
 #include "candelabra_shaders.h"
+#include "gpu/recordings.h"
 
 namespace candelabra::exposure
 {
@@ -201,7 +201,7 @@ CndResult Exposure::stats(uint32_t slot, CndExposureStats& out) const noexcept
     if (slot >= slots_.size() || !slots_[slot].marker || out.structSize != sizeof out)
         return CND_ERROR_INVALID_ARGUMENT;
     Readback& read = readback_[slot].as<Readback>()[0];
-    if (std::atomic_ref(read.marker).load(std::memory_order_acquire) != slots_[slot].marker)
+    if (!gpu::hasArrived(read.marker, slots_[slot].marker))
         return CND_NOT_READY;
     out.targetEv100 = read.state.targetEv100;
     out.adaptedEv100 = read.state.adaptedEv100;

@@ -65,7 +65,7 @@ void RecordingSlots::recordEnd(const Frame& f, const Buffer& from) const noexcep
 
 bool RecordingSlots::hasRun(uint32_t slot) const
 {
-    return marker(slot) == uint32_t(slots_[slot].recording);
+    return hasArrived(marker(slot), uint32_t(slots_[slot].recording));
 }
 
 uint64_t RecordingSlots::oldestRunning() const

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,6 +16,14 @@ namespace candelabra::gpu
 {
 
 class RecordingSlots;
+
+// Tells whether the device has written `value` to `marker`, in memory of the host, as the last
+// command of a recording. If so, the host's later reads see what the commands before it wrote:
+// neither the compiler nor the processor moves a read across this one.
+inline bool hasArrived(uint32_t& marker, uint32_t value)
+{
+    return std::atomic_ref(marker).load(std::memory_order_acquire) == value;
+}
 
 // The recordings of all views of a module, numbered from 1 in the order in which they are made.
 class Recordings
@@ -93,12 +102,11 @@ public:
     void recordEnd(const Frame& frame, const Buffer& from) const noexcept;
 
     bool isUsed(uint32_t slot) const { return slots_[slot].recording != 0; }
-    // Whether all commands of the slot's recording have run; then read() holds what it counted.
-    bool hasRun(uint32_t slot) const;
+    // Returns what the slot's recording has counted, or null until all its commands have run.
     template <typename T>
-    const T& read(uint32_t slot) const
+    const T* read(uint32_t slot) const
     {
-        return slots_[slot].readback.template as<T>()[0];
+        return hasRun(slot) ? &slots_[slot].readback.template as<T>()[0] : nullptr;
     }
 
 private:
@@ -106,6 +114,7 @@ private:
     // The same numbers as in Recordings, for this view alone; 0 when there is none.
     uint64_t oldestRunning() const;
     uint64_t oldestPending() const;
+    bool hasRun(uint32_t slot) const;
     uint32_t& marker(uint32_t slot) const;
 
     struct Slot {

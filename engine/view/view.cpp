@@ -111,9 +111,10 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
 {
     if (slot >= slots_.count() || !slots_.isUsed(slot) || out.structSize != sizeof out)
         return CND_ERROR_INVALID_ARGUMENT;
-    if (!slots_.hasRun(slot))
+    const auto* const counted = slots_.read<gpu::LightingCounters>(slot);
+    if (!counted)
         return CND_NOT_READY;
-    const gpu::LightingCounters c = slots_.read<gpu::LightingCounters>(slot);
+    const gpu::LightingCounters& c = *counted;
     out.lightCount = 0;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         out.lightCount += out.lightTypeCounts[type] = plans_[slot].lights[type];
