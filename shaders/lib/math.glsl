@@ -29,6 +29,14 @@ float length2(vec3 x)
     return dot(x, x);
 }
 
+// Returns the dot product with the same bits in every pipeline. dot() may be rounded differently where
+// a compiler fuses its sums in one pipeline and not in another; precise fma() may not.
+float invariantDot(vec3 a, vec3 b)
+{
+    precise const float sum = fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));
+    return sum;
+}
+
 // Returns some unit vector perpendicular to z, which is a unit vector.
 vec3 anyPerpendicular(vec3 z)
 {

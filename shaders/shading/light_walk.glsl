@@ -24,8 +24,10 @@ struct FoundWord {
 
 // Tests the lights first .. first + count - 1, where count is 1..32. Spheres are sorted by their
 // position relative to the horizon, without a division and with few comparisons, because this runs for
-// every light of a list. `testInfluence`: leave out lights whose sphere of influence does not hold the
-// point (they would add 0).
+// every light of a list. What is compared is computed as `precise`, so that all pipelines sort a light
+// into the same class as far as they read the same surface: the evaluations differ by more than
+// rounding. `testInfluence`: leave out lights whose sphere of influence does not hold the point (they
+// would add 0).
 FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 {
     FoundWord found = FoundWord(0u, 0u, 0u, 0u);
@@ -34,25 +36,27 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
     do {
         const uint light = lightAt(k);
         const vec4 centreRadius = lightCentre(light);
-        const vec3 toLight = towardsLight(centreRadius.xyz, r.p.position);
+        precise const vec3 toLight = towardsLight(centreRadius.xyz, r.p.position);
         const float radius = centreRadius.w;
-        const float height = dot(r.p.n, toLight);
-        const float d2 = length2(toLight);
+        const float height = invariantDot(r.p.n, toLight);
+        const float d2 = invariantDot(toLight, toLight);
         bool reaches = height > -radius;
         if (testInfluence)
             reaches = reaches && d2 < lightEmission(light).w;
         found.reaching |= reaches ? bit : 0u;
 #ifdef HAS_SPHERES
-        found.above |= height >= r.aboveFrom * radius ? bit : 0u;
+        precise const float aboveFrom = r.aboveFrom * radius;
+        found.above |= height >= aboveFrom ? bit : 0u;
 #endif
 #ifdef LIGHT_FAMILY_CONIC
         // For a point inside the sphere the cap is limited as in makeSphereCap. At the centre both
         // sides of the comparisons are 0.
-        const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
-        const bool whole = height * abs(height) > radius2;
-        found.near |= whole || radius2 < r.smallCap * d2 ? bit : 0u;
+        precise const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
+        precise const float height2 = height * abs(height);
+        precise const float smallCap2 = r.smallCap * d2, pointLimit2 = r.pointLimit * d2;
+        found.near |= height2 > radius2 || radius2 < smallCap2 ? bit : 0u;
         if (HAS_BUDGET)
-            found.asPoint |= height >= 2.0 * radius && radius2 < r.pointLimit * d2 ? bit : 0u;
+            found.asPoint |= height >= 2.0 * radius && radius2 < pointLimit2 ? bit : 0u;
 #endif
         bit <<= 1u;
         ++k;
