@@ -10,7 +10,7 @@
 #include "gpu/failure.h"
 #include "lights/influence_box.h"
 #include "lights/light_types.h"
-#include "shared/device_lights.h"
+#include "shared/lengths.h"
 
 namespace candelabra::lighting
 {
@@ -140,7 +140,7 @@ gpu::LightRecord pack(const CndLight& light)
     r.flags = light.type;
     r.boundingRadius = boundingRadiusOf(light);
     r.emission = vec(light.emission);
-    r.influenceRadius = distant ? infinity : light.influenceRadius;
+    r.influenceRadius = distant ? gpu::UNBOUNDED : std::min(light.influenceRadius, gpu::UNBOUNDED);
     r.position = distant ? -unit(light.direction) : vec(light.position);
     if (fields & gpu::LIGHT_HAS_AXIS_U)
         r.axisU = vec(light.axisU);

@@ -2,7 +2,6 @@
 #include "view/frame_plan.h"
 
 #include <cstring>
-#include <limits>
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -62,9 +61,10 @@ FramePlan planFrame(const Module& module, const CndLightingFrame& frame)
             .lights = typesOf(lights, frame),
             .trees = treeShapes(lights.typeCounts()),
             // Radii that do not come from the host are known on the device alone.
-            .splitLength = influenceOf(frame) == CND_INFLUENCE_GIVEN
-                               ? splitLength * lights.extent().influenceRadius
-                               : std::numeric_limits<float>::infinity(),
+            .splitLength =
+                influenceOf(frame) == CND_INFLUENCE_GIVEN
+                    ? std::min(splitLength * lights.extent().influenceRadius, gpu::UNBOUNDED)
+                    : gpu::UNBOUNDED,
             .prepare = prepareParams(lights, frame)};
 }
 

@@ -145,7 +145,6 @@ void makeSweepLight(uint slice, SweepPoint p)
         lightShapes[0] = makeSweepShape(size, u, w, aspect, boundingRadius);
         centreRadius = vec4(centre, boundingRadius);
     }
-    const float infinity = uintBitsToFloat(0x7F800000u);
-    const float influence = chance(0.5) ? infinity : boundingRadius * 1.01 + 3.0 * d + 1e-12;
+    const float influence = chance(0.5) ? UNBOUNDED : boundingRadius * 1.01 + 3.0 * d + 1e-12;
     emissionInfluence = vec4(emission * tint, influence * influence);
 }

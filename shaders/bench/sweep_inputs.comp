@@ -69,7 +69,7 @@ void main()
     const SweepPoint point = makeSweepPoint(params.slice);
     makeSweepLight(params.slice, point);
     if (recordAll != 0u)
-        emissionInfluence = vec4(1.0, 1.0, 1.0, uintBitsToFloat(0x7F800000u));
+        emissionInfluence = vec4(1.0, 1.0, 1.0, UNBOUNDED * UNBOUNDED);
 
     const Surface surface =
         Surface(point.n, point.albedo, point.F0, point.F90, point.perceptualRoughness);
@@ -79,8 +79,10 @@ void main()
     const vec3 response = evaluateClassified(
         makeReceiver(p, params.errorBudget, params.sampleCount, params.sampleSeed ^ index), 0u);
 
-    const bool isNan = any(isnan(response));
-    const bool isInfinite = any(isinf(response));
+    // The bits are tested, because isnan() and isinf() may be compiled to false.
+    const uvec3 magnitude = floatBitsToUint(response) & 0x7FFFFFFFu;
+    const bool isNan = any(greaterThan(magnitude, uvec3(0x7F800000u)));
+    const bool isInfinite = any(equal(magnitude, uvec3(0x7F800000u)));
     const bool isNegative = any(lessThan(response, vec3(0.0)));
     count(isNan, 0u);
     count(isInfinite, 1u);

@@ -3,7 +3,7 @@
 // lane per slice, so that the lanes of a block walk its children in step.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/clusters.h"
+#include "lib/cluster_margins.glsl"
 
 layout(local_size_x = BLOCK_CLUSTERS_GROUP) in;
 layout(push_constant, scalar) uniform Push
@@ -19,14 +19,11 @@ layout(scalar, binding = BLOCK_CLUSTERS_TILES) buffer Tiles
     TileClusters tiles[];
 };
 
-// Returns the slope of a cone around `ray` that holds a child's cone. Let d be the distance between the
-// two rays. A sample p of the child with t = p . childRay has |p| <= q t, |p x ray| <= slope t + d |p|
-// and p . ray >= t - d |p|.
+// Returns the slope of a cone around `ray` that holds a child's cone. A child without a cone has no
+// ray, so the distance is 1 and the result is MAX_SLOPE.
 float slopeAround(vec3 ray, Cluster child)
 {
-    const float q = sqrt(1.0 + child.slope * child.slope);
-    const float turn = q * (distance(ray, child.ray) + 1e-6);
-    return turn < 1.0 ? (child.slope + turn) / (1.0 - turn) : uintBitsToFloat(0x7F800000u);
+    return widerSlope(child.slope, distance(ray, child.ray) + DOT_MARGIN);
 }
 
 void main()
@@ -55,10 +52,9 @@ void main()
     if (slice == 0u)
         tiles[params.blockFirst + block] = TileClusters(firstSlice, lowest, highest, shift, 0u);
 
-    const float infinity = uintBitsToFloat(0x7F800000u);
     rays = rays == vec3(0.0) ? rays : normalize(rays);
-    Cluster merged = Cluster(vec3(infinity), 0u, vec3(-infinity), 0u, vec3(0.0), -infinity,
-                             infinity, 0.0, 0xFFFFFFFFu, rays, 0.0);
+    Cluster merged = Cluster(vec3(UNBOUNDED), 0u, vec3(-UNBOUNDED), 0u, vec3(0.0), -UNBOUNDED,
+                             UNBOUNDED, 0.0, 0xFFFFFFFFu, rays, 0.0);
     for (uint y = first.y; y < end.y && !empty; ++y)
         for (uint x = first.x; x < end.x; ++x) {
             const TileClusters child = tiles[params.childFirst + y * params.childCountX + x];
@@ -79,9 +75,5 @@ void main()
                 }
             }
         }
-    if (isinf(merged.slope)) {
-        merged.ray = vec3(0.0);
-        merged.slope = 0.0;
-    }
-    clusters[firstSlice + slice] = merged;
+    clusters[firstSlice + slice] = merged.slope < MAX_SLOPE ? merged : withoutCone(merged);
 }

@@ -71,6 +71,6 @@ void main()
         return;
     const float intensity =
         peakIntensity(params.type, emission.xyz, core[at - 1u].w, shapes[light]);
-    core[at].w = state.cut != 0u ? max(intensity / lux, NOWHERE)
-                                   : uintBitsToFloat(0x7F800000u); // infinite
+    const float uncut2 = UNBOUNDED * UNBOUNDED;
+    core[at].w = state.cut != 0u ? clamp(intensity / lux, NOWHERE, uncut2) : uncut2;
 }

@@ -58,7 +58,7 @@ void main()
             record.position = light.position;
             record.boundingRadius = radius;
             record.emission = light.emission;
-            record.influenceRadius = light.influenceRadius;
+            record.influenceRadius = min(light.influenceRadius, UNBOUNDED);
             atomicAdd(counts.taken, 1u);
         } else {
             atomicAdd(counts.rejected, 1u);

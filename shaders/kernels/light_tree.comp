@@ -7,6 +7,7 @@
 #define LIGHT_STREAM_CORE LIGHT_TREE_CORE
 #define LIGHT_STREAM_CORE_WORDS LIGHT_TREE_CORE_WORDS
 #include "kernels/common/light_stream.glsl"
+#include "lib/bounds.glsl"
 
 layout(local_size_x = LIGHT_TREE_GROUP) in;
 layout(push_constant, scalar) uniform Push
@@ -18,13 +19,6 @@ layout(scalar, binding = LIGHT_TREE_NODES) buffer Nodes
     vec4 nodes[];
 };
 
-// Bound of a box's coordinates. It stands for infinity, but its product with 0 is 0.
-const float LARGEST = 1e30;
-
-// A box is enlarged by this share of its light's centre and influence radius, so that neither rounding
-// here nor in the tests of the box loses a light.
-const float BOX_MARGIN = 1.0 / 1048576.0;
-
 void childBox(uint child, out vec3 lowest, out vec3 highest)
 {
     if (params.fromLights == 0u) {
@@ -32,22 +26,19 @@ void childBox(uint child, out vec3 lowest, out vec3 highest)
         highest = nodes[child * TREE_NODE_STRIDE + 1u].xyz;
         return;
     }
-    lowest = vec3(LARGEST);
-    highest = vec3(-LARGEST);
+    lowest = vec3(UNBOUNDED);
+    highest = vec3(-UNBOUNDED);
     if (lightEmission(child).w <= 0.0) // not a light (device_lights), or a light of other layers
         return;
-    const vec3 centre = lightCentre(child).xyz;
-    const vec3 size = abs(centre);
-    const float r = min(sqrt(lightEmission(child).w), LARGEST);
-    const float widened = r + BOX_MARGIN * (r + max(size.x, max(size.y, size.z)));
-    lowest = centre - widened;
-    highest = centre + widened;
+    const Box box = influenceBox(lightCentre(child).xyz, lightEmission(child).w);
+    lowest = box.min;
+    highest = box.max;
 }
 
 void writeNode(uint node, vec3 lowest, vec3 highest)
 {
-    nodes[node * TREE_NODE_STRIDE] = vec4(max(lowest, vec3(-LARGEST)), 0.0);
-    nodes[node * TREE_NODE_STRIDE + 1u] = vec4(min(highest, vec3(LARGEST)), 0.0);
+    nodes[node * TREE_NODE_STRIDE] = vec4(lowest, 0.0);
+    nodes[node * TREE_NODE_STRIDE + 1u] = vec4(highest, 0.0);
 }
 
 void main()
@@ -56,13 +47,13 @@ void main()
     const uint first = upper * TREE_WIDTH * TREE_WIDTH;
     if (first >= params.childCount)
         return;
-    vec3 upperLowest = vec3(LARGEST), upperHighest = vec3(-LARGEST);
+    vec3 upperLowest = vec3(UNBOUNDED), upperHighest = vec3(-UNBOUNDED);
     for (uint i = 0u; i < TREE_WIDTH; ++i) {
         const uint firstChild = first + i * TREE_WIDTH;
         if (firstChild >= params.childCount)
             break;
         const uint end = min(firstChild + TREE_WIDTH, params.childCount);
-        vec3 lowest = vec3(LARGEST), highest = vec3(-LARGEST);
+        vec3 lowest = vec3(UNBOUNDED), highest = vec3(-UNBOUNDED);
         for (uint child = firstChild; child < end; ++child) {
             vec3 childLowest, childHighest;
             childBox(params.childFirst + child, childLowest, childHighest);

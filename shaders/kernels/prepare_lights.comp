@@ -47,10 +47,9 @@ void main()
                                        inFrame ? light.boundingRadius : BOUNDING_RADIUS_OF_NONE);
     // A radius of 0 means that this is not a light (device_lights).
     const bool endless = params.uncut != 0u && light.influenceRadius > 0.0;
-    const float influence2 = endless ? uintBitsToFloat(0x7F800000u) // infinite
-                                     : light.influenceRadius * light.influenceRadius;
+    const float influenceRadius = endless ? UNBOUNDED : light.influenceRadius;
     core[i * LIGHT_CORE_STRIDE + 1u] =
-        vec4(light.emission, inFrame ? influence2 : INFLUENCE2_OF_NONE);
+        vec4(light.emission, inFrame ? influenceRadius * influenceRadius : INFLUENCE2_OF_NONE);
     shapes[i] = rotatedShape(shapeOfRecord(light, type), type, params.viewFromWorld);
     if (withIds != 0u)
         ids[i] = light.id;

@@ -35,5 +35,5 @@ void main()
             if (depth != frameParams.clearDepth && here)
                 addSample(cluster, uvec2(x, y), depth);
         }
-    clusters[at.first + slice] = withMargins(cluster);
+    clusters[at.first + slice] = withMargins(cluster, frameParams.projection);
 }

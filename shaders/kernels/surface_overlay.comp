@@ -21,9 +21,10 @@ layout(push_constant, scalar) uniform Push
 layout(binding = SHADE_DEPTH) uniform texture2D depthImage;
 layout(binding = SURFACE_OVERLAY_IMAGE, rgba8) uniform writeonly image2D overlayImage;
 
+// Tests the bits, because isnan() and isinf() may be compiled to false.
 bool isFinite(vec4 x)
 {
-    return !any(isnan(x)) && !any(isinf(x));
+    return all(lessThan(floatBitsToUint(x) & 0x7FFFFFFFu, uvec4(0x7F800000u)));
 }
 
 bool isOutside(vec4 x)

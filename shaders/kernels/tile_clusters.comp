@@ -75,6 +75,6 @@ void main()
     } else {
         tiles[tile] =
             TileClusters(tile, lowest, highest, UNSPLIT, tileClass << CLASS_BITS);
-        clusters[tile] = withMargins(cluster);
+        clusters[tile] = withMargins(cluster, frameParams.projection);
     }
 }

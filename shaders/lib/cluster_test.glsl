@@ -30,7 +30,9 @@ bool coneTouches(ClusterBounds c, vec3 centre, float r, float margin)
 {
     const vec3 aside = cross(centre, c.ray);
     const float wide = c.slope * (dot(centre, c.ray) + margin) + (c.slope + 1.0) * r + margin;
-    return wide >= 0.0 && dot(aside, aside) <= wide * wide;
+    // No centre is farther from the ray than twice UNBOUNDED. Larger squares might overflow.
+    const float limited = min(wide, 2.0 * UNBOUNDED);
+    return wide >= 0.0 && dot(aside, aside) <= limited * limited;
 }
 
 // Tells whether a sample may lie in a box around spheres of influence. The box must include the margins

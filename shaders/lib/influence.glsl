@@ -70,7 +70,7 @@ float peakIntensity(uint type, vec3 emission, float boundingRadius, LightShape s
 // Returns the bin of a light with this exposed illuminance.
 uint influenceBin(float exposedIlluminance)
 {
-    const float octaves = log2(max(exposedIlluminance, 1e-30)) - INFLUENCE_FINEST;
+    const float octaves = log2(clamp(exposedIlluminance, 1e-30, 1e30)) - INFLUENCE_FINEST;
     const float bin = float(INFLUENCE_COARSE_BINS) + (octaves < 0.0 ? 0.5 : 2.0) * octaves;
     return uint(clamp(bin, 0.0, float(INFLUENCE_BINS - 1u)));
 }

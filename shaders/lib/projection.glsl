@@ -11,8 +11,9 @@ uint depthBits(float depth)
     return floatBitsToUint(depth) & 0x7FFFFFFFu;
 }
 
-// Returns the view-space position of the centre of `pixel` at `depth`. Every kernel that compares
-// positions must get the same bits, so the arithmetic is `precise`, without fused operations.
+// Returns the view-space position of the centre of `pixel` at `depth`. The arithmetic is `precise`,
+// without fused operations, so that two pipelines can differ only by the rounding of the divisions,
+// which lib/cluster_margins.glsl allows for.
 // It inverts clip = clipFromView * (x, y, z, 1), ndc = clip / clip.w, where
 // depth = (m22 z + m32) / (m23 z + m33).
 vec3 viewPosition(Projection m, uvec2 pixel, vec2 invImageSize, float depth)

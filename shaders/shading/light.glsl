@@ -13,7 +13,8 @@
 #include "lib/shadow_query.glsl"
 #endif
 
-// Returns (1 - (d / r)^4)^2 for d < r, else 0; 1 for infinite r (Lagarde and de Rousiers 2014, eq. 26).
+// Returns (1 - (d / r)^4)^2 for d < r, else 0; 1 if r is UNBOUNDED (Lagarde and de Rousiers 2014,
+// eq. 26).
 float influenceWindow(float d2, float influenceRadius2)
 {
     const float x = min(d2 / influenceRadius2, 1.0);

@@ -50,11 +50,13 @@ struct Cluster {
     float minCos;           // lowest cosine between the axis and a normal
     uint depthBits;         // bits of the lowest depth
     // The samples lie in a cone around the unit vector `ray` with its apex in the eye. `slope` is
-    // the tangent of its half angle. Both are 0 if there is no such cone.
+    // the tangent of its half angle, less than MAX_SLOPE. Both are 0 if there is no such cone.
     vec3 ray;
     float slope;
 };
 GPU_SIZE(Cluster, 76)
+// Cones that are as wide as this, almost half of all directions, leave out no light worth the test.
+const float MAX_SLOPE = 1024.0f;
 
 // A sample of a tile belongs to the cluster first + ((depth bits - lowest) >> shift). In blocks the
 // same holds for the clusters of the level below and their parents.

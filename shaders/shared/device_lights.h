@@ -16,11 +16,6 @@ struct DeviceLight {
 };
 GPU_SIZE(DeviceLight, 32)
 
-// Limits of coordinates and lengths in metres: beyond them, squares of lengths are infinite or 0 in
-// float32.
-const float MAX_LIGHT_COORDINATE = 1e15f;
-const float MIN_LIGHT_LENGTH = 1e-15f;
-
 // How many lights were valid and taken, and how many were not valid.
 struct DeviceLightCounts {
     uint taken, rejected;

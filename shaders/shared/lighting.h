@@ -7,6 +7,7 @@
 #include "shared/dfg.h"
 #include "shared/frame.h"
 #include "shared/host_gbuffer.h"
+#include "shared/lengths.h"
 #include "shared/light_types.h"
 #include "shared/prelude.h"
 #include "shared/specular_methods.h"
@@ -30,7 +31,7 @@ struct LightRecord {
     float boundingRadius; // m; radius of a sphere around the centre that holds the emitter; distant
                           //   sphere: the sine of its angular radius
     vec3 emission;        // as in CndLight
-    float influenceRadius; // m; may be infinite
+    float influenceRadius; // m; UNBOUNDED: uncut
     vec3 axisU;            // as in LightShape, like axisV and flags
     uint id;               // low half of the CndLightId, or LIGHT_OF_DEVICE and an index
     vec3 axisV;            // types with a radius and axisU but no axisV: (radius, 0, 0)
@@ -49,7 +50,7 @@ const uint ALL_LAYERS = 0xFFFFu;
 // and a LightShape that only some types read.
 // A light that is in none of the frame's layers gets the two values below. They keep it out of the
 // boxes of the tree and out of all lists, and below every horizon.
-const float BOUNDING_RADIUS_OF_NONE = -1e30f;
+const float BOUNDING_RADIUS_OF_NONE = -UNBOUNDED;
 const float INFLUENCE2_OF_NONE = -1.0f;
 const uint LIGHT_CORE_STRIDE = 2u;
 

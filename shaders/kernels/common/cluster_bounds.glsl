@@ -3,7 +3,7 @@
 // cone of view rays. They are made from the exact positions instead of a slice of the frustum, so that
 // lights are culled against the surfaces that are there.
 #include "shared/clusters.h"
-#include "lib/bounds.glsl"
+#include "lib/cluster_margins.glsl"
 #define GBUFFER_CODE SPEC_GBUFFER
 #define GBUFFER_PACKED TILE_CLUSTERS_NORMALS
 #define GBUFFER_NORMAL TILE_CLUSTERS_HOST_NORMALS
@@ -28,10 +28,9 @@ float depthAt(uvec2 pixel)
 
 Cluster emptyCluster(uint tile)
 {
-    const float infinity = uintBitsToFloat(0x7F800000u);
     const uvec2 middle = firstPixelOfTile(tile, frameParams.size.x) + TILE_SIZE / 2u;
     const vec3 ray = viewRay(frameParams.projection, middle, frameParams.invImageSize);
-    return Cluster(vec3(infinity), tile, vec3(-infinity), 0u, vec3(0.0), infinity, -infinity, 1.0,
+    return Cluster(vec3(UNBOUNDED), tile, vec3(-UNBOUNDED), 0u, vec3(0.0), UNBOUNDED, -UNBOUNDED, 1.0,
                    0xFFFFFFFFu, normalize(ray), 0.0);
 }
 
@@ -54,27 +53,6 @@ void addSample(inout Cluster c, uvec2 pixel, float depth)
     c.slabMax = max(c.slabMax, along);
     c.minCos = min(c.minCos, dot(c.axis, n));
     const float ahead = dot(p, c.ray);
-    const float slope = length(cross(p, c.ray)) / ahead;
-    c.slope = max(c.slope, ahead > 0.0 ? slope : uintBitsToFloat(0x7F800000u));
-}
-
-// Error of the cosine between two normals whose lengths are 1 within 2 ulp. The error of the sine of a
-// small angle is far larger, and a light just above the horizon must not be taken for one below it.
-const float COS_MARGIN = 16.0 / 16777216.0;
-
-// Returns the cluster widened by the largest effect of rounding.
-Cluster withMargins(Cluster c)
-{
-    const float margin = DOT_MARGIN * max(largest(c.min), largest(c.max));
-    c.slabMin -= margin;
-    c.slabMax += margin;
-    c.minCos -= COS_MARGIN;
-    c.slope = c.slope * (1.0 + DOT_MARGIN) + DOT_MARGIN;
-    // There is no cone of view rays in orthographic views, whose boxes are aligned with the rays, and
-    // in very wide views, where the slope of a tile may be infinite.
-    if (frameParams.projection.eyeIsPoint == 0.0 || isinf(c.slope)) {
-        c.ray = vec3(0.0);
-        c.slope = 0.0;
-    }
-    return c;
+    const float aside = length(cross(p, c.ray));
+    c.slope = max(c.slope, aside < MAX_SLOPE * ahead ? aside / ahead : MAX_SLOPE);
 }
