@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/device.h"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -213,6 +214,18 @@ std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice p
             (format.bufferFeatures & need.buffer) != need.buffer)
             missing.push_back(std::string("usages of format ") + need.name);
     }
+
+    // Every GPU has such memory. Drivers that compile for a GPU which is not there have none.
+    constexpr VkMemoryPropertyFlags mapped =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    const auto getMemory = reinterpret_cast<PFN_vkGetPhysicalDeviceMemoryProperties>(
+        getInstanceProcAddr(instance, "vkGetPhysicalDeviceMemoryProperties"));
+    VkPhysicalDeviceMemoryProperties memory{};
+    getMemory(physicalDevice, &memory);
+    if (std::none_of(
+            memory.memoryTypes, memory.memoryTypes + memory.memoryTypeCount,
+            [](const VkMemoryType& type) { return (type.propertyFlags & mapped) == mapped; }))
+        missing.emplace_back("memory that the CPU can write");
     return missing;
 }
 

@@ -125,6 +125,7 @@ BAD = {
     "--screenshot": ["x.jpg", "no/such/x.png"],
     "--merge": ["no_such.truth", "empty.truth", "noise.truth", "folder.truth"],
     "--scene": ["village", "no_such.glb", "empty.json", "folder.json"],
+    "--types": NAMES, "--methods": NAMES,
     "--a": ["no_such.json", "empty.json", "noise.json"], "--b": ["no_such.json"],
 }
 # Exceptions by command and option. None: tested only together with other options, under
@@ -136,6 +137,7 @@ BAD_OF = {
     ("view", "--frames"): COUNTS, ("bench skip", "--scene"): ["village", "a.glb"],
     ("bench accuracy", "--scene"): ["no_such.glb"], ("compare", "--a"): None, ("compare", "--b"): None,
     ("bench culling", "--lights"): [*COUNTS, "0", "1,,2"], ("bench culling", "--size"): [*SIZES, "8x8,"],
+    ("bench pipelines", "--kernels"): None,  # tests/program/test_null_device.py
     ("bench culling", "--overlaps"): COUNTS, ("stress", "--lights"): [*COUNTS, "0", "5,5", "5,,6"],
 }
 # The arguments before the option under test. Where the option is given twice, the `{}` of its first
@@ -150,6 +152,7 @@ BASE = {
     "truth": ["truth", "scene.json", "--size=4x4", "--no-cache", "--output=x.exr"],
     "bench accuracy": ["bench", "accuracy", "--groups=10", "--size=8x8", "--out=o", "-q"],
     "bench culling": ["bench", "culling", "--scenes=hall", "--lights=5", "--size=8x8", "--out=o"],
+    "bench pipelines": ["bench", "pipelines"],
     "bench skip": ["bench", "skip", "--lights=5", "--size=8x8", "--out=o"],
     "bench stability": ["bench", "stability", "--configs=1000", "--out=o"],
     "devices": ["devices"], "manual": ["manual"], "completions": ["completions", "bash"],

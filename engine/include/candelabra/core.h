@@ -141,7 +141,8 @@ typedef struct CndDeviceDesc {
     void* messageUser;          // passed to `message` as its first argument
 } CndDeviceDesc;
 
-// Checks whether a device has everything the modules need: Vulkan 1.3, features, limits, formats.
+// Checks whether a device has everything that the modules need: Vulkan 1.3, features, limits,
+// formats, and memory that the CPU can write.
 // Returns CND_SUCCESS if so. Otherwise returns CND_ERROR_UNSUPPORTED and writes what is missing
 // into `missing` (comma separated, zero terminated, truncated at missingSize bytes). `missing` may
 // be NULL.

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// candelabra bench pipelines: prints what the driver's compiler says about the engine's pipelines.
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "commands/bench_commands.h"
+#include "commands/options.h"
+#include "io/error.h"
+#include "measure/pipelines/pipelines.h"
+#include "render/provenance.h"
+#include "render/setting_names.h"
+#include "scene/light_types.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+struct PipelineArguments {
+    std::string device, kernels, types, methods, json;
+    bool noClasses = false, others = false;
+};
+
+uint32_t typesOf(const std::string& text)
+{
+    std::string known;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        known += (type ? ", " : "") + std::string(lightTypeName(type));
+    uint32_t mask = 0;
+    for (const std::string& name : splitAtCommas(text)) {
+        uint32_t type = 0;
+        while (type < CND_LIGHT_TYPE_COUNT && name != lightTypeName(type))
+            ++type;
+        if (type == CND_LIGHT_TYPE_COUNT)
+            throw UsageError(fmt::format("--types \"{}\": choose among {}", text, known));
+        mask |= 1u << type;
+    }
+    return mask;
+}
+
+uint32_t methodsOf(const std::string& text)
+{
+    uint32_t mask = 0;
+    for (const std::string& name : splitAtCommas(text))
+        mask |= 1u << choose("--methods", name, specularChoices);
+    return mask;
+}
+
+int pipelines(const ProgramContext& program, const PipelineArguments& a)
+{
+    PipelineSettings settings{.device = a.device, .materialClasses = !a.noClasses};
+    if (!a.kernels.empty())
+        settings.kernels = splitAtCommas(a.kernels);
+    if (!a.types.empty())
+        settings.lightTypes = typesOf(a.types);
+    if (!a.methods.empty())
+        settings.methods = methodsOf(a.methods);
+    if (!a.json.empty())
+        requireWritable("--json", a.json);
+    DeviceInfo device;
+    const std::vector<PipelineCost> costs = measurePipelines(settings, device);
+    if (!a.json.empty())
+        writeJson(a.json, {{"schema", "candelabra bench pipelines 1"},
+                           {"provenance", provenance(device, program.commandLine)},
+                           {"pipelines", pipelineJson(costs, a.others)}});
+    if (a.json != "-")
+        writeText("-", fmt::format("{}, {}\n{}", device.name, device.driver, pipelineTable(costs)));
+    return exitOk;
+}
+
+} // namespace
+
+void addBenchPipelines(CLI::App& bench, Run& run)
+{
+    CLI::App* command = bench.add_subcommand(
+        "pipelines", "List registers, spills and size of every pipeline, as the driver tells them");
+    const auto a = std::make_shared<PipelineArguments>();
+    const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
+        command->add_option(name, value, what)->type_name(type);
+    };
+    add("--kernels", a->kernels, "compile these kernels only, such as shade_tiles,cluster_lists",
+        "NAME,...");
+    add("--types", a->types, "kernels that shade: compile them for these light types only",
+        "NAME,...");
+    add("--methods", a->methods, "kernels that shade: compile them for these methods only",
+        "NAME,...");
+    command->add_flag("--no-classes", a->noClasses,
+                      "leave out the kernels for tiles whose surfaces all lack one lobe");
+    add("--device", a->device,
+        "Vulkan device by its index or a part of its name; it needs not be able to draw",
+        "INDEX|NAME");
+    add("--json", a->json, "JSON file with all figures; - is standard output", "FILE");
+    command->add_flag("--all-statistics", a->others,
+                      "write everything that the driver tells to the JSON file");
+    command->footer(
+        "The device needs the extension VK_KHR_pipeline_executable_properties. Nothing is drawn, "
+        "so\n"
+        "a driver without its GPU will do. Mesa's driver for AMD GPUs can be started like that:\n"
+        "  VK_ICD_FILENAMES=/usr/share/vulkan/icd.d/radeon_icd.x86_64.json RADV_DEBUG=nocache \\\n"
+        "  RADV_FORCE_FAMILY=NAVI21 RADV_PERFTEST=cswave32 candelabra bench pipelines\n"
+        "tools/gpu_stats in the source tree does so for several GPUs and compares with the "
+        "record.\n\n"
+        "Examples:\n"
+        "  candelabra bench pipelines\n"
+        "  candelabra bench pipelines --kernels shade_tiles --types sphere --methods conic");
+    command->callback(
+        [&run, a] { run = [a](const ProgramContext& program) { return pipelines(program, *a); }; });
+}
+
+} // namespace candelabra::app
