@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the built program as a user runs it: files, exit codes, the window under Xvfb.
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -52,10 +53,14 @@ protected:
         content << file.rdbuf();
         return content.str();
     }
-    // Runs a command line through a shell; `before` is put in front of the program.
-    Outcome run(const std::string& arguments, const std::string& before = "") const
+    // Runs a command line through a shell; `before` is put in front of the program. Where tests run
+    // without validation, "--validate" at the end is left out.
+    Outcome run(std::string arguments, const std::string& before = "") const
     {
         const char* device = std::getenv("CANDELABRA_TEST_DEVICE");
+        constexpr std::string_view validate = " --validate";
+        if (!test::validates() && arguments.ends_with(validate))
+            arguments.erase(arguments.size() - validate.size());
         const std::string command =
             "cd '" + dir_.string() + "' && " + before + " " + test::programWord() + " " +
             arguments +
@@ -178,14 +183,17 @@ TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
 TEST_F(ProgramTest, StressWritesEverythingItPromises)
 {
     const Outcome outcome =
-        run("stress --lights 50,200 --size 128x72 --frames 2 --out o --json s.json --validate");
+        run("stress --lights 50,200 --size 128x72 --frames 2 --warm-up 0.1 --out o --json s.json "
+            "--validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     for (const char* word : {"shade_tiles", "p95 ms", "lights per tile", "identical", "Try next"})
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     const auto json = nlohmann::json::parse(text("s.json"));
     EXPECT_EQ(test::schemaFaults(json, "stress.schema.json"), "");
+    EXPECT_EQ(json["warmUpSeconds"], 0.1);
     ASSERT_EQ(json["points"].size(), 2u);
     for (const auto& point : json["points"]) {
+        EXPECT_EQ(point["gpuTime"]["frames"], 2);
         EXPECT_LE(point["bruteForce"]["maxDifferenceOverMaxRadiance"], 1e-6);
         EXPECT_EQ(point["bruteForce"]["pixelsCompared"], 128 * 72);
         EXPECT_GT(point["bruteForce"]["shadingMs"], 0.0);
@@ -222,6 +230,34 @@ TEST_F(ProgramTest, ProfileTimesEveryPass)
     const std::string csv = text("f.csv");
     EXPECT_EQ(csv.rfind("variant,frame,", 0), 0u);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 8);
+}
+
+// With several frames in flight the time of a frame is that between the ends of two frames, so the
+// times of all frames add up to no more than the program ran.
+TEST_F(ProgramTest, ProfileKeepsFramesInFlight)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome =
+        run("profile hall --lights 60 --size 64x36 --frames 12 --frames-in-flight 3 --warm-up 0.3 "
+            "--moving -q --csv f.csv --json p.json --validate");
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(text("p.json"));
+    EXPECT_EQ(test::schemaFaults(json, "profile.schema.json"), "");
+    EXPECT_EQ(json["framesInFlight"], 3);
+    EXPECT_EQ(json["warmUp"]["secondsAtLeast"], 0.3);
+    EXPECT_EQ(json["variants"][0]["time"]["frames"], 12);
+    std::istringstream csv(text("f.csv"));
+    std::string line;
+    std::getline(csv, line);
+    EXPECT_TRUE(line.ends_with(",frame")) << line;
+    double sum = 0;
+    for (int i = 0; i < 12; ++i) {
+        ASSERT_TRUE(std::getline(csv, line));
+        sum += std::stod(line.substr(line.rfind(',') + 1));
+    }
+    EXPECT_GT(sum, 0);
+    EXPECT_LT(sum, took.count() - 300);
 }
 
 // Chrome's trace event format, as Perfetto reads it: the slices of a track nest and are in order.

@@ -38,7 +38,8 @@ public:
         const char* wanted = std::getenv("CANDELABRA_TEST_DEVICE");
         try {
             context_ = std::make_unique<app::VulkanContext>(app::ContextOptions{
-                .device = wanted ? wanted : "", .validation = app::Validation::On});
+                .device = wanted ? wanted : "",
+                .validation = validates() ? app::Validation::On : app::Validation::Off});
             std::cout << "device: " << context_->info().name << ", " << context_->info().driver
                       << "\n";
         } catch (const gpu::Failure& failure) {
@@ -91,6 +92,12 @@ constexpr VkMemoryBarrier2 everything{
         VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT};
 
 } // namespace
+
+bool validates()
+{
+    const char* value = std::getenv("CANDELABRA_TEST_VALIDATION");
+    return !value || std::strcmp(value, "0") != 0;
+}
 
 void GpuTest::SetUp()
 {

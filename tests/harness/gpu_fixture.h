@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // GpuTest: the fixture of tests that need a Vulkan device. All tests of a process share one
 // headless context with core and synchronisation validation enabled; any validation message fails
-// the test in which it appeared. CANDELABRA_TEST_DEVICE chooses the device (as --device does).
+// the test in which it appeared. CANDELABRA_TEST_VALIDATION=0 runs the tests without validation, on
+// machines that lack the layer. CANDELABRA_TEST_DEVICE chooses the device (as --device does).
 // Without a usable device the tests are skipped with a message, or fail if CANDELABRA_REQUIRE_GPU
 // is 1.
 #pragma once
@@ -47,6 +48,9 @@ protected:
     std::vector<std::byte> readImage(const gpu::Image& image, VkImageAspectFlags aspect,
                                      VkImageLayout layout, uint32_t bytesPerTexel) const;
 };
+
+// Whether tests run with validation.
+bool validates();
 
 // Makes all earlier writes visible to everything later.
 void fullBarrier(VkCommandBuffer cmd);

@@ -16,11 +16,14 @@
 namespace candelabra::test
 {
 
-// Returns what is wrong with a value and where, one line per fault; empty if it is valid. `name` is
-// the file name of a schema, `part` a place in the schema such as "#/properties/points".
+// Returns what is wrong with a value and where, one line per fault; empty if it is valid, or if
+// there is no Python (pythonWord). `name` is the file name of a schema, `part` a place in the
+// schema such as "#/properties/points".
 inline std::string schemaFaults(const nlohmann::json& value, const std::string& name,
                                 const std::string& part = "#")
 {
+    if (pythonWord().empty())
+        return "";
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() /
         ("candelabra-" + std::to_string(getpid()) + "-" + name); // a test runs one at a time

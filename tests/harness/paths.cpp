@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "harness/paths.h"
 
+#include <cstdlib>
+
 namespace candelabra::test
 {
+namespace
+{
+
+std::string valueOf(const char* variable, const char* otherwise)
+{
+    const char* value = std::getenv(variable);
+    return value ? value : otherwise;
+}
+
+} // namespace
 
 std::string sourcePath(const std::string& name)
 {
-    return CANDELABRA_SOURCE_FOLDER "/" + name;
+    return valueOf("CANDELABRA_TEST_SOURCE", CANDELABRA_SOURCE_FOLDER) + "/" + name;
 }
 
 std::string dataPath(const std::string& name)
@@ -16,12 +28,13 @@ std::string dataPath(const std::string& name)
 
 std::string programWord()
 {
-    return shellWord(CANDELABRA_PROGRAM);
+    return shellWord(valueOf("CANDELABRA_TEST_PROGRAM", CANDELABRA_PROGRAM));
 }
 
 std::string pythonWord()
 {
-    return shellWord(CANDELABRA_PYTHON);
+    const std::string python = valueOf("CANDELABRA_TEST_PYTHON", CANDELABRA_PYTHON);
+    return python.empty() ? "" : shellWord(python);
 }
 
 std::string shellWord(const std::string& text)

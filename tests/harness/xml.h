@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks XML that the program wrote with an independent parser (Python's expat, which the structure
-// tests need anyway).
+// Checks XML that the program wrote with an independent parser: Python's expat.
 #pragma once
 
 #include <cstdio>
 #include <string>
 
+#include "harness/paths.h"
+
 namespace candelabra::test
 {
 
-// Returns what is wrong with the file; empty if it is well-formed. `path` must not contain quotes.
+// Returns what is wrong with the file; empty if it is well-formed, or if there is no Python
+// (pythonWord).
 inline std::string xmlFault(const std::string& path)
 {
-    const std::string command = "python3 -c 'import sys, xml.dom.minidom as m\n"
-                                "m.parse(sys.argv[1])' '" +
-                                path + "' 2>&1";
+    if (pythonWord().empty())
+        return "";
+    const std::string command = pythonWord() +
+                                " -c 'import sys, xml.dom.minidom as m\n"
+                                "m.parse(sys.argv[1])' " +
+                                shellWord(path) + " 2>&1";
     std::FILE* pipe = popen(command.c_str(), "r");
     if (!pipe)
         return "python3 did not start";

@@ -274,10 +274,10 @@ void addCompareCommand(CLI::App& app, Run& run)
                      "exit with 3 only if something is slower by more than this")
         ->type_name("PERCENT")
         ->capture_default_str();
-    command->add_flag(
-        "--force", a->force,
-        "compare runs even if their devices, scenes, sizes, paths or numbers of frames "
-        "differ");
+    command->add_flag("--force", a->force,
+                      "compare runs even if their devices, scenes, sizes, paths, numbers of frames "
+                      "or of frames in "
+                      "flight differ");
     command->add_option("--json", a->json, "JSON file with all figures; - is standard output")
         ->type_name("FILE");
     command->footer(

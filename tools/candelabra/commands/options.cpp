@@ -49,6 +49,16 @@ std::vector<uint32_t> unsignedListOption(const std::string& option, const std::s
     return out;
 }
 
+void addWarmUpTo(CLI::App& command, std::string& seconds)
+{
+    command
+        .add_option("--warm-up", seconds,
+                    "draw warm-up frames for at least so long, because the clock of a GPU that was "
+                    "idle rises slowly")
+        ->type_name("SECONDS")
+        ->capture_default_str();
+}
+
 void DeviceArguments::addTo(CLI::App& command)
 {
     command

@@ -104,6 +104,10 @@ double numberOption(const std::string& option, const std::string& text, double m
 std::vector<uint32_t> unsignedListOption(const std::string& option, const std::string& text,
                                          uint32_t min, uint32_t max);
 
+// Adds the option --warm-up, whose value is a number of seconds from 0 to maxWarmUpSeconds.
+void addWarmUpTo(CLI::App& command, std::string& seconds);
+constexpr double maxWarmUpSeconds = 60;
+
 // The largest width and height of an image in pixels. It is the limit of the engine's modules.
 constexpr uint32_t maxSide = 16384;
 

@@ -31,7 +31,8 @@ struct ProfileArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string frames = "60", path = "still", json, csv, trace, lightCosts;
+    std::string frames = "60", warmUp = "0", framesInFlight = "1", path = "still";
+    std::string json, csv, trace, lightCosts;
     std::vector<std::string> ab;
     bool append = false;
 };
@@ -113,6 +114,12 @@ ProfilePlan plan(const ProfileArguments& a)
     if (!a.trace.empty() && rounds > maxTracedFrames)
         throw UsageError(
             fmt::format("--frames {}: --trace holds at most {}", a.frames, maxTracedFrames));
+    const uint32_t inFlight =
+        unsignedOption("--frames-in-flight", a.framesInFlight, 1, maxFramesInFlight);
+    if (!a.trace.empty() && inFlight > 1)
+        throw UsageError(fmt::format("--frames-in-flight {}: --trace needs one frame in flight, "
+                                     "because clocks are compared while the GPU is idle",
+                                     inFlight));
     if (!a.lightCosts.empty()) {
         unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);
         if (!a.ab.empty() || a.frame.cullingMode() != CND_CULLING_CLUSTERED)
@@ -124,9 +131,13 @@ ProfilePlan plan(const ProfileArguments& a)
                 "--light-costs: needs the given influence radii, so it cannot be combined "
                 "with --influence uncut or --influence-error");
     }
-    ProfilePlan p{.scene = a.scene.options(a.scene.lightCount()),
-                  .gbufferLayout = a.frame.gbufferLayout(),
-                  .settings = {.path = cameraPath(a.path), .rounds = rounds}};
+    ProfilePlan p{
+        .scene = a.scene.options(a.scene.lightCount()),
+        .gbufferLayout = a.frame.gbufferLayout(),
+        .settings = {.path = cameraPath(a.path),
+                     .rounds = rounds,
+                     .warmUpSeconds = numberOption("--warm-up", a.warmUp, 0, maxWarmUpSeconds),
+                     .framesInFlight = inFlight}};
     if (a.ab.empty()) {
         p.names = {"frame"};
         p.settings.variants = {frameOptions(a.frame)};
@@ -164,7 +175,11 @@ Json describe(const ProgramContext& program, const ProfileArguments& a, const Pr
              {"image",
               {{"widthPixels", renderer.size().width}, {"heightPixels", renderer.size().height}}},
              {"path", a.path},
-             {"warmUp", {{"rounds", profile.warmUpRounds}, {"settled", profile.settled}}},
+             {"framesInFlight", p.settings.framesInFlight},
+             {"warmUp",
+              {{"rounds", profile.warmUpRounds},
+               {"secondsAtLeast", p.settings.warmUpSeconds},
+               {"settled", profile.settled}}},
              {"variants", variants}};
     if (!a.ab.empty())
         out["comparison"] = comparisonJson(profile.series[0], profile.series[1]);
@@ -210,6 +225,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     Renderer renderer(context, scene,
                       {.size = size,
                        .gbufferLayout = p.gbufferLayout,
+                       .framesInFlight = p.settings.framesInFlight,
                        .specularMethods = methods,
                        .influenceByError = byError,
                        .stamps = true});
@@ -263,7 +279,14 @@ void addProfileCommand(CLI::App& app, Run& run)
     command
         ->add_option("--frames", a->frames,
                      "number of frames to measure, after warm-up frames until times are stable (at "
-                     "most 24)")
+                     "most 24, or as --warm-up says)")
+        ->type_name("N")
+        ->capture_default_str();
+    addWarmUpTo(*command, a->warmUp);
+    command
+        ->add_option("--frames-in-flight", a->framesInFlight,
+                     "frames that the CPU records before it waits for the oldest of them; with 1 "
+                     "the GPU is idle between frames, and the clock of some GPUs drops")
         ->type_name("N")
         ->capture_default_str();
     command
@@ -304,12 +327,12 @@ void addProfileCommand(CLI::App& app, Run& run)
     a->frame.addCullingTo(*command);
     a->frame.addInfluenceTo(*command);
     a->device.addTo(*command);
-    command->footer("Frames are drawn one at a time: each is waited for before the next begins. "
-                    "Times of passes "
-                    "are the GPU's.\n\n"
+    command->footer("By default frames are drawn one at a time: each is waited for before the next "
+                    "begins. Times of passes are the GPU's.\n\n"
                     "Examples:\n"
                     "  candelabra profile hall --lights 16000\n"
                     "  candelabra profile hall --path turn --frames 120 --csv frames.csv\n"
+                    "  candelabra profile hall --warm-up 2 --frames-in-flight 2 --frames 200\n"
                     "  candelabra profile hall --light-costs 20\n"
                     "  candelabra profile hall --frames 20 --trace trace.json\n"
                     "  candelabra profile hall --ab '--specular karis' '--specular conic'");

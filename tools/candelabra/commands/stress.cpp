@@ -23,7 +23,7 @@ struct StressArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string lights = "1000,4000,16000", frames = "10", check = "auto";
+    std::string lights = "1000,4000,16000", frames = "10", warmUp = "0", check = "auto";
     std::string directory = "out", json;
 };
 
@@ -57,7 +57,9 @@ StressSettings settingsOf(const StressArguments& a)
                       .reuse = a.frame.reuseMode(),
                       .exposure = a.frame.exposureSettings()},
             .lightsVisible = a.frame.lightsVisibleOverride(),
-            .counts = {.warmUp = 2, .measured = unsignedOption("--frames", a.frames, 1, 1'000'000)},
+            .counts = {.warmUp = 2,
+                       .measured = unsignedOption("--frames", a.frames, 1, 1'000'000),
+                       .warmUpSeconds = numberOption("--warm-up", a.warmUp, 0, maxWarmUpSeconds)},
             .check = checkExtent(a.check),
             .directory = a.directory};
 }
@@ -158,6 +160,7 @@ void addStressCommand(CLI::App& app, Run& run)
     command->add_option("--frames", a->frames, "measured frames per count, after 2 to warm up")
         ->type_name("N")
         ->capture_default_str();
+    addWarmUpTo(*command, a->warmUp);
     command
         ->add_option("--check", a->check,
                      "pixels compared with brute force: auto (all up to 16384 lights, beyond "

@@ -251,6 +251,7 @@ Json stressJson(const StressSettings& settings, const std::vector<StressPoint>& 
             {"widthPixels", settings.size.width},
             {"heightPixels", settings.size.height},
             {"warmUpFrames", settings.counts.warmUp},
+            {"warmUpSeconds", settings.counts.warmUpSeconds},
             {"settings", frame},
             {"points", list}};
 }

@@ -97,12 +97,17 @@ void FrameRing::submit(VkSemaphore wait, VkSemaphore signal)
     current_ = (current_ + 1) % slots();
 }
 
+void FrameRing::wait(uint32_t slot) const
+{
+    if (slots_[slot].used)
+        check(vkWaitForFences(context_.desc().device, 1, &slots_[slot].done, VK_TRUE, UINT64_MAX),
+              "waiting for a frame");
+}
+
 void FrameRing::wait() const
 {
-    for (const Slot& slot : slots_)
-        if (slot.used)
-            check(vkWaitForFences(context_.desc().device, 1, &slot.done, VK_TRUE, UINT64_MAX),
-                  "waiting for a frame");
+    for (uint32_t slot = 0; slot < slots(); ++slot)
+        wait(slot);
 }
 
 } // namespace candelabra::app

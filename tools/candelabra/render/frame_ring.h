@@ -31,6 +31,8 @@ public:
     // Ends and submits what was recorded since begin(). Colour output and transfers wait for the
     // semaphore `wait`; `signal` is signalled when the whole frame is finished. Both may be null.
     void submit(VkSemaphore wait = VK_NULL_HANDLE, VkSemaphore signal = VK_NULL_HANDLE);
+    // Waits until the GPU has finished the frame of a slot.
+    void wait(uint32_t slot) const;
     // Waits until the GPU has finished all frames.
     void wait() const;
     uint32_t slots() const { return uint32_t(slots_.size()); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/frame/frames.h"
 
+#include <chrono>
+
 #include <fmt/format.h>
 
 #include "io/table.h"
@@ -18,30 +20,42 @@ MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
     FrameRing ring(context, 2);
     MeasuredFrames out;
     FrameOptions frame = options;
-    const uint32_t total = counts.warmUp + counts.measured;
-    uint32_t collected = 0;
+    uint32_t drawn = 0, collected = 0, lastSlot = 0;
+    uint32_t firstMeasured = UINT32_MAX; // index of the first frame after the warm-up
     const auto collect = [&](uint32_t slot) {
         out.last = renderer.stats(slot);
-        if (collected++ >= counts.warmUp)
+        if (collected++ >= firstMeasured)
             out.times.add(out.last.passes);
     };
-    uint32_t lastSlot = 0;
-    for (uint32_t i = 0; i < total; ++i) {
+    const auto draw = [&] {
         const auto [cmd, slot, reused] = ring.begin();
         if (reused)
             collect(slot);
         renderer.record(cmd, slot, frame);
         ring.submit();
         lastSlot = slot;
+        ++drawn;
+    };
+    while (drawn < counts.warmUp) {
+        draw();
         onFrame();
-        if (moving && i >= counts.warmUp) {
+    }
+    using Clock = std::chrono::steady_clock;
+    for (const auto start = Clock::now();
+         std::chrono::duration<double>(Clock::now() - start).count() < counts.warmUpSeconds;)
+        draw();
+    firstMeasured = drawn;
+    for (uint32_t i = 0; i < counts.measured; ++i) {
+        draw();
+        onFrame();
+        if (moving) {
             frame.time += frameTime;
             frame.deltaTime = float(frameTime);
             frame.resetExposure = false;
         }
     }
     ring.wait();
-    if (total > 1)
+    if (drawn > 1)
         collect(1 - lastSlot);
     collect(lastSlot);
     return out;

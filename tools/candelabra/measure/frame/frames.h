@@ -21,6 +21,9 @@ struct FrameCounts {
     // measured, because the first frame of a pipeline includes its compilation.
     uint32_t warmUp = 1;
     uint32_t measured = 1;
+    // More warm-up frames are drawn for so many seconds, because the clock of a GPU that was idle
+    // rises slowly.
+    double warmUpSeconds = 0;
 };
 
 struct MeasuredFrames {
@@ -31,8 +34,8 @@ struct MeasuredFrames {
 // Renders frames through a frame ring with two slots. Warm-up frames and the first measured frame
 // show `options`. With `moving`, later frames are frameTime apart and exposure adapts; without it
 // all frames are the same. If exposure converges at once (FrameOptions::resetExposure), warm-up
-// frames leave no trace in any image. `onFrame` is called after each frame is submitted. Returns
-// when the GPU has finished.
+// frames leave no trace in any image. `onFrame` is called after each frame is submitted, except
+// those of FrameCounts::warmUpSeconds. Returns when the GPU has finished.
 MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
                             const FrameOptions& options, FrameCounts counts, bool moving,
                             const std::function<void()>& onFrame);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -34,7 +35,8 @@ bool isStable(const std::vector<double>& ms)
 
 } // namespace
 
-void FrameSeries::add(const FrameStats& frame, const CpuSpans& cpu, double stampMs)
+void FrameSeries::add(const FrameStats& frame, const CpuSpans& cpu,
+                      CpuClock::time_point previousDone, double stampMs)
 {
     for (Pass& pass : passes)
         pass.ms.push_back(0);
@@ -52,7 +54,7 @@ void FrameSeries::add(const FrameStats& frame, const CpuSpans& cpu, double stamp
     spanMs.push_back(std::max(0.0, frame.gpuMs - frame.stamps * stampMs));
     uploadMs.push_back(msBetween(cpu.start, cpu.uploaded));
     recordMs.push_back(msBetween(cpu.uploaded, cpu.recorded));
-    frameMs.push_back(msBetween(cpu.start, cpu.done));
+    frameMs.push_back(msBetween(std::max(cpu.start, previousDone), cpu.done));
     stamps.push_back(frame.stamps);
 }
 
@@ -89,18 +91,87 @@ Camera cameraAt(const Camera& camera, CameraPath path, uint32_t i, uint32_t roun
     return turned;
 }
 
+namespace
+{
+
+// Draws frames in a ring, and adds each to a series once the GPU has finished it.
+class RingOfFrames
+{
+public:
+    RingOfFrames(const VulkanContext& context, Renderer& renderer, const ProfileSettings& settings)
+        : renderer_(renderer),
+          moving_(settings.moving),
+          ring_(context, settings.framesInFlight),
+          pending_(settings.framesInFlight)
+    {
+    }
+    // `finish(cpu, stats, previousDone)` is called when the GPU has finished the frame: before
+    // draw() returns if one frame is in flight, else in a later draw() or in finishAll().
+    using Finish =
+        std::function<void(const CpuSpans&, const FrameStats&, CpuClock::time_point previousDone)>;
+    void draw(const FrameOptions& options, Finish finish)
+    {
+        const auto [cmd, slot, reused] = ring_.begin();
+        if (pending_[slot].finish)
+            finished(slot);
+        Pending& frame = pending_[slot] = {.finish = std::move(finish)};
+        frame.cpu.start = CpuClock::now();
+        if (moving_)
+            renderer_.moveLights(options.time);
+        frame.cpu.uploaded = moving_ ? CpuClock::now() : frame.cpu.start;
+        renderer_.record(cmd, slot, options);
+        frame.cpu.recorded = CpuClock::now();
+        ring_.submit();
+        frame.cpu.submitted = CpuClock::now();
+        next_ = (slot + 1) % ring_.slots();
+        if (ring_.slots() == 1)
+            finishAll();
+    }
+    // Waits for the frames in flight, the oldest first.
+    void finishAll()
+    {
+        for (uint32_t i = 0; i < ring_.slots(); ++i) {
+            const uint32_t slot = (next_ + i) % ring_.slots();
+            if (!pending_[slot].finish)
+                continue;
+            ring_.wait(slot);
+            finished(slot);
+        }
+    }
+
+private:
+    struct Pending {
+        CpuSpans cpu{};
+        Finish finish; // empty: the slot has no frame
+    };
+    void finished(uint32_t slot)
+    {
+        Pending frame = std::exchange(pending_[slot], {});
+        frame.cpu.done = CpuClock::now();
+        frame.finish(frame.cpu, renderer_.stats(slot), std::exchange(done_, frame.cpu.done));
+    }
+
+    Renderer& renderer_;
+    bool moving_;
+    FrameRing ring_;
+    std::vector<Pending> pending_; // by slot
+    uint32_t next_ = 0;            // slot of the next frame
+    CpuClock::time_point done_{};  // end of the last finished frame
+};
+
+} // namespace
+
 Profile profileFrames(const VulkanContext& context, Renderer& renderer,
                       const ProfileSettings& settings, ProfileTrace* trace,
                       const std::function<void()>& onRound)
 {
     GpuClock clock(context);
-    FrameRing ring(context, 1);
+    RingOfFrames frames(context, renderer, settings);
     Profile out{.series = std::vector<FrameSeries>(settings.variants.size()),
                 .stampMs = clock.stampMs()};
-    bool traced = false;
     out.last.resize(settings.variants.size());
     double time = settings.variants[0].time;
-    const auto round = [&](uint32_t i, std::vector<FrameSeries>& into) {
+    const auto round = [&](uint32_t i, std::vector<FrameSeries>& into, ProfileTrace* traced) {
         for (size_t k = 0; k < settings.variants.size(); ++k) {
             // The order alternates, so that whatever grows during a round affects all variants
             // alike.
@@ -108,38 +179,39 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
             FrameOptions options = settings.variants[v];
             options.camera = cameraAt(options.camera, settings.path, i, settings.rounds);
             options.time = time;
-            const auto [cmd, slot, reused] = ring.begin();
-            CpuSpans cpu{.start = CpuClock::now()};
-            if (settings.moving)
-                renderer.moveLights(time);
-            cpu.uploaded = settings.moving ? CpuClock::now() : cpu.start;
-            renderer.record(cmd, slot, options);
-            cpu.recorded = CpuClock::now();
-            ring.submit();
-            cpu.submitted = CpuClock::now();
-            ring.wait();
-            cpu.done = CpuClock::now();
-            out.last[v] = renderer.stats(slot);
-            into[v].add(out.last[v], cpu, out.stampMs);
-            if (traced) {
-                clock.calibrate();
-                trace->add(v, cpu, out.last[v], clock);
-            }
+            frames.draw(options, [&, v, traced](const CpuSpans& cpu, const FrameStats& stats,
+                                                CpuClock::time_point previousDone) {
+                into[v].add(stats, cpu, previousDone, out.stampMs);
+                out.last[v] = stats;
+                if (traced) {
+                    clock.calibrate();
+                    traced->add(v, cpu, stats, clock);
+                }
+            });
         }
         if (settings.moving)
             time += frameTime;
-        onRound();
     };
     std::vector<FrameSeries> warmUp(settings.variants.size());
-    while (!out.settled && out.warmUpRounds < maxWarmUp) {
-        round(out.warmUpRounds++, warmUp);
+    const CpuClock::time_point start = CpuClock::now();
+    const auto enough = [&] {
+        return (out.settled || out.warmUpRounds >= maxWarmUp) &&
+               msBetween(start, CpuClock::now()) >= 1000 * settings.warmUpSeconds;
+    };
+    while (!enough()) {
+        round(out.warmUpRounds++, warmUp, nullptr);
+        if (out.warmUpRounds <= maxWarmUp)
+            onRound();
         out.settled = std::all_of(warmUp.begin(), warmUp.end(),
                                   [](const FrameSeries& s) { return isStable(s.frameMs); });
     }
+    frames.finishAll();
     time = settings.variants[0].time;
-    traced = trace != nullptr;
-    for (uint32_t i = 0; i < settings.rounds; ++i)
-        round(i, out.series);
+    for (uint32_t i = 0; i < settings.rounds; ++i) {
+        round(i, out.series, trace);
+        onRound();
+    }
+    frames.finishAll();
     return out;
 }
 

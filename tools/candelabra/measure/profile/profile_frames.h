@@ -29,10 +29,14 @@ struct FrameSeries {
     std::vector<double> spanMs;   // GPU: from the first timestamp of the frame to the last
     std::vector<double> uploadMs; // CPU: moving lights; 0 if nothing moves
     std::vector<double> recordMs; // CPU: recording commands
-    std::vector<double> frameMs;  // from the start of the upload until the GPU has finished
-    std::vector<double> stamps;   // the number of timestamps in the frame
+    // From the start of the upload, or from the end of the previous frame if that was later, until
+    // the GPU has finished.
+    std::vector<double> frameMs;
+    std::vector<double> stamps; // the number of timestamps in the frame
 
-    void add(const FrameStats& frame, const CpuSpans& cpu, double stampMs);
+    // `previousDone` is the end of the previous frame.
+    void add(const FrameStats& frame, const CpuSpans& cpu, CpuClock::time_point previousDone,
+             double stampMs);
     // The sum of the medians of the passes that evaluate the lights of clusters: shade_tiles and
     // shade_unlisted.
     double shadingMs() const;
@@ -66,12 +70,18 @@ struct ProfileSettings {
     CameraPath path = CameraPath::Still;
     bool moving = false; // lights move; a round is a sixtieth of a second
     uint32_t rounds = 1;
+    double warmUpSeconds = 0; // the warm-up takes at least so long
+    // The CPU records so many frames before it waits for the oldest of them, so that with more than
+    // one the GPU is never idle. The renderer must have as many slots.
+    uint32_t framesInFlight = 1;
 };
 
 // Warm-up rounds are drawn until the median of the last warmUpWindow frame times differs from the
-// median of the warmUpWindow before them by at most the share `stable`; maxWarmUp rounds at most.
+// median of the warmUpWindow before them by at most the share `stable`; maxWarmUp rounds at most,
+// or more if ProfileSettings::warmUpSeconds have not passed.
 constexpr uint32_t warmUpWindow = 3, maxWarmUp = 24;
 constexpr double stable = 0.05;
+constexpr uint32_t maxFramesInFlight = 3;
 
 struct Profile {
     std::vector<FrameSeries> series; // one per variant
@@ -87,8 +97,9 @@ ProfilingOverhead overheadOf(const FrameSeries& series, double stampMs);
 // vertical through its position in all rounds.
 Camera cameraAt(const Camera& camera, CameraPath path, uint32_t i, uint32_t rounds);
 
-// Draws one frame at a time, so that no frame waits for another. `onRound` is called after each
-// round, including the warm-up rounds. Measured frames are added to `trace` if it is not null.
+// Draws all rounds. `onRound` is called after each round, except for warm-up rounds beyond
+// maxWarmUp. Measured frames are added to `trace` if it is not null, which needs one frame in
+// flight.
 Profile profileFrames(const VulkanContext& context, Renderer& renderer,
                       const ProfileSettings& settings, ProfileTrace* trace,
                       const std::function<void()>& onRound);

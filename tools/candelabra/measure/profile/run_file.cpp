@@ -25,6 +25,8 @@ ProfiledRun readRun(const std::string& path, const JsonValue& json)
         out.conditions.emplace_back(key, from.member(key).string());
     for (const char* key : {"scene", "image", "path"})
         out.conditions.emplace_back(key, json.member(key).json().dump());
+    const auto inFlight = json.find("framesInFlight"); // runs of older versions had one
+    out.conditions.emplace_back("framesInFlight", inFlight ? inFlight->json().dump() : "1");
     const JsonValue variants = json.member("variants");
     variants.requireArray();
     if (variants.size() != 1)
