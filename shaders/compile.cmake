@@ -6,6 +6,9 @@ file(MAKE_DIRECTORY ${dir})
 if(FAMILY)
     set(family -DLIGHT_FAMILY_${FAMILY})
 endif()
+if(DEFINE)
+    set(family ${family} -D${DEFINE})
+endif()
 set(spv ${OUTPUT}.spv)
 execute_process(
     COMMAND ${GLSLANG} -V --target-env vulkan1.3 --quiet -I${INCLUDE} ${family} --depfile ${OUTPUT}.d.in

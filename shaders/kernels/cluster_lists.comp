@@ -46,6 +46,7 @@ layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
     LightingCounters counters;
 };
 
+#include "kernels/common/count_lanes.glsl"
 #include "kernels/common/cluster_of_lane.glsl"
 #include "kernels/common/list_pages.glsl"
 
@@ -93,6 +94,7 @@ void main()
             for (uint i = first; i < end; ++i)
                 testLight(list, bounds, entries[from * PAGE_WORDS + 1u + i]);
         }
+        COUNT_LISTS(count, 0u)
         expected += count;
         steps += count;
         from = header >> PAGE_COUNT_BITS;
@@ -113,6 +115,7 @@ void main()
     walk.done = walk.done || (byParent && !measure);
     while (!walk.done && steps < params.maxSteps && !(list.full && isBlock)) {
         uint found = 0u;
+        const uint stepsBefore = steps;
         while (!walk.done && found < QUEUE && steps < params.maxSteps) {
             const bool touched = boxTouches(bounds, treeNode(walk));
             if (touched && walk.level == 1u) {
@@ -125,6 +128,7 @@ void main()
                 skipSubtree(params.tree, walk);
             ++steps;
         }
+        COUNT_LISTS(found * TREE_WIDTH, steps - stepsBefore)
         for (uint k = 0u; k < found; ++k) {
             makeRoom(list);
             const uint first = params.tree.firstLight + leaves[k] * TREE_WIDTH;

@@ -4,15 +4,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/shade_receiver.glsl"
 
+layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform Push
 {
     ShadeTilesParams params;
 };
 
+#include "kernels/common/count_lanes.glsl"
 #include "kernels/common/tile_walk.glsl"
 #include "shading/light_walk.glsl"
 
-layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
 
 void main()

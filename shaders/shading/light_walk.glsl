@@ -3,11 +3,16 @@
 // one pass over the list. Then each lane shades the lights that passed; these differ little between
 // neighbours, so the loops diverge little. Each way of evaluation has its own loop and its own sum, in
 // the order of the lights, so results do not depend on where blocks begin.
-// The includer provides uint lightAt(uint k), which returns the k-th light.
+// The includer provides uint lightAt(uint k), which returns the k-th light. It may define COUNT_FOUND,
+// which then counts the tests of a block and the lights that it evaluates in each way.
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 
 #include "shading/light_eval.glsl"
+
+#ifndef COUNT_FOUND
+#define COUNT_FOUND(tests, found)
+#endif
 
 const uint WALK_BLOCK = 64u; // lights of a block, which are the bits of two words
 
@@ -138,6 +143,7 @@ vec3 total(Sums sums)
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
     const Found found = findLights(r, first, count, testInfluence);
+    COUNT_FOUND(count, found)
 #ifdef LIGHT_FAMILY_CONIC
     if (HAS_BUDGET) {
         SHADE_FOUND(sums.asPoint, r, first, found.asPoint, evaluateAsPoint)

@@ -42,11 +42,11 @@ std::string benchOutput(const std::string& directory, const std::string& option,
 void addBenchCommand(CLI::App& app, Run& run)
 {
     CLI::App* bench = app.add_subcommand(
-        "bench",
-        "Measure accuracy, numerical stability, culling, compiled code, and what skipping saves");
+        "bench", "Measure accuracy, stability, culling, skips, compiled code and the use of lanes");
     bench->require_subcommand(1);
     addBenchAccuracy(*bench, run);
     addBenchCulling(*bench, run);
+    addBenchLanes(*bench, run);
     addBenchPipelines(*bench, run);
     addBenchSkip(*bench, run);
     addBenchStability(*bench, run);

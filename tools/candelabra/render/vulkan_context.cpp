@@ -94,7 +94,7 @@ VulkanContext::VulkanContext(const ContextOptions& options)
              .instance = instance_.get(),
              .physicalDevice = info_.handle,
              .device = device_,
-             .getInstanceProcAddr = vkGetInstanceProcAddr,
+             .getInstanceProcAddr = options.engineFunctions,
              .pipelineCache = VK_NULL_HANDLE,
              .allocationCallbacks = nullptr,
              .debugUtilsEnabled = instance_.debugUtils()};

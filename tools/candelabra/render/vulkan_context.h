@@ -17,6 +17,8 @@ struct ContextOptions {
     std::string device; // `wanted` of chooseDevice
     Validation validation = Validation::Off;
     Presentation presentation = Presentation::Headless;
+    // Where the engine finds Vulkan's functions.
+    PFN_vkGetInstanceProcAddr engineFunctions = vkGetInstanceProcAddr;
 };
 
 class VulkanContext
