@@ -74,18 +74,23 @@ def toys_are_computed_by_hand():
 def measurements_stand_beside_predictions():
     profile = {"provenance": {"device": "A Toy GPU"}, "image": {"widthPixels": 10, "heightPixels": 10},
                "scene": {"name": "hall", "lights": 5},
-               "variants": [{"time": {"passes": [{"name": "cluster_lists", "medianMs": 3},
+               "variants": [{"time": {"upload": {"medianMs": 0}, "passes": [{"name": "cluster_lists", "medianMs": 3},
                                                  {"name": "tone_map", "medianMs": 99}]}}]}
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "profile.json"
-        path.write_text(json.dumps(profile))
-        gpu = gpu_model.Gpu("toy", MODEL, PIPELINES)
-        require(next(gpu_model.rows(gpu, LANES, [path]))[-1] == "3.00", "a measurement is not shown")
-        require(next(gpu_model.rows(gpu_model.Gpu("simds", MODEL, PIPELINES), LANES, [path]))[-1] == "-",
-                "a measurement of another GPU is shown")
-        profile["image"]["widthPixels"] = 11
-        path.write_text(json.dumps(profile))
-        require(next(gpu_model.rows(gpu, LANES, [path]))[-1] == "-", "a measurement of another size is shown")
+
+        def lighting(content, gpu="toy"):
+            path.write_text(json.dumps(content))
+            return next(gpu_model.rows(gpu_model.Gpu(gpu, MODEL, PIPELINES), LANES, [path]))[4]
+
+        predicted = lighting([])
+        require(lighting(profile) == f"{predicted} (3.00)", f"a measurement is not shown: {lighting(profile)}")
+        require(lighting([profile]) == f"{predicted} (3.00)", "a measurement of several is not shown")
+        require("(" not in lighting(profile, "simds"), "a measurement of another GPU is shown")
+        wider, moving = json.loads(json.dumps([profile, profile]))
+        wider["image"]["widthPixels"] = 11
+        moving["variants"][0]["time"]["upload"]["medianMs"] = 1
+        require(lighting([wider, moving]) == predicted, "a measurement of another size or of moving lights is shown")
 
 
 def committed_records_fit_the_model():
