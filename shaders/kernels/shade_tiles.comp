@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the light of each cluster's list to the scene radiance, in the tiles of a work list.
+// Adds the light of each cluster's list to the scene radiance, in the tiles of a work list. A group of
+// lanes takes a tile, and each lane a pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/shade_receiver.glsl"
@@ -16,25 +17,109 @@ layout(push_constant, scalar) uniform Push
 
 layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
 
-void main()
+Receiver receiverAt(uvec2 pixel, float depth)
 {
-    uint tile;
-    uvec2 pixel;
-    if (!takeTile(tile, pixel))
-        return;
-    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == frameParams.clearDepth)
-        return;
+    return makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
+                        frameParams.sampleCount, pixelSeed(pixel));
+}
+
+void addToRadiance(uvec2 pixel, vec3 light)
+{
+    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
+    imageStore(radianceImage, ivec2(pixel), before + vec4(light, 0.0));
+}
+
+// Each lane evaluates all lights of its pixel.
+void shadeAlone(uint tile, uvec2 pixel, float depth)
+{
     Block block = beginWalk(tile, depth);
     if (block.count == 0u)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
-                                    frameParams.sampleCount, pixelSeed(pixel));
+    const Receiver r = receiverAt(pixel, depth);
     Sums sums = noLight();
     do { // a lane that is done may run once more (Mesa 22.3); its block is then empty
         shadeBlock(sums, r, block.first, block.count, true);
         block = nextBlock(block);
     } while (block.count != 0u);
-    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
-    imageStore(radianceImage, ivec2(pixel), before + vec4(total(sums), 0.0));
+    addToRadiance(pixel, total(sums));
+}
+
+#ifdef LIGHT_FAMILY_CONIC
+#include "kernels/common/pair_queues.glsl"
+
+layout(constant_id = SPEC_QUEUES_PAIRS) const uint queuesPairs = 0u;
+
+// Returns the receiver of a pixel of the group's tile.
+Receiver receiverInTile(uint tile, uint lane)
+{
+    const uvec2 pixel = pixelOfTile(tile, lane);
+    return receiverAt(pixel, texelFetch(depthImage, ivec2(pixel), 0).x);
+}
+
+// The lanes evaluate the lights of all their pixels together. All lanes of the group call it.
+void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
+{
+    beginQueues();
+    Block block = Block(0u, 0u, 0u);
+    if (surface)
+        block = beginWalk(tile, depth);
+    const bool lit = block.count != 0u;
+    Unqueued left = nothingToQueue();
+    Sums sums = noLight();
+    bool more;
+    uint step = 0u;
+    do {
+        // A lane takes a new block once all pairs of its last one are queued.
+        const bool fresh = isEmpty(left) && block.count != 0u;
+        Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+        if (fresh) {
+            found = findLights(receiverAt(pixel, depth), block.first, block.count, true);
+            left = Unqueued(block.first, uvec2[QUEUES](found.near, found.general, uvec2(0u)));
+        }
+        const bool queuesAbove = queueingAboveIsFaster(found.above);
+        if (fresh) {
+            if (queuesAbove) {
+                left.inQueue[QUEUE_ABOVE] = found.above;
+                found.above = uvec2(0u);
+            }
+            shadeInPlace(sums, receiverAt(pixel, depth), block.first, found);
+            block = nextBlock(block);
+        }
+        const OwnPairs own = queuePairs(left);
+        more = endOfStep(++step, !isEmpty(left) || block.count != 0u);
+        EVALUATE_QUEUE(QUEUE_NEAR, tile, evaluateNear)
+        EVALUATE_QUEUE(QUEUE_ACROSS, tile, evaluateGeneral)
+        EVALUATE_QUEUE(QUEUE_ABOVE, tile, evaluateAbove)
+        barrier();
+        emptyQueues();
+        addResponses(nearLight[gl_LocalInvocationIndex], QUEUE_NEAR, own);
+        addResponses(acrossLight[gl_LocalInvocationIndex], QUEUE_ACROSS, own);
+        addResponses(sums.above, QUEUE_ABOVE, own);
+        barrier();
+    } while (more);
+    sums.near = nearLight[gl_LocalInvocationIndex];
+    sums.general = acrossLight[gl_LocalInvocationIndex];
+    if (lit)
+        addToRadiance(pixel, total(sums));
+}
+#else
+const uint queuesPairs = 0u;
+void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
+{
+}
+#endif
+
+void main()
+{
+    uint tile;
+    if (!takeTile(tile))
+        return;
+    const uvec2 pixel = pixelOfTile(tile, gl_LocalInvocationIndex);
+    const float depth =
+        isInImage(pixel) ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    const bool surface = depth != frameParams.clearDepth;
+    if (queuesPairs != 0u)
+        shadeTogether(tile, pixel, depth, surface);
+    else if (surface)
+        shadeAlone(tile, pixel, depth);
 }

@@ -139,19 +139,27 @@ vec3 total(Sums sums)
     return (sums.asPoint + sums.above) + (sums.near + sums.general);
 }
 
+// Adds the lights of a block that are evaluated as points or above the horizon to the sums.
+void shadeInPlace(inout Sums sums, Receiver r, uint first, Found found)
+{
+#ifdef LIGHT_FAMILY_CONIC
+    if (HAS_BUDGET) {
+        SHADE_FOUND(sums.asPoint, r, first, found.asPoint, evaluateAsPoint)
+    }
+#endif
+#ifdef HAS_SPHERES
+    SHADE_FOUND(sums.above, r, first, found.above, evaluateAbove)
+#endif
+}
+
 // Adds the light of a block to the sums. The parameters are those of findLights.
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
     const Found found = findLights(r, first, count, testInfluence);
     COUNT_FOUND(count, found)
+    shadeInPlace(sums, r, first, found);
 #ifdef LIGHT_FAMILY_CONIC
-    if (HAS_BUDGET) {
-        SHADE_FOUND(sums.asPoint, r, first, found.asPoint, evaluateAsPoint)
-    }
     SHADE_FOUND(sums.near, r, first, found.near, evaluateNear)
-#endif
-#ifdef HAS_SPHERES
-    SHADE_FOUND(sums.above, r, first, found.above, evaluateAbove)
 #endif
 #ifdef LIGHT_FAMILY_ALL
     // All lights of the block are of one type. Each family has its own loop, so that a device that pays

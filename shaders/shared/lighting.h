@@ -178,6 +178,8 @@ const uint SPEC_ERROR_BUDGET = 4u;     // 1: FrameParams::errorBudget may be > 0
 const uint SPEC_TILE_CLASS = 5u;   // CLASS_* of the tiles: which work list, which lobe is absent
 const uint SPEC_TILE_CLASSES = 6u; // tile_clusters: mask of 1 << CLASS_*, the classes to find
 
+const uint SPEC_QUEUES_PAIRS = 7u; // shade_tiles: 1: lanes evaluate dear lights together
+
 // The lowest alpha of the specular lobe. Below it a float32 NoH cannot resolve the peak (measured:
 // the relative error of D is up to 7e-5 at 0.002 and grows as 1 / alpha^2).
 const float MIN_ALPHA = 0.002f;

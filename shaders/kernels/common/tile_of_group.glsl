@@ -29,22 +29,41 @@ uint clusterOf(uint tile, float depth)
     return tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
 }
 
-// Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
-// outside the image.
-bool takeTile(out uint tile, out uvec2 pixel)
+// Sets the tile of this workgroup. Returns false after the last tile.
+bool takeTile(out uint tile)
 {
     const WorkList work = works[tileClass];
     const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     tile = 0u;
-    pixel = uvec2(0u);
     if (at >= work.count)
         return false;
     // Takes every second tile of the work list first, then the others. Some devices divide the groups
     // into equal consecutive shares, and tiles that take longer are at the end of the list.
     const uint firsts = (work.count + 1u) / 2u;
     tile = workTiles[work.first + (at < firsts ? 2u * at : 2u * (at - firsts) + 1u)];
-    pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(gl_LocalInvocationIndex);
+    return true;
+}
+
+// Returns a pixel of a tile. It may be outside the image.
+uvec2 pixelOfTile(uint tile, uint pixelInTile)
+{
+    return firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(pixelInTile);
+}
+
+bool isInImage(uvec2 pixel)
+{
     return all(lessThan(pixel, frameParams.size));
+}
+
+// Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
+// outside the image.
+bool takeTile(out uint tile, out uvec2 pixel)
+{
+    pixel = uvec2(0u);
+    if (!takeTile(tile))
+        return false;
+    pixel = pixelOfTile(tile, gl_LocalInvocationIndex);
+    return isInImage(pixel);
 }
 
 #endif
