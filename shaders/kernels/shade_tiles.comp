@@ -82,11 +82,14 @@ void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
                 left.inQueue[QUEUE_ABOVE] = found.above;
                 found.above = uvec2(0u);
             }
+            COUNT_FOUND(block.count, Found(uvec2(0u), found.above, uvec2(0u), uvec2(0u)))
             shadeInPlace(sums, receiverAt(pixel, depth), block.first, found);
             block = nextBlock(block);
         }
         const OwnPairs own = queuePairs(left);
         more = endOfStep(++step, !isEmpty(left) || block.count != 0u);
+        COUNT_QUEUES(fresh, turnsInQueue(QUEUE_NEAR), turnsInQueue(QUEUE_ACROSS),
+                     turnsInQueue(QUEUE_ABOVE))
         EVALUATE_QUEUE(QUEUE_NEAR, tile, evaluateNear)
         EVALUATE_QUEUE(QUEUE_ACROSS, tile, evaluateGeneral)
         EVALUATE_QUEUE(QUEUE_ABOVE, tile, evaluateAbove)

@@ -48,7 +48,7 @@ def loop(name, slots32, longest):
 LANES = {"widthPixels": 10, "heightPixels": 10,
          "points": [{"scene": "hall", "lights": 5, "tiles": 16, "splitTiles": 0,
                      "dispatches": [{"name": "cluster_lists, tiles", "loops": [loop("light tests", 320, 4)]},
-                                    {"name": "shade_tiles", "loops": [loop("near it", 64, 1)]}]}]}
+                                    {"name": "shade_tiles, own pixels", "loops": [loop("near it", 64, 1)]}]}]}
 
 
 def toys_are_computed_by_hand():

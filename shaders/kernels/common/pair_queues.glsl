@@ -125,6 +125,13 @@ bool endOfStep(uint step, bool more)
     return lastStep == step;
 }
 
+// Returns how many pairs of a queue this lane evaluates.
+uint turnsInQueue(uint queue)
+{
+    const uint length = min(wanted[queue], QUEUE_ROOM);
+    return (length + QUEUE_LANES - 1u - gl_LocalInvocationIndex) / QUEUE_LANES;
+}
+
 // Evaluates the pairs of a queue. The includer provides Receiver receiverInTile(uint tile, uint lane).
 #define EVALUATE_QUEUE(queue, tile, evaluate)                                                      \
     {                                                                                              \
