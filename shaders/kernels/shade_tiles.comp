@@ -66,30 +66,31 @@ void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
     const bool lit = block.count != 0u;
     Unqueued left = nothingToQueue();
     Sums sums = noLight();
-    bool more;
+    bool unqueued = false, unfinished; // whether some lane has pairs left to queue, or blocks to take
     uint step = 0u;
     do {
-        // A lane takes a new block once all pairs of its last one are queued.
-        const bool fresh = isEmpty(left) && block.count != 0u;
-        Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
-        if (fresh) {
-            found = findLights(receiverAt(pixel, depth), block.first, block.count, true);
-            left = Unqueued(block.first, uvec2[QUEUES](found.near, found.general, uvec2(0u)));
-        }
-        const bool queuesAbove = queueingAboveIsFaster(found.above);
-        if (fresh) {
-            if (queuesAbove) {
+        // Lanes take their next blocks together, once all pairs of the last ones are queued.
+        if (!unqueued) {
+            Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+            if (block.count != 0u) {
+                found = findLights(receiverAt(pixel, depth), block.first, block.count, true);
+                left = Unqueued(block.first, uvec2[QUEUES](found.near, found.general, uvec2(0u)));
+            }
+            if (queueingAboveIsFaster(found.above)) {
                 left.inQueue[QUEUE_ABOVE] = found.above;
                 found.above = uvec2(0u);
             }
             COUNT_FOUND(block.count, Found(uvec2(0u), found.above, uvec2(0u), uvec2(0u)))
-            shadeInPlace(sums, receiverAt(pixel, depth), block.first, found);
-            block = nextBlock(block);
+            if (block.count != 0u) {
+                shadeInPlace(sums, receiverAt(pixel, depth), block.first, found);
+                block = nextBlock(block);
+            }
         }
         const OwnPairs own = queuePairs(left);
-        more = endOfStep(++step, !isEmpty(left) || block.count != 0u);
-        COUNT_QUEUES(fresh, turnsInQueue(QUEUE_NEAR), turnsInQueue(QUEUE_ACROSS),
-                     turnsInQueue(QUEUE_ABOVE))
+        endOfStep(++step, !isEmpty(left), block.count != 0u);
+        unqueued = lastUnqueued == step;
+        unfinished = lastUnfinished == step;
+        COUNT_QUEUES(turnsInQueue(QUEUE_NEAR), turnsInQueue(QUEUE_ACROSS), turnsInQueue(QUEUE_ABOVE))
         EVALUATE_QUEUE(QUEUE_NEAR, tile, evaluateNear)
         EVALUATE_QUEUE(QUEUE_ACROSS, tile, evaluateGeneral)
         EVALUATE_QUEUE(QUEUE_ABOVE, tile, evaluateAbove)
@@ -99,7 +100,7 @@ void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
         addResponses(acrossLight[gl_LocalInvocationIndex], QUEUE_ACROSS, own);
         addResponses(sums.above, QUEUE_ABOVE, own);
         barrier();
-    } while (more);
+    } while (unqueued || unfinished);
     sums.near = nearLight[gl_LocalInvocationIndex];
     sums.general = acrossLight[gl_LocalInvocationIndex];
     if (lit)

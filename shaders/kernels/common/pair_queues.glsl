@@ -21,7 +21,8 @@ const uint QUEUES = 3u;
 const uint PAIR_LANE_BITS = 6u;
 
 shared uint wanted[QUEUES]; // pairs that the lanes wanted to append; those beyond QUEUE_ROOM wait
-shared uint lastStep;       // the last step that some lane has not finished
+shared uint lastUnqueued;   // the last step in which some lane found no room for all of its pairs
+shared uint lastUnfinished; // the last step in which some lane had more blocks to take
 shared uint aboveTotal;     // number of lights above the horizon that all lanes have found in a step
 shared uint aboveLargest;   // the largest such number of one lane
 // A pair and then, when it is evaluated, the bits of the response in its place.
@@ -44,7 +45,7 @@ void beginQueues()
 {
     emptyQueues();
     if (gl_LocalInvocationIndex == 0u)
-        lastStep = 0u;
+        lastUnqueued = lastUnfinished = 0u;
     nearLight[gl_LocalInvocationIndex] = vec3(0.0);
     acrossLight[gl_LocalInvocationIndex] = vec3(0.0);
     barrier();
@@ -115,14 +116,14 @@ OwnPairs queuePairs(inout Unqueued left)
     return own;
 }
 
-// Waits until all lanes have appended their pairs. Returns whether some lane has more to do. `step`
-// grows from call to call, and begins with 1.
-bool endOfStep(uint step, bool more)
+// Waits until all lanes have appended their pairs. `step` grows from call to call, and begins with 1.
+void endOfStep(uint step, bool unqueued, bool unfinished)
 {
-    if (more)
-        atomicMax(lastStep, step);
+    if (unqueued)
+        atomicMax(lastUnqueued, step);
+    if (unfinished)
+        atomicMax(lastUnfinished, step);
     barrier();
-    return lastStep == step;
 }
 
 // Returns how many pairs of a queue this lane evaluates.
