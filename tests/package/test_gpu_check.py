@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests tools/gpu_check: a bundle made from a build runs both of its parts, quickly, in a folder with a space
+in its name and with next to nothing in the environment, and its archives become records and tables in a copy
+of the documents. Usage: test_gpu_check.py SOURCE BUILD; everything is written to BUILD/gpu_check."""
+import io
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tarfile
+
+source, build = map(pathlib.Path, sys.argv[1:3])
+work = build / "gpu_check"
+bundle = work / "a bundle"
+device = os.environ.get("CANDELABRA_TEST_DEVICE")
+BARE = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"}
+BARE |= {name: value for name, value in os.environ.items() if name.startswith("VK_")}  # where the driver is
+
+
+def run(*command, environment=os.environ, status=0):
+    """Returns what the command prints; ends the test if its exit status is another one."""
+    print("$", *command, flush=True)
+    done = subprocess.run([str(c) for c in command], env=environment, cwd=work, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    print(done.stdout, flush=True)
+    if done.returncode != status:
+        sys.exit(f"ended with {done.returncode} where {status} was expected")
+    return done.stdout
+
+
+def require(condition, why):
+    if not condition:
+        sys.exit(why)
+
+
+shutil.rmtree(work, ignore_errors=True)
+work.mkdir()
+run(source / "tools/gpu_check", "bundle", bundle, "--no-build", environment=os.environ | {"CANDELABRA_BUILD": str(build)})
+size = sum(p.stat().st_size for p in bundle.rglob("*") if p.is_file())
+require(size < 60e6, f"the bundle has {size} bytes")
+for path in bundle.rglob("*"):
+    require(not path.is_symlink(), f"{path} is a link, which may not survive a copy")
+
+chosen = ["--device", device] if device else []
+output = {part: run(bundle / "run", part, "--quick", "--out", work / "results", *chosen, environment=BARE)
+          for part in ("correctness", "performance")}
+for part, text in output.items():
+    require("Everything ran and passed." in text and len(text) < 12000, f"{part} printed {len(text)} characters")
+require(" 0 failed, 0 skipped, 0 stopped, 0 not run" in output["correctness"], "not all tests passed")
+run(bundle / "run", "correctness", "--minutes", "x", environment=BARE, status=2)
+# Time that is too short is no success.
+short = run(bundle / "run", "performance", "--quick", "--out", work / "short", "--minutes", "1", *chosen,
+            environment=BARE | {"CANDELABRA_CHECK_RESERVE": "58"}, status=3)
+require("LEFT OUT for lack of time: profile_hall_200_64x36" in short, "what was left out is not said")
+
+# The archives become records and tables, but not those of quick runs.
+copy = work / "copy"
+for name in ("README.md", "tools/update_results", "tools/gpu_model", "tools/bench/gpu_model.json",
+             "tools/bench/RESULTS.md"):
+    (copy / name).parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy(source / name, copy / name)
+shutil.copytree(source / "tools/bench/results", copy / "tools/bench/results")
+for part in output:
+    archive = work / f"results/gpu_check-{part}.tar.gz"
+    refused = run(copy / "tools/update_results", archive, status=1)
+    require("--quick" in refused, "a quick run was not refused")
+    measured = work / archive.name
+    with tarfile.open(archive) as quick, tarfile.open(measured, "w:gz") as tar:
+        for member in quick:
+            if member.isfile() and not member.name.endswith("/QUICK"):
+                tar.addfile(member, io.BytesIO(quick.extractfile(member).read()))
+    run(copy / "tools/update_results", measured)
+profile, = (copy / "tools/bench/results").glob("profile-*.json")
+run_record = json.loads(profile.read_text())[0]
+require(run_record["provenance"]["commandLine"].startswith("candelabra profile hall --lights 200 "),
+        f"the record names {run_record['provenance']['commandLine']}")
+page = (copy / "tools/bench/RESULTS.md").read_text()
+for wanted in (f"### {run_record['provenance']['device']}, ", " GPU tests passed", "| hall, 200, moving | 64x36 |"):
+    require(wanted in page, f"RESULTS.md has no {wanted}")
+run(copy / "tools/update_results", "--check")
