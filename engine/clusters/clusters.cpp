@@ -22,6 +22,9 @@ constexpr VkDeviceSize pageBytes = gpu::PAGE_WORDS * sizeof(uint32_t);
 static_assert(gpu::UNLISTED_BITS + CND_LIGHT_TYPE_COUNT <= gpu::LIT_BITS &&
               gpu::LIT_BITS + CND_LIGHT_TYPE_COUNT <= gpu::CLASS_BITS);
 
+// A group of light_tree reads the children of the children of one node.
+static_assert(gpu::LIGHT_TREE_GROUP == gpu::TREE_WIDTH * gpu::TREE_WIDTH);
+
 constexpr uint32_t maxRow = 65535; // groups that every device takes in one dimension
 
 // With more lights than this, blocks find their lights in the tree instead of in the lists of the
@@ -57,7 +60,8 @@ VkDeviceSize workBytes(uint32_t lists, uint32_t items)
 ClusterKernels::ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host,
                                uint32_t gbuffer, uint32_t tileClasses)
     : lightTree(device, spirv::light_tree_comp,
-                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}}),
+                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
+                 {gpu::SPEC_LANES_TOGETHER, !device.lanesAreCpuVector}}),
       tileClusters(device, host.of(spirv::tile_clusters_comp),
                    {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_TILE_CLASSES, tileClasses}},
                    host.setLayout()),
@@ -65,7 +69,9 @@ ClusterKernels::ClusterKernels(const gpu::Device& device, const surfaces::HostKe
                  host.setLayout()),
       blockClusters(device, spirv::block_clusters_comp),
       clusterLists(device, spirv::cluster_lists_comp,
-                   {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)}})
+                   {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
+                    {gpu::SPEC_LANES_TOGETHER, !device.lanesAreCpuVector}}),
+      lanesTogether(!device.lanesAreCpuVector)
 {
 }
 
@@ -124,7 +130,7 @@ Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
     tiles_ = make("tiles", VkDeviceSize(records) * sizeof(gpu::TileClusters), storageUse);
     clusters_ = make("clusters", VkDeviceSize(clusterCount_) * sizeof(gpu::Cluster), storageUse);
     surfaces_ = make("surface tiles", tileWorkBytes(), workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    splits_ = make("split tiles", workBytes(1, splitCapacity_),
+    splits_ = make("split tiles", workBytes(2, splitCapacity_),
                    workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     entries_ = make("list entries", std::max(sizes.listBudget, 2 * pageBytes), storageUse);
 }
@@ -219,6 +225,12 @@ void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const 
                              Binding::of(CLUSTER_LISTS_COUNTERS, in.counters)});
 }
 
+// Returns how many groups of cluster_lists make so many lists.
+uint32_t Clusters::listGroups(uint32_t lists) const noexcept
+{
+    return kernels_.lanesTogether ? lists : divideUp(lists, gpu::CLUSTER_LISTS_GROUP);
+}
+
 const gpu::Buffer& Clusters::tilesToShade(uint32_t type) const
 {
     return isDistant(type) ? surfaces_ : lists_[type].lit;
@@ -226,8 +238,10 @@ const gpu::Buffer& Clusters::tilesToShade(uint32_t type) const
 
 void Clusters::recordReset(const gpu::Frame& f, const LightTypeCounts& types) const noexcept
 {
-    const gpu::WorkList noSplits{.groupsX = gpu::SPLIT_ROW, .groupsZ = 1};
-    f.device.CmdUpdateBuffer(f.cmd, splits_.get(), 0, sizeof noSplits, &noSplits);
+    // Work of split_tiles, and of cluster_lists for the slices that split_tiles makes.
+    const gpu::WorkList noSplits[] = {{.groupsX = gpu::SPLIT_ROW, .groupsZ = 1},
+                                      {.groupsX = listGroups(gpu::SLICE_ROW), .groupsZ = 1}};
+    f.device.CmdUpdateBuffer(f.cmd, splits_.get(), 0, sizeof noSplits, noSplits);
     const auto reset = [&](const gpu::Buffer& work) {
         gpu::WorkList none[gpu::TILE_CLASSES];
         for (uint32_t i = 0; i < gpu::TILE_CLASSES; ++i)
@@ -252,8 +266,10 @@ void Clusters::recordTree(const gpu::Frame& f, const gpu::TreeShape& tree) const
         const uint32_t lower = divideUp(params.childCount, gpu::TREE_WIDTH);
         const uint32_t upper = divideUp(lower, gpu::TREE_WIDTH);
         params.upperFirst = params.lowerFirst + lower;
-        kernels_.lightTree.dispatch(f, treeSets_.set(f.slot), params,
-                                    divideUp(upper, gpu::LIGHT_TREE_GROUP));
+        const uint32_t groups =
+            kernels_.lanesTogether ? upper : divideUp(upper, gpu::LIGHT_TREE_GROUP);
+        kernels_.lightTree.dispatch(f, treeSets_.set(f.slot), params, std::min(groups, maxRow),
+                                    divideUp(groups, maxRow));
         f.barrier();
         params = {.childFirst = params.upperFirst,
                   .childCount = upper,
@@ -310,8 +326,8 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
                                    .which = gpu::LISTS_OF_BLOCKS,
                                    .tileCountX = tileCount.x,
                                    .tileCountY = tileCount.y};
-    const auto dispatch = [&](uint32_t lanes) {
-        const uint32_t groups = divideUp(lanes, gpu::CLUSTER_LISTS_GROUP);
+    const auto dispatch = [&](uint32_t lists) {
+        const uint32_t groups = listGroups(lists);
         kernel.dispatch(f, set, params, std::min(groups, maxRow), divideUp(groups, maxRow));
     };
     for (size_t i = level.size() - 1; i > 0; --i) {
@@ -331,8 +347,7 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
     params.which = gpu::LISTS_OF_SLICES;
     params.firstCluster = firstSplit();
     params.clusterCount = splitCapacity_ * gpu::SLICES;
-    static_assert(gpu::CLUSTER_LISTS_GROUP == gpu::SPLIT_TILES_GROUP);
-    kernel.dispatchIndirect(f, set, params, splits_);
+    kernel.dispatchIndirect(f, set, params, splits_, sizeof(gpu::WorkList));
 }
 
 } // namespace candelabra::lighting

@@ -24,6 +24,9 @@ struct ClusterKernels {
     gpu::Kernel<gpu::TileClustersParams> tileClusters, splitTiles;
     gpu::Kernel<gpu::BlockClustersParams> blockClusters;
     gpu::Kernel<gpu::ClusterListsParams> clusterLists;
+    // The lanes of a group of lightTree or clusterLists work on one node or list together
+    // (SPEC_LANES_TOGETHER).
+    bool lanesTogether;
 };
 
 // Returns the byte offset of the work list of a material class in a buffer with one list per class.
@@ -115,6 +118,7 @@ private:
     uint32_t firstSplit() const { return maxTileCount(); } // first cluster of split tiles
     VkDeviceSize tileWorkBytes() const;
     Lists createLists() const;
+    uint32_t listGroups(uint32_t lists) const noexcept;
 
     const gpu::Device& device_;
     const ClusterKernels& kernels_;

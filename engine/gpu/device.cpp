@@ -198,12 +198,12 @@ std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice p
     if (!getProperties2)
         return {"an instance of Vulkan 1.1 or newer"};
     getProperties2(physicalDevice, &properties2);
-    constexpr VkSubgroupFeatureFlags subgroupNeeds = // used by count_pairs
+    constexpr VkSubgroupFeatureFlags subgroupNeeds = // used by count_pairs and cluster_lists
         VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
-        VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+        VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
     if ((core11.subgroupSupportedOperations & subgroupNeeds) != subgroupNeeds ||
         !(core11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT))
-        missing.emplace_back("subgroup votes and arithmetic in compute shaders");
+        missing.emplace_back("subgroup votes, ballots and arithmetic in compute shaders");
 
     const auto getFormat = reinterpret_cast<PFN_vkGetPhysicalDeviceFormatProperties>(
         getInstanceProcAddr(instance, "vkGetPhysicalDeviceFormatProperties"));

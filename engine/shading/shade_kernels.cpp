@@ -60,7 +60,7 @@ gpu::Kernel<Params> ShadeKernels::makeKernel(std::span<const gpu::Spirv* const> 
                                 {gpu::SPEC_GBUFFER, gbuffer_},
                                 {gpu::SPEC_ERROR_BUDGET, withBudget},
                                 {gpu::SPEC_TILE_CLASS, tileClass},
-                                {gpu::SPEC_QUEUES_PAIRS, !device_->lanesAreCpuVector}},
+                                {gpu::SPEC_LANES_TOGETHER, !device_->lanesAreCpuVector}},
                                host_->setLayout());
 }
 

@@ -47,7 +47,7 @@ void shadeAlone(uint tile, uvec2 pixel, float depth)
 #ifdef LIGHT_FAMILY_CONIC
 #include "kernels/common/pair_queues.glsl"
 
-layout(constant_id = SPEC_QUEUES_PAIRS) const uint queuesPairs = 0u;
+layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = false;
 
 // Returns the receiver of a pixel of the group's tile.
 Receiver receiverInTile(uint tile, uint lane)
@@ -107,7 +107,7 @@ void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
         addToRadiance(pixel, total(sums));
 }
 #else
-const uint queuesPairs = 0u;
+const bool lanesTogether = false;
 void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
 {
 }
@@ -122,7 +122,7 @@ void main()
     const float depth =
         isInImage(pixel) ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
     const bool surface = depth != frameParams.clearDepth;
-    if (queuesPairs != 0u)
+    if (lanesTogether)
         shadeTogether(tile, pixel, depth, surface);
     else if (surface)
         shadeAlone(tile, pixel, depth);

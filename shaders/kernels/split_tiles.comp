@@ -12,7 +12,7 @@ layout(scalar, binding = TILE_CLUSTERS_TILES) readonly buffer Tiles
 };
 layout(scalar, binding = TILE_CLUSTERS_SPLITS) readonly buffer Splits
 {
-    WorkList splits;
+    WorkList splits, slices;
     uint splitTiles[];
 };
 

@@ -21,7 +21,7 @@ layout(scalar, binding = TILE_CLUSTERS_SURFACES) buffer Surfaces
 };
 layout(scalar, binding = TILE_CLUSTERS_SPLITS) buffer Splits
 {
-    WorkList splits;
+    WorkList splits, slices; // slices: arguments of cluster_lists alone
     uint splitTiles[];
 };
 
@@ -67,6 +67,8 @@ void main()
         const uint perGroup = SPLIT_TILES_GROUP / SLICES;
         if (split % (SPLIT_ROW * perGroup) == 0u)
             atomicAdd(splits.groupsY, 1u);
+        if (split % (SLICE_ROW / SLICES) == 0u)
+            atomicAdd(slices.groupsY, 1u);
         splitTiles[split] = tile;
         const uint shift = uint(findMSB(highest - lowest) + 1 - int(SLICE_BITS));
         tiles[tile] =

@@ -17,7 +17,8 @@ const uint TREE_LEVELS = 8u; // the most levels, for 8^8 lights
 // lights, in view space, in metres.
 const uint TREE_NODE_STRIDE = 2u;
 
-// --- light_tree: builds two levels from the level below, one lane per node of the upper level
+// --- light_tree: builds two levels from the level below, one group per node of the upper level
+// with a lane per child of its children, or one lane per node of the upper level
 const uint LIGHT_TREE_GROUP = 64u;
 const uint LIGHT_TREE_CORE = 0u;
 const uint LIGHT_TREE_CORE_WORDS = 1u;
@@ -94,8 +95,9 @@ struct WorkList {
     uint count, first;
 };
 GPU_SIZE(WorkList, 20)
-const uint TILE_ROW = 256u; // one group per tile
-const uint SPLIT_ROW = 8u;  // SPLIT_TILES_GROUP / SLICES tiles per group
+const uint TILE_ROW = 256u;  // one group per tile
+const uint SPLIT_ROW = 8u;   // SPLIT_TILES_GROUP / SLICES tiles per group
+const uint SLICE_ROW = 256u; // slices whose lists one row of groups makes
 
 // --- tile_clusters: bounds of each tile, one lane per tile. With 128 lanes per group,
 // 16384 x 16384 pixels need 32768 groups; every device allows 65535.
@@ -135,8 +137,12 @@ struct BlockClustersParams {
 GPU_SIZE(BlockClustersParams, 28)
 
 // --- cluster_lists: makes the ordered list of a cluster from the list of its parent or from the
-// tree; one lane per cluster
-const uint CLUSTER_LISTS_GROUP = 64u;
+// tree; one group per cluster, or one lane. 32 lanes are one subgroup of many GPUs, which then need
+// no barriers, and a word has a bit for each. With 64, short lists would leave more lanes idle.
+const uint CLUSTER_LISTS_GROUP = 32u;
+// Specialisation constant: lanes of a group: 8, 16 or 32. Tests choose fewer
+// than CLUSTER_LISTS_GROUP, so that a group is one subgroup on devices with small ones.
+const uint SPEC_LISTS_LANES = 8u;
 const uint CLUSTER_LISTS_CORE = 0u;
 const uint CLUSTER_LISTS_CORE_WORDS = 1u;
 const uint CLUSTER_LISTS_NODES = 2u;

@@ -94,22 +94,34 @@ TEST_F(LightingTest, StatsOfFramesThatNeverWereAreAnError)
     }
 }
 
-// What the engine chooses for GPUs, such as reading lights from storage buffers, gives the bits of
-// what it chooses for llvmpipe.
+// What the engine chooses for GPUs, such as reading lights from storage buffers and making lists by
+// groups of lanes, gives the bits of what it chooses for llvmpipe, also with little memory for
+// lists.
 TEST_F(LightingTest, FormsForGpusGiveTheSameBits)
 {
     const CpuGBuffer g = randomGBuffer(96, 64, 12);
-    const CndDeviceDesc gpu = gpuLike(deviceDesc());
-    for (const CndLightType type : {CND_LIGHT_SPHERE, CND_LIGHT_TUBE}) {
-        const auto lights = lightsOf(type, g, 500, 12);
-        const RunOptions options{.specular = CND_SPECULAR_CONIC};
-        RunOptions onGpu = options;
-        onGpu.host = &gpu;
-        const LightingResult expected = run(g, lights, options);
-        const LightingResult got = run(g, lights, onGpu);
-        EXPECT_TRUE(sameBits(got, expected)) << type;
-        EXPECT_EQ(got.stats.listEntries, expected.stats.listEntries) << type;
+    std::vector<CndLight> mixed;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        const auto ofType = lightsOf(CndLightType(type), g, 40, 12 + type);
+        mixed.insert(mixed.end(), ofType.begin(), ofType.end());
     }
+    const CndDeviceDesc gpu = gpuLike(deviceDesc());
+    const auto compare = [&](const std::vector<CndLight>& lights, VkDeviceSize listBudget) {
+        RunOptions options{.specular = CND_SPECULAR_CONIC, .listBudget = listBudget};
+        const LightingResult expected = run(g, lights, options);
+        options.host = &gpu;
+        const LightingResult got = run(g, lights, options);
+        EXPECT_TRUE(sameBits(got, expected));
+        if (listBudget == 0) {
+            EXPECT_EQ(got.stats.listEntries, expected.stats.listEntries);
+        } else {
+            EXPECT_GT(got.stats.unlistedClusters, 0u);
+        }
+    };
+    compare(lightsOf(CND_LIGHT_SPHERE, g, 500, 12), 0);
+    compare(lightsOf(CND_LIGHT_SPHERE, g, 2000, 13), 4096);
+    compare(lightsOf(CND_LIGHT_TUBE, g, 500, 12), 0);
+    compare(mixed, 0);
 }
 
 // The pairs that lanes evaluate together (kernels/common/pair_queues.glsl) are those that each lane

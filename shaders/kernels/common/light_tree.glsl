@@ -13,12 +13,18 @@ layout(scalar, binding = TREE_NODE_WORDS) readonly buffer TreeWords
     vec4 treeWords[];
 };
 
-Box treeNode(TreeWalk walk)
+// Returns the box with this index in the node buffer.
+Box treeBox(uint node)
 {
-    const uint at = treeNodeIndex(walk) * TREE_NODE_STRIDE;
+    const uint at = node * TREE_NODE_STRIDE;
     if (lightsAsTexels != 0u)
         return Box(texelFetch(treeTexels, int(at)).xyz, texelFetch(treeTexels, int(at + 1u)).xyz);
     return Box(treeWords[at].xyz, treeWords[at + 1u].xyz);
+}
+
+Box treeNode(TreeWalk walk)
+{
+    return treeBox(treeNodeIndex(walk));
 }
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the cluster whose list a lane of cluster_lists makes, and appends tiles to the work lists. The
+// Finds the cluster of each list that cluster_lists makes, and appends tiles to the work lists. The
 // includer provides params, counters, tiles[] and splits.
-#ifndef CND_COMMON_CLUSTER_OF_LANE
-#define CND_COMMON_CLUSTER_OF_LANE
+#ifndef CND_COMMON_CLUSTER_OF_LIST
+#define CND_COMMON_CLUSTER_OF_LIST
 
 layout(scalar, binding = CLUSTER_LISTS_LIT) buffer Lit
 {
@@ -15,19 +15,18 @@ layout(scalar, binding = CLUSTER_LISTS_UNLISTED) buffer Unlisted
     uint unlistedTiles[];
 };
 
-// Sets the cluster of this lane. Returns false if the lane has none.
-bool takeCluster(out uint at)
+// Sets `at` to the cluster of a list. Lists are counted from 0 in each dispatch. Returns false if there
+// is none.
+bool clusterOfList(uint list, out uint at)
 {
-    const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    const uint lane = group * CLUSTER_LISTS_GROUP + gl_LocalInvocationIndex;
-    at = params.firstCluster + lane;
+    at = params.firstCluster + list;
     if (params.which != LISTS_OF_TILES)
-        return lane < (params.which == LISTS_OF_BLOCKS
+        return list < (params.which == LISTS_OF_BLOCKS
                            ? params.clusterCount
                            : min(splits.count * SLICES, params.clusterCount));
     const uint perBlock = BLOCK_SIDE * BLOCK_SIDE;
     const uint blocksX = (params.tileCountX + BLOCK_SIDE - 1u) / BLOCK_SIDE;
-    const uint block = lane / perBlock, inBlock = lane % perBlock;
+    const uint block = list / perBlock, inBlock = list % perBlock;
     const uvec2 tile = BLOCK_SIDE * uvec2(block % blocksX, block / blocksX) +
                        uvec2(inBlock % BLOCK_SIDE, inBlock / BLOCK_SIDE);
     if (any(greaterThanEqual(tile, uvec2(params.tileCountX, params.tileCountY))))
@@ -37,7 +36,7 @@ bool takeCluster(out uint at)
            tiles[at].lowest <= tiles[at].highest;
 }
 
-// Appends a tile to a work list unless another lane has done so for this light type.
+// Appends a tile to a work list unless another cluster's lane has done so for this light type.
 #define APPEND_TILE(works, workTiles, tile, firstBit)                                              \
     const uint bit = 1u << ((firstBit) + params.lightType);                                        \
     const uint before = atomicOr(tiles[tile].onLists, bit);                                        \

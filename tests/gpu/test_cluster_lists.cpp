@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: Apache-2.0
+// light_tree and cluster_lists have a form for GPUs, in which the lanes of a group work together,
+// and one for llvmpipe, in which each lane works by itself. Both must make the same boxes and the
+// same lists, to the bit.
+#include <algorithm>
+#include <random>
+
+#include "candelabra_shaders.h"
+#include "gpu/kernel.h"
+#include "harness/gpu_fixture.h"
+#include "shared/clusters.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+using Lights = std::vector<std::vector<uint32_t>>; // per cluster
+
+// A set of lights and clusters: tiles, slices of split tiles, blocks, and blocks of blocks.
+struct Scene {
+    static constexpr glm::uvec2 tileCount = {21, 10};
+    static constexpr uint32_t tiles = tileCount.x * tileCount.y, splitTiles = 9,
+                              slices = splitTiles * gpu::SLICES, blocks = 60, largeBlocks = 7;
+    static constexpr uint32_t firstSlice = tiles, firstBlock = firstSlice + slices,
+                              firstLarge = firstBlock + blocks, clusters = firstLarge + largeBlocks;
+    gpu::TreeShape tree{};
+    std::vector<glm::vec4> core;
+    std::vector<gpu::Cluster> cluster;
+    std::vector<gpu::TileClusters> tile;
+};
+
+// What the kernels have made.
+struct Made {
+    std::vector<glm::vec4> nodes;
+    std::vector<uint32_t> heads, entries;
+    std::vector<uint32_t> lit, unlisted; // tiles, sorted
+    gpu::LightingCounters counters;
+};
+
+// How the lanes of a group work.
+struct Form {
+    bool together;
+    uint32_t lanes = gpu::CLUSTER_LISTS_GROUP; // of a group of cluster_lists
+};
+constexpr Form byLane{false}, byGroup{true};
+
+struct Limits {
+    uint32_t pages = 1u << 15, longest = UINT32_MAX, maxUnlistedSteps = UINT32_MAX;
+};
+
+// Lights lie along a curve through a cube of 20 m, as the sorted lights of the engine do, so that
+// the boxes of the tree are small. One in eight is in none of the frame's layers.
+void addLights(Scene& s, uint32_t count, std::mt19937& random)
+{
+    std::uniform_real_distribution<float> unit(0, 1);
+    s.tree = {.firstLight = 5, .lightCount = count, .firstNode = 3};
+    const float reach = 8.0f / std::cbrt(float(count));
+    for (uint32_t i = 0; i < s.tree.firstLight + count; ++i) {
+        const float t = float(i) / float(count) * 200;
+        const glm::vec3 centre(10 * std::sin(t) + unit(random), 10 * std::cos(1.7f * t),
+                               -30 - 10 * std::sin(0.6f * t) + unit(random));
+        const float radius = reach * (0.2f + 2 * unit(random) * unit(random));
+        const bool none = i % 8 == 5;
+        s.core.emplace_back(centre, none ? gpu::BOUNDING_RADIUS_OF_NONE : 0.1f * radius);
+        s.core.emplace_back(1, 1, 1, none ? gpu::INFLUENCE2_OF_NONE : radius * radius);
+    }
+}
+
+// Returns a cluster of a block whose box is `share` as long as that of its parent, in which it
+// lies.
+gpu::Cluster clusterIn(const Scene& s, uint32_t parent, float share, std::mt19937& random)
+{
+    std::uniform_real_distribution<float> unit(0, 1);
+    const glm::vec3 whole = s.cluster[parent].max - s.cluster[parent].min;
+    const glm::vec3 first =
+        s.cluster[parent].min +
+        whole * (1 - share) * glm::vec3(unit(random), unit(random), unit(random));
+    return {.min = first,
+            .max = first + share * whole,
+            .parent = parent,
+            .slabMin = -1e6f,
+            .slabMax = 1e6f,
+            .minCos = 0};
+}
+
+// Adds to a cluster what clusters of tiles have besides: a slab, a cone of normals, a cone of
+// samples. One cluster in five has no sample.
+void makeClusterOfTile(gpu::Cluster& c, uint32_t tile, std::mt19937& random)
+{
+    std::uniform_real_distribution<float> unit(0, 1);
+    const glm::vec3 middle = 0.5f * (c.min + c.max);
+    const float size = 0.5f * glm::distance(c.min, c.max);
+    c.tile = tile;
+    c.axis = glm::normalize(glm::vec3(unit(random), unit(random), unit(random)) - 0.5f);
+    c.slabMin = glm::dot(c.axis, middle) - 0.5f * size;
+    c.slabMax = glm::dot(c.axis, middle) + 0.5f * size;
+    c.minCos = 0.9f * unit(random);
+    c.ray = glm::normalize(middle);
+    c.slope = size / glm::length(middle);
+    if (random() % 5 == 0)
+        std::swap(c.min, c.max);
+}
+
+// `largest`: length of the boxes of large blocks, as a share of the cube.
+Scene randomScene(uint32_t lights, uint32_t seed, float largest = 0.6f)
+{
+    Scene s;
+    std::mt19937 random(seed);
+    addLights(s, lights, random);
+    s.cluster.resize(Scene::clusters);
+    s.cluster[0] = {.min = {-10, -10, -40}, .max = {10, 10, -20}};
+    const auto parent = [&](uint32_t first, uint32_t count) {
+        return first + uint32_t(random()) % count;
+    };
+    for (uint32_t i = Scene::firstLarge; i < Scene::clusters; ++i)
+        s.cluster[i] = clusterIn(s, 0, largest, random);
+    for (uint32_t i = Scene::firstBlock; i < Scene::firstLarge; ++i)
+        s.cluster[i] = clusterIn(s, parent(Scene::firstLarge, Scene::largeBlocks), 0.5f, random);
+    for (uint32_t i = 0; i < Scene::firstBlock; ++i) {
+        s.cluster[i] = clusterIn(s, parent(Scene::firstBlock, Scene::blocks), 0.5f, random);
+        const uint32_t tile = i < Scene::tiles ? i : (i - Scene::firstSlice) / gpu::SLICES;
+        makeClusterOfTile(s.cluster[i], tile, random);
+    }
+    for (uint32_t i = 0; i < Scene::tiles; ++i)
+        if (i < Scene::splitTiles)
+            s.tile.push_back({Scene::firstSlice + i * gpu::SLICES, 0, 7, 1, 0});
+        else if (i % 11 == 0) // without a surface
+            s.tile.push_back({0, 1, 0, gpu::UNSPLIT, 0});
+        else
+            s.tile.push_back({i, 0, 7, gpu::UNSPLIT, (i % 2) << gpu::CLASS_BITS});
+    return s;
+}
+
+// Returns the tiles of the work lists of all classes, sorted.
+std::vector<uint32_t> tilesOf(const gpu::Buffer& work)
+{
+    const auto words = work.as<uint32_t>();
+    const uint32_t* tiles =
+        words.data() + gpu::TILE_CLASSES * sizeof(gpu::WorkList) / sizeof(uint32_t);
+    std::vector<uint32_t> out;
+    for (const gpu::WorkList& list : work.as<gpu::WorkList>().first(gpu::TILE_CLASSES))
+        out.insert(out.end(), tiles + list.first, tiles + list.first + list.count);
+    std::ranges::sort(out);
+    return out;
+}
+
+// Returns the lights of each list, and nothing for lists without pages.
+Lights lightsOf(const Made& made)
+{
+    Lights out;
+    for (const uint32_t head : made.heads) {
+        std::vector<uint32_t>& lights = out.emplace_back();
+        if (head == gpu::LIST_UNLISTED || head == gpu::LIST_LONG)
+            continue;
+        for (uint32_t page = head; page;) {
+            const uint32_t* words = made.entries.data() + page * gpu::PAGE_WORDS;
+            const uint32_t count = words[0] & ((1u << gpu::PAGE_COUNT_BITS) - 1);
+            lights.insert(lights.end(), words + 1, words + 1 + count);
+            page = words[0] >> gpu::PAGE_COUNT_BITS;
+        }
+    }
+    return out;
+}
+
+class ClusterListsTest : public GpuTest
+{
+protected:
+    // Runs light_tree and cluster_lists as Clusters::recordTree and recordLists do.
+    Made make(const Scene& s, Form form, const Limits& limits = {});
+
+private:
+    gpu::Buffer workOfTiles(const char* name) const;
+    void recordTree(const gpu::Frame& f, const Scene& s, const gpu::Kernel<gpu::LightTreeParams>& k,
+                    VkDescriptorSet set, Form form);
+    void recordLists(const gpu::Frame& f, const Scene& s, const Limits& limits,
+                     const gpu::Kernel<gpu::ClusterListsParams>& k, VkDescriptorSet set, Form form);
+};
+
+gpu::Buffer ClusterListsTest::workOfTiles(const char* name) const
+{
+    gpu::Buffer work =
+        readback(name, gpu::TILE_CLASSES * (sizeof(gpu::WorkList) + 4 * Scene::tiles));
+    for (uint32_t i = 0; i < gpu::TILE_CLASSES; ++i)
+        work.as<gpu::WorkList>()[i].first = i * Scene::tiles;
+    return work;
+}
+
+void ClusterListsTest::recordTree(const gpu::Frame& f, const Scene& s,
+                                  const gpu::Kernel<gpu::LightTreeParams>& k, VkDescriptorSet set,
+                                  Form form)
+{
+    gpu::LightTreeParams p{.childFirst = s.tree.firstLight,
+                           .childCount = s.tree.lightCount,
+                           .lowerFirst = s.tree.firstNode,
+                           .fromLights = 1};
+    while (p.childCount > (p.fromLights ? 0 : gpu::TREE_WIDTH)) {
+        const uint32_t lower = gpu::divideUp(p.childCount, gpu::TREE_WIDTH);
+        const uint32_t upper = gpu::divideUp(lower, gpu::TREE_WIDTH);
+        p.upperFirst = p.lowerFirst + lower;
+        // In several rows: large trees have more groups than one row.
+        k.dispatch(f, set, p, gpu::divideUp(upper, form.together ? 3 : gpu::LIGHT_TREE_GROUP),
+                   form.together ? 3 : 1);
+        fullBarrier(f.cmd);
+        p = {.childFirst = p.upperFirst, .childCount = upper, .lowerFirst = p.upperFirst + upper};
+    }
+}
+
+void ClusterListsTest::recordLists(const gpu::Frame& f, const Scene& s, const Limits& limits,
+                                   const gpu::Kernel<gpu::ClusterListsParams>& k,
+                                   VkDescriptorSet set, Form form)
+{
+    gpu::ClusterListsParams p{.tree = s.tree,
+                              .pageCount = limits.pages / 2,
+                              .longest = UINT32_MAX,
+                              .maxSteps = UINT32_MAX,
+                              .maxUnlistedSteps = limits.maxUnlistedSteps,
+                              .lightType = 2,
+                              .tileCountX = Scene::tileCount.x,
+                              .tileCountY = Scene::tileCount.y};
+    const auto dispatch = [&](uint32_t which, uint32_t first, uint32_t count, uint32_t lists) {
+        p.which = which;
+        p.firstCluster = first;
+        p.clusterCount = count;
+        k.dispatch(f, set, p, form.together ? lists : gpu::divideUp(lists, form.lanes));
+        fullBarrier(f.cmd);
+    };
+    dispatch(gpu::LISTS_OF_BLOCKS, Scene::firstLarge, Scene::largeBlocks, Scene::largeBlocks);
+    p.hasParents = 1;
+    dispatch(gpu::LISTS_OF_BLOCKS, Scene::firstBlock, Scene::blocks, Scene::blocks);
+    p.pageCount = limits.pages;
+    p.longest = limits.longest;
+    constexpr uint32_t side = gpu::BLOCK_SIDE;
+    dispatch(gpu::LISTS_OF_TILES, 0, 0,
+             gpu::divideUp(Scene::tileCount.x, side) * gpu::divideUp(Scene::tileCount.y, side) *
+                 side * side);
+    dispatch(gpu::LISTS_OF_SLICES, Scene::firstSlice, Scene::slices, Scene::slices + 40);
+}
+
+Made ClusterListsTest::make(const Scene& s, Form form, const Limits& limits)
+{
+    using namespace gpu;
+    Buffer core = upload("lights", s.core);
+    createTexelView(device(), core);
+    const uint32_t nodeCount = s.tree.firstNode + s.tree.lightCount / 7 + 2 * TREE_LEVELS;
+    Buffer nodes = upload("nodes", std::vector<glm::vec4>(nodeCount * TREE_NODE_STRIDE));
+    createTexelView(device(), nodes);
+    const Buffer clusters = upload("clusters", s.cluster), tiles = upload("tiles", s.tile);
+    const Buffer splits = readback("splits", sizeof(WorkList));
+    splits.as<WorkList>()[0].count = Scene::splitTiles;
+    const Buffer heads = readback("heads", Scene::clusters * sizeof(uint32_t));
+    const Buffer entries = readback("entries", limits.pages * PAGE_WORDS * sizeof(uint32_t));
+    const Buffer counters = readback("counters", sizeof(LightingCounters));
+    const Buffer lit = workOfTiles("lit"), unlisted = workOfTiles("unlisted");
+
+    // Both ways to read lights, one with each form.
+    const SpecConstant together{SPEC_LANES_TOGETHER, form.together},
+        texels{SPEC_LIGHTS_AS_TEXELS, !form.together};
+    const Kernel<LightTreeParams> tree(device(), spirv::light_tree_comp, {together, texels});
+    const Kernel<ClusterListsParams> lists(device(), spirv::cluster_lists_comp,
+                                           {together, texels, {SPEC_LISTS_LANES, form.lanes}});
+    const Bindings treeSet = tree.createBindings(1), listSet = lists.createBindings(1);
+    treeSet.write(0,
+                  {Binding::ofTexels(LIGHT_TREE_CORE, core),
+                   Binding::of(LIGHT_TREE_CORE_WORDS, core), Binding::of(LIGHT_TREE_NODES, nodes)});
+    listSet.write(
+        0,
+        {Binding::ofTexels(CLUSTER_LISTS_CORE, core), Binding::of(CLUSTER_LISTS_CORE_WORDS, core),
+         Binding::ofTexels(CLUSTER_LISTS_NODES, nodes),
+         Binding::of(CLUSTER_LISTS_NODE_WORDS, nodes),
+         Binding::of(CLUSTER_LISTS_CLUSTERS, clusters), Binding::of(CLUSTER_LISTS_TILES, tiles),
+         Binding::of(CLUSTER_LISTS_SPLITS, splits), Binding::of(CLUSTER_LISTS_LISTS, heads),
+         Binding::of(CLUSTER_LISTS_ENTRIES, entries), Binding::of(CLUSTER_LISTS_LIT, lit),
+         Binding::of(CLUSTER_LISTS_UNLISTED, unlisted),
+         Binding::of(CLUSTER_LISTS_COUNTERS, counters)});
+    Timer timer(device(), "lists", 1, false);
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        timer.begin(cmd, 0);
+        const Frame f{device(), cmd, timer, 0};
+        recordTree(f, s, tree, treeSet.set(0), form);
+        recordLists(f, s, limits, lists, listSet.set(0), form);
+    });
+    const auto copy = []<typename T>(std::span<T> values) {
+        return std::vector<T>(values.begin(), values.end());
+    };
+    return {.nodes = copy(nodes.as<glm::vec4>()),
+            .heads = copy(heads.as<uint32_t>()),
+            .entries = copy(entries.as<uint32_t>()),
+            .lit = tilesOf(lit),
+            .unlisted = tilesOf(unlisted),
+            .counters = counters.as<LightingCounters>()[0]};
+}
+
+// Returns how many clusters have this head.
+long countHeads(const Made& made, uint32_t head, uint32_t end = Scene::clusters)
+{
+    return std::count(made.heads.begin(), made.heads.begin() + end, head);
+}
+
+} // namespace
+
+TEST_F(ClusterListsTest, GroupsAndLanesMakeTheSame)
+{
+    uint64_t longest = 0;
+    for (const uint32_t lights : {1, 7, 8, 9, 63, 64, 65, 300, 511, 513, 4095, 5000, 33000}) {
+        const Scene scene = randomScene(lights, lights);
+        const Made lanes = make(scene, byLane), group = make(scene, byGroup);
+        EXPECT_EQ(std::memcmp(lanes.nodes.data(), group.nodes.data(),
+                              lanes.nodes.size() * sizeof(glm::vec4)),
+                  0)
+            << lights;
+        const Lights listed = lightsOf(group);
+        EXPECT_EQ(listed, lightsOf(lanes)) << lights;
+        for (const auto& list : listed)
+            EXPECT_TRUE(std::ranges::is_sorted(list)) << lights;
+        EXPECT_EQ(group.lit, lanes.lit) << lights;
+        EXPECT_TRUE(group.unlisted.empty() && lanes.unlisted.empty()) << lights;
+        EXPECT_EQ(group.counters.listEntries, lanes.counters.listEntries) << lights;
+        EXPECT_EQ(group.counters.maxListLength, lanes.counters.maxListLength) << lights;
+        longest = std::max<uint64_t>(longest, group.counters.maxListLength);
+    }
+    EXPECT_GT(longest, 3 * gpu::PAGE_LIGHTS);
+}
+
+// On GPUs a group is mostly one subgroup, whose lanes need no shared memory to agree. Groups of
+// fewer lanes make that so on devices with smaller subgroups too.
+TEST_F(ClusterListsTest, GroupsOfAnySizeMakeTheSame)
+{
+    const Scene scene = randomScene(5000, 9);
+    const Lights expected = lightsOf(make(scene, byGroup));
+    for (const uint32_t lanes : {8, 16})
+        EXPECT_EQ(lightsOf(make(scene, {true, lanes})), expected) << lanes;
+}
+
+// The tree of a million lights has seven levels, one more than the tree of 33,000.
+TEST_F(ClusterListsTest, GroupsAndLanesMakeTheSameOfAMillionLights)
+{
+    // Each walk is short enough for llvmpipe, which ends loops after 65535 turns.
+    const Scene scene = randomScene(1'000'000, 3, 0.25f);
+    const Limits limits{.pages = 1u << 17};
+    const Made lanes = make(scene, byLane, limits), group = make(scene, byGroup, limits);
+    EXPECT_EQ(lightsOf(group), lightsOf(lanes));
+    EXPECT_EQ(group.lit, lanes.lit);
+    EXPECT_EQ(group.counters.listEntries, lanes.counters.listEntries);
+    EXPECT_GT(group.counters.listEntries, 1000u);
+}
+
+// Which lists find pages depends on the schedule. Those that do hold the same lights as with enough
+// pages, and all others are marked.
+TEST_F(ClusterListsTest, ListsOfGroupsWithoutRoomAreMarked)
+{
+    const Scene scene = randomScene(5000, 6);
+    const Made whole = make(scene, byGroup);
+    const Lights expected = lightsOf(whole);
+    for (const Form form : {byLane, byGroup}) {
+        const Made few = make(scene, form, {.pages = 60});
+        const Lights got = lightsOf(few);
+        for (uint32_t i = 0; i < Scene::clusters; ++i)
+            if (few.heads[i] != gpu::LIST_UNLISTED && few.heads[i] != gpu::LIST_LONG) {
+                EXPECT_EQ(got[i], expected[i]) << i;
+            }
+        const long unlisted = countHeads(few, gpu::LIST_UNLISTED, Scene::firstBlock);
+        EXPECT_GT(unlisted, 10);
+        EXPECT_EQ(few.counters.unlistedClusters, unlisted);
+        EXPECT_FALSE(few.unlisted.empty());
+    }
+}
+
+// On devices that limit loops, lists that are too long to be walked, and unlisted clusters with too
+// long a walk through the tree, are marked as long.
+TEST_F(ClusterListsTest, LongListsOfGroupsAreMarked)
+{
+    const Scene scene = randomScene(5000, 6);
+    const Limits limits{.longest = 15};
+    const Made lanes = make(scene, byLane, limits), group = make(scene, byGroup, limits);
+    EXPECT_GT(countHeads(group, gpu::LIST_LONG), 10);
+    for (uint32_t i = 0; i < Scene::clusters; ++i)
+        EXPECT_EQ(group.heads[i] == gpu::LIST_LONG, lanes.heads[i] == gpu::LIST_LONG) << i;
+    EXPECT_EQ(lightsOf(group), lightsOf(lanes));
+    EXPECT_EQ(group.unlisted, lanes.unlisted);
+
+    const Limits noPages{.pages = 2, .maxUnlistedSteps = 300};
+    const Made emptyLanes = make(scene, byLane, noPages),
+               emptyGroup = make(scene, byGroup, noPages);
+    EXPECT_GT(countHeads(emptyGroup, gpu::LIST_LONG, Scene::firstBlock), 10);
+    for (uint32_t i = 0; i < Scene::clusters; ++i)
+        if (emptyGroup.heads[i] != gpu::LIST_EMPTY) {
+            EXPECT_EQ(emptyGroup.heads[i], emptyLanes.heads[i]) << i;
+        }
+}
+
+} // namespace candelabra::test
