@@ -95,7 +95,6 @@ public:
     // lists, these are all tiles with a surface.
     const gpu::Buffer& tilesToShade(uint32_t type) const;
     const gpu::Buffer& tiles() const { return tiles_; }
-    const gpu::Buffer& clusters() const { return clusters_; }
     const gpu::Buffer& entries() const { return entries_; }
     const gpu::Buffer& nodes() const { return nodes_; }
     const gpu::Buffer& splits() const { return splits_; }

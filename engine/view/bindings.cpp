@@ -99,7 +99,6 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
                             uniforms, radiance, dfg, ltc, tiles, heads, entries, toShade});
     sets_.shadeUnlisted.write(set, {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0,
                                     depth, uniforms, radiance, dfg, ltc, tiles, heads, unlisted,
-                                    Binding::of(SHADE_CLUSTERS, clusters_.clusters()),
                                     Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
                                     Binding::of(SHADE_NODE_WORDS, clusters_.nodes())});
     // Every binding needs an image, even if the frame has no pairImage and count_pairs writes none.

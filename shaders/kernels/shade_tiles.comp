@@ -45,9 +45,8 @@ void shadeAlone(uint tile, uvec2 pixel, float depth)
 }
 
 #ifdef LIGHT_FAMILY_CONIC
-#include "kernels/common/pair_queues.glsl"
-
 layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = false;
+#include "kernels/common/pair_queues.glsl"
 
 // Returns the receiver of a pixel of the group's tile.
 Receiver receiverInTile(uint tile, uint lane)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights the pixels whose cluster has no list, by walking the light tree: with the same lights in the
-// same order, so with the same bits, but more slowly. On devices that limit loops, clusters with too
-// many lights are lit in batches, which are parts of the tree.
+// same order, so with the same bits, but more slowly. Each pixel walks the nodes whose box holds it. On
+// devices that limit loops, clusters with too many lights are lit in batches, which are parts of the
+// tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/shade_receiver.glsl"
@@ -11,28 +12,26 @@ layout(push_constant, scalar) uniform Push
     ShadeUnlistedParams params;
 };
 
-#include "lib/cluster_test.glsl"
 #include "kernels/common/tile_of_group.glsl"
 #define TREE_NODES SHADE_NODES
 #define TREE_NODE_WORDS SHADE_NODE_WORDS
 #include "kernels/common/light_tree.glsl"
 
-// The lights that a walk has found, in place of a page of a list.
-uint page[PAGE_LIGHTS];
+// The leaves that a pixel has found, in place of a page of a list. They are in shared memory because
+// an array in private memory would occupy registers, or be spilled, while lights are evaluated.
+const uint FOUND_LEAVES = 8u; // their lights fill a block of light_walk.glsl
+shared uint leaves[FOUND_LEAVES][TILE_SIZE * TILE_SIZE];
 
 uint lightAt(uint k)
 {
-    return page[k];
+    const uint leaf = leaves[k / TREE_WIDTH][gl_LocalInvocationIndex];
+    return params.tree.firstLight + leaf * TREE_WIDTH + k % TREE_WIDTH;
 }
 
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
-layout(scalar, binding = SHADE_CLUSTERS) readonly buffer Clusters
-{
-    Cluster clusters[];
-};
 
 void main()
 {
@@ -43,42 +42,36 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == frameParams.clearDepth)
         return;
-    const uint cluster = clusterOf(tile, depth);
-    const uint list = lists[cluster];
-    if (list != params.listHead)
+    if (lists[clusterOf(tile, depth)] != params.listHead)
         return;
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
                                     frameParams.sampleCount, pixelSeed(pixel));
+    const uint packedPixel = pixel.y << 16 | pixel.x; // in one register instead of two
     Sums sums = noLight();
-    page[0] = params.tree.firstLight; // may be read even if no light is found
-    const uint end = params.tree.firstLight + params.tree.lightCount;
-    const ClusterBounds bounds = makeClusterBounds(clusters[cluster]);
+    leaves[0][gl_LocalInvocationIndex] = 0u; // may be read even if no leaf is found
     TreeWalk walk = beginTreeWalk(params.tree, params.topLevel);
     const uint bits = walk.top * TREE_WIDTH_BITS;
     const uint firstAfter = params.batch.first + params.batch.count - params.tree.firstLight;
     walk.index = (params.batch.first - params.tree.firstLight) >> bits;
     const uint endOfTop = (firstAfter + (1u << bits) - 1u) >> bits;
     while (!walk.done) {
-        uint inPage = 0u;
-        while (!walk.done && inPage + TREE_WIDTH <= PAGE_LIGHTS) {
-            const bool touched = boxTouches(bounds, treeNode(walk));
-            const uint first = params.tree.firstLight + walk.index * TREE_WIDTH;
-            const uint count = touched && walk.level == 1u ? min(TREE_WIDTH, end - first) : 0u;
-            for (uint i = 0u; i < count; ++i) {
-                const vec4 centre = lightCentre(first + i);
-                if (lightTouches(bounds, centre.xyz, centre.w, lightEmission(first + i).w)) {
-                    page[inPage] = first + i;
-                    ++inPage;
-                }
+        uint found = 0u, count = 0u;
+        while (!walk.done && found < FOUND_LEAVES) {
+            const bool inside = boxHolds(treeNode(walk), r.p.position);
+            if (inside && walk.level == 1u) {
+                leaves[found][gl_LocalInvocationIndex] = walk.index;
+                ++found;
+                count += min(TREE_WIDTH, params.tree.lightCount - walk.index * TREE_WIDTH);
             }
-            if (touched && walk.level > 1u)
+            if (inside && walk.level > 1u)
                 descend(params.tree, walk);
             else
                 skipSubtree(params.tree, walk);
             walk.done = walk.done || (walk.level == walk.top && walk.index >= endOfTop);
         }
-        shadeBlock(sums, r, 0u, inPage, true);
+        shadeBlock(sums, r, 0u, count, true);
     }
-    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
-    imageStore(radianceImage, ivec2(pixel), before + vec4(total(sums), 0.0));
+    const ivec2 at = ivec2(packedPixel & 0xFFFFu, packedPixel >> 16);
+    const vec4 before = imageLoad(radianceImage, at);
+    imageStore(radianceImage, at, before + vec4(total(sums), 0.0));
 }

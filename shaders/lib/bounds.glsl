@@ -36,6 +36,13 @@ Box influenceBox(vec3 centre, float r2)
     return Box(max(centre - widened, -UNBOUNDED), min(centre + widened, UNBOUNDED));
 }
 
+// Tells whether a box holds a point. A node of the light tree whose box does not hold a point has no
+// light that reaches it.
+bool boxHolds(Box b, vec3 p)
+{
+    return all(lessThanEqual(b.min, p)) && all(lessThanEqual(p, b.max));
+}
+
 // Tells whether a sphere of squared radius `r2` may hold a point of the box. It is conservative in
 // float32 for points whose coordinates were used, bit for bit, to make the box; boxes of clusters are
 // widened by how far other kernels may place the same points (lib/cluster_margins.glsl).

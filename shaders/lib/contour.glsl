@@ -56,25 +56,27 @@ float angleExcess(float sine, float cosine)
 // the horizon.
 void contourSegment(inout Contour k, vec3 middle, vec3 along, float t0, float t1)
 {
-    const vec3 from = middle + t0 * along;
-    const vec3 to = middle + t1 * along;
-    const vec3 a = k.centre + from;
-    const vec3 b = k.centre + to;
-    // a x b, without the rounding errors of distant ends.
+    // a x b, where a and b are the ends, without the rounding errors of distant ends.
     const vec3 axb = (t1 - t0) * cross(k.centre + middle, along);
+    const float axb2 = length2(axb);
+    const float projected = (t1 - t0) * dot(k.n, cross(middle, along));
+    const float height = dot(k.n, axb);
     // qa = |a|^2 / d^2 - 1 and qb = |b|^2 / d^2 - 1.
+    const vec3 from = middle + t0 * along;
     const float qa = (2.0 * dot(k.centre, from) + length2(from) - k.offset2) * k.invD2;
+    const vec3 a = k.centre + from;
+    const vec3 to = middle + t1 * along;
     const float qb = (2.0 * dot(k.centre, to) + length2(to) - k.offset2) * k.invD2;
+    const vec3 b = k.centre + to;
     const float q = qa + qb + qa * qb;
     // The floor prevents a division by 0 if an end is at the receiver. Such an edge adds nothing,
     // because a x b is 0.
     const float w = max(sqrt(length2(a) * k.invD2 * length2(b) * k.invD2), 1e-12);
     const float invW = 1.0 / w;
     const float lengths = -q / (w + w * w); // d^2 / (|a| |b|) - 1
-    const float sine = min(sqrt(length2(axb)) * k.invD2 * invW, 1.0);
+    const float sine = min(sqrt(axb2) * k.invD2 * invW, 1.0);
     const float excess = angleExcess(sine, clamp(dot(a, b) * k.invD2 * invW, -1.0, 1.0));
-    k.sum += (t1 - t0) * dot(k.n, cross(middle, along)) +
-             (excess + lengths + excess * lengths) * dot(k.n, axb);
+    k.sum += projected + (excess + lengths + excess * lengths) * height;
 }
 
 // Adds the part above the horizon of the outline's next edge, which goes from middle - along to

@@ -13,15 +13,16 @@ vec3 tubeResponse(Receiver r, Light given)
     const vec3 axis = scale * shape.axisU;
     const float radius = scale * shape.radius;
     const TubeOutline outline = makeTubeOutline(light.toLight, axis, radius);
-    vec3 response = diffuseResponse(r.p, tubeFormFactor(r.p.n, outline));
+    const float formFactor = tubeFormFactor(r.p.n, outline);
+    vec3 specular = vec3(0.0);
     if (areaMethod == SPECULAR_KARIS)
-        response += schlick(r.p, representativeTube(r.p, light.toLight, axis, radius));
+        specular = schlick(r.p, representativeTube(r.p, light.toLight, axis, radius));
     else if (areaMethod == SPECULAR_LTC)
-        response += schlick(r.p, ltcTube(r.ltc, outline));
+        specular = schlick(r.p, ltcTube(r.ltc, outline));
     else if (areaMethod == SPECULAR_SAMPLED)
-        response += schlick(r.p, sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
+        specular = schlick(r.p, sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
                                              lightSeed(r, light.index)));
-    return response;
+    return diffuseResponse(r.p, formFactor) + specular;
 }
 
 #ifndef LIGHT_FAMILY_ALL

@@ -7,6 +7,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/forward.h"
 #include "lib/gbuffer.glsl"
+#include "lib/bounds.glsl"
 #include "lib/brdf.glsl"
 #include "lib/projection.glsl"
 #include "lib/dfg.glsl"
@@ -100,8 +101,8 @@ bool nextLight(inout LightCursor c)
             found = d2 < lightEmission(c.light).w;
         } else {
             const uint at = treeNodeIndex(c.walk) * TREE_NODE_STRIDE;
-            const bool inside = all(lessThanEqual(treeNodes[at].xyz, c.position)) &&
-                                all(lessThanEqual(c.position, treeNodes[at + 1u].xyz));
+            const bool inside =
+                boxHolds(Box(treeNodes[at].xyz, treeNodes[at + 1u].xyz), c.position);
             if (inside && c.walk.level == 1u) {
                 c.next = tree.firstLight + c.walk.index * TREE_WIDTH;
                 c.end = min(c.next + TREE_WIDTH, tree.firstLight + tree.lightCount);

@@ -27,25 +27,28 @@ struct Light {
     uint index;
     vec3 toLight; // from the point to the centre; distant lights: unit direction
     float boundingRadius; // radius of a sphere around the centre that holds the emitter
-    vec3 emission; // times the influence window and the shadow term
 };
 
 Light readLight(Receiver r, uint index)
 {
     const vec4 centreRadius = lightCentre(index);
-    const vec4 emissionInfluence = lightEmission(index);
-    Light light;
-    light.index = index;
-    light.toLight = towardsLight(centreRadius.xyz, r.p.position);
-    light.boundingRadius = centreRadius.w;
-    light.emission = emissionInfluence.xyz;
+    return Light(index, towardsLight(centreRadius.xyz, r.p.position), centreRadius.w);
+}
+
+// Returns the light's emission, times the influence window and the shadow term. `d2`: squared length of
+// light.toLight. Callers ask for it after they have computed the response, so that the emission
+// occupies no registers until then.
+vec3 emissionTowards(Receiver r, Light light, float d2)
+{
+    const vec4 emissionInfluence = lightEmission(light.index);
+    vec3 emission = emissionInfluence.xyz;
     if (!IS_DISTANT)
-        light.emission *= influenceWindow(length2(light.toLight), emissionInfluence.w);
+        emission *= influenceWindow(d2, emissionInfluence.w);
 #ifdef CANDELABRA_VISIBILITY
-    light.emission *= candelabraVisibility(
-        ShadowQuery(lightIds[index], lightType, r.p.position, r.p.n, light.toLight));
+    emission *= candelabraVisibility(
+        ShadowQuery(lightIds[light.index], lightType, r.p.position, r.p.n, light.toLight));
 #endif
-    return light;
+    return emission;
 }
 
 // Returns a seed for sampling a light. Each pair of pixel and light has its own.

@@ -41,7 +41,9 @@
     vec3 name(Receiver r, uint index)                                                              \
     {                                                                                              \
         const Light light = readLight(r, index);                                                   \
-        return light.emission * response(r, light);                                                \
+        const float d2 = length2(light.toLight);                                                   \
+        const vec3 toUnitEmission = response(r, light);                                            \
+        return emissionTowards(r, light, d2) * toUnitEmission;                                     \
     }
 
 #ifdef LIGHT_FAMILY_CONIC

@@ -36,6 +36,10 @@ struct FoundWord {
 FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 {
     FoundWord found = FoundWord(0u, 0u, 0u, 0u);
+#ifdef LIGHT_FAMILY_CONIC
+    // Spheres with (R / d)^2 below it are not clipped.
+    precise const float smallCap = SMALL_CAP * r.conic.a2;
+#endif
     uint bit = 1u;
     uint k = first;
     do {
@@ -58,7 +62,7 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
         // sides of the comparisons are 0.
         precise const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
         precise const float height2 = height * abs(height);
-        precise const float smallCap2 = r.smallCap * d2, pointLimit2 = r.pointLimit * d2;
+        precise const float smallCap2 = smallCap * d2, pointLimit2 = r.pointLimit * d2;
         found.near |= height2 > radius2 || radius2 < smallCap2 ? bit : 0u;
         if (HAS_BUDGET)
             found.asPoint |= height >= 2.0 * radius && radius2 < pointLimit2 ? bit : 0u;

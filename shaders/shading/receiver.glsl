@@ -45,7 +45,6 @@ struct Receiver {
     float aboveFrom; // spheres with n . toLight / R >= aboveFrom are evaluated as above the horizon
 #ifdef LIGHT_FAMILY_CONIC
     ConicPoint conic;
-    float smallCap;   // spheres across the horizon with (R / d)^2 < smallCap are not clipped
     float pointLimit; // spheres above the horizon with (R / d)^2 < pointLimit are evaluated as points
 #endif
 };
@@ -93,9 +92,9 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
     r.conic = makeConicPoint(p);
     const float share = HAS_BUDGET ? specularShare(p, budget) : 0.0;
     const float oneNodeError = mix(ONE_NODE_ERROR.x, ONE_NODE_ERROR.y, lowestF0(p));
-    const bool oneNode = specularMethod == SPECULAR_CONIC && share >= oneNodeError;
+    const bool oneNode =
+        HAS_BUDGET && specularMethod == SPECULAR_CONIC && share >= oneNodeError;
     r.aboveFrom = oneNode ? 1.0 : 2.0;
-    r.smallCap = SMALL_CAP * r.conic.a2;
     r.pointLimit = pointLimit(p, share);
 #else
     r.aboveFrom = 1.0;

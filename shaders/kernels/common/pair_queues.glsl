@@ -25,11 +25,12 @@ shared uint lastUnqueued;   // the last step in which some lane found no room fo
 shared uint lastUnfinished; // the last step in which some lane had more blocks to take
 shared uint aboveTotal;     // number of lights above the horizon that all lanes have found in a step
 shared uint aboveLargest;   // the largest such number of one lane
-// A pair and then, when it is evaluated, the bits of the response in its place.
-shared uvec3 slots[QUEUES * QUEUE_ROOM];
+// A pair and then, when it is evaluated, the bits of the response in its place. Pipelines whose lanes
+// work alone ask for no shared memory.
+shared uvec3 slots[lanesTogether ? QUEUES * QUEUE_ROOM : 1u];
 // Sums of the responses of each lane's own pairs. They are here to leave registers to the evaluations.
-shared vec3 nearLight[QUEUE_LANES];
-shared vec3 acrossLight[QUEUE_LANES];
+shared vec3 nearLight[lanesTogether ? QUEUE_LANES : 1u];
+shared vec3 acrossLight[lanesTogether ? QUEUE_LANES : 1u];
 
 void emptyQueues()
 {

@@ -15,11 +15,12 @@ const int TUBE_ARC_EDGES = 6;
 struct TubeOutline {
     vec3 centre, axis;
     float radius;
-    vec3 side;              // half the chord between the two lines
+    vec3 across;            // unit vector across the plane of the receiver and the axis
+    float side;             // half the chord between the two lines, which is along `across`
     vec3 tangent[2];        // offset of the middle of that chord at each end
     vec3 circle[2];         // offset of the centre of each end's circle
     vec3 outward[2];        // radius of that circle away from the other end, in the plane of the axis
-    vec3 across[2];         // radius of that circle along `side`
+    float circleRadius[2];  // radius of that circle, which has a radius along `across`
     float halfAngle[2];     // half angle of that circle's arc, 0..pi
 };
 
@@ -39,8 +40,8 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
     // For a receiver on the line of the axis, any direction across the line will do.
     const bool beside = h2 > 1e-12 * length2(toCentre);
     const float invH = beside ? inversesqrt(h2) : 0.0;
-    const vec3 across = beside ? cross(along, perpendicular) * invH : anyPerpendicular(along);
-    const vec3 away = cross(across, along); // from the receiver to the axis
+    k.across = beside ? cross(along, perpendicular) * invH : anyPerpendicular(along);
+    const vec3 away = cross(k.across, along); // from the receiver to the axis
     const vec3 nearest = toCentre - clamp(height, -axisLength, axisLength) * along;
     const float r2 = min(radius * radius, 0.9998 * length2(nearest));
     const float r = sqrt(r2);
@@ -49,7 +50,7 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
     const bool endOn = h2 <= r2;
     const float sine2 = endOn ? 1.0 : r2 * invH * invH;
     const float cosine = sqrt(1.0 - sine2);
-    k.side = (r * cosine) * across;
+    k.side = r * cosine;
     for (int i = 0; i < 2; ++i) {
         const float outwards = i == 0 ? 1.0 : -1.0;
         const vec3 end = toCentre + outwards * axis;
@@ -62,7 +63,7 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
         // Perpendicular to `end` in the plane of the axis, away from the other end.
         const float h = sqrt(h2);
         k.outward[i] = rho * invD * outwards * (h * along - (height + outwards * axisLength) * away);
-        k.across[i] = rho * across;
+        k.circleRadius[i] = rho;
         k.tangent[i] = outwards * axis - sine2 * perpendicular;
         const float sinArc = cosine * inversesqrt(1.0 - s2);
         k.halfAngle[i] = atan(sinArc, forward * invD * r * invH * inversesqrt(1.0 - s2));
@@ -80,7 +81,7 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
         const int far = firstIsNear ? 1 : 0;
         k.circle[far] = start;
         k.outward[far] = vec3(0.0);
-        k.across[far] = vec3(0.0);
+        k.circleRadius[far] = 0.0;
     }
     return k;
 }
@@ -90,19 +91,19 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
 // the edges enclose the same area as the arc.
 float tubeOutlineFormFactor(vec3 n, mat3 map, TubeOutline tube)
 {
-    const vec3 side = map * tube.side;
-    const vec3 extent = map * (0.5 * (tube.tangent[0] - tube.tangent[1]));
-    Contour k = beginContour(n, map * tube.centre, length2(extent) + length2(side));
-    const vec3 middle = map * (0.5 * (tube.tangent[0] + tube.tangent[1]));
+    const float offset2 = length2(map * (0.5 * (tube.tangent[0] - tube.tangent[1]))) +
+                          length2(map * (tube.side * tube.across));
+    Contour k = beginContour(n, map * tube.centre, offset2);
     for (int i = 0; i < 2; ++i) {
         // i = 0 goes along the axis and from +side to -side, i = 1 goes back.
         const float turn = i == 0 ? 1.0 : -1.0;
-        contourEdge(k, middle + turn * side, turn * extent);
-        vec3 last = map * tube.tangent[i] + turn * side;
-        const vec3 to = map * tube.tangent[i] - turn * side;
+        const vec3 tangent = tube.tangent[i], before = tube.tangent[1 - i];
+        const vec3 side = map * (turn * tube.side * tube.across);
+        contourEdge(k, map * (0.5 * (tangent + before)) + side, map * (0.5 * (tangent - before)));
+        vec3 last = map * tangent + side;
         const vec3 circle = map * tube.circle[i];
         const vec3 outward = map * tube.outward[i];
-        const vec3 across = turn * (map * tube.across[i]);
+        const vec3 across = map * (turn * tube.circleRadius[i] * tube.across);
         const float edges = float(TUBE_ARC_EDGES);
         const float delta = max(2.0 * tube.halfAngle[i] / edges, 1e-3);
         const float half1 = sin(0.5 * delta);
@@ -114,6 +115,7 @@ float tubeOutlineFormFactor(vec3 n, mat3 map, TubeOutline tube)
             contourEdge(k, 0.5 * (last + next), 0.5 * (next - last));
             last = next;
         }
+        const vec3 to = map * tangent - side;
         contourEdge(k, 0.5 * (last + to), 0.5 * (to - last));
     }
     return contourFormFactor(k);

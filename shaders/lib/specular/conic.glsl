@@ -70,8 +70,8 @@ vec2 conicFullUnclipped(ConicPoint p, SphereCap cap)
 vec2 conicClipped(ConicPoint p, SphereCap cap)
 {
     const CapFrame f = makeCapFrame(p, cap.c, cap.NoC);
-    const LightHeights z = lightHeights(p, cap, f.sinC, f.v1);
-    return shadeTwoNodes(p, clippedCap(p, cap, f), z);
+    const ConicRegion o = clippedCap(p, cap, f);
+    return shadeTwoNodes(p, o, lightHeights(p, cap, f.sinC, f.v1));
 }
 
 uint conicClassOf(ConicPoint p, SphereCap cap)

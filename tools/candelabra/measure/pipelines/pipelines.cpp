@@ -82,7 +82,8 @@ std::string variantOf(const PipelineRequest& request)
         return lightTypeName(value("shape"));
     std::string out;
     for (const auto& [name, v] : constants)
-        if (name != "gbufferCode" && name != "gbufferLayout" && name != "lightsAsTexels")
+        if (name != "gbufferCode" && name != "gbufferLayout" && name != "lightsAsTexels" &&
+            name != "lanesTogether")
             out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, v);
     return out;
 }
