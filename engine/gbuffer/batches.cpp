@@ -93,7 +93,7 @@ std::vector<Keyed> sortInstances(const GeometryDesc& desc, const std::vector<Pac
         const std::string name = "instance " + std::to_string(i);
         checkIndex(name + ": mesh", instance.mesh, meshes.size(), "meshes");
         checkIndex(name + ": material", instance.material, desc.materials.size(), "materials");
-        if (!meshes[instance.mesh].indexCount)
+        if (meshes[instance.mesh].levels.empty())
             continue;
         const Material& material = desc.materials[instance.material];
         const uint32_t set = setOfMaterial[instance.material];
@@ -115,6 +115,19 @@ gpu::InstanceRecord instanceRecord(const glm::dmat4& worldFromObject, uint32_t m
             worldFromObject[2], position.hi.z, position.lo,        float(material)};
 }
 
+// Returns a length that no unit vector of object space exceeds in world space, m. It is the longest
+// axis if the axes are perpendicular.
+double largestScale(const glm::dmat4& worldFromObject)
+{
+    const glm::dmat3 m(worldFromObject);
+    const glm::dmat3 gram = glm::transpose(m) * m;
+    double squared = 0; // the largest sum of a row bounds the eigenvalues
+    for (int row = 0; row < 3; ++row)
+        squared = std::max(squared, std::abs(gram[0][row]) + std::abs(gram[1][row]) +
+                                        std::abs(gram[2][row]));
+    return std::sqrt(squared);
+}
+
 gpu::InstanceBounds instanceBounds(const glm::dmat4& worldFromObject, const PackedMesh& mesh)
 {
     const glm::dvec3 low = glm::make_vec3(mesh.min), high = glm::make_vec3(mesh.max);
@@ -126,17 +139,44 @@ gpu::InstanceBounds instanceBounds(const glm::dmat4& worldFromObject, const Pack
     // Rounding to float may shrink the box by 2^-24 (relative), and the vertex shader rounds by
     // about as much.
     constexpr double growth = 1 + 4 * std::numeric_limits<float>::epsilon();
-    return {center.hi, center.lo, glm::vec3(extent * growth)};
+    return {center.hi, center.lo, glm::vec3(extent * growth),
+            float(largestScale(worldFromObject) * growth)};
 }
 
 // Appends the chunks of one batch of `count` instances that starts at instance `first`.
-void addChunks(std::vector<gpu::Chunk>& chunks, uint32_t first, uint32_t count, uint32_t batch)
+void addChunks(Batches& b, uint32_t first, uint32_t count, uint32_t firstCommand,
+               const PackedMesh& mesh)
 {
-    const uint32_t firstChunk = uint32_t(chunks.size());
-    const uint32_t lastChunk = firstChunk + (count - 1) / gpu::CHUNK_SIZE;
-    for (uint32_t done = 0; done < count; done += gpu::CHUNK_SIZE)
-        chunks.push_back(
-            {first + done, std::min(gpu::CHUNK_SIZE, count - done), firstChunk, lastChunk, batch});
+    const uint32_t firstChunk = uint32_t(b.chunks.size());
+    gpu::Chunk chunk{.firstInstance = first,
+                     .firstChunk = firstChunk,
+                     .lastChunk = firstChunk + (count - 1) / gpu::CHUNK_SIZE,
+                     .firstCommand = firstCommand,
+                     .levelCount = uint32_t(mesh.levels.size())};
+    for (size_t level = 1; level < mesh.levels.size(); ++level)
+        chunk.levelErrors[level - 1] = mesh.levels[level].error;
+    for (uint32_t done = 0; done < count; done += gpu::CHUNK_SIZE) {
+        chunk.firstInstance = first + done;
+        chunk.count = std::min(gpu::CHUNK_SIZE, count - done);
+        b.chunks.push_back(chunk);
+    }
+}
+
+// Appends the commands of one batch of `count` instances. The first run of the commands is the last
+// run of `b` if `sameState` says that it may go on.
+void addCommands(Batches& b, const BatchKey& key, uint32_t count, const PackedMesh& mesh,
+                 bool sameState, uint32_t maxDraws)
+{
+    for (const PackedLevel& level : mesh.levels) {
+        if (!sameState || b.runs.back().commandCount == maxDraws)
+            b.runs.push_back({key.variant, key.doubleSided, key.mirrored, key.textureSet,
+                              uint32_t(b.commands.size()), 0});
+        sameState = true;
+        ++b.runs.back().commandCount;
+        b.commands.push_back(
+            {level.indexCount, 0, level.firstIndex, mesh.vertexOffset, b.visibleCount});
+        b.visibleCount += count;
+    }
 }
 
 void setRow(gpu::MaterialRecord& record, uint32_t texture, const TextureRef& ref)
@@ -160,15 +200,10 @@ Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& me
         while (end < sorted.size() && end - begin < maxBatchInstances && sorted[end].key == key)
             ++end;
 
-        const uint32_t batch = uint32_t(b.commands.size());
-        if (b.runs.empty() || key.state() != last.state() || b.runs.back().commandCount == maxDraws)
-            b.runs.push_back(
-                {key.variant, key.doubleSided, key.mirrored, key.textureSet, batch, 0});
-        ++b.runs.back().commandCount;
         const PackedMesh& mesh = meshes[key.mesh];
-        b.commands.push_back(
-            {mesh.indexCount, 0, mesh.firstIndex, mesh.vertexOffset, uint32_t(begin)});
-        addChunks(b.chunks, uint32_t(begin), uint32_t(end - begin), batch);
+        const uint32_t count = uint32_t(end - begin);
+        addChunks(b, uint32_t(begin), count, uint32_t(b.commands.size()), mesh);
+        addCommands(b, key, count, mesh, !b.runs.empty() && key.state() == last.state(), maxDraws);
         for (; begin < end; ++begin) {
             const Instance& instance = desc.instances[sorted[begin].instance];
             const glm::dmat4 worldFromObject = glm::make_mat4(instance.worldFromObject);
@@ -178,6 +213,20 @@ Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& me
         last = key;
     }
     return b;
+}
+
+std::vector<bool> texturedMeshes(const GeometryDesc& desc)
+{
+    std::vector<bool> textured(desc.meshes.size());
+    for (const Instance& instance : desc.instances) {
+        if (instance.mesh >= desc.meshes.size() || instance.material >= desc.materials.size())
+            continue; // buildBatches refuses it
+        const Material& material = desc.materials[instance.material];
+        const TextureSet set = textureSetOf(material);
+        const bool textures = std::any_of(set.begin(), set.end(), [](int32_t t) { return t >= 0; });
+        textured[instance.mesh] = textured[instance.mesh] || material.masked || textures;
+    }
+    return textured;
 }
 
 gpu::MaterialRecord materialRecord(const Material& m)

@@ -2,7 +2,8 @@
 // Groups instances into draws, on three levels:
 //
 //   run     one multi-draw call: same pipeline variant, cull mode, winding and texture set
-//    batch  one indirect draw: also the same mesh; at most maxBatchInstances
+//    batch  one indirect draw for each level of detail: also the same mesh; at most
+//           maxBatchInstances
 //     chunk up to 64 instances: handled by one lane of the culling kernels
 #pragma once
 
@@ -35,7 +36,9 @@ struct Run {
 struct Batches {
     std::vector<TextureSet> textureSets; // [0] has no textures
     std::vector<Run> runs;
-    std::vector<gpu::DrawCommand> commands; // instanceCount is 0: the GPU writes it
+    // For each batch one command per level of its mesh. instanceCount is 0: the GPU writes it.
+    std::vector<gpu::DrawCommand> commands;
+    uint32_t visibleCount = 0; // room for drawn instances of all commands
     std::vector<gpu::Chunk> chunks;
     std::vector<gpu::InstanceRecord> instances; // sorted by batch
     std::vector<gpu::InstanceBounds> bounds;    // one per instance
@@ -46,6 +49,9 @@ struct Batches {
 // or a material, that refers to something that does not exist.
 Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
                      uint32_t maxDraws);
+
+// Returns for each mesh whether an instance of it has textures or an alpha mask.
+std::vector<bool> texturedMeshes(const GeometryDesc& desc);
 
 gpu::MaterialRecord materialRecord(const Material& material);
 

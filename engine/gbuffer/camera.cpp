@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gbuffer/camera.h"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -69,6 +71,22 @@ CameraTerms::CameraTerms(const CndCamera& camera, float clearDepth)
                                    clipPlanes[i].w) /
                         length;
     }
+}
+
+double CameraTerms::pixelScale(uint32_t width, uint32_t height) const
+{
+    const glm::dmat4 clip(clipFromView);
+    const glm::dvec4 w = glm::row(clip, 3);
+    const double depth = perspective ? glm::length(glm::dvec3(w)) : w.w;
+    // How far a point moves in the image with its place across the viewing direction, pixels per m.
+    const auto across = [&](int row, uint32_t pixels) {
+        const glm::dvec3 terms(glm::row(clip, row));
+        return (terms - glm::dot(terms, forward) * forward) * (0.5 * pixels / depth);
+    };
+    const glm::dvec3 x = across(0, width), y = across(1, height);
+    // The larger eigenvalue of the products of x and y.
+    const double xx = glm::dot(x, x), yy = glm::dot(y, y), xy = glm::dot(x, y);
+    return std::sqrt(0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy));
 }
 
 } // namespace candelabra::gbuffer

@@ -39,6 +39,10 @@ struct CameraTerms {
     // 1).
     std::array<glm::dvec4, 6> planes;
 
+    // The pixels that a length of 1 m across the viewing direction has at most in an image of that
+    // size; with a perspective camera 1 m ahead.
+    double pixelScale(uint32_t width, uint32_t height) const;
+
     glm::dvec3 viewFrom(const glm::dvec3& world) const
     {
         return viewFromWorld * (world - position);

@@ -43,6 +43,24 @@ gpu::RasterFrame rasterFrame(const CameraTerms& camera, const FrameInputs& in,
     return f;
 }
 
+gpu::CullInstancesFrame cullFrame(const CameraTerms& camera, const FrameInputs& in, uint32_t chunks)
+{
+    gpu::CullInstancesFrame f{};
+    for (size_t i = 0; i < camera.planes.size(); ++i)
+        f.planes[i] = in.cullInstances ? glm::vec4(camera.planes[i]) : glm::vec4(0, 0, 0, 1);
+    const DoubleSingle position(camera.position);
+    const glm::dmat3 worldFromView = glm::transpose(camera.viewFromWorld);
+    f.cameraHi = position.hi;
+    f.cameraLo = position.lo;
+    f.eye = glm::vec3(worldFromView * camera.rayOrigin[0]);
+    f.forward = glm::vec3(worldFromView * camera.forward);
+    f.perspective = camera.perspective ? 1.f : 0.f;
+    f.pixelScale = float(camera.pixelScale(in.width, in.height));
+    f.maxLevelError = in.maxLevelError;
+    f.chunkCount = chunks;
+    return f;
+}
+
 gpu::AnalyticParams analyticParams(const AnalyticObject& object, const Material& material,
                                    const CameraTerms& camera)
 {
@@ -78,7 +96,7 @@ struct GBuffer::Impl {
     const gpu::Device& device;
     GBufferDesc desc;
     gpu::Timer timer;
-    gpu::Kernel<gpu::CullInstancesParams> cullInstances;
+    gpu::Kernel<gpu::NoParams> cullInstances;
     gpu::Kernel<gpu::CompactInstancesParams> compactInstances;
     Pipelines pipelines;
     std::vector<gpu::Buffer> rasterFrames; // one RasterFrame per slot
@@ -127,18 +145,15 @@ void GBuffer::Impl::recordCulling(const gpu::Frame& frame, const GeometryImpl& g
                                   const CameraTerms& camera, const FrameInputs& in) const noexcept
 {
     const uint32_t chunks = in.drawInstances ? geometry.chunkCount : 0;
-    gpu::CullInstancesParams cull{};
-    for (size_t i = 0; i < camera.planes.size(); ++i)
-        cull.planes[i] = in.cullInstances ? glm::vec4(camera.planes[i]) : glm::vec4(0, 0, 0, 1);
-    const DoubleSingle position(camera.position);
-    cull.cameraHi = position.hi;
-    cull.cameraLo = position.lo;
-    cull.chunkCount = chunks;
-    cullInstances.dispatch(frame, geometry.cullSet.set(0), cull,
+    const gpu::CullInstancesFrame cull = cullFrame(camera, in, chunks);
+    device.CmdUpdateBuffer(frame.cmd, geometry.cullFrame.get(), 0, sizeof cull, &cull);
+    frame.barrier();
+    cullInstances.dispatch(frame, geometry.cullSet.set(0), {},
                            gpu::divideUp(chunks, gpu::CULL_INSTANCES_GROUP));
     frame.barrier();
-    compactInstances.dispatch(frame, geometry.compactSet.set(0), {chunks},
-                              gpu::divideUp(chunks, gpu::COMPACT_INSTANCES_GROUP));
+    compactInstances.dispatch(
+        frame, geometry.compactSet.set(0), {chunks},
+        gpu::divideUp(chunks * gpu::MESH_LEVELS, gpu::COMPACT_INSTANCES_GROUP));
 }
 
 void GBuffer::Impl::beginRendering(VkCommandBuffer cmd, const FrameInputs& in) const noexcept

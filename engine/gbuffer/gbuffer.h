@@ -21,6 +21,10 @@ struct GBufferDesc {
     bool timestamps = false; // timer rows: cull_instances, compact_instances, gbuffer_raster
 };
 
+// Smaller than what separates two samples, so that edges move by less than they do when the camera
+// moves by half a pixel.
+constexpr float defaultMaxLevelError = 0.25f; // pixels
+
 struct FrameInputs {
     uint32_t slot = 0; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
     CndCamera camera;
@@ -29,6 +33,8 @@ struct FrameInputs {
     Attachments attachments;
     uint32_t width = 0, height = 0; // pixels, at most the size of the images
     bool cullInstances = true;      // false: draw every instance (to check the culling)
+    // The coarser levels of meshes are drawn where they are off by no more than this, in pixels.
+    float maxLevelError = defaultMaxLevelError;
     bool drawInstances = true;
     bool drawAnalytic = true;
     bool drawEmitters = true;

@@ -120,7 +120,7 @@ void createTexels(const Geometry::Impl& g, gpu::Buffer& buffer, const char* what
     gpu::createTexelView(*g.device, buffer);
 }
 
-void createCulling(Geometry::Impl& g)
+void createCulling(Geometry::Impl& g, VkDeviceSize visibleCount)
 {
     const gpu::Device& d = *g.device;
     constexpr VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
@@ -128,10 +128,14 @@ void createCulling(Geometry::Impl& g)
         g.counts.bytes += size;
         return gpu::createBuffer(d, name, size, usage, MemoryUse::Device);
     };
-    g.bits = create("chunk visibility", g.chunkCount * sizeof(glm::uvec2), storage);
-    g.chunkCounts = create("chunk counts", g.chunkCount * sizeof(uint32_t), storage);
-    g.visible = create("visible instances", g.counts.instances * sizeof(uint32_t),
-                       storage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    const VkDeviceSize chunkLevels = VkDeviceSize(g.chunkCount) * gpu::MESH_LEVELS;
+    g.bits = create("chunk visibility", chunkLevels * sizeof(glm::uvec2), storage);
+    g.chunkCounts = create("chunk counts", chunkLevels * sizeof(uint32_t), storage);
+    g.visible = create("visible instances", visibleCount * sizeof(uint32_t),
+                       storage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT); // lets tests copy it
+    g.cullFrame = create("culling frame", sizeof(gpu::CullInstancesFrame),
+                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 
     const auto bindings = [&](const gpu::Spirv& spirv) {
         return gpu::Bindings(d, spirv.name, gpu::reflect(spirv).bindings,
@@ -141,7 +145,8 @@ void createCulling(Geometry::Impl& g)
     g.cullSet.write(0, {Binding::of(gpu::CULL_INSTANCES_CHUNKS, g.chunks),
                         Binding::of(gpu::CULL_INSTANCES_BOUNDS, g.bounds),
                         Binding::of(gpu::CULL_INSTANCES_BITS, g.bits),
-                        Binding::of(gpu::CULL_INSTANCES_COUNTS, g.chunkCounts)});
+                        Binding::of(gpu::CULL_INSTANCES_COUNTS, g.chunkCounts),
+                        Binding::of(gpu::CULL_INSTANCES_FRAME, g.cullFrame)});
     g.compactSet = bindings(spirv::compact_instances_comp);
     g.compactSet.write(0, {Binding::of(gpu::COMPACT_INSTANCES_CHUNKS, g.chunks),
                            Binding::of(gpu::COMPACT_INSTANCES_BITS, g.bits),
@@ -189,7 +194,8 @@ GeometryCounts countsOf(const PackedMeshes& meshes, const Batches& batches)
                           .draws = uint32_t(batches.commands.size()),
                           .textureSets = uint32_t(batches.textureSets.size())};
     for (const gpu::Chunk& chunk : batches.chunks)
-        counts.triangles += uint64_t(batches.commands[chunk.batch].indexCount / 3) * chunk.count;
+        counts.triangles +=
+            uint64_t(batches.commands[chunk.firstCommand].indexCount / 3) * chunk.count;
     return counts;
 }
 
@@ -220,7 +226,7 @@ std::vector<gpu::ReflectedBinding> meshBindings()
 Geometry::Geometry(const gpu::Device& device, const GeometryDesc& desc)
     : impl_(std::make_unique<Impl>(Impl{.device = &device}))
 {
-    const PackedMeshes meshes = packMeshes(desc.meshes);
+    const PackedMeshes meshes = packMeshes(desc.meshes, texturedMeshes(desc));
     Batches batches = buildBatches(desc, meshes.meshes, device.limits.maxDrawIndirectCount);
     std::vector<gpu::MaterialRecord> materials;
     for (const Material& material : desc.materials)
@@ -249,7 +255,7 @@ Geometry::Geometry(const gpu::Device& device, const GeometryDesc& desc)
     createTexels(g, g.instances, "instances");
     createTexels(g, g.materials, "materials");
     createTextures(g, uploads, desc.textures);
-    createCulling(g);
+    createCulling(g, batches.visibleCount);
     createMeshSets(g, batches.textureSets, desc);
     g.runs = std::move(batches.runs);
     g.analyticObjects.assign(desc.analyticObjects.begin(), desc.analyticObjects.end());
@@ -264,6 +270,11 @@ Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 GeometryCounts Geometry::counts() const
 {
     return impl_->counts;
+}
+
+const gpu::Buffer& Geometry::drawCommands() const
+{
+    return impl_->commands;
 }
 
 void Geometry::releaseStaging() noexcept

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "gpu/device.h"
+#include "gpu/memory.h"
 
 namespace candelabra::gbuffer
 {
@@ -119,6 +120,9 @@ public:
     void releaseStaging() noexcept;
 
     GeometryCounts counts() const;
+    // The draws of the last recorded frame, a VkDrawIndexedIndirectCommand each. Hosts that want to
+    // know what was drawn may copy them after the frame.
+    const gpu::Buffer& drawCommands() const;
 
     struct Impl;
     const Impl& impl() const { return *impl_; } // used by GBuffer

@@ -35,6 +35,7 @@ struct Geometry::Impl {
     VkDeviceSize detailOffset = 0;
     gpu::Buffer instances, materials; // texel buffers
     gpu::Buffer bounds, chunks, bits, chunkCounts, visible, commands;
+    gpu::Buffer cullFrame; // gpu::CullInstancesFrame of the latest frame
     uint32_t chunkCount = 0;
 
     std::vector<gpu::Image> textures; // those of the description, followed by a white texel

@@ -2,9 +2,12 @@
 #include "gbuffer/meshes.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include <meshoptimizer.h>
+
+#include "gbuffer/levels.h"
 
 namespace candelabra::gbuffer
 {
@@ -33,13 +36,23 @@ struct Optimized {
     std::vector<uint32_t> indices;
 };
 
-Optimized optimize(const Mesh& mesh)
+bool isColored(const Vertex& v)
+{
+    return std::any_of(std::begin(v.color), std::end(v.color), [](float c) { return c != 1; });
+}
+
+Optimized optimize(const Mesh& mesh, Attributes attributes)
 {
     const size_t indexCount = mesh.indices.size();
     std::vector<uint32_t> remap(mesh.vertices.size());
-    const size_t vertexCount =
-        meshopt_generateVertexRemap(remap.data(), mesh.indices.data(), indexCount,
-                                    mesh.vertices.data(), mesh.vertices.size(), sizeof(Vertex));
+    // The members that are drawn are the first ones of a vertex.
+    static_assert(offsetof(Vertex, position) == 0 &&
+                  offsetof(Vertex, tangent) == sizeof(VertexCore));
+    const meshopt_Stream drawn{mesh.vertices.data(),
+                               attributes == Attributes::All ? sizeof(Vertex) : sizeof(VertexCore),
+                               sizeof(Vertex)};
+    const size_t vertexCount = meshopt_generateVertexRemapMulti(
+        remap.data(), mesh.indices.data(), indexCount, mesh.vertices.size(), &drawn, 1);
     Optimized o;
     o.vertices.resize(vertexCount);
     o.indices.resize(indexCount);
@@ -60,11 +73,16 @@ Optimized optimize(const Mesh& mesh)
     return o;
 }
 
-void append(PackedMeshes& all, const Optimized& o)
+void append(PackedMeshes& all, const Optimized& o, Attributes attributes)
 {
-    PackedMesh mesh{.firstIndex = uint32_t(all.indices.size()),
-                    .indexCount = uint32_t(o.indices.size()),
-                    .vertexOffset = uint32_t(all.core.size())};
+    PackedMesh mesh{.vertexOffset = uint32_t(all.core.size())};
+    const auto addLevel = [&](const std::vector<uint32_t>& indices, float error) {
+        mesh.levels.push_back({uint32_t(all.indices.size()), uint32_t(indices.size()), error});
+        all.indices.insert(all.indices.end(), indices.begin(), indices.end());
+    };
+    addLevel(o.indices, 0);
+    for (const Level& level : coarserLevels(o.vertices, o.indices, attributes))
+        addLevel(level.indices, level.error);
     std::copy_n(o.vertices.front().position, 3, mesh.min);
     std::copy_n(o.vertices.front().position, 3, mesh.max);
     for (const Vertex& v : o.vertices) {
@@ -76,19 +94,18 @@ void append(PackedMeshes& all, const Optimized& o)
         all.detail.push_back({{t[0], t[1], t[2], t[3]},
                               {v.uv0[0], v.uv0[1], v.uv1[0], v.uv1[1]},
                               {c[0], c[1], c[2], c[3]}});
-        mesh.colored |= c[0] != 1 || c[1] != 1 || c[2] != 1 || c[3] != 1;
+        mesh.colored |= isColored(v);
         for (int i = 0; i < 3; ++i) {
             mesh.min[i] = std::min(mesh.min[i], p[i]);
             mesh.max[i] = std::max(mesh.max[i], p[i]);
         }
     }
-    all.indices.insert(all.indices.end(), o.indices.begin(), o.indices.end());
-    all.meshes.push_back(mesh);
+    all.meshes.push_back(std::move(mesh));
 }
 
 } // namespace
 
-PackedMeshes packMeshes(std::span<const Mesh> meshes)
+PackedMeshes packMeshes(std::span<const Mesh> meshes, const std::vector<bool>& textured)
 {
     PackedMeshes all;
     size_t vertices = 0, indices = 0;
@@ -103,12 +120,21 @@ PackedMeshes packMeshes(std::span<const Mesh> meshes)
     all.core.reserve(vertices);
     all.detail.reserve(vertices);
     all.indices.reserve(indices);
-    for (const Mesh& mesh : meshes) {
+    for (size_t i = 0; i < meshes.size(); ++i) {
+        const Mesh& mesh = meshes[i];
+        const bool detailed =
+            textured[i] || std::any_of(mesh.vertices.begin(), mesh.vertices.end(), isColored);
+        const Attributes attributes = detailed ? Attributes::All : Attributes::Normals;
         if (mesh.indices.empty())
             all.meshes.push_back({});
         else
-            append(all, optimize(mesh));
+            append(all, optimize(mesh, attributes), attributes);
     }
+    // The coarser levels add at most as many indices for each of them.
+    if (all.indices.size() > UINT32_MAX)
+        gpu::failUnsupported(
+            "the meshes and their levels of detail together have more indices than 32-bit indices "
+            "can address");
     return all;
 }
 

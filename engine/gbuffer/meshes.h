@@ -20,8 +20,13 @@ struct VertexDetail {
     float tangent[4], uv[4], color[4];
 };
 
+struct PackedLevel {
+    uint32_t firstIndex, indexCount;
+    float error; // in object space; see levels.h
+};
+
 struct PackedMesh {
-    uint32_t firstIndex = 0, indexCount = 0;
+    std::vector<PackedLevel> levels; // [0] is the mesh itself; empty: a mesh without triangles
     uint32_t vertexOffset = 0;
     bool colored = false;     // some vertex colour differs from 1
     float min[3]{}, max[3]{}; // bounding box of the used vertices
@@ -34,9 +39,10 @@ struct PackedMeshes {
     std::vector<PackedMesh> meshes;
 };
 
-// Merges equal vertices and reorders triangles and vertices for the vertex cache, little overdraw
-// and fetch locality (meshoptimizer). Throws gpu::Failure naming the mesh whose indices are out of
-// range.
-PackedMeshes packMeshes(std::span<const Mesh> meshes);
+// Merges equal vertices, reorders triangles and vertices for the vertex cache, little overdraw and
+// fetch locality (meshoptimizer), and makes coarser levels. Vertices of meshes that are not
+// `textured` and have no vertex colours are equal if position and normal are. Throws gpu::Failure
+// naming the mesh whose indices are out of range.
+PackedMeshes packMeshes(std::span<const Mesh> meshes, const std::vector<bool>& textured);
 
 } // namespace candelabra::gbuffer

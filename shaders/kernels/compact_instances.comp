@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the ids of the visible instances of each batch, densely and in their old order, and the
-// instance count of its draw. One lane per chunk sums the counts of the batch's chunks before it. The
-// result does not depend on scheduling. The host splits batches so that this sum stays short.
+// Writes the ids of the visible instances of each batch and level, densely and in their old order, and
+// the instance count of its draw. One lane per chunk and level sums the counts of the batch's chunks
+// before it. The result does not depend on scheduling. The host splits batches so that this sum stays
+// short.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster.h"
@@ -27,24 +28,27 @@ layout(scalar, binding = COMPACT_INSTANCES_VISIBLE) writeonly buffer Visible
 {
     uint visible[];
 };
-layout(scalar, binding = COMPACT_INSTANCES_COMMANDS) writeonly buffer Commands
+layout(scalar, binding = COMPACT_INSTANCES_COMMANDS) buffer Commands
 {
     DrawCommand commands[];
 };
 
 void main()
 {
-    const uint index = gl_GlobalInvocationID.x;
+    const uint index = gl_GlobalInvocationID.x / MESH_LEVELS;
+    const uint level = gl_GlobalInvocationID.x % MESH_LEVELS;
     if (index >= params.chunkCount)
         return;
     const Chunk chunk = chunks[index];
+    if (level >= chunk.levelCount)
+        return;
     uint count = 0;
     for (uint i = chunk.firstChunk; i < index; ++i)
-        count += counts[i];
+        count += counts[i * MESH_LEVELS + level];
 
-    // All chunks of a batch except the last are full.
-    const uint first = chunk.firstInstance - (index - chunk.firstChunk) * CHUNK_SIZE;
-    const uvec2 words = bits[index];
+    const uint command = chunk.firstCommand + level;
+    const uint first = commands[command].firstInstance;
+    const uvec2 words = bits[index * MESH_LEVELS + level];
     for (uint word = 0; word < 2u; ++word) {
         uint left = words[word];
         while (left != 0u) {
@@ -54,5 +58,5 @@ void main()
         }
     }
     if (index == chunk.lastChunk)
-        commands[chunk.batch].instanceCount = count;
+        commands[command].instanceCount = count;
 }

@@ -53,22 +53,27 @@ const uint MATERIAL_PLAIN_TEXELS = 4u;
 // --- Culling
 
 const uint CHUNK_SIZE = 64u; // instances per chunk; all of them belong to one batch
+const uint MESH_LEVELS = 5u; // most levels of detail of a mesh; level 0 is the mesh itself
 
 struct InstanceBounds {
     vec3 centerHi; // world space; the centre is hi + lo
     vec3 centerLo;
     vec3 extent; // half size along the world axes, m
+    float scale; // no length of object space is longer than this in world space, m
 };
-GPU_SIZE(InstanceBounds, 36)
+GPU_SIZE(InstanceBounds, 40)
 
 struct Chunk {
     uint firstInstance;
     uint count;
-    uint firstChunk; // first chunk of the batch
-    uint lastChunk;  // last chunk of the batch
-    uint batch;
+    uint firstChunk;   // first chunk of the batch
+    uint lastChunk;    // last chunk of the batch
+    uint firstCommand; // of level 0 of the batch's mesh; those of its other levels follow
+    uint levelCount;   // 1..MESH_LEVELS
+    // Errors of levels 1, 2, ... in object space, above 0 and in ascending order.
+    float levelErrors[MESH_LEVELS - 1u];
 };
-GPU_SIZE(Chunk, 20)
+GPU_SIZE(Chunk, 40)
 
 // The same members as VkDrawIndexedIndirectCommand.
 struct DrawCommand {
@@ -80,27 +85,35 @@ struct DrawCommand {
 };
 GPU_SIZE(DrawCommand, 20)
 
-// cull_instances: tests the bounds of each instance, one lane per chunk
+// cull_instances: tests the bounds of each instance and chooses its level, one lane per chunk
 const uint CULL_INSTANCES_GROUP = 64u;
 const uint CULL_INSTANCES_CHUNKS = 0u;
 const uint CULL_INSTANCES_BOUNDS = 1u;
-const uint CULL_INSTANCES_BITS = 2u;   // uvec2 per chunk: bit i = instance i is drawn
-const uint CULL_INSTANCES_COUNTS = 3u; // uint per chunk
-struct CullInstancesParams {
+const uint CULL_INSTANCES_BITS = 2u;   // uvec2 per chunk and level: bit i = instance i is drawn so
+const uint CULL_INSTANCES_COUNTS = 3u; // uint per chunk and level
+const uint CULL_INSTANCES_FRAME = 4u;
+struct CullInstancesFrame {
     vec4 planes[6]; // unit normals in world space; p is inside if dot(xyz, p - camera) + w >= 0
-    vec3 cameraHi;
+    vec3 cameraHi;  // world space; the position is hi + lo
     vec3 cameraLo;
+    vec3 eye;          // perspective: where all rays meet, relative to the camera
+    vec3 forward;      // unit viewing direction, world space
+    float perspective; // 1, or 0: orthographic
+    // Pixels that a length of 1 m across the viewing direction has at most; perspective: 1 m ahead.
+    float pixelScale;
+    float maxLevelError; // pixels; 0: level 0 everywhere
     uint chunkCount;
 };
-GPU_SIZE(CullInstancesParams, 124)
+GPU_SIZE(CullInstancesFrame, 160)
 
 // compact_instances: writes the ids of the drawn instances in their old order, one lane per chunk
+// and level
 const uint COMPACT_INSTANCES_GROUP = 64u;
 const uint COMPACT_INSTANCES_CHUNKS = 0u;
 const uint COMPACT_INSTANCES_BITS = 1u;
 const uint COMPACT_INSTANCES_COUNTS = 2u;
-const uint COMPACT_INSTANCES_VISIBLE = 3u;  // uint per instance; each batch has a range of its own
-const uint COMPACT_INSTANCES_COMMANDS = 4u; // DrawCommand per batch
+const uint COMPACT_INSTANCES_VISIBLE = 3u;  // uint; each command has a range of its own
+const uint COMPACT_INSTANCES_COMMANDS = 4u; // DrawCommand per batch and level
 struct CompactInstancesParams {
     uint chunkCount;
 };

@@ -189,7 +189,8 @@ RasterImage RasterTest::renderWith(gbuffer::GBuffer& pass, const gbuffer::Geomet
                      .attachments = targets.attachments(),
                      .width = options.width,
                      .height = options.height,
-                     .cullInstances = options.cullInstances});
+                     .cullInstances = options.cullInstances,
+                     .maxLevelError = options.maxLevelError});
     });
     RasterImage image;
     image.width = options.width;

@@ -51,6 +51,7 @@ struct RasterOptions {
     float clearDepth = 0;
     glm::vec3 background{0};
     bool cullInstances = true;
+    float maxLevelError = 0; // most tests draw meshes as they describe them
     std::vector<CndLight> emitters;
     glm::dvec3 emitterOrigin{0};
 };

@@ -281,6 +281,9 @@ void FrameArguments::addTo(CLI::App& command)
         ->type_name("E")
         ->capture_default_str();
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "layout of the G-buffer");
+    addChoice(command, "--lod", lod, onOffChoices,
+              "draw meshes by coarser levels of detail where that moves their surface by at most a "
+              "quarter of a pixel");
 }
 
 void FrameArguments::addCullingTo(CLI::App& command)
@@ -400,6 +403,11 @@ std::optional<bool> FrameArguments::lightsVisibleOverride() const
     if (lightsVisible.empty())
         return std::nullopt;
     return choose("--lights-visible", lightsVisible, onOffChoices);
+}
+
+bool FrameArguments::levels() const
+{
+    return choose("--lod", lod, onOffChoices);
 }
 
 CndExposureSettings FrameArguments::exposureSettings() const

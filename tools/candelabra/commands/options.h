@@ -71,7 +71,7 @@ struct FrameArguments {
     std::string gbuffer = "full", specular, culling = "clustered";
     std::string sampleCount = "64", errorBudget = "0";
     std::string influence = "given", influenceError;
-    std::string lightsVisible, reuse, heatMap = "none";
+    std::string lightsVisible, reuse, heatMap = "none", lod = "on";
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
 
     void addTo(CLI::App& command);
@@ -93,6 +93,7 @@ struct FrameArguments {
     Reuse reuseMode() const;
     HeatMap heatMapMode() const; // throws if culling is not clustered
     std::optional<bool> lightsVisibleOverride() const;
+    bool levels() const; // FrameOptions::levels
     CndExposureSettings exposureSettings() const;
 };
 

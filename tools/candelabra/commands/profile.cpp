@@ -48,7 +48,8 @@ CameraPath cameraPath(const std::string& text)
 
 FrameOptions frameOptions(const FrameArguments& frame)
 {
-    return {.specular = frame.specularMethod(),
+    return {.levels = frame.levels(),
+            .specular = frame.specularMethod(),
             .sampleCount = frame.samples(),
             .errorBudget = frame.budget(),
             .culling = frame.cullingMode(),
@@ -167,6 +168,7 @@ Json describe(const ProgramContext& program, const ProfileArguments& a, const Pr
         one["time"] = toJson(profile.series[v]);
         one["overhead"] = overheadJson(profile.series[v], profile.stampMs);
         one["lighting"] = toJson(profile.last[v].lighting);
+        one["drawnTriangles"] = profile.drawnTriangles[v];
         variants.push_back(one);
     }
     Json out{{"schema", profileSchema},
@@ -186,17 +188,24 @@ Json describe(const ProgramContext& program, const ProfileArguments& a, const Pr
     return out;
 }
 
-std::string text(const ProfileArguments& a, const Profile& profile)
+// `all` is the number of triangles of all instances.
+std::string text(const ProfileArguments& a, const Profile& profile, uint64_t all)
 {
+    std::string drawn;
+    for (const uint64_t triangles : profile.drawnTriangles)
+        drawn += (drawn.empty() ? "" : " and ") + grouped(triangles);
+    drawn = fmt::format("The first camera draws {} of {} triangles.\n", drawn, grouped(all));
     if (a.ab.empty())
-        return seriesTable(profile.series[0]) + overheadText(profile.series[0], profile.stampMs);
+        return seriesTable(profile.series[0]) + overheadText(profile.series[0], profile.stampMs) +
+               drawn;
     const auto shown = [](const std::string& options) {
         return options.empty() ? std::string("the options of the command line") : options;
     };
     return fmt::format("A: {}\nB: {}\n", shown(a.ab[0]), shown(a.ab[1])) +
            comparisonTable(profile.series[0], profile.series[1]) +
            "Each row has its own 95% interval: of twenty rows without a difference, one is called "
-           "faster or slower by chance.\n";
+           "faster or slower by chance.\n" +
+           drawn;
 }
 
 int profile(const ProgramContext& program, const ProfileArguments& a)
@@ -244,7 +253,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
                      counted(result.warmUpRounds, "frame"));
     const bool toTerminal = a.json != "-" && a.csv != "-" && a.trace != "-";
     if (toTerminal)
-        writeText("-", text(a, result));
+        writeText("-", text(a, result, renderer.triangleCount()));
     Json costs;
     if (!a.lightCosts.empty()) {
         const size_t count = unsignedOption("--light-costs", a.lightCosts, 1, 1'000'000);

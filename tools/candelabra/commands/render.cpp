@@ -97,6 +97,7 @@ RenderPlan plan(const RenderArguments& a)
                          "noise hides the error");
     return {.scene = a.scene.options(a.scene.lightCount()),
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
+                      .levels = a.frame.levels(),
                       .specular = a.frame.specularMethod(),
                       .sampleCount = a.frame.samples(),
                       .errorBudget = a.frame.budget(),

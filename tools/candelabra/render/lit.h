@@ -13,6 +13,7 @@ struct Lit {
     Camera camera;
     double lightTime;
     bool lightsVisible;
+    bool levels;
     CndSpecularMethod specular;
     uint32_t sampleCount, sampleSeed;
     float errorBudget;
@@ -24,7 +25,8 @@ struct Lit {
     bool operator==(const Lit&) const = default;
     bool sameSurfaces(const Lit& other) const
     {
-        return camera == other.camera && lightsVisible == other.lightsVisible;
+        return camera == other.camera && lightsVisible == other.lightsVisible &&
+               levels == other.levels;
     }
 };
 

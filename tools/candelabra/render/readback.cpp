@@ -128,6 +128,23 @@ std::vector<uint8_t> readDisplay(const VulkanContext& context, const Renderer& r
     return dropAlpha<uint8_t>(buffer.as<const uint8_t>(), size_t(image.width) * image.height);
 }
 
+uint64_t readDrawnTriangles(const VulkanContext& context, const Renderer& renderer)
+{
+    const gpu::Buffer& commands = renderer.drawCommands();
+    const gpu::Buffer copy =
+        gpu::createBuffer(context.device(), "draw commands readback", commands.size,
+                          VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::Readback);
+    context.submitAndWait([&](VkCommandBuffer cmd) {
+        const VkBufferCopy region{0, 0, commands.size};
+        vkCmdCopyBuffer(cmd, commands.get(), copy.get(), 1, &region);
+        makeVisibleToHost(cmd);
+    });
+    uint64_t sum = 0;
+    for (const auto& draw : copy.as<VkDrawIndexedIndirectCommand>())
+        sum += uint64_t(draw.indexCount / 3) * draw.instanceCount;
+    return sum;
+}
+
 void saveFrame(const VulkanContext& context, const Renderer& renderer, const std::string& path)
 {
     if (extensionOf(path) == ".png")

@@ -212,6 +212,7 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
                     .attachments = targets.attachments(),
                     .width = options.size.width,
                     .height = options.size.height,
+                    .maxLevelError = frame.levels ? gbuffer::defaultMaxLevelError : 0,
                     .drawEmitters = frame.lightsVisible});
     if (environment.get())
         recordEnvironment(cmd, slot, frame);
@@ -262,9 +263,9 @@ CndInfluence Renderer::State::influenceOf(uint32_t slot, const FrameOptions& fra
 Lit Renderer::State::litBy(uint32_t slot, const FrameOptions& f) const
 {
     const CndInfluence influence = influenceOf(slot, f);
-    return {f.camera,       lightTime,          f.lightsVisible,    f.specular,
-            f.sampleCount,  f.sampleSeed,       f.errorBudget,      f.culling,
-            influence.rule, influence.maxError, influence.exposure, influence.toneMap};
+    return {f.camera,           lightTime,          f.lightsVisible,  f.levels,  f.specular,
+            f.sampleCount,      f.sampleSeed,       f.errorBudget,    f.culling, influence.rule,
+            influence.maxError, influence.exposure, influence.toneMap};
 }
 
 void Renderer::moveLights(double time)
@@ -450,6 +451,11 @@ const gpu::Image& Renderer::pairs() const
 uint64_t Renderer::triangleCount() const
 {
     return state_->geometry.counts().triangles;
+}
+
+const gpu::Buffer& Renderer::drawCommands() const
+{
+    return state_->geometry.drawCommands();
 }
 
 } // namespace candelabra::app

@@ -43,6 +43,7 @@ struct FrameOptions {
     float deltaTime = 0;       // s since the previous frame, for the adaptation of exposure
     bool resetExposure = true; // jump to the converged exposure
     bool lightsVisible = true;
+    bool levels = true; // draw distant meshes by coarser levels of detail
     bool countPairs = false;
     uint32_t ditherSeed = 0;
     CndSpecularMethod specular = CND_SPECULAR_CONIC;
@@ -124,6 +125,8 @@ public:
     const gpu::Image& pairs() const;
 
     uint64_t triangleCount() const; // of all instances
+    // The draws of meshes in the last recorded frame, a VkDrawIndexedIndirectCommand each.
+    const gpu::Buffer& drawCommands() const;
 
 private:
     struct State;

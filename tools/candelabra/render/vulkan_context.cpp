@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <malloc.h>
 #include <vector>
 
 #define GLFW_INCLUDE_NONE
@@ -80,12 +81,26 @@ const CalibratedTimestamps* findCalibratedTimestamps(VkInstance instance, VkPhys
     return nullptr;
 }
 
+// A driver that draws on the CPU allocates many megabytes for every pass that draws triangles, and
+// frees them after it. By default the C library returns them to the system each time, and the next
+// pass waits for page faults.
+void keepFreedMemory()
+{
+#ifdef __GLIBC__
+    constexpr int kept = 512 << 20, largestKept = 32 << 20; // bytes
+    mallopt(M_TRIM_THRESHOLD, kept);
+    mallopt(M_MMAP_THRESHOLD, largestKept);
+#endif
+}
+
 } // namespace
 
 VulkanContext::VulkanContext(const ContextOptions& options)
     : instance_(options.validation, options.presentation),
       info_(chooseDevice(instance_.devices(), options.device))
 {
+    if (info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU)
+        keepFreedMemory();
     queueFamily_ = findQueueFamily(instance_, info_);
     timestampValidBits_ = queueFamilies(info_)[queueFamily_].timestampValidBits;
     createDevice();

@@ -172,6 +172,7 @@ void drawLights(PanelState& state, const PanelFigures& figures)
     if (figures.moving)
         ImGui::Checkbox("move lights", &state.animate);
     ImGui::Checkbox("show lights as emitters", &state.frame.lightsVisible);
+    ImGui::Checkbox("levels of detail", &state.frame.levels);
     combo("specular", state.frame.specular, CND_SPECULAR_METHOD_COUNT, specularName);
     drawBudget("error budget", state.frame.errorBudget);
     combo("culling", state.frame.culling, 2, cullingName);

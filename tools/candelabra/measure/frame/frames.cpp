@@ -169,6 +169,7 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"gbuffer", gbufferName(layout)},
             {"toneMap", toneMapName(options.exposure.toneMap)},
             {"lightsVisible", options.lightsVisible},
+            {"levelsOfDetail", options.levels},
             {"exposure", options.exposure.manual ? "manual" : "auto"},
             {"compensationEv", options.exposure.compensation}};
 }

@@ -14,6 +14,7 @@
 #include "io/table.h"
 #include "measure/frame/frames.h"
 #include "render/frame_ring.h"
+#include "render/readback.h"
 
 namespace candelabra::app
 {
@@ -212,6 +213,11 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
         onRound();
     }
     frames.finishAll();
+    for (const FrameOptions& options : settings.variants) {
+        frames.draw(options, [](const CpuSpans&, const FrameStats&, CpuClock::time_point) {});
+        frames.finishAll();
+        out.drawnTriangles.push_back(readDrawnTriangles(context, renderer));
+    }
     return out;
 }
 

@@ -86,9 +86,10 @@ constexpr uint32_t maxFramesInFlight = 3;
 struct Profile {
     std::vector<FrameSeries> series; // one per variant
     uint32_t warmUpRounds = 0;
-    bool settled = false;         // the warm-up ended because times were stable
-    std::vector<FrameStats> last; // one per variant
-    double stampMs = 0;           // the time that a timestamp takes on the GPU
+    bool settled = false;                 // the warm-up ended because times were stable
+    std::vector<FrameStats> last;         // one per variant
+    std::vector<uint64_t> drawnTriangles; // by the first camera, one per variant
+    double stampMs = 0;                   // the time that a timestamp takes on the GPU
 };
 
 ProfilingOverhead overheadOf(const FrameSeries& series, double stampMs);
