@@ -30,6 +30,23 @@ struct Frame {
     void hostBarrier() const noexcept;
 };
 
+// A frame for dispatches without timestamps of their own, which share a scope of `frame`.
+class UntimedFrame
+{
+public:
+    explicit UntimedFrame(const Frame& frame)
+        : frame_{frame.device, frame.cmd, timer_, frame.slot, frame.hostSet}
+    {
+    }
+    UntimedFrame(const UntimedFrame&) = delete; // frame_ refers to timer_
+    UntimedFrame& operator=(const UntimedFrame&) = delete;
+    operator const Frame&() const { return frame_; }
+
+private:
+    Timer timer_; // disabled
+    Frame frame_;
+};
+
 struct SpecConstant {
     uint32_t id;
     uint32_t value;

@@ -10,9 +10,14 @@ namespace candelabra::gpu
 {
 
 // One timestamp is written at the start of a frame and one after each scope, so a scope lasts from
-// the end of the previous one to its own end: n scopes take n + 1 timestamps, and their times add
-// up to the total. Scopes with the same name are summed in one row; rows are in order of first use.
-// A disabled timer records nothing.
+// the end of the previous one to its own end, its waits for barriers included: n scopes take n + 1
+// timestamps, and their times add up to the total. Scopes with the same name are summed in one row;
+// rows are in order of first use. A disabled timer records nothing.
+//
+// A timestamp waits until all work before it is done, and on some devices work after it waits for
+// the timestamp. So dispatches that may run at the same time, because there is no barrier between
+// them, share a scope, which ends where the next barrier makes everything wait anyway. The
+// dispatches get an UntimedFrame.
 class Timer
 {
 public:

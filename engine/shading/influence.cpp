@@ -8,6 +8,7 @@
 
 #include "candelabra_shaders.h"
 #include "lights/light_types.h"
+#include "shading/brute_rects.h"
 #include "shared/exposure.h"
 
 namespace candelabra::lighting
@@ -160,10 +161,18 @@ void Influence::recordRound(const gpu::Frame& f) const noexcept
 }
 
 void Influence::recordMeasure(const gpu::Frame& f, const MeasureKernel& kernel,
-                              const gpu::MeasureInfluenceParams& params) const noexcept
+                              gpu::MeasureInfluenceParams params) const noexcept
 {
     constexpr uint32_t perGroup = gpu::MEASURE_INFLUENCE_GROUP / gpu::MEASURE_INFLUENCE_LANES;
-    kernel.dispatch(f, measure_.set(f.slot), params, gpu::divideUp(area(frame_.samples), perGroup));
+    const uint32_t groups = gpu::divideUp(area(frame_.samples), perGroup);
+    const uint64_t most =
+        std::max<uint64_t>(brutePairsPerDispatch / params.batch.count / perGroup, 1);
+    for (uint32_t done = 0; done < groups;) {
+        const uint32_t some = uint32_t(std::min<uint64_t>(most, groups - done));
+        params.firstSample = done * perGroup;
+        kernel.dispatch(f, measure_.set(f.slot), params, some);
+        done += some;
+    }
     f.barrier();
 }
 

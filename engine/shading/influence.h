@@ -53,7 +53,7 @@ public:
     uint32_t recordBegin(const gpu::Frame& f, const CndLightingFrame& frame) noexcept;
     void recordRound(const gpu::Frame& f) const noexcept;
     void recordMeasure(const gpu::Frame& f, const MeasureKernel& kernel,
-                       const gpu::MeasureInfluenceParams& params) const noexcept;
+                       gpu::MeasureInfluenceParams params) const noexcept;
     void recordChoice(const gpu::Frame& f, uint32_t round) const noexcept;
     // `types`: number of lights by type, 0 for types that the frame leaves out. At least one type
     // that is not distant is present.

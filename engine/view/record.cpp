@@ -3,6 +3,7 @@
 // passes.
 #include <algorithm>
 
+#include "shading/brute_rects.h"
 #include "shading/light_batches.h"
 #include "view/frame_checks.h"
 #include "view/view.h"
@@ -141,8 +142,8 @@ void View::recordPasses(const gpu::Frame& f, const FramePlan& p, const FramePass
 // Sets the radii of influence so that the display differs by no more than the frame allows.
 void View::recordInfluence(const gpu::Frame& f, const FramePlan& p) noexcept
 {
-    gpu::Timer untimed; // the rounds share one row of times
-    const gpu::Frame u{f.device, f.cmd, untimed, f.slot};
+    const gpu::UntimedFrame untimed(f); // the rounds share one row of times
+    const gpu::Frame& u = untimed;
     const char* measured = nullptr;
     const uint32_t rounds = influence_->recordBegin(u, p.frame);
     for (uint32_t round = 0; round < rounds; ++round) {
@@ -159,7 +160,7 @@ void View::recordInfluence(const gpu::Frame& f, const FramePlan& p) noexcept
                 uint64_t(lightsPerBatch(p, type)) * gpu::MEASURE_INFLUENCE_LANES;
             inBatches(allLights(p, type), uint32_t(std::min<uint64_t>(largest, UINT32_MAX)),
                       [&](const gpu::LightBatch& batch) {
-                          influence_->recordMeasure(u, kernel, {batch, round});
+                          influence_->recordMeasure(u, kernel, {batch, round, 0});
                       });
         }
         influence_->recordChoice(u, round);
@@ -198,9 +199,11 @@ void View::recordTileCounts(const gpu::Frame& f) const noexcept
 
 void View::recordLists(const gpu::Frame& f, const FramePlan& p) const noexcept
 {
+    const gpu::UntimedFrame u(f); // lists of one type may be made at the same time as of another
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (p.lights[type] && !isDistant(type))
-            clusters_.recordLists(f, type, p.trees[type], p.tileCount, lightsPerBatch(p, type));
+            clusters_.recordLists(u, type, p.trees[type], p.tileCount, lightsPerBatch(p, type));
+    f.timer.stamp(f.cmd, module_.kernels.clusters.clusterLists.name());
     f.barrier();
 }
 
@@ -214,11 +217,13 @@ void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t typ
 {
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
     const auto shade = [&](const gpu::LightBatch& batch) {
+        const gpu::UntimedFrame u(f);
         byClass(module_.kernels.shade, p.frame, type,
                 [&](const ShadeKernels::Tiles& kernels, VkDeviceSize workList) {
-                    kernels.shade.dispatchIndirect(f, sets_.shadeTiles.set(set), {batch},
+                    kernels.shade.dispatchIndirect(u, sets_.shadeTiles.set(set), {batch},
                                                    clusters_.tilesToShade(type), workList);
                 });
+        f.timer.stamp(f.cmd, module_.kernels.shade.anyVariant().any.shade.name());
         f.barrier();
     };
     if (isDistant(type)) { // they light every surface: no lists
@@ -238,8 +243,8 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
 {
     const ShadeKernels& kernels = module_.kernels.shade;
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
-    gpu::Timer untimed; // the dispatches share one row of times
-    const gpu::Frame u{f.device, f.cmd, untimed, f.slot, f.hostSet};
+    const gpu::UntimedFrame untimed(f); // the dispatches share one row of times
+    const gpu::Frame& u = untimed;
     const auto record = [&](const gpu::ShadeUnlistedParams& part) {
         byClass(kernels, p.frame, type,
                 [&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
@@ -277,30 +282,36 @@ void View::recordCountPairs(const gpu::Frame& f, const FramePlan& p, uint32_t ty
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
     const gpu::CountPairsParams params{.batch = allLights(p, type),
                                        .writesImage = p.frame.pairImage != VK_NULL_HANDLE};
+    const gpu::UntimedFrame u(f);
     byClass(module_.kernels.shade, p.frame, type,
             [&](const ShadeKernels::Tiles& kernels, VkDeviceSize workList) {
-                kernels.countPairs.dispatchIndirect(f, sets_.countPairs.set(set), params,
+                kernels.countPairs.dispatchIndirect(u, sets_.countPairs.set(set), params,
                                                     clusters_.surfaces(), workList);
             });
+    f.timer.stamp(f.cmd, module_.kernels.shade.anyVariant().any.countPairs.name());
     f.barrier();
 }
 
-// Shades every pixel of the frame, or of bruteRect, by every light of the type.
+// Shades every pixel of the frame, or of bruteRect, by every light of the type. Dispatches for
+// different pixels need no barrier between them, and their sizes change no sum.
 void View::recordBrute(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
 {
     const ShadeKernels::Variant& kernels =
         module_.kernels.shade.variant(type, p.frame.specularMethod, p.frame.errorBudget > 0);
-    gpu::ShadeBruteParams params{.batch = {}, .first = {0, 0}, .end = p.params.size};
+    glm::uvec2 first(0), end = p.params.size;
     const VkRect2D& r = p.frame.bruteRect;
     if (r.extent.width && r.extent.height) {
-        params.first = {r.offset.x, r.offset.y};
-        params.end = params.first + glm::uvec2(r.extent.width, r.extent.height);
+        first = {r.offset.x, r.offset.y};
+        end = first + glm::uvec2(r.extent.width, r.extent.height);
     }
-    const glm::uvec2 pixels = params.end - params.first;
     inBatches(allLights(p, type), lightsPerBatch(p, type), [&](const gpu::LightBatch& batch) {
-        params.batch = batch;
-        kernels.brute.dispatch(f, sets_.shadeBrute.set(f.slot), params, tilesAlong(pixels.x),
-                               tilesAlong(pixels.y));
+        const gpu::UntimedFrame u(f);
+        inBruteRects(
+            first, end, batch.count, brutePairsPerDispatch, [&](glm::uvec2 from, glm::uvec2 to) {
+                kernels.brute.dispatch(u, sets_.shadeBrute.set(f.slot), {batch, from, to},
+                                       tilesAlong(to.x - from.x), tilesAlong(to.y - from.y));
+            });
+        f.timer.stamp(f.cmd, kernels.brute.name());
         f.barrier();
     });
 }

@@ -93,8 +93,8 @@ void measure(uvec2 pixel, float depth)
 
 void main()
 {
-    const uint sampleIndex =
-        gl_WorkGroupID.x * SAMPLES_OF_GROUP + gl_LocalInvocationIndex / LANES;
+    const uint sampleIndex = params.firstSample + gl_WorkGroupID.x * SAMPLES_OF_GROUP +
+                             gl_LocalInvocationIndex / LANES;
     const bool exists = sampleIndex < data.frame.samples.x * data.frame.samples.y;
     const uint turn = influenceTurn(data.frame, data.states[data.frame.previous], params.round);
     const uvec2 pixel = influencePixel(data.frame, sampleIndex, turn);

@@ -73,9 +73,10 @@ const uint MEASURE_INFLUENCE_DATA = 40u;
 const uint MEASURE_INFLUENCE_SUMS = 41u; // vec3, INFLUENCE_SLOTS per sample
 struct MeasureInfluenceParams {
     LightBatch batch;
-    uint round; // the frame's round of measuring, from 0
+    uint round;       // the frame's round of measuring, from 0
+    uint firstSample; // a dispatch takes a part of the samples if there are many lights
 };
-GPU_SIZE(MeasureInfluenceParams, 12)
+GPU_SIZE(MeasureInfluenceParams, 16)
 
 // --- choose_influence: one lane per sample
 const uint CHOOSE_INFLUENCE_GROUP = 64u;

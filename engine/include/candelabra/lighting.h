@@ -120,8 +120,9 @@ typedef struct CndLightingDesc {
                              // yet waited for
     CndGBufferLayout gbufferLayout;
     // VK_TRUE: measure the GPU time of every pass. A frame then writes one timestamp at its start
-    // and one after every dispatch (passes of many dispatches, such as sorting the lights, write
-    // one at their end). A timestamp takes about 50 us on a software device.
+    // and one at the end of every pass, where the next pass waits for it anyway, so dispatches that
+    // may run at the same time still do. The time of a pass includes its waits for barriers. A
+    // timestamp takes about 50 us on a software device.
     VkBool32 timestamps;
     // Mask of 1 << CndSpecularMethod: the methods that frames may ask for; 0: CND_SPECULAR_CONIC
     // alone. Pipelines are created for these methods only. The pipelines of a light type are
@@ -212,7 +213,12 @@ typedef struct CndLightingFrame {
     // sampleCount and influence.rule are the same as well and both frames use
     // CND_CULLING_CLUSTERED. With CND_INFLUENCE_BY_ERROR they are never reused.
     VkBool32 surfacesUnchanged;
-    VkRect2D bruteRect; // with CND_CULLING_BRUTE: the pixels to shade; zero extent: all pixels
+    // With CND_CULLING_BRUTE: the pixels to shade; zero extent: all pixels. So that no dispatch
+    // runs for seconds, none evaluates more than 2^28 pairs of pixel and light (with more than four
+    // million lights: the pairs of 64 pixels). Where the system also limits how long a submission
+    // runs, record the frame as several with one rectangle each, and submit each by itself: the
+    // image has the same bits.
+    VkRect2D bruteRect;
     // VK_TRUE: also count (pixel, light) pairs, with one more kernel. Ignored with
     // CND_CULLING_BRUTE.
     VkBool32 countPairs;
