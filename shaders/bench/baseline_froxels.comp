@@ -3,8 +3,10 @@
 // If the sphere touches a froxel's box, it counts the light or enters it into the froxel's list.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_samplerless_texture_functions : require
 #include "shared/baselines.h"
+#define SPHERES BASELINE_FROXELS_SPHERES
+#define SPHERE_WORDS BASELINE_FROXELS_SPHERE_WORDS
+#include "bench/spheres.glsl"
 
 layout(local_size_x = BASELINE_GROUP) in;
 layout(constant_id = SPEC_FROXELS_ENTER) const uint enter = 0u;
@@ -12,8 +14,11 @@ layout(push_constant, scalar) uniform Push
 {
     BaselineFroxelsParams params;
 };
-layout(binding = BASELINE_FROXELS_SPHERES) uniform textureBuffer spheres;
-layout(binding = BASELINE_FROXELS_BOXES) uniform textureBuffer boxes;
+layout(binding = BASELINE_FROXELS_BOXES) uniform textureBuffer boxTexels;
+layout(scalar, binding = BASELINE_FROXELS_BOX_WORDS) readonly buffer BoxWords
+{
+    vec4 boxWords[];
+};
 layout(scalar, binding = BASELINE_FROXELS_HEADS) buffer Heads
 {
     uint heads[];
@@ -46,12 +51,17 @@ int sliceOf(float distance_)
     return int(min(slice, float(FROXEL_SLICES - 1u)));
 }
 
+vec3 cornerOfBox(uint at)
+{
+    return lightsAsTexels != 0u ? texelFetch(boxTexels, int(at)).xyz : boxWords[at].xyz;
+}
+
 void main()
 {
     const uint light = gl_GlobalInvocationID.x;
     if (light >= params.lightCount)
         return;
-    const vec4 s = texelFetch(spheres, int(light));
+    const vec4 s = sphereOf(light);
     const float nearest = max(-s.z - s.w, params.nearest * 0.999), farthest = -s.z + s.w;
     if (farthest < params.nearest * 0.999)
         return;
@@ -68,8 +78,8 @@ void main()
     int x = xs.x, y = ys.x, z = z0;
     for (int i = 0; i < froxels; ++i) {
         const uint at = (uint(z) * params.froxelCount.y + uint(y)) * params.froxelCount.x + uint(x);
-        const vec3 low = texelFetch(boxes, int(2u * at)).xyz;
-        const vec3 high = texelFetch(boxes, int(2u * at + 1u)).xyz;
+        const vec3 low = cornerOfBox(2u * at);
+        const vec3 high = cornerOfBox(2u * at + 1u);
         const vec3 outside = max(max(low - s.xyz, s.xyz - high), vec3(0.0));
         if (dot(outside, outside) <= s.w * s.w) {
             if (enter == 0u)

@@ -8,6 +8,9 @@
 #include "shared/baselines.h"
 #include "shared/clusters.h"
 #include "lib/projection.glsl"
+#define SPHERES BASELINE_TILES_SPHERES
+#define SPHERE_WORDS BASELINE_TILES_SPHERE_WORDS
+#include "bench/spheres.glsl"
 
 layout(local_size_x = BASELINE_GROUP) in;
 layout(push_constant, scalar) uniform Push
@@ -15,7 +18,6 @@ layout(push_constant, scalar) uniform Push
     BaselineTilesParams params;
 };
 layout(binding = BASELINE_TILES_DEPTH) uniform texture2D depthImage;
-layout(binding = BASELINE_TILES_SPHERES) uniform textureBuffer spheres;
 layout(scalar, binding = BASELINE_TILES_HEADS) buffer Heads
 {
     uint heads[];
@@ -77,7 +79,7 @@ void main()
         const uint count = min(32u, endLight - begin);
         uint passed = 0u;
         for (uint k = 0u; k < count; ++k) {
-            const vec4 s = texelFetch(spheres, int(begin + k));
+            const vec4 s = sphereOf(begin + k);
             const float inside =
                 min(min(dot(left, s.xz), dot(right, s.xz)), min(dot(top, s.yz), dot(bottom, s.yz)));
             const float within = min(inside, min(s.z - zMin, zMax - s.z));

@@ -38,6 +38,7 @@ const uint BASELINE_TILES_HEADS = 2u;
 const uint BASELINE_TILES_ENTRIES = 3u;
 const uint BASELINE_TILES_COUNTERS = 4u;
 const uint BASELINE_TILES_RANGES = 5u; // vec2 per tile: nearest and farthest distance along -z
+const uint BASELINE_TILES_SPHERE_WORDS = 6u; // the spheres as a storage buffer
 struct BaselineTilesParams {
     Projection projection;
     uvec2 size;
@@ -60,7 +61,9 @@ const uint BASELINE_FROXELS_BOXES = 1u;   // two texels per froxel: (min, 0), (m
 const uint BASELINE_FROXELS_HEADS = 2u;   // one more than froxels; after counting, the counts
 const uint BASELINE_FROXELS_CURSORS = 3u; // where the next light of each froxel is entered
 const uint BASELINE_FROXELS_ENTRIES = 4u;
-const uint SPEC_FROXELS_ENTER = 19u; // 0: count, 1: enter
+const uint BASELINE_FROXELS_SPHERE_WORDS = 5u; // the spheres as a storage buffer
+const uint BASELINE_FROXELS_BOX_WORDS = 6u;    // the boxes as a storage buffer
+const uint SPEC_FROXELS_ENTER = 19u;           // 0: count, 1: enter
 struct BaselineFroxelsParams {
     Projection projection;
     uvec2 froxelCount; // in x and y

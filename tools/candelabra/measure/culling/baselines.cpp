@@ -44,9 +44,14 @@ gpu::Buffer texels(const gpu::Device& device, const char* name, VkDeviceSize cou
 Baselines::Kernels::Kernels(const gpu::Device& device)
     : prepare(device, spirv::prepare_lights_comp),
       spheres(device, spirv::baseline_spheres_comp),
-      tiles(device, spirv::baseline_tiles_comp),
-      count(device, spirv::baseline_froxels_comp, {{gpu::SPEC_FROXELS_ENTER, 0}}),
-      enter(device, spirv::baseline_froxels_comp, {{gpu::SPEC_FROXELS_ENTER, 1}}),
+      tiles(device, spirv::baseline_tiles_comp,
+            {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)}}),
+      count(device, spirv::baseline_froxels_comp,
+            {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
+             {gpu::SPEC_FROXELS_ENTER, 0}}),
+      enter(device, spirv::baseline_froxels_comp,
+            {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
+             {gpu::SPEC_FROXELS_ENTER, 1}}),
       scan(device, spirv::baseline_scan_comp)
 {
     const auto make = [&](const gpu::Spirv& spirv, uint32_t baseline) {
@@ -206,13 +211,16 @@ void Baselines::writeBindings()
                           Binding::of(BASELINE_TILES_HEADS, lists_[0].heads),
                           Binding::of(BASELINE_TILES_ENTRIES, lists_[0].entries),
                           Binding::of(BASELINE_TILES_COUNTERS, lists_[0].counters),
-                          Binding::of(BASELINE_TILES_RANGES, ranges_)});
+                          Binding::of(BASELINE_TILES_RANGES, ranges_),
+                          Binding::of(BASELINE_TILES_SPHERE_WORDS, spheres_)});
     for (const Bindings* set : {&sets_.count, &sets_.enter})
         set->write(0, {Binding::ofTexels(BASELINE_FROXELS_SPHERES, spheres_),
                        Binding::ofTexels(BASELINE_FROXELS_BOXES, boxes_),
                        Binding::of(BASELINE_FROXELS_HEADS, lists_[1].heads),
                        Binding::of(BASELINE_FROXELS_CURSORS, cursors_),
-                       Binding::of(BASELINE_FROXELS_ENTRIES, lists_[1].entries)});
+                       Binding::of(BASELINE_FROXELS_ENTRIES, lists_[1].entries),
+                       Binding::of(BASELINE_FROXELS_SPHERE_WORDS, spheres_),
+                       Binding::of(BASELINE_FROXELS_BOX_WORDS, boxes_)});
     sets_.scan.write(0, {Binding::of(BASELINE_SCAN_HEADS, lists_[1].heads),
                          Binding::of(BASELINE_SCAN_CURSORS, cursors_),
                          Binding::of(BASELINE_SCAN_COUNTERS, lists_[1].counters)});
