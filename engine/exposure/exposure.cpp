@@ -56,16 +56,18 @@ CndExposureDesc checked(const CndExposureDesc& desc)
 Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
     : device_(device),
       timer_(device_, "exposure", checked(desc).framesInFlight, desc.timestamps),
-      histogram_(device_, spirv::luminance_histogram_comp),
       adapt_(device_, spirv::adapt_exposure_comp),
       slots_(desc.framesInFlight),
       owner_(nextOwner())
 {
+    for (uint32_t metering = 0; metering < histogram_.size(); ++metering)
+        histogram_[metering] = gpu::Kernel<gpu::LuminanceHistogramParams>(
+            device_, spirv::luminance_histogram_comp, {{gpu::SPEC_METERING, metering}});
     for (uint32_t curve = 0; curve < CND_TONEMAP_COUNT; ++curve)
         toneMap_[curve] = gpu::Kernel<gpu::ToneMapParams>(device_, spirv::tone_map_comp,
                                                           {{gpu::SPEC_TONE_MAP, curve}});
     const uint32_t slots = desc.framesInFlight;
-    sets_ = {histogram_.createBindings(slots), adapt_.createBindings(slots),
+    sets_ = {histogram_[0].createBindings(slots), adapt_.createBindings(slots),
              toneMap_[0].createBindings(slots)};
     constexpr VkBufferUsageFlags use = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
@@ -156,13 +158,10 @@ void Exposure::record(VkCommandBuffer cmd, const CndExposureFrame& frame)
 
 void Exposure::recordHistogram(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept
 {
-    histogram_.dispatch(
+    histogram_[frame.settings.metering].dispatch(
         f, sets_.histogram.set(f.slot),
-        {.size = {frame.width, frame.height},
-         .maskSize = maskSize_,
-         .metering = uint32_t(frame.settings.metering)},
-        divideUp(frame.width, gpu::HISTOGRAM_GROUP_X),
-        divideUp(frame.height, gpu::HISTOGRAM_GROUP_Y * gpu::HISTOGRAM_ROWS_PER_LANE));
+        {.size = {frame.width, frame.height}, .maskSize = maskSize_},
+        divideUp(frame.width, gpu::HISTOGRAM_COLUMNS), divideUp(frame.height, gpu::HISTOGRAM_ROWS));
 }
 
 void Exposure::recordAdaptation(const gpu::Frame& f, const CndExposureFrame& frame) const noexcept
@@ -179,7 +178,7 @@ void Exposure::recordToneMap(const gpu::Frame& f, const CndExposureFrame& frame)
                                                .dither = frame.settings.dither ? 1u : 0u,
                                                .ditherSeed = frame.ditherSeed},
                                               divideUp(frame.width, gpu::TONE_MAP_GROUP),
-                                              divideUp(frame.height, gpu::TONE_MAP_GROUP));
+                                              divideUp(frame.height, gpu::TONE_MAP_ROWS));
 }
 
 void Exposure::recordReadback(const gpu::Frame& f) const noexcept

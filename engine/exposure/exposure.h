@@ -3,6 +3,7 @@
 // tone mapping of one view.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "gpu/kernel.h"
@@ -45,7 +46,8 @@ private:
 
     gpu::Device device_;
     gpu::Timer timer_;
-    gpu::Kernel<gpu::LuminanceHistogramParams> histogram_;
+    std::array<gpu::Kernel<gpu::LuminanceHistogramParams>, CND_METERING_MASK + 1>
+        histogram_; // by CndMetering
     gpu::Kernel<gpu::AdaptExposureParams> adapt_;
     gpu::Kernel<gpu::ToneMapParams> toneMap_[CND_TONEMAP_COUNT];
     Sets sets_;

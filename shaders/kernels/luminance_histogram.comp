@@ -7,7 +7,8 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/exposure.h"
 
-layout(local_size_x = HISTOGRAM_GROUP_X, local_size_y = HISTOGRAM_GROUP_Y) in;
+layout(local_size_x = HISTOGRAM_GROUP) in;
+layout(constant_id = SPEC_METERING) const uint metering = METERING_AVERAGE;
 layout(push_constant, scalar) uniform Push
 {
     LuminanceHistogramParams params;
@@ -22,21 +23,22 @@ layout(scalar, binding = HISTOGRAM_DATA) buffer Data
     HistogramData data;
 };
 
-const uint GROUP = HISTOGRAM_GROUP_X * HISTOGRAM_GROUP_Y; // one lane per bin when merging
-shared uint bins[HISTOGRAM_BINS];
-shared uint invalidPixels;
-shared uint blackWeight;
+// Two more bins, after those of the histogram: pixels without light and pixels whose luminance is NaN.
+const uint BLACK_BIN = HISTOGRAM_BINS;
+const uint INVALID_BIN = HISTOGRAM_BINS + 1u;
+const uint GROUP_BINS = HISTOGRAM_BINS + 2u;
+shared uint bins[GROUP_BINS];
 
 // Returns the integer weight of a pixel. The products fit into 32 bits up to 16384 x 16384 pixels.
 uint weightOf(uvec2 pixel)
 {
     const uvec2 size = params.size;
-    if (params.metering == METERING_CENTRE_WEIGHTED) {
+    if (metering == METERING_CENTRE_WEIGHTED) {
         const uvec2 d = uvec2(abs(ivec2(2u * pixel + 1u) - ivec2(size)));
         const uint fall = MAX_METERING_WEIGHT * max(d.x * size.y, d.y * size.x) / (size.x * size.y);
         return MAX_METERING_WEIGHT - min(MAX_METERING_WEIGHT - 1u, fall);
     }
-    if (params.metering == METERING_MASK) {
+    if (metering == METERING_MASK) {
         const uvec2 texel = pixel * params.maskSize / size;
         return mask[texel.y * params.maskSize.x + texel.x];
     }
@@ -54,51 +56,62 @@ float luminance(vec3 c)
     return y;
 }
 
-void count(uvec2 pixel)
+// What a pixel adds to the histogram of its group.
+struct Entry {
+    uint bin;
+    uint packed; // weight and fraction
+};
+
+Entry entryOf(uvec2 pixel)
 {
     const float y = luminance(texelFetch(radianceImage, ivec2(pixel), 0).rgb);
     const uint bits = floatBitsToUint(y);
-    if ((bits & 0x7FFFFFFFu) > 0x7F800000u) { // NaN; isnan() may be compiled to false
-        atomicAdd(invalidPixels, 1u);
-        return;
-    }
+    // Tests the bits, because isnan() may be compiled to false.
+    if ((bits & 0x7FFFFFFFu) > 0x7F800000u)
+        return Entry(INVALID_BIN, 1u << HISTOGRAM_COUNT_SHIFT);
     const uint weight = weightOf(pixel);
-    if (!(y >= HISTOGRAM_BLACK)) {
-        atomicAdd(blackWeight, weight);
-        return;
-    }
     uint bin = (bits >> HISTOGRAM_BIN_SHIFT) - HISTOGRAM_FIRST_CODE;
     uint fraction = (bits >> HISTOGRAM_FRACTION_SHIFT) & (HISTOGRAM_FRACTIONS - 1u);
     if (!(y >= HISTOGRAM_MIN_LUMINANCE)) {
-        bin = 0u;
+        bin = y >= HISTOGRAM_BLACK ? 0u : BLACK_BIN;
         fraction = 0u;
     } else if (y >= HISTOGRAM_MAX_LUMINANCE) {
         bin = HISTOGRAM_BINS - 1u;
         fraction = HISTOGRAM_FRACTIONS - 1u;
     }
-    atomicAdd(bins[bin], (weight << HISTOGRAM_COUNT_SHIFT) | weight * fraction);
+    return Entry(bin, (weight << HISTOGRAM_COUNT_SHIFT) | weight * fraction);
+}
+
+// Counts the pixels of a column from `pixel` on. Successive pixels of the same bin are added up before
+// they go to shared memory: on llvmpipe atomics take most of this kernel's time.
+void countColumn(uvec2 pixel, uint end)
+{
+    Entry run = Entry(0u, 0u);
+    do {
+        const Entry entry = entryOf(pixel);
+        if (entry.bin != run.bin) {
+            atomicAdd(bins[run.bin], run.packed);
+            run = Entry(entry.bin, 0u);
+        }
+        run.packed += entry.packed;
+        ++pixel.y;
+    } while (pixel.y < end);
+    atomicAdd(bins[run.bin], run.packed);
 }
 
 void main()
 {
     const uint lane = gl_LocalInvocationIndex;
-    for (uint bin = lane; bin < HISTOGRAM_BINS; bin += GROUP)
+    for (uint bin = lane; bin < GROUP_BINS; bin += HISTOGRAM_GROUP)
         bins[bin] = 0u;
-    if (lane == 0u) {
-        invalidPixels = 0u;
-        blackWeight = 0u;
-    }
     barrier();
-    const uvec2 first = gl_WorkGroupID.xy * uvec2(HISTOGRAM_GROUP_X,
-                                                  HISTOGRAM_GROUP_Y * HISTOGRAM_ROWS_PER_LANE) +
-                        gl_LocalInvocationID.xy;
-    for (uint row = 0u; row < HISTOGRAM_ROWS_PER_LANE; ++row) {
-        const uvec2 pixel = first + uvec2(0u, row * HISTOGRAM_GROUP_Y);
-        if (all(lessThan(pixel, params.size)))
-            count(pixel);
-    }
+    const uvec2 first = gl_WorkGroupID.xy * uvec2(HISTOGRAM_COLUMNS, HISTOGRAM_ROWS) +
+                        uvec2(lane % HISTOGRAM_COLUMNS,
+                              lane / HISTOGRAM_COLUMNS * HISTOGRAM_ROWS_PER_LANE);
+    if (all(lessThan(first, params.size)))
+        countColumn(first, min(first.y + HISTOGRAM_ROWS_PER_LANE, params.size.y));
     barrier();
-    for (uint bin = lane; bin < HISTOGRAM_BINS; bin += GROUP) {
+    for (uint bin = lane; bin < HISTOGRAM_BINS; bin += HISTOGRAM_GROUP) {
         const uint packed = bins[bin];
         if (packed == 0u)
             continue;
@@ -108,10 +121,14 @@ void main()
         if (atomicAdd(data.fractions[bin].x, fraction) + fraction < fraction)
             atomicAdd(data.fractions[bin].y, 1u);
     }
-    if (lane == 0u && invalidPixels != 0u)
-        atomicAdd(data.invalidPixels, invalidPixels);
-    if (lane == 0u && blackWeight != 0u) {
-        atomicAdd(data.counts[0], blackWeight);
-        atomicAdd(data.blackWeight, blackWeight);
+    if (lane != 0u)
+        return;
+    const uint black = bins[BLACK_BIN] >> HISTOGRAM_COUNT_SHIFT;
+    const uint invalid = bins[INVALID_BIN] >> HISTOGRAM_COUNT_SHIFT;
+    if (invalid != 0u)
+        atomicAdd(data.invalidPixels, invalid);
+    if (black != 0u) {
+        atomicAdd(data.counts[0], black);
+        atomicAdd(data.blackWeight, black);
     }
 }

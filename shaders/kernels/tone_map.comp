@@ -5,7 +5,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "lib/tone_map.glsl"
 
-layout(local_size_x = TONE_MAP_GROUP, local_size_y = TONE_MAP_GROUP) in;
+layout(local_size_x = TONE_MAP_GROUP) in;
 layout(constant_id = SPEC_TONE_MAP) const uint curve = TONEMAP_NONE;
 layout(push_constant, scalar) uniform Push
 {
@@ -34,13 +34,18 @@ uvec3 hash(uvec3 v)
 
 void main()
 {
-    const uvec2 pixel = gl_GlobalInvocationID.xy;
+    uvec2 pixel = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y * TONE_MAP_ROWS);
     if (any(greaterThanEqual(pixel, params.size)))
         return;
-    const vec3 radiance = texelFetch(radianceImage, ivec2(pixel), 0).rgb;
-    const vec3 exposed = expose(radiance, state.exposure);
-    const vec3 encoded = encodeSrgb(toneMap(curve, exposed));
-    const vec3 steps = params.dither != 0u ? quantize(encoded, hash(uvec3(pixel, params.ditherSeed)))
-                                           : quantize(encoded);
-    imageStore(displayImage, ivec2(pixel), vec4(steps / 255.0, 1.0));
+    const uint end = min(pixel.y + TONE_MAP_ROWS, params.size.y);
+    const float exposure = state.exposure;
+    const uint dither = params.dither, seed = params.ditherSeed;
+    do {
+        const vec3 radiance = texelFetch(radianceImage, ivec2(pixel), 0).rgb;
+        const vec3 encoded = encodeSrgb(toneMap(curve, expose(radiance, exposure)));
+        const vec3 steps =
+            dither != 0u ? quantize(encoded, hash(uvec3(pixel, seed))) : quantize(encoded);
+        imageStore(displayImage, ivec2(pixel), vec4(steps / 255.0, 1.0));
+        ++pixel.y;
+    } while (pixel.y < end);
 }

@@ -54,9 +54,10 @@ const uint EXPOSURE_FIRST_OWNER = 0xE5C0F10Eu;
 // --- luminance_histogram: one group per block of pixels. A group packs the count and the fraction
 // sum of a bin into one word: the count is at most 1024 pixels * weight 15 < 2^14, the fraction sum
 // at most 15 times that, < 2^18.
-const uint HISTOGRAM_GROUP_X = 32u;
-const uint HISTOGRAM_GROUP_Y = 8u;
-const uint HISTOGRAM_ROWS_PER_LANE = 4u;
+const uint HISTOGRAM_GROUP = 64u;
+const uint HISTOGRAM_COLUMNS = 32u;       // pixels of a group along x
+const uint HISTOGRAM_ROWS = 32u;          // pixels of a group along y
+const uint HISTOGRAM_ROWS_PER_LANE = 16u; // a lane takes so many pixels of a column
 const uint HISTOGRAM_COUNT_SHIFT = 18u;
 const uint HISTOGRAM_RADIANCE = 0u;
 const uint HISTOGRAM_MASK = 1u;
@@ -64,9 +65,8 @@ const uint HISTOGRAM_DATA = 2u;
 struct LuminanceHistogramParams {
     uvec2 size;
     uvec2 maskSize;
-    uint metering;
 };
-GPU_SIZE(LuminanceHistogramParams, 20)
+GPU_SIZE(LuminanceHistogramParams, 16)
 
 // --- adapt_exposure: one group, one lane per bin
 const uint ADAPT_DATA = 0u;
@@ -83,8 +83,10 @@ struct AdaptExposureParams {
 };
 GPU_SIZE(AdaptExposureParams, 44)
 
-// --- tone_map: one lane per pixel
-const uint TONE_MAP_GROUP = 8u; // x and y
+// --- tone_map: a lane takes TONE_MAP_ROWS pixels of a column, since llvmpipe's cost of starting a
+// lane is a tenth of that of a pixel
+const uint TONE_MAP_GROUP = 64u; // lanes along x
+const uint TONE_MAP_ROWS = 8u;
 const uint TONE_MAP_RADIANCE = 0u;
 const uint TONE_MAP_STATE = 1u;
 const uint TONE_MAP_DISPLAY = 2u;
@@ -100,7 +102,8 @@ const uint TONEMAP_REINHARD = 1u;
 const uint TONEMAP_ACES = 2u;
 const uint TONEMAP_PBR_NEUTRAL = 3u;
 const uint TONEMAP_AGX = 4u;
-const uint SPEC_TONE_MAP = 0u;
+const uint SPEC_TONE_MAP = 0u; // tone_map: TONEMAP_*
+const uint SPEC_METERING = 1u; // luminance_histogram: METERING_*
 
 GPU_END
 
