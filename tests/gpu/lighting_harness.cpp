@@ -391,6 +391,21 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
     return result;
 }
 
+::testing::AssertionResult LightingTest::agree(const std::vector<glm::vec4>& a,
+                                               const std::vector<glm::vec4>& b,
+                                               double onLlvmpipe) const
+{
+    if (sameBits(a, b))
+        return ::testing::AssertionSuccess();
+    const double largest = device().lanesAreCpuVector ? onLlvmpipe : acrossPipelines;
+    const double difference = maxRelativeDifference(a, b);
+    return (a.size() == b.size() && largest > 0 && difference <= largest
+                ? ::testing::AssertionSuccess()
+                : ::testing::AssertionFailure())
+           << "the images differ by " << difference << " of the largest radiance, at most "
+           << largest << " is allowed";
+}
+
 bool sameBits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
 {
     return a.size() == b.size() && !std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]);

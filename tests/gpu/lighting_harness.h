@@ -143,6 +143,15 @@ protected:
                 .depth = images.depth.view.get(),
                 .radiance = images.radiance.view.get()};
     }
+    // Tells whether two images agree that different pipelines have made of one frame: with lists,
+    // without lists, by brute force, of a layout of the host or ours. A driver may round each
+    // pipeline in its own way, and what the engine promises is acrossPipelines. llvmpipe compiles
+    // the functions that pipelines share alike, so there the bits are the same, or as near as
+    // `onLlvmpipe` if lights are summed in batches (DECISIONS 12).
+    static constexpr double acrossPipelines = 1e-5; // relative to the largest radiance
+    ::testing::AssertionResult agree(const std::vector<glm::vec4>& a,
+                                     const std::vector<glm::vec4>& b, double onLlvmpipe = 0) const;
+    static constexpr double batchesOnLlvmpipe = 1e-6; // what other sums of batches may change
     std::vector<glm::vec4> readRadiance(const Images& images) const;
     void clearRadiance(VkCommandBuffer cmd, const Images& images);
     CndLightingFrame frameOf(const CpuGBuffer& g, const Images& images, const RunOptions& options);

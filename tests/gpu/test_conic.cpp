@@ -121,9 +121,13 @@ TEST_F(Conic, MatchesDouble)
         size_t count = 0, worstAt = 0;
     };
     // Bounds by class; below the horizon both are 0. The largest measured errors are 4e-4, 3e-4 and
-    // 2e-3.
-    std::array<Slice, 4> slices = {
-        {{"below", 0, 0}, {"above", 1e-6, 2e-3}, {"near", 1e-6, 2e-3}, {"clipped", 3e-6, 1e-2}}};
+    // 2e-3. Vulkan allows logarithms an absolute error of 2^-21 near 1, where the formula of
+    // clipped lobes takes one: SwiftShader's mean is 7e-6 there, llvmpipe's 1e-6.
+    const double clippedMean = device().lanesAreCpuVector ? 3e-6 : 1e-5;
+    std::array<Slice, 4> slices = {{{"below", 0, 0},
+                                    {"above", 1e-6, 2e-3},
+                                    {"near", 1e-6, 2e-3},
+                                    {"clipped", clippedMean, 1e-2}}};
     double worstKx = 0;
     size_t moved = 0; // number of lights that rounding moves across a border between classes
     for (size_t i = 0; i < inputs.size(); ++i) {

@@ -156,7 +156,7 @@ protected:
             for (uint32_t x = 0; x < image.width; ++x) {
                 const size_t i = size_t(y) * image.width + x;
                 const Ray ray = pixelRay(options, x, y);
-                double nearest = infinity;
+                double nearest = infinity, second = infinity;
                 const CndLight* winner = nullptr;
                 bool rim = false;
                 for (const CndLight& light : options.emitters) {
@@ -165,11 +165,17 @@ protected:
                     rim |= std::abs(hit.axisDistance - double(light.radius)) <
                            2e-6 * glm::length(center - ray.origin);
                     const double t = hit.near > 0 ? hit.near : hit.far;
-                    if (hit.near != infinity && t > 0 && t < nearest) {
+                    if (hit.near == infinity || t <= 0)
+                        continue;
+                    second = std::min(second, std::max(t, nearest));
+                    if (t < nearest) {
                         nearest = t;
                         winner = &light;
                     }
                 }
+                // Where two lights cross, rounding decides which of them is nearer.
+                rim |=
+                    winner && second - nearest < 2e-5 * glm::length(ray.at(nearest) - ray.origin);
                 onRim += rim;
                 if (rim)
                     continue;

@@ -196,7 +196,7 @@ TEST_P(Layouts, AreLitLikeOurOwn)
               << ", with what the host's formats round "
               << maxRelativeDifference(host, own(pixels.unrounded)) << '\n';
     EXPECT_LT(decoded, GetParam().tolerance);
-    EXPECT_TRUE(sameBits(host, brute));
+    EXPECT_TRUE(agree(host, brute));
 }
 
 TEST_P(Layouts, AreLitByTheEnvironmentLikeOurOwn)

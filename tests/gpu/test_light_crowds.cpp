@@ -41,7 +41,7 @@ TEST_F(LightingTest, AHundredThousandLightsInOnePixel)
     EXPECT_GT(brute.radiance[pixel].x + brute.radiance[pixel].y + brute.radiance[pixel].z, 0);
     for (const VkDeviceSize budget : {VkDeviceSize(0), megabyte}) {
         const LightingResult clustered = run(g, lights, {.listBudget = budget});
-        EXPECT_LE(maxRelativeDifference(clustered.radiance, brute.radiance), 1e-6) << budget;
+        EXPECT_TRUE(agree(clustered.radiance, brute.radiance, batchesOnLlvmpipe)) << budget;
         if (budget) {
             EXPECT_GT(clustered.stats.unlistedClusters, 0u);
         }
@@ -57,7 +57,7 @@ TEST_F(LightingTest, AThousandLightsOverTheWholeScreen)
     const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
     for (const VkDeviceSize budget : {VkDeviceSize(0), megabyte}) {
         const LightingResult clustered = run(g, lights, {.listBudget = budget});
-        EXPECT_LE(maxRelativeDifference(clustered.radiance, brute.radiance), 1e-6) << budget;
+        EXPECT_TRUE(agree(clustered.radiance, brute.radiance, batchesOnLlvmpipe)) << budget;
         EXPECT_EQ(clustered.stats.unlistedClusters > 0, budget > 0);
     }
 }

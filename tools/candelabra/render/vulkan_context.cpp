@@ -93,6 +93,16 @@ void keepFreedMemory()
 #endif
 }
 
+// Some drivers compile a pipeline again each time that it is created, unless they find it in a
+// cache. Null if there is no room for one.
+VkPipelineCache createPipelineCache(VkDevice device)
+{
+    const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    VkPipelineCache cache{};
+    return vkCreatePipelineCache(device, &info, nullptr, &cache) == VK_SUCCESS ? cache
+                                                                               : VK_NULL_HANDLE;
+}
+
 } // namespace
 
 VulkanContext::VulkanContext(const ContextOptions& options)
@@ -110,7 +120,7 @@ VulkanContext::VulkanContext(const ContextOptions& options)
              .physicalDevice = info_.handle,
              .device = device_,
              .getInstanceProcAddr = options.engineFunctions,
-             .pipelineCache = VK_NULL_HANDLE,
+             .pipelineCache = createPipelineCache(device_),
              .allocationCallbacks = nullptr,
              .debugUtilsEnabled = instance_.debugUtils()};
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
@@ -122,6 +132,7 @@ VulkanContext::VulkanContext(const ContextOptions& options)
         gpu_->name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, "one-time commands");
         gpu_->name(VK_OBJECT_TYPE_QUEUE, queue_, "queue");
     } catch (...) {
+        vkDestroyPipelineCache(device_, desc_.pipelineCache, nullptr);
         vkDestroyDevice(device_, nullptr);
         throw;
     }
@@ -139,6 +150,7 @@ void VulkanContext::destroyDevice()
     vkDeviceWaitIdle(device_);
     vkDestroyCommandPool(device_, pool_, nullptr);
     gpu_.reset();
+    vkDestroyPipelineCache(device_, desc_.pipelineCache, nullptr);
     vkDestroyDevice(device_, nullptr);
     device_ = VK_NULL_HANDLE;
 }
