@@ -33,6 +33,20 @@ float boundingRadius()
     return max(length(u + v), length(u - v)) + radius;
 }
 
+// Rasterisation moves every corner to a grid of at least 2^4 steps per pixel, by half a step along x
+// and y. So an edge of the quad moves by less than this share of a pixel.
+const float GRID = 1.0 / 16.0;
+
+// Returns the longer side of a pixel: at unit distance, or in metres if the view is orthographic.
+float pixelSide(bool perspective)
+{
+    const vec3 alongX = perspective ? frame.rayDirection[1] : frame.rayOrigin[1];
+    const vec3 alongY = perspective ? frame.rayDirection[2] : frame.rayOrigin[2];
+    const vec2 sides = 2.0 * vec2(length(alongX), length(alongY)) / frame.size; // ndc is 2 wide
+    const float depth = perspective ? dot(frame.rayDirection[0], frame.forward) : 1.0;
+    return max(sides.x, sides.y) / depth;
+}
+
 void main()
 {
     const bool distant = (TYPES_WITH_POSITION >> shape & 1u) == 0u;
@@ -58,8 +72,10 @@ void main()
     const vec3 v = vec3(b, s + axis.y * axis.y * a, -axis.y);
 
     const float tanCone = sinCone / sqrt(max(1.0 - sinCone * sinCone, 1e-6));
-    const float halfSide = perspective ? tanCone * (1.0 + MARGIN) + MARGIN
-                                       : radius + MARGIN * (radius + distanceToCenter);
+    // A step of the grid is longer at the edge of the quad, which is seen at an angle.
+    const float moved = GRID * pixelSide(perspective) * (perspective ? 1.0 + tanCone * tanCone : 1.0);
+    const float halfSide = moved + (perspective ? tanCone * (1.0 + MARGIN) + MARGIN
+                                                : radius + MARGIN * (radius + distanceToCenter));
     const vec3 positionView = (perspective ? frame.rayOrigin[0] + axis : center) +
                               halfSide * (corner.x * u + corner.y * v);
     gl_Position = frame.clipFromView * vec4(positionView, 1.0);

@@ -253,9 +253,11 @@ Made ClusterListsTest::make(const Scene& s, Form form, const Limits& limits)
     const Buffer counters = readback("counters", sizeof(LightingCounters));
     const Buffer lit = workOfTiles("lit"), unlisted = workOfTiles("unlisted");
 
-    // Both ways to read lights, one with each form.
+    // Both ways to read lights, one with each form, as far as texel buffers are large enough.
+    const bool fit = std::max(core.size, nodes.size) / sizeof(glm::vec4) <=
+                     device().limits.maxTexelBufferElements;
     const SpecConstant together{SPEC_LANES_TOGETHER, form.together},
-        texels{SPEC_LIGHTS_AS_TEXELS, !form.together};
+        texels{SPEC_LIGHTS_AS_TEXELS, !form.together && fit};
     const Kernel<LightTreeParams> tree(device(), spirv::light_tree_comp, {together, texels});
     const Kernel<ClusterListsParams> lists(device(), spirv::cluster_lists_comp,
                                            {together, texels, {SPEC_LISTS_LANES, form.lanes}});

@@ -5,6 +5,7 @@
 #include "gpu/lighting_harness.h"
 #include "gpu/module_spy.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "shared/clusters.h"
@@ -17,6 +18,8 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
     const CpuGBuffer g = randomGBuffer(64, 64, 5);
     std::vector<CndLight> lights = randomSpheres(g, 50, 5);
     for (CndLight& light : lights) {
+        light.radius = 0.1f; // all are alike, so that none is too dim to be noticed
+        std::fill_n(light.emission, 3, 1.0f);
         light.influenceRadius = 40; // every tile lists every light ...
         light.position[2] = -1.5f;  // ... and faces them: the nearest wall is 3 m away
     }

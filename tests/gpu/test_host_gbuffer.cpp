@@ -216,7 +216,9 @@ TEST_P(Layouts, AreLitByTheEnvironmentLikeOurOwn)
         EXPECT_EQ(cndRecordEnvironment(environment_, cmd, &frame, &error), CND_SUCCESS)
             << error.message;
     });
-    EXPECT_LT(maxRelativeDifference(readRadiance(images), own), GetParam().tolerance);
+    const double difference = maxRelativeDifference(readRadiance(images), own);
+    std::cout << GetParam().name << ": largest difference of the peak " << difference << '\n';
+    EXPECT_LT(difference, GetParam().tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(HostGBuffer, Layouts, ::testing::ValuesIn(layouts),

@@ -136,6 +136,7 @@ private:
                                       .queueCreateInfoCount = real_ ? 2u : 1u,
                                       .pQueueCreateInfos = queues};
         desc_ = context.desc();
+        desc_.pipelineCache = VK_NULL_HANDLE; // the context's is for its own device
         EXPECT_EQ(vkCreateDevice(physical, &info, nullptr, &desc_.device), VK_SUCCESS);
     }
 
