@@ -7,7 +7,8 @@ if(FAMILY)
     set(family -DLIGHT_FAMILY_${FAMILY})
 endif()
 if(DEFINE)
-    set(family ${family} -D${DEFINE})
+    string(REPLACE "+" ";-D" defines "-D${DEFINE}") # several are joined by '+'
+    list(APPEND family ${defines})
 endif()
 set(spv ${OUTPUT}.spv)
 execute_process(

@@ -192,20 +192,18 @@ void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const 
                            Binding::of(LIGHT_TREE_CORE_WORDS, in.core),
                            Binding::of(LIGHT_TREE_NODES, nodes_)});
     const Binding depth = Binding::sampled(TILE_CLUSTERS_DEPTH, in.gbuffer.depth);
-    const Binding normals = Binding::sampled(TILE_CLUSTERS_NORMALS, in.gbuffer.packedNormal);
-    const Binding hostNormals = Binding::sampled(TILE_CLUSTERS_HOST_NORMALS, in.gbuffer.hostNormal);
     const Binding frame = in.uniforms.at(slot, TILE_CLUSTERS_FRAME);
-    tileSets_.write(slot, {depth, normals, hostNormals, frame,
-                           Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
-                           Binding::of(TILE_CLUSTERS_TILES, tiles_),
-                           Binding::of(TILE_CLUSTERS_SURFACES, surfaces_),
-                           Binding::of(TILE_CLUSTERS_SPLITS, splits_),
-                           Binding::sampled(TILE_CLUSTERS_ALBEDO, in.gbuffer.albedo),
-                           Binding::sampled(TILE_CLUSTERS_SPECULAR, in.gbuffer.specular)});
-    splitSets_.write(slot, {depth, normals, hostNormals, frame,
-                            Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
-                            Binding::of(TILE_CLUSTERS_TILES, tiles_),
-                            Binding::of(TILE_CLUSTERS_SPLITS, splits_)});
+    tileSets_.write(slot,
+                    {depth, frame, Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
+                     Binding::of(TILE_CLUSTERS_TILES, tiles_),
+                     Binding::of(TILE_CLUSTERS_SURFACES, surfaces_),
+                     Binding::of(TILE_CLUSTERS_SPLITS, splits_)},
+                    in.gbuffer.bindings(TILE_CLUSTERS_GBUFFER));
+    splitSets_.write(slot,
+                     {depth, frame, Binding::of(TILE_CLUSTERS_CLUSTERS, clusters_),
+                      Binding::of(TILE_CLUSTERS_TILES, tiles_),
+                      Binding::of(TILE_CLUSTERS_SPLITS, splits_)},
+                     in.gbuffer.normalBindings(TILE_CLUSTERS_GBUFFER));
     blockSets_.write(slot, {Binding::of(BLOCK_CLUSTERS_CLUSTERS, clusters_),
                             Binding::of(BLOCK_CLUSTERS_TILES, tiles_)});
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)

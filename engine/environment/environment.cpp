@@ -285,17 +285,14 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
     uniforms_.write(frame.frameSlot, surfaces::frameParams(frame, gbuffer_.dielectricF0()));
     const surfaces::GBufferViews images = gbuffer_.views(frame);
     sets_.shade.write(frame.frameSlot,
-                      {Binding::sampled(SHADE_ENVIRONMENT_NORMAL_ROUGHNESS, images.packedNormal),
-                       Binding::sampled(SHADE_ENVIRONMENT_HOST_NORMAL, images.hostNormal),
-                       Binding::sampled(SHADE_ENVIRONMENT_ALBEDO, images.albedo),
-                       Binding::sampled(SHADE_ENVIRONMENT_SPECULAR, images.specular),
-                       Binding::sampled(SHADE_ENVIRONMENT_DEPTH, images.depth),
+                      {Binding::sampled(SHADE_ENVIRONMENT_DEPTH, images.depth),
                        uniforms_.at(frame.frameSlot, SHADE_ENVIRONMENT_FRAME),
                        Binding::storage(SHADE_ENVIRONMENT_RADIANCE, frame.radiance),
                        cubeSampled(SHADE_ENVIRONMENT_CUBE, source_, sampler_.get()),
                        cubeSampled(SHADE_ENVIRONMENT_PREFILTERED, prefiltered_, sampler_.get()),
                        cubeSampled(SHADE_ENVIRONMENT_IRRADIANCE, irradiance_, sampler_.get()),
-                       Binding::ofTexels(SHADE_ENVIRONMENT_DFG, dfg_.buffer())});
+                       Binding::ofTexels(SHADE_ENVIRONMENT_DFG, dfg_.buffer())},
+                      images.bindings(SHADE_ENVIRONMENT_GBUFFER));
     recorded_[frame.frameSlot] = true;
 
     glm::dmat4 viewFromWorld;

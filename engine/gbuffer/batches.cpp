@@ -18,7 +18,7 @@ namespace
 {
 
 struct BatchKey {
-    Variant variant;
+    MeshVariant variant;
     bool doubleSided, mirrored;
     uint32_t textureSet;
     uint32_t mesh;
@@ -76,11 +76,17 @@ std::vector<uint32_t> collectTextureSets(const GeometryDesc& desc, std::vector<T
     return setOfMaterial;
 }
 
-Variant variantOf(const Material& material, uint32_t textureSet, const PackedMesh& mesh)
+MeshVariant variantOf(const Material& material, const PackedMesh& mesh)
 {
-    if (material.masked)
-        return Variant::Masked;
-    return textureSet == 0 && !mesh.colored ? Variant::Plain : Variant::Detailed;
+    MeshVariant v{.emissive = material.isEmissive(),
+                  .colored = mesh.colored,
+                  .tintsF0 = mesh.colored && material.metalness != 0,
+                  .masked = material.masked};
+    const TextureSet set = textureSetOf(material);
+    for (uint32_t i = 0; i < set.size(); ++i)
+        if (set[i] != -1 && (i != gpu::TEXTURE_EMISSIVE || v.emissive))
+            v.textures |= 1u << i;
+    return v;
 }
 
 std::vector<Keyed> sortInstances(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
@@ -99,7 +105,7 @@ std::vector<Keyed> sortInstances(const GeometryDesc& desc, const std::vector<Pac
         const uint32_t set = setOfMaterial[instance.material];
         const bool mirrored =
             glm::determinant(glm::dmat3(glm::make_mat4(instance.worldFromObject))) < 0;
-        sorted.push_back({{variantOf(material, set, meshes[instance.mesh]), material.doubleSided,
+        sorted.push_back({{variantOf(material, meshes[instance.mesh]), material.doubleSided,
                            mirrored, set, instance.mesh},
                           i});
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Groups instances into draws, on three levels:
 //
-//   run     one multi-draw call: same pipeline variant, cull mode, winding and texture set
+//   run     one multi-draw call: same mesh variant, cull mode, winding and texture set
 //    batch  one indirect draw for each level of detail: also the same mesh; at most
 //           maxBatchInstances
 //     chunk up to 64 instances: handled by one lane of the culling kernels
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gbuffer/geometry.h"
+#include "gbuffer/mesh_variant.h"
 #include "gbuffer/meshes.h"
 #include "shared/raster.h"
 
@@ -20,13 +21,11 @@ namespace candelabra::gbuffer
 // Limit of compact_instances, whose lanes each sum the counts of at most 256 chunks.
 constexpr uint32_t maxBatchInstances = 256 * gpu::CHUNK_SIZE;
 
-enum class Variant : uint32_t { Plain, Detailed, Masked, Count };
-
 using TextureSet = std::array<int32_t, gpu::TEXTURES_PER_MATERIAL>; // texture indices by TEXTURE_*;
                                                                     // -1: no texture
 
 struct Run {
-    Variant variant;
+    MeshVariant variant;
     bool doubleSided;
     bool mirrored; // the transforms mirror the mesh, which reverses its winding
     uint32_t textureSet;
@@ -35,7 +34,7 @@ struct Run {
 
 struct Batches {
     std::vector<TextureSet> textureSets; // [0] has no textures
-    std::vector<Run> runs;
+    std::vector<Run> runs;               // those of emissive variants come last
     // For each batch one command per level of its mesh. instanceCount is 0: the GPU writes it.
     std::vector<gpu::DrawCommand> commands;
     uint32_t visibleCount = 0; // room for drawn instances of all commands

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gbuffer/gbuffer.h"
 
+#include <array>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -24,6 +25,12 @@ namespace
 using GeometryImpl = Geometry::Impl;
 
 constexpr uint32_t maxFramesInFlight = 8; // the limit of the C ABI
+
+// Returns the comparison of depths that lets nearer surfaces through.
+VkCompareOp nearer(const FrameInputs& in)
+{
+    return in.clearDepth == 0 ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS;
+}
 
 gpu::RasterFrame rasterFrame(const CameraTerms& camera, const FrameInputs& in,
                              const std::array<double, 3>& emitterOrigin)
@@ -107,11 +114,13 @@ struct GBuffer::Impl {
 
     void recordCulling(const gpu::Frame& frame, const GeometryImpl& geometry,
                        const CameraTerms& camera, const FrameInputs& in) const noexcept;
-    void beginRendering(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
-    void drawMeshes(VkCommandBuffer cmd, const GeometryImpl& geometry,
-                    const CameraTerms& camera) const noexcept;
+    void setState(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
+    void beginRendering(VkCommandBuffer cmd, const FrameInputs& in, bool emissive) const noexcept;
+    void drawMeshes(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
+                    bool emissive) const noexcept;
     void drawAnalytic(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
                       uint32_t slot) const noexcept;
+    void drawBackground(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
     void drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records,
                       uint32_t slot) const noexcept;
     void bindRays(VkCommandBuffer cmd, VkPipelineLayout layout, uint32_t slot) const noexcept
@@ -156,47 +165,58 @@ void GBuffer::Impl::recordCulling(const gpu::Frame& frame, const GeometryImpl& g
         gpu::divideUp(chunks * gpu::MESH_LEVELS, gpu::COMPACT_INSTANCES_GROUP));
 }
 
-void GBuffer::Impl::beginRendering(VkCommandBuffer cmd, const FrameInputs& in) const noexcept
+// Begins to draw the meshes that emit nothing, or everything else, after them.
+void GBuffer::Impl::beginRendering(VkCommandBuffer cmd, const FrameInputs& in,
+                                   bool emissive) const noexcept
 {
-    const auto attachment = [](const Attachment& a, VkImageLayout layout, VkClearValue clear) {
+    const auto attachment = [](const Attachment& a, VkImageLayout layout, bool clears,
+                               VkClearValue value) {
         return VkRenderingAttachmentInfo{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                          .imageView = a.view,
                                          .imageLayout = layout,
-                                         .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                         .loadOp = clears ? VK_ATTACHMENT_LOAD_OP_CLEAR
+                                                          : VK_ATTACHMENT_LOAD_OP_LOAD,
                                          .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                         .clearValue = clear};
+                                         .clearValue = value};
     };
     constexpr VkImageLayout color = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    const VkClearValue zero{};
-    const auto& b = in.background;
-    const VkClearValue background{.color = {.float32 = {b[0], b[1], b[2], 1}}};
+    const VkClearValue zero{}, dark{.color = {.float32 = {0, 0, 0, 1}}};
     const Attachments& a = in.attachments;
     // In the order of fragment output locations (shaders/gbuffer/output.glsl).
-    const VkRenderingAttachmentInfo colors[] = {
-        attachment(a.normalRoughness, color, zero), attachment(a.albedo, color, zero),
-        attachment(a.radiance, color, background), attachment(a.specular, color, zero)};
+    std::array<VkRenderingAttachmentInfo, 4> colors{
+        attachment(a.normalRoughness, color, !emissive, zero),
+        attachment(a.albedo, color, !emissive, zero)};
+    uint32_t count = 2;
+    if (desc.layout == CND_GBUFFER_FULL)
+        colors[count++] = attachment(a.specular, color, !emissive, zero);
+    if (emissive)
+        colors[count++] = attachment(a.radiance, color, true, dark);
     const VkRenderingAttachmentInfo depth =
-        attachment(a.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+        attachment(a.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, !emissive,
                    {.depthStencil = {.depth = in.clearDepth}});
-    const VkRect2D area{{0, 0}, {in.width, in.height}};
     const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                               .renderArea = area,
+                               .renderArea = {{0, 0}, {in.width, in.height}},
                                .layerCount = 1,
-                               .colorAttachmentCount = desc.layout == CND_GBUFFER_FULL ? 4u : 3u,
-                               .pColorAttachments = colors,
+                               .colorAttachmentCount = count,
+                               .pColorAttachments = colors.data(),
                                .pDepthAttachment = &depth};
     device.CmdBeginRendering(cmd, &info);
+}
+
+void GBuffer::Impl::setState(VkCommandBuffer cmd, const FrameInputs& in) const noexcept
+{
+    const VkRect2D area{{0, 0}, {in.width, in.height}};
     const VkViewport viewport{0, 0, float(in.width), float(in.height), 0, 1};
     device.CmdSetViewport(cmd, 0, 1, &viewport);
     device.CmdSetScissor(cmd, 0, 1, &area);
-    device.CmdSetDepthCompareOp(cmd,
-                                in.clearDepth == 0 ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS);
+    device.CmdSetDepthCompareOp(cmd, nearer(in));
     device.CmdSetCullMode(cmd, VK_CULL_MODE_NONE);
     device.CmdSetFrontFace(cmd, VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
+// Draws the meshes whose material emits light, or the others.
 void GBuffer::Impl::drawMeshes(VkCommandBuffer cmd, const GeometryImpl& g,
-                               const CameraTerms& camera) const noexcept
+                               const CameraTerms& camera, bool emissive) const noexcept
 {
     const DoubleSingle position(camera.position);
     const gpu::MeshParams params{glm::mat3(camera.viewFromWorld), camera.clipFromView, position.hi,
@@ -208,8 +228,9 @@ void GBuffer::Impl::drawMeshes(VkCommandBuffer cmd, const GeometryImpl& g,
     device.CmdBindVertexBuffers(cmd, 0, StreamCount, streams, offsets);
     device.CmdBindIndexBuffer(cmd, g.indices.get(), 0, VK_INDEX_TYPE_UINT32);
     for (const Run& run : g.runs) {
-        device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                               pipelines.mesh[size_t(run.variant)].get());
+        if (run.variant.emissive != emissive)
+            continue;
+        device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.mesh(run.variant));
         const VkDescriptorSet set = g.meshSets.set(run.textureSet);
         device.CmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &set, 0,
                                      nullptr);
@@ -239,6 +260,22 @@ void GBuffer::Impl::drawAnalytic(VkCommandBuffer cmd, const GeometryImpl& g,
                                 0, sizeof params, &params);
         device.CmdDraw(cmd, 3, 1, 0, 0);
     }
+}
+
+// Draws it where the depth is still clear.
+void GBuffer::Impl::drawBackground(VkCommandBuffer cmd, const FrameInputs& in) const noexcept
+{
+    const auto& b = in.background;
+    if (b[0] == 0 && b[1] == 0 && b[2] == 0)
+        return;
+    const VkPipelineLayout layout = pipelines.backgroundLayout.get();
+    const gpu::BackgroundParams params{{b[0], b[1], b[2]}};
+    bindRays(cmd, layout, in.slot);
+    device.CmdSetDepthCompareOp(cmd, VK_COMPARE_OP_EQUAL);
+    device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.background.get());
+    device.CmdPushConstants(cmd, layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof params, &params);
+    device.CmdDraw(cmd, 3, 1, 0, 0);
+    device.CmdSetDepthCompareOp(cmd, nearer(in));
 }
 
 void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records,
@@ -273,6 +310,20 @@ GBuffer::~GBuffer() = default;
 GBuffer::GBuffer(GBuffer&&) noexcept = default;
 GBuffer& GBuffer::operator=(GBuffer&&) noexcept = default;
 
+void GBuffer::prepare(const Geometry& geometry)
+{
+    std::vector<MeshVariant> variants;
+    for (const Run& run : geometry.impl().runs)
+        variants.push_back(run.variant);
+    prepare(variants);
+}
+
+void GBuffer::prepare(std::span<const MeshVariant> variants)
+{
+    for (const MeshVariant& variant : variants)
+        impl_->pipelines.prepareMesh(variant);
+}
+
 void GBuffer::setEmitters(std::span<const CndLight> lights, const double origin[3])
 {
     impl_->emitters.set(lights, origin);
@@ -293,9 +344,19 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
 
     s.device.beginLabel(cmd, "gbuffer_raster");
     prepareAttachments(s.device, cmd, in.attachments);
-    s.beginRendering(cmd, in);
-    if (in.drawInstances && g.chunkCount)
-        s.drawMeshes(cmd, g, camera);
+    // Meshes that emit nothing are drawn without the attachment for radiance: that is 16 bytes per
+    // pixel less. Everything else comes after them, so that they have no radiance to cover with 0.
+    const bool meshes = in.drawInstances && g.chunkCount;
+    s.setState(cmd, in);
+    s.beginRendering(cmd, in, false);
+    if (meshes)
+        s.drawMeshes(cmd, g, camera, false);
+    s.device.CmdEndRendering(cmd);
+    betweenDraws(s.device, cmd);
+    s.beginRendering(cmd, in, true);
+    s.drawBackground(cmd, in);
+    if (meshes)
+        s.drawMeshes(cmd, g, camera, true);
     if (in.drawAnalytic && !g.analyticObjects.empty())
         s.drawAnalytic(cmd, g, camera, in.slot);
     if (in.drawEmitters && !s.emitters.empty())

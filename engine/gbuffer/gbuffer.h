@@ -9,6 +9,7 @@
 
 #include "candelabra/candelabra.h"
 #include "gbuffer/geometry.h"
+#include "gbuffer/mesh_variant.h"
 #include "gbuffer/targets.h"
 #include "gpu/device.h"
 
@@ -44,11 +45,17 @@ struct FrameInputs {
 class GBuffer
 {
 public:
-    // Creates every pipeline. Throws gpu::Failure.
+    // Throws gpu::Failure.
     GBuffer(const gpu::Device& device, const GBufferDesc& desc);
     ~GBuffer();
     GBuffer(GBuffer&&) noexcept;
     GBuffer& operator=(GBuffer&&) noexcept;
+
+    // Creates the pipelines that drawing `geometry` needs and that do not exist yet. Call it before
+    // the first recording with that geometry. Throws gpu::Failure.
+    void prepare(const Geometry& geometry);
+    // The same for given variants of meshes.
+    void prepare(std::span<const MeshVariant> variants);
 
     // Sets the area lights to show; punctual lights are skipped. Positions are relative to
     // `origin`. The dark back of a one-sided light is not drawn. Distant spheres are drawn where

@@ -216,8 +216,9 @@ void createVertices(Geometry::Impl& g, Uploads& uploads, const PackedMeshes& mes
 
 std::vector<gpu::ReflectedBinding> meshBindings()
 {
-    std::vector<gpu::ReflectedBinding> all = gpu::reflect(spirv::mesh_vert).bindings;
-    for (const gpu::ReflectedBinding& b : gpu::reflect(spirv::mesh_frag).bindings)
+    // The variants of these shaders that have the most bindings.
+    std::vector<gpu::ReflectedBinding> all = gpu::reflect(spirv::mesh_vert_constant).bindings;
+    for (const gpu::ReflectedBinding& b : gpu::reflect(spirv::mesh_frag_full_sampled).bindings)
         if (std::none_of(all.begin(), all.end(), [&](auto& a) { return a.binding == b.binding; }))
             all.push_back(b);
     return all;

@@ -70,6 +70,8 @@ struct Material {
     TextureRef metallicRoughnessTexture; // g: roughness, b: metalness
     TextureRef normalTexture;            // tangent space, xyz * 2 - 1 is the normal
     TextureRef emissiveTexture;
+
+    bool isEmissive() const { return emission[0] != 0 || emission[1] != 0 || emission[2] != 0; }
 };
 
 struct Instance {

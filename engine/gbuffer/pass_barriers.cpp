@@ -97,6 +97,20 @@ void prepareAttachments(const gpu::Device& device, VkCommandBuffer cmd,
            images, a.specular.image ? 5 : 4);
 }
 
+void betweenDraws(const gpu::Device& device, VkCommandBuffer cmd) noexcept
+{
+    const VkPipelineStageFlags2 stages = colorAttachment.stage | depthAttachment.stage;
+    record(
+        device, cmd,
+        {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+         .srcStageMask = stages,
+         .srcAccessMask = colorAttachment.access | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+         .dstStageMask = stages,
+         .dstAccessMask = colorAttachment.access | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
+                          depthAttachment.access},
+        nullptr, 0);
+}
+
 void handToCompute(const gpu::Device& device, VkCommandBuffer cmd, const Attachments& a) noexcept
 {
     constexpr VkImageAspectFlags color = VK_IMAGE_ASPECT_COLOR_BIT;

@@ -14,6 +14,8 @@ void waitForEarlierDraws(const gpu::Device& device, VkCommandBuffer cmd) noexcep
 // draws.
 void prepareAttachments(const gpu::Device& device, VkCommandBuffer cmd,
                         const Attachments& attachments) noexcept;
+// Makes what was drawn visible to further draws into the same attachments.
+void betweenDraws(const gpu::Device& device, VkCommandBuffer cmd) noexcept;
 // Moves the attachments to the state that CndLightingFrame requires.
 void handToCompute(const gpu::Device& device, VkCommandBuffer cmd,
                    const Attachments& attachments) noexcept;

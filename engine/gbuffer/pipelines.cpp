@@ -24,14 +24,19 @@ struct PipelineDesc {
     std::span<const VkVertexInputAttributeDescription> attributes;
     VkPrimitiveTopology topology;
     VkPipelineLayout layout;
+    bool emissive = true; // writes radiance
 };
 
-// Writes the colour formats by fragment output location and returns their number.
-uint32_t colorFormats(CndGBufferLayout layout, std::array<VkFormat, 4>& formats)
+// Returns the colour formats by fragment output location.
+std::vector<VkFormat> colorFormats(CndGBufferLayout layout, bool emissive)
 {
     const TargetFormats f = targetFormats(layout);
-    formats = {f.normalRoughness, f.albedo, f.radiance, f.specular};
-    return f.specular == VK_FORMAT_UNDEFINED ? 3 : 4;
+    std::vector<VkFormat> formats{f.normalRoughness, f.albedo};
+    if (f.specular != VK_FORMAT_UNDEFINED)
+        formats.push_back(f.specular);
+    if (emissive)
+        formats.push_back(f.radiance);
+    return formats;
 }
 
 class Specialization
@@ -110,8 +115,8 @@ gpu::Handle<VkPipeline> createPipeline(const gpu::Device& device, CndGBufferLayo
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = desc.topology};
-    std::array<VkFormat, std::size(writes)> formats;
-    const uint32_t colors = colorFormats(layout, formats);
+    const std::vector<VkFormat> formats = colorFormats(layout, desc.emissive);
+    const uint32_t colors = uint32_t(formats.size());
     const VkPipelineColorBlendStateCreateInfo blend{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = colors,
@@ -147,14 +152,15 @@ constexpr VkVertexInputBindingDescription meshStreams[] = {
     {StreamCore, sizeof(VertexCore), VK_VERTEX_INPUT_RATE_VERTEX},
     {StreamDetail, sizeof(VertexDetail), VK_VERTEX_INPUT_RATE_VERTEX},
     {StreamInstance, sizeof(uint32_t), VK_VERTEX_INPUT_RATE_INSTANCE}};
+// All meshes read the first three, those with vertex colours the first four, sampled ones all.
 constexpr VkVertexInputAttributeDescription meshAttributes[] = {
     {gpu::MESH_POSITION, StreamCore, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexCore, position)},
     {gpu::MESH_NORMAL_IN, StreamCore, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexCore, normal)},
+    {gpu::MESH_INSTANCE, StreamInstance, VK_FORMAT_R32_UINT, 0},
+    {gpu::MESH_COLOR, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexDetail, color)},
     {gpu::MESH_TANGENT, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT,
      offsetof(VertexDetail, tangent)},
-    {gpu::MESH_UV, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexDetail, uv)},
-    {gpu::MESH_COLOR, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexDetail, color)},
-    {gpu::MESH_INSTANCE, StreamInstance, VK_FORMAT_R32_UINT, 0}};
+    {gpu::MESH_UV, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexDetail, uv)}};
 
 constexpr VkVertexInputBindingDescription emitterStreams[] = {
     {0, sizeof(gpu::EmitterRecord), VK_VERTEX_INPUT_RATE_INSTANCE}};
@@ -167,61 +173,110 @@ constexpr VkVertexInputAttributeDescription emitterAttributes[] = {
     {gpu::EMITTER_AXIS_V, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
      offsetof(gpu::EmitterRecord, axisV)}}; // and twoSided, which follows it
 
+struct MeshShaders {
+    const char* kind;
+    const gpu::Spirv& vertex;
+    const gpu::Spirv& fragment;
+    uint32_t attributes; // how many of meshAttributes it reads
+};
+
+MeshShaders meshShaders(CndGBufferLayout layout, const MeshVariant& v)
+{
+    using namespace spirv;
+    if (layout == CND_GBUFFER_COMPACT)
+        return {"sampled", mesh_vert_sampled,
+                v.emissive ? mesh_frag_compact_sampled_emissive : mesh_frag_compact_sampled, 6};
+    if (v.isSampled())
+        return {"sampled", mesh_vert_sampled,
+                v.emissive ? mesh_frag_full_sampled_emissive : mesh_frag_full_sampled, 6};
+    if (v.colored)
+        return {"colored", mesh_vert_colored,
+                v.emissive ? mesh_frag_full_colored_emissive : mesh_frag_full_colored, 4};
+    return {"constant", mesh_vert_constant,
+            v.emissive ? mesh_frag_full_constant_emissive : mesh_frag_full_constant, 3};
+}
+
 } // namespace
 
 std::vector<gpu::ReflectedBinding> rayBindings()
 {
-    return gpu::reflect(spirv::analytic_frag).bindings;
+    return gpu::reflect(spirv::analytic_frag_full_emissive).bindings;
 }
 
 Pipelines::Pipelines(const gpu::Device& device, CndGBufferLayout layout)
     : meshSet(gpu::createSetLayout(device, "mesh", meshBindings(), bothStages)),
-      raySet(gpu::createSetLayout(device, "rays", rayBindings(), bothStages))
+      raySet(gpu::createSetLayout(device, "rays", rayBindings(), bothStages)),
+      device_(&device),
+      layout_(layout)
 {
-    const VkDescriptorSetLayout meshSets[] = {meshSet.get()}, raySets[] = {raySet.get()};
-    meshLayout = gpu::createPipelineLayout(device, "mesh", meshSets, VK_SHADER_STAGE_VERTEX_BIT,
-                                           sizeof(gpu::MeshParams));
+    const VkDescriptorSetLayout raySets[] = {raySet.get()};
+    meshLayout = createMeshLayout("mesh");
     analyticLayout = gpu::createPipelineLayout(
         device, "analytic", raySets, VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(gpu::AnalyticParams));
+    backgroundLayout = gpu::createPipelineLayout(
+        device, "background", raySets, VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(gpu::BackgroundParams));
     emitterLayout = gpu::createPipelineLayout(device, "emitter", raySets, bothStages, 0);
 
-    const gpu::SpecConstant layoutConstant{gpu::RASTER_LAYOUT, uint32_t(layout)};
-    const auto createMesh = [&](Variant variant, const char* name, bool detailed, bool masked) {
-        const std::array constants{layoutConstant,
-                                   gpu::SpecConstant{gpu::RASTER_DETAILED, detailed},
-                                   gpu::SpecConstant{gpu::RASTER_MASKED, masked}};
-        mesh[size_t(variant)] =
-            createPipeline(device, layout,
-                           {name, spirv::mesh_vert, spirv::mesh_frag, constants, meshStreams,
-                            meshAttributes, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST, meshLayout.get()});
+    using namespace spirv;
+    const bool full = layout == CND_GBUFFER_FULL;
+    const auto screenWide = [&](const char* name, const gpu::Spirv& fragment,
+                                std::span<const gpu::SpecConstant> constants,
+                                VkPipelineLayout pipelineLayout) {
+        return createPipeline(device, layout,
+                              {name,
+                               analytic_vert,
+                               fragment,
+                               constants,
+                               {},
+                               {},
+                               VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+                               pipelineLayout});
     };
-    createMesh(Variant::Plain, "mesh plain", false, false);
-    createMesh(Variant::Detailed, "mesh detailed", true, false);
-    createMesh(Variant::Masked, "mesh masked", true, true);
-
-    const auto createAnalytic = [&](uint32_t shape, const char* name) {
-        const std::array constants{layoutConstant, gpu::SpecConstant{gpu::RASTER_SHAPE, shape}};
-        analytic[shape] = createPipeline(device, layout,
-                                         {name,
-                                          spirv::analytic_vert,
-                                          spirv::analytic_frag,
-                                          constants,
-                                          {},
-                                          {},
-                                          VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
-                                          analyticLayout.get()});
-    };
-    createAnalytic(gpu::ANALYTIC_PLANE, "analytic plane");
-    createAnalytic(gpu::ANALYTIC_BALL, "analytic ball");
-
-    for (size_t i = 0; i < emitters.size(); ++i) {
-        const std::array constants{layoutConstant,
-                                   gpu::SpecConstant{gpu::RASTER_SHAPE, Emitters::shapes[i]}};
-        emitters[i] = createPipeline(device, layout,
-                                     {"emitter", spirv::emitter_vert, spirv::emitter_frag,
-                                      constants, emitterStreams, emitterAttributes,
-                                      VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP, emitterLayout.get()});
+    for (const uint32_t shape : {gpu::ANALYTIC_PLANE, gpu::ANALYTIC_BALL}) {
+        const std::array constants{gpu::SpecConstant{gpu::RASTER_SHAPE, shape}};
+        analytic[shape] =
+            screenWide(shape == gpu::ANALYTIC_PLANE ? "analytic plane" : "analytic ball",
+                       full ? analytic_frag_full_emissive : analytic_frag_compact_emissive,
+                       constants, analyticLayout.get());
     }
+    background = screenWide("background",
+                            full ? background_frag_full_emissive : background_frag_compact_emissive,
+                            {}, backgroundLayout.get());
+    for (size_t i = 0; i < emitters.size(); ++i) {
+        const std::array constants{gpu::SpecConstant{gpu::RASTER_SHAPE, Emitters::shapes[i]}};
+        emitters[i] =
+            createPipeline(device, layout,
+                           {"emitter", emitter_vert,
+                            full ? emitter_frag_full_emissive : emitter_frag_compact_emissive,
+                            constants, emitterStreams, emitterAttributes,
+                            VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP, emitterLayout.get()});
+    }
+}
+
+gpu::Handle<VkPipelineLayout> Pipelines::createMeshLayout(const std::string& name) const
+{
+    const VkDescriptorSetLayout sets[] = {meshSet.get()};
+    return gpu::createPipelineLayout(*device_, name.c_str(), sets, VK_SHADER_STAGE_VERTEX_BIT,
+                                     sizeof(gpu::MeshParams));
+}
+
+void Pipelines::prepareMesh(const MeshVariant& variant)
+{
+    if (meshes_.contains(variant))
+        return;
+    const MeshShaders shaders = meshShaders(layout_, variant);
+    const std::string name =
+        std::string("mesh ") + shaders.kind + (variant.emissive ? " emissive" : "");
+    Mesh mesh{.layout = createMeshLayout(name), .pipeline = {}};
+    const std::array constants{gpu::SpecConstant{gpu::RASTER_TEXTURES, variant.textures},
+                               gpu::SpecConstant{gpu::RASTER_MASKED, variant.masked}};
+    const std::span<const VkVertexInputAttributeDescription> attributes = meshAttributes;
+    mesh.pipeline =
+        createPipeline(*device_, layout_,
+                       {name.c_str(), shaders.vertex, shaders.fragment, constants, meshStreams,
+                        attributes.first(shaders.attributes), VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+                        mesh.layout.get(), variant.emissive});
+    meshes_.emplace(variant, std::move(mesh));
 }
 
 } // namespace candelabra::gbuffer

@@ -127,19 +127,21 @@ Bindings::Bindings(const Device& device, const char* name, std::vector<Reflected
         device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set, name);
 }
 
-void Bindings::write(uint32_t index, std::initializer_list<Binding> given) const
+void Bindings::write(uint32_t index, std::initializer_list<Binding> bindings,
+                     std::span<const Binding> more) const
 {
-    constexpr size_t maxBindings = 24;
-    if (given.size() != bindings_.size() || given.size() > maxBindings)
+    constexpr size_t maxBindings = 32;
+    const size_t count = bindings.size() + more.size();
+    if (count != bindings_.size() || count > maxBindings)
         failArgument(std::string("internal: ") + name_ + " needs " +
-                     std::to_string(bindings_.size()) + " bindings, " +
-                     std::to_string(given.size()) + " were given");
+                     std::to_string(bindings_.size()) + " bindings, " + std::to_string(count) +
+                     " were given");
     std::array<VkDescriptorBufferInfo, maxBindings> buffers;
     std::array<VkDescriptorImageInfo, maxBindings> images;
     std::array<VkBufferView, maxBindings> texels;
     std::array<VkWriteDescriptorSet, maxBindings> writes;
     uint32_t n = 0;
-    for (const Binding& b : given) {
+    const auto add = [&](const Binding& b) {
         const auto reflected =
             std::find_if(bindings_.begin(), bindings_.end(),
                          [&](const ReflectedBinding& r) { return r.binding == b.binding; });
@@ -158,7 +160,9 @@ void Bindings::write(uint32_t index, std::initializer_list<Binding> given) const
                      .pBufferInfo = &buffers[n],
                      .pTexelBufferView = &texels[n]};
         ++n;
-    }
+    };
+    std::for_each(bindings.begin(), bindings.end(), add);
+    std::for_each(more.begin(), more.end(), add);
     device_->UpdateDescriptorSets(device_->handle, n, writes.data(), 0, nullptr);
 }
 

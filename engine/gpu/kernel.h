@@ -89,8 +89,9 @@ public:
     VkDescriptorSetLayout layout() const { return layout_.get(); }
     VkDescriptorSet set(uint32_t index) const { return sets_[index]; }
     // Writes set `index`, which the GPU must not be using. Every binding of the layout must be
-    // given (a driver crashed on bindings that were never written).
-    void write(uint32_t index, std::initializer_list<Binding> bindings) const;
+    // given, in `bindings` or in `more` (a driver crashed on bindings that were never written).
+    void write(uint32_t index, std::initializer_list<Binding> bindings,
+               std::span<const Binding> more = {}) const;
 
 private:
     const Device* device_ = nullptr;

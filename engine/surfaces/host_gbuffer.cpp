@@ -39,6 +39,23 @@ bool readsSpecular(CndGBufferLayout layout, const CndGBufferDesc& d)
 
 } // namespace
 
+std::array<gpu::Binding, 6> GBufferViews::bindings(uint32_t first) const
+{
+    using gpu::Binding;
+    return {Binding::sampled(first + gpu::GBUFFER_PACKED_NORMAL, packed[0]),
+            Binding::sampled(first + gpu::GBUFFER_PACKED_ALBEDO, packed[1]),
+            Binding::sampled(first + gpu::GBUFFER_PACKED_SPECULAR, packed[2]),
+            Binding::sampled(first + gpu::GBUFFER_NORMAL, floats[0]),
+            Binding::sampled(first + gpu::GBUFFER_ALBEDO, floats[1]),
+            Binding::sampled(first + gpu::GBUFFER_SPECULAR, floats[2])};
+}
+
+std::array<gpu::Binding, 2> GBufferViews::normalBindings(uint32_t first) const
+{
+    return {gpu::Binding::sampled(first + gpu::GBUFFER_PACKED_NORMAL, packed[0]),
+            gpu::Binding::sampled(first + gpu::GBUFFER_NORMAL, floats[0])};
+}
+
 GBufferSource::GBufferSource(const gpu::Device& device, CndGBufferLayout layout,
                              const CndGBufferDesc& desc)
 {
@@ -47,7 +64,7 @@ GBufferSource::GBufferSource(const gpu::Device& device, CndGBufferLayout layout,
     dielectricF0_ = desc.dielectricF0 > 0 ? desc.dielectricF0 : gpu::DIELECTRIC_F0;
     readsSpecular_ = readsSpecular(layout, desc);
     if (!isPacked())
-        standIn_ = gpu::createImage(device, "no packed normals", VK_FORMAT_R32_UINT, 1, 1,
+        standIn_ = gpu::createImage(device, "no packed G-buffer", VK_FORMAT_R32_UINT, 1, 1,
                                     VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
 }
 

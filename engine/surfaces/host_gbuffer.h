@@ -3,6 +3,7 @@
 // kernels/common/read_gbuffer.glsl takes them.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "gpu/failure.h"
@@ -16,10 +17,17 @@ namespace candelabra::surfaces
 // host has told, or if the device cannot sample these formats.
 void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& desc);
 
-// The images that the kernels of a frame bind. There are two bindings for normals, of which a
-// layout uses one; the other one gets an image of a type that it can read.
+// The images that the kernels of a frame bind. Normals, albedo and specular have two bindings each,
+// of which a layout uses one at most; the others get some image of a type that they can read.
 struct GBufferViews {
-    VkImageView packedNormal, hostNormal, albedo, specular, depth;
+    std::array<VkImageView, 3> packed; // textures of integers: normals, albedo, specular
+    std::array<VkImageView, 3> floats; // the same as textures of floats
+    VkImageView depth;
+
+    // Returns the bindings of a kernel, apart from depth, whose first one is `first`.
+    std::array<gpu::Binding, 6> bindings(uint32_t first) const;
+    // Returns those of a kernel that reads only normals.
+    std::array<gpu::Binding, 2> normalBindings(uint32_t first) const;
 };
 
 // The layout of the G-buffer, which is the same for all views of a module.
@@ -53,20 +61,23 @@ public:
     template <typename Frame>
     GBufferViews views(const Frame& f) const
     {
-        // Kernels do not read albedo with a custom layout: any image of floats will do.
-        const VkImageView albedo = isCustom() ? f.depth : f.albedo;
-        return {.packedNormal = isPacked() ? f.normalRoughness : standIn_.view.get(),
-                .hostNormal = isHosts() ? f.normalRoughness : albedo,
-                .albedo = albedo,
-                .specular = f.specular && !isCustom() ? f.specular : albedo,
-                .depth = f.depth};
+        const VkImageView integers = isPacked() ? f.normalRoughness : standIn_.view.get();
+        GBufferViews v{{integers, integers, integers}, {f.depth, f.depth, f.depth}, f.depth};
+        if (isFull()) {
+            v.packed = {f.normalRoughness, f.albedo, f.specular};
+        } else if (!isCustom()) {
+            const VkImageView normal = isHosts() ? f.normalRoughness : f.albedo;
+            v.floats = {normal, f.albedo, readsSpecular_ ? f.specular : f.albedo};
+        }
+        return v;
     }
 
-    // The first call records a barrier that makes the stand-in for packed normals readable.
+    // The first call records a barrier that makes the stand-in for textures of integers readable.
     void record(const gpu::Frame& frame) noexcept;
 
 private:
     uint32_t layout() const { return code_ & gpu::GBUFFER_LAYOUT_MASK; }
+    bool isFull() const { return layout() == gpu::GBUFFER_LAYOUT_FULL; }
     bool isHosts() const { return layout() == gpu::GBUFFER_LAYOUT_HOST; }
     bool isCustom() const { return layout() == gpu::GBUFFER_LAYOUT_CUSTOM; }
     bool isPacked() const { return !isHosts() && !isCustom(); }
@@ -74,7 +85,7 @@ private:
     uint32_t code_;
     float dielectricF0_;
     bool readsSpecular_;
-    gpu::Image standIn_; // of one texel, bound as packed normals if the layout has none
+    gpu::Image standIn_; // of one texel, bound as textures of integers if the layout has none
     bool standInReady_ = false;
 };
 

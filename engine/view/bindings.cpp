@@ -58,14 +58,11 @@ void View::writeBruteBindings(const CndLightingFrame& frame,
         frame.frameSlot,
         {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
          Binding::of(SHADE_SHAPES, shapes_), Binding::of(SHADE_LIGHT_IDS, ids_),
-         Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal),
-         Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal),
-         Binding::sampled(SHADE_ALBEDO, images.albedo),
-         Binding::sampled(SHADE_SPECULAR, images.specular),
          Binding::sampled(SHADE_DEPTH, images.depth), uniforms_.at(frame.frameSlot, SHADE_FRAME),
          Binding::storage(SHADE_RADIANCE, frame.radiance),
          Binding::ofTexels(SHADE_DFG, tables.directionalAlbedo()),
-         Binding::ofTexels(SHADE_LTC, tables.transformedCosines())});
+         Binding::ofTexels(SHADE_LTC, tables.transformedCosines())},
+        images.bindings(SHADE_GBUFFER));
 }
 
 void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBufferViews& images,
@@ -79,10 +76,7 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
     const Binding shapes = Binding::of(SHADE_SHAPES, shapes_);
     const Binding ids = Binding::of(SHADE_LIGHT_IDS, ids_);
-    const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal);
-    const Binding hostNormals = Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal);
-    const Binding albedo = Binding::sampled(SHADE_ALBEDO, images.albedo);
-    const Binding f0 = Binding::sampled(SHADE_SPECULAR, images.specular);
+    const std::array gbuffer = images.bindings(SHADE_GBUFFER);
     const Binding depth = Binding::sampled(SHADE_DEPTH, images.depth);
     const Binding uniforms = uniforms_.at(frame.frameSlot, SHADE_FRAME);
     const Binding radiance = Binding::storage(SHADE_RADIANCE, frame.radiance);
@@ -95,18 +89,22 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Binding toShade = Binding::of(SHADE_WORK, clusters_.tilesToShade(type));
     const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
     sets_.shadeTiles.write(set,
-                           {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0, depth,
-                            uniforms, radiance, dfg, ltc, tiles, heads, entries, toShade});
-    sets_.shadeUnlisted.write(set, {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0,
-                                    depth, uniforms, radiance, dfg, ltc, tiles, heads, unlisted,
-                                    Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
-                                    Binding::of(SHADE_NODE_WORDS, clusters_.nodes())});
+                           {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, ltc,
+                            tiles, heads, entries, toShade},
+                           gbuffer);
+    sets_.shadeUnlisted.write(set,
+                              {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, ltc,
+                               tiles, heads, unlisted,
+                               Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
+                               Binding::of(SHADE_NODE_WORDS, clusters_.nodes())},
+                              gbuffer);
     // Every binding needs an image, even if the frame has no pairImage and count_pairs writes none.
     const VkImageView pairs = frame.pairImage ? frame.pairImage : frame.radiance;
-    sets_.countPairs.write(set, {core, coreWords, shapes, ids, normals, hostNormals, albedo, f0,
-                                 depth, uniforms, dfg, ltc, tiles, heads, entries, surfaces,
-                                 Binding::of(SHADE_COUNTERS, counters_),
-                                 Binding::storage(SHADE_PAIRS, pairs)});
+    sets_.countPairs.write(set,
+                           {core, coreWords, shapes, ids, depth, uniforms, dfg, ltc, tiles, heads,
+                            entries, surfaces, Binding::of(SHADE_COUNTERS, counters_),
+                            Binding::storage(SHADE_PAIRS, pairs)},
+                           gbuffer);
 }
 
 } // namespace candelabra::lighting

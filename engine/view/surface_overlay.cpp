@@ -37,13 +37,10 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
                            surfaces::frameParams(frame, module_.gbuffer.dielectricF0()));
     const surfaces::GBufferViews images = module_.gbuffer.views(frame);
     sets_.surfaceOverlay.write(frame.frameSlot,
-                               {Binding::sampled(SHADE_NORMAL_ROUGHNESS, images.packedNormal),
-                                Binding::sampled(SHADE_HOST_NORMAL, images.hostNormal),
-                                Binding::sampled(SHADE_ALBEDO, images.albedo),
-                                Binding::sampled(SHADE_SPECULAR, images.specular),
-                                Binding::sampled(SHADE_DEPTH, images.depth),
+                               {Binding::sampled(SHADE_DEPTH, images.depth),
                                 overlayUniforms_.at(frame.frameSlot, SHADE_FRAME),
-                                Binding::storage(SURFACE_OVERLAY_IMAGE, overlay.image)});
+                                Binding::storage(SURFACE_OVERLAY_IMAGE, overlay.image)},
+                               images.bindings(SHADE_GBUFFER));
 
     glm::dmat4 viewFromWorld;
     std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);

@@ -172,8 +172,8 @@ Host createHost(uint32_t width, uint32_t height)
     const VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;
     const VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT;
     host.normalRoughness = createImage(&host, VK_FORMAT_R32G32_UINT, sampled);
-    host.albedo = createImage(&host, VK_FORMAT_R16G16B16A16_SFLOAT, sampled);
-    host.specular = createImage(&host, VK_FORMAT_R16G16B16A16_SFLOAT, sampled);
+    host.albedo = createImage(&host, VK_FORMAT_R32G32_UINT, sampled);
+    host.specular = createImage(&host, VK_FORMAT_R32G32_UINT, sampled);
     host.depth = createImage(&host, VK_FORMAT_D32_SFLOAT,
                              sampled | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
     host.radiance = createImage(&host, VK_FORMAT_R32G32B32A32_SFLOAT,
@@ -259,10 +259,11 @@ static void clearColour(VkCommandBuffer cmd, const HostImage* image, VkClearColo
 // All pixels are equal, so clears draw the wall. A real pass packs normals with lib/gbuffer.glsl.
 void drawWall(Host* host)
 {
-    // The view-space normal (0, 0, 1) is (0, 0) in octahedral encoding; roughness 0xFFFF is 1.
-    const VkClearColorValue facing = {.uint32 = {0xFF000000u, 0xFF000000u}};
-    const VkClearColorValue albedo = {.float32 = {WALL_ALBEDO, WALL_ALBEDO, WALL_ALBEDO}};
-    const VkClearColorValue zero = {.float32 = {0}};
+    // The view-space normal (0, 0, 1) is (0, 0) in octahedral encoding; roughness 0x3FFFF is 1.
+    const VkClearColorValue facing = {.uint32 = {0xFF800000u, 0xFF800000u}};
+    const uint32_t half = WALL_ALBEDO_CODE; // red, green and blue
+    const VkClearColorValue albedo = {.uint32 = {half | half << 21, half | half >> 11 << 21}};
+    const VkClearColorValue zero = {.uint32 = {0}};
     clearColour(host->cmd, &host->normalRoughness, facing, sampledInCompute);
     clearColour(host->cmd, &host->albedo, albedo, sampledInCompute);
     clearColour(host->cmd, &host->specular, zero, sampledInCompute);

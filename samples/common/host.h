@@ -36,6 +36,7 @@ typedef struct Host {
 // The wall fills the picture, faces the camera and is matt.
 #define WALL_DISTANCE 2.0f // metres
 #define WALL_ALBEDO 0.5f
+#define WALL_ALBEDO_CODE 0x1BFFFFu // what packAlbedoFull() of lib/gbuffer.glsl makes of it
 
 Host createHost(uint32_t width, uint32_t height);
 void destroyHost(Host* host);

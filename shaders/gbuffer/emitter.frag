@@ -25,7 +25,7 @@ void main()
         const bool inDisc = length(cross(ray.direction, inCenter.xyz)) <= inCenter.w;
         if (!(inDisc && dot(ray.direction, inCenter.xyz) > 0.0))
             discard;
-        gl_FragDepth = reversed ? 0.0 : 1.0;
+        gl_FragDepth = farDepth();
         writeEmitter(-inCenter.xyz, inLuminance);
         return;
     }

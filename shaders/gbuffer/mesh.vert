@@ -4,9 +4,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "gbuffer/mesh_varyings.glsl"
+#include "gbuffer/material_record.glsl"
+#include "lib/gbuffer.glsl"
 #include "shared/raster.h"
-
-layout(constant_id = RASTER_DETAILED) const bool detailed = false;
 
 layout(push_constant, scalar) uniform Push
 {
@@ -16,16 +17,14 @@ layout(binding = MESH_INSTANCES) uniform textureBuffer instances;
 
 layout(location = MESH_POSITION) in vec3 position; // object space
 layout(location = MESH_NORMAL_IN) in vec3 normal;
+#ifdef SAMPLED
 layout(location = MESH_TANGENT) in vec4 tangent; // w: handedness
 layout(location = MESH_UV) in vec4 uv; // both uv sets
+#endif
+#ifndef CONSTANT
 layout(location = MESH_COLOR) in vec4 color;
+#endif
 layout(location = MESH_INSTANCE) in uint instance;
-
-layout(location = 0) out vec3 outNormal; // view space, not normalised
-layout(location = 1) flat out uint outMaterial;
-layout(location = 2) out vec4 outTangent;
-layout(location = 3) out vec4 outUv;
-layout(location = 4) out vec4 outColor;
 
 // Exact difference of the high parts (Knuth's TwoSum), plus the rounding error and the low parts.
 vec3 cameraRelative(vec3 hi, vec3 lo)
@@ -50,7 +49,7 @@ void main()
     const vec4 y = texelFetch(instances, texel + 1);
     const vec4 z = texelFetch(instances, texel + 2);
     const vec4 last = texelFetch(instances, texel + 3);
-    outMaterial = uint(last.w);
+    const uint material = uint(last.w);
 
     const mat3 worldFromObject = mat3(x.xyz, y.xyz, z.xyz);
     const vec3 origin = cameraRelative(vec3(x.w, y.w, z.w), last.xyz);
@@ -61,15 +60,22 @@ void main()
     // the determinant (mirrored instances) matters for the direction.
     const mat3 cofactors = mat3(cross(y.xyz, z.xyz), cross(z.xyz, x.xyz), cross(x.xyz, y.xyz));
     const float handedness = dot(x.xyz, cofactors[0]) < 0.0 ? -1.0 : 1.0;
-    outNormal = params.viewFromWorld * safeNormalize(handedness * (cofactors * normal));
-    if (detailed) {
-        const vec3 tangentWorld = safeNormalize(worldFromObject * tangent.xyz);
-        outTangent = vec4(params.viewFromWorld * tangentWorld, tangent.w * handedness);
-        outUv = uv;
-        outColor = color;
-    } else {
-        outTangent = vec4(0);
-        outUv = vec4(0);
-        outColor = vec4(0);
-    }
+    varyingNormal = params.viewFromWorld * safeNormalize(handedness * (cofactors * normal));
+#ifdef SAMPLED
+    const vec3 tangentWorld = safeNormalize(worldFromObject * tangent.xyz);
+    varyingTangent = vec4(params.viewFromWorld * tangentWorld, tangent.w * handedness);
+    varyingUv = uv;
+    varyingColor = color;
+    varyingMaterial = uvec3(material, 0u, 0u);
+#else
+    MaterialSample m = plainMaterial(material);
+#ifdef COLORED
+    m.baseColor *= color.rgb;
+    varyingAlbedo = diffuseAlbedo(m);
+#else
+    varyingAlbedo = packAlbedoFull(diffuseAlbedo(m));
+#endif
+    varyingSpecular = packSpecularFull(normalReflectance(m), m.specularWeight);
+    varyingMaterial = uvec3(material, packRoughnessFull(m.perceptualRoughness));
+#endif
 }

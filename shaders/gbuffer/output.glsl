@@ -1,47 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour attachments of the raster pass, and how a surface is written to them.
+// The colour attachments of the raster pass, and how a surface is written to them. Compiled with
+// FULL or COMPACT, the layout. Radiance is written only with EMISSIVE: the pass
+// draws surfaces that emit nothing first, without the attachment for radiance.
+#include "gbuffer/material.glsl"
 #include "lib/gbuffer.glsl"
 #include "shared/raster.h"
 
-layout(constant_id = RASTER_LAYOUT) const uint gbufferLayout = 0u;
-
-layout(location = 0) out uvec2 outNormalRoughness;
+#ifdef COMPACT
+layout(location = 0) out uint outNormalRoughness;
 layout(location = 1) out vec4 outAlbedo;
-layout(location = 2) out vec4 outRadiance; // cd/m^2
-layout(location = 3) out vec4 outSpecular; // layout COMPACT has no such attachment
-
-struct MaterialSample {
-    vec3 baseColor;
-    float metalness;
-    float perceptualRoughness;
-    vec3 dielectricF0;
-    float diffuseWeight;
-    float specularWeight;
-    vec3 emission; // cd/m^2
-};
+#define RADIANCE_LOCATION 2
+#else
+layout(location = 0) out uvec2 outNormalRoughness;
+layout(location = 1) out uvec2 outAlbedo;
+layout(location = 2) out uvec2 outSpecular;
+#define RADIANCE_LOCATION 3
+#endif
+#ifdef EMISSIVE
+layout(location = RADIANCE_LOCATION) out vec4 outRadiance; // cd/m^2
+#endif
 
 // `normal` is a unit vector in view space.
 void writeSurface(vec3 normal, MaterialSample m)
 {
+#ifdef EMISSIVE
     outRadiance = vec4(m.emission, 1.0);
-    if (gbufferLayout == GBUFFER_LAYOUT_COMPACT) {
-        outNormalRoughness = uvec2(packNormalRoughnessCompact(normal, m.perceptualRoughness), 0);
-        outAlbedo = vec4(m.baseColor, m.metalness);
-        outSpecular = vec4(0);
-    } else {
-        outNormalRoughness = packNormalRoughnessFull(normal, m.perceptualRoughness);
-        outAlbedo = vec4(m.baseColor * ((1.0 - m.metalness) * m.diffuseWeight), 0.0);
-        outSpecular = vec4(mix(m.dielectricF0, m.baseColor, m.metalness), m.specularWeight);
-    }
+#endif
+#ifdef COMPACT
+    outNormalRoughness = packNormalRoughnessCompact(normal, m.perceptualRoughness);
+    outAlbedo = vec4(m.baseColor, m.metalness);
+#else
+    outNormalRoughness = packNormalRoughnessFull(normal, m.perceptualRoughness);
+    outAlbedo = packAlbedoFull(diffuseAlbedo(m));
+    outSpecular = packSpecularFull(normalReflectance(m), m.specularWeight);
+#endif
 }
 
+#ifdef EMISSIVE
 // Writes a pixel that shows an emitter: its luminance, and a surface to which lighting adds nothing.
 void writeEmitter(vec3 normal, vec3 luminance)
 {
     outRadiance = vec4(luminance, 1.0);
-    outNormalRoughness = gbufferLayout == GBUFFER_LAYOUT_COMPACT
-                             ? uvec2(NORMAL_ROUGHNESS_UNLIT_COMPACT, 0)
-                             : packNormalRoughnessFull(normal, 1.0);
+#ifdef COMPACT
+    outNormalRoughness = NORMAL_ROUGHNESS_UNLIT_COMPACT;
     outAlbedo = vec4(0);
-    outSpecular = vec4(0);
+#else
+    outNormalRoughness = packNormalRoughnessFull(normal, 1.0);
+    outAlbedo = uvec2(0);
+    outSpecular = uvec2(0);
+#endif
 }
+
+// Writes a pixel without a surface.
+void writeBackground(vec3 luminance)
+{
+    outRadiance = vec4(luminance, 1.0);
+#ifdef COMPACT
+    outNormalRoughness = 0u;
+    outAlbedo = vec4(0);
+#else
+    outNormalRoughness = uvec2(0);
+    outAlbedo = uvec2(0);
+    outSpecular = uvec2(0);
+#endif
+}
+#endif

@@ -30,6 +30,12 @@ Ray pixelRay(vec2 ndc)
     return ray;
 }
 
+// Returns the depth of the far end, to which depth is cleared.
+float farDepth()
+{
+    return 1.0 - frame.nearDepth;
+}
+
 float depthOf(vec3 positionView)
 {
     const vec4 clip = frame.clipFromView * vec4(positionView, 1.0);

@@ -5,11 +5,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/environment.h"
 #define GBUFFER_CODE SPEC_GBUFFER
-#define GBUFFER_PACKED SHADE_ENVIRONMENT_NORMAL_ROUGHNESS
-#define GBUFFER_NORMAL SHADE_ENVIRONMENT_HOST_NORMAL
+#define GBUFFER_IMAGES SHADE_ENVIRONMENT_GBUFFER
 #define FRAME_PARAMS SHADE_ENVIRONMENT_FRAME
-#define GBUFFER_ALBEDO SHADE_ENVIRONMENT_ALBEDO
-#define GBUFFER_SPECULAR SHADE_ENVIRONMENT_SPECULAR
 #include "kernels/common/read_gbuffer.glsl"
 #include "lib/dfg.glsl"
 #include "lib/joining.glsl"

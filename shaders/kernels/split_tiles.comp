@@ -3,6 +3,7 @@
 // tile walk its pixels in step.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define GBUFFER_NORMALS_ONLY
 #include "kernels/common/cluster_bounds.glsl"
 
 layout(local_size_x = SPLIT_TILES_GROUP) in;

@@ -4,11 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/surface_overlay.h"
 #define GBUFFER_CODE SPEC_GBUFFER
-#define GBUFFER_PACKED SHADE_NORMAL_ROUGHNESS
-#define GBUFFER_NORMAL SHADE_HOST_NORMAL
+#define GBUFFER_IMAGES SHADE_GBUFFER
 #define FRAME_PARAMS SHADE_FRAME
-#define GBUFFER_ALBEDO SHADE_ALBEDO
-#define GBUFFER_SPECULAR SHADE_SPECULAR
 #include "kernels/common/read_gbuffer.glsl"
 #include "lib/projection.glsl"
 #include "lib/tone_map.glsl"

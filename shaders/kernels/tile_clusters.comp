@@ -4,8 +4,6 @@
 // later; every other tile is put on the work list of its class.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define GBUFFER_ALBEDO TILE_CLUSTERS_ALBEDO
-#define GBUFFER_SPECULAR TILE_CLUSTERS_SPECULAR
 #include "kernels/common/cluster_bounds.glsl"
 #include "kernels/common/tile_class.glsl"
 

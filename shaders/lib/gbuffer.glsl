@@ -18,7 +18,7 @@ struct Surface {
 // vectors"). `n` must not be zero; it need not be normalised.
 vec2 encodeOctahedral(vec3 n)
 {
-    const vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    precise const vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     const vec2 s = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
     return n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * s;
 }
@@ -35,7 +35,7 @@ vec3 decodeOctahedral(vec2 p)
 uvec2 quantizeOctahedral(vec3 n, uint bits)
 {
     const float scale = float((1u << (bits - 1u)) - 1u);
-    const ivec2 k = ivec2(round(clamp(encodeOctahedral(n), -1.0, 1.0) * scale));
+    const ivec2 k = ivec2(roundEven(clamp(encodeOctahedral(n), -1.0, 1.0) * scale));
     return uvec2(k) & ((1u << bits) - 1u);
 }
 
@@ -47,12 +47,69 @@ vec3 dequantizeOctahedral(uvec2 codes, uint bits)
     return decodeOctahedral(vec2(k) / scale);
 }
 
-// Angle error <= NORMAL_ERROR_FULL, roughness error <= ROUGHNESS_ERROR_FULL.
+// Returns the nearest unit floats (shared/gbuffer.h) with `mantissa` bits of mantissa. Values out of
+// range are clamped, and NaN becomes 0.
+uvec3 encodeUnitFloats(vec3 x, uint mantissa)
+{
+    const vec3 inRange = mix(vec3(0.0), min(x, 1.0), greaterThan(x, vec3(0.0)));
+    const uint dropped = 23u - mantissa; // of the bits of a float's mantissa
+    const uvec3 normal =
+        (floatBitsToUint(inRange) - (119u << 23) + (1u << (dropped - 1u))) >> dropped;
+    const uvec3 denormal = uvec3(roundEven(inRange * float(1u << (mantissa + 7u))));
+    const uvec3 code = mix(normal, denormal, lessThan(inRange, vec3(UNIT_FLOAT_NORMAL)));
+    return max(code, 1u) - 1u;
+}
+
+vec3 decodeUnitFloats(uvec3 codes, uint mantissa)
+{
+    const uvec3 bits = (codes + min(codes, 1u)) << (23u - mantissa);
+    // The subtraction is exact.
+    return mix(uintBitsToFloat(bits + (119u << 23)),
+               uintBitsToFloat(bits + (120u << 23)) - UNIT_FLOAT_NORMAL,
+               lessThan(bits, uvec3(1u << 23)));
+}
+
+// Returns the roughness in the bits that it has beside the normal.
+uvec2 packRoughnessFull(float perceptualRoughness)
+{
+    const uint roughness = encodeUnitFloats(vec3(perceptualRoughness), ROUGHNESS_MANTISSA).x;
+    return uvec2(roughness << 23, (roughness >> 9) << 23);
+}
+
+// Angle error <= NORMAL_ERROR_FULL, relative roughness error <= ROUGHNESS_ERROR_FULL.
 uvec2 packNormalRoughnessFull(vec3 normal, float perceptualRoughness)
 {
-    const uint roughness = uint(round(clamp(perceptualRoughness, 0.0, 1.0) * 65535.0));
-    const uvec2 codes = quantizeOctahedral(normal, NORMAL_BITS_FULL);
-    return codes | uvec2(roughness << 24, (roughness >> 8) << 24);
+    return quantizeOctahedral(normal, NORMAL_BITS_FULL) | packRoughnessFull(perceptualRoughness);
+}
+
+uvec2 packColourFull(vec3 colour)
+{
+    const uvec3 codes = encodeUnitFloats(colour, COLOUR_MANTISSA);
+    return uvec2(codes.r | codes.b << 21, codes.g | (codes.b >> 11) << 21);
+}
+
+vec3 unpackColourFull(uvec2 texel)
+{
+    const uvec3 codes = uvec3(texel & 0x1FFFFFu, texel.x >> 21 | ((texel.y >> 21) & 0x3FFu) << 11);
+    return decodeUnitFloats(codes, COLOUR_MANTISSA);
+}
+
+// Relative error <= COLOUR_ERROR_FULL.
+uvec2 packAlbedoFull(vec3 albedo)
+{
+    return packColourFull(albedo);
+}
+
+// Relative error of F0 <= COLOUR_ERROR_FULL if the specular weight is 1. Otherwise it is
+// <= COLOUR_ERROR_FULL_SHORT, and the error of the specular weight <= F90_ERROR_FULL.
+uvec2 packSpecularFull(vec3 F0, float specularWeight)
+{
+    if (specularWeight >= 1.0)
+        return packColourFull(F0) | uvec2(0u, 1u << 31);
+    const uvec3 codes = encodeUnitFloats(F0, COLOUR_MANTISSA_SHORT);
+    const float weight = specularWeight > 0.0 ? specularWeight : 0.0; // not NaN
+    const uint f90 = uint(roundEven(weight * float((1u << F90_BITS) - 1u)));
+    return uvec2(codes.r | codes.g << 16, codes.b | f90 << 16);
 }
 
 // Angle error <= NORMAL_ERROR_COMPACT, roughness error <= ROUGHNESS_ERROR_COMPACT.
@@ -70,18 +127,22 @@ vec3 unpackNormal(uint layout_, uvec2 normalRoughness)
         return dequantizeOctahedral(uvec2(normalRoughness.x,
                                           normalRoughness.x >> NORMAL_BITS_COMPACT) & 0xFFFu,
                                     NORMAL_BITS_COMPACT);
-    return dequantizeOctahedral(normalRoughness & 0xFFFFFFu, NORMAL_BITS_FULL);
+    return dequantizeOctahedral(normalRoughness & 0x7FFFFFu, NORMAL_BITS_FULL);
 }
 
-Surface unpackGBufferFull(uvec2 normalRoughness, vec4 albedo, vec4 specular)
+Surface unpackGBufferFull(uvec2 normalRoughness, uvec2 albedo, uvec2 specular)
 {
     Surface s;
-    s.normal = dequantizeOctahedral(normalRoughness & 0xFFFFFFu, NORMAL_BITS_FULL);
-    s.perceptualRoughness =
-        float((normalRoughness.x >> 24) | ((normalRoughness.y >> 24) << 8)) / 65535.0;
-    s.albedo = albedo.rgb;
-    s.F0 = specular.rgb;
-    s.specularWeight = specular.a;
+    s.normal = dequantizeOctahedral(normalRoughness & 0x7FFFFFu, NORMAL_BITS_FULL);
+    const uint roughness = normalRoughness.x >> 23 | (normalRoughness.y >> 23) << 9;
+    s.perceptualRoughness = decodeUnitFloats(uvec3(roughness), ROUGHNESS_MANTISSA).x;
+    s.albedo = unpackColourFull(albedo);
+    const bool isWhole = (specular.y >> 31) != 0u; // F90 is 1
+    const uvec3 shortCodes = uvec3(specular.x & 0xFFFFu, specular.x >> 16, specular.y & 0xFFFFu);
+    s.F0 = isWhole ? unpackColourFull(specular)
+                   : decodeUnitFloats(shortCodes, COLOUR_MANTISSA_SHORT);
+    s.specularWeight =
+        isWhole ? 1.0 : float(specular.y >> 16) / float((1u << F90_BITS) - 1u);
     return s;
 }
 

@@ -19,8 +19,8 @@ float candelabraVisibility(ShadowQuery query)
 }
 
 layout(binding = FORWARD_PROBE_NORMAL_ROUGHNESS) uniform utexture2D normalRoughnessImage;
-layout(binding = FORWARD_PROBE_ALBEDO) uniform texture2D albedoImage;
-layout(binding = FORWARD_PROBE_SPECULAR) uniform texture2D specularImage;
+layout(binding = FORWARD_PROBE_ALBEDO) uniform utexture2D albedoImage;
+layout(binding = FORWARD_PROBE_SPECULAR) uniform utexture2D specularImage;
 layout(binding = FORWARD_PROBE_DEPTH) uniform texture2D depthImage;
 layout(scalar, binding = FORWARD_PROBE_OUTPUT) writeonly buffer Outputs
 {
@@ -39,7 +39,8 @@ void main()
         return;
     const Surface surface =
         unpackGBufferFull(texelFetch(normalRoughnessImage, pixel, 0).xy,
-                          texelFetch(albedoImage, pixel, 0), texelFetch(specularImage, pixel, 0));
+                          texelFetch(albedoImage, pixel, 0).xy,
+                          texelFetch(specularImage, pixel, 0).xy);
     const vec3 position =
         viewPosition(forwardView.projection, uvec2(pixel), params.invImageSize, depth);
     outputs[i].lit = vec4(litSurface(surface, position), 1.0);

@@ -30,12 +30,15 @@ void main()
     if (i >= params.count)
         return;
     const PackingProbeInput probe = inputs[i];
-    const Surface full = unpackGBufferFull(
-        packNormalRoughnessFull(probe.normal, probe.perceptualRoughness), vec4(0), vec4(0));
+    const uvec2 normalRoughness = packNormalRoughnessFull(probe.normal, probe.perceptualRoughness);
+    const uvec2 albedo = packAlbedoFull(probe.albedo);
+    const uvec2 specular = packSpecularFull(probe.F0, probe.specularWeight);
+    const Surface full = unpackGBufferFull(normalRoughness, albedo, specular);
     const Surface compact = unpackGBufferCompact(
         packNormalRoughnessCompact(probe.normal, probe.perceptualRoughness), vec4(0));
     const Surface unlit = unpackGBufferCompact(NORMAL_ROUGHNESS_UNLIT_COMPACT, vec4(1));
     outputs[i] = PackingProbeOutput(
-        full.normal, full.perceptualRoughness, compact.normal, compact.perceptualRoughness,
+        normalRoughness, albedo, specular, full.normal, full.perceptualRoughness, full.albedo,
+        full.specularWeight, full.F0, compact.normal, compact.perceptualRoughness,
         vec3(largest(unlit.albedo), largest(unlit.F0), unlit.specularWeight));
 }

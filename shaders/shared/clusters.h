@@ -103,15 +103,13 @@ const uint SLICE_ROW = 256u; // slices whose lists one row of groups makes
 // 16384 x 16384 pixels need 32768 groups; every device allows 65535.
 const uint TILE_CLUSTERS_GROUP = 128u;
 const uint TILE_CLUSTERS_DEPTH = 0u;
-const uint TILE_CLUSTERS_NORMALS = 1u;
-const uint TILE_CLUSTERS_CLUSTERS = 2u;
-const uint TILE_CLUSTERS_TILES = 3u;
-const uint TILE_CLUSTERS_SURFACES = 4u;     // a WorkList per class: tiles with a surface
-const uint TILE_CLUSTERS_SPLITS = 5u;       // WorkList: tiles to be split
-const uint TILE_CLUSTERS_HOST_NORMALS = 6u; // kernels/common/read_gbuffer.glsl
-const uint TILE_CLUSTERS_FRAME = 7u;        // FrameParams
-const uint TILE_CLUSTERS_ALBEDO = 8u;       // not in split_tiles
-const uint TILE_CLUSTERS_SPECULAR = 9u;     // not in split_tiles
+const uint TILE_CLUSTERS_CLUSTERS = 1u;
+const uint TILE_CLUSTERS_TILES = 2u;
+const uint TILE_CLUSTERS_SURFACES = 3u; // a WorkList per class: tiles with a surface
+const uint TILE_CLUSTERS_SPLITS = 4u;   // WorkList: tiles to be split
+const uint TILE_CLUSTERS_FRAME = 5u;    // FrameParams
+const uint TILE_CLUSTERS_GBUFFER = 6u;  // six bindings (shared/host_gbuffer.h); split_tiles has
+                                        // those of the normals only
 struct TileClustersParams {
     uint tileCount;
     uint firstSplit, splitCapacity; // first cluster of split tiles; how many tiles can be split

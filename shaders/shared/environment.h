@@ -73,17 +73,14 @@ GPU_SIZE(EnvironmentIrradianceParams, 4)
 
 // --- shade_environment: one lane per pixel
 const uint SHADE_ENVIRONMENT_GROUP = 8u; // x and y
-const uint SHADE_ENVIRONMENT_NORMAL_ROUGHNESS = 0u;
-const uint SHADE_ENVIRONMENT_ALBEDO = 1u;
-const uint SHADE_ENVIRONMENT_SPECULAR = 2u;
-const uint SHADE_ENVIRONMENT_DEPTH = 3u;
-const uint SHADE_ENVIRONMENT_RADIANCE = 4u;
-const uint SHADE_ENVIRONMENT_CUBE = 5u;
-const uint SHADE_ENVIRONMENT_PREFILTERED = 6u;
-const uint SHADE_ENVIRONMENT_IRRADIANCE = 7u;
-const uint SHADE_ENVIRONMENT_DFG = 8u;
-const uint SHADE_ENVIRONMENT_HOST_NORMAL = 9u; // kernels/common/read_gbuffer.glsl
-const uint SHADE_ENVIRONMENT_FRAME = 10u;      // FrameParams
+const uint SHADE_ENVIRONMENT_DEPTH = 0u;
+const uint SHADE_ENVIRONMENT_RADIANCE = 1u;
+const uint SHADE_ENVIRONMENT_CUBE = 2u;
+const uint SHADE_ENVIRONMENT_PREFILTERED = 3u;
+const uint SHADE_ENVIRONMENT_IRRADIANCE = 4u;
+const uint SHADE_ENVIRONMENT_DFG = 5u;
+const uint SHADE_ENVIRONMENT_FRAME = 6u;   // FrameParams
+const uint SHADE_ENVIRONMENT_GBUFFER = 7u; // six bindings (shared/host_gbuffer.h)
 struct ShadeEnvironmentParams {
     mat3 environmentFromView; // rotation
     float lastLevel;          // last level of the prefiltered cube

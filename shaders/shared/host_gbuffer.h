@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layout of the G-buffer, which may be one of the host (CndGBufferDesc), as the bit fields of
-// one specialisation constant.
+// one specialisation constant, and the bindings of its images.
 #ifndef CND_SHARED_HOST_GBUFFER_H
 #define CND_SHARED_HOST_GBUFFER_H
 
@@ -26,6 +26,15 @@ const uint GBUFFER_CHANNEL_MASK = 15u;         // CndGBufferChannel
 const uint GBUFFER_ROUGHNESS_SHIFT = 8u;
 const uint GBUFFER_METALNESS_SHIFT = 12u;
 const uint GBUFFER_F90_SHIFT = 16u;
+
+// The images, as a kernel binds them: their binding numbers relative to that of the first. What a
+// layout stores as packed integers and what it stores as floats are different images to a shader.
+const uint GBUFFER_PACKED_NORMAL = 0u;   // FULL, COMPACT
+const uint GBUFFER_PACKED_ALBEDO = 1u;   // FULL
+const uint GBUFFER_PACKED_SPECULAR = 2u; // FULL
+const uint GBUFFER_NORMAL = 3u;          // HOST
+const uint GBUFFER_ALBEDO = 4u;          // HOST, COMPACT
+const uint GBUFFER_SPECULAR = 5u;        // HOST
 
 GPU_END
 

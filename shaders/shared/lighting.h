@@ -110,9 +110,9 @@ GPU_SIZE(PrepareLightsParams, 60)
 const uint SHADE_CORE = 0u;
 const uint SHADE_CORE_WORDS = 1u;
 const uint SHADE_SHAPES = 2u;
-const uint SHADE_NORMAL_ROUGHNESS = 3u;
-const uint SHADE_ALBEDO = 4u;
-const uint SHADE_SPECULAR = 5u;
+const uint SHADE_FRAME = 3u;     // FrameParams
+const uint SHADE_LIGHT_IDS = 4u; // read only for the host's shadow term
+const uint SHADE_PAIRS = 5u;     // count_pairs: CndLightingFrame::pairImage
 const uint SHADE_DEPTH = 6u;
 const uint SHADE_RADIANCE = 7u;
 const uint SHADE_DFG = 8u; // table of the directional albedo (shared/dfg.h)
@@ -125,11 +125,8 @@ const uint SHADE_WORK = 13u;     // a WorkList per class: the tiles to shade
 const uint SHADE_COUNTERS = 14u; // count_pairs
 const uint SHADE_NODES = 15u;    // shade_unlisted
 const uint SHADE_NODE_WORDS = 16u;
-const uint SHADE_PAIRS = 17u;       // count_pairs: CndLightingFrame::pairImage
-const uint SHADE_HOST_NORMAL = 18u; // kernels/common/read_gbuffer.glsl
-const uint SHADE_FRAME = 19u;       // FrameParams
-const uint SHADE_LIGHT_IDS = 20u;   // read only for the host's shadow term
-const uint PIXEL_OF_TILE = 1u;      // the values of CndPixelClass
+const uint SHADE_GBUFFER = 17u; // six bindings (shared/host_gbuffer.h)
+const uint PIXEL_OF_TILE = 1u;  // the values of CndPixelClass
 const uint PIXEL_OF_SLICE = 2u;
 const uint PIXEL_UNLISTED = 3u;
 

@@ -140,6 +140,13 @@ struct MeshParams {
 };
 GPU_SIZE(MeshParams, 124)
 
+// --- Background, where there is no surface
+
+struct BackgroundParams {
+    vec3 luminance; // cd/m^2
+};
+GPU_SIZE(BackgroundParams, 12)
+
 // --- Ray-cast surfaces: analytic planes and balls, visible area lights
 
 struct RasterFrame {
@@ -155,7 +162,7 @@ struct RasterFrame {
     vec3 forward;         // unit viewing direction; orthographic: direction of every ray
 };
 GPU_SIZE(RasterFrame, 212)
-const uint RAY_FRAME = 0u; // uniform buffer binding of analytic surfaces and emitters
+const uint RAY_FRAME = 0u; // uniform buffer binding of analytic surfaces, emitters and background
 
 const uint ANALYTIC_PLANE = 0u;
 const uint ANALYTIC_BALL = 1u;
@@ -193,10 +200,9 @@ struct EmitterRecord {
 GPU_SIZE(EmitterRecord, 56)
 
 // --- Specialisation constants
-const uint RASTER_LAYOUT = 0u;   // CndGBufferLayout
-const uint RASTER_DETAILED = 1u; // meshes: textures, tangents and vertex colours
-const uint RASTER_MASKED = 2u;   // meshes: an alpha mask
-const uint RASTER_SHAPE = 1u;    // analytic: ANALYTIC_*; emitters: LIGHT_*
+const uint RASTER_TEXTURES = 0u; // sampled meshes: mask of 1 << TEXTURE_*
+const uint RASTER_MASKED = 1u;   // sampled meshes: an alpha mask
+const uint RASTER_SHAPE = 0u;    // analytic: ANALYTIC_*; emitters: LIGHT_*
 
 GPU_END
 

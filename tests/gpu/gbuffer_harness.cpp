@@ -178,6 +178,7 @@ RasterImage RasterTest::renderWith(gbuffer::GBuffer& pass, const gbuffer::Geomet
 {
     const gbuffer::Targets targets =
         gbuffer::createTargets(device(), options.layout, options.width, options.height);
+    pass.prepare(geometry);
     pass.setEmitters(options.emitters, glm::value_ptr(options.emitterOrigin));
     const glm::vec3& b = options.background;
     context().submitAndWait([&](VkCommandBuffer cmd) {

@@ -121,8 +121,8 @@ CpuSurface fullSurface(const CndGBufferDesc& d, const HostSurface& s, double dep
     return {.depth = float(depth),
             .normal = s.normal,
             .perceptualRoughness = s.perceptualRoughness,
-            .albedo = glm::vec3(s.baseColour * (1 - s.metalness)),
-            .F0F90 = glm::vec4(f0, 1)};
+            .albedo = s.baseColour * (1 - s.metalness),
+            .F0F90 = glm::dvec4(f0, 1)};
 }
 
 } // namespace
@@ -187,8 +187,8 @@ void HostPacking::add(const HostSurface& s, double depth)
     images[0] = glm::dvec4(isUnorm(d) ? 0.5 + 0.5 * normal : normal, 0);
     const bool specular = d.reflectance == CND_REFLECTANCE_SPECULAR;
     const CpuSurface exact = fullSurface(d, s, depth);
-    images[1] = glm::dvec4(specular ? glm::dvec3(exact.albedo) : s.baseColour, 0);
-    images[2] = specular ? glm::dvec4(exact.F0F90) : glm::dvec4(0);
+    images[1] = glm::dvec4(specular ? exact.albedo : s.baseColour, 0);
+    images[2] = specular ? exact.F0F90 : glm::dvec4(0);
     const auto channel = [&](CndGBufferChannel c) -> double& {
         return images[(c - 1) / 4][(c - 1) % 4];
     };
@@ -216,9 +216,9 @@ void HostPacking::add(const HostSurface& s, double depth)
     read.baseColour = glm::dvec3(images[1]);
     CpuSurface full = fullSurface(d, read, readDepth);
     if (specular) {
-        full.albedo = glm::vec3(images[1]);
+        full.albedo = glm::dvec3(images[1]);
         full.F0F90 =
-            glm::vec4(glm::vec3(images[2]), d.f90 != CND_CHANNEL_NONE ? channel(d.f90) : 1);
+            glm::dvec4(glm::dvec3(images[2]), d.f90 != CND_CHANNEL_NONE ? channel(d.f90) : 1);
     }
     addPixel(out_.asFull, full);
 }

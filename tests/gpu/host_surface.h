@@ -10,12 +10,13 @@ namespace candelabra::test
 
 inline constexpr const char* surfaceSource = R"(
 layout(set = 1, binding = 0) uniform utexture2D hostNormals;
-layout(set = 1, binding = 1) uniform texture2D hostAlbedo;
-layout(set = 1, binding = 2) uniform texture2D hostSpecular;
+layout(set = 1, binding = 1) uniform utexture2D hostAlbedo;
+layout(set = 1, binding = 2) uniform utexture2D hostSpecular;
 Surface candelabraReadSurface(ivec2 pixel)
 {
-    return unpackGBufferFull(texelFetch(hostNormals, pixel, 0).xy, texelFetch(hostAlbedo, pixel, 0),
-                             texelFetch(hostSpecular, pixel, 0));
+    return unpackGBufferFull(texelFetch(hostNormals, pixel, 0).xy,
+                             texelFetch(hostAlbedo, pixel, 0).xy,
+                             texelFetch(hostSpecular, pixel, 0).xy);
 }
 )";
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/gtc/packing.hpp>
-
 namespace candelabra::test
 {
 namespace
@@ -18,23 +16,40 @@ void setIdentityView(CndCamera& camera)
         camera.viewFromWorld[i] = i % 5 == 0;
 }
 
-// Octahedral encoding with 24 bits per component, independent of the shader's packing.
+// The packing of the FULL layout, written a second time, independently of the shader's.
+
+// Returns the code of the nearest unit float with `mantissa` bits of mantissa.
+uint32_t unitFloatCode(double x, int mantissa)
+{
+    // The exponent of the largest power of two that is not above x, but at least -7.
+    const int exponent = x < std::ldexp(1, -7) ? -7 : std::ilogb(x);
+    const double scaled = std::ldexp(x, mantissa - exponent);
+    const long code = x < std::ldexp(1, -7) ? std::lrint(scaled) // to even
+                                            : ((exponent + 7L) << mantissa) + std::lround(scaled);
+    return uint32_t(std::max(code, 1L) - 1);
+}
+
+double unitFloatValue(uint32_t code, int mantissa)
+{
+    const uint32_t steps = code ? code + 1 : 0, one = 1u << mantissa;
+    if (steps < one)
+        return std::ldexp(steps, -7 - mantissa);
+    return std::ldexp(steps % one + one, int(steps >> mantissa) - 8 - mantissa);
+}
+
+constexpr int roughnessMantissa = 15, colourMantissa = 18, shortMantissa = 13;
+
 glm::uvec2 packNormal(glm::dvec3 n, double roughness)
 {
     n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
     glm::dvec2 p(n);
     if (n.z < 0)
         p = {(1 - std::abs(n.y)) * (n.x < 0 ? -1 : 1), (1 - std::abs(n.x)) * (n.y < 0 ? -1 : 1)};
-    constexpr double scale = (1 << 23) - 1;
-    const uint32_t u = uint32_t(int32_t(std::lround(p.x * scale))) & 0xFFFFFF;
-    const uint32_t v = uint32_t(int32_t(std::lround(p.y * scale))) & 0xFFFFFF;
-    const uint32_t r = uint32_t(std::lround(roughness * 65535));
-    return {u | (r & 0xFF) << 24, v | (r >> 8) << 24};
-}
-
-glm::uvec2 packHalf4(const glm::vec4& v)
-{
-    return {glm::packHalf2x16({v.x, v.y}), glm::packHalf2x16({v.z, v.w})};
+    constexpr double scale = (1 << 22) - 1;
+    const uint32_t u = uint32_t(int32_t(std::lround(p.x * scale))) & 0x7FFFFF;
+    const uint32_t v = uint32_t(int32_t(std::lround(p.y * scale))) & 0x7FFFFF;
+    const uint32_t r = unitFloatCode(roughness, roughnessMantissa);
+    return {u | r << 23, v | r >> 9 << 23};
 }
 
 double uniformOf(std::mt19937& random)
@@ -99,7 +114,7 @@ glm::dvec3 viewPosition(const CpuGBuffer& g, uint32_t x, uint32_t y)
 glm::dvec3 storedNormal(const CpuGBuffer& g, size_t pixel)
 {
     const auto coordinate = [](uint32_t code) {
-        return double(int32_t(code << 8) >> 8) / ((1 << 23) - 1);
+        return double(int32_t(code << 9) >> 9) / ((1 << 22) - 1);
     };
     const glm::uvec2 code = g.normalRoughness[pixel];
     const double u = coordinate(code.x), v = coordinate(code.y);
@@ -114,12 +129,53 @@ glm::dvec3 storedNormal(const CpuGBuffer& g, size_t pixel)
 double storedRoughness(const CpuGBuffer& g, size_t pixel)
 {
     const glm::uvec2 code = g.normalRoughness[pixel];
-    return double(code.x >> 24 | (code.y >> 24) << 8) / 65535;
+    return unitFloatValue(code.x >> 23 | code.y >> 23 << 9, roughnessMantissa);
 }
 
-glm::vec4 storedHalf4(glm::uvec2 packed)
+glm::uvec2 packAlbedo(const glm::dvec3& albedo)
 {
-    return glm::vec4(glm::unpackHalf2x16(packed.x), glm::unpackHalf2x16(packed.y));
+    glm::uvec3 code;
+    for (int c = 0; c < 3; ++c)
+        code[c] = unitFloatCode(albedo[c], colourMantissa);
+    return {code.r | code.b << 21, code.g | code.b >> 11 << 21};
+}
+
+glm::uvec2 packSpecular(const glm::dvec4& F0F90)
+{
+    if (F0F90.a >= 1)
+        return packAlbedo(F0F90) | glm::uvec2(0, 1u << 31);
+    glm::uvec3 code;
+    for (int c = 0; c < 3; ++c)
+        code[c] = unitFloatCode(F0F90[c], shortMantissa);
+    return {code.r | code.g << 16, code.b | uint32_t(std::lrint(float(F0F90.a) * 0x7FFF)) << 16};
+}
+
+namespace
+{
+
+glm::dvec3 unpackColour(glm::uvec2 texel)
+{
+    const uint32_t blue = texel.x >> 21 | (texel.y >> 21 & 0x3FF) << 11;
+    return {unitFloatValue(texel.x & 0x1FFFFF, colourMantissa),
+            unitFloatValue(texel.y & 0x1FFFFF, colourMantissa),
+            unitFloatValue(blue, colourMantissa)};
+}
+
+} // namespace
+
+glm::dvec3 storedAlbedo(const CpuGBuffer& g, size_t pixel)
+{
+    return unpackColour(g.albedo[pixel]);
+}
+
+glm::dvec4 storedSpecular(const CpuGBuffer& g, size_t pixel)
+{
+    const glm::uvec2 texel = g.specular[pixel];
+    if (texel.y >> 31)
+        return {unpackColour(texel), 1};
+    return {unitFloatValue(texel.x & 0xFFFF, shortMantissa),
+            unitFloatValue(texel.x >> 16, shortMantissa),
+            unitFloatValue(texel.y & 0xFFFF, shortMantissa), (texel.y >> 16) / double(0x7FFF)};
 }
 
 void addPixel(CpuGBuffer& g, const CpuSurface& surface)
@@ -127,8 +183,8 @@ void addPixel(CpuGBuffer& g, const CpuSurface& surface)
     g.depth.push_back(surface.depth);
     g.normalRoughness.push_back(
         packNormal(glm::normalize(surface.normal), surface.perceptualRoughness));
-    g.albedo.push_back(packHalf4(glm::vec4(surface.albedo, 0)));
-    g.specular.push_back(packHalf4(surface.F0F90));
+    g.albedo.push_back(packAlbedo(surface.albedo));
+    g.specular.push_back(packSpecular(surface.F0F90));
 }
 
 CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camera, float clearDepth,
@@ -147,10 +203,10 @@ CpuGBuffer randomGBuffer(uint32_t width, uint32_t height, const CndCamera& camer
             glm::dvec3 n(uniformOf(random) - 0.5, uniformOf(random) - 0.5, 0.4 + uniformOf(random));
             const double roughness = 0.1 + 0.9 * uniformOf(random);
             g.normalRoughness.push_back(packNormal(glm::normalize(n), roughness));
-            const float metal = uniformOf(random) < 0.3 ? 1.0f : 0.0f;
-            const glm::vec3 base(uniformOf(random), uniformOf(random), uniformOf(random));
-            g.albedo.push_back(packHalf4(glm::vec4(base * (1 - metal), 0)));
-            g.specular.push_back(packHalf4(glm::vec4(glm::mix(glm::vec3(0.04f), base, metal), 1)));
+            const double metal = uniformOf(random) < 0.3 ? 1 : 0;
+            const glm::dvec3 base(uniformOf(random), uniformOf(random), uniformOf(random));
+            g.albedo.push_back(packAlbedo(base * (1 - metal)));
+            g.specular.push_back(packSpecular({glm::mix(glm::dvec3(0.04), base, metal), 1}));
         }
     return g;
 }
@@ -220,8 +276,8 @@ LightingTest::Images LightingTest::uploadImages(const CpuGBuffer& g)
     };
     constexpr VkImageAspectFlags colour = VK_IMAGE_ASPECT_COLOR_BIT;
     Images images{make("normalRoughness", VK_FORMAT_R32G32_UINT, 0, colour),
-                  make("albedo", VK_FORMAT_R16G16B16A16_SFLOAT, 0, colour),
-                  make("specular", VK_FORMAT_R16G16B16A16_SFLOAT, 0, colour),
+                  make("albedo", g.albedoFormat, 0, colour),
+                  make("specular", VK_FORMAT_R32G32_UINT, 0, colour),
                   make("depth", VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                        VK_IMAGE_ASPECT_DEPTH_BIT),
                   make("radiance", VK_FORMAT_R32G32B32A32_SFLOAT,

@@ -21,9 +21,11 @@ struct CpuGBuffer {
     uint32_t width = 0, height = 0;
     CndCamera camera{};
     float clearDepth = 0;
-    std::vector<glm::uvec2> normalRoughness;
-    std::vector<glm::uvec2> albedo, specular; // four half floats
-    std::vector<float> depth;                 // clearDepth where there is no surface
+    std::vector<glm::uvec2> normalRoughness, albedo, specular;
+    std::vector<float> depth; // clearDepth where there is no surface
+    // The image that `albedo` is uploaded to. With R16G16B16A16_SFLOAT, which layout COMPACT can
+    // read, it holds four half floats per pixel.
+    VkFormat albedoFormat = VK_FORMAT_R32G32_UINT;
 };
 
 // Sets a perspective projection, reversed by default; infinite if farPlane is 0. View space looks
@@ -37,10 +39,14 @@ void setOrthographic(CndCamera& camera, double height, double aspect, double nea
 float depthAt(const CndCamera& camera, double distance);
 // Returns the view-space position of a pixel from its depth, in double precision.
 glm::dvec3 viewPosition(const CpuGBuffer& g, uint32_t x, uint32_t y);
-// Return the surface's normal and roughness as stored.
+// Return what is stored of the surface; storedSpecular F0 in rgb and F90 in a.
 glm::dvec3 storedNormal(const CpuGBuffer& g, size_t pixel);
 double storedRoughness(const CpuGBuffer& g, size_t pixel);
-glm::vec4 storedHalf4(glm::uvec2 packed);
+glm::dvec3 storedAlbedo(const CpuGBuffer& g, size_t pixel);
+glm::dvec4 storedSpecular(const CpuGBuffer& g, size_t pixel);
+// Packs colours as the FULL layout does; F0F90 as in CpuSurface.
+glm::uvec2 packAlbedo(const glm::dvec3& albedo);
+glm::uvec2 packSpecular(const glm::dvec4& F0F90);
 
 // The next pixel of a G-buffer, in rows from the top. `normal` need not be a unit vector. F0F90: F0
 // in rgb, F90 in a.
@@ -48,8 +54,8 @@ struct CpuSurface {
     float depth = 0;
     glm::dvec3 normal{0, 0, 1};
     double perceptualRoughness = 1;
-    glm::vec3 albedo{0};
-    glm::vec4 F0F90{0};
+    glm::dvec3 albedo{0};
+    glm::dvec4 F0F90{0};
 };
 void addPixel(CpuGBuffer& g, const CpuSurface& surface);
 

@@ -5,6 +5,7 @@
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "candelabra_probes.h"
 #include "gpu/gbuffer_harness.h"
@@ -27,17 +28,19 @@ TEST_F(GBufferPacking, ErrorsStayWithinDeclaredBounds)
         for (const float y : {-1.f, 0.f, 1.f})
             for (const float z : {-1.f, 0.f, 1.f})
                 if (x != 0 || y != 0 || z != 0)
-                    inputs.push_back({glm::normalize(glm::vec3(x, y, z)), 0.5f * (x + 1)});
+                    inputs.push_back({.normal = glm::normalize(glm::vec3(x, y, z)),
+                                      .perceptualRoughness = 0.5f * (x + 1)});
     for (int i = 0; i < 400000; ++i) {
         glm::dvec3 n = random.direction();
         if (i % 4 == 1) // near the fold of the octahedron
             n = glm::normalize(n * glm::dvec3(1, 1, 1e-6));
         else if (i % 4 == 2) // near the poles
             n = glm::normalize(n * glm::dvec3(1e-4, 1e-4, 1));
-        inputs.push_back({glm::vec3(n), float(random.uniform(0, 1))});
+        inputs.push_back(
+            {.normal = glm::vec3(n), .perceptualRoughness = float(random.uniform(0, 1))});
     }
     const auto outputs = runProbe<gpu::PackingProbeOutput>(spirv::gbuffer_packing_comp, inputs);
-    double fullAngle = 0, compactAngle = 0, fullRoughness = 0, compactRoughness = 0;
+    double fullAngle = 0, compactAngle = 0, compactRoughness = 0;
     for (size_t i = 0; i < inputs.size(); ++i) {
         const glm::dvec3 n(inputs[i].normal);
         const double r = inputs[i].perceptualRoughness;
@@ -45,20 +48,129 @@ TEST_F(GBufferPacking, ErrorsStayWithinDeclaredBounds)
         ASSERT_NEAR(glm::length(glm::dvec3(o.normalFull)), 1, 3e-7);
         fullAngle = std::max(fullAngle, angleBetween(n, o.normalFull));
         compactAngle = std::max(compactAngle, angleBetween(n, o.normalCompact));
-        fullRoughness = std::max(fullRoughness, std::abs(r - o.roughnessFull));
         compactRoughness = std::max(compactRoughness, std::abs(r - o.roughnessCompact));
         ASSERT_EQ(o.unlit, glm::vec3(0));
     }
-    std::printf("worst angle: full %.3g, compact %.3g rad; roughness: %.3g, %.3g\n", fullAngle,
-                compactAngle, fullRoughness, compactRoughness);
+    std::printf("worst angle: full %.3g, compact %.3g rad; roughness of compact: %.3g\n", fullAngle,
+                compactAngle, compactRoughness);
     const auto expectBound = [](double worst, double bound) {
         EXPECT_LE(worst, bound);
         EXPECT_GE(worst, bound / 3);
     };
     expectBound(fullAngle, gpu::NORMAL_ERROR_FULL);
     expectBound(compactAngle, gpu::NORMAL_ERROR_COMPACT);
-    expectBound(fullRoughness, gpu::ROUGHNESS_ERROR_FULL);
     expectBound(compactRoughness, gpu::ROUGHNESS_ERROR_COMPACT);
+}
+
+namespace
+{
+
+// The largest error of a unit float (shared/gbuffer.h): relative from UNIT_FLOAT_NORMAL on, in
+// smallest steps below.
+struct UnitFloatError {
+    uint32_t mantissa;
+    double relative = 0, steps = 0;
+
+    void add(double value, double stored)
+    {
+        const double normal = gpu::UNIT_FLOAT_NORMAL;
+        const double error = std::abs(stored - value);
+        if (value >= normal)
+            relative = std::max(relative, error / value);
+        else
+            steps = std::max(steps, error / std::ldexp(normal, -int(mantissa)));
+    }
+    void expect(const char* what, double bound) const
+    {
+        std::printf("%s: relative error %.3g, below 2^-7 %.3g steps\n", what, relative, steps);
+        EXPECT_LE(relative, bound) << what;
+        EXPECT_GE(relative, bound / 1.5) << what;
+        EXPECT_LE(steps, 1.5) << what;
+    }
+};
+
+} // namespace
+
+// Roughness, albedo and F0 of FULL over the whole range; and what is packed are the bits of a
+// second implementation of the format, on every device.
+TEST_F(GBufferPacking, UnitFloatsAreTheNearest)
+{
+    Random random(2);
+    std::vector<gpu::PackingProbeInput> inputs;
+    const auto number = [&](int i) {
+        const double x = i % 4 ? random.uniform(0, 1) : std::exp2(random.uniform(-30, 0));
+        return float(i % 31 == 7 ? 1 - x * 1e-5 : x); // some near 1
+    };
+    for (int i = 0; i < 400000; ++i) {
+        const glm::vec3 albedo(number(i), number(i), number(i));
+        inputs.push_back({.normal = {0, 0, 1},
+                          .perceptualRoughness = number(i),
+                          .albedo = albedo,
+                          .specularWeight = i % 3 ? 1 : number(i),
+                          .F0 = {number(i), number(i), number(i)}});
+    }
+    const auto outputs = runProbe<gpu::PackingProbeOutput>(spirv::gbuffer_packing_comp, inputs);
+    UnitFloatError roughness{gpu::ROUGHNESS_MANTISSA}, albedo{gpu::COLOUR_MANTISSA},
+        F0{gpu::COLOUR_MANTISSA}, shortF0{gpu::COLOUR_MANTISSA_SHORT};
+    double weight = 0;
+    CpuGBuffer expected, packed;
+    for (size_t i = 0; i < inputs.size(); ++i) {
+        const gpu::PackingProbeInput& in = inputs[i];
+        const gpu::PackingProbeOutput& o = outputs[i];
+        addPixel(expected, {.perceptualRoughness = double(in.perceptualRoughness),
+                            .albedo = in.albedo,
+                            .F0F90 = glm::vec4(in.F0, in.specularWeight)});
+        packed.albedo.push_back(o.albedo);
+        packed.specular.push_back(o.specular);
+        ASSERT_EQ(o.normalRoughness, expected.normalRoughness[i]) << i;
+        ASSERT_EQ(o.albedo, expected.albedo[i]) << i;
+        ASSERT_EQ(o.specular, expected.specular[i]) << i;
+        roughness.add(in.perceptualRoughness, o.roughnessFull);
+        for (int c = 0; c < 3; ++c) {
+            albedo.add(in.albedo[c], o.albedoFull[c]);
+            (in.specularWeight == 1 ? F0 : shortF0).add(in.F0[c], o.F0Full[c]);
+            // These are floats: nothing is rounded.
+            ASSERT_EQ(double(o.albedoFull[c]), storedAlbedo(packed, i)[c]);
+            ASSERT_EQ(double(o.F0Full[c]), storedSpecular(packed, i)[c]);
+        }
+        weight = std::max(weight, std::abs(double(o.weightFull) - double(in.specularWeight)));
+    }
+    roughness.expect("roughness", gpu::ROUGHNESS_ERROR_FULL);
+    albedo.expect("albedo", gpu::COLOUR_ERROR_FULL);
+    F0.expect("F0", gpu::COLOUR_ERROR_FULL);
+    shortF0.expect("F0 with F90 below 1", gpu::COLOUR_ERROR_FULL_SHORT);
+    EXPECT_LE(weight, gpu::F90_ERROR_FULL);
+}
+
+TEST_F(GBufferPacking, ExactNumbersAndNumbersOutOfRange)
+{
+    std::vector<gpu::PackingProbeInput> inputs;
+    const auto add = [&](float x, float weight) {
+        inputs.push_back({{0, 0, 1}, x, glm::vec3(x), weight, glm::vec3(x)});
+    };
+    const float exact[] = {0, 1, 0.5f, 0.25f, 0.75f, 0.0625f, 1.0f / 1024};
+    const float outside[] = {-0.0f, -1, -1e30f, nan, 1.5f, 1e30f};
+    const float clamped[] = {0, 0, 0, 0, 1, 1};
+    for (const float x : exact)
+        for (const float weight : {0.f, 1.f})
+            add(x, weight);
+    for (const float x : outside)
+        add(x, x);
+    const auto outputs = runProbe<gpu::PackingProbeOutput>(spirv::gbuffer_packing_comp, inputs);
+    const auto expectNumbers = [&](size_t i, float x, float weight) {
+        EXPECT_EQ(outputs[i].roughnessFull, x) << i;
+        EXPECT_EQ(outputs[i].albedoFull, glm::vec3(x)) << i;
+        EXPECT_EQ(outputs[i].F0Full, glm::vec3(x)) << i;
+        EXPECT_EQ(outputs[i].weightFull, weight) << i;
+        EXPECT_EQ(outputs[i].normalFull, glm::vec3(0, 0, 1)) << i;
+    };
+    for (size_t i = 0; i < 2 * std::size(exact); ++i)
+        expectNumbers(i, exact[i / 2], float(i % 2));
+    for (size_t i = 0; i < std::size(outside); ++i)
+        expectNumbers(2 * std::size(exact) + i, clamped[i], clamped[i]);
+    // What reflects nothing is stored as zeros.
+    EXPECT_EQ(outputs[0].albedo, glm::uvec2(0));
+    EXPECT_EQ(outputs[0].specular, glm::uvec2(0));
 }
 
 class GBufferMesh : public RasterTest
@@ -137,19 +249,59 @@ TEST_F(GBufferMesh, FullLayoutHoldsTheMaterial)
         // 1e-6 allows for rounding of the normal in the vertex shader.
         ASSERT_LE(angleBetween(storedNormal(image, i), normal), gpu::NORMAL_ERROR_FULL + 1e-6);
         ASSERT_NEAR(storedRoughness(image, i), m.perceptualRoughness, gpu::ROUGHNESS_ERROR_FULL);
-        const glm::vec4 albedo = storedHalf4(image.albedo[i]);
-        const glm::vec4 specular = storedHalf4(image.specular[i]);
+        const glm::dvec3 albedo = storedAlbedo(image, i);
+        const glm::dvec4 specular = storedSpecular(image, i);
         for (int c = 0; c < 3; ++c) {
-            // Half precision, rounded either way.
-            const float base = m.baseColor[c];
-            ASSERT_NEAR(albedo[c], base * 0.75f, base * 0.75f / 1024);
-            const float F0 = 0.04f * 0.75f + base * 0.25f;
-            ASSERT_NEAR(specular[c], F0, F0 / 1024);
+            // The bound of packing, and the rounding of floats.
+            const double bound = double(gpu::COLOUR_ERROR_FULL) + 2e-7;
+            const double base = double(m.baseColor[c]);
+            ASSERT_NEAR(albedo[c], base * 0.75, base * 0.75 * bound);
+            const double F0 = 0.04 * 0.75 + base * 0.25;
+            ASSERT_NEAR(specular[c], F0, F0 * bound);
             ASSERT_EQ(image.radiance[i][c], m.emission[c]);
         }
-        ASSERT_EQ(specular.a, 1.0f);
+        ASSERT_EQ(specular.a, 1);
     }
     EXPECT_GT(background, 1000u);
+}
+
+// A thousand materials: the bits in the G-buffer are those of a second implementation of the
+// format.
+TEST_F(GBufferMesh, MaterialsHaveTheSameBitsOnEveryDevice)
+{
+    constexpr uint32_t columns = 40, rows = 25, side = 4; // pixels
+    Random random(12);
+    RasterScene scene;
+    const uint32_t mesh = scene.addMesh(quadMesh());
+    for (uint32_t i = 0; i < columns * rows; ++i) {
+        gbuffer::Material m{.perceptualRoughness = float(random.uniform(0, 1))};
+        m.specularWeight = i % 5 ? 1 : float(random.uniform(0, 1));
+        for (int c = 0; c < 3; ++c) {
+            m.baseColor[c] = float(random.uniform(0, 1));
+            m.dielectricF0[c] = float(random.uniform(0, 1));
+        }
+        const glm::dvec3 at(i % columns + 0.5 - 0.5 * columns, 0.5 * rows - i / columns - 0.5, -2);
+        scene.addInstance(mesh, scene.addMaterial(m),
+                          glm::scale(glm::translate(glm::dmat4(1), at), glm::dvec3(0.5)));
+    }
+    RasterOptions options = perspectiveOptions();
+    options.width = columns * side;
+    options.height = rows * side;
+    setOrthographic(options.camera, rows, double(columns) / rows, 0.1, 10);
+    const RasterImage image = render(scene, options);
+    CpuGBuffer expected;
+    for (const gbuffer::Material& m : scene.materials)
+        addPixel(expected, {.perceptualRoughness = double(m.perceptualRoughness),
+                            .albedo = glm::make_vec3(m.baseColor),
+                            .F0F90 = glm::vec4(glm::make_vec3(m.dielectricF0), m.specularWeight)});
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x) {
+            const size_t i = size_t(y) * image.width + x;
+            const size_t material = y / side * columns + x / side;
+            ASSERT_EQ(image.normalRoughness[i], expected.normalRoughness[material]) << material;
+            ASSERT_EQ(image.albedo[i], expected.albedo[material]) << material;
+            ASSERT_EQ(image.specular[i], expected.specular[material]) << material;
+        }
 }
 
 TEST_F(GBufferMesh, CompactLayoutHoldsTheMaterial)
@@ -173,6 +325,63 @@ TEST_F(GBufferMesh, CompactLayoutHoldsTheMaterial)
         }
         ASSERT_NEAR(albedo.a / 255.0, m.metalness, 0.51 / 255);
     }
+}
+
+// What emits light is drawn after everything else, in a pass of its own. Whatever the order of the
+// instances, the nearer surface is seen, and it alone is in the radiance.
+TEST_F(GBufferMesh, NearerSurfacesHideRadiance)
+{
+    gbuffer::Material dark = testMaterial(), lit = testMaterial();
+    std::fill_n(dark.emission, 3, 0.0f);
+    dark.baseColor[0] = 0.1f;
+    const auto place = [](double x, double z) {
+        return glm::translate(glm::dmat4(1), glm::dvec3(x, 0, z));
+    };
+    RasterOptions options = perspectiveOptions();
+    options.background = {7, 8, 9};
+    for (const bool analytic : {false, true})
+        for (const bool litFirst : {false, true}) {
+            SCOPED_TRACE(::testing::Message() << analytic << litFirst);
+            RasterScene scene;
+            const uint32_t mesh = scene.addMesh(sphereMesh(24));
+            const uint32_t materials[] = {scene.addMaterial(dark), scene.addMaterial(lit)};
+            // On the left the dark sphere is in front, on the right the one that emits light.
+            for (const bool isLit : {litFirst, !litFirst})
+                for (const double side : {-2.0, 2.0}) {
+                    const bool inFront = isLit == (side > 0);
+                    const glm::dmat4 m = place(side * (inFront ? 1 : 1.5), inFront ? -6 : -9);
+                    if (!analytic) {
+                        scene.addInstance(mesh, materials[isLit], m);
+                        continue;
+                    }
+                    gbuffer::AnalyticObject o{.type = gbuffer::AnalyticObject::Type::Ball,
+                                              .material = materials[isLit]};
+                    std::copy_n(glm::value_ptr(m[3]), 3, o.point);
+                    scene.analyticObjects.push_back(o);
+                }
+            const RasterImage image = render(scene, options);
+            size_t seen[2] = {};
+            for (size_t i = 0; i < image.depth.size(); ++i) {
+                if (!image.covered(i)) {
+                    ASSERT_EQ(image.radiance[i], glm::vec4(7, 8, 9, 1));
+                    continue;
+                }
+                const bool isLit = storedAlbedo(image, i).r > 0.3;
+                ++seen[isLit];
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_EQ(image.radiance[i][c], isLit ? lit.emission[c] : 0) << i;
+                // Only the spheres in front are that near, and they are seen whole.
+                const bool near =
+                    -viewPosition(image, uint32_t(i % image.width), uint32_t(i / image.width)).z <
+                    6.1;
+                const bool right = i % image.width >= image.width / 2;
+                if (near) {
+                    ASSERT_EQ(isLit, right) << i;
+                }
+            }
+            EXPECT_GT(seen[0], 500u);
+            EXPECT_GT(seen[1], 500u);
+        }
 }
 
 // A thousand kilometres from the origin along every axis the image equals that at the origin.

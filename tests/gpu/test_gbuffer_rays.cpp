@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests ray-cast surfaces against double precision: planes, balls and visible sphere lights.
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -142,6 +144,50 @@ TEST_F(GBufferRays, BallReconstructsToTheExactPoint)
             EXPECT_LE(worst, 4e-7);
             EXPECT_LE(worstNormal, 2e-6);
         }
+}
+
+// What planes and balls store of their materials are the bits of a second implementation of the
+// format, on every device. (Vulkan lets devices round normals differently.)
+TEST_F(GBufferRays, MaterialsHaveTheSameBitsOnEveryDevice)
+{
+    RasterScene scene;
+    CpuGBuffer expected;
+    Random random(21);
+    for (uint32_t i = 0; i < 12; ++i) {
+        gbuffer::Material m{.metalness = float(i % 2),
+                            .perceptualRoughness = float(random.uniform(0, 1))};
+        for (int c = 0; c < 3; ++c)
+            m.baseColor[c] = float(random.uniform(0, 1));
+        scene.addMaterial(m);
+        scene.analyticObjects.push_back(
+            i < 2 ? plane({0, -2.0 - i, 0}, glm::normalize(glm::dvec3(0, 1, 0.1 * i)))
+                  : ball({i % 5 - 2.0, i / 5 - 1.0, 0}, 0.45));
+        scene.analyticObjects.back().material = i;
+        const glm::dvec3 base = glm::make_vec3(m.baseColor);
+        const glm::dvec3 dielectric = glm::make_vec3(m.dielectricF0);
+        addPixel(expected, {.perceptualRoughness = double(m.perceptualRoughness),
+                            .albedo = m.metalness == 1 ? glm::dvec3(0) : base,
+                            .F0F90 = {m.metalness == 1 ? base : dielectric, 1}});
+    }
+    RasterOptions options = perspectiveOptions();
+    lookAt(options.camera, {0, 0, 5}, {0, 0, 0});
+    const RasterImage image = render(scene, options);
+    using Bits = std::array<uint32_t, 6>;
+    const auto bitsOf = [](const CpuGBuffer& g, size_t i) {
+        constexpr uint32_t normal = (1u << gpu::NORMAL_BITS_FULL) - 1;
+        const glm::uvec2 roughness = g.normalRoughness[i] & ~normal;
+        return Bits{roughness.x,   roughness.y,     g.albedo[i].x,
+                    g.albedo[i].y, g.specular[i].x, g.specular[i].y};
+    };
+    std::set<Bits> known, seen;
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        known.insert(bitsOf(expected, i));
+    for (size_t i = 0; i < image.depth.size(); ++i)
+        if (image.covered(i)) {
+            seen.insert(bitsOf(image, i));
+            ASSERT_TRUE(known.contains(bitsOf(image, i))) << i;
+        }
+    EXPECT_GT(seen.size(), 8u); // most objects are seen
 }
 
 class GBufferEmitters : public RasterTest

@@ -88,7 +88,7 @@ TEST_F(GBufferTexture, BaseColorIsDecodedAndMultiplied)
     const RasterImage image = renderQuad();
     for (int q = 0; q < 4; ++q) {
         SCOPED_TRACE(q);
-        const glm::vec4 albedo = storedHalf4(image.albedo[pixel(q % 2, q / 2)]);
+        const glm::dvec3 albedo = storedAlbedo(image, pixel(q % 2, q / 2));
         for (int c = 0; c < 3; ++c)
             expectDecoded(albedo[c], quadrants[q][size_t(c)], double(material.baseColor[c]));
     }
@@ -116,7 +116,7 @@ TEST_F(GBufferTexture, UvTransformAndSecondSet)
             for (int x = 0; x < 2; ++x) {
                 const int uIn = secondSet ? 1 - x : x;
                 const Texel& expected = quadrants[uIn * 2 + (1 - y)];
-                const glm::vec4 albedo = storedHalf4(image.albedo[pixel(x, y)]);
+                const glm::dvec3 albedo = storedAlbedo(image, pixel(x, y));
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(albedo[c], expected[size_t(c)] / 255.0, 1e-3);
             }
@@ -141,11 +141,52 @@ TEST_F(GBufferTexture, RoughnessMetalnessAndEmission)
         const double metalness = 0.5 * quadrants[q][2] / 255;
         EXPECT_NEAR(storedRoughness(image, i), 0.75 * quadrants[q][1] / 255,
                     gpu::ROUGHNESS_ERROR_FULL + 1e-6);
-        EXPECT_NEAR(storedHalf4(image.albedo[i]).r, 1 - metalness, 1e-3);
-        EXPECT_NEAR(storedHalf4(image.specular[i]).r, 0.04 + 0.96 * metalness, 1e-3);
+        EXPECT_NEAR(storedAlbedo(image, i).r, 1 - metalness, 1e-5);
+        EXPECT_NEAR(storedSpecular(image, i).r, 0.04 + 0.96 * metalness, 1e-5);
         expectDecoded(image.radiance[i].r, quadrants[q][0], 1000);
         EXPECT_EQ(image.radiance[i].g, 0);
     }
+}
+
+// Meshes whose material is constant, tinted by vertex colours, or read per pixel are drawn by
+// different shaders. White textures, which make a mesh of the last kind, change nothing.
+TEST_F(GBufferTexture, WhiteTexturesChangeNothing)
+{
+    material.perceptualRoughness = 0.37f;
+    material.baseColor[1] = 0.4f;
+    material.specularWeight = 0.9f;
+    material.emission[2] = 50;
+    for (const float metalness : {0.f, 0.3f})
+        for (const bool colored : {false, true}) {
+            SCOPED_TRACE(::testing::Message() << metalness << ' ' << colored);
+            material.metalness = metalness;
+            RasterScene::MeshData mesh = quadMesh();
+            if (colored)
+                for (gbuffer::Vertex& v : mesh.vertices)
+                    v.color[0] = v.position[1] * 0.25f + 0.5f;
+            scene = {};
+            material.baseColorTexture.texture = material.metallicRoughnessTexture.texture =
+                material.emissiveTexture.texture = -1;
+            const RasterImage plain = renderQuad(mesh);
+            scene = {};
+            material.baseColorTexture.texture = material.metallicRoughnessTexture.texture =
+                material.emissiveTexture.texture = int32_t(scene.addTexture(
+                    nearest2x2, texels({Texel{255, 255, 255, 255}, Texel{255, 255, 255, 255},
+                                        Texel{255, 255, 255, 255}, Texel{255, 255, 255, 255}})));
+            const RasterImage textured = renderQuad(mesh);
+            EXPECT_EQ(plain.radiance, textured.radiance);
+            if (!colored) {
+                EXPECT_EQ(plain.albedo, textured.albedo);
+                EXPECT_EQ(plain.specular, textured.specular);
+            }
+            for (size_t i = 0; i < plain.albedo.size(); ++i)
+                for (int c = 0; c < 3; ++c) {
+                    const double albedo = storedAlbedo(textured, i)[c];
+                    ASSERT_NEAR(storedAlbedo(plain, i)[c], albedo, 4e-6 * albedo);
+                    const double f0 = storedSpecular(textured, i)[c];
+                    ASSERT_NEAR(storedSpecular(plain, i)[c], f0, 1.3e-4 * f0);
+                }
+        }
 }
 
 TEST_F(GBufferTexture, VertexColorsAreInterpolated)
@@ -157,7 +198,7 @@ TEST_F(GBufferTexture, VertexColorsAreInterpolated)
     }
     const RasterImage image = renderQuad(mesh);
     for (const int x : {5, 31, 60}) {
-        const glm::vec4 albedo = storedHalf4(image.albedo[size_t(40 * 64 + x)]);
+        const glm::dvec3 albedo = storedAlbedo(image, size_t(40 * 64 + x));
         EXPECT_NEAR(albedo.r, (x + 0.5) / 64, 1e-3);
         EXPECT_NEAR(albedo.g, 0.25, 1e-3);
         EXPECT_NEAR(albedo.b, 1, 1e-3);
@@ -230,8 +271,8 @@ TEST_F(GBufferTexture, MinifiedTexturesAreAveragedInLinearSpace)
     ref.uRow[0] = ref.vRow[1] = 64;
     const RasterImage image = renderQuad();
     for (size_t i = 0; i < image.albedo.size(); i += 37)
-        EXPECT_NEAR(storedHalf4(image.albedo[i]).r, 0.5, 0.004); // tolerance: one 8-bit step near
-                                                                 // code 188
+        EXPECT_NEAR(storedAlbedo(image, i).r, 0.5, 0.004); // tolerance: one 8-bit step near
+                                                           // code 188
 }
 
 } // namespace candelabra::test

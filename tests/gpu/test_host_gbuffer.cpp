@@ -356,14 +356,14 @@ TEST_F(SurfaceOverlay, ShowsWhatIsRead)
         for (uint32_t y = 0; y < imageHeight; ++y)
             for (uint32_t x = 0; x < imageWidth; ++x) {
                 const size_t i = size_t(y) * imageWidth + x;
-                const glm::vec4 albedo = storedHalf4(p.asFull.albedo[i]);
-                const glm::vec4 f0 = storedHalf4(p.asFull.specular[i]);
+                const glm::dvec3 albedo = storedAlbedo(p.asFull, i);
+                const glm::dvec4 f0 = storedSpecular(p.asFull, i);
                 const glm::dvec4 world =
                     worldFromView * glm::dvec4(viewPosition(p.asFull, x, y), 1);
                 for (int k = 0; k < 3; ++k) {
                     const double expected[] = {
                         0.5 + 0.5 * (glm::dmat3(worldFromView) * storedNormal(p.asFull, i))[k],
-                        storedRoughness(p.asFull, i), srgb(double(albedo[k])), srgb(double(f0[k])),
+                        storedRoughness(p.asFull, i), srgb(albedo[k]), srgb(f0[k]),
                         std::abs(2 * (world[k] / 2 - std::floor(world[k] / 2)) - 1)};
                     const bool surface = p.asFull.depth[i] != p.asFull.clearDepth;
                     if (q == CND_SURFACE_FAULTS)

@@ -58,10 +58,10 @@ protected:
     {
         const glm::dvec3 position =
             viewPosition(g, uint32_t(pixel % g.width), uint32_t(pixel / g.width));
-        const glm::vec4 specular = storedHalf4(g.specular[pixel]);
+        const glm::dvec4 specular = storedSpecular(g, pixel);
         const double roughness = storedRoughness(g, pixel);
         const bool hasSpecular = method != CND_SPECULAR_NONE;
-        const reference::Material material{.diffuseAlbedo = storedHalf4(g.albedo[pixel]),
+        const reference::Material material{.diffuseAlbedo = storedAlbedo(g, pixel),
                                            .f0 = hasSpecular ? glm::dvec3(specular) : glm::dvec3(0),
                                            .specularWeight = hasSpecular ? specular.w : 0,
                                            .alpha = roughness * roughness};

@@ -139,9 +139,9 @@ TEST_F(LightingTest, EqualsDoublePrecisionReference)
             }
             const glm::dvec3 position =
                 viewPosition(g, uint32_t(i % g.width), uint32_t(i / g.width));
-            const glm::vec4 specular = storedHalf4(g.specular[i]);
+            const glm::dvec4 specular = storedSpecular(g, i);
             const double roughness = storedRoughness(g, i);
-            const reference::Material material{.diffuseAlbedo = storedHalf4(g.albedo[i]),
+            const reference::Material material{.diffuseAlbedo = storedAlbedo(g, i),
                                                .f0 = specular,
                                                .specularWeight = specular.w,
                                                .alpha = roughness * roughness};

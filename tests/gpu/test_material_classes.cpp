@@ -23,17 +23,20 @@ constexpr uint32_t bothClasses = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECUL
 CpuGBuffer compact(CpuGBuffer g)
 {
     const auto coordinate = [](uint32_t code) {
-        const double u = double(int32_t(code << 8) >> 8) / ((1 << 23) - 1);
+        const double u = double(int32_t(code << 9) >> 9) / ((1 << 22) - 1);
         return uint32_t(std::lround(u * 2047)) & 0xFFFu;
     };
     for (size_t i = 0; i < g.depth.size(); ++i) {
         const uint32_t roughness = uint32_t(std::lround(255 * storedRoughness(g, i)));
         const glm::uvec2 code = g.normalRoughness[i];
         g.normalRoughness[i] = {coordinate(code.x) | coordinate(code.y) << 12 | roughness << 24, 0};
-        const glm::vec3 albedo = storedHalf4(g.albedo[i]);
-        if (albedo == glm::vec3(0)) // a metal
-            g.albedo[i] = half4(glm::vec4(glm::vec3(storedHalf4(g.specular[i])), 1));
+        const glm::dvec3 albedo = storedAlbedo(g, i);
+        const bool metal = albedo == glm::dvec3(0);
+        const glm::vec3 base(metal ? glm::dvec3(storedSpecular(g, i)) : albedo);
+        g.albedo[i] = {glm::packHalf2x16({base.r, base.g}),
+                       glm::packHalf2x16({base.b, metal ? 1.0f : 0.0f})};
     }
+    g.albedoFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
     return g;
 }
 
@@ -43,7 +46,7 @@ HostPixels hostPixels(const CpuGBuffer& g, const CndGBufferDesc& desc)
     HostPixels out{.desc = desc, .width = g.width, .height = g.height};
     for (size_t i = 0; i < g.depth.size(); ++i) {
         const glm::dvec4 texels[] = {glm::dvec4(storedNormal(g, i), storedRoughness(g, i)),
-                                     storedHalf4(g.albedo[i]), storedHalf4(g.specular[i])};
+                                     glm::dvec4(storedAlbedo(g, i), 0), storedSpecular(g, i)};
         for (int image = 0; image < 3; ++image)
             appendTexel(out.images[image], VK_FORMAT_R32G32B32A32_SFLOAT, texels[image]);
         appendDepth(out.depth, desc.depthFormat, double(g.depth[i]));

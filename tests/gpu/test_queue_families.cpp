@@ -198,8 +198,8 @@ protected:
         constexpr VkImageUsageFlags store = VK_IMAGE_USAGE_STORAGE_BIT;
         const std::pair<VkFormat, VkImageUsageFlags> kinds[ImageCount] = {
             {VK_FORMAT_R32G32_UINT, read | to},
-            {VK_FORMAT_R16G16B16A16_SFLOAT, read | to},
-            {VK_FORMAT_R16G16B16A16_SFLOAT, read | to},
+            {VK_FORMAT_R32G32_UINT, read | to},
+            {VK_FORMAT_R32G32_UINT, read | to},
             {VK_FORMAT_D32_SFLOAT, read | to | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT},
             {VK_FORMAT_R32G32B32A32_SFLOAT, read | to | from | store},
             {VK_FORMAT_R8G8B8A8_UNORM, store | from}};

@@ -143,15 +143,17 @@ constexpr const char* materialLights = R"([
     {"position": [1.5, 2, 1], "radius": 0.4, "radiance": [20, 10, 5]},
     {"position": [-2, 0.3, -1], "radius": 0.6, "radiance": [3, 12, 30]},
     {"position": [2.5, -1.2, 0], "radius": 0.7, "radiance": [10, 10, 10]}])";
-// From rough to smooth and from metal to dielectric. The values are exact in half floats, so that
-// G-buffer rounding does not matter here.
+// From rough to smooth and from metal to dielectric; the last one has numbers that no format of the
+// G-buffer stores exactly.
 constexpr const char* materials[] = {
     R"({"albedo": [0.75, 0.5, 0.25], "diffuse": true, "specular": true,
         "F0": [0.0625, 0.0625, 0.0625], "alpha": 0.25, "metalness": 0})",
     R"({"albedo": [0, 0, 0], "diffuse": false, "specular": true, "F0": [1, 0.75, 0.25],
         "alpha": 0.04, "metalness": 1})",
     R"({"albedo": [0.5, 0.5, 0.5], "diffuse": true, "specular": true,
-        "F0": [0.0625, 0.0625, 0.0625], "alpha": 0.01, "metalness": 0})"};
+        "F0": [0.0625, 0.0625, 0.0625], "alpha": 0.01, "metalness": 0})",
+    R"({"albedo": [0.3, 0.3, 0.3], "diffuse": true, "specular": true, "F0": [0.7, 0.3, 0.013],
+        "alpha": 0.1, "metalness": 0})"};
 
 } // namespace
 
@@ -184,9 +186,11 @@ TEST_F(WholeFrame, ConicIsCloseToTheTruth)
             std::cout << "conic to the truth: error " << sum / total << " of the light, largest "
                       << worst / peak << " of the peak\n";
             // Measured 0.0003..0.0041 and 0.0005..0.034; both are largest for the rough dielectric
-            // ball.
+            // ball. The largest error of the last material, 0.050, is in blue, whose F0 of 0.013
+            // leaves nearly everything to Fresnel's rise at grazing angles.
+            const double bound = material == materials[3] ? 0.055 : 0.04;
             EXPECT_LE(sum / total, 0.005) << object << material;
-            EXPECT_LE(worst / peak, 0.04) << object << material;
+            EXPECT_LE(worst / peak, bound) << object << material;
         }
 }
 
@@ -213,8 +217,7 @@ TEST_F(WholeFrame, JoinedLobesMatchTheDoubleReference)
                 }
             ASSERT_GT(peak, 0);
             std::cout << "joined lobes, largest relative error to double: " << worst << "\n";
-            // The error comes from roughness in 16 bits and the table of directional albedos;
-            // measured 5e-4.
+            // The error comes from the table of directional albedos; measured 5e-4.
             EXPECT_LE(worst, 1.2e-3) << material << compensated;
         }
 }
@@ -244,9 +247,43 @@ TEST_F(WholeFrame, EveryMaterialMatchesTheDoubleReference)
                 }
             ASSERT_GT(peak, 0);
             std::cout << "largest relative error to double: " << worst << "\n";
-            // Roughness is stored in 16 bits: 1.5e-5 / roughness, twice; positions contribute 2e-7
-            // / alpha.
+            // Roughness is stored with an error of 1.5e-5, which counts four times at the peak;
+            // positions contribute 2e-7 / alpha.
             EXPECT_LE(worst, 2e-3)
                 << object << material << " pixel " << worstPixel % 128 << "," << worstPixel / 128;
         }
+}
+
+// Colours that no format stores exactly cost less than the rounding of floats in shading: a
+// Lambertian plane of albedo 0.3 under a light that it sees completely, where the form factor is
+// exact.
+TEST_F(WholeFrame, AlbedoIsStoredToTheLastDigits)
+{
+    const Scene scene = load(sceneJson(
+        R"({"position": [0, 2, 4], "look_at": [0, 0, 0], "up": [0, 1, 0],
+            "vertical_fov_degrees": 45, "aspect": 1})",
+        ground, R"({"albedo": [0.3, 0.7, 0.013], "diffuse": true, "specular": false,
+            "F0": [0, 0, 0], "alpha": 1, "metalness": 0})",
+        R"([{"position": [0, 3, 0], "radius": 0.5, "radiance": [10, 10, 10]}])"));
+    constexpr uint32_t side = 64;
+    const Image image = draw(scene, {side, side}, CND_SPECULAR_KARIS);
+    const reference::Image expected = reference::render(
+        toReference(scene, scene.cameras[0], 1, false), side, side, CND_SPECULAR_KARIS);
+    double worst = 0, sum = 0;
+    size_t lit = 0;
+    for (size_t i = 0; i < expected.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            if (expected.pixels[i][c] == 0)
+                continue;
+            const double error = image.pixels[3 * i + size_t(c)] / expected.pixels[i][c] - 1;
+            worst = std::max(worst, std::abs(error));
+            sum += error;
+            ++lit;
+        }
+    ASSERT_GT(lit, side * side);
+    std::cout << "albedo 0.3, 0.7, 0.013: mean relative error " << sum / double(lit) << ", largest "
+              << worst << "\n";
+    // Half floats cost 6.5e-4, 4.2e-4 and 5.5e-4 where a device truncates.
+    EXPECT_LE(std::abs(sum / double(lit)), 2e-6);
+    EXPECT_LE(worst, 1e-5);
 }

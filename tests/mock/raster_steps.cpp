@@ -98,7 +98,9 @@ const std::vector<Step>& rasterSteps()
         {"create geometry", false,
          [](Host& h, CndError* error) {
              return gpu::guard(error, [&] {
-                 h.geometry = std::make_unique<gbuffer::Geometry>(makeGeometry(*h.rasterDevice));
+                 auto geometry = std::make_unique<gbuffer::Geometry>(makeGeometry(*h.rasterDevice));
+                 h.raster->prepare(*geometry);
+                 h.geometry = std::move(geometry);
              });
          }},
         {"upload geometry", true,

@@ -6,8 +6,12 @@
 
 layout(location = 0) in vec3 normalView;
 layout(location = 0) out uvec2 normalRoughness;
+layout(location = 1) out uvec2 albedo;
+layout(location = 2) out uvec2 specular;
 
 void main()
 {
     normalRoughness = packNormalRoughnessFull(normalize(normalView), 0.5);
+    albedo = packAlbedoFull(vec3(0.8, 0.4, 0.2));
+    specular = packSpecularFull(vec3(0.04), 1.0);
 }

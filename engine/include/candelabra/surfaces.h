@@ -20,11 +20,12 @@ typedef struct CndCamera {
 // The G-buffer layouts that the modules can read. shaders/lib/gbuffer.glsl has packing functions
 // for the first two layouts and declares their error bounds.
 typedef enum CndGBufferLayout {
-    // normalRoughness R32G32_UINT: view-space octahedral normal in 24+24 bits, perceptual roughness
-    // in 16 bits unorm (below 0.0447, where alpha is below 0.002, the specular lobe is evaluated
-    // with alpha 0.002). albedo R16G16B16A16_SFLOAT: diffuse albedo (already multiplied by 1 -
-    // metalness), alpha unused. specular R16G16B16A16_SFLOAT: F0, and Schlick's F90 in alpha (F90 =
-    // 0 with F0 = 0: no specular lobe).
+    // All three images are R32G32_UINT, with bits that are the same on every device.
+    // normalRoughness: view-space octahedral normal in 23+23 bits, perceptual roughness in 18 bits
+    // (below 0.0447, where alpha is below 0.002, the specular lobe is evaluated with alpha 0.002).
+    // albedo: diffuse albedo (already multiplied by 1 - metalness), 21 bits a channel. specular:
+    // F0 and Schlick's F90, 21 bits a channel if F90 is 1, otherwise 16 bits a channel and 15 bits
+    // of F90 (F90 = 0 with F0 = 0: no specular lobe). Zeros in albedo and specular reflect nothing.
     CND_GBUFFER_FULL = 0,
     // normalRoughness R32_UINT: octahedral normal in 12+12 bits, perceptual roughness in 8 bits
     // unorm. albedo R8G8B8A8_SRGB: base colour, and metalness in alpha; F0 = mix(0.04, base colour,

@@ -5,8 +5,7 @@
 #include "shared/clusters.h"
 #include "lib/cluster_margins.glsl"
 #define GBUFFER_CODE SPEC_GBUFFER
-#define GBUFFER_PACKED TILE_CLUSTERS_NORMALS
-#define GBUFFER_NORMAL TILE_CLUSTERS_HOST_NORMALS
+#define GBUFFER_IMAGES TILE_CLUSTERS_GBUFFER
 #define FRAME_PARAMS TILE_CLUSTERS_FRAME
 #include "kernels/common/read_gbuffer.glsl"
 #include "lib/projection.glsl"

@@ -2,11 +2,8 @@
 // The bindings that the kernels share which evaluate lights per pixel.
 #include "shared/lighting.h"
 #define GBUFFER_CODE SPEC_GBUFFER
-#define GBUFFER_PACKED SHADE_NORMAL_ROUGHNESS
-#define GBUFFER_NORMAL SHADE_HOST_NORMAL
+#define GBUFFER_IMAGES SHADE_GBUFFER
 #define FRAME_PARAMS SHADE_FRAME
-#define GBUFFER_ALBEDO SHADE_ALBEDO
-#define GBUFFER_SPECULAR SHADE_SPECULAR
 #include "kernels/common/read_gbuffer.glsl"
 #include "lib/brdf.glsl"
 #include "lib/projection.glsl"

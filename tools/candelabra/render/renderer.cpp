@@ -89,6 +89,7 @@ struct Renderer::State {
               c.device(),
               {.framesInFlight = o.framesInFlight, .layout = o.gbufferLayout, .timestamps = true})
     {
+        gbuffer.prepare(geometry);
     }
     double aspect() const { return double(options.size.width) / options.size.height; }
     void setLights(double time);

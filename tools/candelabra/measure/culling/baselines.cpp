@@ -77,6 +77,7 @@ Baselines::Baselines(const VulkanContext& context, Renderer& renderer, const Sce
       renderer_(renderer),
       options_(options),
       frame_(renderer.lightingFrame(0, options)),
+      gbuffer_(context.device(), CND_GBUFFER_FULL, {}),
       params_(surfaces::frameParams(frame_, 0)),
       kernels_(context.device()),
       timer_(context.device(), "baselines", 1, true),
@@ -228,12 +229,8 @@ void Baselines::writeBindings()
     const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
     const Binding shapes = Binding::of(SHADE_SHAPES, shapes_);
     const Binding ids = Binding::of(SHADE_LIGHT_IDS, order_); // bound, but not read
-    const Binding normals = Binding::sampled(SHADE_NORMAL_ROUGHNESS, frame_.normalRoughness);
-    // These are for G-buffer layouts of hosts. Here they are bound, but not read.
-    const Binding hostNormals = Binding::sampled(SHADE_HOST_NORMAL, frame_.albedo);
+    const std::array gbuffer = gbuffer_.views(frame_).bindings(SHADE_GBUFFER);
     const Binding uniforms = uniforms_.at(0, SHADE_FRAME);
-    const Binding albedo = Binding::sampled(SHADE_ALBEDO, frame_.albedo);
-    const Binding specular = Binding::sampled(SHADE_SPECULAR, frame_.specular);
     const Binding depth = Binding::sampled(SHADE_DEPTH, frame_.depth);
     const Binding radiance = Binding::storage(SHADE_RADIANCE, frame_.radiance);
     const Binding dfg = Binding::ofTexels(SHADE_DFG, dfg_.buffer());
@@ -244,14 +241,17 @@ void Baselines::writeBindings()
         const Binding entries = Binding::of(BASELINE_ENTRIES, lists_[i].entries);
         const Binding grid = Binding::of(BASELINE_GRID, lists_[i].grid);
         sets_.shade[i].write(0,
-                             {core, coreWords, shapes, ids, normals, hostNormals, uniforms, albedo,
-                              specular, depth, radiance, dfg, ltc, heads, entries, grid});
-        sets_.pairs[i].write(0, {core, coreWords, shapes, ids, normals, hostNormals, uniforms,
-                                 albedo, specular, depth, dfg, ltc, heads, entries, grid,
-                                 Binding::of(BASELINE_COUNTERS, lists_[i].counters), found});
+                             {core, coreWords, shapes, ids, uniforms, depth, radiance, dfg, ltc,
+                              heads, entries, grid},
+                             gbuffer);
+        sets_.pairs[i].write(0,
+                             {core, coreWords, shapes, ids, uniforms, depth, dfg, ltc, heads,
+                              entries, grid, Binding::of(BASELINE_COUNTERS, lists_[i].counters),
+                              found},
+                             gbuffer);
     }
-    sets_.floor.write(0, {core, coreWords, shapes, ids, normals, hostNormals, uniforms, albedo,
-                          specular, depth, radiance, dfg, ltc, found});
+    sets_.floor.write(0, {core, coreWords, shapes, ids, uniforms, depth, radiance, dfg, ltc, found},
+                      gbuffer);
 }
 
 void Baselines::submit(const std::function<void(const gpu::Frame&)>& record)

@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "shared/baselines.h"
 #include "surfaces/frame_uniforms.h"
+#include "surfaces/host_gbuffer.h"
 #include "tables/dfg_table.h"
 
 namespace candelabra::app
@@ -69,6 +70,7 @@ private:
     Renderer& renderer_;
     FrameOptions options_;
     CndLightingFrame frame_;
+    surfaces::GBufferSource gbuffer_;
     gpu::FrameParams params_; // of frame_
     Kernels kernels_;
     gpu::Timer timer_;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/gtc/packing.hpp>
-
 #include "render/camera.h"
 #include "render/readback.h"
 #include "shared/gbuffer.h"
@@ -50,10 +48,36 @@ double linearOfSrgb(double s)
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-glm::dvec4 halves(const uint32_t* words)
+// Decodes a unit float with `mantissa` bits of mantissa (shared/gbuffer.h).
+double unitFloat(uint32_t code, uint32_t mantissa)
 {
-    const glm::vec2 xy = glm::unpackHalf2x16(words[0]), zw = glm::unpackHalf2x16(words[1]);
-    return {xy.x, xy.y, zw.x, zw.y};
+    const uint32_t bits = code == 0 ? 0 : code + 1;
+    const int exponent = int(bits >> mantissa);
+    const double fraction = std::ldexp(double(bits & ((1u << mantissa) - 1)), -int(mantissa));
+    return exponent == 0 ? std::ldexp(fraction, -7) : std::ldexp(1 + fraction, exponent - 8);
+}
+
+// Decodes a colour of layout FULL with unit floats of 21 bits.
+glm::dvec3 colourFull(const uint32_t* words)
+{
+    const uint32_t blue = words[0] >> 21 | (words[1] >> 21 & 0x3ff) << 11;
+    return {unitFloat(words[0] & 0x1fffff, gpu::COLOUR_MANTISSA),
+            unitFloat(words[1] & 0x1fffff, gpu::COLOUR_MANTISSA),
+            unitFloat(blue, gpu::COLOUR_MANTISSA)};
+}
+
+// Sets F0 and specular weight from those of layout FULL.
+void decodeSpecularFull(const uint32_t* words, reference::Material& out)
+{
+    if (words[1] >> 31) {
+        out.f0 = colourFull(words);
+        out.specularWeight = 1;
+        return;
+    }
+    out.f0 = {unitFloat(words[0] & 0xffff, gpu::COLOUR_MANTISSA_SHORT),
+              unitFloat(words[0] >> 16, gpu::COLOUR_MANTISSA_SHORT),
+              unitFloat(words[1] & 0xffff, gpu::COLOUR_MANTISSA_SHORT)};
+    out.specularWeight = (words[1] >> 16) / double((1u << gpu::F90_BITS) - 1);
 }
 
 } // namespace
@@ -127,11 +151,9 @@ reference::Material Surfaces::materialAt(uint32_t x, uint32_t y) const
         out.specularWeight = lit;
     } else {
         const uint32_t* words = &normalRoughness_[2 * i];
-        roughness = ((words[0] >> 24) | (words[1] >> 24 << 8)) / 65535.0;
-        out.diffuseAlbedo = glm::dvec3(halves(&albedo_[2 * i]));
-        const glm::dvec4 specular = halves(&specular_[2 * i]);
-        out.f0 = glm::dvec3(specular);
-        out.specularWeight = specular.w;
+        roughness = unitFloat(words[0] >> 23 | words[1] >> 23 << 9, gpu::ROUGHNESS_MANTISSA);
+        out.diffuseAlbedo = colourFull(&albedo_[2 * i]);
+        decodeSpecularFull(&specular_[2 * i], out);
     }
     out.alpha = std::max(roughness * roughness, 0.002); // the floor of CND_GBUFFER_FULL
     return out;

@@ -12,6 +12,7 @@
 #include "render/setting_names.h"
 #include "scene/light_types.h"
 #include "shared/lighting.h"
+#include "shared/raster.h"
 
 namespace candelabra::app
 {
@@ -147,7 +148,14 @@ std::vector<PipelineCost> measurePipelines(const PipelineSettings& settings, Dev
     take(Environment::create(device.desc(), {.framesInFlight = 1}));
     take(Exposure::create(device.desc(), {.framesInFlight = 1}));
     const gpu::Device raster(device.desc());
-    gbuffer::GBuffer(raster, {.framesInFlight = 1});
+    constexpr uint32_t allTextures = (1u << gpu::TEXTURES_PER_MATERIAL) - 1;
+    const gbuffer::MeshVariant meshes[] = {
+        {},
+        {.colored = true},
+        {.textures = allTextures & ~(1u << gpu::TEXTURE_EMISSIVE)},
+        {.emissive = true, .textures = allTextures},
+        {.masked = true, .textures = 1u << gpu::TEXTURE_BASE_COLOR}};
+    gbuffer::GBuffer(raster, {.framesInFlight = 1}).prepare(meshes);
 
     std::vector<PipelineCost> out;
     for (const PipelineExecutable& executable : device.executables())
