@@ -53,7 +53,10 @@ gpu::Kernel<Params> ShadeKernels::makeKernel(std::span<const gpu::Spirv* const> 
                                              uint32_t lightType, CndSpecularMethod method,
                                              bool withBudget, uint32_t tileClass) const
 {
-    return gpu::Kernel<Params>(*device_, host_->of(*families[familyOf(lightType, method)]),
+    const gpu::Spirv* kernel = &host_->of(*families[familyOf(lightType, method)]);
+    if (device_->lanesAreCpuVector && kernel == spirv::shade_tiles_comp[gpu::FAMILY_CONIC])
+        kernel = &spirv::shade_tiles_comp_lanes_alone_conic;
+    return gpu::Kernel<Params>(*device_, *kernel,
                                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
                                 {gpu::SPEC_SPECULAR_METHOD, uint32_t(method)},
                                 {gpu::SPEC_LIGHT_TYPE, lightType},

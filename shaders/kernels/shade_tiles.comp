@@ -44,7 +44,9 @@ void shadeAlone(uint tile, uvec2 pixel, float depth)
     addToRadiance(pixel, total(sums));
 }
 
-#ifdef LIGHT_FAMILY_CONIC
+// LANES_ALONE leaves out what is for GPUs only, because llvmpipe takes three times as long to compile a
+// kernel that contains it, even if a constant says that it is not run.
+#if defined(LIGHT_FAMILY_CONIC) && !defined(LANES_ALONE)
 layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = false;
 #include "kernels/common/pair_queues.glsl"
 

@@ -37,10 +37,12 @@ bool takeTile(out uint tile)
     tile = 0u;
     if (at >= work.count)
         return false;
-    // Takes every second tile of the work list first, then the others. Some devices divide the groups
-    // into equal consecutive shares, and tiles that take longer are at the end of the list.
+    // Split tiles, which take longest, are at the end of the list. Tiles are taken from there, so that
+    // the groups that run last have little to do: every second tile first, then the others, because
+    // some devices divide the groups into equal consecutive shares.
     const uint firsts = (work.count + 1u) / 2u;
-    tile = workTiles[work.first + (at < firsts ? 2u * at : 2u * (at - firsts) + 1u)];
+    const uint fromEnd = at < firsts ? 2u * at : 2u * (at - firsts) + 1u;
+    tile = workTiles[work.first + work.count - 1u - fromEnd];
     return true;
 }
 
