@@ -24,10 +24,7 @@ public:
     void prepareMesh(const MeshVariant& variant);
 
     // The variant must have been prepared.
-    VkPipeline mesh(const MeshVariant& variant) const
-    {
-        return meshes_.find(variant)->second.pipeline.get();
-    }
+    VkPipeline mesh(const MeshVariant& variant) const { return meshes_.at(variant).pipeline.get(); }
 
     gpu::Handle<VkDescriptorSetLayout> meshSet, raySet;
     gpu::Handle<VkPipelineLayout> meshLayout; // that of each variant is the same but for its name

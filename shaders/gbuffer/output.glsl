@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The colour attachments of the raster pass, and how a surface is written to them. Compiled with
-// FULL or COMPACT, the layout. Radiance is written only with EMISSIVE: the pass
-// draws surfaces that emit nothing first, without the attachment for radiance.
+// FULL or COMPACT, the layout. Radiance is written only with EMISSIVE: the pass first draws surfaces
+// that emit nothing, without the attachment for radiance.
 #include "gbuffer/material.glsl"
 #include "lib/gbuffer.glsl"
 #include "shared/raster.h"

@@ -5,8 +5,8 @@
 // together. On llvmpipe each lane makes one by itself. Both find the same lights. Where a page lies
 // depends on the schedule; which lights a list holds does not. A list that finds no page is marked as
 // unlisted, and a list that is too long for a loop of the device is marked as long. The tiles of both
-// are shaded without lists, with the same result (for long lists the last bit may differ, DECISIONS
-// 12).
+// are shaded without lists, by the same lights. Between the two pipelines the last bits may differ
+// (DECISIONS 12 and 42).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/cluster_test.glsl"

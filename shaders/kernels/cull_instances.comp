@@ -73,13 +73,15 @@ float allowedError(View b)
     return (1.0 - SLACK) * frame.maxLevelError * scale / frame.pixelScale;
 }
 
-// The number of coarser levels that are good enough; their errors ascend. All levels are tried, because
-// a loop that ends early would be another loop of unknown length in that of main().
+// The number of coarser levels that are good enough; their errors ascend. An error must be less than
+// `allowed`, not equal: where that is 0, no level is good enough, but the smallest errors are denormal
+// floats, which devices may take for 0. All levels are tried, because a loop that ends early would be
+// another loop of unknown length in that of main().
 uint levelOf(Chunk chunk, float allowed, float scale)
 {
     uint level = 0u;
     for (uint i = 0u; i < MESH_LEVELS - 1u; ++i)
-        level += i + 1u < chunk.levelCount && chunk.levelErrors[i] * scale <= allowed ? 1u : 0u;
+        level += i + 1u < chunk.levelCount && chunk.levelErrors[i] * scale < allowed ? 1u : 0u;
     return level;
 }
 

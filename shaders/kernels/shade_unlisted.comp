@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights the pixels whose cluster has no list, by walking the light tree: with the same lights in the
-// same order, so with the same bits, but more slowly. Each pixel walks the nodes whose box holds it. On
-// devices that limit loops, clusters with too many lights are lit in batches, which are parts of the
-// tree.
+// same order, but more slowly. It is another pipeline than shade_tiles, so the last bits may differ,
+// except on llvmpipe (DECISIONS 42). Each pixel walks the nodes whose box holds it. On devices that
+// limit loops, clusters with too many lights are lit in batches, which are parts of the tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/shade_receiver.glsl"

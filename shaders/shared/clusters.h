@@ -95,9 +95,11 @@ struct WorkList {
     uint count, first;
 };
 GPU_SIZE(WorkList, 20)
-const uint TILE_ROW = 256u;  // one group per tile
-const uint SPLIT_ROW = 8u;   // SPLIT_TILES_GROUP / SLICES tiles per group
-const uint SLICE_ROW = 256u; // slices whose lists one row of groups makes
+const uint TILE_ROW = 256u; // one group per tile
+const uint SPLIT_ROW = 8u;  // SPLIT_TILES_GROUP / SLICES tiles per group
+// Slices whose lists one row of groups makes. If all 8x8 tiles of 16384 x 16384 pixels are split,
+// there are 32768 rows; every device allows 65535.
+const uint SLICE_ROW = 512u;
 
 // --- tile_clusters: bounds of each tile, one lane per tile. With 128 lanes per group,
 // 16384 x 16384 pixels need 32768 groups; every device allows 65535.
@@ -138,8 +140,8 @@ GPU_SIZE(BlockClustersParams, 28)
 // tree; one group per cluster, or one lane. 32 lanes are one subgroup of many GPUs, which then need
 // no barriers, and a word has a bit for each. With 64, short lists would leave more lanes idle.
 const uint CLUSTER_LISTS_GROUP = 32u;
-// Specialisation constant: lanes of a group: 8, 16 or 32. Tests choose fewer
-// than CLUSTER_LISTS_GROUP, so that a group is one subgroup on devices with small ones.
+// Specialisation constant: lanes of a group, 8, 16 or 32. Tests choose fewer than
+// CLUSTER_LISTS_GROUP, so that a group is one subgroup on devices with small ones.
 const uint SPEC_LISTS_LANES = 8u;
 const uint CLUSTER_LISTS_CORE = 0u;
 const uint CLUSTER_LISTS_CORE_WORDS = 1u;

@@ -163,8 +163,8 @@ typedef struct CndLightingViewDesc {
                                   // smaller
     // Bytes for the light lists of a frame, 0: default, 64 MiB (less if the device's
     // maxStorageBufferRange is smaller). Clusters whose lists do not fit are shaded by walking the
-    // light tree, which is slower but gives the same image. CndLightingStats::unlistedClusters
-    // counts them.
+    // light tree, which is slower and gives the same image but for rounding.
+    // CndLightingStats::unlistedClusters counts them.
     VkDeviceSize listBudget;
 } CndLightingViewDesc;
 
