@@ -36,7 +36,7 @@ bool coneTouches(ClusterBounds c, vec3 centre, float r, float margin)
 }
 
 // Tells whether a sample may lie in a box around spheres of influence. The box must include the margins
-// for rounding that light_tree.comp adds.
+// for rounding that influenceBox() adds.
 bool boxTouches(ClusterBounds c, Box b)
 {
     const vec3 up = max(c.axis, vec3(0.0)), down = min(c.axis, vec3(0.0));

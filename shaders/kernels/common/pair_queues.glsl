@@ -17,7 +17,8 @@ const uint QUEUE_NEAR = 0u;   // evaluateNear
 const uint QUEUE_ACROSS = 1u; // evaluateGeneral
 const uint QUEUE_ABOVE = 2u;  // evaluateAbove
 const uint QUEUES = 3u;
-// A pair holds the lane of its pixel in this many bits, and above them the index of its light.
+// A pair holds the lane of its pixel in this many bits, and above them the index of its light, which
+// has at most 26 bits (engine/lights/light_limits.cpp).
 const uint PAIR_LANE_BITS = 6u;
 
 shared uint wanted[QUEUES]; // pairs that the lanes wanted to append; those beyond QUEUE_ROOM wait
