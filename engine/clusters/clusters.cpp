@@ -25,8 +25,6 @@ static_assert(gpu::UNLISTED_BITS + CND_LIGHT_TYPE_COUNT <= gpu::LIT_BITS &&
 // A group of light_tree reads the children of the children of one node.
 static_assert(gpu::LIGHT_TREE_GROUP == gpu::TREE_WIDTH * gpu::TREE_WIDTH);
 
-constexpr uint32_t maxRow = 65535; // groups that every device takes in one dimension
-
 // With more lights than this, blocks find their lights in the tree instead of in the lists of the
 // blocks of blocks, which are then so long that they save nothing. The number lies between the
 // counts at which the one and the other were measured to be faster (DECISIONS 25).
@@ -59,19 +57,23 @@ VkDeviceSize workBytes(uint32_t lists, uint32_t items)
 
 ClusterKernels::ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host,
                                uint32_t gbuffer, uint32_t tileClasses)
-    : lightTree(device, spirv::light_tree_comp,
+    : lanesTogether(!device.lanesAreCpuVector),
+      lightTree(device, spirv::light_tree_comp,
                 {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
-                 {gpu::SPEC_LANES_TOGETHER, !device.lanesAreCpuVector}}),
+                 {gpu::SPEC_LANES_TOGETHER, lanesTogether}}),
       tileClusters(device, host.of(spirv::tile_clusters_comp),
-                   {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_TILE_CLASSES, tileClasses}},
+                   {{gpu::SPEC_GBUFFER, gbuffer},
+                    {gpu::SPEC_TILE_CLASSES, tileClasses},
+                    {gpu::SPEC_LANES_TOGETHER, lanesTogether}},
                    host.setLayout()),
-      splitTiles(device, host.of(spirv::split_tiles_comp), {{gpu::SPEC_GBUFFER, gbuffer}},
+      splitTiles(device, host.of(spirv::split_tiles_comp),
+                 {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_LANES_TOGETHER, lanesTogether}},
                  host.setLayout()),
-      blockClusters(device, spirv::block_clusters_comp),
+      blockClusters(device, spirv::block_clusters_comp,
+                    {{gpu::SPEC_LANES_TOGETHER, lanesTogether}}),
       clusterLists(device, spirv::cluster_lists_comp,
                    {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
-                    {gpu::SPEC_LANES_TOGETHER, !device.lanesAreCpuVector}}),
-      lanesTogether(!device.lanesAreCpuVector)
+                    {gpu::SPEC_LANES_TOGETHER, lanesTogether}})
 {
 }
 
@@ -237,8 +239,11 @@ const gpu::Buffer& Clusters::tilesToShade(uint32_t type) const
 void Clusters::recordReset(const gpu::Frame& f, const LightTypeCounts& types) const noexcept
 {
     // Work of split_tiles, and of cluster_lists for the slices that split_tiles makes.
-    const gpu::WorkList noSplits[] = {{.groupsX = gpu::SPLIT_ROW, .groupsZ = 1},
-                                      {.groupsX = listGroups(gpu::SLICE_ROW), .groupsZ = 1}};
+    const uint32_t splitLanes =
+        gpu::SPLIT_ROW * (kernels_.lanesTogether ? gpu::TILE_SIZE * gpu::SLICES : 1);
+    const gpu::WorkList noSplits[] = {
+        {.groupsX = splitLanes / gpu::SPLIT_TILES_GROUP, .groupsZ = 1},
+        {.groupsX = listGroups(gpu::SLICE_ROW), .groupsZ = 1}};
     f.device.CmdUpdateBuffer(f.cmd, splits_.get(), 0, sizeof noSplits, noSplits);
     const auto reset = [&](const gpu::Buffer& work) {
         gpu::WorkList none[gpu::TILE_CLASSES];
@@ -264,10 +269,9 @@ void Clusters::recordTree(const gpu::Frame& f, const gpu::TreeShape& tree) const
         const uint32_t lower = divideUp(params.childCount, gpu::TREE_WIDTH);
         const uint32_t upper = divideUp(lower, gpu::TREE_WIDTH);
         params.upperFirst = params.lowerFirst + lower;
-        const uint32_t groups =
-            kernels_.lanesTogether ? upper : divideUp(upper, gpu::LIGHT_TREE_GROUP);
-        kernels_.lightTree.dispatch(f, treeSets_.set(f.slot), params, std::min(groups, maxRow),
-                                    divideUp(groups, maxRow));
+        kernels_.lightTree.dispatchInRows(
+            f, treeSets_.set(f.slot), params,
+            kernels_.lanesTogether ? upper : divideUp(upper, gpu::LIGHT_TREE_GROUP));
         f.barrier();
         params = {.childFirst = params.upperFirst,
                   .childCount = upper,
@@ -282,8 +286,10 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
                                          .firstSplit = firstSplit(),
                                          .splitCapacity = splitCapacity_,
                                          .splitLength = splitLength};
-    kernels_.tileClusters.dispatch(f, tileSets_.set(f.slot), params,
-                                   divideUp(params.tileCount, gpu::TILE_CLUSTERS_GROUP));
+    kernels_.tileClusters.dispatchInRows(
+        f, tileSets_.set(f.slot), params,
+        divideUp(kernels_.lanesTogether ? params.tileCount * gpu::TILE_SIZE : params.tileCount,
+                 gpu::TILE_CLUSTERS_GROUP));
     f.barrier();
     if (!forLists)
         return;
@@ -292,16 +298,19 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
     const auto level = levels(tileCount);
     for (size_t i = 1; i < level.size(); ++i) {
         const uint32_t blockCount = area(level[i].count);
-        kernels_.blockClusters.dispatch(
-            f, blockSets_.set(f.slot),
-            {.childFirst = level[i - 1].first,
-             .childCountX = level[i - 1].count.x,
-             .childCountY = level[i - 1].count.y,
-             .blockFirst = level[i].first,
-             .blockCountX = level[i].count.x,
-             .blockCount = blockCount,
-             .clusterFirst = level[i].firstCluster},
-            divideUp(blockCount * gpu::BLOCK_SLICES, gpu::BLOCK_CLUSTERS_GROUP));
+        const uint32_t blockGroups =
+            kernels_.lanesTogether
+                ? blockCount
+                : divideUp(blockCount * gpu::BLOCK_SLICES, gpu::BLOCK_CLUSTERS_GROUP);
+        kernels_.blockClusters.dispatchInRows(f, blockSets_.set(f.slot),
+                                              {.childFirst = level[i - 1].first,
+                                               .childCountX = level[i - 1].count.x,
+                                               .childCountY = level[i - 1].count.y,
+                                               .blockFirst = level[i].first,
+                                               .blockCountX = level[i].count.x,
+                                               .blockCount = blockCount,
+                                               .clusterFirst = level[i].firstCluster},
+                                              blockGroups);
         f.barrier();
     }
 }
@@ -325,8 +334,7 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
                                    .tileCountX = tileCount.x,
                                    .tileCountY = tileCount.y};
     const auto dispatch = [&](uint32_t lists) {
-        const uint32_t groups = listGroups(lists);
-        kernel.dispatch(f, set, params, std::min(groups, maxRow), divideUp(groups, maxRow));
+        kernel.dispatchInRows(f, set, params, listGroups(lists));
     };
     for (size_t i = level.size() - 1; i > 0; --i) {
         if (i > 1 && tree.lightCount > largeBlockLights)

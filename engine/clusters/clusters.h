@@ -20,13 +20,11 @@ struct ClusterKernels {
     // `gbuffer` and `tileClasses`: values of SPEC_GBUFFER and SPEC_TILE_CLASSES.
     ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host, uint32_t gbuffer,
                    uint32_t tileClasses);
+    bool lanesTogether; // value of SPEC_LANES_TOGETHER of all kernels
     gpu::Kernel<gpu::LightTreeParams> lightTree;
     gpu::Kernel<gpu::TileClustersParams> tileClusters, splitTiles;
     gpu::Kernel<gpu::BlockClustersParams> blockClusters;
     gpu::Kernel<gpu::ClusterListsParams> clusterLists;
-    // The lanes of a group of lightTree or clusterLists work on one node or list together
-    // (SPEC_LANES_TOGETHER).
-    bool lanesTogether;
 };
 
 // Returns the byte offset of the work list of a material class in a buffer with one list per class.

@@ -2,6 +2,7 @@
 // Kernel: one compute pipeline with its parameter struct, checked against the SPIR-V at creation.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -157,6 +158,14 @@ public:
                   uint32_t y = 1, uint32_t z = 1) const noexcept
     {
         dispatchRaw(frame, set, &params, paramsSize, x, y, z);
+    }
+    // Records a dispatch of at least `groups` work groups in rows, because devices limit how many
+    // there may be in one dimension. The kernel counts its groups row by row.
+    void dispatchInRows(const Frame& frame, VkDescriptorSet set, const Params& params,
+                        uint32_t groups) const noexcept
+    {
+        constexpr uint32_t row = 65535; // what every device takes
+        dispatch(frame, set, params, std::min(groups, row), groups / row + (groups % row != 0));
     }
     // Records a dispatch whose group counts (VkDispatchIndirectCommand) are read from `arguments`,
     // at byte `at`.

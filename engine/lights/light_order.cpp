@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "candelabra_shaders.h"
+#include "shared/lighting.h"
 
 namespace candelabra::lighting
 {
@@ -29,11 +30,12 @@ uint32_t sumCount(uint32_t runs)
 
 LightOrder::LightOrder(const gpu::Device& device)
     : device_(&device),
+      lanesTogether_(!device.lanesAreCpuVector),
       lightKeys_(device, spirv::light_keys_comp),
-      count_(device, spirv::sort_count_comp),
-      sums_(device, spirv::sort_sums_comp),
+      count_(device, spirv::sort_count_comp, {{gpu::SPEC_LANES_TOGETHER, lanesTogether_}}),
+      sums_(device, spirv::sort_sums_comp, {{gpu::SPEC_LANES_TOGETHER, lanesTogether_}}),
       offsets_(device, spirv::sort_offsets_comp),
-      scatter_(device, spirv::sort_scatter_comp)
+      scatter_(device, spirv::sort_scatter_comp, {{gpu::SPEC_LANES_TOGETHER, lanesTogether_}})
 {
 }
 
@@ -92,18 +94,22 @@ void LightOrder::record(const gpu::Frame& frame, const State& s, uint32_t lightC
                         divideUp(lightCount, gpu::SORT_GROUP));
     gpu::SortParams params{.lightCount = lightCount,
                            .runCount = divideUp(lightCount, gpu::SORT_RUN)};
-    const uint32_t runGroups = divideUp(params.runCount, gpu::SORT_GROUP);
+    // Dispatches groups for as many runs, or sums.
+    const auto dispatch = [&](const gpu::Kernel<gpu::SortParams>& kernel, VkDescriptorSet set,
+                              uint32_t count) {
+        kernel.dispatchInRows(f, set, params,
+                              lanesTogether_ ? count : divideUp(count, gpu::SORT_GROUP));
+    };
     for (uint32_t pass = 0; pass < passes; ++pass, from = 1 - from) {
         params.shift = pass * gpu::SORT_DIGIT_BITS;
         f.barrier();
-        count_.dispatch(f, s.count.set(from), params, runGroups);
+        dispatch(count_, s.count.set(from), params.runCount);
         f.barrier();
-        sums_.dispatch(f, s.addUp.set(0), params,
-                       divideUp(sumCount(params.runCount), gpu::SORT_GROUP));
+        dispatch(sums_, s.addUp.set(0), sumCount(params.runCount));
         f.barrier();
         offsets_.dispatch(f, s.offset.set(0), params, 1);
         f.barrier();
-        scatter_.dispatch(f, s.scatter.set(from), params, runGroups);
+        dispatch(scatter_, s.scatter.set(from), params.runCount);
     }
     f.barrier();
     frame.timer.stamp(frame.cmd, "light_order");

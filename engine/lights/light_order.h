@@ -39,6 +39,7 @@ public:
 
 private:
     const gpu::Device* device_;
+    bool lanesTogether_; // a group, not a lane, counts and scatters a run of lights
     gpu::Kernel<gpu::LightKeysParams> lightKeys_;
     gpu::Kernel<gpu::SortParams> count_, sums_, offsets_, scatter_;
 };

@@ -10,10 +10,7 @@ namespace
 {
 
 constexpr VkDeviceSize defaultListBudget = 64u << 20;
-constexpr uint32_t maxGroupsPerDimension = 65535; // Vulkan's guaranteed maxComputeWorkGroupCount
-constexpr uint32_t maxSide = 16384;               // pixels; largest width and height of a view
-static_assert(maxSide / gpu::TILE_SIZE * (maxSide / gpu::TILE_SIZE) <=
-              maxGroupsPerDimension * gpu::TILE_CLUSTERS_GROUP);
+constexpr uint32_t maxSide = 16384; // pixels; largest width and height of a view
 
 constexpr VkBufferUsageFlags storageUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 

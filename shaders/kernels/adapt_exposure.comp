@@ -20,7 +20,8 @@ layout(scalar, binding = ADAPT_STATE) buffer State
     ExposureState state;
 };
 
-shared uint prefixes[HISTOGRAM_BINS];
+#define GROUP_LANES HISTOGRAM_BINS
+#include "kernels/common/group_sums.glsl"
 shared vec2 sums[HISTOGRAM_BINS];
 
 // Returns log2 of the mean luminance inside a bin.
@@ -28,20 +29,6 @@ float binLog2Luminance(uint bin, float meanFraction)
 {
     const float step = float(bin % 8u) + (meanFraction + 0.5) / float(HISTOGRAM_FRACTIONS);
     return float(int(bin / 8u) + HISTOGRAM_MIN_EXPONENT) + log2(1.0 + step / 8.0);
-}
-
-// Writes the inclusive prefix sums of the lanes' values to `prefixes` (Hillis and Steele 1986).
-void addPrefixes(uint value)
-{
-    const uint lane = gl_LocalInvocationIndex;
-    prefixes[lane] = value;
-    barrier();
-    for (uint reach = 1u; reach < HISTOGRAM_BINS; reach *= 2u) {
-        const uint left = lane >= reach ? prefixes[lane - reach] : 0u;
-        barrier();
-        prefixes[lane] += left;
-        barrier();
-    }
 }
 
 // Sums the values of all lanes pairwise. Only lane 0 gets the result.

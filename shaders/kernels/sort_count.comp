@@ -13,11 +13,8 @@ layout(scalar, binding = SORT_COUNT_COUNTS) writeonly buffer Counts
     uint counts[];
 };
 
-void main()
+void countByLane(uint run)
 {
-    const uint run = gl_GlobalInvocationID.x;
-    if (run >= params.runCount)
-        return;
     uint found[SORT_DIGITS];
     for (uint d = 0u; d < SORT_DIGITS; ++d)
         found[d] = 0u;
@@ -26,4 +23,31 @@ void main()
         ++found[digitOf(keys[i].key)];
     for (uint d = 0u; d < SORT_DIGITS; ++d)
         counts[d * params.runCount + run] = found[d];
+}
+
+shared uint foundByGroup[SORT_DIGITS];
+
+void countByGroup(uint run)
+{
+    const uint lane = gl_LocalInvocationIndex;
+    for (uint d = lane; d < SORT_DIGITS; d += SORT_GROUP)
+        foundByGroup[d] = 0u;
+    barrier();
+    const uint end = min(params.lightCount, (run + 1u) * SORT_RUN);
+    for (uint i = run * SORT_RUN + lane; i < end; i += SORT_GROUP)
+        atomicAdd(foundByGroup[digitOf(keys[i].key)], 1u);
+    barrier();
+    for (uint d = lane; d < SORT_DIGITS; d += SORT_GROUP)
+        counts[d * params.runCount + run] = foundByGroup[d];
+}
+
+void main()
+{
+    const uint run = indexOfWorker();
+    if (run >= params.runCount)
+        return;
+    if (lanesTogether)
+        countByGroup(run);
+    else
+        countByLane(run);
 }

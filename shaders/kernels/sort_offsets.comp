@@ -3,13 +3,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernels/common/sort_run.glsl"
+#define GROUP_LANES SORT_GROUP
+#include "kernels/common/group_sums.glsl"
 
 layout(scalar, binding = SORT_OFFSETS_SUMS) buffer Sums
 {
     uint sums[];
 };
-
-shared uint totals[SORT_GROUP];
 
 void main()
 {
@@ -21,11 +21,8 @@ void main()
     uint total = 0u;
     for (uint i = first; i < end; ++i)
         total += sums[i];
-    totals[lane] = total;
-    barrier();
-    uint before = 0u;
-    for (uint i = 0u; i < lane; ++i)
-        before += totals[i];
+    addPrefixes(total);
+    uint before = prefixes[lane] - total;
     for (uint i = first; i < end; ++i) {
         const uint here = sums[i];
         sums[i] = before;

@@ -22,16 +22,18 @@ layout(scalar, binding = SORT_SCATTER_SUMS) readonly buffer Sums
     uint sums[];
 };
 
-void main()
+// Returns the position of the first light of a run that has the digit.
+uint firstOf(uint d, uint run)
 {
-    const uint run = gl_GlobalInvocationID.x;
-    if (run >= params.runCount)
-        return;
+    const uint at = d * params.runCount + run;
+    return counts[at] + sums[at / SORT_SUM];
+}
+
+void scatterByLane(uint run)
+{
     uint next[SORT_DIGITS];
-    for (uint d = 0u; d < SORT_DIGITS; ++d) {
-        const uint at = d * params.runCount + run;
-        next[d] = counts[at] + sums[at / SORT_SUM];
-    }
+    for (uint d = 0u; d < SORT_DIGITS; ++d)
+        next[d] = firstOf(d, run);
     const uint end = min(params.lightCount, (run + 1u) * SORT_RUN);
     for (uint i = run * SORT_RUN; i < end; ++i) {
         const LightKey light = from[i];
@@ -39,4 +41,45 @@ void main()
         to[next[d]] = light;
         ++next[d];
     }
+}
+
+// A bit for each light of the run, for each digit: whether the light has it.
+const uint WORDS = SORT_RUN / 32u;
+shared uint having[SORT_DIGITS * WORDS];
+
+// Returns how many lights of the run before the i-th have the digit.
+uint countBefore(uint d, uint i)
+{
+    uint count = bitCount(having[d * WORDS + i / 32u] & ((1u << i % 32u) - 1u));
+    for (uint word = 0u; word < i / 32u; ++word)
+        count += bitCount(having[d * WORDS + word]);
+    return count;
+}
+
+void scatterByGroup(uint run)
+{
+    const uint lane = gl_LocalInvocationIndex;
+    for (uint word = lane; word < SORT_DIGITS * WORDS; word += SORT_GROUP)
+        having[word] = 0u;
+    barrier();
+    const uint first = run * SORT_RUN, count = min(params.lightCount - first, SORT_RUN);
+    for (uint i = lane; i < count; i += SORT_GROUP)
+        atomicOr(having[digitOf(from[first + i].key) * WORDS + i / 32u], 1u << i % 32u);
+    barrier();
+    for (uint i = lane; i < count; i += SORT_GROUP) {
+        const LightKey light = from[first + i];
+        const uint d = digitOf(light.key);
+        to[firstOf(d, run) + countBefore(d, i)] = light;
+    }
+}
+
+void main()
+{
+    const uint run = indexOfWorker();
+    if (run >= params.runCount)
+        return;
+    if (lanesTogether)
+        scatterByGroup(run);
+    else
+        scatterByLane(run);
 }

@@ -96,13 +96,14 @@ struct WorkList {
 };
 GPU_SIZE(WorkList, 20)
 const uint TILE_ROW = 256u; // one group per tile
-const uint SPLIT_ROW = 8u;  // SPLIT_TILES_GROUP / SLICES tiles per group
-// Slices whose lists one row of groups makes. If all 8x8 tiles of 16384 x 16384 pixels are split,
-// there are 32768 rows; every device allows 65535.
-const uint SLICE_ROW = 512u;
+// Tiles that one row of groups of split_tiles takes, and slices whose lists one row of groups of
+// cluster_lists makes. If all 8x8 tiles of 16384 x 16384 pixels are split, there are 32768 rows;
+// every device allows 65535.
+const uint SPLIT_ROW = 128u;
+const uint SLICE_ROW = SPLIT_ROW * SLICES;
 
-// --- tile_clusters: bounds of each tile, one lane per tile. With 128 lanes per group,
-// 16384 x 16384 pixels need 32768 groups; every device allows 65535.
+// --- tile_clusters: bounds of each tile. By itself, a lane makes those of a tile; together,
+// TILE_SIZE lanes do.
 const uint TILE_CLUSTERS_GROUP = 128u;
 const uint TILE_CLUSTERS_DEPTH = 0u;
 const uint TILE_CLUSTERS_CLUSTERS = 1u;
@@ -119,11 +120,12 @@ struct TileClustersParams {
 };
 GPU_SIZE(TileClustersParams, 16)
 
-// --- split_tiles: bounds of the slices of deep tiles, one lane per slice; bindings of
-// tile_clusters
+// --- split_tiles: bounds of the slices of deep tiles; bindings of tile_clusters. By itself, a lane
+// makes the slices of a tile; together, TILE_SIZE lanes make a slice.
 const uint SPLIT_TILES_GROUP = 64u;
 
-// --- block_clusters: clusters of blocks from the clusters of the level below, one lane per slice
+// --- block_clusters: clusters of blocks from the clusters of the level below, one group per block
+// or one lane per slice
 const uint BLOCK_CLUSTERS_GROUP = 64u;
 const uint BLOCK_CLUSTERS_CLUSTERS = 0u;
 const uint BLOCK_CLUSTERS_TILES = 1u;

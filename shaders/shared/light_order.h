@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sorting of lights by type, class of influence radius and position along a Morton curve, so that
-// neighbours in memory are neighbours in space. It is a stable radix sort without atomics: each
-// lane counts and scatters a run of consecutive lights by itself, so the order depends only on the
-// lights.
+// neighbours in memory are neighbours in space. It is a stable radix sort: runs of consecutive
+// lights are counted and scattered, so the order depends only on the lights. A run is the work of a
+// group on GPUs, and of a lane on llvmpipe.
 #ifndef CND_SHARED_LIGHT_ORDER_H
 #define CND_SHARED_LIGHT_ORDER_H
 
@@ -25,11 +25,11 @@ const uint ORDER_SIZE_BITS = 3u;
 // of 24 bits takes four passes.
 const uint SORT_DIGIT_BITS = 6u;
 const uint SORT_DIGITS = 64u;
-// How many lights one lane counts and scatters. Longer runs leave lanes of large devices without
-// work; with shorter runs most of the time goes into the 64 counters of each run.
+// Lights of a run. Longer runs leave lanes of large devices without work; with shorter runs most of
+// the time goes into the 64 counters of each run.
 const uint SORT_RUN = 256u;
 const uint SORT_GROUP = 64u;
-const uint SORT_SUM = 256u; // how many counters one lane sums
+const uint SORT_SUM = 256u; // how many counters one group or lane sums
 
 // --- light_keys: one lane per light
 const uint LIGHT_KEYS_RECORDS = 0u;

@@ -173,8 +173,8 @@ const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gb
 const uint SPEC_ERROR_BUDGET = 4u;     // 1: FrameParams::errorBudget may be > 0
 const uint SPEC_TILE_CLASS = 5u;   // CLASS_* of the tiles: which work list, which lobe is absent
 const uint SPEC_TILE_CLASSES = 6u; // tile_clusters: mask of 1 << CLASS_*, the classes to find
-// cluster_lists, light_tree, shade_tiles. 1: the lanes of a group share the work on one cluster,
-// node or tile, for GPUs; 0: each lane works by itself, for llvmpipe.
+// Chooses the form of kernels that have two. 1: the lanes of a group share the work on one cluster,
+// node, tile, block or run of lights, for GPUs; 0: each lane has work of its own, for llvmpipe.
 const uint SPEC_LANES_TOGETHER = 7u;
 
 // The lowest alpha of the specular lobe. Below it a float32 NoH cannot resolve the peak (measured:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random frames with any camera, size, depth convention and lights: clustered against brute force.
-// Sixty frames by default, 1,000 with tools/test --full.
+// Random frames with any camera, size, depth convention and lights: clustered against brute force,
+// and the kernels that GPUs run against those that llvmpipe runs. Sixty and twenty frames by
+// default, 1,000 each with tools/test --full.
+#include "gpu/gpu_like_device.h"
 #include "gpu/lighting_harness.h"
 #include "harness/full_tests.h"
 
@@ -90,6 +92,34 @@ TEST_F(LightingTest, RandomFramesEqualBrute)
     }
     cndDestroyLighting(lighting);
     EXPECT_GE(lit, frames / 2); // most frames have lit pixels to compare
+}
+
+// Whether a group or a lane makes a cluster and a list changes neither.
+TEST_F(LightingTest, RandomFramesHaveTheSameListsFromGroupsAndFromLanes)
+{
+    const uint32_t frames = fullTests() ? 1000 : 20;
+    const CndDeviceDesc gpu = gpuLike(deviceDesc());
+    RunOptions byGroups;
+    byGroups.host = &gpu;
+    byGroups.lighting = sharedLighting(byGroups);
+    RunOptions byLanes;
+    byLanes.lighting = sharedLighting();
+    uint64_t entries = 0, splits = 0;
+    for (uint32_t seed = 0; seed < frames; ++seed) {
+        RandomFrame frame(seed);
+        const CpuGBuffer g = frame.gbuffer();
+        const auto lights = frame.lights(g);
+        const LightingResult expected = run(g, lights, byLanes);
+        const LightingResult got = run(g, lights, byGroups);
+        EXPECT_TRUE(sameBits(got, expected)) << "seed " << seed;
+        EXPECT_EQ(got.stats.listEntries, expected.stats.listEntries) << "seed " << seed;
+        EXPECT_EQ(got.stats.maxListLength, expected.stats.maxListLength) << "seed " << seed;
+        EXPECT_EQ(got.stats.splitTileCount, expected.stats.splitTileCount) << "seed " << seed;
+        entries += expected.stats.listEntries;
+        splits += expected.stats.splitTileCount;
+    }
+    EXPECT_GT(entries, 100u * frames);
+    EXPECT_GT(splits, frames);
 }
 
 } // namespace candelabra::test

@@ -25,10 +25,12 @@ float depthAt(uvec2 pixel)
     return texelFetch(depthImage, ivec2(pixel), 0).x;
 }
 
-Cluster emptyCluster(uint tile)
+// The functions take the parameters of the frame as an argument, which callers copy from the uniform
+// buffer before they loop over samples: llvmpipe reads a uniform again in each turn of a loop.
+Cluster emptyCluster(FrameParams frame, uint tile)
 {
-    const uvec2 middle = firstPixelOfTile(tile, frameParams.size.x) + TILE_SIZE / 2u;
-    const vec3 ray = viewRay(frameParams.projection, middle, frameParams.invImageSize);
+    const uvec2 middle = firstPixelOfTile(tile, frame.size.x) + TILE_SIZE / 2u;
+    const vec3 ray = viewRay(frame.projection, middle, frame.invImageSize);
     return Cluster(vec3(UNBOUNDED), tile, vec3(-UNBOUNDED), 0u, vec3(0.0), UNBOUNDED, -UNBOUNDED, 1.0,
                    0xFFFFFFFFu, normalize(ray), 0.0);
 }
@@ -38,20 +40,43 @@ bool isEmpty(Cluster c)
     return c.min.x > c.max.x;
 }
 
-// Adds a sample to a cluster, whose axis is the normal of the first sample.
-void addSample(inout Cluster c, uvec2 pixel, float depth)
+struct Sample {
+    vec3 position, normal;
+    uint depthBits;
+};
+
+Sample readSample(FrameParams frame, uvec2 pixel, float depth)
 {
-    const vec3 p = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
-    const vec3 n = readNormal(ivec2(pixel));
-    c.axis = isEmpty(c) ? n : c.axis;
-    c.depthBits = min(c.depthBits, depthBits(depth));
-    c.min = min(c.min, p);
-    c.max = max(c.max, p);
-    const float along = dot(c.axis, p);
+    return Sample(viewPosition(frame.projection, pixel, frame.invImageSize, depth),
+                  readNormal(ivec2(pixel)), depthBits(depth));
+}
+
+// Adds a sample to a cluster, which has its axis.
+void addSample(inout Cluster c, Sample s)
+{
+    c.depthBits = min(c.depthBits, s.depthBits);
+    c.min = min(c.min, s.position);
+    c.max = max(c.max, s.position);
+    const float along = dot(c.axis, s.position);
     c.slabMin = min(c.slabMin, along);
     c.slabMax = max(c.slabMax, along);
-    c.minCos = min(c.minCos, dot(c.axis, n));
-    const float ahead = dot(p, c.ray);
-    const float aside = length(cross(p, c.ray));
+    c.minCos = min(c.minCos, dot(c.axis, s.normal));
+    const float ahead = dot(s.position, c.ray);
+    const float aside = length(cross(s.position, c.ray));
     c.slope = max(c.slope, aside < MAX_SLOPE * ahead ? aside / ahead : MAX_SLOPE);
+}
+
+// Adds a sample to a cluster. The normal of the first sample becomes the axis.
+void addSampleInOrder(inout Cluster c, Sample s)
+{
+    c.axis = isEmpty(c) ? s.normal : c.axis;
+    addSample(c, s);
+}
+
+// Returns the i-th pixel of a tile, row by row. `last` is the last pixel of the tile that lies in the
+// image. Pixels beyond it are replaced by pixels within, so that a tile always has TILE_SIZE^2, of
+// which some may come twice.
+uvec2 pixelOfTile(uvec2 first, uvec2 last, uint i)
+{
+    return min(first + uvec2(i % TILE_SIZE, i / TILE_SIZE), last);
 }

@@ -16,20 +16,36 @@ bool isBlack(vec3 colour)
     return colour.x == 0.0 && colour.y == 0.0 && colour.z == 0.0;
 }
 
-// Returns the class of the pixels first .. end - 1. The loop ends as soon as only CLASS_ANY is
-// possible.
-uint classOfSurfaces(uvec2 first, uvec2 end)
+// A set of classes, with a bit 1 << CLASS_* for each.
+const uint CLASSES_TO_FIND =
+    (FINDS_DIFFUSE ? 1u << CLASS_DIFFUSE : 0u) | (FINDS_SPECULAR ? 1u << CLASS_SPECULAR : 0u);
+
+// Returns the classes of tiles in which the surface of a pixel may lie.
+uint classesWith(uvec2 pixel)
 {
-    bool diffuse = FINDS_DIFFUSE, specular = FINDS_SPECULAR;
-    for (uint y = first.y; y < end.y && (diffuse || specular); ++y)
-        for (uint x = first.x; x < end.x && (diffuse || specular); ++x) {
-            if (depthAt(uvec2(x, y)) == frameParams.clearDepth)
-                continue;
-            const Surface s = readSurface(ivec2(x, y));
-            diffuse = diffuse && isBlack(s.F0) && s.specularWeight == 0.0;
-            specular = specular && isBlack(s.albedo);
-        }
-    return diffuse ? CLASS_DIFFUSE : specular ? CLASS_SPECULAR : CLASS_ANY;
+    const Surface s = readSurface(ivec2(pixel));
+    return (isBlack(s.F0) && s.specularWeight == 0.0 ? 1u << CLASS_DIFFUSE : 0u) |
+           (isBlack(s.albedo) ? 1u << CLASS_SPECULAR : 0u);
+}
+
+// Returns the class of a tile all of whose surfaces may lie in tiles of `classes`.
+uint classOf(uint classes)
+{
+    return (classes >> CLASS_DIFFUSE & 1u) != 0u    ? CLASS_DIFFUSE
+           : (classes >> CLASS_SPECULAR & 1u) != 0u ? CLASS_SPECULAR
+                                                    : CLASS_ANY;
+}
+
+// Returns the class of the tile with the pixels first .. end - 1. The loop ends as soon as only
+// CLASS_ANY is possible.
+uint classOfTile(uvec2 first, uvec2 end)
+{
+    uint classes = CLASSES_TO_FIND;
+    for (uint y = first.y; y < end.y && classes != 0u; ++y)
+        for (uint x = first.x; x < end.x && classes != 0u; ++x)
+            if (depthAt(uvec2(x, y)) != frameParams.clearDepth)
+                classes &= classesWith(uvec2(x, y));
+    return classOf(classes);
 }
 
 #endif

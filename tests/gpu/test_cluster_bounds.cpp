@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// tile_clusters, split_tiles and block_clusters have a form for GPUs, in which several lanes make a
+// cluster, and one for llvmpipe, in which each lane works by itself. Both must make the same
+// clusters, on llvmpipe to the bit.
+#include <algorithm>
+#include <optional>
+
+#include "candelabra_shaders.h"
+#include "gpu/three_classes.h"
+#include "shared/clusters.h"
+#include "surfaces/frame_uniforms.h"
+#include "surfaces/host_gbuffer.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+using gpu::divideUp;
+
+// Where the records of tiles and blocks and their clusters lie.
+struct Places {
+    glm::uvec2 tiles, blocks, largeBlocks;
+    uint32_t firstSlice, firstBlock, firstLarge, clusters; // of clusters
+
+    explicit Places(const CpuGBuffer& g)
+        : tiles((glm::uvec2(g.width, g.height) + gpu::TILE_SIZE - 1u) / gpu::TILE_SIZE),
+          blocks((tiles + gpu::BLOCK_SIDE - 1u) / gpu::BLOCK_SIDE),
+          largeBlocks((blocks + gpu::BLOCK_SIDE - 1u) / gpu::BLOCK_SIDE),
+          firstSlice(tileCount()),
+          firstBlock(firstSlice + tileCount() * gpu::SLICES),
+          firstLarge(firstBlock + blockCount() * gpu::BLOCK_SLICES),
+          clusters(firstLarge + largeCount() * gpu::BLOCK_SLICES)
+    {
+    }
+    uint32_t tileCount() const { return tiles.x * tiles.y; }
+    uint32_t blockCount() const { return blocks.x * blocks.y; }
+    uint32_t largeCount() const { return largeBlocks.x * largeBlocks.y; }
+};
+
+// What the kernels have made.
+struct Made {
+    std::vector<gpu::TileClusters> tiles;
+    std::vector<gpu::Cluster> clusters;
+    std::vector<uint32_t> ofClass[gpu::TILE_CLASSES]; // tiles, sorted
+    std::vector<uint32_t> splits;                     // tiles, sorted
+};
+
+// Returns the tiles of one of the work lists with which a buffer begins, sorted.
+std::vector<uint32_t> sortedTiles(const gpu::Buffer& buffer, uint32_t lists, uint32_t list)
+{
+    const gpu::WorkList work = buffer.as<gpu::WorkList>()[list];
+    const auto tiles = buffer.as<uint32_t>()
+                           .subspan(lists * sizeof(gpu::WorkList) / sizeof(uint32_t))
+                           .subspan(work.first, work.count);
+    std::vector<uint32_t> out(tiles.begin(), tiles.end());
+    std::ranges::sort(out);
+    return out;
+}
+
+// Tells whether clusters of the two forms agree. On other drivers than llvmpipe a division may have
+// other bits in each pipeline.
+bool sameBounds(const gpu::Cluster& a, const gpu::Cluster& b, bool bits)
+{
+    const bool sameBits = std::memcmp(&a, &b, sizeof a) == 0;
+    if (bits || sameBits)
+        return sameBits;
+    const auto near = [](float x, float y) { return std::abs(x - y) <= 1e-4f * (1 + std::abs(x)); };
+    bool same = a.tile == b.tile && a.parent == b.parent && a.depthBits == b.depthBits &&
+                near(a.slabMin, b.slabMin) && near(a.slabMax, b.slabMax) &&
+                near(a.minCos, b.minCos) && near(a.slope, b.slope);
+    for (int i = 0; i < 3; ++i)
+        same = same && near(a.min[i], b.min[i]) && near(a.max[i], b.max[i]) &&
+               near(a.axis[i], b.axis[i]) && near(a.ray[i], b.ray[i]);
+    return same;
+}
+
+// The kernels in one of their forms.
+struct Kernels {
+    gpu::Kernel<gpu::TileClustersParams> tile, split;
+    gpu::Kernel<gpu::BlockClustersParams> block;
+    bool lanesTogether;
+
+    Kernels(const gpu::Device& device, uint32_t gbuffer, bool together)
+        : tile(device, spirv::tile_clusters_comp,
+               {{gpu::SPEC_GBUFFER, gbuffer},
+                {gpu::SPEC_TILE_CLASSES, 1u << gpu::CLASS_DIFFUSE | 1u << gpu::CLASS_SPECULAR},
+                {gpu::SPEC_LANES_TOGETHER, together}}),
+          split(device, spirv::split_tiles_comp,
+                {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_LANES_TOGETHER, together}}),
+          block(device, spirv::block_clusters_comp, {{gpu::SPEC_LANES_TOGETHER, together}}),
+          lanesTogether(together)
+    {
+    }
+};
+
+// Their descriptor sets and the buffers that they fill.
+struct State {
+    gpu::Bindings tileSet, splitSet, blockSet;
+    gpu::Buffer tiles, clusters, ofClass, splits;
+};
+
+// Dispatches at least as many groups, in two rows: large frames have more groups than one row.
+void dispatch(const gpu::Frame& f, const auto& kernel, const gpu::Bindings& set, const auto& params,
+              uint32_t groups)
+{
+    kernel.dispatch(f, set.set(0), params, divideUp(groups, 2), 2);
+    fullBarrier(f.cmd);
+}
+
+// Records what Clusters::recordClusters does.
+void record(const gpu::Frame& f, const Kernels& k, const State& s, const Places& at,
+            float splitLength)
+{
+    const gpu::TileClustersParams params{.tileCount = at.tileCount(),
+                                         .firstSplit = at.firstSlice,
+                                         .splitCapacity = at.tileCount(),
+                                         .splitLength = splitLength};
+    dispatch(f, k.tile, s.tileSet, params,
+             divideUp(params.tileCount * (k.lanesTogether ? gpu::TILE_SIZE : 1),
+                      gpu::TILE_CLUSTERS_GROUP));
+    k.split.dispatchIndirect(f, s.splitSet.set(0), params, s.splits);
+    fullBarrier(f.cmd);
+    const auto makeBlocks = [&](uint32_t childFirst, glm::uvec2 children, glm::uvec2 count,
+                                uint32_t clusterFirst) {
+        const uint32_t blocks = count.x * count.y;
+        const gpu::BlockClustersParams p{.childFirst = childFirst,
+                                         .childCountX = children.x,
+                                         .childCountY = children.y,
+                                         .blockFirst = childFirst + children.x * children.y,
+                                         .blockCountX = count.x,
+                                         .blockCount = blocks,
+                                         .clusterFirst = clusterFirst};
+        dispatch(f, k.block, s.blockSet, p,
+                 k.lanesTogether ? blocks
+                                 : divideUp(blocks * gpu::BLOCK_SLICES, gpu::BLOCK_CLUSTERS_GROUP));
+    };
+    makeBlocks(0, at.tiles, at.blocks, at.firstBlock);
+    makeBlocks(at.tileCount(), at.blocks, at.largeBlocks, at.firstLarge);
+}
+
+class ClusterBoundsTest : public LightingTest
+{
+protected:
+    // Tiles longer than `splitLength` metres are split.
+    Made make(const CpuGBuffer& g, bool lanesTogether, float splitLength);
+    // Compares what both forms make.
+    void compare(const CpuGBuffer& g, float splitLength);
+    size_t splits_ = 0; // tiles that were split in all comparisons
+
+private:
+    std::optional<Kernels> kernels_[2]; // by lanesTogether
+    State stateOf(const Kernels& k, const Places& at, const surfaces::GBufferViews& views,
+                  const surfaces::FrameUniforms& uniforms) const;
+};
+
+State ClusterBoundsTest::stateOf(const Kernels& k, const Places& at,
+                                 const surfaces::GBufferViews& views,
+                                 const surfaces::FrameUniforms& uniforms) const
+{
+    using namespace gpu;
+    const uint32_t tiles = at.tileCount();
+    std::vector<WorkList> work(2 + divideUp(tiles * sizeof(uint32_t), sizeof(WorkList)));
+    work[0] = {.groupsX =
+                   SPLIT_ROW * (k.lanesTogether ? TILE_SIZE * SLICES : 1) / SPLIT_TILES_GROUP,
+               .groupsZ = 1};
+    State s{.tileSet = k.tile.createBindings(1),
+            .splitSet = k.split.createBindings(1),
+            .blockSet = k.block.createBindings(1),
+            .tiles = readback("tiles",
+                              (tiles + at.blockCount() + at.largeCount()) * sizeof(TileClusters)),
+            .clusters = readback("clusters", at.clusters * sizeof(Cluster)),
+            .ofClass = readback("tiles of classes",
+                                TILE_CLASSES * (sizeof(WorkList) + tiles * sizeof(uint32_t))),
+            .splits = upload("splits", work)};
+    for (uint32_t i = 0; i < TILE_CLASSES; ++i)
+        s.ofClass.as<WorkList>()[i].first = i * tiles;
+    const Binding depth = Binding::sampled(TILE_CLUSTERS_DEPTH, views.depth),
+                  params = uniforms.at(0, TILE_CLUSTERS_FRAME),
+                  toClusters = Binding::of(TILE_CLUSTERS_CLUSTERS, s.clusters),
+                  toTiles = Binding::of(TILE_CLUSTERS_TILES, s.tiles),
+                  toSplits = Binding::of(TILE_CLUSTERS_SPLITS, s.splits);
+    s.tileSet.write(0,
+                    {depth, params, toClusters, toTiles, toSplits,
+                     Binding::of(TILE_CLUSTERS_SURFACES, s.ofClass)},
+                    views.bindings(TILE_CLUSTERS_GBUFFER));
+    s.splitSet.write(0, {depth, params, toClusters, toTiles, toSplits},
+                     views.normalBindings(TILE_CLUSTERS_GBUFFER));
+    s.blockSet.write(0, {Binding::of(BLOCK_CLUSTERS_CLUSTERS, s.clusters),
+                         Binding::of(BLOCK_CLUSTERS_TILES, s.tiles)});
+    return s;
+}
+
+Made ClusterBoundsTest::make(const CpuGBuffer& g, bool lanesTogether, float splitLength)
+{
+    const Images images = uploadImages(g);
+    surfaces::GBufferSource source(device(), CND_GBUFFER_FULL, {});
+    surfaces::FrameUniforms uniforms(device(), 1);
+    const auto frame = surfaceFrame<CndLightingFrame>(g, images);
+    uniforms.write(0, surfaces::frameParams(frame, source.dielectricF0()));
+    const Places at(g);
+    std::optional<Kernels>& kernels = kernels_[lanesTogether];
+    if (!kernels)
+        kernels.emplace(device(), source.code(), lanesTogether);
+    const State state = stateOf(*kernels, at, source.views(frame), uniforms);
+    gpu::Timer timer(device(), "bounds", 1, false);
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        timer.begin(cmd, 0);
+        const gpu::Frame f{device(), cmd, timer, 0};
+        source.record(f);
+        record(f, *kernels, state, at, splitLength);
+    });
+    const auto records = state.tiles.as<gpu::TileClusters>();
+    const auto bounds = state.clusters.as<gpu::Cluster>();
+    Made made{.tiles = {records.begin(), records.end()},
+              .clusters = {bounds.begin(), bounds.end()},
+              .splits = sortedTiles(state.splits, 2, 0)};
+    for (uint32_t i = 0; i < gpu::TILE_CLASSES; ++i)
+        made.ofClass[i] = sortedTiles(state.ofClass, gpu::TILE_CLASSES, i);
+    return made;
+}
+
+void ClusterBoundsTest::compare(const CpuGBuffer& g, float splitLength)
+{
+    const Made lanes = make(g, false, splitLength), groups = make(g, true, splitLength);
+    for (uint32_t i = 0; i < gpu::TILE_CLASSES; ++i)
+        EXPECT_EQ(groups.ofClass[i], lanes.ofClass[i]) << "class " << i;
+    EXPECT_EQ(groups.splits, lanes.splits);
+    splits_ += lanes.splits.size();
+    const Places at(g);
+    for (size_t i = 0; i < lanes.tiles.size(); ++i) {
+        const gpu::TileClusters &a = groups.tiles[i], &b = lanes.tiles[i];
+        ASSERT_TRUE(a.lowest == b.lowest && a.highest == b.highest && a.shift == b.shift &&
+                    a.onLists == b.onLists)
+            << "tile or block " << i;
+        if (a.lowest > a.highest)
+            continue;
+        // Where the slices of a split tile lie depends on the order in which tiles run.
+        const uint32_t count = i >= at.tileCount()       ? gpu::BLOCK_SLICES
+                               : a.shift == gpu::UNSPLIT ? 1
+                                                         : gpu::SLICES;
+        for (uint32_t k = 0; k < count; ++k)
+            EXPECT_TRUE(sameBounds(groups.clusters[a.first + k], lanes.clusters[b.first + k],
+                                   device().lanesAreCpuVector))
+                << "tile or block " << i << ", slice " << k;
+    }
+}
+
+} // namespace
+
+TEST_F(ClusterBoundsTest, GroupsAndLanesMakeTheSame)
+{
+    for (const auto& [width, height] :
+         {std::pair{1u, 1u}, {8u, 8u}, {9u, 15u}, {130u, 77u}, {331u, 200u}})
+        for (const float splitLength : {0.1f, 1.0f, 1e6f})
+            compare(randomGBuffer(width, height, width), splitLength);
+    EXPECT_GT(splits_, 200u);
+}
+
+TEST_F(ClusterBoundsTest, GroupsAndLanesFindTheSameClasses)
+{
+    compare(threeClasses(144, 96), 2);
+}
+
+TEST_F(ClusterBoundsTest, GroupsAndLanesMakeTheSameOfOrthographicFrames)
+{
+    CndCamera camera{};
+    setOrthographic(camera, 20, 1.5, 0.1, 100, false);
+    compare(randomGBuffer(150, 100, camera, 1, 4), 0.5f);
+    EXPECT_GT(splits_, 20u);
+}
+
+} // namespace candelabra::test

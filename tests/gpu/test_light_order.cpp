@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of the light sort, in which a group of lanes works on a run of lights (for GPUs) or
+// each lane on its own (for llvmpipe): both must sort as std::stable_sort does.
+#include <algorithm>
+#include <random>
+
+#include "candelabra_shaders.h"
+#include "gpu/kernel.h"
+#include "harness/gpu_fixture.h"
+#include "shared/light_order.h"
+#include "shared/lighting.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+constexpr uint32_t passes = 4;
+using Keys = std::vector<gpu::LightKey>;
+
+Keys randomKeys(uint32_t count)
+{
+    std::mt19937 random(count);
+    Keys keys(count);
+    // One key in eight is one of three, so that some digits of a run are frequent.
+    for (uint32_t i = 0; i < count; ++i)
+        keys[i] = {uint32_t(random() % 8 ? random() : random() % 3) % (1u << 24), i};
+    return keys;
+}
+
+class LightOrderTest : public GpuTest
+{
+protected:
+    // Sorts by keys of 24 bits.
+    Keys sorted(const Keys& keys, bool lanesTogether);
+};
+
+Keys LightOrderTest::sorted(const Keys& keys, bool lanesTogether)
+{
+    using namespace gpu;
+    const SpecConstant together{SPEC_LANES_TOGETHER, lanesTogether};
+    const Kernel<SortParams> count(device(), spirv::sort_count_comp, {together});
+    const Kernel<SortParams> addUp(device(), spirv::sort_sums_comp, {together});
+    const Kernel<SortParams> offsets(device(), spirv::sort_offsets_comp);
+    const Kernel<SortParams> scatter(device(), spirv::sort_scatter_comp, {together});
+    SortParams params{.lightCount = uint32_t(keys.size()),
+                      .runCount = divideUp(uint32_t(keys.size()), SORT_RUN)};
+    const uint32_t sumCount = divideUp(SORT_DIGITS * params.runCount, SORT_SUM);
+    const Buffer buffers[] = {upload("keys", keys), upload("other keys", keys)};
+    const Buffer counts = readback("counts", SORT_DIGITS * params.runCount * sizeof(uint32_t));
+    const Buffer sums = readback("sums", sumCount * sizeof(uint32_t));
+    const Bindings countSets = count.createBindings(2), scatterSets = scatter.createBindings(2),
+                   sumSet = addUp.createBindings(1), offsetSet = offsets.createBindings(1);
+    for (uint32_t i : {0u, 1u}) {
+        countSets.write(
+            i, {Binding::of(SORT_COUNT_KEYS, buffers[i]), Binding::of(SORT_COUNT_COUNTS, counts)});
+        scatterSets.write(i, {Binding::of(SORT_SCATTER_FROM, buffers[i]),
+                              Binding::of(SORT_SCATTER_TO, buffers[1 - i]),
+                              Binding::of(SORT_SCATTER_COUNTS, counts),
+                              Binding::of(SORT_SCATTER_SUMS, sums)});
+    }
+    sumSet.write(0, {Binding::of(SORT_SUMS_COUNTS, counts), Binding::of(SORT_SUMS_SUMS, sums)});
+    offsetSet.write(0, {Binding::of(SORT_OFFSETS_SUMS, sums)});
+    Timer timer(device(), "sort", 1, false);
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        timer.begin(cmd, 0);
+        const Frame f{device(), cmd, timer, 0};
+        // In two rows: many lights have more groups than one row.
+        const auto dispatch = [&](const Kernel<SortParams>& kernel, VkDescriptorSet set,
+                                  uint32_t shares) {
+            const uint32_t groups = lanesTogether ? shares : divideUp(shares, SORT_GROUP);
+            kernel.dispatch(f, set, params, divideUp(groups, 2), 2);
+            fullBarrier(cmd);
+        };
+        for (uint32_t pass = 0; pass < passes; ++pass) {
+            params.shift = pass * SORT_DIGIT_BITS;
+            dispatch(count, countSets.set(pass % 2), params.runCount);
+            dispatch(addUp, sumSet.set(0), sumCount);
+            offsets.dispatch(f, offsetSet.set(0), params, 1);
+            fullBarrier(cmd);
+            dispatch(scatter, scatterSets.set(pass % 2), params.runCount);
+        }
+    });
+    const auto out = buffers[passes % 2].as<LightKey>();
+    return Keys(out.begin(), out.end());
+}
+
+} // namespace
+
+TEST_F(LightOrderTest, GroupsAndLanesSortStably)
+{
+    for (const uint32_t count : {1, 63, 64, 65, 255, 256, 257, 4000, 70001}) {
+        Keys expected = randomKeys(count);
+        const Keys byGroups = sorted(expected, true), byLanes = sorted(expected, false);
+        std::ranges::stable_sort(expected, {}, &gpu::LightKey::key);
+        const size_t bytes = count * sizeof(gpu::LightKey);
+        EXPECT_EQ(std::memcmp(byGroups.data(), expected.data(), bytes), 0) << count;
+        EXPECT_EQ(std::memcmp(byLanes.data(), expected.data(), bytes), 0) << count;
+    }
+}
+
+} // namespace candelabra::test
