@@ -56,8 +56,8 @@ const float UNIT_FLOAT_NORMAL = 0.0078125f;     // 2^-7
 const float COLOUR_ERROR_FULL = 1.91e-6f;       // 2^-19
 const float COLOUR_ERROR_FULL_SHORT = 6.11e-5f; // 2^-14
 const float ROUGHNESS_ERROR_FULL = 1.53e-5f;    // 2^-16
-// Largest errors of F90 in FULL and of perceptual roughness in COMPACT: half a step of the unorm, and
-// the rounding of the division that unpacks it, which Vulkan allows to be wrong by 2.5 ULP.
+// Largest errors of F90 in FULL and of perceptual roughness in COMPACT: half a step of the unorm,
+// and the rounding of the division that unpacks it, which Vulkan allows to be wrong by 2.5 ULP.
 const float F90_ERROR_FULL = 1.55e-5f;
 const float ROUGHNESS_ERROR_COMPACT = 1.97e-3f;
 
