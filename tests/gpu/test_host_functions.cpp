@@ -7,6 +7,7 @@
 
 #include "candelabra/compiler.hpp"
 #include "gpu/environment_harness.h"
+#include "gpu/gpu_like_device.h"
 #include "gpu/host_surface.h"
 
 namespace candelabra::test
@@ -175,6 +176,25 @@ TEST_F(HostFunctions, AShadowTermScalesEachLightById)
     EXPECT_TRUE(sameBits(frame(view, options), image));
     cndDestroyLightingView(narrow);
     destroy(lighting, view);
+}
+
+// On GPUs, lanes evaluate the lights of several pixels together, and ask the shadow term for each.
+TEST_F(HostFunctions, FormsForGpusAskTheShadowTermAlike)
+{
+    const CompiledKernels kernels =
+        compiled({.functions = CND_HOST_VISIBILITY_BIT, .source = shadowSource});
+    const std::vector<CndLight> lights = lightsOf(CND_LIGHT_SPHERE, g_, 300, 41);
+    std::vector<CndLight> scaled;
+    for (const CndLight& light : lights)
+        scaled.push_back(shadowed(scaled.size(), light));
+    const RunOptions plain{.specular = CND_SPECULAR_CONIC};
+    RunOptions options = withShadows(kernels, plain);
+    const LightingResult alone = run(g_, lights, options);
+    EXPECT_TRUE(agree(alone.radiance, run(g_, scaled, plain).radiance));
+    EXPECT_FALSE(sameBits(alone, run(g_, lights, plain)));
+    const CndDeviceDesc gpu = gpuLike(deviceDesc());
+    options.host = &gpu;
+    EXPECT_TRUE(sameBits(run(g_, lights, options), alone));
 }
 
 // Ids of lights that are added and removed, and of lights on the device. Compares with kernels

@@ -45,6 +45,8 @@ struct LightingWay {
     CndInfluence influence{};
 };
 
+constexpr uint32_t skipMethods = 1u << CND_SPECULAR_CONIC; // the methods that all frames draw with
+
 // Frames of one scene: different ways to draw it that share a G-buffer.
 class SkipStage
 {
@@ -76,7 +78,7 @@ SkipStage::SkipStage(const VulkanContext& context, const Scene& scene, PixelSize
     : context_(context),
       scene_(scene),
       options_{.camera = selectCamera(scene, ""), .lightsVisible = false},
-      renderer_(context, scene, {.size = size, .specularMethods = 1u << CND_SPECULAR_CONIC})
+      renderer_(context, scene, {.size = size, .specularMethods = skipMethods})
 {
     cndDefaultExposureSettings(&options_.exposure);
 }
@@ -92,6 +94,7 @@ Drawing SkipStage::lighting(const Lights& lights, const LightingWay& way)
     own->lighting = take(Lighting::create(
         context_.desc(), {.framesInFlight = 1,
                           .timestamps = VK_TRUE,
+                          .specularMethods = skipMethods,
                           .materialClasses = way.materialClasses,
                           .influenceByError = way.influence.rule == CND_INFLUENCE_BY_ERROR}));
     const auto [width, height] = renderer_.size();
