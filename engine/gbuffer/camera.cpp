@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gbuffer/camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -87,6 +88,38 @@ double CameraTerms::pixelScale(uint32_t width, uint32_t height) const
     // The larger eigenvalue of the products of x and y.
     const double xx = glm::dot(x, x), yy = glm::dot(y, y), xy = glm::dot(x, y);
     return std::sqrt(0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy));
+}
+
+VkRect2D CameraTerms::pixelsOfBall(const glm::dvec3& center, double radius, uint32_t width,
+                                   uint32_t height) const
+{
+    const glm::dmat4 clip(clipFromView);
+    const glm::dvec4 w = glm::row(clip, 3), c(center, 1);
+    const double r2 = radius * radius;
+    // product(a, a) is 0 if the plane a touches the ball: it is d^2 - radius^2, where d is how far
+    // the plane is from the ball's centre, times the squared length of the plane's normal.
+    const auto product = [&](const glm::dvec4& a, const glm::dvec4& b) {
+        return glm::dot(a, c) * glm::dot(b, c) - r2 * glm::dot(glm::dvec3(a), glm::dvec3(b));
+    };
+    const double ww = product(w, w);
+    const bool inFront = ww > 0 && glm::dot(w, c) > 0; // of the plane through the eye
+    // The points at ndc.x are a plane, row 0 - ndc.x w. At either end of the ball's image it
+    // touches the ball: product(row 0 - ndc.x w, row 0 - ndc.x w) = 0. The same holds for ndc.y.
+    const auto range = [&](int row, uint32_t pixels) -> std::array<uint32_t, 2> {
+        if (!inFront)
+            return {0, pixels};
+        const glm::dvec4 r = glm::row(clip, row);
+        const double rw = product(r, w);
+        const double root = std::sqrt(std::max(rw * rw - ww * product(r, r), 0.0));
+        // The pixel at an end, and one more, because shaders round.
+        const auto pixelAt = [&](double ndc, double margin) {
+            const double pixel = std::floor((0.5 + 0.5 * ndc) * pixels) + margin;
+            return uint32_t(std::clamp(pixel, 0.0, double(pixels)));
+        };
+        return {pixelAt((rw - root) / ww, -1), pixelAt((rw + root) / ww, 2)};
+    };
+    const auto x = range(0, width), y = range(1, height);
+    return {{int32_t(x[0]), int32_t(y[0])}, {x[1] - x[0], y[1] - y[0]}};
 }
 
 } // namespace candelabra::gbuffer

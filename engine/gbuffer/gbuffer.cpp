@@ -44,6 +44,7 @@ gpu::RasterFrame rasterFrame(const CameraTerms& camera, const FrameInputs& in,
         f.rayDirection[i] = glm::vec3(camera.rayDirection[i]);
     }
     f.size = {float(in.width), float(in.height)};
+    f.inverseSize = {float(1.0 / in.width), float(1.0 / in.height)};
     f.perspective = camera.perspective ? 1.f : 0.f;
     f.nearDepth = camera.reversedDepth ? 1.f : 0.f;
     f.forward = glm::vec3(camera.forward);
@@ -119,7 +120,7 @@ struct GBuffer::Impl {
     void drawMeshes(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
                     bool emissive) const noexcept;
     void drawAnalytic(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
-                      uint32_t slot) const noexcept;
+                      const FrameInputs& in) const noexcept;
     void drawBackground(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
     void drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records,
                       uint32_t slot) const noexcept;
@@ -246,20 +247,29 @@ void GBuffer::Impl::drawMeshes(VkCommandBuffer cmd, const GeometryImpl& g,
 }
 
 void GBuffer::Impl::drawAnalytic(VkCommandBuffer cmd, const GeometryImpl& g,
-                                 const CameraTerms& camera, uint32_t slot) const noexcept
+                                 const CameraTerms& camera, const FrameInputs& in) const noexcept
 {
-    bindRays(cmd, pipelines.analyticLayout.get(), slot);
+    bindRays(cmd, pipelines.analyticLayout.get(), in.slot);
+    const VkRect2D everywhere{{0, 0}, {in.width, in.height}};
     for (const AnalyticObject& object : g.analyticObjects) {
-        const uint32_t shape =
-            object.type == AnalyticObject::Type::Plane ? gpu::ANALYTIC_PLANE : gpu::ANALYTIC_BALL;
+        const bool isBall = object.type == AnalyticObject::Type::Ball;
+        const VkRect2D area =
+            isBall ? camera.pixelsOfBall(camera.viewFrom(glm::make_vec3(object.point)),
+                                         object.radius, in.width, in.height)
+                   : everywhere;
+        if (area.extent.width == 0 || area.extent.height == 0)
+            continue;
         const gpu::AnalyticParams params =
             analyticParams(object, g.materialFactors[object.material], camera);
-        device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                               pipelines.analytic[shape].get());
+        device.CmdSetScissor(cmd, 0, 1, &area);
+        device.CmdBindPipeline(
+            cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,
+            pipelines.analytic[isBall ? gpu::ANALYTIC_BALL : gpu::ANALYTIC_PLANE].get());
         device.CmdPushConstants(cmd, pipelines.analyticLayout.get(), VK_SHADER_STAGE_FRAGMENT_BIT,
                                 0, sizeof params, &params);
         device.CmdDraw(cmd, 3, 1, 0, 0);
     }
+    device.CmdSetScissor(cmd, 0, 1, &everywhere);
 }
 
 // Draws it where the depth is still clear.
@@ -358,7 +368,7 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
     if (meshes)
         s.drawMeshes(cmd, g, camera, true);
     if (in.drawAnalytic && !g.analyticObjects.empty())
-        s.drawAnalytic(cmd, g, camera, in.slot);
+        s.drawAnalytic(cmd, g, camera, in);
     if (in.drawEmitters && !s.emitters.empty())
         s.drawEmitters(cmd, emitters, in.slot);
     s.device.CmdEndRendering(cmd);

@@ -21,21 +21,21 @@ void main()
     if (shape == ANALYTIC_PLANE) {
         // height and slope were projected onto the normal in double precision, so nothing cancels in
         // float.
-        const float height = params.height.x + ndc.x * params.height.y + ndc.y * params.height.z;
-        const float slope = params.slope.x + ndc.x * params.slope.y + ndc.y * params.slope.z;
-        const vec3 origin =
-            frame.rayOrigin[0] + ndc.x * frame.rayOrigin[1] + ndc.y * frame.rayOrigin[2];
-        const vec3 direction =
-            frame.rayDirection[0] + ndc.x * frame.rayDirection[1] + ndc.y * frame.rayDirection[2];
+        precise const float height =
+            params.height.x + ndc.x * params.height.y + ndc.y * params.height.z;
+        precise const float slope =
+            params.slope.x + ndc.x * params.slope.y + ndc.y * params.slope.z;
+        precise const float t = -height * portableReciprocal(slope);
         hit = height > 0.0 && slope < 0.0;
-        positionView = origin - height / slope * direction;
+        positionView = pointAt(affineInNdc(frame.rayOrigin, ndc),
+                               affineInNdc(frame.rayDirection, ndc), t);
         normal = params.normalOrCenter;
     } else {
         const Ray ray = pixelRay(ndc);
         const SphereHit sphere =
             intersectSphere(ray, params.normalOrCenter, params.radius, params.power);
         hit = sphere.hit && (sphere.near > 0.0 || frame.perspective < 0.5);
-        positionView = ray.origin + sphere.near * ray.direction;
+        positionView = pointAt(ray.origin, ray.direction, sphere.near);
         normal = sphere.normal;
     }
     const float depth = depthOf(positionView);

@@ -20,7 +20,7 @@ layout(location = 2) out uvec2 outSpecular;
 layout(location = RADIANCE_LOCATION) out vec4 outRadiance; // cd/m^2
 #endif
 
-// `normal` is a unit vector in view space.
+// `normal` is in view space, of any length but 0.
 void writeSurface(vec3 normal, MaterialSample m)
 {
 #ifdef EMISSIVE

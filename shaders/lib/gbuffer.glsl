@@ -4,6 +4,7 @@
 #ifndef CND_LIB_GBUFFER_GLSL
 #define CND_LIB_GBUFFER_GLSL
 
+#include "lib/portable_math.glsl"
 #include "shared/gbuffer.h"
 
 struct Surface {
@@ -15,12 +16,14 @@ struct Surface {
 };
 
 // Maps a direction onto [-1, 1]^2 by way of an octahedron (Meyer et al. 2010, "On floating-point normal
-// vectors"). `n` must not be zero; it need not be normalised.
+// vectors"). The same bits on every device. `n` must not be zero; it need not be normalised.
 vec2 encodeOctahedral(vec3 n)
 {
-    precise const vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    precise const float sum = abs(n.x) + abs(n.y) + abs(n.z);
+    precise const vec2 p = n.xy * portableReciprocal(sum);
     const vec2 s = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-    return n.z >= 0.0 ? p : (1.0 - abs(p.yx)) * s;
+    precise const vec2 folded = (1.0 - abs(p.yx)) * s;
+    return n.z >= 0.0 ? p : folded;
 }
 
 vec3 decodeOctahedral(vec2 p)
@@ -35,7 +38,8 @@ vec3 decodeOctahedral(vec2 p)
 uvec2 quantizeOctahedral(vec3 n, uint bits)
 {
     const float scale = float((1u << (bits - 1u)) - 1u);
-    const ivec2 k = ivec2(roundEven(clamp(encodeOctahedral(n), -1.0, 1.0) * scale));
+    precise const vec2 scaled = clamp(encodeOctahedral(n), -1.0, 1.0) * scale;
+    const ivec2 k = ivec2(roundEven(scaled));
     return uvec2(k) & ((1u << bits) - 1u);
 }
 

@@ -33,6 +33,12 @@ struct SphereProbeOutput {
 };
 GPU_SIZE(SphereProbeOutput, 12)
 
+// What the functions of lib/portable_math.glsl return for a positive float.
+struct PortableProbeOutput {
+    float reciprocal, inverseSqrt, root;
+};
+GPU_SIZE(PortableProbeOutput, 12)
+
 // The specular response to a sphere light with its centre at toLight. The shaded point is at the
 // origin, its normal is +z, the eye is in the direction v.
 struct ConicProbeInput {

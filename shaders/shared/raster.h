@@ -157,11 +157,12 @@ struct RasterFrame {
                         // eye
     vec3 rayDirection[3]; // likewise; towards the scene, not normalised
     vec2 size;            // pixels
+    vec2 inverseSize;     // 1 / size
     float perspective;    // 1, or 0: orthographic
     float nearDepth;      // depth of the near plane: 1 reversed, else 0
     vec3 forward;         // unit viewing direction; orthographic: direction of every ray
 };
-GPU_SIZE(RasterFrame, 212)
+GPU_SIZE(RasterFrame, 220)
 const uint RAY_FRAME = 0u; // uniform buffer binding of analytic surfaces, emitters and background
 
 const uint ANALYTIC_PLANE = 0u;

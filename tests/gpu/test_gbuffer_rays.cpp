@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests ray-cast surfaces against double precision: planes, balls and visible sphere lights.
 #include <array>
+#include <climits>
 #include <cmath>
 #include <cstdio>
 #include <set>
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gbuffer/camera.h"
 #include "gpu/raster_rays.h"
 #include "harness/constants.h"
+#include "io/hash.h"
 #include "shared/gbuffer.h"
 
 namespace candelabra::test
@@ -146,8 +149,97 @@ TEST_F(GBufferRays, BallReconstructsToTheExactPoint)
         }
 }
 
+// The pixels in which a ball is drawn are all that it covers, and no more than three at each side.
+TEST_F(GBufferRays, BallsAreDrawnWhereTheyAreSeen)
+{
+    Random random(47);
+    size_t tight = 0;
+    for (int kind = 0; kind < 4; ++kind) {
+        RasterOptions options = perspectiveOptions();
+        setProjection(options, kind);
+        lookAt(options.camera, {0.3, 1, 5.4}, {0, -0.2, 0});
+        const gbuffer::CameraTerms camera(options.camera, options.clearDepth);
+        std::vector<Ray> rays;
+        for (uint32_t y = 0; y < options.height; ++y)
+            for (uint32_t x = 0; x < options.width; ++x)
+                rays.push_back(pixelRay(options, x, y));
+        for (int i = 0; i < 200; ++i) {
+            const glm::dvec3 center = random.box(7);
+            const double radius = std::exp(random.uniform(std::log(0.1), std::log(3)));
+            const glm::dvec3 view = camera.viewFrom(center);
+            const VkRect2D area = camera.pixelsOfBall(view, radius, options.width, options.height);
+            glm::ivec2 first(INT_MAX), end(0);
+            for (size_t r = 0; r < rays.size(); ++r) {
+                const SphereHit hit = hitSphere(rays[r], center, radius);
+                if (hit.near == never || (camera.perspective && hit.near <= 0))
+                    continue;
+                const glm::ivec2 pixel(r % options.width, r / options.width);
+                first = glm::min(first, pixel);
+                end = glm::max(end, pixel + 1);
+            }
+            if (end.x == 0)
+                continue; // not seen
+            const glm::ivec2 areaFirst(area.offset.x, area.offset.y);
+            const glm::ivec2 areaEnd =
+                areaFirst + glm::ivec2(area.extent.width, area.extent.height);
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(areaFirst, first)));
+            EXPECT_TRUE(glm::all(glm::greaterThanEqual(areaEnd, end)));
+            // Balls beside the eye are drawn everywhere, and of balls that the image cuts off only
+            // a part is seen.
+            const glm::ivec2 size(options.width, options.height);
+            if (glm::any(glm::equal(areaFirst, glm::ivec2(0))) ||
+                glm::any(glm::equal(areaEnd, size)))
+                continue;
+            ++tight;
+            EXPECT_TRUE(glm::all(glm::greaterThanEqual(areaFirst, first - 3)));
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(areaEnd, end + 3)));
+        }
+    }
+    EXPECT_GT(tight, 100u);
+}
+
+// Frames of balls on a plane, under every projection: a sum of all bits of the G-buffer is the same
+// on every device.
+TEST_F(GBufferRays, PlanesAndBallsHaveTheSameBitsOnEveryDevice)
+{
+    constexpr std::array<uint64_t, 4> expected{106874427405371083ull, 3831618650672795399ull,
+                                               651389545891849883ull, 17549362541624671859ull};
+    RasterScene scene;
+    for (const float roughness : {0.2f, 0.9f}) {
+        gbuffer::Material m = testMaterial();
+        m.perceptualRoughness = roughness;
+        scene.addMaterial(m);
+    }
+    scene.analyticObjects.push_back(plane({0, -1, 0}, {0, 1, 0}));
+    Random random(46);
+    for (int i = 0; i < 200; ++i) {
+        const double radius = std::exp(random.uniform(std::log(0.01), std::log(1)));
+        scene.analyticObjects.push_back(ball(random.box(3), radius));
+        scene.analyticObjects.back().material = 1;
+    }
+    scene.analyticObjects.push_back(ball({0, 0, 7}, 1.5)); // the camera is close to it
+    for (int kind = 0; kind < 4; ++kind) {
+        RasterOptions options = perspectiveOptions();
+        options.width = 320, options.height = 240;
+        setProjection(options, kind);
+        lookAt(options.camera, {0.3, 1, 5.4}, {0, -0.2, 0});
+        const RasterImage image = render(scene, options);
+        EXPECT_GT(image.coveredCount(), 40000u);
+        app::Hash bits;
+        const auto add = [&](const std::vector<glm::uvec2>& words) {
+            for (const glm::uvec2& w : words)
+                bits.add(w.x), bits.add(w.y);
+        };
+        add(image.normalRoughness);
+        add(image.albedo);
+        add(image.specular);
+        bits.add(std::span<const float>(image.depth));
+        EXPECT_EQ(bits.value(), expected[kind]) << "projection " << kind;
+    }
+}
+
 // What planes and balls store of their materials are the bits of a second implementation of the
-// format, on every device. (Vulkan lets devices round normals differently.)
+// format.
 TEST_F(GBufferRays, MaterialsHaveTheSameBitsOnEveryDevice)
 {
     RasterScene scene;
