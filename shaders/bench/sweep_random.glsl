@@ -58,12 +58,15 @@ float randomSign()
     return chance(0.5) ? 1.0 : -1.0;
 }
 
+// Directions are normalised, because sin() and cos() may be wrong by 2^-11 on some devices, and the
+// G-buffer holds unit normals.
+
 vec3 randomDirection()
 {
     const float z = randomRange(-1.0, 1.0);
     const float angle = 2.0 * PI * random01();
     const float r = sqrt(max(1.0 - z * z, 0.0));
-    return vec3(r * cos(angle), r * sin(angle), z);
+    return normalize(vec3(r * cos(angle), r * sin(angle), z));
 }
 
 // Returns zero, about an ulp, or a little more: a difference between equal or nearly equal values.
@@ -88,7 +91,8 @@ vec3 directionAt(vec3 n, float cosine)
     const vec3 w = cross(n, u);
     const float angle = 2.0 * PI * random01();
     const float c = clamp(cosine, -1.0, 1.0);
-    return c * n + sqrt(max(1.0 - c * c, 0.0)) * (cos(angle) * u + sin(angle) * w);
+    const float s = sqrt(max(1.0 - c * c, 0.0));
+    return normalize(c * n + s * (cos(angle) * u + sin(angle) * w));
 }
 
 #endif

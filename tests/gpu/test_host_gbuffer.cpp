@@ -4,6 +4,7 @@
 // both get the surfaces as they are after the host's rounding; what that rounding costs is printed.
 #include "gpu/host_gbuffer_harness.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -199,6 +200,18 @@ TEST_P(Layouts, AreLitLikeOurOwn)
     EXPECT_TRUE(agree(host, brute));
 }
 
+// Whether the normal of a pixel points at an edge between two faces of a cube map, but for
+// rounding. Normals of few bits often do.
+bool pointsAtCubeEdge(const CpuGBuffer& g, size_t pixel)
+{
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, g.camera.viewFromWorld, sizeof viewFromWorld);
+    const glm::dvec3 world = glm::transpose(glm::dmat3(viewFromWorld)) * storedNormal(g, pixel);
+    std::array<double, 3> n{std::abs(world.x), std::abs(world.y), std::abs(world.z)};
+    std::sort(n.begin(), n.end());
+    return n[2] - n[1] < 1e-5;
+}
+
 TEST_P(Layouts, AreLitByTheEnvironmentLikeOurOwn)
 {
     const HostPixels pixels = randomSurfaces(GetParam());
@@ -216,7 +229,14 @@ TEST_P(Layouts, AreLitByTheEnvironmentLikeOurOwn)
         EXPECT_EQ(cndRecordEnvironment(environment_, cmd, &frame, &error), CND_SUCCESS)
             << error.message;
     });
-    const double difference = maxRelativeDifference(readRadiance(images), own);
+    std::vector<glm::vec4> lit = readRadiance(images);
+    // On drivers that do not filter across the edges of cube maps, what the faces show differs
+    // there, and rounding decides which face is read.
+    if (whyNoReflections())
+        for (size_t i = 0; i < lit.size(); ++i)
+            if (pointsAtCubeEdge(pixels.asFull, i))
+                lit[i] = own[i];
+    const double difference = maxRelativeDifference(lit, own);
     std::cout << GetParam().name << ": largest difference of the peak " << difference << '\n';
     EXPECT_LT(difference, GetParam().tolerance);
 }

@@ -74,7 +74,11 @@ double distanceOf(const gpu::SweepRecord& r)
 // A million configurations: the first 13,000 of every slice, type and method. Rounding of the
 // inputs alone moves a narrow lobe by 6e-8 / alpha, a light across the border between two forms,
 // and, by its square root, the edge of the cap seen from a sphere's surface. Receivers at the very
-// centre, which have no direction, are left out: a few percent of three slices.
+// centre, which have no direction, are left out: a few percent of three slices. Where a mirror ray
+// grazes, the half vector of KX is the sum of nearly opposite vectors. In SwiftShader's worst case
+// it is 7e-4 long and alpha is 9e-4: if the direction to the light is rounded by 1e-7, as on
+// llvmpipe, the response is wrong by 0.06, by twice that, 0.23. (Vulkan allows inverse square roots
+// 2 ULP.)
 TEST_F(SweepInDouble, EveryInputOfTheSweepIsTheFormulaInDouble)
 {
     constexpr uint32_t each = 13'000;
@@ -121,7 +125,8 @@ TEST_F(SweepInDouble, EveryInputOfTheSweepIsTheFormulaInDouble)
                       << worst << "; diffuse largest " << worstDiffuse << " s^2\n";
             EXPECT_LE(sum, 2e-5 * double(count)) << name;
             EXPECT_LE(above1e3, count / 1000) << name;
-            EXPECT_LE(worst, 0.2) << name << ": " << where;
+            const bool roundsMore = method == CND_SPECULAR_KX && !device().lanesAreCpuVector;
+            EXPECT_LE(worst, roundsMore ? 0.3 : 0.2) << name << ": " << where;
             EXPECT_LE(worstDiffuse, 1e-3) << name << ": " << whereDiffuse;
         }
     EXPECT_GE(compared, 1'000'000u);
