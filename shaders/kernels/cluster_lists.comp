@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes the list of lights of each cluster, in the order of the lights and without a limit of its
-// length. A list is found in the list of the cluster's parent, or in the light tree if the parent has
-// no list, and written into pages of the entry buffer. On GPUs the lanes of a group make one list
-// together. On llvmpipe each lane makes one by itself. Both find the same lights. Where a page lies
-// depends on the schedule; which lights a list holds does not. A list that finds no page is marked as
-// unlisted, and a list that is too long for a loop of the device is marked as long. The tiles of both
-// are shaded without lists, by the same lights. Between the two pipelines the last bits may differ
-// (DECISIONS 12 and 42).
+// length. A list is found in the list of the cluster's parent, or in the light tree if the parent
+// has no list, and written into pages of the entry buffer. On GPUs the lanes of a group make one
+// list together, or several short ones. On llvmpipe each lane makes one by itself. All find the
+// same lights. Where a page lies depends on the schedule; which lights a list holds does not. A
+// list that finds no page is marked as unlisted, and a list that is too long for a loop of the
+// device is marked as long. The tiles of both are shaded without lists, by the same lights. Between
+// the two pipelines the last bits may differ (DECISIONS 12 and 42).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/cluster_test.glsl"
@@ -49,13 +49,15 @@ layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
     LightingCounters counters;
 };
 
-#include "kernels/common/count_lanes.glsl"
 #include "kernels/common/cluster_of_list.glsl"
+#include "kernels/common/count_lanes.glsl"
+
 #include "kernels/common/list_by_group.glsl"
 #include "kernels/common/list_by_lane.glsl"
+#include "kernels/common/lists_together.glsl"
 
-// Appends the tile of a cluster that lights touch to the tiles that are shaded with lists or to those
-// that are shaded without, and counts the cluster's list.
+// Appends the tile of a cluster that lights touch to the tiles that are shaded with lists or to
+// those that are shaded without, and counts the cluster's list.
 void appendTile(uint tile, ListWriter list, bool tooLong)
 {
     const bool withoutList = tooLong || (list.full && list.found != 0u);
@@ -67,30 +69,58 @@ void appendTile(uint tile, ListWriter list, bool tooLong)
     atomicMax(counters.maxListLength, list.found);
 }
 
-void main()
+// Completes the list of a cluster, which belongs to `tile` unless it is a block's.
+void completeList(uint at, uint tile, ListWriter list, bool tooLong)
 {
-    const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    const uint index = lanesTogether ? group : group * LANES + gl_LocalInvocationIndex;
+    lists[at] = endList(list, tooLong);
+    if (params.which != LISTS_OF_BLOCKS)
+        appendTile(tile, list, tooLong);
+}
+
+// Each lane makes a list.
+void makeByLane(uint index)
+{
     uint at;
     if (!clusterOfList(index, at))
         return;
     const Cluster cluster = clusters[at];
     if (cluster.min.x > cluster.max.x)
         return;
-    const ClusterBounds bounds = makeClusterBounds(cluster);
     const uint parent = params.hasParents != 0u ? lists[cluster.parent] : LIST_UNLISTED;
-    const bool isBlock = params.which == LISTS_OF_BLOCKS;
     ListWriter list = beginList();
-    bool tooLong;
-    if (lanesTogether) {
-        beginLanes();
-        tooLong = listOfGroup(list, bounds, parent, isBlock);
-        if (lane != 0u)
-            return;
-    } else {
-        tooLong = listOfLane(list, bounds, parent, isBlock);
+    const bool tooLong =
+        listOfLane(list, makeClusterBounds(cluster), parent, params.which == LISTS_OF_BLOCKS);
+    completeList(at, cluster.tile, list, tooLong);
+}
+
+// The lanes of a group make a list that is not short, and the first group of a set makes the short
+// lists of the set.
+void makeByGroup(uint group)
+{
+    beginLanes();
+    uint at, parent;
+    if (clusterWithList(group, at, parent) && !isShortList(parent)) {
+        ListWriter list = beginList();
+        const bool tooLong = listOfGroup(list, makeClusterBounds(clusters[at]), parent,
+                                         params.which == LISTS_OF_BLOCKS);
+        if (lane == 0u)
+            completeList(at, clusters[at].tile, list, tooLong);
     }
-    lists[at] = endList(list, tooLong);
-    if (!isBlock)
-        appendTile(cluster.tile, list, tooLong);
+    if (group % LISTS_TOGETHER != 0u || params.hasParents == 0u)
+        return;
+    const uint shortLists = makeShortLists(group);
+    if ((shortLists & (1u << lane)) != 0u) {
+        const ListWriter list = shortList(lane);
+        completeList(setCluster[lane], clusters[setCluster[lane]].tile, list,
+                     list.found > params.longest);
+    }
+}
+
+void main()
+{
+    const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    if (lanesTogether)
+        makeByGroup(group);
+    else
+        makeByLane(group * LANES + gl_LocalInvocationIndex);
 }

@@ -102,23 +102,12 @@ void makeClusterOfTile(gpu::Cluster& c, uint32_t tile, std::mt19937& random)
         std::swap(c.min, c.max);
 }
 
-// `largest`: length of the boxes of large blocks, as a share of the cube.
-Scene randomScene(uint32_t lights, uint32_t seed, float largest = 0.6f)
+// Adds the clusters of tiles and of slices, each in some block, and the records of tiles.
+void addTiles(Scene& s, float share, std::mt19937& random)
 {
-    Scene s;
-    std::mt19937 random(seed);
-    addLights(s, lights, random);
-    s.cluster.resize(Scene::clusters);
-    s.cluster[0] = {.min = {-10, -10, -40}, .max = {10, 10, -20}};
-    const auto parent = [&](uint32_t first, uint32_t count) {
-        return first + uint32_t(random()) % count;
-    };
-    for (uint32_t i = Scene::firstLarge; i < Scene::clusters; ++i)
-        s.cluster[i] = clusterIn(s, 0, largest, random);
-    for (uint32_t i = Scene::firstBlock; i < Scene::firstLarge; ++i)
-        s.cluster[i] = clusterIn(s, parent(Scene::firstLarge, Scene::largeBlocks), 0.5f, random);
     for (uint32_t i = 0; i < Scene::firstBlock; ++i) {
-        s.cluster[i] = clusterIn(s, parent(Scene::firstBlock, Scene::blocks), 0.5f, random);
+        const uint32_t block = Scene::firstBlock + uint32_t(random()) % Scene::blocks;
+        s.cluster[i] = clusterIn(s, block, share, random);
         const uint32_t tile = i < Scene::tiles ? i : (i - Scene::firstSlice) / gpu::SLICES;
         makeClusterOfTile(s.cluster[i], tile, random);
     }
@@ -129,6 +118,63 @@ Scene randomScene(uint32_t lights, uint32_t seed, float largest = 0.6f)
             s.tile.push_back({0, 1, 0, gpu::UNSPLIT, 0});
         else
             s.tile.push_back({i, 0, 7, gpu::UNSPLIT, (i % 2) << gpu::CLASS_BITS});
+}
+
+// `largest`: length of the boxes of large blocks, as a share of the cube.
+Scene randomScene(uint32_t lights, uint32_t seed, float largest = 0.6f)
+{
+    Scene s;
+    std::mt19937 random(seed);
+    addLights(s, lights, random);
+    s.cluster.resize(Scene::clusters);
+    s.cluster[0] = {.min = {-10, -10, -40}, .max = {10, 10, -20}};
+    for (uint32_t i = Scene::firstLarge; i < Scene::clusters; ++i)
+        s.cluster[i] = clusterIn(s, 0, largest, random);
+    for (uint32_t i = Scene::firstBlock; i < Scene::firstLarge; ++i) {
+        const uint32_t large = Scene::firstLarge + uint32_t(random()) % Scene::largeBlocks;
+        s.cluster[i] = clusterIn(s, large, 0.5f, random);
+    }
+    addTiles(s, 0.5f, random);
+    return s;
+}
+
+// How many lights the lists of consecutive blocks of blockScene have: up to a page, of 63 lights,
+// lists of tiles are made together, and runs of pairs end next to and far from those of 8, 16 and
+// 32 lanes.
+constexpr uint32_t lightsOfBlocks[] = {1, 7, 8, 0, 31, 32, 33, 62, 63, 64, 126, 127, 130};
+
+// Blocks lie in a row, far from each other, each with as many lights of its own as lightsOfBlocks
+// says. `reach`: m, radius of influence of the lights.
+Scene blockScene(uint32_t seed, float reach, float share)
+{
+    Scene s;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    s.tree = {.firstLight = 3, .firstNode = 1};
+    s.core.resize(2 * s.tree.firstLight);
+    s.cluster.resize(Scene::clusters);
+    constexpr uint32_t perLarge = gpu::divideUp(Scene::blocks, Scene::largeBlocks);
+    for (uint32_t i = 0; i < Scene::blocks; ++i) {
+        const glm::vec3 middle(100 * i, 0, -30);
+        gpu::Cluster& large = s.cluster[Scene::firstLarge + i / perLarge];
+        if (i % perLarge == 0)
+            large = {.min = middle - 2.0f};
+        large.max = middle + 2.0f;
+        s.cluster[Scene::firstBlock + i] = {
+            .min = middle - 2.0f, .max = middle + 2.0f, .parent = Scene::firstLarge + i / perLarge};
+        const uint32_t lights = lightsOfBlocks[i % std::size(lightsOfBlocks)];
+        for (uint32_t k = 0; k < lights; ++k) {
+            s.core.emplace_back(middle + 2.0f * glm::vec3(unit(random), unit(random), unit(random)),
+                                0.1f);
+            s.core.emplace_back(1, 1, 1, reach * reach);
+        }
+        s.tree.lightCount += lights;
+    }
+    for (uint32_t i = Scene::firstBlock; i < Scene::clusters; ++i) {
+        s.cluster[i].slabMin = -1e6f;
+        s.cluster[i].slabMax = 1e6f;
+    }
+    addTiles(s, share, random);
     return s;
 }
 
@@ -347,25 +393,55 @@ TEST_F(ClusterListsTest, GroupsAndLanesMakeTheSameOfAMillionLights)
     EXPECT_GT(group.counters.listEntries, 1000u);
 }
 
+// Lists of tiles are made together or alone, depending on how long the lists of their parents are.
+// Lights of a turn belong to several lists, some lists do not exist, and some are empty.
+TEST_F(ClusterListsTest, ListsThatShareAGroupHoldTheirOwnLights)
+{
+    size_t wholePages = 0;
+    for (const auto& [reach, share] : {std::pair(0.3f, 0.5f), {1.0f, 0.3f}, {8.0f, 1.0f}})
+        for (const uint32_t lanes : {8, 16, 32}) {
+            SCOPED_TRACE(testing::Message() << reach << " m, " << lanes << " lanes");
+            const Scene scene = blockScene(lanes, reach, share);
+            const Made lane = make(scene, byLane), group = make(scene, {true, lanes});
+            const Lights listed = lightsOf(group);
+            EXPECT_EQ(listed, lightsOf(lane));
+            for (uint32_t i = 0; i < Scene::blocks; ++i)
+                EXPECT_EQ(listed[Scene::firstBlock + i].size(),
+                          lightsOfBlocks[i % std::size(lightsOfBlocks)]);
+            EXPECT_EQ(group.lit, lane.lit);
+            EXPECT_EQ(group.counters.listEntries, lane.counters.listEntries);
+            EXPECT_EQ(group.counters.maxListLength, lane.counters.maxListLength);
+            for (uint32_t i = 0; i < Scene::firstBlock; ++i)
+                wholePages += listed[i].size() == gpu::PAGE_LIGHTS;
+        }
+    EXPECT_GT(wholePages, 5u);
+}
+
 // Which lists find pages depends on the schedule. Those that do hold the same lights as with enough
 // pages, and all others are marked.
 TEST_F(ClusterListsTest, ListsOfGroupsWithoutRoomAreMarked)
 {
-    const Scene scene = randomScene(5000, 6);
-    const Made whole = make(scene, byGroup);
-    const Lights expected = lightsOf(whole);
-    for (const Form form : {byLane, byGroup}) {
-        const Made few = make(scene, form, {.pages = 60});
-        const Lights got = lightsOf(few);
-        for (uint32_t i = 0; i < Scene::clusters; ++i)
-            if (few.heads[i] != gpu::LIST_UNLISTED && few.heads[i] != gpu::LIST_LONG) {
-                EXPECT_EQ(got[i], expected[i]) << i;
-            }
-        const long unlisted = countHeads(few, gpu::LIST_UNLISTED, Scene::firstBlock);
-        EXPECT_GT(unlisted, 10);
-        EXPECT_EQ(few.counters.unlistedClusters, unlisted);
-        EXPECT_FALSE(few.unlisted.empty());
-    }
+    const auto check = [&](const Scene& scene, uint32_t pages, long leastListed) {
+        const Lights expected = lightsOf(make(scene, byGroup));
+        for (const Form form : {byLane, byGroup}) {
+            const Made few = make(scene, form, {.pages = pages});
+            const Lights got = lightsOf(few);
+            long listed = 0;
+            for (uint32_t i = 0; i < Scene::clusters; ++i)
+                if (few.heads[i] != gpu::LIST_UNLISTED && few.heads[i] != gpu::LIST_LONG) {
+                    EXPECT_EQ(got[i], expected[i]) << i;
+                    listed += i < Scene::firstBlock && !got[i].empty();
+                }
+            EXPECT_GE(listed, leastListed);
+            const long unlisted = countHeads(few, gpu::LIST_UNLISTED, Scene::firstBlock);
+            EXPECT_GT(unlisted, 10);
+            EXPECT_EQ(few.counters.unlistedClusters, unlisted);
+            EXPECT_FALSE(few.unlisted.empty());
+        }
+    };
+    check(randomScene(5000, 6), 60, 0);
+    // Blocks have lists, and the pages end among the lists of tiles that are made together.
+    check(blockScene(6, 1, 0.5f), 264, 10);
 }
 
 // On devices that limit loops, lists that are too long to be walked, and unlisted clusters with too
