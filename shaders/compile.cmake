@@ -19,10 +19,10 @@ if(failed OR log MATCHES "WARNING")
     file(REMOVE ${OUTPUT})
     message(FATAL_ERROR "${INPUT}:\n${log}")
 endif()
-# Puts functions in the place of their calls and removes what is never used, which makes pipelines on
-# llvmpipe in half the time. It changes no calculation. Passes that rewrite variables to SSA form, or that
-# give functions a single return, made kernels take up to 24 registers more on AMD GPUs. Bindings and
-# specialisation constants that a kernel does not use stay, because the engine reads them all.
+# Puts functions that return only at their end in the place of their calls, and removes what is never used.
+# Drivers then have to do it only for the others (engine/DECISIONS.md, 47, which also says why other passes
+# are left out). It changes no calculation. Bindings and specialisation constants that a kernel does not
+# use stay, because the engine reads them all.
 execute_process(
     COMMAND ${SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout --preserve-bindings
         --preserve-spec-constants --eliminate-dead-branches --inline-entry-points-exhaustive
@@ -30,11 +30,13 @@ execute_process(
         --eliminate-local-single-store --eliminate-dead-code-aggressive ${spv} -o ${spv}
     OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 if(failed)
+    file(REMOVE ${OUTPUT})
     message(FATAL_ERROR "spirv-opt ${INPUT}:\n${log}")
 endif()
 execute_process(COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${spv}
     OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 if(failed)
+    file(REMOVE ${OUTPUT})
     message(FATAL_ERROR "spirv-val ${INPUT}:\n${log}")
 endif()
 # glslang's depfile names the .spv file as its target; the build system needs the C++ file there.

@@ -101,12 +101,15 @@ VkRect2D CameraTerms::pixelsOfBall(const glm::dvec3& center, double radius, uint
     const auto product = [&](const glm::dvec4& a, const glm::dvec4& b) {
         return glm::dot(a, c) * glm::dot(b, c) - r2 * glm::dot(glm::dvec3(a), glm::dvec3(b));
     };
-    const double ww = product(w, w);
-    const bool inFront = ww > 0 && glm::dot(w, c) > 0; // of the plane through the eye
+    const double ww = product(w, w), ahead = glm::dot(w, c);
+    // Near 0, rounding decides what ww is, and what is divided by it.
+    const bool besideTheEye = ww <= 1e-9 * ahead * ahead;
+    if (!besideTheEye && ahead < 0)
+        return {}; // behind the eye
     // The points at ndc.x are a plane, row 0 - ndc.x w. At either end of the ball's image it
     // touches the ball: product(row 0 - ndc.x w, row 0 - ndc.x w) = 0. The same holds for ndc.y.
     const auto range = [&](int row, uint32_t pixels) -> std::array<uint32_t, 2> {
-        if (!inFront)
+        if (besideTheEye)
             return {0, pixels};
         const glm::dvec4 r = glm::row(clip, row);
         const double rw = product(r, w);

@@ -20,7 +20,7 @@ layout(location = 2) out uvec2 outSpecular;
 layout(location = RADIANCE_LOCATION) out vec4 outRadiance; // cd/m^2
 #endif
 
-// `normal` is in view space, of any length but 0.
+// `normal` is in view space. Its length may be anything from 2^-99 to 2^99.
 void writeSurface(vec3 normal, MaterialSample m)
 {
 #ifdef EMISSIVE

@@ -16,7 +16,7 @@ struct Surface {
 };
 
 // Maps a direction onto [-1, 1]^2 by way of an octahedron (Meyer et al. 2010, "On floating-point normal
-// vectors"). The same bits on every device. `n` must not be zero; it need not be normalised.
+// vectors"). The same bits on every device. The length of `n` may be anything from 2^-99 to 2^99.
 vec2 encodeOctahedral(vec3 n)
 {
     precise const float sum = abs(n.x) + abs(n.y) + abs(n.z);

@@ -9,10 +9,10 @@
 // device rounds to the nearest float or towards zero. All devices that we know round to the
 // nearest.)
 //
-// Arguments of reciprocals and roots must lie between 2^-100 and 2^100. Farther out devices that
-// flush denormal numbers give other bits than devices that do not, then errors grow, and from 0,
-// infinity and NaN come NaN or anything else. The square root of 0 is 0. PortableMath.* tests all
-// mantissas.
+// The magnitudes of what reciprocals and roots are taken of must lie between 2^-100 and 2^100. Farther
+// out, devices that flush denormal numbers give other bits than devices that do not, then errors grow,
+// and from 0, infinity and NaN come NaN or anything else. The square root of 0 is 0. PortableMath.*
+// tests all mantissas.
 #ifndef CND_LIB_PORTABLE_MATH
 #define CND_LIB_PORTABLE_MATH
 
@@ -25,7 +25,7 @@ float upperHalf(float x)
 // Returns 1 / x, wrong by at most 0.51 ULP; exact for powers of two. x may be negative.
 float portableReciprocal(float x)
 {
-    // To subtract the bits of x negates its exponent: wrong by 5.1%.
+    // Subtracting the bits of x from a constant negates its exponent: wrong by 5.1%.
     precise const float seed = uintBitsToFloat(0x7EF31000u - floatBitsToUint(x));
     // With r = 1 - x y, 1 / x is y / (1 - r) = y (1 + r + r^2 + ...): wrong by 1.3e-4.
     precise const float rest = 1.0 - x * seed;
@@ -51,7 +51,7 @@ float nearerInverseSqrt(float y, float r)
 // Returns 1 / sqrt(x), wrong by less than 1 ULP. x must not be negative.
 float portableInverseSqrt(float x)
 {
-    // To halve the bits of x and subtract them is to halve and negate its exponent: wrong by 3.4%.
+    // Subtracting half the bits of x from a constant halves and negates its exponent: wrong by 3.4%.
     precise const float seed = uintBitsToFloat(0x5F375000u - (floatBitsToUint(x) >> 1));
     precise const float rest = 1.0 - x * (seed * seed);
     const float y =

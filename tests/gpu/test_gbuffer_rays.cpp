@@ -149,53 +149,90 @@ TEST_F(GBufferRays, BallReconstructsToTheExactPoint)
         }
 }
 
+// The pixels in which a ball is seen, by a ray through the centre of each.
+struct SeenPixels {
+    glm::ivec2 first{INT_MAX}, end{0};
+};
+
+SeenPixels pixelsThatSee(const RasterOptions& options, const glm::dvec3& center, double radius)
+{
+    SeenPixels seen;
+    const bool perspective = gbuffer::CameraTerms(options.camera, options.clearDepth).perspective;
+    for (uint32_t y = 0; y < options.height; ++y)
+        for (uint32_t x = 0; x < options.width; ++x) {
+            const SphereHit hit = hitSphere(pixelRay(options, x, y), center, radius);
+            if (hit.near == never || (perspective && hit.near <= 0))
+                continue;
+            seen.first = glm::min(seen.first, glm::ivec2(x, y));
+            seen.end = glm::max(seen.end, glm::ivec2(x, y) + 1);
+        }
+    return seen;
+}
+
 // The pixels in which a ball is drawn are all that it covers, and no more than three at each side.
 TEST_F(GBufferRays, BallsAreDrawnWhereTheyAreSeen)
 {
     Random random(47);
-    size_t tight = 0;
+    size_t tight = 0, behind = 0;
     for (int kind = 0; kind < 4; ++kind) {
         RasterOptions options = perspectiveOptions();
         setProjection(options, kind);
         lookAt(options.camera, {0.3, 1, 5.4}, {0, -0.2, 0});
         const gbuffer::CameraTerms camera(options.camera, options.clearDepth);
-        std::vector<Ray> rays;
-        for (uint32_t y = 0; y < options.height; ++y)
-            for (uint32_t x = 0; x < options.width; ++x)
-                rays.push_back(pixelRay(options, x, y));
+        const glm::ivec2 size(options.width, options.height);
         for (int i = 0; i < 200; ++i) {
             const glm::dvec3 center = random.box(7);
             const double radius = std::exp(random.uniform(std::log(0.1), std::log(3)));
             const glm::dvec3 view = camera.viewFrom(center);
-            const VkRect2D area = camera.pixelsOfBall(view, radius, options.width, options.height);
-            glm::ivec2 first(INT_MAX), end(0);
-            for (size_t r = 0; r < rays.size(); ++r) {
-                const SphereHit hit = hitSphere(rays[r], center, radius);
-                if (hit.near == never || (camera.perspective && hit.near <= 0))
-                    continue;
-                const glm::ivec2 pixel(r % options.width, r / options.width);
-                first = glm::min(first, pixel);
-                end = glm::max(end, pixel + 1);
+            const VkRect2D area = camera.pixelsOfBall(view, radius, size.x, size.y);
+            if (camera.perspective && view.z > radius + 1e-3) {
+                ++behind;
+                EXPECT_EQ(area.extent.width * area.extent.height, 0u);
             }
-            if (end.x == 0)
+            const SeenPixels seen = pixelsThatSee(options, center, radius);
+            if (seen.end.x == 0)
                 continue; // not seen
-            const glm::ivec2 areaFirst(area.offset.x, area.offset.y);
-            const glm::ivec2 areaEnd =
-                areaFirst + glm::ivec2(area.extent.width, area.extent.height);
-            EXPECT_TRUE(glm::all(glm::lessThanEqual(areaFirst, first)));
-            EXPECT_TRUE(glm::all(glm::greaterThanEqual(areaEnd, end)));
+            const glm::ivec2 first(area.offset.x, area.offset.y);
+            const glm::ivec2 end = first + glm::ivec2(area.extent.width, area.extent.height);
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(first, seen.first)));
+            EXPECT_TRUE(glm::all(glm::greaterThanEqual(end, seen.end)));
             // Balls beside the eye are drawn everywhere, and of balls that the image cuts off only
             // a part is seen.
-            const glm::ivec2 size(options.width, options.height);
-            if (glm::any(glm::equal(areaFirst, glm::ivec2(0))) ||
-                glm::any(glm::equal(areaEnd, size)))
+            if (glm::any(glm::equal(first, glm::ivec2(0))) || glm::any(glm::equal(end, size)))
                 continue;
             ++tight;
-            EXPECT_TRUE(glm::all(glm::greaterThanEqual(areaFirst, first - 3)));
-            EXPECT_TRUE(glm::all(glm::lessThanEqual(areaEnd, end + 3)));
+            EXPECT_TRUE(glm::all(glm::greaterThanEqual(first, seen.first - 3)));
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(end, seen.end + 3)));
         }
     }
     EXPECT_GT(tight, 100u);
+    EXPECT_GT(behind, 5u);
+}
+
+// Where the plane through the eye all but touches a ball, rounding must not cut the ball off.
+TEST_F(GBufferRays, BallsBesideTheEyeAreDrawnWhereTheyAreSeen)
+{
+    Random random(48);
+    RasterOptions options = perspectiveOptions();
+    lookAt(options.camera, {0, 0, 0}, {0, 0, -1});
+    const gbuffer::CameraTerms camera(options.camera, options.clearDepth);
+    size_t seenBalls = 0;
+    for (int i = 0; i < 300; ++i) {
+        const double radius = random.uniform(0.5, 4);
+        const double gap = std::exp(random.uniform(std::log(1e-16), std::log(1e-6)));
+        const glm::dvec3 center(random.uniform(-6, 6), random.uniform(-6, 6), -radius * (1 + gap));
+        const VkRect2D area =
+            camera.pixelsOfBall(camera.viewFrom(center), radius, options.width, options.height);
+        const SeenPixels seen = pixelsThatSee(options, center, radius);
+        if (seen.end.x == 0)
+            continue;
+        ++seenBalls;
+        const glm::ivec2 first(area.offset.x, area.offset.y);
+        const glm::ivec2 end = first + glm::ivec2(area.extent.width, area.extent.height);
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(first, seen.first))) << gap;
+        EXPECT_TRUE(glm::all(glm::greaterThanEqual(end, seen.end))) << gap;
+    }
+    EXPECT_GT(seenBalls, 100u);
 }
 
 // Frames of balls on a plane, under every projection: a sum of all bits of the G-buffer is the same

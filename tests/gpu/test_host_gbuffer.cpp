@@ -232,10 +232,14 @@ TEST_P(Layouts, AreLitByTheEnvironmentLikeOurOwn)
     std::vector<glm::vec4> lit = readRadiance(images);
     // On drivers that do not filter across the edges of cube maps, what the faces show differs
     // there, and rounding decides which face is read.
+    size_t leftOut = 0;
     if (whyNoReflections())
         for (size_t i = 0; i < lit.size(); ++i)
-            if (pointsAtCubeEdge(pixels.asFull, i))
+            if (pointsAtCubeEdge(pixels.asFull, i)) {
                 lit[i] = own[i];
+                ++leftOut;
+            }
+    EXPECT_LE(leftOut, lit.size() / 100);
     const double difference = maxRelativeDifference(lit, own);
     std::cout << GetParam().name << ": largest difference of the peak " << difference << '\n';
     EXPECT_LT(difference, GetParam().tolerance);

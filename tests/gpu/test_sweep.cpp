@@ -76,9 +76,9 @@ double distanceOf(const gpu::SweepRecord& r)
 // and, by its square root, the edge of the cap seen from a sphere's surface. Receivers at the very
 // centre, which have no direction, are left out: a few percent of three slices. Where a mirror ray
 // grazes, the half vector of KX is the sum of nearly opposite vectors. In SwiftShader's worst case
-// it is 7e-4 long and alpha is 9e-4: if the direction to the light is rounded by 1e-7, as on
-// llvmpipe, the response is wrong by 0.06, by twice that, 0.23. (Vulkan allows inverse square roots
-// 2 ULP.)
+// it is 7e-4 long and alpha is 9e-4. An error of 1e-7 in the direction to the light then moves the
+// response by 0.06, as on llvmpipe, and an error of 2e-7 by 0.23. (Vulkan allows inverse square
+// roots errors of 2 ULP.)
 TEST_F(SweepInDouble, EveryInputOfTheSweepIsTheFormulaInDouble)
 {
     constexpr uint32_t each = 13'000;

@@ -22,6 +22,7 @@
 #include "lib/cluster_test.glsl"
 
 // No more than the fewest lanes of a group, because a lane looks up each list of the set.
+// listOfPair() is written for 8 lists.
 const uint LISTS_TOGETHER = 8u;
 
 // The short lists of the set: their clusters, and the heads of their parents' lists.
@@ -29,8 +30,8 @@ shared uint setCluster[LISTS_TOGETHER], setParent[LISTS_TOGETHER];
 // How many pairs a list has, none if it is not short, and the number of the pair after its last
 // one.
 shared uint setPairs[LISTS_TOGETHER], setPairsEnd[LISTS_TOGETHER];
-// What is found for a short list: the number of lights before its own, the number of its lights,
-// and its page.
+// What is found for a short list: the number of lights found for the lists before it, the number of
+// its own, and its page.
 shared uint setFoundBefore[LISTS_TOGETHER], setFound[LISTS_TOGETHER], setPage[LISTS_TOGETHER];
 
 // Sets `at` to the cluster of a list, and `parent` to the head of its parent's list, which is
