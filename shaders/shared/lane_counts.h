@@ -33,11 +33,16 @@ const uint LANE_ROUND_BITS = 24u;
 
 // The buffer of rounds begins with this. The rounds follow, in any order.
 struct LaneRoundsHead {
-    uint written;     // rounds that there were, even if there was no room for them
-    uint room;        // rounds that fit
-    uint part, parts; // only work groups whose number is `part` modulo `parts` are counted
+    uint written; // rounds that there were, even if there was no room for them
+    uint room;    // rounds that fit
+    uint part,
+        parts; // only runs of LANE_RUN groups whose number is `part` modulo `parts` are counted
 };
 GPU_SIZE(LaneRoundsHead, 16)
+// Consecutive work groups that are counted in the same part. They may share a subgroup, and the
+// first of a set of cluster_lists does more than the others (lists_together.glsl), so parts would
+// differ much if they were divided group by group.
+const uint LANE_RUN = 8u;
 const uint LANE_COUNTS_BINDING = 0u; // of descriptor set 1
 
 GPU_END

@@ -19,7 +19,7 @@ uint laneRound = 0u; // of this lane
 void countRound(uint phase, uvec4 turns)
 {
     const uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    if (group % laneRoundsHead.parts != laneRoundsHead.part)
+    if (group / LANE_RUN % laneRoundsHead.parts != laneRoundsHead.part)
         return;
     const uint at = atomicAdd(laneRoundsHead.written, 1u);
     const uint lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y;

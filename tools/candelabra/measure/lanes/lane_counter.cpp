@@ -147,8 +147,8 @@ void LaneCounter::count(const std::function<void()>& frame,
                 fmt::format("counting lanes: {} of {} parts have {} rounds, there is room "
                             "for {} of each",
                             part, parts, grouped(head.written), grouped(room)));
-        parts = 2 * (head.written / room + 1); // twice, because parts differ
-        part = UINT32_MAX;                     // begins again with the first part
+        parts *= 2 * (head.written / room + 1); // twice, because parts differ
+        part = UINT32_MAX;                      // begins again with the first part
     }
 }
 
