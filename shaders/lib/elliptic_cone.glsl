@@ -40,7 +40,7 @@ float dualConeRoot(DualCone k, float c2)
         const float denominator = f1 * f1 - f * (3.0 * mu + k.trace);
         mu -= denominator > 0.0 ? max(f * f1 / denominator, 0.0) : 0.0;
     }
-    return max(mu, 1e-12 * c2);
+    return max(mu, max(1e-12 * c2, MIN_LENGTH2)); // not 0, although c may be 0
 }
 
 // Returns the form factor of the cone around the direction c (to the ellipse's centre) for a receiver

@@ -49,7 +49,7 @@ TubeOutline makeTubeOutline(vec3 toCentre, vec3 axis, float radius)
     // A receiver beyond an end, and closer to the axis' line than the radius, sees the near end only.
     const bool endOn = h2 <= r2;
     const float sine2 = endOn ? 1.0 : r2 * invH * invH;
-    const float cosine = sqrt(1.0 - sine2);
+    const float cosine = sqrt(max(1.0 - sine2, 0.0));
     k.side = r * cosine;
     for (int i = 0; i < 2; ++i) {
         const float outwards = i == 0 ? 1.0 : -1.0;

@@ -206,7 +206,8 @@ ConeAxes makeConeAxes(CapCone q, vec3 inside)
     const float be = dot(f2, qf1);
     const float ade = abs(de) + 1e-15; // a circular cone has r = 0, and any axes will do
     const float r = sqrt(ade * ade + be * be);
-    const float l1 = S + r;
+    // S is the mean of the positive eigenvalues, but rounding may take it below 0 if they are small.
+    const float l1 = max(S + r, 1e-9 * q.lam);
     const float invLD = 1.0 / (l1 * q.D0);
     o.A2 = q.lam * q.D0 * invLD;                       // lam / l1
     o.B2 = max(q.lam * q.lam * l1 * l1 * invLD, o.A2); // lam / l2, where l1 l2 = D0 / lam

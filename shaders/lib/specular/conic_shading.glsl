@@ -158,7 +158,10 @@ vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
     const float mean = max(fromLobe + wide * (z.mean - fromLobe), 1e-6);
     const float largest = max(0.0, mean - z.low) * max(0.0, z.high - mean); // L
     const float blended = mix(CONIC_NARROW_VARIANCE * shift2, CONIC_WIDE_VARIANCE * z.variance, wide);
-    const float v = min(blended, 0.95 * largest); // the variance of any distribution is at most L
+    // The variance of any distribution is at most L. Rounding may take `blended` below 0, because the
+    // quotients `wide` and `share` (in lightHeights) may be an ulp above 1. The root of v would then be
+    // NaN, which the last min() of this function would turn into a full response.
+    const float v = max(min(blended, 0.95 * largest), 0.0);
     // Steps from the mean to the nodes, in standard deviations. The half skewness is t / scale here.
     const float deviation = sqrt(v);
     const float scale = largest + v + MIN_VARIANCE;

@@ -70,7 +70,7 @@ LtcPoint makeLtcPoint(ShadingPoint p)
     const float last = float(LTC_TABLE_SIZE - 1u);
     const float perceptualRoughness = sqrt(p.alpha);
     const vec2 coordinate = vec2((perceptualRoughness - LTC_MIN_ROUGHNESS) / (1.0 - LTC_MIN_ROUGHNESS),
-                                 sqrt(1.0 - sqrt((NoV - LTC_MIN_NOV) / (1.0 - LTC_MIN_NOV))));
+                                 sqrt(max(1.0 - sqrt((NoV - LTC_MIN_NOV) / (1.0 - LTC_MIN_NOV)), 0.0)));
     const vec2 at = last * clamp(coordinate, 0.0, 1.0);
     const vec2 low = min(floor(at), last - 1.0);
     LtcPoint q;

@@ -88,7 +88,8 @@ vec2 representativeTube(ShadingPoint p, vec3 toCentre, vec3 axis, float radius)
     const float invD = inversesqrt(max(length2(onAxis), MIN_LENGTH2));
     // The solid angle is that of a thin strip along the axis and of two half discs at its ends.
     const float along = dot(toCentre, axis) / axisLength;
-    const float across2 = max(length2(toCentre) - along * along, radius * radius);
+    const float across2 =
+        max(length2(toCentre) - along * along, max(radius * radius, MIN_LENGTH2));
     const float far = along + axisLength;
     const float near = along - axisLength;
     const float invFar = inversesqrt(across2 + far * far);
