@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random and adversarial inputs for the shipping evaluation of lights. Counts responses that are NaN,
-// infinite or negative and keeps the first of them, or records every configuration.
+// infinite, negative or too bright and keeps the first of them, or records every configuration.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/bench.h"
@@ -47,6 +47,27 @@ uint lightAt(uint k)
 #include "bench/evaluate_classified.glsl"
 #include "bench/sweep_cases.glsl"
 
+#ifdef LIGHT_FAMILY_CONIC
+#include "bench/specular_bound.glsl"
+
+// Returns an upper bound of the luminance by the closed form of spheres. The other methods have no
+// bound of use, because they are known to be far off. Neither have points that replace spheres within
+// an error budget, if the view is so low that the closed form tilts it and points do not.
+vec3 luminanceLimit(ShadingPoint p)
+{
+    const vec3 toLight = towardsLight(centreRadius.xyz, p.position);
+    const SphereCap cap = makeSphereCap(p.n, toLight, centreRadius.w);
+    const float NoV = dot(p.n, p.v);
+    const float specular = HAS_BUDGET && NoV < MIN_CONIC_NOV ? 1.0 :
+        specularBound(p, cap, MIN_CONIC_NOV) +
+        SWEEP_CLOSED_FORM_ERROR * onAxisResponse(cap.s, p.alpha, max(NoV, MIN_CONIC_NOV));
+    const float window =
+        IS_DISTANT ? 1.0 : influenceWindow(length2(toLight), emissionInfluence.w);
+    return emissionInfluence.xyz * window *
+        (1.01 * cap.s2 * p.albedo + min(specular, 1.0) * max(p.F0, p.F90));
+}
+#endif
+
 void count(bool condition, uint which)
 {
     if (!condition)
@@ -55,8 +76,10 @@ void count(bool condition, uint which)
         atomicAdd(counters.nan, 1u);
     else if (which == 1u)
         atomicAdd(counters.infinite, 1u);
-    else
+    else if (which == 2u)
         atomicAdd(counters.negative, 1u);
+    else
+        atomicAdd(counters.above, 1u);
 }
 
 void main()
@@ -87,9 +110,16 @@ void main()
     count(isNan, 0u);
     count(isInfinite, 1u);
     count(isNegative, 2u);
+#ifdef LIGHT_FAMILY_CONIC
+    const vec3 limit = luminanceLimit(p);
+    const bool isAbove = any(greaterThan(response, limit * 1.000002 + 1e-36)) && !isInfinite;
+#else
+    const bool isAbove = false;
+#endif
+    count(isAbove, 3u);
     uint slot = lane;
     bool keep = recordAll != 0u;
-    if (isNan || isInfinite || isNegative) {
+    if (isNan || isInfinite || isNegative || isAbove) {
         const uint bad = atomicAdd(counters.bad, 1u);
         if (recordAll == 0u) {
             slot = bad;

@@ -23,6 +23,10 @@ class SweepInDouble : public test::GpuTest
 {
 };
 
+class SweepInexactDivision : public test::GpuTest
+{
+};
+
 struct InDouble {
     double scale; // response on the mirror axis, to which errors are relative
     double f, a, b, s2;
@@ -130,4 +134,47 @@ TEST_F(SweepInDouble, EveryInputOfTheSweepIsTheFormulaInDouble)
             EXPECT_LE(worstDiffuse, 1e-3) << name << ": " << whereDiffuse;
         }
     EXPECT_GE(compared, 1'000'000u);
+}
+
+// 800,000 configurations with quotients and roots that are as wrong as Vulkan allows. Before a
+// variance below zero was guarded against, the closed form gave full responses to lights far from
+// the mirror direction here.
+TEST_F(SweepInexactDivision, MakesNoResponseInvalidOrTooBright)
+{
+    constexpr uint32_t each = 20'000;
+    for (const CndLightType type : {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE})
+        for (const CndSpecularMethod method : {CND_SPECULAR_CONIC, CND_SPECULAR_CONIC_FULL}) {
+            Sweep sweep(context(), {.lightType = type, .method = method}, 1, true);
+            for (uint32_t slice = 0; slice < sweepSliceCount; ++slice) {
+                const SweepCount count = sweep.count(slice, 0, each, [](uint64_t) {});
+                EXPECT_EQ(count.invalid(), 0u)
+                    << lightTypeName(type) << " " << specularName(method) << ", "
+                    << sliceText(slice) << ": " << count.above << " above the bound; "
+                    << (count.bad.empty() ? "" : describeRecord(count.bad[0]));
+            }
+        }
+}
+
+// The responses follow from the seed, and almost all of them move, by little.
+TEST_F(SweepInexactDivision, MovesResponsesByRounding)
+{
+    const Evaluation evaluation;
+    constexpr uint32_t count = 10'000;
+    Sweep exact(context(), evaluation, 1), inexact(context(), evaluation, 1, true),
+        again(context(), evaluation, 1, true);
+    const auto before = exact.record(gpu::SWEEP_ANYTHING, 0, count);
+    const auto after = inexact.record(gpu::SWEEP_ANYTHING, 0, count);
+    const auto same = again.record(gpu::SWEEP_ANYTHING, 0, count);
+    size_t lit = 0, moved = 0, near = 0;
+    for (size_t i = 0; i < count; ++i) {
+        EXPECT_EQ(after[i].response, same[i].response);
+        if (!(before[i].response.y > 0))
+            continue;
+        ++lit;
+        moved += before[i].response.y != after[i].response.y;
+        near += std::abs(before[i].response.y / after[i].response.y - 1) < 1e-3f;
+    }
+    EXPECT_GT(lit, count / 4);
+    EXPECT_GT(moved, lit * 9 / 10);
+    EXPECT_GT(near, lit * 9 / 10);
 }

@@ -61,7 +61,8 @@ def unchecked_keywords(schema):
 
 def committed_results_are_valid():
     for schema, kind in (("stress", ""), ("bench_accuracy", "accuracy-"), ("bench_culling", "culling-"),
-                         ("bench_skip", "skip-"), ("bench_stability", "stability-")):
+                         ("bench_skip", "skip-"), ("bench_stability", "stability-"),
+                         ("bench_stability", "inexact-stability-")):
         results = committed(kind)
         results["schema"] = name_of(schema)  # results from before the schemas do not name theirs
         found = faults(results, schema)

@@ -48,10 +48,6 @@ constexpr uint32_t quadratureSlices[] = {gpu::SWEEP_ANYTHING, gpu::SWEEP_CONTACT
                                          gpu::SWEEP_ALIGNED, gpu::SWEEP_TANGENT,
                                          gpu::SWEEP_EXTREME_ALPHA};
 
-// The largest error allowed for the closed form. It is far above the measured errors (5 and 15% of
-// the on-axis response) and far below the error of a formula that fails somewhere.
-constexpr double closedFormBar = 0.3;
-
 bool isClosedForm(const Evaluation& e)
 {
     return e.method == CND_SPECULAR_CONIC || e.method == CND_SPECULAR_CONIC_FULL;
@@ -91,8 +87,9 @@ Compared compare(const gpu::SweepRecord& r, const Evaluation& evaluation)
 QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint32_t samples,
                                 const std::function<void(size_t)>& onDone)
 {
-    QuadratureCheck out{
-        .evaluation = evaluation, .bar = isClosedForm(evaluation) ? closedFormBar : 0, .worst = {}};
+    QuadratureCheck out{.evaluation = evaluation,
+                        .bar = isClosedForm(evaluation) ? double(gpu::SWEEP_CLOSED_FORM_ERROR) : 0,
+                        .worst = {}};
     std::vector<uint32_t> slices;
     for (const uint32_t slice : quadratureSlices)
         if (slice != gpu::SWEEP_CONTACT || evaluation.lightType == CND_LIGHT_SPHERE)
@@ -187,7 +184,7 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
     for (const Evaluation& evaluation : all) {
         progress.doing(fmt::format("{} {}", lightTypeName(evaluation.lightType),
                                    specularName(evaluation.method)));
-        Sweep sweep(context, evaluation, settings.seed);
+        Sweep sweep(context, evaluation, settings.seed, settings.inexactDivision);
         for (uint32_t slice = 0; slice < sweepSliceCount; ++slice)
             out.slices.push_back({evaluation, slice, sweep.count(slice, 0, each, [&](uint64_t n) {
                                       progress.advance(double(n));
@@ -196,7 +193,7 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
             out.quadrature.push_back(checkQuadrature(sweep, evaluation, truths, [&](size_t n) {
                 progress.advance(stepsPerTruth * double(n));
             }));
-        if (hasContinuity(evaluation))
+        if (hasContinuity(evaluation) && !settings.inexactDivision)
             for (ContinuityCheck& check :
                  checkContinuity(context, evaluation, settings.sweeps, settings.seed))
                 out.continuity.push_back(std::move(check));
@@ -215,7 +212,7 @@ std::string nameOf(const Evaluation& e)
 
 std::string countTable(const Stability& stability)
 {
-    Table table({"inputs", "tried", "NaN", "infinite", "negative"});
+    Table table({"inputs", "tried", "NaN", "infinite", "negative", "above the bound"});
     for (uint32_t slice = 0; slice < sweepSliceCount; ++slice) {
         SweepCount sum;
         for (const SweptSlice& s : stability.slices)
@@ -224,9 +221,10 @@ std::string countTable(const Stability& stability)
                 sum.nan += s.count.nan;
                 sum.infinite += s.count.infinite;
                 sum.negative += s.count.negative;
+                sum.above += s.count.above;
             }
         table.add({sliceText(slice), grouped(sum.tried), grouped(sum.nan), grouped(sum.infinite),
-                   grouped(sum.negative)});
+                   grouped(sum.negative), grouped(sum.above)});
     }
     return table.text();
 }
@@ -255,10 +253,11 @@ std::string badList(const Stability& stability)
     std::string out;
     for (const SweptSlice& s : stability.slices)
         if (s.count.invalid())
-            out += fmt::format("{}, {}: {} NaN, {} infinite, {} negative of {}\n  {}\n",
-                               nameOf(s.evaluation), sliceText(s.slice), s.count.nan,
-                               s.count.infinite, s.count.negative, s.count.tried,
-                               s.count.bad.empty() ? "" : describeRecord(s.count.bad[0]));
+            out += fmt::format(
+                "{}, {}: {} NaN, {} infinite, {} negative, {} above the bound of {}\n  {}\n",
+                nameOf(s.evaluation), sliceText(s.slice), s.count.nan, s.count.infinite,
+                s.count.negative, s.count.above, s.count.tried,
+                s.count.bad.empty() ? "" : describeRecord(s.count.bad[0]));
     return out.empty() ? "" : "\nInvalid responses\n" + out;
 }
 
@@ -281,7 +280,8 @@ std::string stabilityTables(const Stability& stability)
            countTable(stability) +
            "\nFormula against quadrature on such inputs, F = 1, relative to the response on the "
            "mirror axis\n" +
-           quadratureTable(stability) + "\nContinuity\n" + continuityTable(stability) +
+           quadratureTable(stability) +
+           (stability.continuity.empty() ? "" : "\nContinuity\n" + continuityTable(stability)) +
            badList(stability) + overBarList(stability);
 }
 
@@ -298,6 +298,7 @@ Json stabilityJson(const StabilitySettings& settings, const Stability& stability
                           {"nan", s.count.nan},
                           {"infinite", s.count.infinite},
                           {"negative", s.count.negative},
+                          {"aboveBound", s.count.above},
                           {"bad", bad}});
     }
     for (const QuadratureCheck& q : stability.quadrature)
@@ -315,6 +316,7 @@ Json stabilityJson(const StabilitySettings& settings, const Stability& stability
                               {"jumpOverPeak", c.jump},
                               {"worst", c.worst}});
     return {{"seed", settings.seed},
+            {"inexactDivision", settings.inexactDivision},
             {"configurations", stability.tried()},
             {"invalid", stability.invalid()},
             {"slices", slices},

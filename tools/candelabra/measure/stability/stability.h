@@ -23,6 +23,9 @@ struct StabilitySettings {
     uint32_t sweeps = 200;                // per check of continuity
     uint32_t seed = 1;
     uint32_t sampleCount = 4; // samples per light of the sampled method
+    // Whether quotients and roots are as wrong as Vulkan allows (inexact_division.h). Continuity is
+    // not checked then, because such responses jump from float to float.
+    bool inexactDivision = false;
 };
 
 // What the sweep of one slice of the inputs with one evaluation counted.

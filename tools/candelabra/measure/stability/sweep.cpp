@@ -8,6 +8,7 @@
 
 #include "candelabra_bench_shaders.h"
 #include "measure/kernels/vectors.h"
+#include "measure/stability/inexact_division.h"
 
 namespace candelabra::app
 {
@@ -18,10 +19,16 @@ namespace
 constexpr uint32_t maxLanes = 1u << 20;
 
 gpu::Kernel<gpu::SweepParams> makeKernel(const gpu::Device& device, const Evaluation& evaluation,
-                                         bool recording)
+                                         uint32_t seed, bool inexactDivision, bool recording)
 {
+    gpu::Spirv spirv = ofFamily(spirv::sweep_inputs_comp, evaluation);
+    std::vector<uint32_t> words;
+    if (inexactDivision) {
+        words = withInexactDivision(spirv.words, seed);
+        spirv.words = words;
+    }
     return {device,
-            ofFamily(spirv::sweep_inputs_comp, evaluation),
+            spirv,
             {{gpu::SPEC_SPECULAR_METHOD, evaluation.method},
              {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
              {gpu::SPEC_ERROR_BUDGET, evaluation.errorBudget > 0},
@@ -57,12 +64,13 @@ const char* sliceText(uint32_t slice)
     return texts[slice];
 }
 
-Sweep::Sweep(const VulkanContext& context, const Evaluation& evaluation, uint32_t seed)
+Sweep::Sweep(const VulkanContext& context, const Evaluation& evaluation, uint32_t seed,
+             bool inexactDivision)
     : context_(context),
       evaluation_(evaluation),
       seed_(seed),
-      counting_(makeKernel(context.device(), evaluation, false)),
-      recording_(makeKernel(context.device(), evaluation, true)),
+      counting_(makeKernel(context.device(), evaluation, seed, inexactDivision, false)),
+      recording_(makeKernel(context.device(), evaluation, seed, inexactDivision, true)),
       bindings_(counting_.createBindings(1)),
       counters_(gpu::createBuffer(context.device(), "sweep counters", sizeof(gpu::SweepCounters),
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Readback)),
@@ -106,6 +114,7 @@ SweepCount Sweep::count(uint32_t slice, uint32_t first, uint64_t configurations,
         out.nan += c.nan;
         out.infinite += c.infinite;
         out.negative += c.negative;
+        out.above += c.above;
         const auto records = bad_.as<gpu::SweepRecord>();
         for (uint32_t i = 0; i < std::min(c.bad, gpu::SWEEP_MAX_BAD) && out.bad.size() < 4; ++i)
             out.bad.push_back(records[i]);

@@ -17,14 +17,17 @@ const char* sliceText(uint32_t slice);
 
 struct SweepCount {
     uint64_t tried = 0, nan = 0, infinite = 0, negative = 0;
+    uint64_t above = 0;                // brighter than such a light can be (gpu::SweepCounters)
     std::vector<gpu::SweepRecord> bad; // the first few inputs with an invalid response
-    uint64_t invalid() const { return nan + infinite + negative; }
+    uint64_t invalid() const { return nan + infinite + negative + above; }
 };
 
 class Sweep
 {
 public:
-    Sweep(const VulkanContext& context, const Evaluation& evaluation, uint32_t seed);
+    // `inexactDivision`: with quotients and roots that are as wrong as Vulkan allows.
+    Sweep(const VulkanContext& context, const Evaluation& evaluation, uint32_t seed,
+          bool inexactDivision = false);
 
     // Evaluates `configurations` inputs of a slice, from index `first` on, and counts the invalid
     // responses. `onDone` is called with the number of inputs each time some more are done.
