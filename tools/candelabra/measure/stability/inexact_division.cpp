@@ -3,47 +3,14 @@
 
 #include <map>
 
+#include <glslang/SPIRV/GLSL.std.450.h>
+#include <glslang/SPIRV/spirv.hpp>
+
 namespace candelabra::app
 {
 namespace
 {
 
-// SPIR-V specification 1.6, section 3, and its extended instructions for GLSL.
-enum : uint32_t {
-    OpExtInstImport = 11,
-    OpExtInst = 12,
-    OpTypeBool = 20,
-    OpTypeInt = 21,
-    OpTypeFloat = 22,
-    OpTypeVector = 23,
-    OpTypeFunction = 33,
-    OpConstant = 43,
-    OpFunction = 54,
-    OpFunctionParameter = 55,
-    OpFunctionEnd = 56,
-    OpFunctionCall = 57,
-    OpDecorate = 71,
-    OpCompositeConstruct = 80,
-    OpCompositeExtract = 81,
-    OpBitcast = 124,
-    OpIAdd = 128,
-    OpISub = 130,
-    OpIMul = 132,
-    OpFDiv = 136,
-    OpUMod = 137,
-    OpSelect = 169,
-    OpULessThan = 176,
-    OpShiftRightLogical = 194,
-    OpBitwiseXor = 198,
-    OpBitwiseAnd = 199,
-    OpLabel = 248,
-    OpReturnValue = 254,
-    ExtSqrt = 31,
-    ExtInverseSqrt = 32,
-    ExtLength = 66,
-    ExtDistance = 67,
-    ExtNormalize = 69,
-};
 constexpr size_t headerWords = 5;
 constexpr size_t boundWord = 3; // of the header: one more than the largest id
 
@@ -73,14 +40,14 @@ public:
     {
         bool inFunctions = false;
         for (const Instruction i : instructions_) {
-            if (opcode(i) == OpFunction && !inFunctions) {
+            if (opcode(i) == spv::OpFunction && !inFunctions) {
                 declare();
                 inFunctions = true;
             }
             const size_t begin = out_.size();
             out_.insert(out_.end(), i.begin(), i.end());
             // Decorations, such as `precise`, are of the instruction.
-            const bool decorates = opcode(i) == OpDecorate && moved_.contains(i[1]);
+            const bool decorates = opcode(i) == spv::OpDecorate && moved_.contains(i[1]);
             if (decorates)
                 out_[begin + 1] = moved_.at(i[1]).exact;
             else if (rangeOf(i)) {
@@ -119,31 +86,32 @@ private:
 
     void learn(Instruction i)
     {
-        if (opcode(i) == OpTypeBool)
+        if (opcode(i) == spv::OpTypeBool)
             boolType_ = i[1];
-        else if (opcode(i) == OpTypeInt && i[2] == 32 && i[3] == 0)
+        else if (opcode(i) == spv::OpTypeInt && i[2] == 32 && i[3] == 0)
             uintType_ = i[1];
-        else if (opcode(i) == OpTypeFloat && i[2] == 32)
+        else if (opcode(i) == spv::OpTypeFloat && i[2] == 32)
             floatType_ = i[1];
-        else if (opcode(i) == OpTypeVector && i[2] == floatType_)
+        else if (opcode(i) == spv::OpTypeVector && i[2] == floatType_)
             lengths_[i[1]] = i[3];
-        else if (opcode(i) == OpExtInstImport)
+        else if (opcode(i) == spv::OpExtInstImport)
             glsl_ = i[1]; // the only set that kernels use
     }
 
     // Returns how many steps the result of the instruction may be moved by, 0 if it stays.
     uint32_t rangeOf(Instruction i) const
     {
-        const bool isQuotient = opcode(i) == OpFDiv;
-        const bool isExtended = opcode(i) == OpExtInst && i[3] == glsl_;
+        const bool isQuotient = opcode(i) == spv::OpFDiv;
+        const bool isExtended = opcode(i) == spv::OpExtInst && i[3] == glsl_;
         if (!isQuotient && !isExtended)
             return 0;
         if (i[1] != floatType_ && !lengths_.contains(i[1]))
             return 0;
-        if (isExtended && i[4] == ExtInverseSqrt)
+        if (isExtended && i[4] == GLSLstd450InverseSqrt)
             return 3;
-        const bool isRoot = isExtended && (i[4] == ExtSqrt || i[4] == ExtLength ||
-                                           i[4] == ExtDistance || i[4] == ExtNormalize);
+        const bool isRoot =
+            isExtended && (i[4] == GLSLstd450Sqrt || i[4] == GLSLstd450Length ||
+                           i[4] == GLSLstd450Distance || i[4] == GLSLstd450Normalize);
         return isQuotient || isRoot ? 5 : 0;
     }
 
@@ -154,20 +122,20 @@ private:
     {
         if (!boolType_) {
             boolType_ = newId();
-            emit(OpTypeBool, {boolType_});
+            emit(spv::OpTypeBool, {boolType_});
         }
         functionType_ = newId();
-        emit(OpTypeFunction, {functionType_, floatType_, floatType_, uintType_, uintType_});
+        emit(spv::OpTypeFunction, {functionType_, floatType_, floatType_, uintType_, uintType_});
         for (const uint32_t value : {1u, 2u, 3u, 5u, 15u, 23u, 252u, 255u, multiplier})
-            constants_[value] = emitValue(OpConstant, uintType_, {value});
+            constants_[value] = emitValue(spv::OpConstant, uintType_, {value});
         for (const auto& [id, moved] : moved_)
-            salts_[id] = emitValue(OpConstant, uintType_, {(id ^ seed_ << 16) * multiplier});
+            salts_[id] = emitValue(spv::OpConstant, uintType_, {(id ^ seed_ << 16) * multiplier});
         function_ = newId();
     }
 
     uint32_t call(uint32_t id, uint32_t value, const Moved& moved)
     {
-        return emitValue(OpFunctionCall, floatType_,
+        return emitValue(spv::OpFunctionCall, floatType_,
                          {function_, value, salts_.at(id), constant(moved.range)});
     }
 
@@ -175,49 +143,49 @@ private:
     void move(uint32_t type, uint32_t id, const Moved& moved)
     {
         if (type == floatType_) {
-            emit(OpFunctionCall,
+            emit(spv::OpFunctionCall,
                  {type, id, function_, moved.exact, salts_.at(id), constant(moved.range)});
             return;
         }
         std::vector<uint32_t> parts{type, id};
         for (uint32_t k = 0; k < lengths_.at(type); ++k) {
-            const uint32_t part = emitValue(OpCompositeExtract, floatType_, {moved.exact, k});
+            const uint32_t part = emitValue(spv::OpCompositeExtract, floatType_, {moved.exact, k});
             parts.push_back(call(id, part, moved));
         }
-        out_.push_back(uint32_t(parts.size() + 1) << 16 | OpCompositeConstruct);
+        out_.push_back(uint32_t(parts.size() + 1) << 16 | spv::OpCompositeConstruct);
         out_.insert(out_.end(), parts.begin(), parts.end());
     }
 
     // Defines the function that moves a float by -range / 2 to range / 2, according to a hash.
     void defineMove()
     {
-        emit(OpFunction, {floatType_, function_, 0, functionType_});
-        const uint32_t value = emitValue(OpFunctionParameter, floatType_, {});
-        const uint32_t salt = emitValue(OpFunctionParameter, uintType_, {});
-        const uint32_t range = emitValue(OpFunctionParameter, uintType_, {});
-        emit(OpLabel, {newId()});
+        emit(spv::OpFunction, {floatType_, function_, 0, functionType_});
+        const uint32_t value = emitValue(spv::OpFunctionParameter, floatType_, {});
+        const uint32_t salt = emitValue(spv::OpFunctionParameter, uintType_, {});
+        const uint32_t range = emitValue(spv::OpFunctionParameter, uintType_, {});
+        emit(spv::OpLabel, {newId()});
         const auto integer = [&](uint32_t op, uint32_t a, uint32_t b) {
             return emitValue(op, uintType_, {a, b});
         };
-        const uint32_t bits = emitValue(OpBitcast, uintType_, {value});
-        uint32_t hash = integer(OpBitwiseXor, bits, salt);
+        const uint32_t bits = emitValue(spv::OpBitcast, uintType_, {value});
+        uint32_t hash = integer(spv::OpBitwiseXor, bits, salt);
         for (int round = 0; round < 2; ++round) {
-            hash = integer(OpIMul, hash, constant(multiplier));
-            const uint32_t high = integer(OpShiftRightLogical, hash, constant(15));
-            hash = integer(OpBitwiseXor, hash, high);
+            hash = integer(spv::OpIMul, hash, constant(multiplier));
+            const uint32_t high = integer(spv::OpShiftRightLogical, hash, constant(15));
+            hash = integer(spv::OpBitwiseXor, hash, high);
         }
-        const uint32_t up = integer(OpUMod, hash, range);
-        const uint32_t down = integer(OpShiftRightLogical, range, constant(1));
-        const uint32_t higher = integer(OpIAdd, bits, up);
-        const uint32_t steps = integer(OpISub, higher, down);
-        const uint32_t other = emitValue(OpBitcast, floatType_, {steps});
+        const uint32_t up = integer(spv::OpUMod, hash, range);
+        const uint32_t down = integer(spv::OpShiftRightLogical, range, constant(1));
+        const uint32_t higher = integer(spv::OpIAdd, bits, up);
+        const uint32_t steps = integer(spv::OpISub, higher, down);
+        const uint32_t other = emitValue(spv::OpBitcast, floatType_, {steps});
         // Exponents of 2 to 253, all but those of the smallest and largest values.
-        const uint32_t signExponent = integer(OpShiftRightLogical, bits, constant(23));
-        const uint32_t exponent = integer(OpBitwiseAnd, signExponent, constant(255));
-        const uint32_t fromTwo = integer(OpISub, exponent, constant(2));
-        const uint32_t usual = emitValue(OpULessThan, boolType_, {fromTwo, constant(252)});
-        emit(OpReturnValue, {emitValue(OpSelect, floatType_, {usual, other, value})});
-        emit(OpFunctionEnd, {});
+        const uint32_t signExponent = integer(spv::OpShiftRightLogical, bits, constant(23));
+        const uint32_t exponent = integer(spv::OpBitwiseAnd, signExponent, constant(255));
+        const uint32_t fromTwo = integer(spv::OpISub, exponent, constant(2));
+        const uint32_t usual = emitValue(spv::OpULessThan, boolType_, {fromTwo, constant(252)});
+        emit(spv::OpReturnValue, {emitValue(spv::OpSelect, floatType_, {usual, other, value})});
+        emit(spv::OpFunctionEnd, {});
     }
 
     static constexpr uint32_t multiplier = 0x2C1B3C6D; // odd, with a good mix of bits
