@@ -102,15 +102,18 @@ VkRect2D CameraTerms::pixelsOfBall(const glm::dvec3& center, double radius, uint
         return glm::dot(a, c) * glm::dot(b, c) - r2 * glm::dot(glm::dvec3(a), glm::dvec3(b));
     };
     const double ww = product(w, w), ahead = glm::dot(w, c);
-    // Near 0, rounding decides what ww is, and what is divided by it.
-    const bool besideTheEye = ww <= 1e-9 * ahead * ahead;
-    if (!besideTheEye && ahead < 0)
-        return {}; // behind the eye
+    // If ww < 0, the plane through the eye (w = 0) cuts the ball, which may then be seen anywhere.
+    // The same is assumed of a ball that all but touches that plane: ww is a difference of numbers
+    // as large as ahead^2, so a ww below 1e-9 ahead^2 keeps less than seven of the sixteen digits
+    // of a double, and so would the quotients by ww below.
+    if (ww <= 1e-9 * ahead * ahead)
+        return {{0, 0}, {width, height}};
+    // A ball that lies wholly behind the plane through the eye is seen in no pixel.
+    if (ahead < 0)
+        return {};
     // The points at ndc.x are a plane, row 0 - ndc.x w. At either end of the ball's image it
     // touches the ball: product(row 0 - ndc.x w, row 0 - ndc.x w) = 0. The same holds for ndc.y.
     const auto range = [&](int row, uint32_t pixels) -> std::array<uint32_t, 2> {
-        if (besideTheEye)
-            return {0, pixels};
         const glm::dvec4 r = glm::row(clip, row);
         const double rw = product(r, w);
         const double root = std::sqrt(std::max(rw * rw - ww * product(r, r), 0.0));

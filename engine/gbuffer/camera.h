@@ -43,9 +43,10 @@ struct CameraTerms {
     // size; with a perspective camera 1 m ahead.
     double pixelScale(uint32_t width, uint32_t height) const;
 
-    // All pixels of an image of that size in which a ball can be seen, and at most three more at
-    // each side: none if the ball is behind the plane through the eye, the whole image if it
-    // reaches the plane or nearly so. `center` is in view space.
+    // Returns the rectangle of all pixels in which a ball can be seen, in an image of that size,
+    // and at most three more at each side. A ball that lies wholly behind the plane through the eye
+    // gets an empty rectangle. A ball that the plane cuts, or all but touches, gets the whole
+    // image. `center` is in view space.
     VkRect2D pixelsOfBall(const glm::dvec3& center, double radius, uint32_t width,
                           uint32_t height) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One triangle that covers the screen; the scissor leaves the pixels near a ball.
+// One triangle that covers the screen. The scissor limits the triangle to the pixels near a ball.
 #version 460
 
 void main()

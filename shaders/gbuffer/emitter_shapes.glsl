@@ -8,7 +8,7 @@
 struct EmitterHit {
     bool hit;
     float near, far; // distances along the ray; in perspective a negative one is behind the camera
-    vec3 normal; // at distance `near`, facing against the ray; of any length but 0
+    vec3 normal; // at distance `near`, facing against the ray; its length is arbitrary (writeSurface)
 };
 
 EmitterHit intersectBall(Ray ray, vec3 center, float radius)

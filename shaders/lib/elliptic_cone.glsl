@@ -40,7 +40,8 @@ float dualConeRoot(DualCone k, float c2)
         const float denominator = f1 * f1 - f * (3.0 * mu + k.trace);
         mu -= denominator > 0.0 ? max(f * f1 / denominator, 0.0) : 0.0;
     }
-    return max(mu, max(1e-12 * c2, MIN_LENGTH2)); // not 0, although c may be 0
+    // At the centre of the ellipse c2 is 0. The caller divides by the root, so 0 is never returned.
+    return max(mu, max(1e-12 * c2, MIN_LENGTH2));
 }
 
 // Returns the form factor of the cone around the direction c (to the ellipse's centre) for a receiver

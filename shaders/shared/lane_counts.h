@@ -35,13 +35,14 @@ const uint LANE_ROUND_BITS = 24u;
 struct LaneRoundsHead {
     uint written; // rounds that there were, even if there was no room for them
     uint room;    // rounds that fit
-    uint part,
-        parts; // only runs of LANE_RUN groups whose number is `part` modulo `parts` are counted
+    // Only runs of LANE_RUN groups whose number is `part` modulo `parts` are counted.
+    uint part, parts;
 };
 GPU_SIZE(LaneRoundsHead, 16)
-// Consecutive work groups that are counted in the same part. They may share a subgroup, and the
-// first of a set of cluster_lists does more than the others (lists_together.glsl), so parts would
-// differ much if they were divided group by group.
+// How many consecutive work groups are always counted in the same part: a multiple of
+// LISTS_TOGETHER (lists_together.glsl). The first group of each such set does more than the others,
+// so parts would differ much if groups were dealt to them one by one. Besides, such groups may
+// share a subgroup.
 const uint LANE_RUN = 8u;
 const uint LANE_COUNTS_BINDING = 0u; // of descriptor set 1
 

@@ -449,7 +449,7 @@ TEST_F(ClusterListsTest, ListsOfGroupsWithoutRoomAreMarked)
             EXPECT_FALSE(few.unlisted.empty());
         }
     };
-    check(randomScene(5000, 6), 60, 0); // has no short lists
+    check(randomScene(5000, 6), 60, 0); // 0: this check does not need short lists
     // Blocks have lists, and the pages end among the lists of tiles that are made together.
     check(blockScene(6, 1, 0.5f), 264, 10);
 }

@@ -25,13 +25,14 @@
 // listOfPair() is written for 8 lists.
 const uint LISTS_TOGETHER = 8u;
 
-// The short lists of the set: their clusters, and the heads of their parents' lists.
+// For each list of the set: setCluster is the index of its cluster, and setParent is the head of the
+// list of the cluster's parent. Both are used for short lists only.
 shared uint setCluster[LISTS_TOGETHER], setParent[LISTS_TOGETHER];
-// How many pairs a list has, none if it is not short, and the number of the pair after its last
-// one.
+// For each list of the set: setPairs counts its pairs and is 0 if the list is not short. setPairsEnd
+// is the number of its last pair plus 1.
 shared uint setPairs[LISTS_TOGETHER], setPairsEnd[LISTS_TOGETHER];
-// What is found for a short list: the number of lights found for the lists before it, the number of
-// its own, and its page.
+// For each short list: setFoundBefore counts the lights that the short lists before it have found,
+// setFound counts the lights that it has found itself, and setPage is the page that holds them.
 shared uint setFoundBefore[LISTS_TOGETHER], setFound[LISTS_TOGETHER], setPage[LISTS_TOGETHER];
 
 // Sets `at` to the cluster of a list, and `parent` to the head of its parent's list, which is
@@ -99,13 +100,13 @@ uint listOfPair(uint pair)
     return list + (pair >= setPairsEnd[list] ? 1u : 0u);
 }
 
-// Makes the short lists of the set that begins with the list `first` of the dispatch. Returns a
+// Makes the short lists of the set that begins with the list `firstList` of the dispatch. Returns a
 // word with a bit for each of them.
 uint makeShortLists(uint firstList)
 {
     const uint shortLists = lookUpSet(firstList);
     const uint pairs = numberPairs();
-    uint found = 0u; // for all lists, by the turns before this one
+    uint found = 0u; // counts the lights that earlier turns have found for all lists together
     for (uint first = 0u; first < pairs; first += LANES) {
         const bool exists = first + lane < pairs;
         const uint pair = min(first + lane, pairs - 1u);

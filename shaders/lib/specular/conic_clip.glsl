@@ -206,7 +206,8 @@ ConeAxes makeConeAxes(CapCone q, vec3 inside)
     const float be = dot(f2, qf1);
     const float ade = abs(de) + 1e-15; // a circular cone has r = 0, and any axes will do
     const float r = sqrt(ade * ade + be * be);
-    // S is the mean of the positive eigenvalues, but rounding may take it below 0 if they are small.
+    // S is the mean of the two positive eigenvalues. If both are far smaller than lam, rounding may
+    // take the larger one below 0. The limit is far below the rounding of lam itself (6e-8 lam).
     const float l1 = max(S + r, 1e-9 * q.lam);
     const float invLD = 1.0 / (l1 * q.D0);
     o.A2 = q.lam * q.D0 * invLD;                       // lam / l1
