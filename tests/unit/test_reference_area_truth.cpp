@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the truth about area lights: closed forms and limits of rectangles, discs and tubes, and
-// for every type a second integrator over the emitter's surface.
+// for every type a second integrator over the emitter's surface and a third along its outline.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +12,7 @@
 
 #include "harness/constants.h"
 #include "harness/full_tests.h"
+#include "reference/arc_domain.h"
 #include "reference/emitter_domain.h"
 #include "reference/truth.h"
 #include "test_reference_support.h"
@@ -88,7 +89,7 @@ TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
         std::mt19937_64 random(3);
         std::uniform_real_distribution<double> unit(0, 1);
         std::vector<double> differences;
-        WorstCase worst;
+        WorstCase worst, formFactor;
         int crossing = 0;
         while (static_cast<int>(differences.size()) < count) {
             const double alpha = std::pow(0.03, unit(random)); // narrower lobes are slow for the
@@ -117,6 +118,9 @@ TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
             const LightResponse a = truthResponse(surface, alpha, light, glm::dvec3(0), 1e-6);
             const LightResponse b =
                 emitterDomainResponse(surface, alpha, light, glm::dvec3(0), 1e-5);
+            const LobeIntegral arcs = arcDomainLight(surface, alpha, light, glm::dvec3(0));
+            formFactor.add(std::abs(arcs.irradiance.z - a.f), "alpha", alpha, "center", center.x,
+                           center.y, center.z, "size", size, "radius", light.radius);
             if (a.f == 0 && b.f == 0)
                 continue; // seen from behind or below the horizon: there is nothing to compare
             crossing += std::abs(center.z) < size;
@@ -133,6 +137,7 @@ TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
                   << " near the horizon): relative difference median "
                   << differences[differences.size() / 2] << ", max " << differences.back() << "\n";
         EXPECT_TRUE(worst.within(1e-4)) << type;
+        EXPECT_TRUE(formFactor.within(1e-7)) << type << ", along its outline";
     }
 }
 
