@@ -40,7 +40,8 @@ SweepPoint makeSweepPoint(uint slice)
     return p;
 }
 
-// Returns the direction to the light, and the sine of its half angle.
+// Returns the direction to the light, or to a point of its outline in the slice EDGE, and the sine of
+// the light's half angle (in the last two slices its size divided by that distance).
 vec4 sweepDirection(uint slice, SweepPoint p)
 {
     const vec3 v = normalize(p.v * (slice == SWEEP_DENORMAL ? 1e10 : 1.0));
@@ -48,6 +49,10 @@ vec4 sweepDirection(uint slice, SweepPoint p)
     float s = randomLog10(-7.0, 0.0);
     if (chance(0.3))
         s = random01();
+    if (slice == SWEEP_EDGE || slice == SWEEP_SLIVER)
+        s = randomLog10(-4.0, 1.0);
+    if (slice == SWEEP_EDGE)
+        return vec4(besides(mirror), s);
     if (slice == SWEEP_TANGENT) {
         const float cosine = randomSign() * s * (1.0 + hair());
         return vec4(directionAt(p.n, cosine), s);
@@ -108,6 +113,24 @@ LightShape makeSweepShape(float size, vec3 u, vec3 w, float aspect, out float bo
     return shape;
 }
 
+// Returns the offset from the centre to a point of the outline of a light with such a shape, as a
+// receiver sees it in the direction `at`.
+vec3 outlineOffset(vec3 at, float size, vec3 u, vec3 w, float aspect)
+{
+    const bool hasAxisU = usesField(TYPES_WITH_AXIS_U);
+    const vec2 along = vec2(randomRange(-1.0, 1.0), 1.0);
+    vec2 corner = chance(0.5) ? along.xy : along.yx;
+    if (chance(0.3))
+        corner = vec2(1.0);
+    corner *= vec2(randomSign(), randomSign());
+    if (usesField(TYPES_WITH_AXIS_V))
+        return size * (corner.x * w + corner.y * aspect * cross(u, w));
+    if (!hasAxisU && usesField(TYPES_WITH_DIRECTION))
+        return size * normalize(w + corner.x * cross(u, w));
+    const vec3 side = normalize(cross(at, randomDirection()));
+    return hasAxisU ? size * (corner.x * u + aspect * side) : size * side;
+}
+
 void makeSweepLight(uint slice, SweepPoint p)
 {
     const vec4 at = sweepDirection(slice, p);
@@ -122,14 +145,26 @@ void makeSweepLight(uint slice, SweepPoint p)
         const uint which = randomBelow(4u);
         d = which == 0u ? 0.0 : which == 1u ? size * random01() : size * (1.0 + hair());
     }
-    // Rounding of the position moves the light; the record must hold what the shader sees. Without
-    // `precise`, compilers simplify centre - position back to d * at.
-    precise const vec3 centre = p.position + d * at.xyz;
     vec3 u = randomDirection();
     if (chance(0.3))
         u = besides(-at.xyz); // faces the receiver
+    if (slice >= SWEEP_EDGE && chance(0.2))
+        u = besides(normalize(cross(at.xyz, u))); // is seen from the side
     const vec3 w = normalize(cross(u, abs(u.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
-    const float aspect = randomLog10(-2.0, 0.0);
+    float aspect = randomLog10(-2.0, 0.0);
+    if (slice == SWEEP_SLIVER) {
+        aspect = randomLog10(-15.0, -2.0);
+        if (chance(0.3)) { // a tube without length, and rectangles that are long the other way
+            size *= aspect;
+            aspect = 1.0 / aspect;
+        }
+    }
+    vec3 offset = d * at.xyz;
+    if (slice == SWEEP_EDGE)
+        offset -= outlineOffset(at.xyz, size, u, w, aspect);
+    // Rounding of the position moves the light; the record must hold what the shader sees. Without
+    // `precise`, compilers simplify centre - position back to the offset.
+    precise const vec3 centre = p.position + offset;
     float emission = randomLog10(-2.0, 4.0);
     if (slice == SWEEP_EMISSION)
         emission = randomLog10(-8.0, 9.0);
@@ -140,11 +175,12 @@ void makeSweepLight(uint slice, SweepPoint p)
     if (IS_DISTANT) {
         const float sine = usesField(TYPES_WITH_RADIUS) ? max(at.w, 1e-7) : 0.0;
         lightShapes[0] = LightShape(vec3(0.0), sine, vec3(0.0), 0u);
-        centreRadius = vec4(normalize(at.xyz), sine);
+        centreRadius = vec4(normalize(at.xyz), min(sine, 1.0));
     } else {
         lightShapes[0] = makeSweepShape(size, u, w, aspect, boundingRadius);
         centreRadius = vec4(centre, boundingRadius);
     }
-    const float influence = chance(0.5) ? UNBOUNDED : boundingRadius * 1.01 + 3.0 * d + 1e-12;
+    const float limited = boundingRadius * 1.01 + 3.0 * length(offset) + 1e-12;
+    const float influence = chance(0.5) ? UNBOUNDED : limited;
     emissionInfluence = vec4(emission * tint, influence * influence);
 }

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/bench.h"
+#include "shared/conic_constants.h"
 #include "lib/gbuffer.glsl"
 #include "lib/brdf.glsl"
 #include "bench/ltc_table.glsl"
@@ -47,26 +48,40 @@ uint lightAt(uint k)
 #include "bench/evaluate_classified.glsl"
 #include "bench/sweep_cases.glsl"
 
-#ifdef LIGHT_FAMILY_CONIC
 #include "bench/specular_bound.glsl"
 
-// Returns an upper bound of the luminance by the closed form of spheres. The other methods have no
-// bound of use, because they are known to be far off. Neither have points that replace spheres within
-// an error budget, if the view is so low that the closed form tilts it and points do not.
-vec3 luminanceLimit(ShadingPoint p)
+// Responses by the closed form have an upper bound. The other methods have none of use, because they
+// are known to be far off. Neither have points that replace lights within an error budget, if the view
+// is so low that the closed form tilts it and points do not.
+const bool IS_CLOSED_FORM =
+    specularMethod == SPECULAR_CONIC || specularMethod == SPECULAR_CONIC_FULL;
+
+LightExtent currentExtent(ShadingPoint p)
 {
     const vec3 toLight = towardsLight(centreRadius.xyz, p.position);
-    const SphereCap cap = makeSphereCap(p.n, toLight, centreRadius.w);
-    const float NoV = dot(p.n, p.v);
-    const float specular = HAS_BUDGET && NoV < MIN_CONIC_NOV ? 1.0 :
-        specularBound(p, cap, MIN_CONIC_NOV) +
-        SWEEP_CLOSED_FORM_ERROR * onAxisResponse(cap.s, p.alpha, max(NoV, MIN_CONIC_NOV));
+    const vec3 mirror = boundMirror(p, MIN_CONIC_NOV);
+    if (!usesField(TYPES_WITH_AXIS_U) && !usesField(TYPES_WITH_SIDES))
+        return capExtent(mirror, makeSphereCap(p.n, toLight, centreRadius.w));
+    return shapeExtent(mirror, toLight, lightShapes[0],
+                       usesField(TYPES_WITH_AXIS_U) && usesField(TYPES_WITH_RADIUS),
+                       !usesField(TYPES_WITH_AXIS_U));
+}
+
+// Returns an upper bound of the luminance, errors included.
+vec3 luminanceLimit(ShadingPoint p, LightExtent light)
+{
+    LightExtent rounded = light;
+    rounded.solidAngle += SWEEP_ROUNDING * light.squared;
+    const float specular = HAS_BUDGET && dot(p.n, p.v) < MIN_CONIC_NOV ? 1.0 :
+        specularBound(p, rounded, MIN_CONIC_NOV) +
+        SWEEP_CLOSED_FORM_ERROR * onAxisResponse(p, rounded.solidAngle, MIN_CONIC_NOV);
+    const float diffuse = min(1.01 * INV_PI * rounded.solidAngle, 1.0);
+    const vec3 toLight = towardsLight(centreRadius.xyz, p.position);
     const float window =
         IS_DISTANT ? 1.0 : influenceWindow(length2(toLight), emissionInfluence.w);
     return emissionInfluence.xyz * window *
-        (1.01 * cap.s2 * p.albedo + min(specular, 1.0) * max(p.F0, p.F90));
+        (diffuse * p.albedo + min(specular, 1.0) * max(p.F0, p.F90));
 }
-#endif
 
 void count(bool condition, uint which)
 {
@@ -110,12 +125,10 @@ void main()
     count(isNan, 0u);
     count(isInfinite, 1u);
     count(isNegative, 2u);
-#ifdef LIGHT_FAMILY_CONIC
-    const vec3 limit = luminanceLimit(p);
-    const bool isAbove = any(greaterThan(response, limit * 1.000002 + 1e-36)) && !isInfinite;
-#else
-    const bool isAbove = false;
-#endif
+    const LightExtent extent = currentExtent(p);
+    const vec3 limit = luminanceLimit(p, extent);
+    const bool isAbove = IS_CLOSED_FORM && !isInfinite &&
+        any(greaterThan(response, limit * 1.000002 + 1e-36));
     count(isAbove, 3u);
     uint slot = lane;
     bool keep = recordAll != 0u;
@@ -128,5 +141,6 @@ void main()
     }
     if (keep)
         records[slot] = SweepRecord(point.position, point.n, point.v, point.perceptualRoughness,
-                                    centreRadius, emissionInfluence, lightShapes[0], response, index);
+                                    centreRadius, emissionInfluence, lightShapes[0], response,
+                                    specularBound(p, extent, MIN_CONIC_NOV), index);
 }

@@ -64,7 +64,9 @@ const uint BENCH_FORM_FACTOR_NAIVE = 2u;  // acos and atan
     X(6, TANGENT, "emitters that touch the horizon")                                               \
     X(7, EXTREME_ALPHA, "alpha 0.002, below it, and 1")                                            \
     X(8, FAR_AWAY, "positions 1e5 to 1e6 m from the origin")                                       \
-    X(9, EMISSION, "emission from 1e-8 to 1e9")
+    X(9, EMISSION, "emission from 1e-8 to 1e9")                                                    \
+    X(10, EDGE, "edges and corners in the mirror direction, sizes from 1e-4 to 10 distances")      \
+    X(11, SLIVER, "lights with no or hardly any width or length, sizes from 1e-4 to 10 distances")
 
 #define X(id, NAME, text) const uint SWEEP_##NAME = id;
 CND_SWEEP_SLICES(X)
@@ -85,18 +87,20 @@ struct SweepParams {
 };
 GPU_SIZE(SweepParams, 28)
 
-// Numbers of responses. above: responses of the closed form of spheres that are above an upper
-// bound of the exact response by more than the error that SWEEP_CLOSED_FORM_ERROR allows. bad:
-// responses that are any of the others.
+// Numbers of responses. above: responses of a closed form that are above an upper bound of the
+// exact response by more than the errors that SWEEP_CLOSED_FORM_ERROR and SWEEP_ROUNDING allow.
+// bad: responses that are any of the others.
 struct SweepCounters {
     uint nan, infinite, negative, above, bad;
 };
 GPU_SIZE(SweepCounters, 20)
 
-// The largest error allowed for the closed form of spheres, relative to the response on the mirror
-// axis. It is far above the measured errors (5 and 15%) and far below the error of a formula that
-// fails somewhere.
+// The largest error allowed for a closed form, relative to the response on the mirror axis. It is
+// far above the measured errors and far below the error of a formula that fails somewhere.
 const float SWEEP_CLOSED_FORM_ERROR = 0.3f;
+// The largest error allowed for rounding, as a share of the directions to a light that is as wide
+// as it is long.
+const float SWEEP_ROUNDING = 1e-4f;
 
 // One configuration: the point and the light that light_eval.glsl gets, and the response.
 struct SweepRecord {
@@ -108,9 +112,10 @@ struct SweepRecord {
     vec4 emissionInfluence; // emission, squared influence radius
     LightShape shape;
     vec3 response; // a BenchResponse when recording, else the outgoing luminance
+    float bound;   // of the exact specular response with F = 1
     uint index;
 };
-GPU_SIZE(SweepRecord, 120)
+GPU_SIZE(SweepRecord, 124)
 
 GPU_END
 

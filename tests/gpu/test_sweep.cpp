@@ -9,6 +9,7 @@
 #include "reference/sphere_light.h"
 #include "render/setting_names.h"
 #include "scene/light_types.h"
+#include "shading/light_family.h"
 #include "transcription/conic.h"
 
 using namespace candelabra;
@@ -20,6 +21,10 @@ namespace
 namespace tr = candelabra::transcription;
 
 class SweepInDouble : public test::GpuTest
+{
+};
+
+class SweepShapes : public test::GpuTest
 {
 };
 
@@ -136,14 +141,16 @@ TEST_F(SweepInDouble, EveryInputOfTheSweepIsTheFormulaInDouble)
     EXPECT_GE(compared, 1'000'000u);
 }
 
-// 800,000 configurations with quotients and roots that are as wrong as Vulkan allows. Before a
-// variance below zero was guarded against, the closed form gave full responses to lights far from
-// the mirror direction here.
+// 240,000 configurations of each closed form with quotients and roots that are as wrong as Vulkan
+// allows. Before a variance below zero was guarded against, the closed form gave full responses to
+// lights far from the mirror direction here.
 TEST_F(SweepInexactDivision, MakesNoResponseInvalidOrTooBright)
 {
     constexpr uint32_t each = 20'000;
-    for (const CndLightType type : {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE})
+    for (const uint32_t type : areaLightTypes())
         for (const CndSpecularMethod method : {CND_SPECULAR_CONIC, CND_SPECULAR_CONIC_FULL}) {
+            if (lighting::canonicalMethod(type, method) != method)
+                continue;
             Sweep sweep(context(), {.lightType = type, .method = method}, 1, true);
             for (uint32_t slice = 0; slice < sweepSliceCount; ++slice) {
                 const SweepCount count = sweep.count(slice, 0, each, [](uint64_t) {});
@@ -152,6 +159,37 @@ TEST_F(SweepInexactDivision, MakesNoResponseInvalidOrTooBright)
                     << sliceText(slice) << ": " << count.above << " above the bound; "
                     << (count.bad.empty() ? "" : describeRecord(count.bad[0]));
             }
+        }
+}
+
+// The bound that tells whether a response is too bright is one of the true response, for every
+// shape. Representative points are the cheapest method; it does not matter here.
+TEST_F(SweepShapes, BoundsAreAboveTheTruth)
+{
+    const StabilitySettings settings{.configurations = 1,
+                                     .quadratureSamples = 4'000,
+                                     .sweeps = 1,
+                                     .lightTypes = areaLightTypes(),
+                                     .methods = {CND_SPECULAR_KARIS}};
+    Progress progress(1, false);
+    const Stability stability = measureStability(context(), settings, progress);
+    ASSERT_EQ(stability.quadrature.size(), settings.lightTypes.size());
+    for (const QuadratureCheck& q : stability.quadrature) {
+        EXPECT_GE(q.samples, 500u);
+        EXPECT_EQ(q.truthsAboveBound, 0u) << lightTypeName(q.evaluation.lightType);
+    }
+}
+
+// A light as small as 0.3% of the lobe's width is a point.
+TEST_F(SweepShapes, SmallLightsArePoints)
+{
+    for (const uint32_t type : areaLightTypes())
+        if (lighting::canonicalMethod(type, CND_SPECULAR_CONIC) == CND_SPECULAR_CONIC) {
+            const SmallLightCheck check = checkSmallLights(
+                context(), {.lightType = type, .method = CND_SPECULAR_CONIC}, 20'000, 1);
+            std::cout << lightTypeName(type) << ": relative error median " << check.median
+                      << ", p99 " << check.p99 << ", max " << check.max << "\n";
+            EXPECT_LE(check.max, 1e-4) << lightTypeName(type) << ": " << check.worst;
         }
 }
 

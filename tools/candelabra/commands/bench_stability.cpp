@@ -8,8 +8,11 @@
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
+#include "io/parse.h"
 #include "measure/stability/stability.h"
 #include "render/provenance.h"
+#include "render/setting_names.h"
+#include "scene/light_types.h"
 
 namespace candelabra::app
 {
@@ -19,9 +22,31 @@ namespace
 struct StabilityArguments {
     DeviceArguments device;
     std::string configurations = "20000000", quadrature = "100000", sweeps = "200", seed = "1";
+    std::string lights, specular;
     bool inexactDivision = false;
     std::string directory = "out", json;
 };
+
+std::vector<std::string> namesOf(const std::string& text)
+{
+    return text.empty() ? std::vector<std::string>() : splitAtCommas(text);
+}
+
+// Returns the types with these names.
+std::vector<uint32_t> lightTypesOption(const std::string& text)
+{
+    std::vector<uint32_t> out;
+    for (const std::string& name : namesOf(text)) {
+        uint32_t type = 0;
+        std::string all;
+        for (; type < CND_LIGHT_TYPE_COUNT && name != lightTypeName(type); ++type)
+            all += (type > 0 ? ", " : "") + std::string(lightTypeName(type));
+        if (type == CND_LIGHT_TYPE_COUNT)
+            throw UsageError(fmt::format("--light-types \"{}\": choose from {}", text, all));
+        out.push_back(type);
+    }
+    return out;
+}
 
 int stability(const ProgramContext& program, const StabilityArguments& a)
 {
@@ -31,6 +56,9 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
     settings.sweeps = unsignedOption("--sweeps", a.sweeps, 1, 100'000);
     settings.seed = unsignedOption("--seed", a.seed, 0, UINT32_MAX);
     settings.inexactDivision = a.inexactDivision;
+    settings.lightTypes = lightTypesOption(a.lights);
+    for (const std::string& name : namesOf(a.specular))
+        settings.methods.push_back(choose("--specular", name, specularChoices));
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_stability.json");
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("stability on {}", context.info().name);
@@ -49,7 +77,7 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
         spdlog::error("candelabra: {} of {} responses are NaN, infinite, negative or too bright",
                       result.invalid(), result.tried());
     if (result.overBar())
-        spdlog::error("candelabra: the closed form is farther from quadrature than its bar");
+        spdlog::error("candelabra: a closed form is farther from quadrature than its bar");
     return printValidationMessages(context) || result.invalid() || result.overBar() ? exitFailed
                                                                                     : exitOk;
 }
@@ -79,19 +107,24 @@ void addBenchStability(CLI::App& bench, Run& run)
     command->add_option("--seed", a->seed, "seed of all random inputs")
         ->type_name("N")
         ->capture_default_str();
+    command->add_option("--light-types", a->lights, "light types to try; default: all")
+        ->type_name("TYPE,...");
+    command->add_option("--specular", a->specular, "specular methods to try; default: all")
+        ->type_name("METHOD,...");
     command->add_flag("--inexact-division", a->inexactDivision,
                       "make every quotient and root as wrong as Vulkan allows, so that any device "
                       "shows what rounding on GPUs does; leaves out the checks of continuity");
     addBenchOutput(*command, a->directory, a->json, "bench_stability.json");
     a->device.addTo(*command);
-    command->footer("The exit code is 1 if any response is NaN, infinite, negative or (closed form "
-                    "of spheres) brighter\n"
-                    "than a light of that size and place can be, or if the closed form is farther "
+    command->footer("The exit code is 1 if any response is NaN, infinite, negative or (closed "
+                    "forms) brighter\n"
+                    "than a light of that size and place can be, or if a closed form is farther "
                     "from quadrature than\n"
                     "its bar.\n\n"
                     "Examples:\n"
                     "  candelabra bench stability\n"
                     "  candelabra bench stability --configs 1e10 --quadrature 1000000\n"
+                    "  candelabra bench stability --light-types tube,rectangle --specular conic\n"
                     "  candelabra bench stability --inexact-division --seed 2");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return stability(program, *a); }; });

@@ -10,6 +10,8 @@
 #include "generate/random.h"
 #include "measure/kernels/vectors.h"
 #include "measure/stability/stability.h"
+#include "reference/response.h"
+#include "shading/light_family.h"
 
 namespace candelabra::app
 {
@@ -23,27 +25,35 @@ struct Path {
     float perceptualRoughness;
     glm::dvec3 v;
     double s, azimuth;
+    glm::dvec3 axis, side; // unit and perpendicular: how lights lie that are no spheres
+    double aspect;         // their width divided by their length
 };
 
 // The light at a position t in 0..1 along a path.
 struct Place {
     glm::dvec3 direction; // unit, towards the light's centre
-    double sine;          // the light's radius: at distance 1, the sine of its half angle
+    double sine;          // the light's size: at distance 1, the sine of a sphere's half angle
     double distance;      // of the light's centre
+    glm::dvec3 axis, side;
 };
 using Way = std::function<Place(const Path&, double)>;
+
+Place at(const Path& p, const glm::dvec3& direction)
+{
+    return {direction, p.s, 1, p.axis, p.side};
+}
 
 Place throughHorizon(const Path& p, double t)
 {
     const double elevation = std::asin(p.s) * (2.2 * (1 - t) - 1.1);
-    return {polar(pi / 2 - elevation, p.azimuth), p.s, 1};
+    return at(p, polar(pi / 2 - elevation, p.azimuth));
 }
 
 // The light goes from well above the horizon to one half angle above it.
 Place towardsHorizon(const Path& p, double t)
 {
     const double half = std::asin(p.s);
-    return {polar((pi / 2 - half) * t, p.azimuth), p.s, 1};
+    return at(p, polar((pi / 2 - half) * t, p.azimuth));
 }
 
 // The light goes through the mirror direction in the plane of incidence.
@@ -52,28 +62,73 @@ Place throughMirror(const Path& p, double t)
     const double alpha = double(p.perceptualRoughness) * p.perceptualRoughness;
     const double width = 2 * (std::asin(p.s) + alpha);
     const double angle = std::acos(std::clamp(p.v.z, -1.0, 1.0)) + width * (2 * t - 1);
-    return {polar(angle, std::atan2(-p.v.y, -p.v.x)), p.s, 1};
+    return at(p, polar(angle, std::atan2(-p.v.y, -p.v.x)));
+}
+
+// The light grows, somewhere within its largest half angle and the lobe's from the mirror
+// direction.
+Place throughSizes(const Path& p, double t)
+{
+    const double alpha = double(p.perceptualRoughness) * p.perceptualRoughness;
+    const glm::dvec3 mirror(-p.v.x, -p.v.y, p.v.z);
+    Place out = at(p, glm::normalize(mirror + (p.s + alpha) * polar(2 * p.azimuth, p.azimuth)));
+    out.sine = p.s * std::pow(1e-4, 1 - t);
+    return out;
 }
 
 // The receiver enters the sphere: its distance from the centre goes from 3 R to R / 4.
 Place throughSurface(const Path& p, double t)
 {
-    return {polar(0.5 * pi * p.s, p.azimuth), 1, 3 * (1 - t) + 0.25 * t};
+    return {polar(0.5 * pi * p.s, p.azimuth), 1, 3 * (1 - t) + 0.25 * t, p.axis, p.side};
 }
 
+// The light turns until it is seen along its axis, or from the side if it is flat, and beyond.
+Place turning(const Path& p, double t)
+{
+    const glm::dvec3 direction = polar(0.4 * pi * p.s, p.azimuth);
+    const glm::dvec3 across = glm::normalize(glm::cross(direction, p.axis));
+    const double angle = 0.4 * (2 * t - 1);
+    return {direction, p.s, 1, std::cos(angle) * direction + std::sin(angle) * across,
+            glm::cross(direction, across)};
+}
+
+// The place at which a light of that size is brightest: in the mirror direction, facing the
+// receiver.
+Place facing(const Path& p, const Place& place)
+{
+    const glm::dvec3 mirror(-p.v.x, -p.v.y, p.v.z);
+    const glm::dvec3 axis = glm::normalize(glm::cross(mirror, p.axis));
+    return {mirror, place.sine, place.distance, axis, glm::cross(mirror, axis)};
+}
+
+enum class Only { Any, Sphere, Shape };
 struct Named {
     const char* name;
     Way way;
-    bool nearOnly; // only for lights at a finite distance
+    Only only; // sphere: at a finite distance; shape: lights that are no spheres
 };
-const Named ways[] = {{"the horizon", throughHorizon, false},
-                      {"the approach to it", towardsHorizon, false},
-                      {"the mirror direction", throughMirror, false},
-                      {"the emitter's surface", throughSurface, true}};
+const Named ways[] = {{"the horizon", throughHorizon, Only::Any},
+                      {"the approach to it", towardsHorizon, Only::Any},
+                      {"the mirror direction", throughMirror, Only::Any},
+                      {"its sizes", throughSizes, Only::Any},
+                      {"the emitter's surface", throughSurface, Only::Sphere},
+                      {"its own plane or axis", turning, Only::Shape}};
+
+bool applies(const Named& named, uint32_t lightType)
+{
+    switch (named.only) {
+    case Only::Sphere:
+        return lightType == CND_LIGHT_SPHERE;
+    case Only::Shape:
+        return !lighting::isSphere(lightType);
+    default:
+        return true;
+    }
+}
 
 std::vector<Path> makePaths(uint32_t count, uint64_t seed)
 {
-    Random random(seed, 300);
+    Random random(seed, 300), shapes(seed, 301);
     std::vector<Path> out;
     for (uint32_t i = 0; i < count; ++i) {
         Path p{};
@@ -82,20 +137,37 @@ std::vector<Path> makePaths(uint32_t count, uint64_t seed)
         p.v = polar(view, 2 * pi * double(random.uniform()));
         p.s = std::pow(10.0, double(random.uniform(-2.0f, -0.02f)));
         p.azimuth = 2 * pi * double(random.uniform());
+        p.axis = polar(std::acos(double(shapes.uniform(-1, 1))), 2 * pi * double(shapes.uniform()));
+        const double turn = 2 * pi * double(shapes.uniform());
+        const reference::Frame frame = reference::frameAround(p.axis, {0, 0, 1});
+        p.side = std::cos(turn) * frame.x + std::sin(turn) * frame.y;
+        p.aspect = std::pow(10.0, double(shapes.uniform(-2, 0)));
         out.push_back(p);
     }
     return out;
 }
 
-CndLight lightAt(uint32_t type, const Place& place)
+// Lights that are no spheres fit into the sphere of that size. A flat light is seen from both
+// sides; a disc's plane is that of both axes.
+CndLight lightAt(uint32_t type, const Path& p, const Place& place)
 {
     CndLight light{.type = type};
-    const glm::vec3 to(place.direction * place.distance);
-    for (int i = 0; i < 3; ++i) {
-        light.position[i] = to[i];
-        light.direction[i] = -to[i];
-    }
+    const glm::dvec3 to = place.direction * place.distance;
+    set(light.position, to);
+    set(light.direction, -to);
     light.radius = float(place.sine);
+    light.twoSided = VK_TRUE;
+    if (lighting::isSphere(type))
+        return light;
+    const uint32_t fields = cndLightFields(type);
+    const bool isTube = fields & CND_LIGHT_FIELD_AXIS_U_BIT && fields & CND_LIGHT_FIELD_RADIUS_BIT;
+    const double length = place.sine * (isTube ? 0.6 : 0.7);
+    const double width = (isTube ? 0.5 : 1) * length * p.aspect;
+    set(light.axisU, length * place.axis);
+    set(light.axisV, width * place.side);
+    set(light.direction, glm::cross(place.axis, place.side));
+    if (isTube)
+        light.radius = float(width);
     return light;
 }
 
@@ -111,17 +183,21 @@ public:
     {
     }
 
-    // The responses with F = 1 at `perPath` positions of each path.
-    std::vector<double> evaluate(const std::vector<double>& t, size_t perPath) const
+    // The responses with F = 1 at `perPath` positions of each path; `peak`: to the light as it is
+    // brightest.
+    std::vector<double> evaluate(const std::vector<double>& t, size_t perPath,
+                                 bool peak = false) const
     {
         std::vector<gpu::BenchReceiver> receivers;
         std::vector<CndLight> lights;
         for (size_t i = 0; i < paths_.size(); ++i)
             for (size_t k = 0; k < perPath; ++k) {
+                const Path& p = paths_[i];
+                const Place place = way_(p, t[i * perPath + k]);
                 receivers.push_back({.n = {0, 0, 1},
-                                     .v = glm::vec3(paths_[i].v),
-                                     .perceptualRoughness = paths_[i].perceptualRoughness});
-                lights.push_back(lightAt(lightType_, way_(paths_[i], t[i * perPath + k])));
+                                     .v = glm::vec3(p.v),
+                                     .perceptualRoughness = p.perceptualRoughness});
+                lights.push_back(lightAt(lightType_, p, peak ? facing(p, place) : place));
             }
         std::vector<double> out;
         for (const gpu::BenchResponse& r : evaluator_.evaluate(receivers, lights))
@@ -172,16 +248,16 @@ ContinuityCheck check(const VulkanContext& context, const Evaluation& evaluation
         }
     }
     ContinuityCheck out{.evaluation = evaluation, .through = named.name, .worst = {}};
+    const std::vector<double> peaks = follow.evaluate(low, 1, true);
     for (size_t i = 0; i < paths.size(); ++i) {
         const Path& p = paths[i];
         const double alpha = double(p.perceptualRoughness) * p.perceptualRoughness;
-        const double jump =
-            std::abs(atHigh[i] - atLow[i]) /
-            onAxisResponse(named.way(p, 0.5 * (low[i] + high[i])).sine, alpha, p.v.z);
+        const double jump = std::abs(atHigh[i] - atLow[i]) / peaks[i];
         if (jump > out.jump) {
             out.jump = jump;
-            out.worst = fmt::format("alpha {:.4f}, NoV {:.4f}, s {:.4f}, azimuth {:.3f}, t {:.6f}",
-                                    alpha, p.v.z, p.s, p.azimuth, low[i]);
+            out.worst = fmt::format(
+                "alpha {:.4f}, NoV {:.4f}, s {:.4f}, azimuth {:.3f}, aspect {:.3f}, t {:.6f}",
+                alpha, p.v.z, p.s, p.azimuth, p.aspect, low[i]);
         }
     }
     return out;
@@ -196,7 +272,7 @@ std::vector<ContinuityCheck> checkContinuity(const VulkanContext& context,
     const std::vector<Path> paths = makePaths(sweeps, seed);
     std::vector<ContinuityCheck> out;
     for (const Named& named : ways)
-        if (!named.nearOnly || evaluation.lightType == CND_LIGHT_SPHERE)
+        if (applies(named, evaluation.lightType))
             out.push_back(check(context, evaluation, paths, named));
     return out;
 }

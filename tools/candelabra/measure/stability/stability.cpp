@@ -29,6 +29,12 @@ std::vector<Evaluation> evaluations(const StabilitySettings& s)
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (lighting::takesBudget(type, CND_SPECULAR_CONIC))
             out.push_back({.lightType = type, .method = CND_SPECULAR_CONIC, .errorBudget = 0.01f});
+    const auto unwanted = [](const auto& wanted, auto value) {
+        return !wanted.empty() && std::find(wanted.begin(), wanted.end(), value) == wanted.end();
+    };
+    std::erase_if(out, [&](const Evaluation& e) {
+        return unwanted(s.lightTypes, e.lightType) || unwanted(s.methods, e.method);
+    });
     return out;
 }
 
@@ -38,25 +44,26 @@ bool hasQuadrature(const Evaluation& e)
     return !cndIsPunctual(e.lightType) && e.method != CND_SPECULAR_SAMPLED;
 }
 
+bool isClosedForm(const Evaluation& e)
+{
+    return lighting::isClosedForm(e.method) && !cndIsPunctual(e.lightType);
+}
+
 bool hasContinuity(const Evaluation& e)
 {
-    return lighting::isSphere(e.lightType) && hasQuadrature(e) && e.errorBudget == 0;
+    return (lighting::isSphere(e.lightType) || isClosedForm(e)) && hasQuadrature(e) &&
+           e.errorBudget == 0;
 }
 
 // The slices whose lights have a size and a position that float32 resolves.
-constexpr uint32_t quadratureSlices[] = {gpu::SWEEP_ANYTHING, gpu::SWEEP_CONTACT,
-                                         gpu::SWEEP_ALIGNED, gpu::SWEEP_TANGENT,
-                                         gpu::SWEEP_EXTREME_ALPHA};
-
-bool isClosedForm(const Evaluation& e)
-{
-    return e.method == CND_SPECULAR_CONIC || e.method == CND_SPECULAR_CONIC_FULL;
-}
+constexpr uint32_t quadratureSlices[] = {gpu::SWEEP_ANYTHING,      gpu::SWEEP_CONTACT,
+                                         gpu::SWEEP_ALIGNED,       gpu::SWEEP_TANGENT,
+                                         gpu::SWEEP_EXTREME_ALPHA, gpu::SWEEP_EDGE};
 
 struct Compared {
     double error = 0, diffuse = 0;
     bool counted = false;
-    std::string text;
+    bool truthAboveBound = false;
 };
 
 Compared compare(const gpu::SweepRecord& r, const Evaluation& evaluation)
@@ -79,9 +86,8 @@ Compared compare(const gpu::SweepRecord& r, const Evaluation& evaluation)
     const double distance = distant ? 1 : std::max(glm::length(to), 1e-30);
     const double s = std::min(double(r.centreRadius.w) / distance, 1.0);
     return {std::abs(double(r.response.y) - truth.a) / onAxisResponse(s, alpha, NoV),
-            std::abs(double(r.response.x) - truth.f) / (s * s),
-            true,
-            {}};
+            std::abs(double(r.response.x) - truth.f) / (s * s), true,
+            truth.a > 1.001 * double(r.bound) + 1e-9};
 }
 
 QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint32_t samples,
@@ -111,6 +117,7 @@ QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint
                 if (!compared[i].counted)
                     continue;
                 errors.push_back(compared[i].error);
+                out.truthsAboveBound += compared[i].truthAboveBound;
                 out.diffuseMax = std::max(out.diffuseMax, compared[i].diffuse);
                 if (!(compared[i].error <= out.max)) { // NaN counts as the worst error
                     out.max = compared[i].error;
@@ -130,6 +137,8 @@ QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint
     out.p99 = errors[size_t(std::ceil(0.99 * double(errors.size()))) - 1];
     return out;
 }
+
+constexpr uint32_t smallLightSamples = 20'000;
 
 // In the progress bar a quadrature counts as many steps as so many configurations.
 constexpr double stepsPerTruth = 2000;
@@ -197,6 +206,9 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
             for (ContinuityCheck& check :
                  checkContinuity(context, evaluation, settings.sweeps, settings.seed))
                 out.continuity.push_back(std::move(check));
+        if (isClosedForm(evaluation) && evaluation.errorBudget == 0)
+            out.smallLights.push_back(
+                checkSmallLights(context, evaluation, smallLightSamples, settings.seed));
     }
     return out;
 }
@@ -248,6 +260,15 @@ std::string continuityTable(const Stability& stability)
     return table.text();
 }
 
+std::string smallLightTable(const Stability& stability)
+{
+    Table table({"light, method", "samples", "median", "p99", "max"});
+    for (const SmallLightCheck& c : stability.smallLights)
+        table.add({nameOf(c.evaluation), grouped(c.samples), fmt::format("{:.1e}", c.median),
+                   fmt::format("{:.1e}", c.p99), fmt::format("{:.1e}", c.max)});
+    return table.text();
+}
+
 std::string badList(const Stability& stability)
 {
     std::string out;
@@ -266,8 +287,9 @@ std::string overBarList(const Stability& stability)
     std::string out;
     for (const QuadratureCheck& q : stability.quadrature)
         if (q.overBar())
-            out += fmt::format("{}: {}% at {}\n", nameOf(q.evaluation), threeDigits(100 * q.max),
-                               q.worst);
+            out += fmt::format("{}: {}% at {}; {} true responses above their bound\n",
+                               nameOf(q.evaluation), threeDigits(100 * q.max), q.worst,
+                               q.truthsAboveBound);
     return out.empty() ? "" : "\nOver the bar\n" + out;
 }
 
@@ -282,12 +304,16 @@ std::string stabilityTables(const Stability& stability)
            "mirror axis\n" +
            quadratureTable(stability) +
            (stability.continuity.empty() ? "" : "\nContinuity\n" + continuityTable(stability)) +
+           (stability.smallLights.empty()
+                ? ""
+                : "\nSmall lights against points, relative error\n" + smallLightTable(stability)) +
            badList(stability) + overBarList(stability);
 }
 
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability)
 {
-    Json slices = Json::array(), quadrature = Json::array(), continuity = Json::array();
+    Json slices = Json::array(), quadrature = Json::array(), continuity = Json::array(),
+         smallLights = Json::array();
     for (const SweptSlice& s : stability.slices) {
         Json bad = Json::array();
         for (const gpu::SweepRecord& r : s.count.bad)
@@ -309,19 +335,28 @@ Json stabilityJson(const StabilitySettings& settings, const Stability& stability
                               {"maxPercent", 100 * q.max},
                               {"barPercent", 100 * q.bar},
                               {"diffuseMax", q.diffuseMax},
+                              {"truthsAboveBound", q.truthsAboveBound},
                               {"worst", q.worst}});
     for (const ContinuityCheck& c : stability.continuity)
         continuity.push_back({{"evaluation", nameOf(c.evaluation)},
                               {"through", c.through},
                               {"jumpOverPeak", c.jump},
                               {"worst", c.worst}});
+    for (const SmallLightCheck& c : stability.smallLights)
+        smallLights.push_back({{"evaluation", nameOf(c.evaluation)},
+                               {"samples", c.samples},
+                               {"median", c.median},
+                               {"p99", c.p99},
+                               {"max", c.max},
+                               {"worst", c.worst}});
     return {{"seed", settings.seed},
             {"inexactDivision", settings.inexactDivision},
             {"configurations", stability.tried()},
             {"invalid", stability.invalid()},
             {"slices", slices},
             {"formulaAgainstQuadrature", quadrature},
-            {"continuity", continuity}};
+            {"continuity", continuity},
+            {"smallLights", smallLights}};
 }
 
 } // namespace candelabra::app

@@ -22,6 +22,9 @@ struct StabilitySettings {
     uint32_t quadratureSamples = 100'000; // in all; distributed over light types and methods
     uint32_t sweeps = 200;                // per check of continuity
     uint32_t seed = 1;
+    // What is measured; empty: everything.
+    std::vector<uint32_t> lightTypes;
+    std::vector<CndSpecularMethod> methods;
     uint32_t sampleCount = 4; // samples per light of the sampled method
     // Whether quotients and roots are as wrong as Vulkan allows (inexact_division.h). Continuity is
     // not checked then, because such responses jump from float to float.
@@ -50,11 +53,14 @@ struct QuadratureCheck {
     double diffuseMax = 0; // the largest error of the form factor, relative to the squared ratio of
                            // the emitter's bounding radius to its distance, which is at most 1
     std::string worst;     // slice and inputs of the largest error
-    bool overBar() const { return bar > 0 && !(max <= bar); }
+    // True responses above the bound that responses are compared with, which would refute its
+    // proof.
+    size_t truthsAboveBound = 0;
+    bool overBar() const { return truthsAboveBound > 0 || (bar > 0 && !(max <= bar)); }
 };
 
-// The largest jump of the response with F = 1, relative to onAxisResponse, that remains after
-// bisection down to neighbouring floats.
+// The largest jump of the response with F = 1 that remains after bisection down to neighbouring
+// floats, relative to the response to the light in the mirror direction, facing the receiver.
 struct ContinuityCheck {
     Evaluation evaluation;
     std::string through;
@@ -62,10 +68,20 @@ struct ContinuityCheck {
     std::string worst;
 };
 
+// The errors of a closed form for lights so small that they are points: lights whose size is at
+// most 0.3% of the lobe's width. They are relative to a point light with their solid angle.
+struct SmallLightCheck {
+    Evaluation evaluation;
+    size_t samples = 0;
+    double median = 0, p99 = 0, max = 0;
+    std::string worst;
+};
+
 struct Stability {
     std::vector<SweptSlice> slices;
     std::vector<QuadratureCheck> quadrature;
     std::vector<ContinuityCheck> continuity;
+    std::vector<SmallLightCheck> smallLights;
 
     uint64_t tried() const;
     uint64_t invalid() const;
@@ -79,6 +95,9 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
 std::vector<ContinuityCheck> checkContinuity(const VulkanContext& context,
                                              const Evaluation& evaluation, uint32_t sweeps,
                                              uint64_t seed);
+
+SmallLightCheck checkSmallLights(const VulkanContext& context, const Evaluation& evaluation,
+                                 uint32_t samples, uint64_t seed);
 
 std::string stabilityTables(const Stability& stability);
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability);

@@ -12,7 +12,7 @@
 namespace candelabra::app
 {
 
-constexpr uint32_t sweepSliceCount = 10;
+constexpr uint32_t sweepSliceCount = 12;
 const char* sliceText(uint32_t slice);
 
 struct SweepCount {
