@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gbuffer/emitters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -53,22 +54,46 @@ gpu::EmitterRecord recordOf(const CndLight& light, size_t index)
     return record;
 }
 
+gpu::EmitterCorners cornersOf(const CndLight& light, size_t index)
+{
+    const CndPolygon* const polygon = light.polygon;
+    if (!polygon || polygon->cornerCount < 3 || polygon->cornerCount > CND_MAX_CORNERS)
+        gpu::failArgument("emitter " + std::to_string(index) + " has not 3 to 8 corners");
+    gpu::EmitterCorners out;
+    for (uint32_t i = 0; i < CND_MAX_CORNERS; ++i) {
+        const float(&corner)[2] = polygon->corners[std::min(i, polygon->cornerCount - 1)];
+        if (!std::isfinite(corner[0]) || !std::isfinite(corner[1]))
+            gpu::failArgument("emitter " + std::to_string(index) +
+                              " has a corner that is not finite");
+        for (uint32_t k = 0; k < 2; ++k)
+            out.pairs[i / 2][int(i % 2 * 2 + k)] = corner[k];
+    }
+    return out;
+}
+
 } // namespace
 
 void Emitters::set(std::span<const CndLight> lights, const double origin[3])
 {
     std::vector<gpu::EmitterRecord> records;
     records.reserve(lights.size());
+    std::vector<gpu::EmitterCorners> corners;
     std::array<Group, shapeCount> groups{};
     for (size_t shape = 0; shape < shapeCount; ++shape) {
         groups[shape].first = uint32_t(records.size());
         for (size_t i = 0; i < lights.size(); ++i)
-            if (lights[i].type == shapes[shape])
+            if (lights[i].type == shapes[shape]) {
                 records.push_back(recordOf(lights[i], i));
+                if (lights[i].type == gpu::LIGHT_POLYGON)
+                    corners.push_back(cornersOf(lights[i], i));
+            }
         groups[shape].count = uint32_t(records.size()) - groups[shape].first;
     }
 
-    const VkDeviceSize bytes = records.size() * sizeof(gpu::EmitterRecord);
+    if (corners.empty())
+        corners.push_back({});
+    const VkDeviceSize bytes =
+        records.empty() ? 0 : cornersOffsetOf(records.size()) + corners.size() * sizeof(corners[0]);
     std::vector<gpu::Buffer> larger(slots_.size());
     for (size_t s = 0; s < slots_.size(); ++s)
         if (slots_[s].buffer.size < bytes && slots_[s].larger.size < bytes)
@@ -79,6 +104,7 @@ void Emitters::set(std::span<const CndLight> lights, const double origin[3])
         if (larger[s].mapped)
             slots_[s].larger = std::move(larger[s]);
     records_ = std::move(records);
+    corners_ = std::move(corners);
     groups_ = groups;
     origin_ = {origin[0], origin[1], origin[2]};
     ++version_;
@@ -91,9 +117,12 @@ const gpu::Buffer& Emitters::update(uint32_t slotIndex) noexcept
         slot.buffer = std::move(slot.larger);
         slot.larger = {};
     }
-    if (slot.version != version_ && !records_.empty())
+    if (slot.version != version_ && !records_.empty()) {
         std::memcpy(slot.buffer.mapped, records_.data(),
                     records_.size() * sizeof(gpu::EmitterRecord));
+        std::memcpy(slot.buffer.mapped + cornersOffset(), corners_.data(),
+                    corners_.size() * sizeof(gpu::EmitterCorners));
+    }
     slot.version = version_;
     return slot.buffer;
 }

@@ -28,6 +28,10 @@ public:
     // slot's previous frame.
     const gpu::Buffer& update(uint32_t slot) noexcept;
 
+    // Where the gpu::EmitterCorners of the polygons begin in the buffer, in bytes. If there are
+    // none, at least as many bytes as one element follow.
+    VkDeviceSize cornersOffset() const { return cornersOffsetOf(records_.size()); }
+
     // The lights of one shape, contiguous in the buffer.
     struct Group {
         uint32_t first = 0, count = 0;
@@ -60,9 +64,15 @@ private:
         gpu::Buffer larger;
         uint64_t version = 0;
     };
+    static VkDeviceSize cornersOffsetOf(size_t records)
+    {
+        return (records * sizeof(gpu::EmitterRecord) + 15) / 16 * 16; // aligned to a vec4
+    }
+
     const gpu::Device* device_;
     std::vector<Slot> slots_;
     std::vector<gpu::EmitterRecord> records_;
+    std::vector<gpu::EmitterCorners> corners_; // one per polygon, or one that nothing reads
     std::array<Group, shapeCount> groups_{};
     std::array<double, 3> origin_{};
     uint64_t version_ = 0;

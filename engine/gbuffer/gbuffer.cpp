@@ -292,9 +292,7 @@ void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records
                                  uint32_t slot) const noexcept
 {
     bindRays(cmd, pipelines.emitterLayout.get(), slot);
-    const VkBuffer buffer = records.get();
-    const VkDeviceSize offset = 0;
-    device.CmdBindVertexBuffers(cmd, 0, 1, &buffer, &offset);
+    const VkBuffer buffers[] = {records.get(), records.get()};
     for (size_t i = 0; i < Emitters::shapes.size(); ++i) {
         const Emitters::Group& group = emitters.groups()[i];
         if (!group.count)
@@ -303,8 +301,10 @@ void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records
             device.CmdSetDepthCompareOp(cmd, VK_COMPARE_OP_EQUAL); // only where the depth is still
                                                                    // clear
         device.CmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.emitters[i].get());
-        device.CmdDraw(cmd, 4, group.count, 0, group.first); // one quad per emitter, as a triangle
-                                                             // strip
+        const VkDeviceSize offsets[] = {group.first * sizeof(gpu::EmitterRecord),
+                                        emitters.cornersOffset()};
+        device.CmdBindVertexBuffers(cmd, 0, 2, buffers, offsets);
+        device.CmdDraw(cmd, 4, group.count, 0, 0); // one quad per emitter, as a triangle strip
     }
 }
 

@@ -162,16 +162,28 @@ constexpr VkVertexInputAttributeDescription meshAttributes[] = {
      offsetof(VertexDetail, tangent)},
     {gpu::MESH_UV, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexDetail, uv)}};
 
+// Every pipeline of emitters needs the attributes of corners, which only polygons have. The others
+// read the same 64 bytes for all emitters and ignore them.
 constexpr VkVertexInputBindingDescription emitterStreams[] = {
-    {0, sizeof(gpu::EmitterRecord), VK_VERTEX_INPUT_RATE_INSTANCE}};
+    {StreamEmitter, sizeof(gpu::EmitterRecord), VK_VERTEX_INPUT_RATE_INSTANCE},
+    {StreamCorners, 0, VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr VkVertexInputBindingDescription polygonStreams[] = {
+    {StreamEmitter, sizeof(gpu::EmitterRecord), VK_VERTEX_INPUT_RATE_INSTANCE},
+    {StreamCorners, sizeof(gpu::EmitterCorners), VK_VERTEX_INPUT_RATE_INSTANCE}};
 constexpr VkVertexInputAttributeDescription emitterAttributes[] = {
-    {gpu::EMITTER_POSITION, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
+    {gpu::EMITTER_POSITION, StreamEmitter, VK_FORMAT_R32G32B32A32_SFLOAT,
      offsetof(gpu::EmitterRecord, position)}, // and radius, which follows it
-    {gpu::EMITTER_LUMINANCE, 0, VK_FORMAT_R32G32B32_SFLOAT,
+    {gpu::EMITTER_LUMINANCE, StreamEmitter, VK_FORMAT_R32G32B32_SFLOAT,
      offsetof(gpu::EmitterRecord, luminance)},
-    {gpu::EMITTER_AXIS_U, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::EmitterRecord, axisU)},
-    {gpu::EMITTER_AXIS_V, 0, VK_FORMAT_R32G32B32A32_SFLOAT,
-     offsetof(gpu::EmitterRecord, axisV)}}; // and twoSided, which follows it
+    {gpu::EMITTER_AXIS_U, StreamEmitter, VK_FORMAT_R32G32B32_SFLOAT,
+     offsetof(gpu::EmitterRecord, axisU)},
+    {gpu::EMITTER_AXIS_V, StreamEmitter, VK_FORMAT_R32G32B32A32_SFLOAT,
+     offsetof(gpu::EmitterRecord, axisV)}, // and twoSided, which follows it
+    {gpu::EMITTER_CORNERS, StreamCorners, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+    {gpu::EMITTER_CORNERS + 1, StreamCorners, VK_FORMAT_R32G32B32A32_SFLOAT, 16},
+    {gpu::EMITTER_CORNERS + 2, StreamCorners, VK_FORMAT_R32G32B32A32_SFLOAT, 32},
+    {gpu::EMITTER_CORNERS + 3, StreamCorners, VK_FORMAT_R32G32B32A32_SFLOAT, 48}};
+static_assert(gpu::EMITTER_CORNER_PAIRS == 4);
 
 struct MeshShaders {
     const char* kind;
@@ -244,11 +256,12 @@ Pipelines::Pipelines(const gpu::Device& device, CndGBufferLayout layout)
                             {}, backgroundLayout.get());
     for (size_t i = 0; i < emitters.size(); ++i) {
         const std::array constants{gpu::SpecConstant{gpu::RASTER_SHAPE, Emitters::shapes[i]}};
+        const bool polygon = Emitters::shapes[i] == gpu::LIGHT_POLYGON;
         emitters[i] =
             createPipeline(device, layout,
                            {"emitter", emitter_vert,
                             full ? emitter_frag_full_emissive : emitter_frag_compact_emissive,
-                            constants, emitterStreams, emitterAttributes,
+                            constants, polygon ? polygonStreams : emitterStreams, emitterAttributes,
                             VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP, emitterLayout.get()});
     }
 }

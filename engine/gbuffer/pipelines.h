@@ -46,8 +46,9 @@ private:
     std::map<MeshVariant, Mesh> meshes_;
 };
 
-// Vertex buffer bindings of the mesh pipelines. The emitter pipelines use binding 0 only.
+// Vertex buffer bindings of the mesh pipelines, and of the emitter pipelines.
 enum MeshStream : uint32_t { StreamCore, StreamDetail, StreamInstance, StreamCount };
+enum EmitterStream : uint32_t { StreamEmitter, StreamCorners };
 
 // Bindings of descriptor set 0 in the ray-cast pipelines.
 std::vector<gpu::ReflectedBinding> rayBindings();

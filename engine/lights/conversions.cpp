@@ -13,6 +13,7 @@
 #include "candelabra/candelabra.h"
 #include "gpu/failure.h"
 #include "lights/light_types.h"
+#include "lights/polygon.h"
 
 using namespace candelabra;
 
@@ -129,6 +130,13 @@ float cndDiscLuminanceFromPower(float luminousPower, float radius, VkBool32 twoS
                               {.type = CND_LIGHT_DISC, .radius = radius, .twoSided = twoSided});
 }
 
+float cndPolygonLuminanceFromPower(float luminousPower, const CndLight* polygon)
+{
+    CndLight light = *polygon;
+    light.type = CND_LIGHT_POLYGON;
+    return luminanceFromPower(luminousPower, light);
+}
+
 float cndLuminousPowerFromWatts(float watts)
 {
     return 683 * watts;
@@ -138,6 +146,9 @@ CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousPower[3],
 {
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndLuminousPowerOfLight", {light, luminousPower});
+        if (light->type == CND_LIGHT_POLYGON)
+            if (const char* why = lighting::whyPolygonInvalid(light->polygon))
+                gpu::failArgument(why);
         CndLight power{}; // its emission is the power
         setEmission(power, *light, lighting::luminousPowerPerEmission(*light));
         for (int i = 0; i < 3; ++i)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lights/light_order.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "candelabra_shaders.h"
@@ -74,13 +76,20 @@ LightOrder::State LightOrder::createState(uint32_t capacity, const gpu::Buffer& 
     return s;
 }
 
-void LightOrder::record(const gpu::Frame& frame, const State& s, uint32_t lightCount,
+void LightOrder::record(const gpu::Frame& frame, const State& s, const LightTypeCounts& counts,
                         const LightExtent& extent) const noexcept
 {
+    uint32_t lightCount = 0, types = 0;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
+        lightCount += counts[type];
+        types |= uint32_t(counts[type] != 0) << type;
+    }
+    const uint32_t typeBits =
+        std::max<uint32_t>(3, std::bit_width(uint32_t(std::popcount(types)) - 1));
     gpu::Timer untimed; // the whole sort is one row of the timer, stamped at its end
     const gpu::Frame f{frame.device, frame.cmd, untimed, frame.slot};
     const uint32_t axisBits = lightCount <= coarseLights ? coarseAxisBits : fineAxisBits;
-    const uint32_t keyBits = gpu::ORDER_TYPE_BITS + gpu::ORDER_SIZE_BITS + 3 * axisBits;
+    const uint32_t keyBits = typeBits + gpu::ORDER_SIZE_BITS + 3 * axisBits;
     const uint32_t passes = divideUp(keyBits, gpu::SORT_DIGIT_BITS);
     int exponent = 0;
     std::frexp(extent.size, &exponent);
@@ -90,7 +99,8 @@ void LightOrder::record(const gpu::Frame& frame, const State& s, uint32_t lightC
                          .cellsPerMetre = float(1u << axisBits) / extent.size,
                          .lightCount = lightCount,
                          .axisBits = axisBits,
-                         .largestExponent = exponent},
+                         .largestExponent = exponent,
+                         .types = types},
                         divideUp(lightCount, gpu::SORT_GROUP));
     gpu::SortParams params{.lightCount = lightCount,
                            .runCount = divideUp(lightCount, gpu::SORT_RUN)};

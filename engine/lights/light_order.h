@@ -6,6 +6,7 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
+#include "lights/light_types.h"
 #include "shared/light_order.h"
 
 namespace candelabra::lighting
@@ -33,8 +34,9 @@ public:
     };
     // `capacity`: the largest number of lights to sort.
     State createState(uint32_t capacity, const gpu::Buffer& records) const;
-    // Records the sort of the first `lightCount` records, and a barrier after it.
-    void record(const gpu::Frame& frame, const State& state, uint32_t lightCount,
+    // Records the sort of all records, and a barrier after it. `counts`: how many records there are
+    // of each type.
+    void record(const gpu::Frame& frame, const State& state, const LightTypeCounts& counts,
                 const LightExtent& extent) const noexcept;
 
 private:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "lights/light_limits.h"
 #include "lights/pack_lights.h"
@@ -41,7 +42,9 @@ LightSet::LightSet(const gpu::Device& device, gpu::Recordings& recordings, uint3
       prepare_(std::move(prepare)),
       firstCapacity_(capacity ? capacity : defaultCapacity),
       sorting_(device),
-      deviceLights_(device)
+      deviceLights_(device),
+      polygons_(device, recordings),
+      lights_(polygons_)
 {
     requireRoom("CndLightingDesc: lightCapacity", capacity);
     capacity_ = capacityFor(0);
@@ -54,6 +57,18 @@ void LightSet::requireRoom(const char* what, uint64_t count) const
         gpu::failUnsupported(std::string(what) + ": " + std::to_string(count) +
                              " lights are more than the device can take, " +
                              std::to_string(maxLights(device_.limits)));
+}
+
+// Throws gpu::Failure if a view could not store the shapes of so many lights with their corners.
+void LightSet::requireShapes(const char* what, const LightTypeCounts& types) const
+{
+    const uint64_t polygons = types[CND_LIGHT_POLYGON];
+    const uint64_t lights = capacityFor(std::accumulate(types.begin(), types.end(), 0u));
+    const uint64_t room = device_.limits.maxStorageBufferRange / sizeof(gpu::LightShape);
+    if (polygons && lights + polygons * gpu::CORNER_SHAPES > room)
+        gpu::failUnsupported(std::string(what) + ": " + std::to_string(polygons) +
+                             " polygon lights are more than the device can take besides room for " +
+                             std::to_string(lights) + " lights");
 }
 
 void LightSet::set(const CndLightSet& set)
@@ -74,10 +89,12 @@ void LightSet::set(const CndLightSet& set)
         InfluenceBox& box = boxes[device->type]; // only the device knows where its lights are
         box = endlessBox(box.layers | layersOf(device->layers));
     }
+    requireShapes("CndLightSet", types);
     const uint32_t capacity = capacityFor(uint32_t(total));
     recordings_.freeRetired();
     prepare_(capacity, types);
     lights_.reserveSet(set.count);
+    polygons_.reserveSet(types[CND_LIGHT_POLYGON]);
     std::shared_ptr<gpu::Bindings> bindings;
     if (device)
         bindings = deviceLights_.prepare(*device, capacity > capacity_);
@@ -90,8 +107,7 @@ void LightSet::set(const CndLightSet& set)
     else
         deviceLights_.takeNone();
     firstRecord_ = device ? device->maxCount : 0;
-    packLights(lights, hostRecords(staging));
-    lights_.set(lights);
+    lights_.set(lights, hostRecords(staging));
     pending_ = &staging;
     carriedFrom_ = VK_NULL_HANDLE;
     onDevice_ = 0;
@@ -113,8 +129,11 @@ void LightSet::add(std::span<const CndLight> lights, CndLightId* ids)
     requireRoom("cndAddLights", total);
     validateLights(lights);
     LightTypeCounts types = countTypes(lights);
+    const uint32_t polygons = types[CND_LIGHT_POLYGON];
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         types[type] += typeCounts_[type];
+    requireShapes("cndAddLights", types);
+    polygons_.reserve(polygons, polygons);
     const LightTable::Records staging = prepareEdit(types, lights.size(), lights.size());
     for (size_t i = 0; i < lights.size(); ++i)
         ids[i] = lights_.add(lights[i], staging);
@@ -128,10 +147,16 @@ void LightSet::update(std::span<const CndLightId> ids, std::span<const CndLight>
     lights_.check("cndUpdateLights", ids);
     validateLights(lights);
     LightTypeCounts types = typeCounts_;
+    size_t polygons = 0, newPolygons = 0;
     for (size_t i = 0; i < ids.size(); ++i) {
-        --types[lights_.typeOf(ids[i])];
+        const uint32_t before = lights_.typeOf(ids[i]);
+        --types[before];
         ++types[lights[i].type];
+        polygons += lights[i].type == CND_LIGHT_POLYGON;
+        newPolygons += lights[i].type == CND_LIGHT_POLYGON && before != CND_LIGHT_POLYGON;
     }
+    requireShapes("cndUpdateLights", types);
+    polygons_.reserve(polygons, newPolygons);
     const LightTable::Records staging = prepareEdit(types, ids.size(), 0);
     for (size_t i = 0; i < ids.size(); ++i)
         lights_.update(ids[i], lights[i], staging);
@@ -300,6 +325,7 @@ void LightSet::grow(uint32_t capacity, bool keepRecords)
 
 void LightSet::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcept
 {
+    polygons_.recordUpload(frame, recording);
     if (!pending_)
         return;
     pending_->recording = recording;
@@ -324,7 +350,7 @@ void LightSet::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcep
     }
     if (count_) {
         frame.barrier();
-        sorting_.record(frame, store_.sort, count_, extent_);
+        sorting_.record(frame, store_.sort, typeCounts_, extent_);
     }
     carriedFrom_ = VK_NULL_HANDLE;
     onDevice_ = count_;

@@ -59,11 +59,16 @@ public:
     // The same, and 0 also for a type whose lights all end outside the camera's view.
     LightTypeCounts countsInView(const CndCamera& camera, uint32_t layers) const;
     // Tells whether there are changes that no recording has uploaded yet.
-    bool isChanged() const { return pending_ != nullptr; }
+    bool isChanged() const { return pending_ || polygons_.isChanged(); }
     bool hasDeviceLights() const { return deviceLights_.present(); }
     bool deviceLightsChanged() const { return deviceLightsPending_; }
 
-    const gpu::Buffer& records() const { return store_.records; }    // gpu::LightRecord, unsorted
+    const gpu::Buffer& records() const { return store_.records; } // gpu::LightRecord, unsorted
+    // gpu::PolygonRecord; some other buffer if there never was a polygon
+    const gpu::Buffer& polygons() const
+    {
+        return polygons_.buffer() ? *polygons_.buffer() : records();
+    }
     const gpu::Buffer& order() const { return store_.sort.keys[0]; } // gpu::LightKey, sorted
 
 private:
@@ -83,6 +88,7 @@ private:
     uint32_t capacityFor(uint32_t count) const;
     void grow(uint32_t capacity, bool keepRecords);
     Staging& freeStaging();
+    void requireShapes(const char* what, const LightTypeCounts& types) const;
     LightTable::Records prepareEdit(const LightTypeCounts& types, size_t edits, size_t added);
     void finishEdit(const LightTypeCounts& types, std::span<const CndLight> lights,
                     size_t edits) noexcept;
@@ -95,6 +101,7 @@ private:
     uint32_t firstCapacity_; // the capacity at creation
     LightOrder sorting_;
     DeviceLights deviceLights_;
+    PolygonTable polygons_;
     LightTable lights_; // the host's lights
     uint32_t count_ = 0, capacity_ = 0;
     uint64_t number_ = 0;

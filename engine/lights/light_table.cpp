@@ -96,8 +96,36 @@ LightTable::Light LightTable::entry(const CndLight& light, uint32_t slot)
     return {{p[0], p[1], p[2]}, light.influenceRadius, light.type, slot};
 }
 
-void LightTable::set(std::span<const CndLight> lights) noexcept
+// Packs the light of a record, whose entry is already there.
+void LightTable::pack(uint32_t record, const CndLight& light, Records staging) noexcept
 {
+    packLights({&light, 1}, staging.subspan(record), lights_[record].slot);
+    if (light.type == CND_LIGHT_POLYGON)
+        writePolygon(record, *light.polygon, staging);
+}
+
+// Writes the corners of a record that has been packed.
+void LightTable::writePolygon(uint32_t record, const CndPolygon& corners, Records staging) noexcept
+{
+    Light& light = lights_[record];
+    if (light.polygon == noPolygon)
+        light.polygon = polygons_.add(corners, light.slot);
+    else
+        polygons_.update(light.polygon, corners, light.slot);
+    staging[record].id = light.polygon;
+}
+
+void LightTable::forgetPolygon(uint32_t record) noexcept
+{
+    if (lights_[record].polygon != noPolygon)
+        polygons_.remove(lights_[record].polygon);
+    lights_[record].polygon = noPolygon;
+}
+
+void LightTable::set(std::span<const CndLight> lights, Records staging) noexcept
+{
+    packLights(lights, staging);
+    polygons_.clear();
     lights_.clear();
     recordOf_.clear();
     freeSlots_.clear();
@@ -105,6 +133,8 @@ void LightTable::set(std::span<const CndLight> lights) noexcept
     for (uint32_t i = 0; i < lights.size(); ++i) {
         lights_.push_back(entry(lights[i], i));
         recordOf_.push_back(i);
+        if (lights[i].type == CND_LIGHT_POLYGON)
+            writePolygon(i, *lights[i].polygon, staging);
     }
     generations_.assign(lights.size(), 0);
     whole_ = true;
@@ -135,7 +165,7 @@ CndLightId LightTable::add(const CndLight& light, Records staging) noexcept
     generations_[slot] = generation_;
     lights_.push_back(entry(light, slot));
     touch(record, staged);
-    packLights({&light, 1}, staging.subspan(record), slot);
+    pack(record, light, staging);
     return CndLightId(generation_) << 32 | slot;
 }
 
@@ -143,15 +173,19 @@ void LightTable::update(CndLightId id, const CndLight& light, Records staging) n
 {
     const uint32_t record = recordOf_[slotOf(id)];
     touch(record, staged);
-    const uint32_t source = lights_[record].source;
-    lights_[record] = entry(light, slotOf(id));
-    lights_[record].source = source;
-    packLights({&light, 1}, staging.subspan(record), slotOf(id));
+    if (light.type != CND_LIGHT_POLYGON)
+        forgetPolygon(record);
+    Light& at = lights_[record];
+    std::copy_n(light.position, 3, at.position);
+    at.influenceRadius = light.influenceRadius;
+    at.type = light.type;
+    pack(record, light, staging);
 }
 
 void LightTable::remove(CndLightId id, Records staging) noexcept
 {
     const uint32_t slot = slotOf(id), record = recordOf_[slot], last = count() - 1;
+    forgetPolygon(record);
     if (record != last) {
         // The light of the last record moves here, with the source of that record. Moves never read
         // a record that a move writes: they write below the smallest count that the table has had

@@ -9,6 +9,7 @@
 
 #include "candelabra/candelabra.h"
 #include "lights/light_order.h"
+#include "lights/polygon_table.h"
 #include "shared/lighting.h"
 
 namespace candelabra::lighting
@@ -20,17 +21,20 @@ inline constexpr VkDeviceSize recordBytes = sizeof(gpu::LightRecord);
 class LightTable
 {
 public:
-    // Allocates the memory that the noexcept functions below need: for a set of `count` lights, or
-    // for `edits` edits, of which `added` add a light.
+    // `polygons` must outlive the table, which keeps the polygons of its lights there.
+    explicit LightTable(PolygonTable& polygons) : polygons_(polygons) {}
+
+    // Allocates the memory that the noexcept functions below need, apart from that of the polygons:
+    // for a set of `count` lights, or for `edits` edits, of which `added` add a light.
     void reserveSet(size_t count);
     void reserveEdits(size_t edits, size_t added);
     // Throws gpu::Failure naming `call` and an id that no light has, or that is given twice.
     void check(const char* call, std::span<const CndLightId> ids) const;
 
-    // Replaces all lights. Their indices become their ids, and all records are to be uploaded.
-    void set(std::span<const CndLight> lights) noexcept;
     // The records of the host's lights in the staging buffer from which edits are uploaded.
     using Records = std::span<gpu::LightRecord>;
+    // Replaces all lights. Their indices become their ids, and all records are to be uploaded.
+    void set(std::span<const CndLight> lights, Records staging) noexcept;
     CndLightId add(const CndLight& light, Records staging) noexcept;
     void update(CndLightId id, const CndLight& light, Records staging) noexcept;
     void remove(CndLightId id, Records staging) noexcept;
@@ -60,15 +64,20 @@ private:
         uint32_t type;
         uint32_t slot;
         uint32_t source = inPlace;
+        uint32_t polygon = noPolygon; // index in the table of polygons
     };
-    static constexpr uint32_t noRecord = UINT32_MAX;
+    static constexpr uint32_t noRecord = UINT32_MAX, noPolygon = UINT32_MAX;
 
     static uint32_t slotOf(CndLightId id) { return uint32_t(id); }
     static Light entry(const CndLight& light, uint32_t slot);
     bool isStaged(uint32_t record) const { return whole_ || lights_[record].source == staged; }
+    void pack(uint32_t record, const CndLight& light, Records staging) noexcept;
+    void writePolygon(uint32_t record, const CndPolygon& corners, Records staging) noexcept;
+    void forgetPolygon(uint32_t record) noexcept;
     void touch(uint32_t record, uint32_t source) noexcept;
     void forgetDuplicates() noexcept;
 
+    PolygonTable& polygons_;
     std::vector<Light> lights_;         // indexed by record
     std::vector<uint32_t> recordOf_;    // indexed by slot, which is the low half of an id
     std::vector<uint32_t> generations_; // indexed by slot: the high half of the id

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "gpu/failure.h"
+#include "lights/polygon.h"
 
 namespace candelabra::lighting
 {
@@ -39,6 +40,8 @@ float boundingRadiusOf(const CndLight& light)
     const float radius = fields & gpu::LIGHT_HAS_RADIUS ? light.radius : 0;
     if (!(fields & gpu::LIGHT_HAS_AXIS_U))
         return radius;
+    if (fields & gpu::LIGHT_HAS_CORNERS)
+        return polygonRadius(light);
     const float u = lengthOf(light.axisU);
     return (fields & gpu::LIGHT_HAS_AXIS_V ? std::hypot(u, lengthOf(light.axisV)) : u) + radius;
 }
@@ -65,6 +68,9 @@ double luminousPowerPerEmission(const CndLight& light)
                sides(light.twoSided);
     case CND_LIGHT_DISC:
         return pi * pi * radius * radius * sides(light.twoSided);
+    case CND_LIGHT_POLYGON:
+        return pi * preciseLength(light.axisU) * preciseLength(light.axisV) *
+               polygonArea(*light.polygon) * sides(light.twoSided);
     case CND_LIGHT_DIRECTIONAL:
     case CND_LIGHT_DISTANT_SPHERE:
         gpu::failArgument("a directional or distant light has no luminous power");

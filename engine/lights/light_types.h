@@ -23,7 +23,8 @@ static_assert(gpu::LIGHT_HAS_POSITION == uint32_t{CND_LIGHT_FIELD_POSITION_BIT} 
               gpu::LIGHT_HAS_CONE == uint32_t{CND_LIGHT_FIELD_CONE_BIT} &&
               gpu::LIGHT_HAS_AXIS_U == uint32_t{CND_LIGHT_FIELD_AXIS_U_BIT} &&
               gpu::LIGHT_HAS_AXIS_V == uint32_t{CND_LIGHT_FIELD_AXIS_V_BIT} &&
-              gpu::LIGHT_HAS_SIDES == uint32_t{CND_LIGHT_FIELD_TWO_SIDED_BIT});
+              gpu::LIGHT_HAS_SIDES == uint32_t{CND_LIGHT_FIELD_TWO_SIDED_BIT} &&
+              gpu::LIGHT_HAS_CORNERS == uint32_t{CND_LIGHT_FIELD_POLYGON_BIT});
 
 // Returns the fields of CndLight that the type uses, as a mask of gpu::LIGHT_HAS_*, or 0 if
 // `lightType` is not a type.

@@ -10,6 +10,7 @@
 #include "gpu/failure.h"
 #include "lights/influence_box.h"
 #include "lights/light_types.h"
+#include "lights/polygon.h"
 #include "shared/lengths.h"
 
 namespace candelabra::lighting
@@ -121,6 +122,9 @@ const char* whyInvalid(const CndLight& light)
         return why;
     if (const char* why = whyAxesInvalid(light))
         return why;
+    if (has(light.type, gpu::LIGHT_HAS_CORNERS))
+        if (const char* why = whyPolygonInvalid(light.polygon))
+            return why;
     if (const char* why = whyInfluenceInvalid(light))
         return why;
     return whyConeInvalid(light);
@@ -177,6 +181,16 @@ LightTypeCounts countTypes(std::span<const CndLight> lights)
     for (const CndLight& light : lights)
         ++counts[light.type];
     return counts;
+}
+
+gpu::PolygonRecord packPolygon(const CndPolygon& polygon, uint32_t id) noexcept
+{
+    gpu::PolygonRecord record{.count = polygon.cornerCount, .id = id};
+    for (uint32_t i = 0; i < gpu::MAX_CORNERS; ++i) {
+        const float(&corner)[2] = polygon.corners[std::min(i, polygon.cornerCount - 1)];
+        record.corners[i] = {corner[0], corner[1]};
+    }
+    return record;
 }
 
 gpu::LightShape shapeOf(const gpu::LightRecord& record)

@@ -18,9 +18,13 @@ void validateLights(std::span<const CndLight> lights);
 // Counts lights, which must be valid, by type.
 LightTypeCounts countTypes(std::span<const CndLight> lights);
 
-// Writes one record for each light. The lights must be valid.
+// Writes one record for each light. The lights must be valid. The id of a polygon's record is the
+// light's, like all others: the caller replaces it by the index of the light's PolygonRecord.
 void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records,
                 uint32_t firstId = 0) noexcept;
+
+// Returns the corners of a valid polygon.
+gpu::PolygonRecord packPolygon(const CndPolygon& polygon, uint32_t id) noexcept;
 
 // Returns the shape that prepare_lights reads from a record, in the coordinates of the light set.
 gpu::LightShape shapeOf(const gpu::LightRecord& record);

@@ -308,6 +308,10 @@ LobeIntegral arcDomainLight(const SurfacePoint& surface, double alpha, const Cnd
                                                    center - u + v};
         return arcDomainPolygon(surface, alpha, corners);
     }
+    case CND_LIGHT_POLYGON:
+        if (!light.twoSided && !(glm::dot(glm::cross(u, v), center) < 0))
+            return {};
+        return arcDomainPolygon(surface, alpha, polygonCorners(light, center));
     case CND_LIGHT_DISC: {
         const glm::dvec3 normal = glm::normalize(vec3(light.direction));
         if (!light.twoSided && !(glm::dot(normal, center) < 0))

@@ -171,6 +171,45 @@ LightResponse planar(const Receiver& receiver, const glm::dvec3& center, const g
     return out;
 }
 
+// Integrates over the triangle start + x u + x y v with x and y from 0 to 1. Rows are lines through
+// `start`, along which x is twice the share of the area.
+void addTriangle(const Receiver& receiver, const glm::dvec3& start, const glm::dvec3& u,
+                 const glm::dvec3& v, double relative, LightResponse& out)
+{
+    const glm::dvec3& n = receiver.surface.normal;
+    const glm::dvec3 areaNormal = glm::cross(u, v);
+    const double area = glm::length(areaNormal); // of the parallelogram
+    const glm::dvec3 normal = areaNormal / area;
+    const double base = glm::dot(n, start), nu = glm::dot(n, u), nv = glm::dot(n, v);
+    // The rows that leave the horizon at their ends, the row that lies along it, and the row that
+    // the mirror ray hits.
+    std::vector<double> breaks = {-(base + nu) / nv, -nu / nv};
+    const double approach = glm::dot(normal, receiver.mirror);
+    if (approach != 0) {
+        const glm::dvec3 hit = receiver.mirror * (glm::dot(normal, start) / approach) - start;
+        breaks.push_back(glm::dot(glm::cross(u, hit), normal) /
+                         glm::dot(glm::cross(hit, v), normal));
+    }
+    const std::vector<double> panels = panelsOf({0, 1}, breaks);
+    const auto sum = integratePanels<3>(
+        std::span<const double>(panels), relative, [](double) { return true; },
+        [&](double y) {
+            Values values{};
+            const glm::dvec3 row = u + y * v;
+            const Range range = positivePart({0, 1}, base, glm::dot(n, row));
+            if (!(range.low < range.high))
+                return values;
+            accumulate(values,
+                       alongRow(range, receiver.nearMirror(start, row), relative, [&](double x) {
+                           const glm::dvec3 p = start + x * row;
+                           const double facing = std::abs(glm::dot(normal, p)) / glm::length(p);
+                           return receiver.element(p, facing, x * area);
+                       }));
+            return values;
+        });
+    accumulate(out, sum);
+}
+
 struct Tube {
     glm::dvec3 center, axis; // unit
     double half, radius;     // half the length of the segment; radius
@@ -293,6 +332,17 @@ LightResponse emitterDomainResponse(const SurfacePoint& surface, double alpha,
         if (!light.twoSided && !(glm::dot(glm::cross(u, v), center) < 0))
             return {};
         return planar(receiver, center, u, v, false, relative);
+    }
+    case CND_LIGHT_POLYGON: {
+        if (!light.twoSided &&
+            !(glm::dot(glm::cross(vec3(light.axisU), vec3(light.axisV)), center) < 0))
+            return {};
+        const std::vector<glm::dvec3> corners = polygonCorners(light, center);
+        LightResponse out;
+        for (size_t i = 2; i < corners.size(); ++i)
+            addTriangle(receiver, corners[0], corners[i - 1] - corners[0],
+                        corners[i] - corners[i - 1], relative, out);
+        return out;
     }
     case CND_LIGHT_DISC: {
         const glm::dvec3 normal = glm::normalize(vec3(light.direction));

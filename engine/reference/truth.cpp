@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "reference/direction_domain.h"
 #include "reference/light.h"
@@ -117,6 +118,12 @@ LightResponse truthResponse(const SurfacePoint& surface, double alpha, const Cnd
         const std::array<glm::dvec3, 4> corners = {toCenter - u - v, toCenter + u - v,
                                                    toCenter + u + v, toCenter - u + v};
         return truthOfOutline(surface, alpha, *polygonOutline(std::span<const glm::dvec3>(corners)),
+                              relative);
+    }
+    case CND_LIGHT_POLYGON: {
+        if (!sees(glm::cross(vec3(light.axisU), vec3(light.axisV)), toCenter, light.twoSided))
+            return {};
+        return truthOfOutline(surface, alpha, *polygonOutline(polygonCorners(light, toCenter)),
                               relative);
     }
     case CND_LIGHT_DISC: {

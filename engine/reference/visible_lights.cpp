@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "reference/vectors.h"
 
@@ -82,6 +83,23 @@ Inside insideFlat(const CndLight& light, const glm::dvec3& direction, const glm:
     return hit ? Inside{t, t} : Inside{};
 }
 
+Inside insidePolygon(const CndLight& light, const glm::dvec3& direction, const glm::dvec3& toCenter)
+{
+    const glm::dvec3 normal = glm::cross(vec3(light.axisU), vec3(light.axisV));
+    const double slope = glm::dot(direction, normal);
+    if (light.twoSided ? slope == 0 : slope >= 0)
+        return {};
+    const double t = glm::dot(toCenter, normal) / slope;
+    const glm::dvec3 p = t * direction;
+    const std::vector<glm::dvec3> corners = polygonCorners(light, toCenter);
+    for (size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec3 edge = corners[(i + 1) % corners.size()] - corners[i];
+        if (glm::dot(glm::cross(edge, p - corners[i]), normal) < 0)
+            return {};
+    }
+    return {t, t};
+}
+
 } // namespace
 
 std::optional<double> intersectLight(const CndLight& light, const glm::dvec3& lightOrigin,
@@ -101,6 +119,9 @@ std::optional<double> intersectLight(const CndLight& light, const glm::dvec3& li
     case CND_LIGHT_RECTANGLE:
     case CND_LIGHT_DISC:
         inside = insideFlat(light, direction, toCenter);
+        break;
+    case CND_LIGHT_POLYGON:
+        inside = insidePolygon(light, direction, toCenter);
         break;
     default: // punctual or distant
         break;

@@ -15,8 +15,10 @@ uint32_t loopIterations(uint32_t lightType, CndSpecularMethod method, uint32_t s
 #define X(index, NAME, iterations) iterations,
     static constexpr uint32_t iterationsOfFamilies[] = {CND_LIGHT_FAMILIES(X)};
 #undef X
+    // Each sample of a polygon looks for its triangle.
+    const uint32_t perSample = has(lightType, gpu::LIGHT_HAS_CORNERS) ? gpu::MAX_CORNERS : 1;
     return iterationsOfFamilies[familyOf(lightType, method)] +
-           (method == CND_SPECULAR_SAMPLED ? sampleCount : 0);
+           (method == CND_SPECULAR_SAMPLED ? perSample * sampleCount : 0);
 }
 
 } // namespace

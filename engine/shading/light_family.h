@@ -28,7 +28,8 @@ constexpr bool takesBudget(uint32_t lightType, CndSpecularMethod method)
 
 // Returns the method by which lights of the type are evaluated if the frame asks for `method`.
 // Spheres know all methods and punctual lights one. The other area lights know three:
-// representative point (KARIS), transformed cosines (LTC) and samples (SAMPLED).
+// representative point (KARIS), transformed cosines (LTC) and samples (SAMPLED). Polygons have no
+// transformed cosines.
 constexpr CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method)
 {
     if (method == CND_SPECULAR_NONE || isSphere(lightType))
@@ -43,7 +44,7 @@ constexpr CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMetho
     case CND_SPECULAR_KX:
         return CND_SPECULAR_KARIS;
     default:
-        return CND_SPECULAR_LTC;
+        return lightType == CND_LIGHT_POLYGON ? CND_SPECULAR_KARIS : CND_SPECULAR_LTC;
     }
 }
 

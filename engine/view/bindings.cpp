@@ -19,7 +19,8 @@ void View::writeBindings(const FramePlan& plan) const
                                      Binding::of(gpu::PREPARE_LIGHTS_CORE, core_),
                                      Binding::of(gpu::PREPARE_LIGHTS_SHAPES, shapes_),
                                      Binding::of(gpu::PREPARE_LIGHTS_ORDER, lights.order()),
-                                     Binding::of(gpu::PREPARE_LIGHTS_IDS, ids_)});
+                                     Binding::of(gpu::PREPARE_LIGHTS_IDS, ids_),
+                                     Binding::of(gpu::PREPARE_LIGHTS_POLYGONS, lights.polygons())});
     clusters_.writeBindings(
         slot, lights.typeCounts(),
         {.gbuffer = images, .uniforms = uniforms_, .core = core_, .counters = counters_});

@@ -2,6 +2,7 @@
 #include "view/frame_plan.h"
 
 #include <cstring>
+#include <numeric>
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -43,11 +44,16 @@ gpu::PrepareLightsParams prepareParams(const LightSet& lights, const CndLighting
     glm::dmat4 viewFromWorld;
     std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
     const double* o = lights.origin();
+    const LightTypeCounts& counts = lights.typeCounts();
+    const auto firstPolygon =
+        std::accumulate(counts.begin(), counts.begin() + CND_LIGHT_POLYGON, 0u);
     return {.viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
             .originView = glm::vec3(viewFromWorld * glm::dvec4(o[0], o[1], o[2], 1)),
             .lightCount = lights.count(),
             .layers = layersOf(frame.layers),
-            .uncut = influenceOf(frame) != CND_INFLUENCE_GIVEN};
+            .uncut = influenceOf(frame) != CND_INFLUENCE_GIVEN,
+            .firstPolygon = firstPolygon,
+            .firstCornerShape = lights.capacity()};
 }
 
 } // namespace

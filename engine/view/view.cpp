@@ -81,27 +81,43 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
 void View::makeRoom(uint32_t lightCapacity, LightTypeCounts types)
 {
     const gpu::Device& device = module_.device;
-    const VkDeviceSize lights = lightCapacity;
+    const VkDeviceSize lights = lightCapacity, polygons = types[CND_LIGHT_POLYGON];
     lists_ = {}; // the next frame makes its lists anew, since buffers may be new
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         types[type] += module_.desc.lightTypes >> type & 1;
     clusters_.grow(lightCapacity, types);
     const VkDeviceSize coreBytes = lights * gpu::LIGHT_CORE_STRIDE * sizeof(glm::vec4);
-    const VkDeviceSize shapeBytes = lights * sizeof(gpu::LightShape);
     const VkDeviceSize idBytes = (readsLightIds(module_.desc) ? lights : 1) * sizeof(uint32_t);
-    if (coreBytes <= core_.size && shapeBytes <= shapes_.size)
+    makeRoomForShapes(lights, polygons);
+    if (coreBytes <= core_.size)
         return;
     gpu::Buffer core = gpu::createBuffer(device, "light core", coreBytes,
                                          storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                                          gpu::MemoryUse::Scratch);
     gpu::createTexelView(device, core);
-    gpu::Buffer shapes =
-        gpu::createBuffer(device, "light shapes", shapeBytes, storageUse, gpu::MemoryUse::Scratch);
     gpu::Buffer ids =
         gpu::createBuffer(device, "light ids", idBytes, storageUse, gpu::MemoryUse::Device);
     module_.recordings.replace(ids_, std::move(ids));
     module_.recordings.replace(core_, std::move(core));
+}
+
+// The shapes of the lights are followed by those of corners. The room for corners grows by half at
+// least, so that adding polygons reallocates rarely.
+void View::makeRoomForShapes(VkDeviceSize lights, VkDeviceSize polygons)
+{
+    constexpr VkDeviceSize cornerBytes = gpu::CORNER_SHAPES * sizeof(gpu::LightShape);
+    const VkDeviceSize lightBytes = lights * sizeof(gpu::LightShape);
+    const VkDeviceSize needed = lightBytes + polygons * cornerBytes;
+    if (needed <= shapes_.size)
+        return;
+    const VkDeviceSize wanted =
+        lightBytes + std::max(polygons, polygonRoom_ + polygonRoom_ / 2) * cornerBytes;
+    const VkDeviceSize most = module_.device.limits.maxStorageBufferRange;
+    gpu::Buffer shapes =
+        gpu::createBuffer(module_.device, "light shapes", wanted <= most ? wanted : needed,
+                          storageUse, gpu::MemoryUse::Scratch);
     module_.recordings.replace(shapes_, std::move(shapes));
+    polygonRoom_ = (shapes_.size - lightBytes) / cornerBytes;
 }
 
 CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept

@@ -44,6 +44,8 @@ private:
         bool operator==(const ListsKey&) const = default;
     };
 
+    void makeRoomForShapes(VkDeviceSize lights, VkDeviceSize polygons);
+
     // record.cpp
     bool keepsLists(const FramePlan& plan);
     FrameContent contentOf(const FramePlan& plan, bool listsKept) const;
@@ -89,6 +91,7 @@ private:
     surfaces::FrameUniforms overlayUniforms_;
     Sets sets_;
     gpu::Buffer core_, shapes_, ids_; // per light; ids_ holds one element if nothing reads ids
+    VkDeviceSize polygonRoom_ = 0;    // how many polygons have room for their corners in shapes_
     gpu::Buffer counters_;            // gpu::LightingCounters
     gpu::RecordingSlots slots_;       // through which the host reads the counters
     std::vector<SlotPlan> plans_;     // per slot

@@ -77,9 +77,30 @@ bool usesField(uint types)
     return (types >> lightType & 1u) != 0u;
 }
 
+vec2 sweepCorner(uint i, uint count)
+{
+    const float angle = 2.0 * PI * float(i) / float(count);
+    return vec2(cos(angle), sin(angle));
+}
+
+// Gives the shape the corners of a regular polygon, stretched by its axes.
+void makeSweepCorners(uint count, inout LightShape shape)
+{
+    PolygonRecord polygon;
+    polygon.count = count;
+    for (uint i = 0u; i < MAX_CORNERS; ++i)
+        polygon.corners[i] = sweepCorner(min(i, count - 1u), count);
+    for (uint i = 0u; i < CORNER_SHAPES; ++i)
+        lightShapes[1u + i] = shapeOfCorners(polygon, i, shape.axisU, shape.axisV);
+    shape.radius = float(count);
+    shape.flags |= 1u; // index of the first shape of corners
+}
+
 // Returns the shape of a light that has a position, about `size` metres large, with axes along the
-// unit vectors u or w and cross(u, w). Sets the bounding radius.
-LightShape makeSweepShape(float size, vec3 u, vec3 w, float aspect, out float boundingRadius)
+// unit vectors u or w and cross(u, w), and with so many corners if it is a polygon. Sets the bounding
+// radius.
+LightShape makeSweepShape(float size, vec3 u, vec3 w, float aspect, uint corners,
+                          out float boundingRadius)
 {
     const bool hasRadius = usesField(TYPES_WITH_RADIUS);
     const bool hasAxisU = usesField(TYPES_WITH_AXIS_U);
@@ -105,6 +126,8 @@ LightShape makeSweepShape(float size, vec3 u, vec3 w, float aspect, out float bo
     }
     if (usesField(TYPES_WITH_SIDES))
         shape.flags = chance(0.5) ? LIGHT_TWO_SIDED : 0u;
+    if (usesField(TYPES_WITH_CORNERS))
+        makeSweepCorners(corners, shape);
     if (usesField(TYPES_WITH_CONE)) {
         const float outer = randomRange(0.01, 1.5);
         const float between = max(cos(outer * random01()) - cos(outer), 1e-6);
@@ -115,8 +138,13 @@ LightShape makeSweepShape(float size, vec3 u, vec3 w, float aspect, out float bo
 
 // Returns the offset from the centre to a point of the outline of a light with such a shape, as a
 // receiver sees it in the direction `at`.
-vec3 outlineOffset(vec3 at, float size, vec3 u, vec3 w, float aspect)
+vec3 outlineOffset(vec3 at, float size, vec3 u, vec3 w, float aspect, uint corners)
 {
+    if (usesField(TYPES_WITH_CORNERS)) {
+        const vec2 onEdge = mix(sweepCorner(0u, corners), sweepCorner(1u, corners),
+                                chance(0.3) ? 0.0 : random01());
+        return size * (onEdge.x * w + onEdge.y * aspect * cross(u, w));
+    }
     const bool hasAxisU = usesField(TYPES_WITH_AXIS_U);
     const vec2 along = vec2(randomRange(-1.0, 1.0), 1.0);
     vec2 corner = chance(0.5) ? along.xy : along.yx;
@@ -159,9 +187,10 @@ void makeSweepLight(uint slice, SweepPoint p)
             aspect = 1.0 / aspect;
         }
     }
+    const uint corners = usesField(TYPES_WITH_CORNERS) ? 3u + randomBelow(MAX_CORNERS - 2u) : 0u;
     vec3 offset = d * at.xyz;
     if (slice == SWEEP_EDGE)
-        offset -= outlineOffset(at.xyz, size, u, w, aspect);
+        offset -= outlineOffset(at.xyz, size, u, w, aspect, corners);
     // Rounding of the position moves the light; the record must hold what the shader sees. Without
     // `precise`, compilers simplify centre - position back to the offset.
     precise const vec3 centre = p.position + offset;
@@ -177,7 +206,7 @@ void makeSweepLight(uint slice, SweepPoint p)
         lightShapes[0] = LightShape(vec3(0.0), sine, vec3(0.0), 0u);
         centreRadius = vec4(normalize(at.xyz), min(sine, 1.0));
     } else {
-        lightShapes[0] = makeSweepShape(size, u, w, aspect, boundingRadius);
+        lightShapes[0] = makeSweepShape(size, u, w, aspect, corners, boundingRadius);
         centreRadius = vec4(centre, boundingRadius);
     }
     const float limited = boundingRadius * 1.01 + 3.0 * length(offset) + 1e-12;

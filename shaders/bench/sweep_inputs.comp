@@ -27,7 +27,7 @@ layout(scalar, binding = SWEEP_COUNTERS) buffer Counters
 
 // The current light, with the accessors through which light_eval.glsl reads lights.
 vec4 centreRadius, emissionInfluence;
-LightShape lightShapes[1];
+LightShape lightShapes[1u + CORNER_SHAPES];
 
 vec4 lightCentre(uint light)
 {

@@ -16,6 +16,7 @@ layout(location = 0) flat in vec4 inCenter;
 layout(location = 1) flat in vec3 inLuminance;
 layout(location = 2) flat in vec3 inAxisU; // view space
 layout(location = 3) flat in vec4 inAxisV; // view space; w: whether it is two-sided
+layout(location = 4) flat in vec4 inCorners[EMITTER_CORNER_PAIRS]; // of a polygon, along its axes
 
 void main()
 {
@@ -30,7 +31,7 @@ void main()
         return;
     }
     const EmitterHit hit = intersectEmitter(ray, shape, inCenter.xyz, inCenter.w, inAxisU, inAxisV.xyz,
-                                            inAxisV.w > 0.5);
+                                            inAxisV.w > 0.5, inCorners);
     const bool perspective = frame.perspective > 0.5;
     const bool inside = perspective && hit.near <= 0.0;
     const float farDepth = depthOf(ray.origin + hit.far * ray.direction);

@@ -12,19 +12,21 @@ layout(location = EMITTER_POSITION) in vec4 positionAndRadius;
 layout(location = EMITTER_LUMINANCE) in vec3 luminance;
 layout(location = EMITTER_AXIS_U) in vec3 axisU;
 layout(location = EMITTER_AXIS_V) in vec4 axisVAndTwoSided;
+layout(location = EMITTER_CORNERS) in vec4 corners[EMITTER_CORNER_PAIRS];
 
 // view-space centre, radius; distant sphere: direction, sine of its angular radius
 layout(location = 0) flat out vec4 outCenter;
 layout(location = 1) flat out vec3 outLuminance;
 layout(location = 2) flat out vec3 outAxisU; // view space
 layout(location = 3) flat out vec4 outAxisV; // view space; w: whether it is two-sided
+layout(location = 4) flat out vec4 outCorners[EMITTER_CORNER_PAIRS]; // of a polygon, along its axes
 
 // Angular rounding error of the quad and of pixel rays, with a safety factor of about 50.
 const float MARGIN = 1e-5;
 
 // Returns the radius of a sphere around the centre that holds the light: half the longer diagonal of
-// its axes, which need not be exactly perpendicular, and its radius. (cndEmitterBoundingRadius takes
-// the axes to be perpendicular.)
+// the rectangle of its axes, which need not be exactly perpendicular, and its radius.
+// (cndEmitterBoundingRadius takes the axes to be perpendicular.)
 float boundingRadius()
 {
     const vec3 u = (TYPES_WITH_AXIS_U >> shape & 1u) != 0u ? axisU : vec3(0.0);
@@ -57,6 +59,8 @@ void main()
     outLuminance = luminance;
     outAxisU = frame.viewFromWorld * axisU;
     outAxisV = vec4(frame.viewFromWorld * axisVAndTwoSided.xyz, axisVAndTwoSided.w);
+    for (uint i = 0u; i < EMITTER_CORNER_PAIRS; ++i)
+        outCorners[i] = shape == LIGHT_POLYGON ? corners[i] : vec4(0.0);
 
     const vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 2.0 - 1.0;
     const float radius = boundingRadius();

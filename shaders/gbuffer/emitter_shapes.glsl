@@ -100,10 +100,38 @@ EmitterHit intersectRectangle(Ray ray, vec3 center, vec3 axisU, vec3 axisV, bool
     return rectangle;
 }
 
+vec2 emitterCorner(vec4 pairs[EMITTER_CORNER_PAIRS], uint i)
+{
+    return (i & 1u) == 0u ? pairs[i >> 1u].xy : pairs[i >> 1u].zw;
+}
+
+// Intersects the convex polygon with the corners center + a axisU + b axisV. Where the last corner is
+// repeated, the edge has no length and every point passes its test.
+EmitterHit intersectPolygon(Ray ray, vec3 center, vec3 axisU, vec3 axisV,
+                            vec4 pairs[EMITTER_CORNER_PAIRS], bool twoSided)
+{
+    const float lengthU = length(axisU), lengthV = length(axisV);
+    const vec3 u = axisU / lengthU, v = axisV / lengthV;
+    const vec3 across = cross(u, v); // as in intersectRectangle
+    EmitterHit polygon = intersectFlat(ray, center, normalize(across), twoSided);
+    const vec3 fromCenter = polygon.near * ray.direction - (center - ray.origin);
+    const float area = dot(across, across);
+    const vec2 at = vec2(dot(cross(v, across), fromCenter), dot(cross(across, u), fromCenter)) /
+                    (area * vec2(lengthU, lengthV));
+    vec2 from = emitterCorner(pairs, MAX_CORNERS - 1u);
+    for (uint i = 0u; i < MAX_CORNERS; ++i) {
+        const vec2 to = emitterCorner(pairs, i);
+        const vec2 edge = to - from;
+        polygon.hit = polygon.hit && edge.x * (at.y - from.y) >= edge.y * (at.x - from.x);
+        from = to;
+    }
+    return polygon;
+}
+
 // Intersects a ray with the emitter of a light of any type that has a position. `type` is LIGHT_*,
-// the other parameters are the members of EmitterRecord.
+// the other parameters are the members of EmitterRecord and EmitterCorners.
 EmitterHit intersectEmitter(Ray ray, uint type, vec3 center, float radius, vec3 axisU, vec3 axisV,
-                            bool twoSided)
+                            bool twoSided, vec4 corners[EMITTER_CORNER_PAIRS])
 {
     if (type == LIGHT_TUBE)
         return intersectTube(ray, center, axisU, radius);
@@ -111,6 +139,8 @@ EmitterHit intersectEmitter(Ray ray, uint type, vec3 center, float radius, vec3 
         return intersectRectangle(ray, center, axisU, axisV, twoSided);
     if (type == LIGHT_DISC)
         return intersectDisc(ray, center, axisU, radius, twoSided);
+    if (type == LIGHT_POLYGON)
+        return intersectPolygon(ray, center, axisU, axisV, corners, twoSided);
     return intersectBall(ray, center, radius);
 }
 

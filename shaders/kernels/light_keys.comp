@@ -53,8 +53,9 @@ void main()
     if (i >= params.lightCount)
         return;
     const uint type = records[i].flags & LIGHT_TYPE_MASK;
+    const uint typeRank = uint(bitCount(params.types & ((1u << type) - 1u)));
     const uint size = sizeClass(records[i].influenceRadius);
     const uint place = morton(records[i].position);
-    const uint key = ((type << ORDER_SIZE_BITS) | size) << (3u * params.axisBits) | place;
+    const uint key = ((typeRank << ORDER_SIZE_BITS) | size) << (3u * params.axisBits) | place;
     keys[i] = LightKey(key, i);
 }

@@ -31,7 +31,25 @@ layout(scalar, binding = PREPARE_LIGHTS_IDS) writeonly buffer Ids
 {
     uint ids[];
 };
+layout(scalar, binding = PREPARE_LIGHTS_POLYGONS) readonly buffer Polygons
+{
+    PolygonRecord polygons[];
+};
 layout(constant_id = PREPARE_LIGHTS_WITH_IDS) const uint withIds = 0u;
+
+// Writes the corners of the polygon at a place of the sorted order. Returns its shape, which refers to
+// them, and sets its id.
+LightShape preparePolygon(uint place, LightShape shape, inout uint id)
+{
+    const PolygonRecord polygon = polygons[id];
+    const uint first = params.firstCornerShape + (place - params.firstPolygon) * CORNER_SHAPES;
+    for (uint i = 0u; i < CORNER_SHAPES; ++i)
+        shapes[first + i] = shapeOfCorners(polygon, i, shape.axisU, shape.axisV);
+    shape.radius = float(polygon.count);
+    shape.flags = shape.flags & LIGHT_TWO_SIDED | first;
+    id = polygon.id;
+    return shape;
+}
 
 void main()
 {
@@ -50,7 +68,11 @@ void main()
     const float influenceRadius = endless ? UNBOUNDED : light.influenceRadius;
     core[i * LIGHT_CORE_STRIDE + 1u] =
         vec4(light.emission, inFrame ? influenceRadius * influenceRadius : INFLUENCE2_OF_NONE);
-    shapes[i] = rotatedShape(shapeOfRecord(light, type), type, params.viewFromWorld);
+    LightShape shape = rotatedShape(shapeOfRecord(light, type), type, params.viewFromWorld);
+    uint id = light.id;
+    if (type == LIGHT_POLYGON)
+        shape = preparePolygon(i, shape, id);
+    shapes[i] = shape;
     if (withIds != 0u)
-        ids[i] = light.id;
+        ids[i] = id;
 }

@@ -22,6 +22,23 @@ float coneOffset(LightShape spot)
     return spot.axisV.y;
 }
 
+uint cornerCount(LightShape polygon)
+{
+    return uint(polygon.radius);
+}
+
+uint firstCornerShape(LightShape polygon)
+{
+    return polygon.flags & ~LIGHT_TWO_SIDED;
+}
+
+// Returns one of the CORNER_SHAPES shapes that hold the corners of a polygon with these axes.
+LightShape shapeOfCorners(PolygonRecord polygon, uint which, vec3 axisU, vec3 axisV)
+{
+    const vec2 first = polygon.corners[2u * which], second = polygon.corners[2u * which + 1u];
+    return LightShape(first.x * axisU + first.y * axisV, 0.0, second.x * axisU + second.y * axisV, 0u);
+}
+
 // Returns the shape of a light of this type, in the coordinates of its record.
 LightShape shapeOfRecord(LightRecord record, uint type)
 {

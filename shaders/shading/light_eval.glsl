@@ -24,6 +24,9 @@
 #if defined(LIGHT_FAMILY_DISC) || defined(LIGHT_FAMILY_ALL)
 #include "shading/eval_disc.glsl"
 #endif
+#if defined(LIGHT_FAMILY_POLYGON) || defined(LIGHT_FAMILY_ALL)
+#include "shading/eval_polygon.glsl"
+#endif
 
 // The functions of GENERAL_RESPONSE for shaders with all families. The other ways in which spheres are
 // evaluated are not in this list.
@@ -32,7 +35,8 @@
     X(SPHERE, sphereAcross)                                                                        \
     X(TUBE, tubeResponse)                                                                          \
     X(RECTANGLE, rectangleResponse)                                                                \
-    X(DISC, discResponse)
+    X(DISC, discResponse)                                                                          \
+    X(POLYGON, polygonResponse)
 
 // Defines a function that returns the outgoing luminance by one way of evaluation. Each way has a
 // function of its own: drivers inline a function at every call before they drop the code that

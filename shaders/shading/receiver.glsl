@@ -13,7 +13,8 @@
 #include "lib/specular/ltc.glsl"
 #endif
 
-// specularMethod is the method for spheres, areaMethod the one for tubes, rectangles and discs.
+// specularMethod is the method for spheres, areaMethod the one for tubes, rectangles, discs and
+// polygons.
 #ifdef LIGHT_FAMILY_ALL
 const uint specularMethod = SPECULAR_CONIC;
 const uint areaMethod = SPECULAR_LTC;

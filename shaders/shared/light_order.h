@@ -17,8 +17,9 @@ struct LightKey {
 };
 GPU_SIZE(LightKey, 8)
 
-// Bits of a key, from the top: type, class of influence radius, Morton code.
-const uint ORDER_TYPE_BITS = LIGHT_TYPE_COUNT <= 8u ? 3u : 4u;
+// Bits of a key, from the top: the number of present types before the light's, class of influence
+// radius, Morton code. So the key is longer than 24 or 30 bits only if more than 8 types are
+// present.
 const uint ORDER_SIZE_BITS = 3u;
 
 // Bits of the digit that a pass sorts by. 64 counters fit into a lane's private memory, and a key
@@ -40,8 +41,9 @@ struct LightKeysParams {
     uint lightCount;
     uint axisBits;       // bits of the Morton code per axis
     int largestExponent; // largest binary exponent of influence radii in the last class but one
+    uint types;          // mask of 1 << type of the types that are present
 };
-GPU_SIZE(LightKeysParams, 28)
+GPU_SIZE(LightKeysParams, 32)
 
 // --- sort_count, sort_sums, sort_offsets, sort_scatter: one pass over a digit
 const uint SORT_COUNT_KEYS = 0u;

@@ -22,7 +22,8 @@
     X(2, SPHERE, 0)                                                                                \
     X(3, TUBE, 64)                                                                                 \
     X(4, RECTANGLE, 24)                                                                            \
-    X(5, DISC, 24)
+    X(5, DISC, 24)                                                                                 \
+    X(6, POLYGON, 24)
 
 // X(id, NAME, family, fields of CndLight that the type uses). The ids are those of CndLightType, so
 // they are stable. Types that are shaded by the specular methods of spheres are in the family
@@ -37,7 +38,11 @@
     X(5, TUBE, TUBE, LIGHT_HAS_POSITION | LIGHT_HAS_RADIUS | LIGHT_HAS_AXIS_U)                     \
     X(6, RECTANGLE, RECTANGLE,                                                                     \
       LIGHT_HAS_POSITION | LIGHT_HAS_AXIS_U | LIGHT_HAS_AXIS_V | LIGHT_HAS_SIDES)                  \
-    X(7, DISC, DISC, LIGHT_HAS_POSITION | LIGHT_HAS_RADIUS | LIGHT_HAS_DIRECTION | LIGHT_HAS_SIDES)
+    X(7, DISC, DISC,                                                                               \
+      LIGHT_HAS_POSITION | LIGHT_HAS_RADIUS | LIGHT_HAS_DIRECTION | LIGHT_HAS_SIDES)               \
+    X(8, POLYGON, POLYGON,                                                                         \
+      LIGHT_HAS_POSITION | LIGHT_HAS_AXIS_U | LIGHT_HAS_AXIS_V | LIGHT_HAS_SIDES |                 \
+          LIGHT_HAS_CORNERS)
 
 GPU_BEGIN
 
@@ -57,7 +62,8 @@ const uint LIGHT_HAS_DIRECTION = 4u;
 const uint LIGHT_HAS_CONE = 8u;
 const uint LIGHT_HAS_AXIS_U = 16u;
 const uint LIGHT_HAS_AXIS_V = 32u;
-const uint LIGHT_HAS_SIDES = 64u; // twoSided
+const uint LIGHT_HAS_SIDES = 64u;    // twoSided
+const uint LIGHT_HAS_CORNERS = 128u; // polygon
 
 #define X(id, NAME, family, fields) const uint LIGHT_##NAME = id;
 CND_LIGHT_TYPES(X)
@@ -65,6 +71,8 @@ CND_LIGHT_TYPES(X)
 #define X(id, NAME, family, fields) +1u
 const uint LIGHT_TYPE_COUNT = 0u CND_LIGHT_TYPES(X);
 #undef X
+
+const uint MAX_CORNERS = 8u; // CND_MAX_CORNERS
 
 // Masks of 1 << type, which hold the types that use a field. They are constant expressions, so they
 // may be combined with specialisation constants.
@@ -89,6 +97,9 @@ const uint TYPES_WITH_AXIS_V = 0u CND_LIGHT_TYPES(X);
 #undef FIELD
 #define FIELD LIGHT_HAS_SIDES
 const uint TYPES_WITH_SIDES = 0u CND_LIGHT_TYPES(X);
+#undef FIELD
+#define FIELD LIGHT_HAS_CORNERS
+const uint TYPES_WITH_CORNERS = 0u CND_LIGHT_TYPES(X);
 #undef FIELD
 #undef X
 // Types whose lights have a size.

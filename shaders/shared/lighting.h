@@ -17,11 +17,16 @@ GPU_BEGIN
 // The shape of an emitter. Only the members that its type uses (light_types.h) have a meaning.
 struct LightShape {
     vec3 axisU;   // m; disc: unit normal; spot: unit, the way the light travels
-    float radius; // m; distant sphere: the sine of its angular radius
+    float radius; // m; distant sphere: the sine of its angular radius; polygon: how many corners
     vec3 axisV;   // m; spot: scale and offset of its cone (lib/light_shape.glsl)
-    uint flags;   // LIGHT_TWO_SIDED
+    uint flags;   // LIGHT_TWO_SIDED; polygon: plus the index of its first shape of corners
 };
 GPU_SIZE(LightShape, 32)
+
+// The corners of a polygon are stored after the shapes of all lights, in CORNER_SHAPES elements of
+// the same array. axisU and axisV of each are two consecutive corners relative to the centre, so
+// that shapes of corners are rotated like all others. Places without a corner repeat the last one.
+const uint CORNER_SHAPES = MAX_CORNERS / 2u;
 
 // A light as the CPU sends it, relative to the light set's origin. pack_lights.cpp makes the
 // records in any order. Then they are sorted by type (light_order.h), because each type has its own
@@ -33,16 +38,25 @@ struct LightRecord {
     vec3 emission;        // as in CndLight
     float influenceRadius; // m; UNBOUNDED: uncut
     vec3 axisU;            // as in LightShape, like axisV and flags
-    uint id;               // low half of the CndLightId, or LIGHT_OF_DEVICE and an index
+    uint id;               // low half of the CndLightId, or LIGHT_OF_DEVICE and an index; polygon:
+                           //   the index of its PolygonRecord, which holds the id
     vec3 axisV;            // types with a radius and axisU but no axisV: (radius, 0, 0)
     uint flags;            // LIGHT_*, plus LIGHT_TWO_SIDED, plus layers << LIGHT_LAYERS_SHIFT
 };
 GPU_SIZE(LightRecord, 64)
 const uint LIGHT_TYPE_MASK = 255u;
-const uint LIGHT_TWO_SIDED = 256u;
-const uint LIGHT_LAYERS_SHIFT = 16u;
+const uint LIGHT_LAYERS_SHIFT = 8u;
+const uint LIGHT_TWO_SIDED = 0x80000000u;
 const uint LIGHT_OF_DEVICE = 0x80000000u;
 const uint ALL_LAYERS = 0xFFFFu;
+
+// What a polygon has besides its LightRecord.
+struct PolygonRecord {
+    vec2 corners[MAX_CORNERS]; // along axisU and axisV; the last corner fills the rest of the array
+    uint count;                // of corners
+    uint id;                   // low half of the CndLightId
+};
+GPU_SIZE(PolygonRecord, 72)
 
 // Lights as prepare_lights writes them, in view space. Each has two vec4 that every loop reads,
 //   core[2 i]     = position, bounding radius
@@ -92,8 +106,9 @@ const uint PREPARE_LIGHTS_GROUP = 64u;
 const uint PREPARE_LIGHTS_RECORDS = 0u;
 const uint PREPARE_LIGHTS_CORE = 1u;
 const uint PREPARE_LIGHTS_SHAPES = 2u;
-const uint PREPARE_LIGHTS_ORDER = 3u; // shared/light_order.h
-const uint PREPARE_LIGHTS_IDS = 4u;   // LightRecord::id, in sorted order
+const uint PREPARE_LIGHTS_ORDER = 3u;    // shared/light_order.h
+const uint PREPARE_LIGHTS_IDS = 4u;      // ids in sorted order
+const uint PREPARE_LIGHTS_POLYGONS = 5u; // PolygonRecord
 // Specialisation constant. 1: write the ids; 0: no kernel or shader reads them.
 const uint PREPARE_LIGHTS_WITH_IDS = 0u;
 struct PrepareLightsParams {
@@ -102,8 +117,10 @@ struct PrepareLightsParams {
     uint lightCount;
     uint layers; // layers of the frame
     uint uncut;  // 1: ignore the influence radii of the records, so that lights reach everything
+    uint firstPolygon;     // index of the first polygon in the sorted order
+    uint firstCornerShape; // index of that polygon's first shape of corners
 };
-GPU_SIZE(PrepareLightsParams, 60)
+GPU_SIZE(PrepareLightsParams, 68)
 
 // --- shade_tiles, shade_unlisted, shade_brute, count_pairs: 8x8 pixels per group, one lane per
 // pixel

@@ -188,17 +188,25 @@ const uint EMITTER_POSITION = 0u; // vertex attribute locations
 const uint EMITTER_LUMINANCE = 1u;
 const uint EMITTER_AXIS_U = 2u;
 const uint EMITTER_AXIS_V = 3u;
+const uint EMITTER_CORNERS = 4u; // and the EMITTER_CORNER_PAIRS - 1 locations after it
+const uint EMITTER_CORNER_PAIRS = MAX_CORNERS / 2u;
 // A visible area light; axes and directions are in world space.
 struct EmitterRecord {
     vec3 position;  // centre, relative to the light set's origin, m; distant sphere: unit vector to
                     // it
     float radius;   // m; distant sphere: sine of the angular radius
     vec3 luminance; // cd/m^2
-    vec3 axisU;     // tube: half of its segment, m; rectangle: half a side, m; disc: unit normal
-    vec3 axisV;     // rectangle: half the other side, m
-    float twoSided; // rectangle, disc: 1 if the back is visible too
+    vec3 axisU;     // tube: half of its segment, m; rectangle: half a side, m; disc: unit normal;
+                    // polygon: axis of its corners, m
+    vec3 axisV;     // rectangle: half the other side, m; polygon: the other axis, m
+    float twoSided; // rectangle, disc, polygon: 1 if the back is visible too
 };
 GPU_SIZE(EmitterRecord, 56)
+// The corners of a polygon, two per vec4, along its axes. The last one fills the rest of the array.
+struct EmitterCorners {
+    vec4 pairs[EMITTER_CORNER_PAIRS];
+};
+GPU_SIZE(EmitterCorners, 64)
 
 // --- Specialisation constants
 const uint RASTER_TEXTURES = 0u; // sampled meshes: mask of 1 << TEXTURE_*

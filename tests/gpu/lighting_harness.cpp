@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/polygons.h"
+
 namespace candelabra::test
 {
 namespace
@@ -258,6 +260,7 @@ std::vector<CndLight> lightsOf(CndLightType type, const CpuGBuffer& g, uint32_t 
         light.innerConeAngle = 0.2f;
         light.outerConeAngle = 0.9f;
         light.twoSided = i % 3 == 0;
+        light.polygon = app::somePolygon(i);
         light.influenceRadius += 3 * light.radius;
         if (i % 5 == 0)
             light.influenceRadius = std::numeric_limits<float>::infinity();

@@ -8,6 +8,7 @@
 #include "gpu/raster_rays.h"
 #include "harness/constants.h"
 #include "reference/visible_lights.h"
+#include "scene/polygons.h"
 #include "shared/gbuffer.h"
 
 namespace candelabra::test
@@ -55,17 +56,35 @@ double hitTube(const Ray& ray, const glm::dvec3& center, const CndLight& l, doub
     return near > 0 ? near : far > 0 ? far : infinity;
 }
 
+// Whether a point, relative to the centre, is less than `room` metres outside every edge.
+bool isInPolygon(const CndLight& l, const glm::dvec3& p, const glm::dvec3& normal, double room)
+{
+    const auto corner = [&](uint32_t i) {
+        const float(&at)[2] = l.polygon->corners[i % l.polygon->cornerCount];
+        return double(at[0]) * vec(l.axisU) + double(at[1]) * vec(l.axisV);
+    };
+    for (uint32_t i = 0; i < l.polygon->cornerCount; ++i) {
+        const glm::dvec3 outward = glm::normalize(glm::cross(corner(i + 1) - corner(i), normal));
+        if (glm::dot(outward, p - corner(i)) > room)
+            return false;
+    }
+    return true;
+}
+
 double hitFlat(const Ray& ray, const glm::dvec3& center, const CndLight& l, double grow)
 {
     const glm::dvec3 u = vec(l.axisU), v = vec(l.axisV);
     const bool rectangle = l.type == CND_LIGHT_RECTANGLE;
-    const glm::dvec3 normal = glm::normalize(rectangle ? glm::cross(u, v) : vec(l.direction));
+    const glm::dvec3 normal =
+        glm::normalize(l.type == CND_LIGHT_DISC ? vec(l.direction) : glm::cross(u, v));
     const double slope = glm::dot(ray.direction, normal);
     if (slope > 0 && !l.twoSided)
         return infinity;
     const double t = glm::dot(center - ray.origin, normal) / slope;
     const glm::dvec3 p = ray.at(t) - center;
     const double room = grow / std::abs(slope);
+    if (l.type == CND_LIGHT_POLYGON)
+        return isInPolygon(l, p, normal, room) && t > 0 ? t : infinity;
     const double lengthU = glm::length(u), lengthV = glm::length(v);
     const bool inside = rectangle ? std::abs(glm::dot(p, u)) <= (lengthU + room) * lengthU &&
                                         std::abs(glm::dot(p, v)) <= (lengthV + room) * lengthV
@@ -93,7 +112,7 @@ double hitLight(const Ray& ray, const glm::dvec3& origin, const CndLight& l, dou
         return infinity;
     if (l.type == CND_LIGHT_TUBE)
         return hitTube(ray, center, l, grow);
-    if (l.type == CND_LIGHT_RECTANGLE || l.type == CND_LIGHT_DISC)
+    if (l.type == CND_LIGHT_RECTANGLE || l.type == CND_LIGHT_DISC || l.type == CND_LIGHT_POLYGON)
         return hitFlat(ray, center, l, grow);
     if (l.type != CND_LIGHT_SPHERE)
         return hitOther(ray, origin, l, grow);
@@ -121,6 +140,7 @@ CndLight randomLight(CndLightType type, Random& random, double size, float mark)
     set(l.axisV, v * std::pow(10, random.uniform(-1.5, 0.3)));
     set(l.direction, u);
     l.twoSided = random.uniform(0, 1) < 0.5;
+    l.polygon = app::somePolygon(uint32_t(mark));
     return l;
 }
 
@@ -277,6 +297,7 @@ TEST_F(GBufferEmitterShapes, CloseToTheCamera)
                 set(l.axisV, {-0.1, 0.4, 0});
                 set(l.direction, -glm::normalize(direction + glm::dvec3(0.3, 0.2, 0)));
                 l.twoSided = true;
+                l.polygon = app::regularPolygon(7);
                 options.emitters = {l, sphereLight({0, 0.4, -9}, 3, {8, 9, 10})};
                 lookAt(options.camera, {0, 0, 0}, {0, 0, -1});
                 size_t grazing = 0;
@@ -366,6 +387,12 @@ TEST_F(GBufferEmitterShapes, BadOnesAreRefused)
     refuse(CND_LIGHT_RECTANGLE, [](CndLight& l) { l.axisV[1] = NAN; });
     refuse(CND_LIGHT_DISC, [](CndLight& l) { set(l.direction, glm::dvec3(0)); });
     refuse(CND_LIGHT_DISC, [](CndLight& l) { l.emission[2] = INFINITY; });
+    refuse(CND_LIGHT_POLYGON, [](CndLight& l) { l.polygon = nullptr; });
+    CndPolygon broken = *app::regularPolygon(4);
+    broken.corners[2][1] = NAN;
+    refuse(CND_LIGHT_POLYGON, [&](CndLight& l) { l.polygon = &broken; });
+    CndPolygon line{2, {{-1, 0}, {1, 0}}};
+    refuse(CND_LIGHT_POLYGON, [&](CndLight& l) { l.polygon = &line; });
     refuse(CND_LIGHT_DISTANT_SPHERE, [](CndLight& l) { l.direction[0] = NAN; });
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "gpu/lighting_harness.h"
+#include "scene/polygons.h"
 
 namespace candelabra::test
 {
@@ -145,14 +146,18 @@ protected:
     uint32_t slot_ = 0;
 };
 
-// Returns points, spheres and discs.
+// Returns points, spheres, discs and polygons.
 std::vector<CndLight> someLights(const CpuGBuffer& g, uint32_t count, uint32_t seed)
 {
     std::vector<CndLight> lights = randomSpheres(g, count, seed);
-    constexpr CndLightType types[] = {CND_LIGHT_SPHERE, CND_LIGHT_POINT, CND_LIGHT_DISC};
+    constexpr CndLightType types[] = {CND_LIGHT_SPHERE, CND_LIGHT_POINT, CND_LIGHT_DISC,
+                                      CND_LIGHT_POLYGON};
     for (size_t i = 0; i < lights.size(); ++i) {
-        lights[i].type = types[(i + seed) % 3];
+        lights[i].type = types[(i + seed) % std::size(types)];
         lights[i].direction[2] = 1;
+        lights[i].twoSided = VK_TRUE;
+        lights[i].axisU[0] = lights[i].axisV[1] = lights[i].radius;
+        lights[i].polygon = app::somePolygon(uint32_t(i / 4) + seed);
     }
     return lights;
 }

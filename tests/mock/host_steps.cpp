@@ -2,6 +2,7 @@
 #include "mock/host_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -65,6 +66,30 @@ CndResult recordTubes(Host& h, CndError* error)
     frame.frameSlot = 1;
     frame.specularMethod = CND_SPECULAR_CONIC;
     return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
+}
+
+CndLight polygonLight(uint32_t which)
+{
+    static constexpr CndPolygon polygons[] = {{3, {{-1, -1}, {1, -1}, {0, 1}}},
+                                              {4, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}};
+    return {.type = CND_LIGHT_POLYGON,
+            .influenceRadius = 5,
+            .axisU = {0.5f, 0, 0},
+            .axisV = {0, 0.5f, 0},
+            .polygon = &polygons[which % 2]};
+}
+
+// Adds `count` polygons and appends their ids to those that were added before.
+CndResult addPolygons(Host& h, uint32_t count, CndError* error)
+{
+    std::array<CndLight, morePolygons> lights;
+    for (uint32_t i = 0; i < count; ++i)
+        lights[i] = polygonLight(i);
+    CndLightId* const ids = h.polygons + (count == firstPolygons ? 0 : firstPolygons);
+    const CndResult result = cndAddLights(h.lighting, count, lights.data(), ids, error);
+    if (result == CND_SUCCESS)
+        h.lightCount += count;
+    return result;
 }
 
 // The lights of the host in this set are spheres.
@@ -186,6 +211,35 @@ std::vector<Step> editSteps()
     };
 }
 
+// Adds polygons to the host's own lights, changes and removes them.
+std::vector<Step> polygonSteps()
+{
+    return {
+        {"add polygons", false,
+         [](Host& h, CndError* error) { return addPolygons(h, firstPolygons, error); }},
+        {"record the polygons", true, recordTubes},
+        {"add more polygons than there is room for", false,
+         [](Host& h, CndError* error) { return addPolygons(h, morePolygons, error); }},
+        {"record all polygons", true, recordTubes},
+        {"make a light a polygon and change another polygon", false,
+         [](Host& h, CndError* error) {
+             const CndLight lights[] = {polygonLight(2), polygonLight(3)};
+             const CndLightId ids[] = {1, h.polygons[0]};
+             return cndUpdateLights(h.lighting, 2, ids, lights, error);
+         }},
+        {"record the changed polygons", true, recordTubes},
+        {"remove polygons", false,
+         [](Host& h, CndError* error) {
+             const CndResult result =
+                 cndRemoveLights(h.lighting, firstPolygons + morePolygons, h.polygons, error);
+             if (result == CND_SUCCESS)
+                 h.lightCount -= firstPolygons + morePolygons;
+             return result;
+         }},
+        {"record without the polygons", true, recordTubes},
+    };
+}
+
 // Sets lights that the device writes, and edits the host's lights beside them.
 std::vector<Step> deviceLightSteps()
 {
@@ -288,8 +342,8 @@ const std::vector<Step>& steps()
 {
     static const std::vector<Step> all = [] {
         std::vector<Step> out;
-        for (const auto& part :
-             {creationSteps(), editSteps(), deviceLightSteps(), moduleSteps(), statisticsSteps()})
+        for (const auto& part : {creationSteps(), editSteps(), polygonSteps(), deviceLightSteps(),
+                                 moduleSteps(), statisticsSteps()})
             out.insert(out.end(), part.begin(), part.end());
         return out;
     }();

@@ -13,6 +13,9 @@
 namespace candelabra::test
 {
 
+// The second number of polygons is more than there is room for after the first one.
+constexpr uint32_t firstPolygons = 2, morePolygons = 70;
+
 struct Host {
     MockVulkan vulkan;
     CndDeviceDesc device = vulkan.desc(); // all modules are created from it
@@ -21,7 +24,7 @@ struct Host {
     CndExposure exposure = nullptr;
     CndEnvironment environment = nullptr;
     uint32_t lightCount = 0; // size of the last set that was accepted
-    CndLightId added[2] = {};
+    CndLightId added[2] = {}, polygons[firstPolygons + morePolygons] = {};
 
     // Used by rasterSteps() only.
     std::unique_ptr<gpu::Device> rasterDevice;

@@ -45,16 +45,19 @@ gbuffer::Geometry makeGeometry(const gpu::Device& device)
 // Sets `count` emitters of each shape.
 CndResult setEmitters(Host& h, uint32_t count, CndError* error)
 {
-    constexpr CndLightType types[] = {CND_LIGHT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE,
-                                      CND_LIGHT_DISC, CND_LIGHT_DISTANT_SPHERE};
-    std::array<CndLight, 100> lights;
+    constexpr CndLightType types[] = {CND_LIGHT_SPHERE,         CND_LIGHT_TUBE,
+                                      CND_LIGHT_RECTANGLE,      CND_LIGHT_DISC,
+                                      CND_LIGHT_DISTANT_SPHERE, CND_LIGHT_POLYGON};
+    static constexpr CndPolygon corners{3, {{-1, -1}, {1, -1}, {0, 1}}};
+    std::array<CndLight, 120> lights;
     for (size_t i = 0; i < lights.size(); ++i)
         lights[i] = {.type = uint32_t(types[i % std::size(types)]),
                      .position = {0, 0, -3},
                      .radius = 0.1f,
                      .direction = {0, 0, -1},
                      .axisU = {1, 0, 0},
-                     .axisV = {0, 1, 0}};
+                     .axisV = {0, 1, 0},
+                     .polygon = &corners};
     constexpr double origin[3] = {};
     return gpu::guard(error, [&] {
         h.raster->setEmitters({lights.data(), count * std::size(types)}, origin);

@@ -20,6 +20,9 @@ namespace
 constexpr uint32_t slots = 3, largestSide = 500, largestCount = 4000;
 constexpr int frames = 500;
 
+constexpr CndPolygon polygons[] = {{3, {{-1, -1}, {1, -1}, {0, 1}}},
+                                   {4, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}};
+
 struct FlightingView {
     LightingView view;
     uint32_t maxWidth = 0, maxHeight = 0;
@@ -55,12 +58,15 @@ public:
     void setLights(uint32_t count)
     {
         lights_.resize(count);
-        for (CndLight& light : lights_) {
-            light = {.type = pick(2) ? CND_LIGHT_SPHERE : CND_LIGHT_TUBE,
+        for (uint32_t i = 0; i < count; ++i) {
+            CndLight& light = lights_[i];
+            constexpr CndLightType types[] = {CND_LIGHT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_POLYGON};
+            light = {.type = types[i % 3],
                      .radius = 0.1f,
                      .emission = {float(pick(1000)), 1, 1},
-                     .influenceRadius = 5};
-            light.axisU[0] = 0.5f;
+                     .influenceRadius = 5,
+                     .polygon = &polygons[pick(2)]};
+            light.axisU[0] = light.axisV[1] = 0.5f;
         }
         const auto set = lighting_.setLights(lights_, {0, 0, 0});
         ASSERT_TRUE(set) << set.error().message;
@@ -74,7 +80,7 @@ public:
         const uint32_t first = pick(size), count = pick(size - first);
         const std::span some = std::span(lights_).subspan(first, count);
         for (CndLight& light : some)
-            light.emission[1] = float(pick(1000));
+            light.emission[1] = float(pick(1000)), light.polygon = &polygons[pick(2)];
         const auto updated = lighting_.updateLights(std::span(ids_).subspan(first, count), some);
         ASSERT_TRUE(updated) << updated.error().message;
     }

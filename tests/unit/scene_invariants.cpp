@@ -87,6 +87,9 @@ std::string checkLight(const CndLight& l)
         return "radius";
     if (fields & CND_LIGHT_FIELD_RADIUS_BIT && distant && !(l.radius <= 1))
         return "sine of the angular radius";
+    if (fields & CND_LIGHT_FIELD_POLYGON_BIT &&
+        (!l.polygon || l.polygon->cornerCount < 3 || l.polygon->cornerCount > CND_MAX_CORNERS))
+        return "corners";
     if (!distant && !(l.influenceRadius > cndEmitterBoundingRadius(&l)))
         return "influence radius";
     if (fields & CND_LIGHT_FIELD_DIRECTION_BIT && !isUnit(vec(l.direction)))

@@ -12,6 +12,7 @@
 #include "harness/constants.h"
 #include "reference/sphere_light.h"
 #include "reference/truth.h"
+#include "scene/polygons.h"
 
 namespace candelabra::test
 {
@@ -35,7 +36,8 @@ CndLight light(CndLightType type)
             .innerConeAngle = 0.2f,
             .outerConeAngle = 0.7f,
             .axisU = {0.5f, 0, 0},
-            .axisV = {0, 0.3f, 0.4f}};
+            .axisV = {0, 0.3f, 0.4f},
+            .polygon = app::regularPolygon(6)};
 }
 
 // Returns the irradiance, in the green channel, of a surface at `at` that faces the light's centre,
@@ -129,6 +131,9 @@ TEST(Conversions, LuminanceFromPowerIsTheInverseOfPower)
         l = light(CND_LIGHT_DISC);
         l.twoSided = twoSided;
         EXPECT_FLOAT_EQ(cndDiscLuminanceFromPower(powerOf(), 0.25f, twoSided), 200);
+        l = light(CND_LIGHT_POLYGON);
+        l.twoSided = twoSided;
+        EXPECT_FLOAT_EQ(cndPolygonLuminanceFromPower(powerOf(), &l), 200);
     }
     l = light(CND_LIGHT_SPHERE);
     EXPECT_FLOAT_EQ(cndSphereLuminanceFromPower(powerOf(), 0.25f), 200);

@@ -43,6 +43,13 @@ TEST(CppFace, PowerOfALight)
     auto power = luminousPowerOfLight(point);
     ASSERT_TRUE(power) << power.error().message;
     EXPECT_FLOAT_EQ(power.value()[2], 12 * 3.14159265f);
+    const std::array<float, 3> corners[] = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
+    CndLight polygonLight{.emission = {1, 1, 1}};
+    CndPolygon polygon;
+    ASSERT_TRUE(polygonFromCorners(corners, polygonLight, polygon));
+    EXPECT_NEAR(luminousPowerOfLight(polygonLight).value()[0], 3.14159265f, 1e-6f); // 1 m^2
+    const auto line = polygonFromCorners(std::span(corners).first(2), polygonLight, polygon);
+    EXPECT_STREQ(line.error().message, "a polygon must have 3 to 8 corners");
     const auto none = luminousPowerOfLight({.type = CND_LIGHT_DIRECTIONAL});
     EXPECT_FALSE(none);
     EXPECT_EQ(none.error().code, CND_ERROR_INVALID_ARGUMENT);

@@ -96,10 +96,23 @@ TEST(LightEditor, EveryTypeBecomesEveryOtherAndIsValid)
     // A conversion between types that have a luminous power keeps it.
     LightEditor editor;
     Scene scene = sceneWithALight(editor);
-    for (const CndLightType type :
-         {CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC, CND_LIGHT_SPOT, CND_LIGHT_POINT}) {
+    for (const CndLightType type : {CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC,
+                                    CND_LIGHT_POLYGON, CND_LIGHT_SPOT, CND_LIGHT_POINT}) {
         changeType(scene.lights[0], type);
         EXPECT_NEAR(powerOf(scene.lights[0]), 1500, 0.1) << lightTypeName(type);
+    }
+}
+
+TEST(LightEditor, CornersKeepPower)
+{
+    LightEditor editor;
+    Scene scene = sceneWithALight(editor);
+    changeType(scene.lights[0], CND_LIGHT_POLYGON);
+    for (uint32_t corners = 3; corners <= CND_MAX_CORNERS; ++corners) {
+        changeCorners(scene.lights[0], corners);
+        EXPECT_NO_THROW(lighting::validateLights(scene.lights)) << corners;
+        EXPECT_EQ(scene.lights[0].polygon->cornerCount, corners);
+        EXPECT_NEAR(powerOf(scene.lights[0]), 1500, 0.1) << corners;
     }
 }
 

@@ -15,6 +15,7 @@
 #include "reference/arc_domain.h"
 #include "reference/emitter_domain.h"
 #include "reference/truth.h"
+#include "scene/polygons.h"
 #include "test_reference_support.h"
 
 namespace candelabra::test
@@ -103,6 +104,7 @@ TEST(ReferenceAreaTruth, twoIntegratorsInDifferentDomainsAgree)
             CndLight light = makeSphere(glm::vec3((0.3 + 3 * unit(random)) * way), 0, glm::vec3(1));
             light.type = type;
             light.twoSided = unit(random) < 0.5;
+            light.polygon = candelabra::app::somePolygon(uint32_t(differences.size()));
             const double size = 0.02 * std::pow(100, unit(random));
             const glm::dvec3 u = unitVector(random);
             const glm::dvec3 v = glm::normalize(glm::cross(u, unitVector(random)));
@@ -173,6 +175,38 @@ TEST(ReferenceAreaTruth, formFactorsMatchTheirClosedForms)
     const double tube = formFactor(makeTube({0, 0, 2}, {1e6, 0, 0}, 0.5f));
     worst.add(std::abs(tube / 0.25 - 1), "tube");
     EXPECT_TRUE(worst.within(1e-7)); // positions are floats
+}
+
+// A polygon with the corners of a rectangle, and one that is cut out of it with the pieces left
+// over.
+TEST(ReferenceAreaTruth, polygonsAreMadeOfTheirParts)
+{
+    using candelabra::app::somePolygon;
+    const CndPolygon left{3, {{-1, -1}, {1, -1}, {-1, 1}}}, right{3, {{1, -1}, {1, 1}, {-1, 1}}};
+    WorstCase worst;
+    for (const double height : {0.4, 1.0, -0.2}) // the last one crosses the horizon
+        for (const VkBool32 twoSided : {VK_FALSE, VK_TRUE})
+            for (const double turn : {1.0, -1.0}) {
+                CndLight light =
+                    makeRectangle({-0.9, 0.3, height}, {0, 0.5 * turn, 0.5}, {1, 0, 0});
+                light.twoSided = twoSided;
+                const double whole = specular(light), f = formFactor(light);
+                light.type = CND_LIGHT_POLYGON;
+                const auto both = [&](auto&& response) {
+                    light.polygon = &left;
+                    const double part = response(light);
+                    light.polygon = &right;
+                    return part + response(light);
+                };
+                worst.add(std::abs(both([](const CndLight& l) { return specular(l); }) - whole),
+                          "parts", height, turn);
+                worst.add(std::abs(both(formFactor) - f), "parts", height, turn);
+                light.polygon = somePolygon(3);
+                ASSERT_EQ(light.polygon->cornerCount, 4u);
+                worst.add(std::abs(specular(light) - whole), "square", height, turn);
+                worst.add(std::abs(formFactor(light) - f), "square", height, turn);
+            }
+    EXPECT_TRUE(worst.within(1e-7));
 }
 
 TEST(ReferenceAreaTruth, degenerateShapesMeet)

@@ -71,6 +71,14 @@ glm::dvec3 worldPositionOf(const Scene& scene, const CndLight& light)
     return scene.lightOrigin + glm::dvec3(light.position[0], light.position[1], light.position[2]);
 }
 
+glm::dvec3 cornerOf(const Scene& scene, const CndLight& light, uint32_t i)
+{
+    const float(&corner)[2] = light.polygon->corners[i];
+    return worldPositionOf(scene, light) +
+           double(corner[0]) * glm::dvec3(light.axisU[0], light.axisU[1], light.axisU[2]) +
+           double(corner[1]) * glm::dvec3(light.axisV[0], light.axisV[1], light.axisV[2]);
+}
+
 void expectSameLights(const Scene& a, const Scene& b)
 {
     ASSERT_EQ(a.lights.size(), b.lights.size());
@@ -81,6 +89,15 @@ void expectSameLights(const Scene& a, const Scene& b)
         EXPECT_EQ(x.layers, y.layers) << what;
         expectSameVector(x.emission, y.emission, what);
         const uint32_t fields = cndLightFields(x.type);
+        if (fields & CND_LIGHT_FIELD_POLYGON_BIT) {
+            // The axes may be those of another rectangle around the same polygon.
+            ASSERT_EQ(x.polygon->cornerCount, y.polygon->cornerCount) << what;
+            for (uint32_t k = 0; k < x.polygon->cornerCount; ++k)
+                EXPECT_LT(glm::distance(cornerOf(a, x, k), cornerOf(b, y, k)), 1e-6) << what;
+            EXPECT_EQ(x.twoSided, y.twoSided) << what;
+            EXPECT_EQ(x.influenceRadius, y.influenceRadius) << what;
+            continue;
+        }
         if (fields & CND_LIGHT_FIELD_POSITION_BIT) {
             const glm::dvec3 at = worldPositionOf(a, x), gap = at - worldPositionOf(b, y);
             EXPECT_LT(glm::length(gap), 1e-6 * std::max(1.0, glm::length(at))) << what;

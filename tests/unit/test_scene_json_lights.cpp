@@ -43,6 +43,13 @@ void expectNear(const glm::vec3& a, const glm::vec3& b)
         << a.x << " " << a.y << " " << a.z << ", not " << b.x << " " << b.y << " " << b.z;
 }
 
+glm::vec3 cornerOf(const CndLight& polygon, uint32_t i)
+{
+    const float(&corner)[2] = polygon.polygon->corners[i];
+    return vectorOf(polygon.position) + corner[0] * vectorOf(polygon.axisU) +
+           corner[1] * vectorOf(polygon.axisV);
+}
+
 double power(const CndLight& light, int channel)
 {
     float out[3] = {};
@@ -129,6 +136,20 @@ TEST_F(SceneJsonLights, EveryTypeArrivesAsWritten)
     EXPECT_NEAR(power(l[9], 1), 200, 1e-3);
     EXPECT_TRUE(std::isinf(l[9].influenceRadius));
     EXPECT_EQ(l[10].emission[2], 4);
+
+    // A pentagon that faces down, and a triangle.
+    ASSERT_EQ(l[11].type, uint32_t{CND_LIGHT_POLYGON});
+    EXPECT_EQ(l[11].polygon->cornerCount, 5u);
+    const glm::vec3 down = glm::cross(vectorOf(l[11].axisU), vectorOf(l[11].axisV));
+    expectNear(glm::normalize(down), {0, -1, 0});
+    expectNear(cornerOf(l[11], 1), {0, 2.8f, -1.5f});
+    expectNear(cornerOf(l[11], 4), {-0.3f, 2.8f, -0.4f});
+    EXPECT_EQ(l[11].emission[2], 300);
+    EXPECT_EQ(l[11].influenceRadius, 7);
+    EXPECT_EQ(l[12].polygon->cornerCount, 3u);
+    expectNear(cornerOf(l[12], 2), {-2.1f, 0.4f, 0.2f});
+    EXPECT_TRUE(l[12].twoSided);
+    EXPECT_NEAR(power(l[12], 2), 90, 1e-3);
     EXPECT_TRUE(scene.lightsVisible);
 }
 
@@ -252,6 +273,20 @@ TEST_F(SceneJsonLights, ErrorsSayWhy)
     expect(R"({"type": "disc", "position": [0, 1, 0], "normal": [0, 1, 0], "radius": 1,
                "radiance": [1, 1, 1], "influence_radius": 1})",
            ".influence_radius: must be greater than radius");
+    const auto expectCorners = [&](const std::string& corners, const std::string& message) {
+        expect(
+            (R"({"type": "polygon", "radiance": [1, 1, 1], "corners": [)" + corners + "]}").c_str(),
+            ".corners: " + message);
+    };
+    expectCorners("[0, 0, 0], [1, 0, 0]", "must have 3 to 8 corners");
+    expectCorners("[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [4, 0, 0], [4, 1, 0], [3, 1, 0], "
+                  "[2, 1, 0], [1, 1, 0]",
+                  "must have 3 to 8 corners");
+    expectCorners("[0, 0, 0], [1, 0, 0], [1, 1, 0.1], [0, 1, 0]", "the corners are not in a plane");
+    expectCorners("[0, 0, 0], [1, 0, 0], [0.2, 0.2, 0], [0, 1, 0]", "the polygon must be convex");
+    expectCorners("[0, 0, 0], [1, 0, 0], [2, 0, 0]", "the corners enclose no area");
+    expectCorners("[0, 0, 0], [0, 0, 0], [1, 0, 0], [1, 1, 0]",
+                  "two neighbouring corners of the polygon coincide");
     expect(R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
                "inner_cone_degrees": 30, "outer_cone_degrees": 30, "intensity": [1, 1, 1]})",
            ".outer_cone_degrees: must be greater than inner_cone_degrees: their cosines must "

@@ -391,6 +391,18 @@ inline Result<std::array<float, 3>> luminousPowerOfLight(const CndLight& light) 
     return power;
 }
 
+// Makes `light` a polygon with these corners in space; see cndPolygonFromCorners. `light` then
+// refers to `polygon`.
+inline Result<void> polygonFromCorners(std::span<const std::array<float, 3>> corners,
+                                       CndLight& light, CndPolygon& polygon) noexcept
+{
+    CndError error{};
+    if (cndPolygonFromCorners(reinterpret_cast<const float(*)[3]>(corners.data()),
+                              uint32_t(corners.size()), &light, &polygon, &error) != CND_SUCCESS)
+        return error;
+    return {};
+}
+
 // Conversions between types of lights; see lights.h. With 0 for radius, sine or distance the
 // library chooses it.
 

@@ -22,7 +22,9 @@ typedef enum CndLightType {
     CND_LIGHT_TUBE = 5,
     CND_LIGHT_RECTANGLE = 6, // emission is luminance, cd/m^2
     CND_LIGHT_DISC = 7,      // emission is luminance, cd/m^2
-    CND_LIGHT_TYPE_COUNT = 8,
+    // A convex polygon with 3 to 8 corners. Emission is luminance, cd/m^2.
+    CND_LIGHT_POLYGON = 8,
+    CND_LIGHT_TYPE_COUNT = 9,
     CND_LIGHT_TYPE_MAX_ENUM = 0x7FFFFFFF
 } CndLightType;
 
@@ -30,6 +32,19 @@ typedef enum CndLightType {
 // frames that share a layer with it. The mask 0 stands for all layers, so that a zeroed struct is
 // in every layer. To hide a light in all frames, remove it (cndRemoveLights).
 #define CND_LAYER_COUNT 16
+
+// The corners of a polygon light in the coordinates of its axes: corner i is at
+//   position + corners[i][0] axisU + corners[i][1] axisV.
+// cndPolygonFromCorners computes them from points in space.
+#define CND_MAX_CORNERS 8
+typedef struct CndPolygon {
+    uint32_t cornerCount; // 3..CND_MAX_CORNERS
+    // Each coordinate within -1..1, so that the polygon lies in the rectangle with the same axes.
+    // The corners go counterclockwise, which is from axisU to axisV, around a convex outline: none
+    // is more than 1e-6 outside the line through any edge. Neighbours are at least 1e-5 apart, and
+    // the area is at least 1e-4, in these coordinates. What follows cornerCount is ignored.
+    float corners[CND_MAX_CORNERS][2];
+} CndPolygon;
 
 // One light. Fields that its type does not use are ignored.
 //
@@ -51,7 +66,8 @@ typedef struct CndLight {
     float emission[3]; // >= 0 and finite; unit by type, per Rec.709 channel
     // Metres, > 0, or INFINITY; greater than the distance from the centre to the farthest point of
     // the emitter (cndEmitterBoundingRadius; sphere and disc: radius; tube: |axisU| + radius;
-    // rectangle: half its diagonal). Used by all types but directional and distant sphere.
+    // rectangle: half its diagonal; polygon: distance of the farthest corner). Used by all types
+    // but directional and distant sphere.
     float influenceRadius;
     // Spot: half angle of the cone with full intensity, radians, 0 <= inner < outer.
     float innerConeAngle;
@@ -61,13 +77,16 @@ typedef struct CndLight {
     // Metres, length at least 1e-15, components within 1e15. Tube: axisU points from the centre to
     // one end of its segment. Rectangle: axisU points from the centre to the middle of one edge,
     // axisV to the middle of an adjacent edge. They must be perpendicular: the cosine of their
-    // angle is within 1e-3 of 0. The rectangle faces axisU x axisV.
+    // angle is within 1e-3 of 0. The rectangle faces axisU x axisV. Polygon: the axes of such a
+    // rectangle, in which the polygon lies and whose front is the polygon's.
     float axisU[3];
     float axisV[3];
-    VkBool32 twoSided; // rectangle, disc: VK_TRUE if the back emits as well
+    VkBool32 twoSided; // rectangle, disc, polygon: VK_TRUE if the back emits as well
     // Mask of 1 << layer, layer < CND_LAYER_COUNT; 0: all layers. The light exists in frames that
     // share a layer with it (CndLightingFrame::layers).
     uint32_t layers;
+    // Polygon: its corners, not NULL. They are read before a call that takes the light returns.
+    const CndPolygon* polygon;
 } CndLight;
 
 // The fields of CndLight that only some types use.
@@ -79,6 +98,7 @@ typedef enum CndLightFieldBits {
     CND_LIGHT_FIELD_AXIS_U_BIT = 16,
     CND_LIGHT_FIELD_AXIS_V_BIT = 32,
     CND_LIGHT_FIELD_TWO_SIDED_BIT = 64,
+    CND_LIGHT_FIELD_POLYGON_BIT = 128,
     CND_LIGHT_FIELD_BITS_MAX_ENUM = 0x7FFFFFFF
 } CndLightFieldBits;
 
@@ -93,7 +113,8 @@ CND_API VkBool32 cndIsDistant(uint32_t lightType);
 CND_API VkBool32 cndIsPunctual(uint32_t lightType);
 // Returns the radius in metres of the sphere around the centre of `light` that holds its emitter,
 // whose axes are taken to be perpendicular. It is 0 for punctual lights, and for distant spheres it
-// is the sine of the angular radius. `light` must not be NULL; only its type and shape are read.
+// is the sine of the angular radius. `light` must not be NULL, nor the `polygon` of a polygon
+// light; only type and shape are read.
 CND_API float cndEmitterBoundingRadius(const CndLight* light);
 
 // Names a light for as long as it is in the set. The id of a light from cndSetLights is its index
@@ -121,7 +142,7 @@ typedef struct CndDeviceLight {
 // The host cannot check these lights: one with a value outside its range gives no light and is
 // counted in CndLightingStats::rejectedLights, as are lights beyond maxCount.
 typedef struct CndDeviceLights {
-    uint32_t type; // CND_LIGHT_POINT or CND_LIGHT_SPHERE
+    uint32_t type; // CND_LIGHT_POINT or CND_LIGHT_SPHERE; a CndDeviceLight has no room for more
     // Capacity of `buffer` in lights, > 0. Time and memory are paid for all of them, present or
     // not.
     uint32_t maxCount;
@@ -165,7 +186,7 @@ CND_API uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits);
 // and spheres and distant spheres, for which E = pi L s^2, have emission = c_light / s^2.
 //
 // The power functions compute in double precision and round once. The functions that return a float
-// check nothing: radius, width and height must be > 0.
+// check nothing: radius, width and height must be > 0, and polygons valid.
 
 // Returns the luminance (cd/m^2) of a sphere of `radius` metres that emits `luminousPower` lumens
 // evenly: Phi = 4 pi^2 R^2 L. Keeping the power while changing the radius keeps the far field.
@@ -183,6 +204,10 @@ CND_API float cndRectangleLuminanceFromPower(float luminousPower, float width, f
                                              VkBool32 twoSided);
 // Returns the luminance (cd/m^2) of a disc; A = pi R^2, or twice that for a two-sided disc.
 CND_API float cndDiscLuminanceFromPower(float luminousPower, float radius, VkBool32 twoSided);
+// Returns the luminance (cd/m^2) of a light with the shape of `polygon`, a valid polygon light of
+// which only axes, corners and twoSided are read. A = |axisU| |axisV| times the area in the
+// coordinates of its corners, or twice that for a two-sided polygon.
+CND_API float cndPolygonLuminanceFromPower(float luminousPower, const CndLight* polygon);
 // Returns the luminous power (lm) of `watts` of radiation at 555 nm: 683 lm/W (SI definition of the
 // candela).
 CND_API float cndLuminousPowerFromWatts(float watts);
@@ -191,6 +216,17 @@ CND_API float cndLuminousPowerFromWatts(float watts);
 // CND_ERROR_INVALID_ARGUMENT for directional and distant lights, which have none.
 CND_API CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousPower[3],
                                           CndError* error);
+
+// Sets type, position, axisU, axisV and polygon of `light` so that it is a polygon light with these
+// corners, in metres, relative to the origin of the light set like CndLight::position. The front
+// is the side from which they go counterclockwise. light->polygon becomes `polygon`, which is
+// filled in and must live for as long as the light is passed to other calls. The other fields of
+// `light` stay as they are. Fails with CND_ERROR_INVALID_ARGUMENT if `count` is not
+// 3..CND_MAX_CORNERS; if a coordinate is not finite or beyond 1e15; if the corners are not in a
+// plane, to 1e-4 of the polygon's size; if two neighbours coincide; if the outline is not convex;
+// or if it encloses no area. On error nothing is written.
+CND_API CndResult cndPolygonFromCorners(const float (*corners)[3], uint32_t count, CndLight* light,
+                                        CndPolygon* polygon, CndError* error);
 
 // Conversions of one type of light into another that has the same irradiance at a receiver,
 // whatever the receiver's orientation, as long as the whole emitter is above the receiver's

@@ -100,15 +100,20 @@ CndLight makeLamp(uint32_t type, double x, const glm::vec3& colour)
     return light;
 }
 
-// Adds the brass balls that hold a lamp: at the corners of a rectangle, at the ends of a tube, at
-// the back of what has a direction, else on top.
+// Adds the brass balls that hold a lamp: at the corners of a rectangle or polygon, at the ends of a
+// tube, at the back of what has a direction, else on top.
 void addHolders(SceneBuilder& b, const CndLight& light, uint32_t brass)
 {
     const auto vec = [](const float(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
     const glm::dvec3 centre = vec(light.position), u = vec(light.axisU), v = vec(light.axisV);
     const double radius = light.radius;
     const uint32_t fields = cndLightFields(light.type);
-    if (fields & CND_LIGHT_FIELD_AXIS_V_BIT) {
+    if (fields & CND_LIGHT_FIELD_POLYGON_BIT) {
+        for (uint32_t i = 0; i < light.polygon->cornerCount; ++i) {
+            const float(&corner)[2] = light.polygon->corners[i];
+            addBall(b, centre + double(corner[0]) * u + double(corner[1]) * v, 0.05, brass);
+        }
+    } else if (fields & CND_LIGHT_FIELD_AXIS_V_BIT) {
         for (const glm::dvec3& corner : {u + v, u - v, v - u, -u - v})
             addBall(b, centre + corner, 0.05, brass);
     } else if (fields & CND_LIGHT_FIELD_AXIS_U_BIT) {

@@ -111,6 +111,15 @@ Json keyJson(const CndLight& light, const glm::dvec3& centre, LightKeyMeaning me
         return double(light.outerConeAngle) * degreesPerRadian;
     case LightKeyMeaning::TwoSided:
         return light.twoSided != 0;
+    case LightKeyMeaning::Corners: {
+        Json corners = Json::array();
+        for (uint32_t i = 0; i < light.polygon->cornerCount; ++i) {
+            const float(&corner)[2] = light.polygon->corners[i];
+            corners.push_back(
+                toJson(centre + double(corner[0]) * u + double(corner[1]) * toVec3(light.axisV)));
+        }
+        return corners;
+    }
     }
     return {};
 }

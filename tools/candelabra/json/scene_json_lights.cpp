@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -75,9 +76,28 @@ float readRadius(const JsonValue& json, double max)
     return radius;
 }
 
+// Reads the corners of a polygon. Floats hold them relative to the first one, so that those of a
+// polygon far from the origin keep their shape.
+void readCorners(const JsonValue& value, CndLight& light, glm::dvec3& position, CndPolygon& polygon)
+{
+    value.requireArray();
+    if (value.size() < 3 || value.size() > CND_MAX_CORNERS)
+        value.fail("must have 3 to " + std::to_string(CND_MAX_CORNERS) + " corners");
+    const glm::dvec3 first = value.item(0).vector3(coordinate);
+    float corners[CND_MAX_CORNERS][3] = {};
+    for (size_t i = 1; i < value.size(); ++i)
+        setVector(corners[i], value.item(i).vector3(coordinate) - first);
+    CndError error{};
+    if (cndPolygonFromCorners(corners, uint32_t(value.size()), &light, &polygon, &error) !=
+        CND_SUCCESS)
+        value.fail(error.message);
+    position = first + glm::dvec3(light.position[0], light.position[1], light.position[2]);
+}
+
 // Reads what a key says of a light. `light` has what the keys before it said; `position` is that of
 // the light, or the start of its segment.
-void readKey(const JsonValue& value, LightKeyMeaning meaning, CndLight& light, glm::dvec3& position)
+void readKey(const JsonValue& value, LightKeyMeaning meaning, CndLight& light, glm::dvec3& position,
+             Scene& scene)
 {
     switch (meaning) {
     case LightKeyMeaning::Position:
@@ -130,6 +150,12 @@ void readKey(const JsonValue& value, LightKeyMeaning meaning, CndLight& light, g
     case LightKeyMeaning::TwoSided:
         light.twoSided = value.boolean() ? VK_TRUE : VK_FALSE;
         return;
+    case LightKeyMeaning::Corners: {
+        const auto polygon = std::make_shared<CndPolygon>();
+        readCorners(value, light, position, *polygon);
+        scene.polygons.push_back(polygon);
+        return;
+    }
     }
 }
 
@@ -188,7 +214,7 @@ void readEmission(const JsonValue& json, CndLight& light)
             value.fail("needs an emission beyond single precision for so small a light");
 }
 
-CndLight readLight(const JsonValue& json, glm::dvec3& position)
+CndLight readLight(const JsonValue& json, glm::dvec3& position, Scene& scene)
 {
     CndLight light = {};
     light.type = typeOf(json);
@@ -196,7 +222,7 @@ CndLight readLight(const JsonValue& json, glm::dvec3& position)
     for (const LightKey& key : lightTypeInfo(light.type).keys) {
         const bool optional = key.meaning == LightKeyMeaning::TwoSided;
         if (!optional || json.find(key.name))
-            readKey(json.member(key.name), key.meaning, light, position);
+            readKey(json.member(key.name), key.meaning, light, position, scene);
     }
     if (const auto layers = json.find("layers"))
         light.layers = readLayers(*layers);
@@ -223,7 +249,7 @@ void readSceneLights(const JsonValue& list, Scene& scene)
     list.requireArray();
     std::vector<glm::dvec3> positions(list.size());
     for (size_t i = 0; i < list.size(); ++i)
-        scene.lights.push_back(readLight(list.item(i), positions[i]));
+        scene.lights.push_back(readLight(list.item(i), positions[i], scene));
     placeLights(scene, positions);
 }
 

@@ -6,8 +6,9 @@
 // the table of scene/light_types.cpp. Unless a light is infinitely far away it may have an
 // "influence_radius" (default: unlimited). "direction" is the direction in which the light travels.
 // The cone angles of spots are half angles. axis_u and axis_v lead from the centre of a rectangle
-// to the middles of two adjacent edges; its front faces along axis_u x axis_v. "two_sided" is false
-// if it is missing.
+// to the middles of two adjacent edges; its front faces along axis_u x axis_v. "corners" are the 3
+// to 8 corners of a convex polygon, which go counterclockwise seen from its front. "two_sided" is
+// false if it is missing.
 //
 // "radiance" may also be called "luminance"; it is in cd/m^2. "luminous_power" is in lm.
 // "intensity" is in cd: for a sphere in the far field, for a spot on its axis. "illuminance" is in

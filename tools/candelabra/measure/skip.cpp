@@ -20,6 +20,7 @@
 #include "render/check.h"
 #include "render/readback.h"
 #include "render/renderer.h"
+#include "scene/polygons.h"
 #include "scene/scene_options.h"
 
 namespace candelabra::app
@@ -200,7 +201,8 @@ Lights withOthers(Lights lights, bool ofOtherTypes)
                               .innerConeAngle = 0.2f,
                               .outerConeAngle = 0.4f,
                               .axisU = {0.02f, 0, 0},
-                              .axisV = {0, 0, 0.02f}});
+                              .axisV = {0, 0, 0.02f},
+                              .polygon = regularPolygon(3)});
     return lights;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "scene/polygons.h"
+
 namespace candelabra::app
 {
 
@@ -53,6 +55,10 @@ const LightTypeInfo& lightTypeInfo(uint32_t type)
                   {"two_sided", TwoSided}},
          .emission = luminance,
          .lamp = {.radius = 0.4f, .twoSided = VK_TRUE}},
+        {.name = "polygon",
+         .keys = {{"corners", Corners}, {"two_sided", TwoSided}},
+         .emission = luminance,
+         .lamp = {.axisU = {0.45f, 0, 0}, .axisV = {0.4f, 0, 0}, .polygon = regularPolygon(5)}},
     };
     static_assert(std::size(types) == CND_LIGHT_TYPE_COUNT);
     assert(type < CND_LIGHT_TYPE_COUNT);

@@ -24,6 +24,7 @@ enum class LightKeyMeaning {
     InnerCone, // half angles in degrees; OuterCone follows InnerCone and is the larger one
     OuterCone, //
     TwoSided,  // true or false; may be missing, which is false
+    Corners,   // of a polygon, in space
 };
 
 struct LightKey {
@@ -37,8 +38,8 @@ struct LightTypeInfo {
     // Keys of a scene description for the emission, of which a light has one. The first one is
     // CndLight::emission itself.
     std::vector<std::string> emission;
-    // The size of a lamp for a table top: radius, cone, axisU and twoSided, and the length of axisV
-    // in axisV[0].
+    // The size of a lamp for a table top: radius, cone, axisU, polygon and twoSided, and the length
+    // of axisV in axisV[0].
     CndLight lamp;
 };
 

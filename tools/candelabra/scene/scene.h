@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -129,6 +130,8 @@ struct Scene {
     std::vector<AnalyticObject> analyticObjects;
     glm::dvec3 lightOrigin{0}; // light positions are relative to this point
     std::vector<CndLight> lights;
+    // Corners to which CndLight::polygon points. Copies of the scene share them: they never change.
+    std::vector<std::shared_ptr<const CndPolygon>> polygons;
     std::vector<LightMotion> lightMotions; // empty, or one per light
     std::vector<Camera> cameras;           // at least one after loading; [0] is the default
     glm::vec3 background{0};               // luminance of pixels without a surface, cd/m^2

@@ -42,6 +42,9 @@ void add(Hash& hash, const CndLight& light)
          {light.radius, light.influenceRadius, light.innerConeAngle, light.outerConeAngle})
         hash.add(value);
     hash.add(light.twoSided);
+    if (light.type == CND_LIGHT_POLYGON)
+        for (uint32_t i = 0; i < light.polygon->cornerCount; ++i)
+            hash.add(std::span<const float>(light.polygon->corners[i], 2));
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "scene/light_types.h"
+#include "scene/polygons.h"
 
 namespace candelabra::app
 {
@@ -149,6 +150,14 @@ bool shapeWidgets(CndLight& light)
         edited |= directionWidget(light);
     if (has(light, CND_LIGHT_FIELD_CONE_BIT))
         edited |= coneWidgets(light);
+    if (has(light, CND_LIGHT_FIELD_POLYGON_BIT)) {
+        int corners = int(light.polygon->cornerCount);
+        if (ImGui::SliderInt("corners", &corners, 3, CND_MAX_CORNERS, "%d",
+                             ImGuiSliderFlags_AlwaysClamp)) {
+            changeCorners(light, uint32_t(corners));
+            edited = true;
+        }
+    }
     if (has(light, CND_LIGHT_FIELD_TWO_SIDED_BIT)) {
         bool twoSided = light.twoSided;
         if (ImGui::Checkbox("two-sided", &twoSided)) {
@@ -228,6 +237,14 @@ void changeRadius(CndLight& light, float radius)
     widenInfluence(light);
 }
 
+void changeCorners(CndLight& light, uint32_t corners)
+{
+    const std::optional<glm::vec3> power = powerOf(light);
+    light.polygon = regularPolygon(corners);
+    setPower(light, power);
+    widenInfluence(light);
+}
+
 void changeType(CndLight& light, CndLightType type)
 {
     const std::optional<glm::vec3> power = powerOf(light);
@@ -239,6 +256,7 @@ void changeType(CndLight& light, CndLightType type)
         assign(light.direction, {0, -1, 0});
     assign(light.axisU, {0.5f, 0, 0});
     assign(light.axisV, {0, 0, 0.3f}); // the rectangle faces down, along axisU x axisV
+    light.polygon = lightTypeInfo(type).lamp.polygon;
     light.innerConeAngle = 0.3f;
     light.outerConeAngle = 0.6f;
     if (!(light.influenceRadius > 0))

@@ -29,6 +29,8 @@ void scaleLightRadius(Scene& scene, LightEditor& editor, float factor);
 // before and after; a distant sphere keeps its illuminance when its radius changes.
 void changeType(CndLight& light, CndLightType type);
 void changeRadius(CndLight& light, float radius);
+// Makes a polygon regular, with 3 to CND_MAX_CORNERS corners. The luminous power stays the same.
+void changeCorners(CndLight& light, uint32_t corners);
 
 // Draws the widgets that edit the selected light, and applies what the user does with them.
 void drawLightEditor(Scene& scene, LightEditor& editor);

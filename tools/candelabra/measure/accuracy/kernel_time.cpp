@@ -13,6 +13,7 @@
 #include "lights/light_limits.h"
 #include "lights/light_types.h"
 #include "measure/kernels/vectors.h"
+#include "scene/polygons.h"
 
 namespace candelabra::app
 {
@@ -66,6 +67,7 @@ std::vector<CndLight> lightsOf(uint32_t type, EvaluationClass c, const TimingSet
         const glm::dvec3 u1 = glm::normalize(glm::cross(to, glm::dvec3(0.3, 0.5, 0.8)));
         set(light.axisU, sine * distance * u1);
         set(light.axisV, -0.7 * sine * distance * glm::cross(to, u1));
+        light.polygon = somePolygon(i);
         if (type == CND_LIGHT_TUBE)
             light.radius *= 0.2f;
         out.push_back(light);

@@ -11,6 +11,7 @@
 #include "measure/kernels/parallel.h"
 #include "measure/kernels/vectors.h"
 #include "reference/truth.h"
+#include "scene/polygons.h"
 
 namespace candelabra::app
 {
@@ -27,6 +28,7 @@ struct Group {
     double distance;  // m
     // For shapes other than spheres: turn and tilt to the direction, and how long they are.
     double turn, tilt, aspect;
+    uint32_t outline; // which polygon
 };
 
 double uniform(Random& random, double low, double high)
@@ -52,6 +54,7 @@ Group makeGroup(uint32_t type, uint32_t index, uint32_t groups, Random& random)
     g.turn = uniform(random, 0, 2 * pi);
     g.tilt = uniform(random, 0, 75) * degree;
     g.aspect = logUniform(random, 1, 6);
+    g.outline = index;
     return g;
 }
 
@@ -79,6 +82,7 @@ CndLight makeLight(uint32_t type, const Group& g, const glm::dvec3& direction)
     light.radius = float(half);
     set(light.axisU, half * u);
     set(light.axisV, half / g.aspect * glm::cross(w, u));
+    light.polygon = somePolygon(g.outline);
     const uint32_t fields = cndLightFields(type);
     if (fields & CND_LIGHT_FIELD_AXIS_U_BIT && fields & CND_LIGHT_FIELD_RADIUS_BIT) {
         // A body: small enough to leave the receiver outside whichever way it points.

@@ -204,7 +204,8 @@ void Baselines::writeBindings()
     sets_.prepare.write(
         0, {Binding::of(PREPARE_LIGHTS_RECORDS, records_), Binding::of(PREPARE_LIGHTS_CORE, core_),
             Binding::of(PREPARE_LIGHTS_SHAPES, shapes_), Binding::of(PREPARE_LIGHTS_ORDER, order_),
-            Binding::of(PREPARE_LIGHTS_IDS, order_)}); // bound, but not written
+            // The next two are bound, but neither written nor read.
+            Binding::of(PREPARE_LIGHTS_IDS, order_), Binding::of(PREPARE_LIGHTS_POLYGONS, order_)});
     sets_.spheres.write(0, {Binding::of(BASELINE_SPHERES_CORE, core_),
                             Binding::of(BASELINE_SPHERES_OUTPUT, spheres_)});
     sets_.tiles.write(0, {Binding::sampled(BASELINE_TILES_DEPTH, frame_.depth),

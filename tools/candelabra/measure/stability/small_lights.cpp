@@ -11,6 +11,7 @@
 #include "measure/stability/stability.h"
 #include "reference/brdf.h"
 #include "reference/response.h"
+#include "scene/polygons.h"
 
 namespace candelabra::app
 {
@@ -50,6 +51,12 @@ SmallLight makeLight(uint32_t type, const glm::dvec3& direction, double size, Ra
         set(out.light.axisU, length * u);
         set(out.light.axisV, length * aspect * frame.y);
         out.solidAngle = 4 * size * size * aspect * std::cos(tilt);
+        if (fields & CND_LIGHT_FIELD_POLYGON_BIT) {
+            out.light.polygon = somePolygon(uint32_t(random.uniform(0, 12)));
+            // pi lm give a luminance of 1 / area.
+            const double area = 1 / double(cndPolygonLuminanceFromPower(float(pi), &out.light));
+            out.solidAngle = area / (distance * distance) * std::cos(tilt);
+        }
     } else if (fields & CND_LIGHT_FIELD_TWO_SIDED_BIT) {
         out.solidAngle *= std::cos(tilt);
     }

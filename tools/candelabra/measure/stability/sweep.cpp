@@ -9,6 +9,7 @@
 #include "candelabra_bench_shaders.h"
 #include "measure/kernels/vectors.h"
 #include "measure/stability/inexact_division.h"
+#include "scene/polygons.h"
 
 namespace candelabra::app
 {
@@ -149,6 +150,8 @@ CndLight lightOf(const gpu::SweepRecord& r, uint32_t lightType)
     set(light.axisV, r.shape.axisV);
     set(light.direction, cndIsDistant(lightType) ? -centre : r.shape.axisU);
     light.twoSided = (r.shape.flags & gpu::LIGHT_TWO_SIDED) != 0;
+    if (lightType == CND_LIGHT_POLYGON)
+        light.polygon = regularPolygon(uint32_t(r.shape.radius));
     return light;
 }
 

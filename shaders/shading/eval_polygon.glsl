@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// The response to a convex polygon of unit luminance.
+#include "lib/contour.glsl"
+#include "lib/lights/rectangle.glsl"
+#include "lib/specular/representative.glsl"
+#include "lib/specular/sampled.glsl"
+#include "shading/light.glsl"
+
+// A polygon as a receiver sees it. The loops over its corners read them from the array of shapes one by
+// one: an array of eight corners would not fit into the registers of GPUs.
+struct Polygon {
+    vec3 toCentre; // from the receiver
+    vec3 axisU, axisV;
+    float scale; // factor of the corners
+    float boundingRadius;
+    uint firstShape, count; // of the corners
+    bool twoSided;
+};
+
+// Returns a corner relative to the centre.
+vec3 cornerOf(Polygon polygon, uint i)
+{
+    const LightShape pair = lightShapes[polygon.firstShape + (i >> 1u)];
+    return polygon.scale * ((i & 1u) == 0u ? pair.axisU : pair.axisV);
+}
+
+float polygonFormFactor(vec3 n, Polygon polygon)
+{
+    if (!facesRectangle(polygon.toCentre, polygon.axisU, polygon.axisV, polygon.twoSided))
+        return 0.0;
+    Contour k = beginContour(n, polygon.toCentre, polygon.boundingRadius * polygon.boundingRadius);
+    vec3 from = cornerOf(polygon, polygon.count - 1u);
+    for (uint i = 0u; i < polygon.count; ++i) {
+        const vec3 to = cornerOf(polygon, i);
+        contourEdge(k, 0.5 * (from + to), 0.5 * (to - from));
+        from = to;
+    }
+    return contourFormFactor(k);
+}
+
+// Returns the response at the polygon's point nearest to where the mirror ray meets its plane. As for a
+// rectangle, the lobe is narrowed by the extents along both axes.
+vec2 representativePolygon(ShadingPoint p, Polygon polygon)
+{
+    if (!facesRectangle(polygon.toCentre, polygon.axisU, polygon.axisV, polygon.twoSided))
+        return vec2(0.0);
+    const vec3 u = polygon.axisU * inversesqrt(max(length2(polygon.axisU), MIN_LENGTH2));
+    const vec3 v = polygon.axisV * inversesqrt(max(length2(polygon.axisV), MIN_LENGTH2));
+    const vec3 normal = cross(u, v);
+    const vec3 hit = mirrorHit(p, polygon.toCentre, normal);
+    vec3 nearest = hit;
+    float nearest2 = 0.0; // squared distance of `nearest` from `hit`, if that is outside
+    float area = 0.0;
+    vec2 extent = vec2(0.0);
+    bool inside = true;
+    vec3 from = cornerOf(polygon, polygon.count - 1u);
+    for (uint i = 0u; i < polygon.count; ++i) {
+        const vec3 to = cornerOf(polygon, i);
+        const vec3 edge = to - from;
+        const float t =
+            clamp(dot(hit - from, edge) / max(length2(edge), MIN_LENGTH2), 0.0, 1.0);
+        const vec3 onEdge = from + t * edge;
+        const float distance2 = length2(hit - onEdge);
+        if (i == 0u || distance2 < nearest2) {
+            nearest = onEdge;
+            nearest2 = distance2;
+        }
+        inside = inside && dot(cross(edge, hit - from), normal) >= 0.0;
+        area += 0.5 * dot(cross(from, to), normal);
+        extent = max(extent, abs(vec2(dot(u, to), dot(v, to))));
+        from = to;
+    }
+    const float invD = inversesqrt(max(length2(polygon.toCentre), MIN_LENGTH2));
+    // The area of a polygon without width may be rounded below 0.
+    const float solidAngle =
+        planarSolidAngle(polygon.toCentre, normal, max(area, 0.0), dot(extent, extent));
+    return representativeResponse(p, polygon.toCentre + (inside ? hit : nearest), solidAngle,
+                                  narrowing(p, extent.x, invD) * narrowing(p, extent.y, invD));
+}
+
+// The samples are uniform on the polygon. The triangles between its first corner and the other edges
+// are chosen in proportion to their areas.
+vec2 sampledPolygon(ShadingPoint p, Polygon polygon, uint count, uint seed)
+{
+    if (!facesRectangle(polygon.toCentre, polygon.axisU, polygon.axisV, polygon.twoSided))
+        return vec2(0.0);
+    const vec3 apex = cornerOf(polygon, 0u);
+    vec3 areaNormal = vec3(0.0); // its length is twice the area
+    for (uint k = 2u; k < polygon.count; ++k)
+        areaNormal += cross(cornerOf(polygon, k - 1u) - apex, cornerOf(polygon, k) - apex);
+    const float area = length(areaNormal);
+    const float facing = abs(dot(areaNormal, polygon.toCentre));
+    vec2 sum = vec2(0.0);
+    for (uint i = 0u; i < count; ++i) {
+        const vec2 x = lowDiscrepancy(i, seed);
+        float left = x.x * area; // area between the start of the present triangle and the sample
+        float part = 0.0;        // area of the present triangle
+        vec3 a = vec3(0.0), b = vec3(0.0);
+        for (uint k = 2u; k < polygon.count; ++k) {
+            a = cornerOf(polygon, k - 1u) - apex;
+            b = cornerOf(polygon, k) - apex;
+            part = length(cross(a, b));
+            if (left <= part)
+                break;
+            left -= part;
+        }
+        const float along = min(left / max(part, 1e-30), 1.0);
+        const vec3 point =
+            polygon.toCentre + apex + sqrt(x.y) * mix(a, b, along);
+        sum += elementResponse(p, point, facing, 0.5);
+    }
+    return sum / float(max(count, 1u));
+}
+
+vec3 polygonResponse(Receiver r, Light given)
+{
+    float scale;
+    const Light light = atUnitDistance(given, scale);
+    const LightShape shape = lightShapes[light.index];
+    const Polygon polygon =
+        Polygon(light.toLight, scale * shape.axisU, scale * shape.axisV, scale, light.boundingRadius,
+                firstCornerShape(shape), cornerCount(shape), isTwoSided(shape));
+    vec3 response = diffuseResponse(r.p, polygonFormFactor(r.p.n, polygon));
+    if (areaMethod == SPECULAR_SAMPLED)
+        response += schlick(r.p, sampledPolygon(r.p, polygon, r.sampleCount,
+                                                lightSeed(r, light.index)));
+    else if (areaMethod != SPECULAR_NONE)
+        response += schlick(r.p, representativePolygon(r.p, polygon));
+    return response;
+}
+
+#ifndef LIGHT_FAMILY_ALL
+#define GENERAL_RESPONSE polygonResponse
+#endif
