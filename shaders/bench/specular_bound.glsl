@@ -60,7 +60,8 @@ float halfSineToSegment(vec3 direction, vec3 from, vec3 to)
 }
 
 // Returns a lower bound of the distance from the origin to centre + x u + y v, |x|, |y| <= 1, for
-// perpendicular axes and lengths of about 1.
+// perpendicular axes and lengths of about 1. It is 0 for receivers on the light, as far as rounding
+// tells.
 float leastDistance(vec3 centre, vec3 u, vec3 v)
 {
     const float x = clamp(-dot(centre, u) / max(length2(u), 1e-36), -1.0, 1.0);
@@ -86,7 +87,8 @@ LightExtent flatExtent(vec3 mirror, vec3 centre, vec3 u, vec3 v)
     const float least3 = max(least * least * least, 1e-20);
     const float longer = max(length(u), length(v));
     LightExtent o;
-    o.solidAngle = min(1.01 * (abs(height) + 1e-6) * area / least3, 2.0 * PI);
+    o.solidAngle =
+        least > 0.0 ? min(1.01 * (abs(height) + 1e-6) * area / least3, 2.0 * PI) : 2.0 * PI;
     o.squared = min(PI * longer * longer / max(least * least, 1e-20), 2.0 * PI);
     // The mirror ray's hit of the plane, in the light's own coordinates.
     const float approach = dot(across, mirror);
@@ -111,11 +113,12 @@ LightExtent tubeExtent(vec3 mirror, vec3 centre, vec3 u, float radius)
     for (uint k = 0u; k < pieces; ++k) {
         const vec3 from = centre + (2.0 * float(k) / float(pieces) - 1.0) * u;
         const vec3 to = centre + (2.0 * float(k + 1u) / float(pieces) - 1.0) * u;
-        const float least = max(leastDistance(0.5 * (from + to), 0.5 * (to - from), vec3(0.0)), 1e-10);
-        const float s = min(radius / least, 1.0);
+        const float least = leastDistance(0.5 * (from + to), 0.5 * (to - from), vec3(0.0));
+        const float s = radius < least ? radius / least : 1.0;
         const float omc = 1.0 - sqrt(max(1.0 - s * s, 0.0));
         const float tinyOmc = s < 0.01 ? 0.501 * s * s : omc; // 1 - cos would round to 0
-        o.solidAngle += 2.0 * min(length(to - from) / least, PI) * s + 2.0 * PI * tinyOmc;
+        const float angle = min(length(to - from) / max(least, 1e-10), PI);
+        o.solidAngle += 2.0 * angle * s + 2.0 * PI * tinyOmc;
         const float sine = least < 1e-4 ? 0.0 : halfSineToSegment(mirror, from, to);
         o.sine = min(o.sine, sineOfDifference(sine, sqrt(0.5 * tinyOmc)));
     }

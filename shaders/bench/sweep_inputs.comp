@@ -70,12 +70,12 @@ LightExtent currentExtent(ShadingPoint p)
 // Returns an upper bound of the luminance, errors included.
 vec3 luminanceLimit(ShadingPoint p, LightExtent light)
 {
-    LightExtent rounded = light;
-    rounded.solidAngle += SWEEP_ROUNDING * light.squared;
+    LightExtent wider = light;
+    wider.solidAngle += SWEEP_OUTLINE_ERROR * light.squared;
     const float specular = HAS_BUDGET && dot(p.n, p.v) < MIN_CONIC_NOV ? 1.0 :
-        specularBound(p, rounded, MIN_CONIC_NOV) +
-        SWEEP_CLOSED_FORM_ERROR * onAxisResponse(p, rounded.solidAngle, MIN_CONIC_NOV);
-    const float diffuse = min(1.01 * INV_PI * rounded.solidAngle, 1.0);
+        specularBound(p, wider, MIN_CONIC_NOV) +
+        SWEEP_CLOSED_FORM_ERROR * onAxisResponse(p, wider.solidAngle, MIN_CONIC_NOV);
+    const float diffuse = min(1.01 * INV_PI * wider.solidAngle, 1.0);
     const vec3 toLight = towardsLight(centreRadius.xyz, p.position);
     const float window =
         IS_DISTANT ? 1.0 : influenceWindow(length2(toLight), emissionInfluence.w);

@@ -88,8 +88,8 @@ struct SweepParams {
 GPU_SIZE(SweepParams, 28)
 
 // Numbers of responses. above: responses of a closed form that are above an upper bound of the
-// exact response by more than the errors that SWEEP_CLOSED_FORM_ERROR and SWEEP_ROUNDING allow.
-// bad: responses that are any of the others.
+// exact response by more than the errors that SWEEP_CLOSED_FORM_ERROR and SWEEP_OUTLINE_ERROR
+// allow. bad: responses that are any of the others.
 struct SweepCounters {
     uint nan, infinite, negative, above, bad;
 };
@@ -98,9 +98,10 @@ GPU_SIZE(SweepCounters, 20)
 // The largest error allowed for a closed form, relative to the response on the mirror axis. It is
 // far above the measured errors and far below the error of a formula that fails somewhere.
 const float SWEEP_CLOSED_FORM_ERROR = 0.3f;
-// The largest error allowed for rounding, as a share of the directions to a light that is as wide
-// as it is long.
-const float SWEEP_ROUNDING = 1e-4f;
+// The largest error allowed for the outline, as a share of the directions to a light that is as
+// wide as it is long: the errors of two long edges do not cancel as the edges meet, whether they
+// come from rounding or from the form that their integrals have.
+const float SWEEP_OUTLINE_ERROR = 1e-2f;
 
 // One configuration: the point and the light that light_eval.glsl gets, and the response.
 struct SweepRecord {

@@ -12,6 +12,7 @@
 #include "measure/stability/stability.h"
 #include "reference/response.h"
 #include "scene/polygons.h"
+#include "scene/polygons.h"
 #include "shading/light_family.h"
 
 namespace candelabra::app
@@ -169,6 +170,7 @@ CndLight lightAt(uint32_t type, const Path& p, const Place& place)
     set(light.direction, glm::cross(place.axis, place.side));
     if (isTube)
         light.radius = float(width);
+    light.polygon = regularPolygon(5);
     return light;
 }
 

@@ -60,6 +60,12 @@ SmallLight makeLight(uint32_t type, const glm::dvec3& direction, double size, Ra
     } else if (fields & CND_LIGHT_FIELD_TWO_SIDED_BIT) {
         out.solidAngle *= std::cos(tilt);
     }
+    if (fields & CND_LIGHT_FIELD_POLYGON_BIT) {
+        const uint32_t corners = 3 + random.below(CND_MAX_CORNERS - 2);
+        out.light.polygon = regularPolygon(corners);
+        // Its share of the rectangle around it.
+        out.solidAngle *= 0.125 * corners * std::sin(2 * pi / corners);
+    }
     if (fields & CND_LIGHT_FIELD_AXIS_U_BIT && fields & CND_LIGHT_FIELD_RADIUS_BIT) {
         out.light.radius = float(length * aspect);
         // The outline of a tube: a rectangle and two half discs.

@@ -81,6 +81,13 @@ Compared compare(const gpu::SweepRecord& r, const Evaluation& evaluation)
     const bool distant = cndIsDistant(evaluation.lightType);
     if (!distant && !(glm::length(to) > 0))
         return {};
+    // Whether a receiver sees a flat light at all is rounding if its plane passes so close by.
+    const glm::dvec3 u(r.shape.axisU), v(r.shape.axisV);
+    if (cndLightFields(evaluation.lightType) & CND_LIGHT_FIELD_TWO_SIDED_BIT) {
+        const glm::dvec3 facing = glm::length(v) > 0 ? glm::cross(u, v) : u;
+        if (std::abs(glm::dot(to, facing)) < 1e-5 * glm::length(facing) * double(r.centreRadius.w))
+            return {};
+    }
     const reference::LightResponse truth =
         reference::truthResponse(surface, alpha, light, glm::dvec3(0), 1e-6);
     const double distance = distant ? 1 : std::max(glm::length(to), 1e-30);
