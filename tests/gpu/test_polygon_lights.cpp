@@ -7,6 +7,7 @@
 
 #include "gpu/lighting_harness.h"
 #include "measure/kernels/light_kernels.h"
+#include "reference/truth.h"
 #include "render/setting_names.h"
 #include "scene/polygons.h"
 #include "shading/light_family.h"
@@ -81,11 +82,14 @@ protected:
         return evaluator.evaluate(receivers, lights);
     }
 
-    // Expects the same responses up to rounding.
+    // Expects the same responses up to rounding. The closed form amplifies it where the outline
+    // passes the mirror direction of a narrow lobe.
     static void expectSame(const std::vector<gpu::BenchResponse>& a,
-                           const std::vector<gpu::BenchResponse>& b, const char* what)
+                           const std::vector<gpu::BenchResponse>& b, CndSpecularMethod method,
+                           double closedFormTolerance = 1e-3)
     {
         ASSERT_EQ(a.size(), b.size());
+        const double tolerance = method == CND_SPECULAR_CONIC ? closedFormTolerance : 2e-5;
         double largest = 0, worst = 0, worstF = 0;
         for (size_t i = 0; i < a.size(); ++i) {
             largest = std::max(largest, double(a[i].a));
@@ -93,10 +97,10 @@ protected:
                               std::abs(double(a[i].b) - double(b[i].b))});
             worstF = std::max(worstF, std::abs(double(a[i].f) - double(b[i].f)));
         }
-        std::cout << what << ": largest specular difference " << worst << " of " << largest
-                  << ", form factor " << worstF << "\n";
+        std::cout << specularName(method) << ": largest specular difference " << worst << " of "
+                  << largest << ", form factor " << worstF << "\n";
         EXPECT_GT(largest, 0.1);
-        EXPECT_LE(worst, 2e-5 * largest);
+        EXPECT_LE(worst, tolerance * largest);
         EXPECT_LE(worstF, 2e-6);
     }
 
@@ -122,10 +126,33 @@ TEST_F(PolygonLights, WithFourCornersEqualTheRectangle)
         c.light.polygon = &square;
     }
     for (const CndSpecularMethod method : methods())
-        expectSame(evaluate(polygons, method), evaluate(wanted, method), specularName(method));
+        expectSame(evaluate(polygons, method), evaluate(wanted, method), method);
 }
 
-// A corner between others on a straight edge changes nothing, nor does the choice of the first one.
+TEST_F(PolygonLights, FormFactorsAreTrue)
+{
+    std::vector<Case> cases = rectangles(1200);
+    for (uint32_t i = 0; i < cases.size(); ++i) {
+        cases[i].light.type = CND_LIGHT_POLYGON;
+        cases[i].light.polygon = app::somePolygon(i);
+    }
+    const std::vector<gpu::BenchResponse> responses = evaluate(cases, CND_SPECULAR_KARIS);
+    double worst[12] = {};
+    for (uint32_t i = 0; i < cases.size(); ++i) {
+        const reference::SurfacePoint surface{{0, 0, 0}, {0, 0, 1}, {0, 0, 1}};
+        const double truth =
+            reference::truthResponse(surface, 0, cases[i].light, glm::dvec3(0), 1e-7).f;
+        worst[i % 12] = std::max(worst[i % 12], std::abs(double(responses[i].f) - truth));
+    }
+    for (uint32_t i = 0; i < 12; ++i) {
+        std::cout << "polygon " << i << " with " << app::somePolygon(i)->cornerCount
+                  << " corners: largest error of the form factor " << worst[i] << "\n";
+        EXPECT_LE(worst[i], 5e-6);
+    }
+}
+
+// The choice of the first corner changes nothing. A corner between others on a straight edge makes
+// two arcs of one, which the closed form approximates differently.
 TEST_F(PolygonLights, TheListOfCornersMayStartAnywhere)
 {
     std::vector<Case> some = rectangles(4000);
@@ -142,8 +169,8 @@ TEST_F(PolygonLights, TheListOfCornersMayStartAnywhere)
                 c.light.polygon = &hexagons[i];
             responses[i] = evaluate(some, method);
         }
-        expectSame(responses[1], responses[0], specularName(method));
-        expectSame(responses[2], responses[0], specularName(method));
+        expectSame(responses[1], responses[0], method);
+        expectSame(responses[2], responses[0], method, 5e-3);
     }
 }
 
@@ -174,7 +201,7 @@ TEST_F(PolygonLights, MirroredOnesKeepTheirFront)
         mirrored[i].receiver.v *= mirror;
     }
     for (const CndSpecularMethod method : methods())
-        expectSame(evaluate(mirrored, method), evaluate(some, method), specularName(method));
+        expectSame(evaluate(mirrored, method), evaluate(some, method), method);
 }
 
 TEST_F(PolygonLights, TheBackEmitsOnlyIfTwoSided)

@@ -12,7 +12,6 @@
 #include "measure/stability/stability.h"
 #include "reference/response.h"
 #include "scene/polygons.h"
-#include "scene/polygons.h"
 #include "shading/light_family.h"
 
 namespace candelabra::app
@@ -153,7 +152,7 @@ std::vector<Path> makePaths(uint32_t count, uint64_t seed)
 // sides; a disc's plane is that of both axes.
 CndLight lightAt(uint32_t type, const Path& p, const Place& place)
 {
-    CndLight light{.type = type, .polygon = regularPolygon(5)};
+    CndLight light{.type = type};
     const glm::dvec3 to = place.direction * place.distance;
     set(light.position, to);
     set(light.direction, -to);

@@ -51,16 +51,11 @@ SmallLight makeLight(uint32_t type, const glm::dvec3& direction, double size, Ra
         set(out.light.axisU, length * u);
         set(out.light.axisV, length * aspect * frame.y);
         out.solidAngle = 4 * size * size * aspect * std::cos(tilt);
-        if (fields & CND_LIGHT_FIELD_POLYGON_BIT) {
-            out.light.polygon = somePolygon(uint32_t(random.uniform(0, 12)));
-            // pi lm give a luminance of 1 / area.
-            const double area = 1 / double(cndPolygonLuminanceFromPower(float(pi), &out.light));
-            out.solidAngle = area / (distance * distance) * std::cos(tilt);
-        }
     } else if (fields & CND_LIGHT_FIELD_TWO_SIDED_BIT) {
         out.solidAngle *= std::cos(tilt);
     }
     if (fields & CND_LIGHT_FIELD_POLYGON_BIT) {
+        // Regular ones: their light comes from the centre in the mean.
         const uint32_t corners = 3 + random.below(CND_MAX_CORNERS - 2);
         out.light.polygon = regularPolygon(corners);
         // Its share of the rectangle around it.
