@@ -54,6 +54,7 @@ uint influenceTurn(InfluenceFrame f, InfluenceState previous, uint round)
 float peakIntensity(uint type, vec3 emission, float boundingRadius, LightShape shape)
 {
     const float e = max(emission.x, max(emission.y, emission.z));
+    const float disc = PI * boundingRadius * boundingRadius;
     switch (type) {
     case LIGHT_POINT:
     case LIGHT_SPOT:
@@ -62,8 +63,10 @@ float peakIntensity(uint type, vec3 emission, float boundingRadius, LightShape s
         return e * shape.radius * (4.0 * length(shape.axisU) + PI * shape.radius);
     case LIGHT_RECTANGLE:
         return e * 4.0 * length(shape.axisU) * length(shape.axisV);
+    case LIGHT_POLYGON: // in the rectangle of its axes
+        return e * min(4.0 * length(shape.axisU) * length(shape.axisV), disc);
     default:
-        return e * (PI * boundingRadius * boundingRadius);
+        return e * disc;
     }
 }
 
