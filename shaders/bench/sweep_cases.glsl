@@ -186,6 +186,9 @@ void makeSweepLight(uint slice, SweepPoint p)
             size *= aspect;
             aspect = 1.0 / aspect;
         }
+        // No length is below its documented range.
+        size = max(size, 2e-15);
+        aspect = max(aspect, 2e-15 / size);
     }
     const uint corners = usesField(TYPES_WITH_CORNERS) ? 3u + randomBelow(MAX_CORNERS - 2u) : 0u;
     vec3 offset = d * at.xyz;
