@@ -126,7 +126,7 @@ BAD = {
     "--screenshot": ["x.jpg", "no/such/x.png"],
     "--merge": ["no_such.truth", "empty.truth", "noise.truth", "folder.truth"],
     "--scene": ["village", "no_such.glb", "empty.json", "folder.json"],
-    "--types": NAMES, "--methods": NAMES,
+    "--types": NAMES, "--light-types": NAMES, "--methods": NAMES,
     "--a": ["no_such.json", "empty.json", "noise.json"], "--b": ["no_such.json"],
 }
 # Exceptions by command and option. None: tested only together with other options, under
