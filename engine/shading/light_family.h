@@ -19,17 +19,18 @@ constexpr uint32_t familyOf(uint32_t lightType, CndSpecularMethod method)
                                                        : baseFamilyOf(lightType);
 }
 
-// Tells whether an error budget changes the evaluation. It does for the closed form of spheres
-// alone, which knows how large the error of cheaper evaluations may be.
+// Tells whether an error budget changes the evaluation. It does for the closed forms of area
+// lights, which know how large the error of cheaper evaluations may be.
 constexpr bool takesBudget(uint32_t lightType, CndSpecularMethod method)
 {
-    return familyOf(lightType, method) == gpu::FAMILY_CONIC;
+    return baseFamilyOf(lightType) != gpu::FAMILY_PUNCTUAL &&
+           (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL);
 }
 
 // Returns the method by which lights of the type are evaluated if the frame asks for `method`.
-// Spheres know all methods and punctual lights one. The other area lights know three:
-// representative point (KARIS), transformed cosines (LTC) and samples (SAMPLED). Polygons have no
-// transformed cosines.
+// Spheres know all methods and punctual lights one. The other area lights know four: representative
+// point (KARIS), transformed cosines (LTC), the closed form (CONIC) and samples (SAMPLED). Polygons
+// have no transformed cosines.
 constexpr CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method)
 {
     if (method == CND_SPECULAR_NONE || isSphere(lightType))
@@ -43,8 +44,10 @@ constexpr CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMetho
     case CND_SPECULAR_POINT:
     case CND_SPECULAR_KX:
         return CND_SPECULAR_KARIS;
+    case CND_SPECULAR_LTC:
+        return lightType == CND_LIGHT_POLYGON ? CND_SPECULAR_CONIC : method;
     default:
-        return lightType == CND_LIGHT_POLYGON ? CND_SPECULAR_KARIS : CND_SPECULAR_LTC;
+        return CND_SPECULAR_CONIC;
     }
 }
 

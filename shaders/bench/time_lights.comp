@@ -25,7 +25,7 @@ vec3 evaluate(Receiver r, uint light)
     if (evaluation == EVALUATE_NEAR)
         return evaluateNear(r, light);
 #endif
-#ifdef HAS_SPHERES
+#ifdef HAS_ABOVE
     if (evaluation == EVALUATE_ABOVE)
         return evaluateAbove(r, light);
 #endif

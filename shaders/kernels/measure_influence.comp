@@ -84,7 +84,7 @@ void measure(uvec2 pixel, float depth)
 #ifdef LIGHT_FAMILY_CONIC
         MEASURE_FOUND(r, first, found.near, evaluateNear)
 #endif
-#ifdef HAS_SPHERES
+#ifdef HAS_ABOVE
         MEASURE_FOUND(r, first, found.above, evaluateAbove)
 #endif
         MEASURE_FOUND(r, first, found.general, evaluateGeneral)

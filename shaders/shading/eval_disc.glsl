@@ -1,30 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 // The response to a disc of unit luminance.
-#include "lib/lights/disc.glsl"
+#include "lib/outline/disc.glsl"
 #include "lib/specular/representative.glsl"
 #include "lib/specular/sampled.glsl"
-#include "shading/light.glsl"
+#include "shading/by_outline.glsl"
 
-vec3 discResponse(Receiver r, Light given)
+OutlineResponse discByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
+{
+    const LightShape shape = lightShapes[light.index];
+    return discOutline(r.conic, r.frame, light.toLight, shape.axisU, scale * shape.radius,
+                       isTwoSided(shape), needs);
+}
+
+// Returns the response of the specular lobe by any method except the closed form.
+vec2 cheapDiscSpecular(Receiver r, Light light, float scale)
+{
+    const LightShape shape = lightShapes[light.index];
+    const float radius = scale * shape.radius;
+    const bool twoSided = isTwoSided(shape);
+    vec2 specular = vec2(0.0);
+    if (areaMethod == SPECULAR_KARIS)
+        specular = representativeDisc(r.p, light.toLight, shape.axisU, radius, twoSided);
+    else if (areaMethod == SPECULAR_LTC)
+        specular = ltcDisc(r.ltc, light.toLight, shape.axisU, radius, twoSided);
+    else if (areaMethod == SPECULAR_SAMPLED)
+        specular = sampledDisc(r.p, light.toLight, shape.axisU, radius, twoSided, r.sampleCount,
+                               lightSeed(r, light.index));
+    return specular;
+}
+
+vec3 discWithNeeds(Receiver r, Light given, OutlineNeeds needs)
 {
     float scale;
     const Light light = atUnitDistance(given, scale);
-    const LightShape shape = lightShapes[light.index];
-    const vec3 normal = shape.axisU;
-    const float radius = scale * shape.radius;
-    const bool twoSided = isTwoSided(shape);
-    const float formFactor = discFormFactor(r.p.n, light.toLight, normal, radius, twoSided);
-    vec3 response = diffuseResponse(r.p, formFactor);
-    if (areaMethod == SPECULAR_KARIS)
-        response += schlick(r.p, representativeDisc(r.p, light.toLight, normal, radius, twoSided));
-    else if (areaMethod == SPECULAR_LTC)
-        response += schlick(r.p, ltcDisc(r.ltc, light.toLight, normal, radius, twoSided));
-    else if (areaMethod == SPECULAR_SAMPLED)
-        response += schlick(r.p, sampledDisc(r.p, light.toLight, normal, radius, twoSided,
-                                             r.sampleCount, lightSeed(r, light.index)));
-    return response;
+    const OutlineResponse o = discByOutline(r, light, scale, needs);
+    const vec2 specular =
+        BY_OUTLINE ? outlineSpecular(r, light, o, needs) : cheapDiscSpecular(r, light, scale);
+    return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
-#ifndef LIGHT_FAMILY_ALL
+vec3 discResponse(Receiver r, Light light)
+{
+    return discWithNeeds(r, light, OUTLINE_GENERAL);
+}
+
+#ifdef LIGHT_FAMILY_DISC
+vec3 discAbove(Receiver r, Light light)
+{
+    return discWithNeeds(r, light, OUTLINE_ABOVE);
+}
+
+vec3 discAsPoint(Receiver r, Light light)
+{
+    return discWithNeeds(r, light, OUTLINE_AS_POINT);
+}
+
+#define ABOVE_RESPONSE discAbove
+#define AS_POINT_RESPONSE discAsPoint
 #define GENERAL_RESPONSE discResponse
 #endif

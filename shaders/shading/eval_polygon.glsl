@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The response to a convex polygon of unit luminance.
-#include "lib/contour.glsl"
 #include "lib/lights/rectangle.glsl"
+#include "lib/outline/rectangle.glsl"
 #include "lib/specular/representative.glsl"
 #include "lib/specular/sampled.glsl"
-#include "shading/light.glsl"
+#include "shading/by_outline.glsl"
 
 // A polygon as a receiver sees it. The loops over its corners read them from the array of shapes one by
 // one: an array of eight corners would not fit into the registers of GPUs.
@@ -24,18 +24,44 @@ vec3 cornerOf(Polygon polygon, uint i)
     return polygon.scale * ((i & 1u) == 0u ? pair.axisU : pair.axisV);
 }
 
-float polygonFormFactor(vec3 n, Polygon polygon)
+// Returns the response by the polygon's outline. The loop runs equally often in every lane, because
+// llvmpipe loses lanes that leave a loop within a loop at different times.
+OutlineResponse polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
 {
-    if (!facesRectangle(polygon.toCentre, polygon.axisU, polygon.axisV, polygon.twoSided))
-        return 0.0;
-    Contour k = beginContour(n, polygon.toCentre, polygon.boundingRadius * polygon.boundingRadius);
-    vec3 from = cornerOf(polygon, polygon.count - 1u);
-    for (uint i = 0u; i < polygon.count; ++i) {
-        const vec3 to = cornerOf(polygon, i);
-        contourEdge(k, 0.5 * (from + to), 0.5 * (to - from));
-        from = to;
-    }
-    return contourFormFactor(k);
+    const vec3 normal = cross(polygon.axisU, polygon.axisV);
+    const vec3 centre = toFrame(r.frame, polygon.toCentre);
+    const float size2 = polygon.boundingRadius * polygon.boundingRadius;
+    // Stretching shortens what is along the normal, at most to nothing.
+    const float height = dot(r.p.n, normal) * inversesqrt(max(length2(normal), MIN_LENGTH2));
+    Outline k = beginOutline(r.conic, r.frame, polygon.toCentre, centre,
+                             size2 * (0.5 + 0.5 * height * height), needs);
+    // The corners are counterclockwise around the side that emits, so a receiver that sees this side
+    // looks at them against the sense of the outline.
+    const bool front = dot(normal, polygon.toCentre) < 0.0;
+    const bool seen =
+        seesFlatLight(polygon.toCentre, normal, polygon.boundingRadius, polygon.twoSided);
+    vec3 from = toFrame(r.frame, cornerOf(polygon, front ? 0u : polygon.count - 1u));
+    OutlinePoint last = pointAt(k, from);
+    uint i = 0u;
+    do {
+        if (i < polygon.count) {
+            const uint next = front ? polygon.count - 1u - i : i;
+            const vec3 to = toFrame(r.frame, cornerOf(polygon, next));
+            if (needs.across) {
+                addClippedEdge(k, from, to);
+                from = to;
+            } else {
+                const OutlinePoint point = pointAt(k, to);
+                addEdge(k, last, point);
+                last = point;
+            }
+        }
+        ++i;
+    } while (i < MAX_CORNERS);
+    if (needs.across && k.crosses)
+        addHorizon(k);
+    const OutlineResponse o = outlineResponse(r.conic, k);
+    return OutlineResponse(seen ? o.formFactor : 0.0, seen ? o.specular : vec2(0.0));
 }
 
 // Returns the response at the polygon's point nearest to where the mirror ray meets its plane. As for a
@@ -112,7 +138,7 @@ vec2 sampledPolygon(ShadingPoint p, Polygon polygon, uint count, uint seed)
     return sum / float(max(count, 1u));
 }
 
-vec3 polygonResponse(Receiver r, Light given)
+vec3 polygonWithNeeds(Receiver r, Light given, OutlineNeeds needs)
 {
     float scale;
     const Light light = atUnitDistance(given, scale);
@@ -120,15 +146,34 @@ vec3 polygonResponse(Receiver r, Light given)
     const Polygon polygon =
         Polygon(light.toLight, scale * shape.axisU, scale * shape.axisV, scale, light.boundingRadius,
                 firstCornerShape(shape), cornerCount(shape), isTwoSided(shape));
-    vec3 response = diffuseResponse(r.p, polygonFormFactor(r.p.n, polygon));
-    if (areaMethod == SPECULAR_SAMPLED)
-        response += schlick(r.p, sampledPolygon(r.p, polygon, r.sampleCount,
-                                                lightSeed(r, light.index)));
+    const OutlineResponse o = polygonOutline(r, polygon, needs);
+    vec2 specular = vec2(0.0);
+    if (BY_OUTLINE)
+        specular = outlineSpecular(r, light, o, needs);
+    else if (areaMethod == SPECULAR_SAMPLED)
+        specular = sampledPolygon(r.p, polygon, r.sampleCount, lightSeed(r, light.index));
     else if (areaMethod != SPECULAR_NONE)
-        response += schlick(r.p, representativePolygon(r.p, polygon));
-    return response;
+        specular = representativePolygon(r.p, polygon);
+    return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
-#ifndef LIGHT_FAMILY_ALL
+vec3 polygonResponse(Receiver r, Light light)
+{
+    return polygonWithNeeds(r, light, OUTLINE_GENERAL);
+}
+
+#ifdef LIGHT_FAMILY_POLYGON
+vec3 polygonAbove(Receiver r, Light light)
+{
+    return polygonWithNeeds(r, light, OUTLINE_ABOVE);
+}
+
+vec3 polygonAsPoint(Receiver r, Light light)
+{
+    return polygonWithNeeds(r, light, OUTLINE_AS_POINT);
+}
+
+#define ABOVE_RESPONSE polygonAbove
+#define AS_POINT_RESPONSE polygonAsPoint
 #define GENERAL_RESPONSE polygonResponse
 #endif

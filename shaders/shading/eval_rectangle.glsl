@@ -1,29 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 // The response to a rectangle of unit luminance.
-#include "lib/lights/rectangle.glsl"
+#include "lib/outline/rectangle.glsl"
 #include "lib/specular/representative.glsl"
 #include "lib/specular/sampled.glsl"
-#include "shading/light.glsl"
+#include "shading/by_outline.glsl"
 
-vec3 rectangleResponse(Receiver r, Light given)
+OutlineResponse rectangleByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
 {
-    float scale;
-    const Light light = atUnitDistance(given, scale);
+    const LightShape shape = lightShapes[light.index];
+    return rectangleOutline(r.conic, r.frame, light.toLight, scale * shape.axisU,
+                            scale * shape.axisV, isTwoSided(shape), needs);
+}
+
+// Returns the response of the specular lobe by any method except the closed form.
+vec2 cheapRectangleSpecular(Receiver r, Light light, float scale)
+{
     const LightShape shape = lightShapes[light.index];
     const vec3 u = scale * shape.axisU;
     const vec3 v = scale * shape.axisV;
     const bool twoSided = isTwoSided(shape);
-    vec3 response = diffuseResponse(r.p, rectangleFormFactor(r.p.n, light.toLight, u, v, twoSided));
+    vec2 specular = vec2(0.0);
     if (areaMethod == SPECULAR_KARIS)
-        response += schlick(r.p, representativeRectangle(r.p, light.toLight, u, v, twoSided));
+        specular = representativeRectangle(r.p, light.toLight, u, v, twoSided);
     else if (areaMethod == SPECULAR_LTC)
-        response += schlick(r.p, ltcRectangle(r.ltc, light.toLight, u, v, twoSided));
+        specular = ltcRectangle(r.ltc, light.toLight, u, v, twoSided);
     else if (areaMethod == SPECULAR_SAMPLED)
-        response += schlick(r.p, sampledRectangle(r.p, light.toLight, u, v, twoSided, r.sampleCount,
-                                                  lightSeed(r, light.index)));
-    return response;
+        specular = sampledRectangle(r.p, light.toLight, u, v, twoSided, r.sampleCount,
+                                    lightSeed(r, light.index));
+    return specular;
 }
 
-#ifndef LIGHT_FAMILY_ALL
+vec3 rectangleWithNeeds(Receiver r, Light given, OutlineNeeds needs)
+{
+    float scale;
+    const Light light = atUnitDistance(given, scale);
+    const OutlineResponse o = rectangleByOutline(r, light, scale, needs);
+    const vec2 specular =
+        BY_OUTLINE ? outlineSpecular(r, light, o, needs) : cheapRectangleSpecular(r, light, scale);
+    return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
+}
+
+vec3 rectangleResponse(Receiver r, Light light)
+{
+    return rectangleWithNeeds(r, light, OUTLINE_GENERAL);
+}
+
+#ifdef LIGHT_FAMILY_RECTANGLE
+vec3 rectangleAbove(Receiver r, Light light)
+{
+    return rectangleWithNeeds(r, light, OUTLINE_ABOVE);
+}
+
+vec3 rectangleAsPoint(Receiver r, Light light)
+{
+    return rectangleWithNeeds(r, light, OUTLINE_AS_POINT);
+}
+
+#define ABOVE_RESPONSE rectangleAbove
+#define AS_POINT_RESPONSE rectangleAsPoint
 #define GENERAL_RESPONSE rectangleResponse
 #endif

@@ -72,6 +72,10 @@ vec3 sphereAsPoint(Receiver r, Light light)
 }
 #endif
 
+#define ABOVE_RESPONSE sphereAbove
+#ifdef LIGHT_FAMILY_CONIC
+#define AS_POINT_RESPONSE sphereAsPoint
+#endif
 #ifndef LIGHT_FAMILY_ALL
 #define GENERAL_RESPONSE sphereAcross
 #endif

@@ -1,30 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 // The response to a tube of unit luminance.
-#include "lib/lights/tube.glsl"
+#include "lib/outline/tube.glsl"
 #include "lib/specular/representative.glsl"
 #include "lib/specular/sampled.glsl"
-#include "shading/light.glsl"
+#include "shading/by_outline.glsl"
 
-vec3 tubeResponse(Receiver r, Light given)
+OutlineResponse tubeByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
 {
-    float scale;
-    const Light light = atUnitDistance(given, scale);
+    const LightShape shape = lightShapes[light.index];
+    return tubeOutline(r.conic, r.frame, light.toLight, scale * shape.axisU, scale * shape.radius,
+                       needs);
+}
+
+// Returns the response of the specular lobe by any method except the closed form.
+vec2 cheapTubeSpecular(Receiver r, Light light, float scale)
+{
     const LightShape shape = lightShapes[light.index];
     const vec3 axis = scale * shape.axisU;
     const float radius = scale * shape.radius;
-    const TubeOutline outline = makeTubeOutline(light.toLight, axis, radius);
-    const float formFactor = tubeFormFactor(r.p.n, outline);
-    vec3 specular = vec3(0.0);
+    vec2 specular = vec2(0.0);
     if (areaMethod == SPECULAR_KARIS)
-        specular = schlick(r.p, representativeTube(r.p, light.toLight, axis, radius));
+        specular = representativeTube(r.p, light.toLight, axis, radius);
     else if (areaMethod == SPECULAR_LTC)
-        specular = schlick(r.p, ltcTube(r.ltc, outline));
+        specular = ltcTube(r.ltc, makeTubeOutline(light.toLight, axis, radius));
     else if (areaMethod == SPECULAR_SAMPLED)
-        specular = schlick(r.p, sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
-                                             lightSeed(r, light.index)));
-    return diffuseResponse(r.p, formFactor) + specular;
+        specular = sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
+                               lightSeed(r, light.index));
+    return specular;
 }
 
-#ifndef LIGHT_FAMILY_ALL
+vec3 tubeWithNeeds(Receiver r, Light given, OutlineNeeds needs)
+{
+    float scale;
+    const Light light = atUnitDistance(given, scale);
+    const OutlineResponse o = tubeByOutline(r, light, scale, needs);
+    const vec2 specular =
+        BY_OUTLINE ? outlineSpecular(r, light, o, needs) : cheapTubeSpecular(r, light, scale);
+    return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
+}
+
+vec3 tubeResponse(Receiver r, Light light)
+{
+    return tubeWithNeeds(r, light, OUTLINE_GENERAL);
+}
+
+#ifdef LIGHT_FAMILY_TUBE
+vec3 tubeAbove(Receiver r, Light light)
+{
+    return tubeWithNeeds(r, light, OUTLINE_ABOVE);
+}
+
+vec3 tubeAsPoint(Receiver r, Light light)
+{
+    return tubeWithNeeds(r, light, OUTLINE_AS_POINT);
+}
+
+#define ABOVE_RESPONSE tubeAbove
+#define AS_POINT_RESPONSE tubeAsPoint
 #define GENERAL_RESPONSE tubeResponse
 #endif

@@ -51,11 +51,13 @@
     }
 
 #ifdef LIGHT_FAMILY_CONIC
-EVALUATION(evaluateAsPoint, sphereAsPoint)
 EVALUATION(evaluateNear, sphereNear)
 #endif
-#ifdef HAS_SPHERES
-EVALUATION(evaluateAbove, sphereAbove)
+#ifdef AS_POINT_RESPONSE
+EVALUATION(evaluateAsPoint, AS_POINT_RESPONSE)
+#endif
+#ifdef ABOVE_RESPONSE
+EVALUATION(evaluateAbove, ABOVE_RESPONSE)
 #endif
 #ifdef LIGHT_FAMILY_ALL
 #define X(FAMILY, response) EVALUATION(evaluate_##FAMILY, response)

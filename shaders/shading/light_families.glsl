@@ -14,6 +14,23 @@
 #define HAS_SPHERES
 #endif
 
+// The family has lights that are evaluated by their outlines.
+#if defined(LIGHT_FAMILY_ALL) || defined(LIGHT_FAMILY_TUBE) || defined(LIGHT_FAMILY_RECTANGLE) || \
+    defined(LIGHT_FAMILY_DISC) || defined(LIGHT_FAMILY_POLYGON)
+#define HAS_OUTLINES
+#endif
+
+// The evaluation of the family's lights that are wholly above the horizon, and easy otherwise, has a
+// loop of its own (light_walk.glsl).
+#if defined(HAS_SPHERES) || defined(HAS_OUTLINES)
+#define HAS_ABOVE
+#endif
+
+// An error budget may let the family's lights be evaluated as points.
+#if defined(LIGHT_FAMILY_CONIC) || defined(HAS_OUTLINES)
+#define HAS_AS_POINT
+#endif
+
 // The family needs the table of linearly transformed cosines, as all do except punctual lights,
 // spheres in closed form and polygons.
 #if defined(LIGHT_FAMILY_ALL) || !(defined(LIGHT_FAMILY_PUNCTUAL) || defined(LIGHT_FAMILY_CONIC) || \

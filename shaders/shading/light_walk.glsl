@@ -27,6 +27,23 @@ struct FoundWord {
     uint reaching, asPoint, above, near;
 };
 
+#ifdef HAS_OUTLINES
+// Tells whether no arc of a light's outline needs to be cut (lib/outline/lens.glsl). All w = A (v + l)
+// of the light are within a ball around A (v + c), where c is the direction to its centre, whose
+// squared radius is at most R^2 / (d^2 - R^2), so the angle between any two of them is limited.
+bool isUncut(Receiver r, vec3 toLight, float height, float d2, float radius2)
+{
+    precise const float d = sqrt(d2);
+    const float vl = invariantDot(r.conic.v, toLight);
+    precise const float normal = r.conic.NoV * d + height;
+    // |A (v + c)|^2 d^2
+    precise const float w2 = 2.0 * d * (d + vl) - r.conic.oneMinusA2 * normal * normal;
+    precise const float limit = 0.5 * (1.0 - CUT_ONCE) * w2 * (d2 - radius2);
+    precise const float size = radius2 * d2;
+    return size < limit;
+}
+#endif
+
 // Tests the lights first .. first + count - 1, where count is 1..32. Spheres are sorted by their
 // position relative to the horizon, without a division and with few comparisons, because this runs for
 // every light of a list. What is compared is computed as `precise`, so that all pipelines sort a light
@@ -56,6 +73,14 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 #ifdef HAS_SPHERES
         precise const float aboveFrom = r.aboveFrom * radius;
         found.above |= height >= aboveFrom ? bit : 0u;
+#endif
+#if defined(HAS_OUTLINES) && !defined(LIGHT_FAMILY_ALL)
+        const bool easy = !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
+        found.above |= height >= radius && easy ? bit : 0u;
+        if (HAS_BUDGET) {
+            precise const float pointLimit2 = r.pointLimit * d2;
+            found.asPoint |= height >= 2.0 * radius && radius * radius < pointLimit2 ? bit : 0u;
+        }
 #endif
 #ifdef LIGHT_FAMILY_CONIC
         // For a point inside the sphere the cap is limited as in makeSphereCap. At the centre both
@@ -146,12 +171,12 @@ vec3 total(Sums sums)
 // Adds the lights of a block that are evaluated as points or above the horizon to the sums.
 void shadeInPlace(inout Sums sums, Receiver r, uint first, Found found)
 {
-#ifdef LIGHT_FAMILY_CONIC
+#ifdef HAS_AS_POINT
     if (HAS_BUDGET) {
         SHADE_FOUND(sums.asPoint, r, first, found.asPoint, evaluateAsPoint)
     }
 #endif
-#ifdef HAS_SPHERES
+#ifdef HAS_ABOVE
     SHADE_FOUND(sums.above, r, first, found.above, evaluateAbove)
 #endif
 }

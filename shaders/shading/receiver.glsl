@@ -9,6 +9,9 @@
 #ifdef LIGHT_FAMILY_CONIC
 #include "lib/specular/conic.glsl"
 #endif
+#ifdef HAS_OUTLINES
+#include "lib/outline/outline.glsl"
+#endif
 #ifdef HAS_COSINES
 #include "lib/specular/ltc.glsl"
 #endif
@@ -17,7 +20,7 @@
 // polygons.
 #ifdef LIGHT_FAMILY_ALL
 const uint specularMethod = SPECULAR_CONIC;
-const uint areaMethod = SPECULAR_LTC;
+const uint areaMethod = SPECULAR_CONIC;
 const bool HAS_BUDGET = false;
 #else
 layout(constant_id = SPEC_SPECULAR_METHOD) const uint specularMethod = SPECULAR_CONIC;
@@ -26,6 +29,7 @@ const uint areaMethod = specularMethod;
 const bool HAS_BUDGET = errorBudget != 0u;
 #endif
 const bool IS_LTC = areaMethod == SPECULAR_LTC;
+const bool BY_OUTLINE = areaMethod == SPECULAR_CONIC || areaMethod == SPECULAR_CONIC_FULL;
 
 // The error bound for lights evaluated as points was measured only for errors of the specular lobe up
 // to this.
@@ -44,9 +48,12 @@ struct Receiver {
     uint sampleCount; // SPECULAR_SAMPLED: samples per light
     uint sampleSeed;
     float aboveFrom; // spheres with n . toLight / R >= aboveFrom are evaluated as above the horizon
-#ifdef LIGHT_FAMILY_CONIC
+#if defined(LIGHT_FAMILY_CONIC) || defined(HAS_OUTLINES)
     ConicPoint conic;
-    float pointLimit; // spheres above the horizon with (R / d)^2 < pointLimit are evaluated as points
+    float pointLimit; // lights above the horizon with (R / d)^2 < pointLimit are evaluated as points
+#endif
+#ifdef HAS_OUTLINES
+    OutlineFrame frame;
 #endif
 };
 
@@ -89,7 +96,7 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
     if (IS_LTC)
         r.ltc = makeLtcPoint(p);
 #endif
-#ifdef LIGHT_FAMILY_CONIC
+#if defined(LIGHT_FAMILY_CONIC) || defined(HAS_OUTLINES)
     r.conic = makeConicPoint(p);
     const float share = HAS_BUDGET ? specularShare(p, budget) : 0.0;
     const float oneNodeError = mix(ONE_NODE_ERROR.x, ONE_NODE_ERROR.y, lowestF0(p));
@@ -99,6 +106,9 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
     r.pointLimit = pointLimit(p, share);
 #else
     r.aboveFrom = 1.0;
+#endif
+#ifdef HAS_OUTLINES
+    r.frame = makeOutlineFrame(r.conic);
 #endif
     return r;
 }

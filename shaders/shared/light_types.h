@@ -13,17 +13,17 @@
 // name families in CndKernelCode::name ("shade_tiles:CONIC"), so the names are stable.
 //
 // X(index, NAME, iterations). `iterations` is an upper bound of the loop iterations that the
-// evaluation of one light takes, without those of SPECULAR_SAMPLED. The outline of a tube has 16
-// edges and is walked for the diffuse lobe and for two specular lobes; a disc has a series of 9
-// terms.
+// evaluation of one light takes, without those of SPECULAR_SAMPLED. It counts the arcs of the
+// light's outline and their pieces (lib/outline/): 4 edges of a rectangle, 8 arcs of a disc, and up
+// to 2 sides and 8 arcs of a tube, with 3 pieces each. A disc also has a series of 9 terms.
 #define CND_LIGHT_FAMILIES(X)                                                                      \
     X(0, PUNCTUAL, 24)                                                                             \
     X(1, CONIC, 0)                                                                                 \
     X(2, SPHERE, 0)                                                                                \
     X(3, TUBE, 64)                                                                                 \
     X(4, RECTANGLE, 24)                                                                            \
-    X(5, DISC, 24)                                                                                 \
-    X(6, POLYGON, 24)
+    X(5, DISC, 48)                                                                                 \
+    X(6, POLYGON, 40)
 
 // X(id, NAME, family, fields of CndLight that the type uses). The ids are those of CndLightType, so
 // they are stable. Types that are shaded by the specular methods of spheres are in the family

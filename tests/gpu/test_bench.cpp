@@ -42,7 +42,7 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
     Progress progress(1, false);
     const KernelLevel level = measureKernelLevel(context(), settings, progress);
     EXPECT_EQ(level.unconvergedTruths, 0u);
-    ASSERT_EQ(level.points.size(), 3u); // karis, ltc and sampled
+    ASSERT_EQ(level.points.size(), 4u); // karis, ltc, conic and sampled
     for (const KernelPoint& p : level.points) {
         const std::string name = specularName(p.method);
         const ErrorStatistics& all = p.error.mirror.all;
@@ -59,7 +59,7 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
     EXPECT_LT(pointOf(level, CND_SPECULAR_LTC).error.mirror.all.mean,
               pointOf(level, CND_SPECULAR_KARIS).error.mirror.all.mean);
     const auto json = nlohmann::json::parse(kernelJson(settings, level).dump());
-    EXPECT_EQ(json["points"].size(), 3u);
+    EXPECT_EQ(json["points"].size(), 4u);
     EXPECT_EQ(test::schemaFaults(json, "bench_accuracy.schema.json", "#/$defs/kernels"), "");
     EXPECT_NE(kernelTables(level).find("rectangle ltc"), std::string::npos);
 }

@@ -222,9 +222,13 @@ TEST_F(ForwardTest, OfEachTypeAloneEqualsTheDeferredResult)
         CndError error{};
         const CndLightSet set{.structSize = sizeof set, .count = 40, .lights = lights.data()};
         ASSERT_EQ(cndSetLights(lighting_, &set, &error), CND_SUCCESS) << error.message;
+        // The view sorts lights by how hard their outlines are, and evaluates the easy ones by
+        // shorter code. Where the lobe is as narrow as allowed, rounding differs by up to 3e-4.
+        const bool byOutline = type == CND_LIGHT_TUBE || type == CND_LIGHT_RECTANGLE ||
+                               type == CND_LIGHT_DISC || type == CND_LIGHT_POLYGON;
         EXPECT_LE(maxPixelDifference(frame(seen, elsewhere, options).lit(),
                                      run(elsewhere, lights, options).radiance),
-                  tolerance)
+                  byOutline ? 3e-4 : tolerance)
             << type;
     }
 }

@@ -18,11 +18,11 @@ typedef struct CndLighting_T* CndLighting;
 typedef struct CndLightingView_T* CndLightingView;
 
 // How the specular lobe of sphere lights is evaluated; `candelabra bench accuracy` measures time
-// and error of each method. Other lights have fewer methods. With POINT, KARIS and KX, area lights
-// of other shapes (tubes, rectangles, discs) use a representative point; with LTC, CONIC and
-// CONIC_FULL, linearly transformed cosines; with SAMPLED, samples. Polygons use a representative
-// point with all methods but NONE and SAMPLED. Point, spot and directional
-// lights need no approximation: every method but NONE evaluates them exactly.
+// and error of each method. Other lights have fewer methods. With CONIC and CONIC_FULL, area lights
+// of other shapes (tubes, rectangles, discs, polygons) use a closed form along their outlines; with
+// POINT, KARIS and KX a representative point; with SAMPLED, samples; with LTC, linearly transformed
+// cosines, except polygons, which use the closed form. Point, spot and directional lights need no
+// approximation: every method but NONE evaluates them exactly.
 typedef enum CndSpecularMethod {
     CND_SPECULAR_NONE = 0,  // no specular lobe, diffuse only
     CND_SPECULAR_KARIS = 1, // representative point, normalised for a widened lobe (Karis 2013)

@@ -75,15 +75,15 @@ struct LightHeights {
     float mean, variance;
 };
 
-// Replaces the light by two directions in the plane of n and its centre, whose N . L are equally far
-// from the mean. D at both gives their weights. With v1 = v_t . c_t / |c_t| (for the c of the cap that
-// the region is made from), the half vector v + l of a direction with N . L = z has the squared length
-// (v1 + sqrt(1 - z^2))^2 + |v_t|^2 - v1^2 in the plane of the surface and (NoV + z)^2 along the normal.
-// The function does not need the region. Callers call it first, so that its long chain of operations
-// overlaps the computation of the region's root.
-LightHeights lightHeights(ConicPoint p, SphereCap cap, float sinC, float v1)
+// Replaces the light, with the heights z, by two directions in the plane of n and its centre, whose N
+// . L are equally far from the mean. D at both gives their weights. With v1 = v_t . c_t / |c_t|, where
+// c is the direction to the centre (of the cap that the region is made from), the half vector v + l of
+// a direction with N . L = z has the squared length (v1 + sqrt(1 - z^2))^2 + |v_t|^2 - v1^2 in the
+// plane of the surface and (NoV + z)^2 along the normal. The function does not need the region.
+// Callers call it first, so that its long chain of operations overlaps the computation of the region's
+// root.
+LightHeights lightHeights(ConicPoint p, CapHeights z, float v1)
 {
-    const CapHeights z = capHeights(cap, sinC);
     const float spread2 = CONIC_LIGHT_SPREAD * (z.mean - z.low) * (z.high - z.mean);
     const float spread = min(sqrt(max(spread2, 0.0)), 0.98 * z.mean); // keeps both above the horizon
     const float za = z.mean - spread;

@@ -27,7 +27,7 @@ std::vector<EvaluationClass> classesOf(uint32_t lightType)
 {
     if (lighting::isSphere(lightType))
         return {EvaluationClass::Above, EvaluationClass::Near, EvaluationClass::General};
-    return {EvaluationClass::General};
+    return {EvaluationClass::Above, EvaluationClass::General};
 }
 
 // Progress counts samples; a round of timing weighs as much as these.

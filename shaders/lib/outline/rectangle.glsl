@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The outline of a rectangle light, and of every other flat light with straight edges.
+#ifndef CND_LIB_OUTLINE_RECTANGLE
+#define CND_LIB_OUTLINE_RECTANGLE
+
+#include "lib/outline/shading.glsl"
+
+// Tells whether a receiver sees a side that emits of a flat light around `centre`, relative to the
+// receiver. The light faces `normal`, of any length. Receivers in the light's plane, as far as float32
+// can tell, see none. `size`: length of the light's longest half axis.
+bool seesFlatLight(vec3 centre, vec3 normal, float size, bool twoSided)
+{
+    const float facing = dot(normal, centre);
+    const float limit = 1e-6 * sqrt(length2(normal) * max(length2(centre), size * size));
+    return twoSided ? abs(facing) > limit : facing < -limit;
+}
+
+// Returns the response to a rectangle that faces axisU x axisV. `toCentre`: from the receiver to the
+// centre; axisU and axisV go from there to the middles of two edges.
+OutlineResponse rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 axisU, vec3 axisV,
+                                 bool twoSided, OutlineNeeds needs)
+{
+    const vec3 centre = toFrame(f, toCentre), u = toFrame(f, axisU), v = toFrame(f, axisV);
+    const vec3 normal = cross(u, v);
+    // The corners are counterclockwise for a receiver that sees the front.
+    const vec3 w = dot(normal, centre) < 0.0 ? v : -v;
+    const float size2 = max(length2(u), length2(v));
+    const float stretched2 = length2(stretched(p.alpha, u)) + length2(stretched(p.alpha, v));
+    Outline k = beginOutline(p, f, toCentre, centre, stretched2, needs);
+    const bool seen = seesFlatLight(centre, normal, sqrt(size2), twoSided);
+    vec2 corner = vec2(-1.0, -1.0);
+    vec3 from = -u - w;
+    OutlinePoint last = pointAt(k, from);
+    uint edge = 0u;
+    do {
+        corner = vec2(corner.y, -corner.x);
+        const vec3 to = corner.x * u + corner.y * w;
+        if (needs.across) {
+            addClippedEdge(k, from, to);
+            from = to;
+        } else {
+            const OutlinePoint next = pointAt(k, to);
+            addEdge(k, last, next);
+            last = next;
+        }
+        ++edge;
+    } while (edge < 4u);
+    if (needs.across && k.crosses)
+        addHorizon(k);
+    const OutlineResponse o = outlineResponse(p, k);
+    return OutlineResponse(seen ? o.formFactor : 0.0, seen ? o.specular : vec2(0.0));
+}
+
+#endif

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// The outline of a tube light (a capsule): along the lines where planes through the receiver touch the
+// cylinder it has two arcs of great circles, and at each end an arc of the circle on which cones from
+// the receiver touch the end's sphere.
+#ifndef CND_LIB_OUTLINE_TUBE
+#define CND_LIB_OUTLINE_TUBE
+
+#include "lib/outline/shading.glsl"
+
+// The longest arc of an end that is not divided, in radians. The arc of an end seen from the side is
+// pi / 2 on either side.
+const float TUBE_ARC = 1.9;
+const float TUBE_ARC_COSINE = -0.32; // of half an end's arc that is just divided into two
+
+// The tube as the receiver sees it. Offsets are relative to the middle of its axis.
+struct TubeView {
+    vec3 along;         // unit vector of the axis
+    vec3 across, away;  // unit vectors perpendicular to the axis, away: from the receiver to the axis
+    vec3 perpendicular; // from the receiver to the axis' line
+    float axisLength, height; // of half the axis; of the centre along the axis
+    float h2, r2;       // squared distance of the axis' line; squared radius
+    float sine2;        // r2 / h2
+    float cosine;       // sqrt(1 - sine2)
+    bool endOn;         // the receiver sees one end only
+};
+
+// `axis`: from the centre to one end of the segment. A receiver inside the tube sees a tube of smaller
+// radius that almost reaches it, nearly a hemisphere towards the nearest point of the segment.
+TubeView viewTube(vec3 centre, vec3 axis, float radius)
+{
+    TubeView k;
+    const float axis2 = length2(axis);
+    k.axisLength = sqrt(max(axis2, MIN_LENGTH2));
+    k.along = axis2 > MIN_LENGTH2 ? axis / k.axisLength : vec3(0.0, 0.0, 1.0);
+    k.height = dot(centre, k.along);
+    k.perpendicular = centre - k.height * k.along;
+    k.h2 = length2(k.perpendicular);
+    // For a receiver on the line of the axis, any direction across the line will do.
+    const bool beside = k.h2 > 1e-12 * length2(centre);
+    k.across = beside ? cross(k.along, k.perpendicular) * inversesqrt(max(k.h2, MIN_LENGTH2))
+                      : anyPerpendicular(k.along);
+    k.away = cross(k.across, k.along);
+    const vec3 nearest = centre - clamp(k.height, -k.axisLength, k.axisLength) * k.along;
+    k.r2 = min(radius * radius, 0.9998 * length2(nearest));
+    k.endOn = k.h2 <= k.r2;
+    k.sine2 = k.endOn ? 1.0 : k.r2 / k.h2;
+    k.cosine = sqrt(max(1.0 - k.sine2, 0.0));
+    return k;
+}
+
+// One end: the points of the circle that its arc is part of are circle + cos(angle) outward +
+// sin(angle) across, and the arc reaches from -half to half.
+struct TubeEnd {
+    vec3 circle, outward, across;
+    ArcCircle seen;
+    vec2 half1; // cosine and sine of `half`
+    vec3 side;  // offset of the arc's end from `tangent`, and of its begin in the other direction
+    vec3 tangent;
+};
+
+// `outwards`: 1 for the end that the axis points to, -1 for the other one.
+TubeEnd makeTubeEnd(TubeView k, vec3 centre, float outwards)
+{
+    TubeEnd e;
+    const vec3 offset = (outwards * k.axisLength) * k.along;
+    const vec3 end = centre + offset;
+    const float d2 = max(length2(end), MIN_LENGTH2);
+    const float invD = inversesqrt(d2);
+    const float s2 = min(k.r2 / d2, 0.9999);
+    const float r = sqrt(k.r2);
+    const float kappa = sqrt(1.0 - s2);
+    const float rho = r * kappa;
+    const float forward = outwards * k.height + k.axisLength; // > 0 for the end farther away
+    e.seen = ArcCircle(invD * end, kappa, s2);
+    e.circle = offset - s2 * end;
+    e.outward = (rho * invD) * (sqrt(k.h2) * outwards * k.along - forward * k.away);
+    e.across = (-rho * outwards) * k.across;
+    e.side = (-r * k.cosine * outwards) * k.across;
+    e.tangent = offset - k.sine2 * k.perpendicular;
+    const float invKappa = 1.0 / kappa;
+    e.half1 = vec2(forward * invD * sqrt(k.sine2) * invKappa, k.cosine * invKappa);
+    if (k.endOn)
+        e.half1 = forward < 0.0 ? vec2(-1.0, 0.0) : vec2(1.0, 0.0);
+    return e;
+}
+
+vec3 onTubeEnd(TubeEnd e, vec2 at)
+{
+    return e.circle + at.x * e.outward + at.y * e.across;
+}
+
+vec2 turnedBy(vec2 a, vec2 turn)
+{
+    return vec2(a.x * turn.x - a.y * turn.y, a.x * turn.y + a.y * turn.x);
+}
+
+// The parts of an end's arc above the horizon, as up to two ranges of its angle.
+struct TubeRanges {
+    vec2 first, second;
+    bool hasFirst, hasSecond;
+};
+
+TubeRanges rangesAboveHorizon(TubeEnd e, float centreHeight)
+{
+    const float limit = atan(e.half1.y, e.half1.x);
+    // The height of a point is base + rise cos(angle - top).
+    const float base = centreHeight + e.circle.z;
+    const float rise = max(sqrt(e.outward.z * e.outward.z + e.across.z * e.across.z), MIN_LENGTH2);
+    const float cosine = clamp(-base / rise, -1.0, 1.0);
+    const float reach = atan(sqrt(max(1.0 - cosine * cosine, 0.0)), cosine);
+    const float top = atan(e.across.z, e.outward.z);
+    // The circle is above the horizon from top - reach to top + reach. Of all turns of this range, two
+    // can meet the arc.
+    const float lower = top > 0.0 ? top - 2.0 * PI : top, upper = lower + 2.0 * PI;
+    const vec2 a = vec2(max(-limit, lower - reach), min(limit, lower + reach));
+    const vec2 b = vec2(max(-limit, upper - reach), min(limit, upper + reach));
+    const bool hasA = a.y > a.x, hasB = b.y > b.x;
+    const bool whole = cosine <= -1.0;
+    return TubeRanges(whole ? vec2(-limit, limit) : hasA ? a : b, b,
+                      cosine < 1.0 && limit > 0.0 && (whole || hasA || hasB), !whole && hasA && hasB);
+}
+
+// Adds the arcs of an end within a range of its angle.
+void addTubeArcs(inout Outline k, TubeEnd e, vec2 range)
+{
+    const float limit = atan(e.half1.y, e.half1.x);
+    const bool whole = range.x <= -limit && range.y >= limit;
+    // As addTubeHalf divides it, so that nothing jumps when the tube touches the horizon.
+    const float ofWhole = e.half1.x < TUBE_ARC_COSINE ? 4.0 : 2.0;
+    const float parts = whole ? ofWhole : max(ceil((range.y - range.x) / TUBE_ARC), 1.0);
+    const float step = (range.y - range.x) / parts;
+    OutlinePoint a = pointAt(k, onTubeEnd(e, vec2(cos(range.x), sin(range.x))));
+    if (range.x > -limit) {
+        k.crosses = true;
+        k.enters = a.dl;
+    }
+    float part = 1.0;
+    do {
+        const float angle = range.x + part * step;
+        const OutlinePoint b = pointAt(k, onTubeEnd(e, vec2(cos(angle), sin(angle))));
+        addArc(k, a, b, e.seen, true);
+        a = b;
+        part += 1.0;
+    } while (part <= parts);
+    if (range.y < limit) {
+        k.crosses = true;
+        k.leaves = a.dl;
+    }
+}
+
+// Adds one side and the end after it of a tube that is wholly above the horizon. `last` is the
+// outline's last point.
+void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last)
+{
+    const bool divided = e.half1.x < TUBE_ARC_COSINE;
+    // Cosine and sine of half the arc's angle or, if its halves are divided again, of a quarter of it.
+    const float cosQuarter = sqrt(max(0.5 + 0.5 * e.half1.x, 0.0));
+    const vec2 turn =
+        divided ? vec2(cosQuarter, sqrt(max(1.0 - cosQuarter * cosQuarter, 0.0))) : e.half1;
+    const uint arcs = divided ? 4u : e.half1.x < 1.0 ? 2u : 0u;
+    vec2 at = vec2(e.half1.x, -e.half1.y);
+    uint part = 0u;
+    do {
+        const bool isSide = part == 0u;
+        at = isSide ? at : turnedBy(at, turn);
+        // The ends of the arc are computed as the ends of the sides are.
+        const vec3 begin = e.tangent - e.side, end = e.tangent + e.side;
+        const bool isOnCircle = t.endOn || (!isSide && part < arcs);
+        const OutlinePoint next =
+            pointAt(k, isOnCircle ? onTubeEnd(e, at) : isSide ? begin : end);
+        ArcCircle circle = greatCircle(k, last, next);
+        if (!isSide)
+            circle = e.seen;
+        if (!isSide || !t.endOn)
+            addArc(k, last, next, circle, true);
+        last = next;
+        ++part;
+    } while (part <= arcs);
+}
+
+// Adds the visible part of one side and of the end after it.
+void addClippedTubeHalf(inout Outline k, TubeView t, TubeEnd e)
+{
+    if (!t.endOn) {
+        const vec3 other = e.tangent - (2.0 * dot(e.tangent, t.along)) * t.along; // of the other end
+        addClippedEdge(k, other - e.side, e.tangent - e.side);
+    }
+    const TubeRanges ranges = rangesAboveHorizon(e, k.distance * k.lc.z);
+    uint range = 0u;
+    do {
+        if (range == 0u ? ranges.hasFirst : ranges.hasSecond)
+            addTubeArcs(k, e, range == 0u ? ranges.first : ranges.second);
+        ++range;
+    } while (range < 2u);
+}
+
+// Returns the response to a tube. `toCentre`: from the receiver to the centre; `toEnd`: from there to
+// one end of the tube's segment.
+OutlineResponse tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 toEnd, float radius,
+                            OutlineNeeds needs)
+{
+    const vec3 centre = toFrame(f, toCentre), axis = toFrame(f, toEnd);
+    const TubeView t = viewTube(centre, axis, radius);
+    const float stretched2 = length2(stretched(p.alpha, axis)) + t.r2;
+    Outline k = beginOutline(p, f, toCentre, centre, stretched2, needs);
+    const vec3 side = (sqrt(t.r2) * t.cosine) * t.across;
+    OutlinePoint last = pointAt(k, side - axis - t.sine2 * t.perpendicular);
+    uint end = 0u;
+    do {
+        const TubeEnd e = makeTubeEnd(t, centre, end == 0u ? 1.0 : -1.0);
+        if (needs.across)
+            addClippedTubeHalf(k, t, e);
+        else
+            addTubeHalf(k, t, e, last);
+        ++end;
+    } while (end < 2u);
+    if (needs.across && k.crosses)
+        addHorizon(k);
+    const OutlineResponse o = outlineResponse(p, k);
+    // The vector irradiance of a tube of any length is at most that of an endless one. Rounding
+    // exceeds it if the receiver almost touches the axis of a thin tube.
+    const float most = t.endOn ? 1.0 : sqrt(t.sine2);
+    const float limit = min(most / max(o.formFactor, MIN_LENGTH2), 1.0);
+    const bool below = centre.z + abs(axis.z) + radius <= 0.0;
+    return OutlineResponse(below ? 0.0 : limit * o.formFactor, below ? vec2(0.0) : limit * o.specular);
+}
+
+#endif
