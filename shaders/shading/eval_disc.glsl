@@ -39,9 +39,22 @@ vec3 discWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
-OUTLINE_CLASSES(disc)
+vec3 discResponse(Receiver r, Light light)
+{
+    return discWithNeeds(r, light, OUTLINE_GENERAL);
+}
 
 #ifdef LIGHT_FAMILY_DISC
+vec3 discAbove(Receiver r, Light light)
+{
+    return discWithNeeds(r, light, OUTLINE_ABOVE);
+}
+
+vec3 discAsPoint(Receiver r, Light light)
+{
+    return discWithNeeds(r, light, OUTLINE_AS_POINT);
+}
+
 #define ABOVE_RESPONSE discAbove
 #define AS_POINT_RESPONSE discAsPoint
 #define GENERAL_RESPONSE discResponse

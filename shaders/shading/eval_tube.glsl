@@ -39,9 +39,22 @@ vec3 tubeWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
-OUTLINE_CLASSES(tube)
+vec3 tubeResponse(Receiver r, Light light)
+{
+    return tubeWithNeeds(r, light, OUTLINE_GENERAL);
+}
 
 #ifdef LIGHT_FAMILY_TUBE
+vec3 tubeAbove(Receiver r, Light light)
+{
+    return tubeWithNeeds(r, light, OUTLINE_ABOVE);
+}
+
+vec3 tubeAsPoint(Receiver r, Light light)
+{
+    return tubeWithNeeds(r, light, OUTLINE_AS_POINT);
+}
+
 #define ABOVE_RESPONSE tubeAbove
 #define AS_POINT_RESPONSE tubeAsPoint
 #define GENERAL_RESPONSE tubeResponse

@@ -140,7 +140,8 @@ OutlinePoint cutPoint(Outline k, OutlinePoint a, ArcCircle circle, ArcCuts o, fl
     const float rest = max(1.0 - x2, 1e-12);
     const float u = o.width * 4.0 * x * (1.0 + x2) / (rest * rest); // tan(t / 2)
     const float inv = 1.0 / (1.0 + u * u);
-    const vec2 angle = complexProduct(o.next, vec2((1.0 - u * u) * inv, 2.0 * u * inv));
+    const vec2 t = vec2((1.0 - u * u) * inv, 2.0 * u * inv);
+    const vec2 angle = vec2(o.next.x * t.x - o.next.y * t.y, o.next.x * t.y + o.next.y * t.x);
     return pointInDirection(k, circle.kappa * circle.axis - k.lc + onCircle(k, a, circle, angle));
 }
 

@@ -158,12 +158,6 @@ struct ArcCircle {
     float kappa, s2; // cosine and squared sine of the circle's half angle
 };
 
-// Returns the product of two complex numbers, which turns a by the angle of b if b has length 1.
-vec2 complexProduct(vec2 a, vec2 b)
-{
-    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
-}
-
 // The half angle of an arc.
 struct HalfAngle {
     float sin2, cosine;

@@ -10,6 +10,11 @@ struct OutlineResponse {
     vec2 specular;    // with F = 1 and with F = (1 - VoH)^5; 0 without a lobe
 };
 
+OutlineResponse noOutline()
+{
+    return OutlineResponse(0.0, vec2(0.0));
+}
+
 // Returns a / |a|, or 0 for a = 0. The squares of the components of a may be too small for a float.
 vec3 unitDirection(vec3 a)
 {

@@ -49,11 +49,11 @@ TubeView viewTube(vec3 centre, vec3 axis, float radius)
 }
 
 // One end: the points of the circle that its arc is part of are circle + cos(angle) outward +
-// sin(angle) across, and the arc reaches equally far to both sides of angle 0.
+// sin(angle) across, and the arc reaches from -half to half.
 struct TubeEnd {
     vec3 circle, outward, across;
     ArcCircle seen;
-    vec2 half1; // cosine and sine of half the arc's angle
+    vec2 half1; // cosine and sine of `half`
     vec3 side;  // offset of the arc's end from `tangent`, and of its begin in the other direction
     vec3 tangent;
 };
@@ -87,6 +87,11 @@ TubeEnd makeTubeEnd(TubeView k, vec3 centre, float outwards)
 vec3 onTubeEnd(TubeEnd e, vec2 at)
 {
     return e.circle + at.x * e.outward + at.y * e.across;
+}
+
+vec2 turnedBy(vec2 a, vec2 turn)
+{
+    return vec2(a.x * turn.x - a.y * turn.y, a.x * turn.y + a.y * turn.x);
 }
 
 // The parts of an end's arc above the horizon, as up to two ranges of its angle.
@@ -129,13 +134,14 @@ void addTubeArcs(inout Outline k, TubeEnd e, vec2 range)
         k.crosses = true;
         k.enters = a.dl;
     }
-    // The condition is in front because llvmpipe runs a lane that is done once more otherwise.
-    for (float part = 1.0; part <= parts; part += 1.0) {
+    float part = 1.0;
+    do {
         const float angle = range.x + part * step;
         const OutlinePoint b = pointAt(k, onTubeEnd(e, vec2(cos(angle), sin(angle))));
         addArc(k, a, b, e.seen, true);
         a = b;
-    }
+        part += 1.0;
+    } while (part <= parts);
     if (range.y < limit) {
         k.crosses = true;
         k.leaves = a.dl;
@@ -153,9 +159,10 @@ void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last
         divided ? vec2(cosQuarter, sqrt(max(1.0 - cosQuarter * cosQuarter, 0.0))) : e.half1;
     const uint arcs = divided ? 4u : e.half1.x < 1.0 ? 2u : 0u;
     vec2 at = vec2(e.half1.x, -e.half1.y);
-    for (uint part = 0u; part <= arcs; ++part) { // tested in front, as in addTubeArcs
+    uint part = 0u;
+    do {
         const bool isSide = part == 0u;
-        at = isSide ? at : complexProduct(at, turn);
+        at = isSide ? at : turnedBy(at, turn);
         // The ends of the arc are computed as the ends of the sides are.
         const vec3 begin = e.tangent - e.side, end = e.tangent + e.side;
         const bool isOnCircle = t.endOn || (!isSide && part < arcs);
@@ -167,7 +174,8 @@ void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last
         if (!isSide || !t.endOn)
             addArc(k, last, next, circle, true);
         last = next;
-    }
+        ++part;
+    } while (part <= arcs);
 }
 
 // Adds the visible part of one side and of the end after it.
