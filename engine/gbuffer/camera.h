@@ -43,10 +43,11 @@ struct CameraTerms {
     // size; with a perspective camera 1 m ahead.
     double pixelScale(uint32_t width, uint32_t height) const;
 
-    // Returns the rectangle of all pixels in which a ball can be seen, in an image of that size,
-    // and at most three more at each side. A ball that lies wholly behind the plane through the eye
-    // gets an empty rectangle. A ball that the plane cuts, or all but touches, gets the whole
-    // image. `center` is in view space.
+    // Returns a rectangle that holds every pixel which shows a part of the ball, in an image of
+    // width x height pixels. It is at most three pixels larger than needed at each side. The
+    // rectangle is empty if the ball lies entirely behind the camera, and it is the whole image if
+    // the ball reaches the camera's plane (the plane through the eye, parallel to the image) or
+    // comes very close to it. `center` (m) is in view space; `radius` is in m.
     VkRect2D pixelsOfBall(const glm::dvec3& center, double radius, uint32_t width,
                           uint32_t height) const;
 

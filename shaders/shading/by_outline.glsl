@@ -20,4 +20,19 @@ vec2 outlineSpecular(Receiver r, Light light, OutlineResponse o, OutlineNeeds ne
     return needs.lobe ? o.specular : min(solidAngle * specularResponse(r.p, l), vec2(1.0));
 }
 
+// Defines the functions by which a shape is evaluated in its classes, from <shape>WithNeeds.
+#define OUTLINE_CLASSES(shape)                                                                     \
+    vec3 shape##Response(Receiver r, Light light)                                                  \
+    {                                                                                              \
+        return shape##WithNeeds(r, light, OUTLINE_GENERAL);                                        \
+    }                                                                                              \
+    vec3 shape##Above(Receiver r, Light light)                                                     \
+    {                                                                                              \
+        return shape##WithNeeds(r, light, OUTLINE_ABOVE);                                          \
+    }                                                                                              \
+    vec3 shape##AsPoint(Receiver r, Light light)                                                   \
+    {                                                                                              \
+        return shape##WithNeeds(r, light, OUTLINE_AS_POINT);                                       \
+    }
+
 #endif

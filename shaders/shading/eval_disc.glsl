@@ -39,22 +39,9 @@ vec3 discWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
-vec3 discResponse(Receiver r, Light light)
-{
-    return discWithNeeds(r, light, OUTLINE_GENERAL);
-}
+OUTLINE_CLASSES(disc)
 
 #ifdef LIGHT_FAMILY_DISC
-vec3 discAbove(Receiver r, Light light)
-{
-    return discWithNeeds(r, light, OUTLINE_ABOVE);
-}
-
-vec3 discAsPoint(Receiver r, Light light)
-{
-    return discWithNeeds(r, light, OUTLINE_AS_POINT);
-}
-
 #define ABOVE_RESPONSE discAbove
 #define AS_POINT_RESPONSE discAsPoint
 #define GENERAL_RESPONSE discResponse

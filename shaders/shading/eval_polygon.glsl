@@ -46,15 +46,7 @@ OutlineResponse polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
     do {
         if (i < polygon.count) {
             const uint next = front ? polygon.count - 1u - i : i;
-            const vec3 to = toFrame(r.frame, cornerOf(polygon, next));
-            if (needs.across) {
-                addClippedEdge(k, from, to);
-                from = to;
-            } else {
-                const OutlinePoint point = pointAt(k, to);
-                addEdge(k, last, point);
-                last = point;
-            }
+            addEdgeTo(k, from, last, toFrame(r.frame, cornerOf(polygon, next)));
         }
         ++i;
     } while (i < MAX_CORNERS);
@@ -157,22 +149,9 @@ vec3 polygonWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
-vec3 polygonResponse(Receiver r, Light light)
-{
-    return polygonWithNeeds(r, light, OUTLINE_GENERAL);
-}
+OUTLINE_CLASSES(polygon)
 
 #ifdef LIGHT_FAMILY_POLYGON
-vec3 polygonAbove(Receiver r, Light light)
-{
-    return polygonWithNeeds(r, light, OUTLINE_ABOVE);
-}
-
-vec3 polygonAsPoint(Receiver r, Light light)
-{
-    return polygonWithNeeds(r, light, OUTLINE_AS_POINT);
-}
-
 #define ABOVE_RESPONSE polygonAbove
 #define AS_POINT_RESPONSE polygonAsPoint
 #define GENERAL_RESPONSE polygonResponse

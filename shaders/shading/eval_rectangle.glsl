@@ -40,22 +40,9 @@ vec3 rectangleWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
-vec3 rectangleResponse(Receiver r, Light light)
-{
-    return rectangleWithNeeds(r, light, OUTLINE_GENERAL);
-}
+OUTLINE_CLASSES(rectangle)
 
 #ifdef LIGHT_FAMILY_RECTANGLE
-vec3 rectangleAbove(Receiver r, Light light)
-{
-    return rectangleWithNeeds(r, light, OUTLINE_ABOVE);
-}
-
-vec3 rectangleAsPoint(Receiver r, Light light)
-{
-    return rectangleWithNeeds(r, light, OUTLINE_AS_POINT);
-}
-
 #define ABOVE_RESPONSE rectangleAbove
 #define AS_POINT_RESPONSE rectangleAsPoint
 #define GENERAL_RESPONSE rectangleResponse

@@ -39,22 +39,9 @@ vec3 tubeWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
-vec3 tubeResponse(Receiver r, Light light)
-{
-    return tubeWithNeeds(r, light, OUTLINE_GENERAL);
-}
+OUTLINE_CLASSES(tube)
 
 #ifdef LIGHT_FAMILY_TUBE
-vec3 tubeAbove(Receiver r, Light light)
-{
-    return tubeWithNeeds(r, light, OUTLINE_ABOVE);
-}
-
-vec3 tubeAsPoint(Receiver r, Light light)
-{
-    return tubeWithNeeds(r, light, OUTLINE_AS_POINT);
-}
-
 #define ABOVE_RESPONSE tubeAbove
 #define AS_POINT_RESPONSE tubeAsPoint
 #define GENERAL_RESPONSE tubeResponse

@@ -14,8 +14,9 @@
 //
 // X(index, NAME, iterations). `iterations` is an upper bound of the loop iterations that the
 // evaluation of one light takes, without those of SPECULAR_SAMPLED. It counts the arcs of the
-// light's outline and their pieces (lib/outline/): 4 edges of a rectangle, 8 arcs of a disc, and up
-// to 2 sides and 8 arcs of a tube, with 3 pieces each. A disc also has a series of 9 terms.
+// light's outline and their pieces (lib/outline/): 4 edges of a rectangle, up to 8 of a polygon, 6
+// arcs of a disc, and 2 sides and up to 8 arcs of a tube, with 3 pieces each. A disc also has a
+// series of 9 terms.
 #define CND_LIGHT_FAMILIES(X)                                                                      \
     X(0, PUNCTUAL, 24)                                                                             \
     X(1, CONIC, 0)                                                                                 \

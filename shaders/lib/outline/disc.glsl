@@ -9,16 +9,10 @@ const float DISC_SERIES_LIMIT = 0.35; // discArcIntegrals uses the series up to 
 const int DISC_SERIES_TERMS = 9;      // the first term left out is below 0.18^9 = 2e-7
 
 // The outline of a disc is not a circle on the sphere of directions. For the specular lobe it is
-// replaced by this many circle arcs, each through three points of the outline. With 8 arcs the integral
-// of the lobe is off by 0.02% of its peak on average. The form factor is exact.
+// replaced by this many circle arcs, each through three points of the outline. The form factor is
+// exact, and discOutline corrects the area that the arcs enclose by it.
 const uint DISC_ARCS = 6u;
 const vec2 DISC_HALF_STEP = vec2(0.86602540, 0.50000000); // cosine and sine of 180 degrees / DISC_ARCS
-
-// Returns the product of two complex numbers, which turns a by the angle of b if b has length 1.
-vec2 complexProduct(vec2 a, vec2 b)
-{
-    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
-}
 
 // Returns the integrals over phi of cos(phi) / (1 + e cos(phi)) times 1, times cos(phi) and times
 // sin(phi), for 0 <= e < 1 and root = sqrt(1 - e^2). `from` and `to` are (cos, sin) of the first and
@@ -142,13 +136,20 @@ vec3 discRim(Outline k, DiscView d, vec3 first, vec3 last, bool across)
 ArcCircle circleThrough(Outline k, OutlinePoint a, OutlinePoint b, OutlinePoint c)
 {
     // In units of |c - a|, so that no product is too small for a float.
-    const float perChord = inversesqrt(max(length2(c.dl - a.dl), MIN_LENGTH2));
+    const float perChord = inversesqrt(max(length2(c.dl - a.dl), SMALLEST_ANGLE));
     const vec3 ab = perChord * (b.dl - a.dl), ac = perChord * (c.dl - a.dl);
     const vec3 normal = cross(ab, ac);
     const float inv = inversesqrt(max(length2(normal), 1e-20));
     const vec3 axis = inv * normal;
     const float s2 = 0.25 * (length2(ab) * inv) * (length2(ac) * inv) * length2(c.dl - b.dl);
-    return ArcCircle(axis, dot(axis, k.lc + a.dl), clamp(s2, MIN_LENGTH2, 1.0));
+    const vec3 fromA = 0.5 * inv * inv / perChord *
+        (cross(normal, ab) + length2(ab) * cross(ac, normal)); // |ac| is 1
+    const float kappa = sqrt(max(1.0 - s2, 0.0));
+    // The rim of a disc that is seen from the side is almost a great circle.
+    ArcCircle circle = ArcCircle(axis, kappa, max(s2, SMALLEST_ANGLE), a.dl + fromA);
+    if (!(s2 < 0.99))
+        circle = greatCircle(k, a, c);
+    return circle;
 }
 
 // The points between which the rim is replaced by arcs lie closer where the rim is closer to the
@@ -165,9 +166,9 @@ vec2 stretchedAngle(vec2 t, float stretch)
 float lengthRatio(vec3 a, vec3 b)
 {
     const float largest = max(max(abs(b.x), abs(b.y)), abs(b.z));
-    const float inv = 1.0 / max(largest, MIN_LENGTH2);
+    const float inv = 1.0 / max(largest, SMALLEST_ANGLE);
     const vec3 p = inv * a, q = inv * b;
-    return largest > MIN_LENGTH2 ? sqrt(length2(p) / length2(q)) : 1.0;
+    return largest > SMALLEST_ANGLE ? sqrt(length2(p) / length2(q)) : 1.0;
 }
 
 // Returns the response to a disc. `toCentre`: from the receiver to its centre; `facing`: unit vector in
@@ -221,7 +222,8 @@ OutlineResponse discOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 fa
         addHorizon(k);
         rim += k.diffuse - arcs;
     }
-    // What is exact for the diffuse lobe corrects the area of the arcs for the specular lobe.
+    // The arcs enclose a slightly wrong area. The vector irradiance of the rim is exact, and its ratio
+    // to that of the arcs corrects the specular lobe.
     k.specular *= needs.lobe ? lengthRatio(rim, k.diffuse) : 1.0;
     k.diffuse = rim;
     const OutlineResponse o = outlineResponse(p, k);

@@ -39,33 +39,44 @@ const float CUT_ONCE_RANGE = 0.1, CUT_TWICE_RANGE = 0.2; // blended or growing o
 void addPiece(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle, float weight)
 {
     const HalfAngle t = halfAngleOf(length2(b.dl - a.dl), circle.s2);
-    const float vAxis = k.v.x * circle.axis.x + k.v.y * circle.axis.z;
+    // v . axis + kappa, and A (v + kappa axis). For small circles both may cancel, so they are computed
+    // from the circle's centre.
+    const bool great = circle.kappa == 0.0;
+    const vec3 vPlusLc = vec3(k.wc.xy, k.wc.z / k.alpha) / k.invD;
+    const float fromCentre = 0.5 * length2(vPlusLc) + k.v.x * circle.centre.x +
+        k.v.y * circle.centre.z - circle.s2;
+    const float level = great ? k.v.x * circle.axis.x + k.v.y * circle.axis.z
+                              : fromCentre / circle.kappa;
+    const vec3 eye = vec3(k.v.x, 0.0, k.alpha * k.v.y);
+    const vec3 pole =
+        great ? k.invD * eye : k.wc + k.invD * stretched(k.alpha, circle.centre);
     // The determinant of (v + l0, V1, v + l1), where V1 is W1 without A.
-    const float volume = 2.0 * circle.s2 * t.sin2 * sqrt(t.sin2) * (vAxis + circle.kappa);
-    const vec3 pole = k.invD * vec3(k.v.x + circle.kappa * circle.axis.x, circle.kappa * circle.axis.y,
-                                    k.alpha * (k.v.y + circle.kappa * circle.axis.z));
+    const float volume = 2.0 * circle.s2 * t.sin2 * sqrt(t.sin2) * level;
     const vec3 dwA = stretchedOffset(k, a), dwB = stretchedOffset(k, b);
     const vec3 pA = stretchedDirection(k, a), pB = stretchedDirection(k, b);
-    const float quarter = 0.25 * length2(pB - pA); // squared sine of half the chord's angle
-    const float q2 = max(1.0 - quarter, 1e-8);
+    const vec3 sum = pA + pB;
+    const float q2 = max(0.25 * length2(sum), 1e-8); // squared cosine of half the chord's angle
     const float q = sqrt(q2);
+    const float invQ2 = 1.0 / q2;
     const float H = segmentShare(q) / q;
     const vec3 area = cross(dwA, dwB);
     const vec3 axb = cross(k.wc, dwB - dwA) + area;
     const float ii = a.i * b.i;
     const float root = sqrt(ii);
+    // Squared sine of half the chord's angle. The difference of pA and pB would have no digits if the
+    // light is small.
+    const float quarter = 0.25 * min(length2(ii * axb) * invQ2, 4.0);
     const float longer = a.e + b.e + a.e * b.e; // |w0|^2 |w1|^2 - 1
     const float perSine1 = quarter / (1.0 + q) * H; // angle / sine of the chord, minus 1
     const float excess = perSine1 * ii - longer * ii * ii / (1.0 + ii);
 
-    const vec3 sum = pA + pB;
     const float lengths = (1.0 + a.e) * a.i + (1.0 + b.e) * b.i; // |w0| + |w1|
     const float weight2 = root / t.cosine * (lengths * q2 - t.sin2 * dot(pole, sum)); // times 2 q2
     const float height = k.alpha * k.invD * k.invD * k.invD * volume * root * ii;
     // The second limit keeps the lens below 45 degrees. It is reached only by arcs far from the lobe.
     const float invQuarter = 1.0 / max(quarter, 1e-20);
     const float scale = max(2.0 * q2 + weight2, abs(height) * sqrt(invQuarter) + 1e-12);
-    const float share = 0.75 * segmentShare(clamp(0.5 * weight2 / q2, 0.0, 1.5));
+    const float share = 0.75 * segmentShare(clamp(0.5 * weight2 * invQ2, 0.0, 1.5));
     const float eSine = height / scale; // e times the sine of half the chord's angle
     const float e2 = eSine * eSine * invQuarter;
     const float along = share * H * eSine / (1.0 + (16.0 / 35.0) * e2);
@@ -103,9 +114,9 @@ float quarterAsinh(float y)
 
 // Returns the vector from the centre of an arc's circle to the point at an angle from its begin, given
 // by cosine and sine.
-vec3 onCircle(Outline k, OutlinePoint a, ArcCircle circle, vec2 angle)
+vec3 onCircle(OutlinePoint a, ArcCircle circle, vec2 angle)
 {
-    const vec3 X = k.lc + a.dl - circle.kappa * circle.axis;
+    const vec3 X = a.dl - circle.centre;
     return angle.x * X + angle.y * cross(circle.axis, X);
 }
 
@@ -113,7 +124,7 @@ ArcCuts makeArcCuts(Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
 {
     const HalfAngle t = halfAngleOf(length2(b.dl - a.dl), circle.s2);
     ArcCuts o;
-    const vec3 X = onCircle(k, a, circle, vec2(1.0, 0.0)), Y = onCircle(k, a, circle, vec2(0.0, 1.0));
+    const vec3 X = onCircle(a, circle, vec2(1.0, 0.0)), Y = onCircle(a, circle, vec2(0.0, 1.0));
     // Cosine and sine of the angle from the arc's begin to its middle, its end, and the point next to
     // the mirror direction (-vx, 0, vz). If the latter is not on the arc, the nearer end serves.
     const vec2 middle = vec2(t.cosine, sqrt(t.sin2));
@@ -140,9 +151,8 @@ OutlinePoint cutPoint(Outline k, OutlinePoint a, ArcCircle circle, ArcCuts o, fl
     const float rest = max(1.0 - x2, 1e-12);
     const float u = o.width * 4.0 * x * (1.0 + x2) / (rest * rest); // tan(t / 2)
     const float inv = 1.0 / (1.0 + u * u);
-    const vec2 t = vec2((1.0 - u * u) * inv, 2.0 * u * inv);
-    const vec2 angle = vec2(o.next.x * t.x - o.next.y * t.y, o.next.x * t.y + o.next.y * t.x);
-    return pointInDirection(k, circle.kappa * circle.axis - k.lc + onCircle(k, a, circle, angle));
+    const vec2 angle = complexProduct(o.next, vec2((1.0 - u * u) * inv, 2.0 * u * inv));
+    return pointInDirection(k, circle.centre + onCircle(a, circle, angle));
 }
 
 // Adds an arc. The loop over its pieces runs three times in every lane, because llvmpipe loses lanes

@@ -31,7 +31,7 @@
 ArcCircle greatCircle(Outline k, OutlinePoint a, OutlinePoint b)
 {
     const vec3 axb = cross(k.lc, b.dl - a.dl) + cross(a.dl, b.dl); // the product of both directions
-    return ArcCircle(axb * inversesqrt(max(length2(axb), MIN_LENGTH2)), 0.0, 1.0);
+    return ArcCircle(axb * inversesqrt(max(length2(axb), MIN_LENGTH2)), 0.0, 1.0, -k.lc);
 }
 
 // Adds the arc of a circle between two points. The arc must be above the horizon, and shorter than 180

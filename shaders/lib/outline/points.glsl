@@ -5,6 +5,10 @@
 
 #include "lib/specular/conic_shading.glsl"
 
+// Divisors that are proportional to the solid angle of a light are at least this. Floats above it have
+// all their digits, and its inverse is finite.
+const float SMALLEST_ANGLE = 1e-36;
+
 // The frame of a receiver.
 struct OutlineFrame {
     vec3 y, z;    // x is their product
@@ -156,7 +160,14 @@ float segmentShare(float q)
 struct ArcCircle {
     vec3 axis;
     float kappa, s2; // cosine and squared sine of the circle's half angle
+    vec3 centre;     // kappa axis - Outline::lc; if it is small, it has digits that the axis has not
 };
+
+// Returns the product of two complex numbers, which turns a by the angle of b if b has length 1.
+vec2 complexProduct(vec2 a, vec2 b)
+{
+    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
 
 // The half angle of an arc.
 struct HalfAngle {

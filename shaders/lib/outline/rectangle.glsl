@@ -15,6 +15,20 @@ bool seesFlatLight(vec3 centre, vec3 normal, float size, bool twoSided)
     return twoSided ? abs(facing) > limit : facing < -limit;
 }
 
+// Adds the edge to the next corner of a flat light. `from`, `to`: offsets of both corners; `last`: the
+// point of `from`, which is only used if the light cannot cross the horizon. Both then move to `to`.
+void addEdgeTo(inout Outline k, inout vec3 from, inout OutlinePoint last, vec3 to)
+{
+    if (k.needs.across) {
+        addClippedEdge(k, from, to);
+        from = to;
+    } else {
+        const OutlinePoint next = pointAt(k, to);
+        addEdge(k, last, next);
+        last = next;
+    }
+}
+
 // Returns the response to a rectangle that faces axisU x axisV. `toCentre`: from the receiver to the
 // centre; axisU and axisV go from there to the middles of two edges.
 OutlineResponse rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 axisU, vec3 axisV,
@@ -34,15 +48,7 @@ OutlineResponse rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, ve
     uint edge = 0u;
     do {
         corner = vec2(corner.y, -corner.x);
-        const vec3 to = corner.x * u + corner.y * w;
-        if (needs.across) {
-            addClippedEdge(k, from, to);
-            from = to;
-        } else {
-            const OutlinePoint next = pointAt(k, to);
-            addEdge(k, last, next);
-            last = next;
-        }
+        addEdgeTo(k, from, last, corner.x * u + corner.y * w);
         ++edge;
     } while (edge < 4u);
     if (needs.across && k.crosses)

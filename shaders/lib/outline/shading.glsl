@@ -10,15 +10,10 @@ struct OutlineResponse {
     vec2 specular;    // with F = 1 and with F = (1 - VoH)^5; 0 without a lobe
 };
 
-OutlineResponse noOutline()
-{
-    return OutlineResponse(0.0, vec2(0.0));
-}
-
 // Returns a / |a|, or 0 for a = 0. The squares of the components of a may be too small for a float.
 vec3 unitDirection(vec3 a)
 {
-    const vec3 b = a / max(max(abs(a.x), abs(a.y)), max(abs(a.z), MIN_LENGTH2));
+    const vec3 b = a / max(max(abs(a.x), abs(a.y)), max(abs(a.z), SMALLEST_ANGLE));
     return b * inversesqrt(max(length2(b), MIN_LENGTH2));
 }
 
@@ -48,7 +43,7 @@ OutlineResponse outlineResponse(ConicPoint p, Outline k)
         const vec3 Phi = (0.5 * INV_PI) * k.specular;
         // No half vector that reflects the eye to a direction above the horizon has a longer slope than
         // `longest`. Slivers may exceed it by rounding.
-        const vec2 slope = k.alpha / max(Phi.z, MIN_LENGTH2) * Phi.xy;
+        const vec2 slope = k.alpha / max(Phi.z, SMALLEST_ANGLE) * Phi.xy;
         const float longest = (1.0 + k.v.x) / k.v.y;
         const float slope2 = max(dot(slope, slope), MIN_LENGTH2);
         const vec2 limited = slope * min(1.0, longest * inversesqrt(slope2));

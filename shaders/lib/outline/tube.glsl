@@ -49,17 +49,17 @@ TubeView viewTube(vec3 centre, vec3 axis, float radius)
 }
 
 // One end: the points of the circle that its arc is part of are circle + cos(angle) outward +
-// sin(angle) across, and the arc reaches from -half to half.
+// sin(angle) across, and the arc reaches equally far to both sides of angle 0.
 struct TubeEnd {
     vec3 circle, outward, across;
     ArcCircle seen;
-    vec2 half1; // cosine and sine of `half`
+    vec2 half1; // cosine and sine of half the arc's angle
     vec3 side;  // offset of the arc's end from `tangent`, and of its begin in the other direction
     vec3 tangent;
 };
 
 // `outwards`: 1 for the end that the axis points to, -1 for the other one.
-TubeEnd makeTubeEnd(TubeView k, vec3 centre, float outwards)
+TubeEnd makeTubeEnd(Outline outline, TubeView k, vec3 centre, float outwards)
 {
     TubeEnd e;
     const vec3 offset = (outwards * k.axisLength) * k.along;
@@ -71,7 +71,8 @@ TubeEnd makeTubeEnd(TubeView k, vec3 centre, float outwards)
     const float kappa = sqrt(1.0 - s2);
     const float rho = r * kappa;
     const float forward = outwards * k.height + k.axisLength; // > 0 for the end farther away
-    e.seen = ArcCircle(invD * end, kappa, s2);
+    const vec3 axis = invD * end;
+    e.seen = ArcCircle(axis, kappa, s2, differenceTo(outline, offset) - s2 / (1.0 + kappa) * axis);
     e.circle = offset - s2 * end;
     e.outward = (rho * invD) * (sqrt(k.h2) * outwards * k.along - forward * k.away);
     e.across = (-rho * outwards) * k.across;
@@ -87,11 +88,6 @@ TubeEnd makeTubeEnd(TubeView k, vec3 centre, float outwards)
 vec3 onTubeEnd(TubeEnd e, vec2 at)
 {
     return e.circle + at.x * e.outward + at.y * e.across;
-}
-
-vec2 turnedBy(vec2 a, vec2 turn)
-{
-    return vec2(a.x * turn.x - a.y * turn.y, a.x * turn.y + a.y * turn.x);
 }
 
 // The parts of an end's arc above the horizon, as up to two ranges of its angle.
@@ -134,14 +130,13 @@ void addTubeArcs(inout Outline k, TubeEnd e, vec2 range)
         k.crosses = true;
         k.enters = a.dl;
     }
-    float part = 1.0;
-    do {
+    // The condition is in front because llvmpipe runs a lane that is done once more otherwise.
+    for (float part = 1.0; part <= parts; part += 1.0) {
         const float angle = range.x + part * step;
         const OutlinePoint b = pointAt(k, onTubeEnd(e, vec2(cos(angle), sin(angle))));
         addArc(k, a, b, e.seen, true);
         a = b;
-        part += 1.0;
-    } while (part <= parts);
+    }
     if (range.y < limit) {
         k.crosses = true;
         k.leaves = a.dl;
@@ -159,10 +154,9 @@ void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last
         divided ? vec2(cosQuarter, sqrt(max(1.0 - cosQuarter * cosQuarter, 0.0))) : e.half1;
     const uint arcs = divided ? 4u : e.half1.x < 1.0 ? 2u : 0u;
     vec2 at = vec2(e.half1.x, -e.half1.y);
-    uint part = 0u;
-    do {
+    for (uint part = 0u; part <= arcs; ++part) { // tested in front, as in addTubeArcs
         const bool isSide = part == 0u;
-        at = isSide ? at : turnedBy(at, turn);
+        at = isSide ? at : complexProduct(at, turn);
         // The ends of the arc are computed as the ends of the sides are.
         const vec3 begin = e.tangent - e.side, end = e.tangent + e.side;
         const bool isOnCircle = t.endOn || (!isSide && part < arcs);
@@ -174,8 +168,7 @@ void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last
         if (!isSide || !t.endOn)
             addArc(k, last, next, circle, true);
         last = next;
-        ++part;
-    } while (part <= arcs);
+    }
 }
 
 // Adds the visible part of one side and of the end after it.
@@ -207,7 +200,7 @@ OutlineResponse tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 to
     OutlinePoint last = pointAt(k, side - axis - t.sine2 * t.perpendicular);
     uint end = 0u;
     do {
-        const TubeEnd e = makeTubeEnd(t, centre, end == 0u ? 1.0 : -1.0);
+        const TubeEnd e = makeTubeEnd(k, t, centre, end == 0u ? 1.0 : -1.0);
         if (needs.across)
             addClippedTubeHalf(k, t, e);
         else

@@ -22,7 +22,7 @@ struct StabilitySettings {
     uint32_t quadratureSamples = 100'000; // in all; distributed over light types and methods
     uint32_t sweeps = 200;                // per check of continuity
     uint32_t seed = 1;
-    // What is measured; empty: everything.
+    // The light types and the specular methods that are measured. An empty list stands for all.
     std::vector<uint32_t> lightTypes;
     std::vector<CndSpecularMethod> methods;
     uint32_t sampleCount = 4; // samples per light of the sampled method
