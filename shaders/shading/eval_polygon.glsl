@@ -24,8 +24,7 @@ vec3 cornerOf(Polygon polygon, uint i)
     return polygon.scale * ((i & 1u) == 0u ? pair.axisU : pair.axisV);
 }
 
-// Returns the response by the polygon's outline. The loop runs equally often in every lane, because
-// llvmpipe loses lanes that leave a loop within a loop at different times.
+// Returns the response by the polygon's outline.
 OutlineResponse polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
 {
     const vec3 normal = cross(polygon.axisU, polygon.axisV);
@@ -42,14 +41,10 @@ OutlineResponse polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
         seesFlatLight(polygon.toCentre, normal, polygon.boundingRadius, polygon.twoSided);
     vec3 from = toFrame(r.frame, cornerOf(polygon, front ? 0u : polygon.count - 1u));
     OutlinePoint last = pointAt(k, from);
-    uint i = 0u;
-    do {
-        if (i < polygon.count) {
-            const uint next = front ? polygon.count - 1u - i : i;
-            addEdgeTo(k, from, last, toFrame(r.frame, cornerOf(polygon, next)));
-        }
-        ++i;
-    } while (i < MAX_CORNERS);
+    for (uint i = 0u; i < polygon.count; ++i) {
+        const uint next = front ? polygon.count - 1u - i : i;
+        addEdgeTo(k, from, last, toFrame(r.frame, cornerOf(polygon, next)));
+    }
     if (needs.across && k.crosses)
         addHorizon(k);
     const OutlineResponse o = outlineResponse(r.conic, k);

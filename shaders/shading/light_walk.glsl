@@ -75,7 +75,8 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
         found.above |= height >= aboveFrom ? bit : 0u;
 #endif
 #if defined(HAS_OUTLINES) && !defined(LIGHT_FAMILY_ALL)
-        const bool easy = !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
+        const bool easy =
+            ARCS_ARE_NEVER_CUT || !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
         found.above |= height >= radius && easy ? bit : 0u;
         if (HAS_BUDGET) {
             precise const float pointLimit2 = r.pointLimit * d2;
@@ -141,11 +142,19 @@ bool none(uvec2 bits)
 
 // Adds the lights of a block that are evaluated in one way to their sum. The loop tests its condition
 // at the end, so that it runs as often as the lane with the most lights needs. With the condition at
-// the front some devices run it once more.
+// the front some devices run it once more. Outlines have loops whose count differs between lanes; if
+// such a loop is within another, llvmpipe (Mesa 22.3) runs a lane that is done once more, which must
+// then add nothing.
+#ifdef HAS_OUTLINES
+#define IF_ANY_LEFT(left) if (!none(left))
+#else
+#define IF_ANY_LEFT(left)
+#endif
 #define SHADE_FOUND(sum, r, first, found, evaluate)                                                \
     if (!none(found)) {                                                                            \
         uvec2 left = found;                                                                        \
         do {                                                                                       \
+            IF_ANY_LEFT(left)                                                                      \
             sum += evaluate(r, lightAt((first) + lowest(left)));                                   \
             left = withoutLowest(left);                                                            \
         } while (!none(left));                                                                     \

@@ -19,39 +19,40 @@
 //   (integral of f) e (1 - 16/35 e^2)   and   (integral of f^2) e^2 / 2 (1 - 16/21 e^2),
 // where 1 - x is replaced by 1 / (1 + x), which stays positive.
 //
-// The formula is good while the lens is not high. Arcs that are long as the lobe sees them are cut into
-// two or three pieces, near the lobe's middle.
+// The formula is good while the lens is not high and not long. Arcs that are long as the lobe sees them
+// are cut into two or three pieces.
 
 #ifndef CND_LIB_OUTLINE_LENS
 #define CND_LIB_OUTLINE_LENS
 
 #include "lib/outline/points.glsl"
 
-// Arcs between whose ends the cosine in the space of w is above the first limit are not cut; below the
-// second limit they are cut twice. Nothing jumps: below the first limit the sums of the whole arc and
-// of its halves are blended, and at the second one the middle piece grows from nothing. The result
+// An arc whose directions of w turn by an angle with a cosine above the first limit is not cut; one
+// below the second limit is cut twice. Nothing jumps: below the first limit the sums of the whole arc
+// and of its halves are blended, and at the second one the middle piece grows from nothing. The result
 // does not depend on the direction in which the arc is walked, so that the sides of a very thin light
 // cancel.
 const float CUT_ONCE = 0.7, CUT_TWICE = 0.2;
-const float CUT_ONCE_RANGE = 0.1, CUT_TWICE_RANGE = 0.2; // blended or growing over this range
+const float CUT_ONCE_RANGE = 0.2, CUT_TWICE_RANGE = 0.2; // blended or growing over this range
 
-// Adds an arc, or a piece of one, times a weight.
-void addPiece(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle, float weight)
+// The middle control point W1 of an arc, where the end points w0 and w1 have the weight 1, is
+// scale A (v + lc) + dw, in units of Outline::D.
+struct ArcControl {
+    vec3 dw;
+    float scale;
+};
+
+// Returns the control point of an arc of a circle.
+ArcControl controlOf(Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
 {
     const HalfAngle t = halfAngleOf(length2(b.dl - a.dl), circle.s2);
-    // v . axis + kappa, and A (v + kappa axis). For small circles both may cancel, so they are computed
-    // from the circle's centre.
-    const bool great = circle.kappa == 0.0;
-    const vec3 vPlusLc = vec3(k.wc.xy, k.wc.z / k.alpha) / k.invD;
-    const float fromCentre = 0.5 * length2(vPlusLc) + k.v.x * circle.centre.x +
-        k.v.y * circle.centre.z - circle.s2;
-    const float level = great ? k.v.x * circle.axis.x + k.v.y * circle.axis.z
-                              : fromCentre / circle.kappa;
-    const vec3 eye = vec3(k.v.x, 0.0, k.alpha * k.v.y);
-    const vec3 pole =
-        great ? k.invD * eye : k.wc + k.invD * stretched(k.alpha, circle.centre);
-    // The determinant of (v + l0, V1, v + l1), where V1 is W1 without A.
-    const float volume = 2.0 * circle.s2 * t.sin2 * sqrt(t.sin2) * level;
+    const vec3 dl = (0.5 / t.cosine) * (a.dl + b.dl - 2.0 * t.sin2 * circle.centre);
+    return ArcControl(k.invD * stretched(k.alpha, dl), t.cosine);
+}
+
+// Adds an arc, or a piece of one, times a weight.
+void addPiece(inout Outline k, OutlinePoint a, OutlinePoint b, ArcControl control, float weight)
+{
     const vec3 dwA = stretchedOffset(k, a), dwB = stretchedOffset(k, b);
     const vec3 pA = stretchedDirection(k, a), pB = stretchedDirection(k, b);
     const vec3 sum = pA + pB;
@@ -70,9 +71,9 @@ void addPiece(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle,
     const float perSine1 = quarter / (1.0 + q) * H; // angle / sine of the chord, minus 1
     const float excess = perSine1 * ii - longer * ii * ii / (1.0 + ii);
 
-    const float lengths = (1.0 + a.e) * a.i + (1.0 + b.e) * b.i; // |w0| + |w1|
-    const float weight2 = root / t.cosine * (lengths * q2 - t.sin2 * dot(pole, sum)); // times 2 q2
-    const float height = k.alpha * k.invD * k.invD * k.invD * volume * root * ii;
+    const float weight2 = root * dot(control.scale * k.wc + control.dw, sum); // times 2 q2
+    const float height = root * ii *
+        dot(k.wc + dwA, cross(control.dw - control.scale * dwA, dwB - dwA));
     // The second limit keeps the lens below 45 degrees. It is reached only by arcs far from the lobe.
     const float invQuarter = 1.0 / max(quarter, 1e-20);
     const float scale = max(2.0 * q2 + weight2, abs(height) * sqrt(invQuarter) + 1e-12);
@@ -95,22 +96,44 @@ vec2 unitVector(vec2 a)
     return a * inversesqrt(max(dot(a, a), MIN_LENGTH2));
 }
 
-// How an arc is cut. A point of the arc is at the angle t from its point next to the mirror direction,
-// where the lobe has the half width `width` in tan(t / 2). The cuts are at equal distances in x =
-// asinh(tan(t / 2) / width) / 4, so that lobes of any width get the same number of pieces; begin and
-// end are tanh(x) at the ends of the arc.
+// Where an arc is divided. The directions of w turn at rates that differ by orders of magnitude along
+// an arc that passes the lobe's middle. They turn about evenly in the angle
+//   s = t / 2 + atan(tan(t / 2) / width),
+// where t is the angle along the arc's circle from the point next to the mirror direction: one half is
+// the turn around the lobe, and the other one the way past its middle at the distance `width`.
+
+// Returns `width` from w next to the mirror direction and its change per radian of t. The factor was
+// fitted.
+float passingWidth(vec3 w, vec3 turn)
+{
+    return clamp(1.25 * sqrt(length2(w) / max(length2(turn), SMALLEST_ANGLE)), 0.001, 1.0);
+}
+
+// Returns (cos, sin) of s. `half1`: a vector with the angle t / 2, -90..90 degrees.
+vec2 passingAngle(float width, vec2 half1)
+{
+    return unitVector(complexProduct(vec2(width * half1.x, half1.y), half1));
+}
+
+// Returns (cos, sin) of t from those of s, which follow from
+//   tan(s) = tan(t / 2) (1 + 1 / width) / (1 - tan^2(t / 2) / width).
+vec2 angleFromPassing(float width, vec2 s)
+{
+    const float c = (1.0 + width) * s.x;
+    const float root = sqrt(c * c + 4.0 * width * s.y * s.y);
+    const float side = s.y < 0.0 ? -1.0 : 1.0;
+    const vec2 half1 =
+        s.x >= 0.0 ? vec2(c + root, 2.0 * width * s.y) : vec2(2.0 * abs(s.y), side * (root - c));
+    return complexProduct(half1, half1) / max(dot(half1, half1), MIN_LENGTH2);
+}
+
+// How an arc of a circle is cut.
 struct ArcCuts {
     vec2 next; // cosine and sine of the angle from the arc's begin to the point next to the mirror
     float width;
-    float begin, end;
+    vec2 begin; // cosine and sine of s at the arc's begin
+    float turn; // difference of s between the arc's ends
 };
-
-// Returns tanh(asinh(y) / 4).
-float quarterAsinh(float y)
-{
-    const float half1 = y / (1.0 + sqrt(1.0 + y * y));
-    return half1 / (1.0 + sqrt(max(1.0 - half1 * half1, 0.0)));
-}
 
 // Returns the vector from the centre of an arc's circle to the point at an angle from its begin, given
 // by cosine and sine.
@@ -134,33 +157,41 @@ ArcCuts makeArcCuts(Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
     o.next = dot(next, middle) < t.cosine ? nearerEnd : next;
     const vec2 rest = vec2(dot(end, o.next), end.y * o.next.x - end.x * o.next.y); // to the arc's end
     const vec3 P = o.next.x * X + o.next.y * Y, Q = o.next.x * Y - o.next.y * X;
-    const vec3 m = circle.kappa * circle.axis + P + vec3(k.v.x, 0.0, k.v.y);
-    const float speed2 = max(length2(stretched(k.alpha, Q)), MIN_LENGTH2);
-    o.width = max(0.5 * sqrt(length2(stretched(k.alpha, m)) / speed2), 1e-12);
-    // A begin before P has a negative tan(t / 2), sine / (1 + cosine).
-    o.begin = quarterAsinh(-o.next.y / (max(1.0 + o.next.x, 1e-6) * o.width));
-    o.end = quarterAsinh(rest.y / (max(1.0 + rest.x, 1e-6) * o.width));
+    o.width = passingWidth(k.wc + k.invD * stretched(k.alpha, circle.centre + P),
+                           k.invD * stretched(k.alpha, Q));
+    o.begin = passingAngle(o.width, vec2(1.0 + o.next.x, -o.next.y));
+    const vec2 last = passingAngle(o.width, vec2(1.0 + rest.x, rest.y));
+    const float turn = atan(o.begin.x * last.y - o.begin.y * last.x, dot(o.begin, last));
+    o.turn = turn + (turn < -0.001 ? 2.0 * PI : 0.0); // less is rounding
     return o;
 }
 
-// Returns the point at the share f of the arc, as the cuts count it.
+// Returns the point at the share f of the arc, as s counts it.
 OutlinePoint cutPoint(Outline k, OutlinePoint a, ArcCircle circle, ArcCuts o, float f)
 {
-    const float x = mix(o.begin, o.end, f);
-    const float x2 = x * x;
-    const float rest = max(1.0 - x2, 1e-12);
-    const float u = o.width * 4.0 * x * (1.0 + x2) / (rest * rest); // tan(t / 2)
-    const float inv = 1.0 / (1.0 + u * u);
-    const vec2 angle = complexProduct(o.next, vec2((1.0 - u * u) * inv, 2.0 * u * inv));
+    const vec2 s = complexProduct(o.begin, vec2(cos(f * o.turn), sin(f * o.turn)));
+    const vec2 angle = complexProduct(o.next, angleFromPassing(o.width, s));
     return pointInDirection(k, circle.centre + onCircle(a, circle, angle));
 }
 
-// Adds an arc. The loop over its pieces runs three times in every lane, because llvmpipe loses lanes
-// in a loop within a loop if lanes leave it at different times.
+// Returns the cosine of the angle by which the directions of w turn along an arc, or -1 if that is more
+// than 180 degrees. The arc is replaced by the two great circles between its ends and a point of it.
+float turnOf(Outline k, OutlinePoint a, OutlinePoint b, ArcControl control)
+{
+    const vec3 ends = 2.0 * k.wc + stretchedOffset(k, a) + stretchedOffset(k, b);
+    const vec3 sum = ends + 2.0 * (control.scale * k.wc + control.dw);
+    const vec3 m = sum * inversesqrt(max(length2(sum), MIN_LENGTH2));
+    const float first = dot(stretchedDirection(k, a), m), second = dot(m, stretchedDirection(k, b));
+    const float sines2 = max((1.0 - first * first) * (1.0 - second * second), 0.0);
+    return first + second < 0.0 ? -1.0 : first * second - sqrt(sines2);
+}
+
+// Adds an arc.
 void addLobe(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
 {
+    const ArcControl control = controlOf(k, a, b, circle);
     if (k.needs.cuts) {
-        const float cosine = dot(stretchedDirection(k, a), stretchedDirection(k, b));
+        const float cosine = turnOf(k, a, b, control);
         const ArcCuts cuts = makeArcCuts(k, a, b, circle);
         const float halves = growth((CUT_ONCE - cosine) / CUT_ONCE_RANGE);
         const float middle = growth((CUT_TWICE - cosine) / CUT_TWICE_RANGE) / 6.0;
@@ -168,23 +199,20 @@ void addLobe(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
         const bool blends = halves > 0.0 && halves < 1.0;
         const uint pieces = blends || cosine < CUT_TWICE ? 3u : cosine < CUT_ONCE ? 2u : 1u;
         OutlinePoint from = a;
-        uint piece = 1u;
-        do {
-            if (piece <= pieces) {
-                const bool isWhole = blends && piece == 1u;
-                const bool isFirst = piece == (blends ? 2u : 1u);
-                OutlinePoint to = b;
-                if (piece < pieces && !isWhole)
-                    to = cutPoint(k, a, circle, cuts, isFirst ? 0.5 - middle : 0.5 + middle);
-                addPiece(k, from, to, circle, isWhole ? 1.0 - halves : blends ? halves : 1.0);
-                from = to;
-                if (isWhole)
-                    from = a;
-            }
-            ++piece;
-        } while (piece <= 3u);
+        for (uint piece = 1u; piece <= pieces; ++piece) {
+            const bool isWhole = blends && piece == 1u;
+            const bool isFirst = piece == (blends ? 2u : 1u);
+            OutlinePoint to = b;
+            if (piece < pieces && !isWhole)
+                to = cutPoint(k, a, circle, cuts, isFirst ? 0.5 - middle : 0.5 + middle);
+            addPiece(k, from, to, controlOf(k, from, to, circle),
+                     isWhole ? 1.0 - halves : blends ? halves : 1.0);
+            from = to;
+            if (isWhole)
+                from = a;
+        }
     } else {
-        addPiece(k, a, b, circle, 1.0);
+        addPiece(k, a, b, control, 1.0);
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light from an emitter whose outline, as the receiver sees it, consists of circle arcs on the sphere
 // of directions: edges of polygons and sides of tubes are arcs of great circles, the ends of tubes are
-// arcs of small circles, and the outline of a disc is close to a few of them. One walk along the
+// arcs of small circles, and the rim of a disc is divided into arcs of conics. One walk along the
 // outline gives the diffuse and the specular response.
 //
 // Both are integrals over the emitter's directions that Stokes' theorem turns into integrals along

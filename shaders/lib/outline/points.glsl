@@ -124,13 +124,25 @@ OutlinePoint pointInDirection(Outline k, vec3 dl)
     return o;
 }
 
+// The distance of a point from the receiver.
+struct PointDistance {
+    float longer; // than that of the centre
+    float inverse;
+};
+
+PointDistance distanceOf(Outline k, vec3 offset)
+{
+    const vec3 centre = k.distance * k.lc;
+    const float inverse = inversesqrt(max(length2(centre + offset), MIN_LENGTH2));
+    const float longer2 = 2.0 * dot(centre, offset) + length2(offset); // |P|^2 - |centre|^2
+    return PointDistance(longer2 * inverse / (1.0 + k.distance * inverse), inverse);
+}
+
 // Returns the unit direction to centre + offset, minus lc.
 vec3 differenceTo(Outline k, vec3 offset)
 {
-    const vec3 centre = k.distance * k.lc;
-    const float invLength = inversesqrt(max(length2(centre + offset), MIN_LENGTH2));
-    const float longer2 = 2.0 * dot(centre, offset) + length2(offset); // |P|^2 - |centre|^2
-    return invLength * (offset - (longer2 * invLength / (1.0 + k.distance * invLength)) * k.lc);
+    const PointDistance d = distanceOf(k, offset);
+    return d.inverse * (offset - d.longer * k.lc);
 }
 
 OutlinePoint pointAt(Outline k, vec3 offset)

@@ -7,10 +7,9 @@
 
 #include "lib/outline/shading.glsl"
 
-// The longest arc of an end that is not divided, in radians. The arc of an end seen from the side is
-// pi / 2 on either side.
-const float TUBE_ARC = 1.9;
-const float TUBE_ARC_COSINE = -0.32; // of half an end's arc that is just divided into two
+// The arc of an end is divided into two, or into four if the cosine of half its angle is below this. An
+// end seen from the side has half angles of pi / 2.
+const float TUBE_ARC_COSINE = -0.32;
 
 // The tube as the receiver sees it. Offsets are relative to the middle of its axis.
 struct TubeView {
@@ -120,22 +119,23 @@ TubeRanges rangesAboveHorizon(TubeEnd e, float centreHeight)
 void addTubeArcs(inout Outline k, TubeEnd e, vec2 range)
 {
     const float limit = atan(e.half1.y, e.half1.x);
-    const bool whole = range.x <= -limit && range.y >= limit;
-    // As addTubeHalf divides it, so that nothing jumps when the tube touches the horizon.
-    const float ofWhole = e.half1.x < TUBE_ARC_COSINE ? 4.0 : 2.0;
-    const float parts = whole ? ofWhole : max(ceil((range.y - range.x) / TUBE_ARC), 1.0);
-    const float step = (range.y - range.x) / parts;
+    // The points that divide the whole arc, as in addTubeHalf, also divide the part of it above the
+    // horizon, so that nothing jumps when the tube touches the horizon.
+    const float parts = e.half1.x < TUBE_ARC_COSINE ? 4.0 : 2.0;
+    float angle = range.x;
     OutlinePoint a = pointAt(k, onTubeEnd(e, vec2(cos(range.x), sin(range.x))));
     if (range.x > -limit) {
         k.crosses = true;
         k.enters = a.dl;
     }
-    // The condition is in front because llvmpipe runs a lane that is done once more otherwise.
     for (float part = 1.0; part <= parts; part += 1.0) {
-        const float angle = range.x + part * step;
-        const OutlinePoint b = pointAt(k, onTubeEnd(e, vec2(cos(angle), sin(angle))));
-        addArc(k, a, b, e.seen, true);
-        a = b;
+        const float next = min((2.0 * part / parts - 1.0) * limit, range.y);
+        if (next > angle) {
+            const OutlinePoint b = pointAt(k, onTubeEnd(e, vec2(cos(next), sin(next))));
+            addArc(k, a, b, e.seen, true);
+            a = b;
+            angle = next;
+        }
     }
     if (range.y < limit) {
         k.crosses = true;

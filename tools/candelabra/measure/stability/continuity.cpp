@@ -11,6 +11,7 @@
 #include "measure/kernels/vectors.h"
 #include "measure/stability/stability.h"
 #include "reference/response.h"
+#include "reference/vectors.h"
 #include "scene/polygons.h"
 #include "shading/light_family.h"
 
@@ -148,6 +149,16 @@ std::vector<Path> makePaths(uint32_t count, uint64_t seed)
     return out;
 }
 
+std::string text(const glm::dvec3& v)
+{
+    return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x, v.y, v.z);
+}
+
+std::string text(const float (&v)[3])
+{
+    return text(reference::vec3(v));
+}
+
 // Lights that are no spheres fit into the sphere of that size. A flat light is seen from both
 // sides; a disc's plane is that of both axes.
 CndLight lightAt(uint32_t type, const Path& p, const Place& place)
@@ -257,9 +268,13 @@ ContinuityCheck check(const VulkanContext& context, const Evaluation& evaluation
         const double jump = std::abs(atHigh[i] - atLow[i]) / peaks[i];
         if (jump > out.jump) {
             out.jump = jump;
+            const Place place = named.way(p, low[i]);
+            const CndLight light = lightAt(evaluation.lightType, p, place);
             out.worst = fmt::format(
-                "alpha {:.4f}, NoV {:.4f}, s {:.4f}, azimuth {:.3f}, aspect {:.3f}, t {:.6f}",
-                alpha, p.v.z, p.s, p.azimuth, p.aspect, low[i]);
+                "alpha {:.4f}, n (0, 0, 1), v {}, light at {}, facing {}, radius {}, axes {} {}, "
+                "before t = {:.6f} of its way",
+                alpha, text(p.v), text(light.position), text(light.direction), light.radius,
+                text(light.axisU), text(light.axisV), low[i]);
         }
     }
     return out;
