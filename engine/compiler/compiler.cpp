@@ -177,9 +177,7 @@ void check(const CndCompileDesc& desc)
         gpu::failArgument("CndCompileDesc: source is null");
     if (desc.lightTypes >> CND_LIGHT_TYPE_COUNT)
         gpu::failArgument("CndCompileDesc: lightTypes has bits beyond the last CndLightType");
-    if (desc.specularMethods >> CND_SPECULAR_METHOD_COUNT)
-        gpu::failArgument("CndCompileDesc: specularMethods has bits beyond the last "
-                          "CndSpecularMethod");
+    lighting::checkSpecularMethods("CndCompileDesc", desc.specularMethods);
 }
 
 } // namespace

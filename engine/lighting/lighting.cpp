@@ -5,6 +5,7 @@
 
 #include "lights/light_limits.h"
 #include "shading/light_batches.h"
+#include "shading/light_family.h"
 
 namespace candelabra::lighting
 {
@@ -19,9 +20,7 @@ CndLightingDesc checked(CndLightingDesc desc)
     if (desc.framesInFlight < 1 || desc.framesInFlight > 8)
         gpu::failArgument("CndLightingDesc: framesInFlight must be 1..8, is " +
                           std::to_string(desc.framesInFlight));
-    if (desc.specularMethods >> CND_SPECULAR_METHOD_COUNT)
-        gpu::failArgument("CndLightingDesc: specularMethods has bits beyond the last "
-                          "CndSpecularMethod");
+    checkSpecularMethods("CndLightingDesc", desc.specularMethods);
     if (desc.influenceByError && desc.hostKernels.count)
         gpu::failArgument("CndLightingDesc: influenceByError cannot measure with hostKernels");
     if (desc.materialClasses & ~uint32_t(CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY))
@@ -41,12 +40,12 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
       hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
       kernels_(device_, hostKernels_, desc_, gbuffer_.code(), readsLightIds(desc_)),
-      tables_(device_),
+      albedoTable_(device_),
       forwardLayout_(createForwardLayout(device_, desc_.forwardStages)),
       lights_(
           device_, recordings_, desc_.lightCapacity,
           [this](uint32_t capacity, const LightTypeCounts& types) { prepare(capacity, types); }),
-      module_{device_, desc_, recordings_, gbuffer_, hostKernels_, kernels_, tables_, lights_}
+      module_{device_, desc_, recordings_, gbuffer_, hostKernels_, kernels_, albedoTable_, lights_}
 {
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (desc_.lightTypes >> type & 1)

@@ -32,7 +32,7 @@ private:
     surfaces::GBufferSource gbuffer_;
     surfaces::HostKernels hostKernels_;
     Kernels kernels_;
-    tables::ShadingTables tables_;
+    tables::DfgTable albedoTable_;
     gpu::Handle<VkDescriptorSetLayout> forwardLayout_;
     gpu::Recordings recordings_;
     LightSet lights_;

@@ -14,20 +14,18 @@
 #include "gpu/failure.h"
 #include "lights/light_types.h"
 #include "lights/polygon.h"
+#include "lights/vectors.h"
 
 using namespace candelabra;
 
 namespace
 {
 
+using lighting::setFloats;
+using lighting::toDouble;
 using std::numbers::pi;
 // Farther from the origin than this, squared distances are not finite floats.
 constexpr double maxCoordinate = 1e15;
-
-glm::dvec3 vec(const float (&v)[3])
-{
-    return {v[0], v[1], v[2]};
-}
 
 void requireType(const CndLight& light, CndLightType type, const char* what)
 {
@@ -54,12 +52,6 @@ void setEmission(CndLight& light, const CndLight& source, double factor)
     }
 }
 
-void setVector(float (&out)[3], const glm::dvec3& v)
-{
-    for (int i = 0; i < 3; ++i)
-        out[i] = float(v[i]);
-}
-
 glm::dvec3 requireReceiver(const float* at)
 {
     const glm::dvec3 receiver(at[0], at[1], at[2]);
@@ -70,7 +62,7 @@ glm::dvec3 requireReceiver(const float* at)
 
 glm::dvec3 requireDirection(const CndLight& light)
 {
-    const glm::dvec3 direction = vec(light.direction);
+    const glm::dvec3 direction = toDouble(light.direction);
     if (!(std::abs(glm::length(direction) - 1) <= 1e-3))
         gpu::failArgument("direction of the light to convert must be a unit vector");
     return glm::normalize(direction);
@@ -162,7 +154,7 @@ CndResult cndSphereFromPoint(const CndLight* point, float radius, const float at
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndSphereFromPoint", {point, at, sphere});
         requireType(*point, CND_LIGHT_POINT, "cndSphereFromPoint");
-        const double distance = glm::length(vec(point->position) - requireReceiver(at));
+        const double distance = glm::length(toDouble(point->position) - requireReceiver(at));
         if (!(radius >= 0 && double(radius) < distance))
             gpu::failArgument("radius must be >= 0 and smaller than the distance from at to the "
                               "light, which is " +
@@ -170,7 +162,7 @@ CndResult cndSphereFromPoint(const CndLight* point, float radius, const float at
         CndLight out{};
         out.layers = point->layers;
         out.type = CND_LIGHT_SPHERE;
-        setVector(out.position, vec(point->position));
+        setFloats(out.position, toDouble(point->position));
         out.influenceRadius = point->influenceRadius;
         // The radius chosen is smaller than influenceRadius even where the light does not reach
         // `at`.
@@ -194,7 +186,7 @@ CndResult cndPointFromSphere(const CndLight* sphere, CndLight* point, CndError* 
         CndLight out{};
         out.layers = sphere->layers;
         out.type = CND_LIGHT_POINT;
-        setVector(out.position, vec(sphere->position));
+        setFloats(out.position, toDouble(sphere->position));
         out.influenceRadius = sphere->influenceRadius;
         setEmission(out, *sphere, pi * double(sphere->radius) * double(sphere->radius));
         *point = out;
@@ -210,7 +202,7 @@ CndResult cndDistantSphereFromDirectional(const CndLight* directional, float sin
         CndLight out{};
         out.layers = directional->layers;
         out.type = CND_LIGHT_DISTANT_SPHERE;
-        setVector(out.direction, requireDirection(*directional));
+        setFloats(out.direction, requireDirection(*directional));
         const double s = requireSine(sine);
         out.radius = float(s);
         setEmission(out, *directional, 1 / (pi * s * s));
@@ -228,7 +220,7 @@ CndResult cndDirectionalFromDistantSphere(const CndLight* distantSphere, CndLigh
         CndLight out{};
         out.layers = distantSphere->layers;
         out.type = CND_LIGHT_DIRECTIONAL;
-        setVector(out.direction, requireDirection(*distantSphere));
+        setFloats(out.direction, requireDirection(*distantSphere));
         setEmission(out, *distantSphere,
                     pi * double(distantSphere->radius) * double(distantSphere->radius));
         *directional = out;
@@ -251,11 +243,11 @@ CndResult cndSphereFromDirectional(const CndLight* directional, const float at[3
         out.layers = directional->layers;
         out.type = CND_LIGHT_SPHERE;
         out.influenceRadius = std::numeric_limits<float>::infinity();
-        setVector(out.position, receiver - away * direction);
-        if (!(glm::length(vec(out.position)) <= maxCoordinate))
+        setFloats(out.position, receiver - away * direction);
+        if (!(glm::length(toDouble(out.position)) <= maxCoordinate))
             gpu::failArgument("distance puts the light farther than 1e15 m from the origin");
         // The receiver sees the light where single precision has put it.
-        const double actual = glm::length(vec(out.position) - receiver);
+        const double actual = glm::length(toDouble(out.position) - receiver);
         out.radius = float(s * away);
         if (!(out.radius > 0 && double(out.radius) < actual))
             gpu::failArgument("sine and distance put the receiver inside the light");
@@ -272,14 +264,14 @@ CndResult cndDirectionalFromSphere(const CndLight* sphere, const float at[3], Cn
         gpu::requireNotNull("cndDirectionalFromSphere", {sphere, at, directional});
         requireType(*sphere, CND_LIGHT_SPHERE, "cndDirectionalFromSphere");
         requirePositive(sphere->radius, "radius");
-        const glm::dvec3 toReceiver = requireReceiver(at) - vec(sphere->position);
+        const glm::dvec3 toReceiver = requireReceiver(at) - toDouble(sphere->position);
         const double distance = glm::length(toReceiver);
         if (!(double(sphere->radius) < distance))
             gpu::failArgument("at must be outside the sphere light");
         CndLight out{};
         out.layers = sphere->layers;
         out.type = CND_LIGHT_DIRECTIONAL;
-        setVector(out.direction, toReceiver / distance);
+        setFloats(out.direction, toReceiver / distance);
         const double s = double(sphere->radius) / distance;
         setEmission(out, *sphere, pi * s * s * window(distance, double(sphere->influenceRadius)));
         *directional = out;

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "gpu/failure.h"
+#include "lights/vectors.h"
 #include "shared/lighting.h"
 
 namespace candelabra::lighting
@@ -63,17 +64,6 @@ bool isConvex(const CndPolygon& polygon)
                 return false;
     }
     return true;
-}
-
-glm::dvec3 toDouble(const float (&v)[3])
-{
-    return {v[0], v[1], v[2]};
-}
-
-void setFloats(float (&out)[3], const glm::dvec3& v)
-{
-    for (int i = 0; i < 3; ++i)
-        out[i] = float(v[i]);
 }
 
 struct PlacedPolygon {

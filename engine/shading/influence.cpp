@@ -113,7 +113,6 @@ void Influence::writeBindings(uint32_t slot, const Inputs& in) const
                     Binding::of(SHADE_SHAPES, in.shapes), Binding::of(SHADE_LIGHT_IDS, in.ids),
                     Binding::sampled(SHADE_DEPTH, g.depth), in.uniforms.at(slot, SHADE_FRAME),
                     Binding::ofTexels(SHADE_DFG, in.directionalAlbedo),
-                    Binding::ofTexels(SHADE_LTC, in.transformedCosines),
                     Binding::of(MEASURE_INFLUENCE_DATA, data_),
                     Binding::of(MEASURE_INFLUENCE_SUMS, sums_)},
                    g.bindings(SHADE_GBUFFER));

@@ -43,7 +43,7 @@ public:
         const surfaces::GBufferViews& gbuffer;
         const surfaces::FrameUniforms& uniforms;
         VkImageView radiance;
-        const gpu::Buffer &core, &shapes, &ids, &directionalAlbedo, &transformedCosines, &counters;
+        const gpu::Buffer &core, &shapes, &ids, &directionalAlbedo, &counters;
     };
     void writeBindings(uint32_t slot, const Inputs& inputs) const;
 

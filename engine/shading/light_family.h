@@ -2,8 +2,12 @@
 // The family of kernels (shared/light_types.h) that evaluates a light type by a specular method.
 #pragma once
 
+#include <string>
+
 #include "candelabra/lighting.h"
+#include "gpu/failure.h"
 #include "lights/light_types.h"
+#include "shared/specular_methods.h"
 
 namespace candelabra::lighting
 {
@@ -28,9 +32,8 @@ constexpr bool takesBudget(uint32_t lightType, CndSpecularMethod method)
 }
 
 // Returns the method by which lights of the type are evaluated if the frame asks for `method`.
-// Spheres know all methods and punctual lights one. The other area lights know four: representative
-// point (KARIS), transformed cosines (LTC), the closed form (CONIC) and samples (SAMPLED). Polygons
-// have no transformed cosines.
+// Spheres know all methods and punctual lights one. The other area lights know three:
+// representative point (KARIS), the closed form (CONIC) and samples (SAMPLED).
 constexpr CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMethod method)
 {
     if (method == CND_SPECULAR_NONE || isSphere(lightType))
@@ -44,11 +47,21 @@ constexpr CndSpecularMethod canonicalMethod(uint32_t lightType, CndSpecularMetho
     case CND_SPECULAR_POINT:
     case CND_SPECULAR_KX:
         return CND_SPECULAR_KARIS;
-    case CND_SPECULAR_LTC:
-        return lightType == CND_LIGHT_POLYGON ? CND_SPECULAR_CONIC : method;
     default:
         return CND_SPECULAR_CONIC;
     }
+}
+
+// Throws gpu::Failure if a bit of specularMethods, a member of the struct `owner`, stands for no
+// method.
+inline void checkSpecularMethods(const char* owner, uint32_t specularMethods)
+{
+    const std::string member = std::string(owner) + ": specularMethods has ";
+    if (specularMethods >> CND_SPECULAR_METHOD_COUNT)
+        gpu::failArgument(member + "bits beyond the last CndSpecularMethod");
+    if (specularMethods & ~gpu::SPECULAR_METHODS)
+        gpu::failArgument(member + "bit 4, which stood for linearly transformed cosines; "
+                                   "CND_SPECULAR_CONIC replaces them");
 }
 
 } // namespace candelabra::lighting

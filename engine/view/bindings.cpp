@@ -12,7 +12,7 @@ void View::writeBindings(const FramePlan& plan) const
     const CndLightingFrame& frame = plan.frame;
     const uint32_t slot = frame.frameSlot;
     const LightSet& lights = module_.lights;
-    const tables::ShadingTables& tables = module_.tables;
+    const gpu::Buffer& albedoTable = module_.albedoTable.buffer();
     uniforms_.write(slot, plan.params);
     const surfaces::GBufferViews images = module_.gbuffer.views(frame);
     sets_.prepareLights.write(slot, {Binding::of(gpu::PREPARE_LIGHTS_RECORDS, lights.records()),
@@ -29,8 +29,7 @@ void View::writeBindings(const FramePlan& plan) const
                               .shapes = shapes_,
                               .nodes = clusters_.nodes(),
                               .ids = ids_,
-                              .directionalAlbedo = tables.directionalAlbedo(),
-                              .transformedCosines = tables.transformedCosines()});
+                              .directionalAlbedo = albedoTable});
     if (influence_)
         influence_->writeBindings(slot, {.gbuffer = images,
                                          .uniforms = uniforms_,
@@ -38,8 +37,7 @@ void View::writeBindings(const FramePlan& plan) const
                                          .core = core_,
                                          .shapes = shapes_,
                                          .ids = ids_,
-                                         .directionalAlbedo = tables.directionalAlbedo(),
-                                         .transformedCosines = tables.transformedCosines(),
+                                         .directionalAlbedo = albedoTable,
                                          .counters = counters_});
     if (frame.culling == CND_CULLING_BRUTE) {
         writeBruteBindings(frame, images);
@@ -54,15 +52,14 @@ void View::writeBruteBindings(const CndLightingFrame& frame,
                               const surfaces::GBufferViews& images) const
 {
     using namespace gpu;
-    const tables::ShadingTables& tables = module_.tables;
+    const gpu::Buffer& albedoTable = module_.albedoTable.buffer();
     sets_.shadeBrute.write(
         frame.frameSlot,
         {Binding::ofTexels(SHADE_CORE, core_), Binding::of(SHADE_CORE_WORDS, core_),
          Binding::of(SHADE_SHAPES, shapes_), Binding::of(SHADE_LIGHT_IDS, ids_),
          Binding::sampled(SHADE_DEPTH, images.depth), uniforms_.at(frame.frameSlot, SHADE_FRAME),
          Binding::storage(SHADE_RADIANCE, frame.radiance),
-         Binding::ofTexels(SHADE_DFG, tables.directionalAlbedo()),
-         Binding::ofTexels(SHADE_LTC, tables.transformedCosines())},
+         Binding::ofTexels(SHADE_DFG, albedoTable)},
         images.bindings(SHADE_GBUFFER));
 }
 
@@ -71,7 +68,7 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
 {
     using namespace gpu;
     const uint32_t set = frame.frameSlot * CND_LIGHT_TYPE_COUNT + type;
-    const tables::ShadingTables& tables = module_.tables;
+    const gpu::Buffer& albedoTable = module_.albedoTable.buffer();
     const Clusters::Lists& lists = clusters_.lists(type);
     const Binding core = Binding::ofTexels(SHADE_CORE, core_);
     const Binding coreWords = Binding::of(SHADE_CORE_WORDS, core_);
@@ -81,8 +78,7 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Binding depth = Binding::sampled(SHADE_DEPTH, images.depth);
     const Binding uniforms = uniforms_.at(frame.frameSlot, SHADE_FRAME);
     const Binding radiance = Binding::storage(SHADE_RADIANCE, frame.radiance);
-    const Binding dfg = Binding::ofTexels(SHADE_DFG, tables.directionalAlbedo());
-    const Binding ltc = Binding::ofTexels(SHADE_LTC, tables.transformedCosines());
+    const Binding dfg = Binding::ofTexels(SHADE_DFG, albedoTable);
     const Binding tiles = Binding::of(SHADE_TILES, clusters_.tiles());
     const Binding heads = Binding::of(SHADE_LISTS, lists.heads);
     const Binding entries = Binding::of(SHADE_ENTRIES, clusters_.entries());
@@ -90,19 +86,18 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Binding toShade = Binding::of(SHADE_WORK, clusters_.tilesToShade(type));
     const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
     sets_.shadeTiles.write(set,
-                           {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, ltc,
-                            tiles, heads, entries, toShade},
+                           {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, tiles,
+                            heads, entries, toShade},
                            gbuffer);
     sets_.shadeUnlisted.write(set,
-                              {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, ltc,
-                               tiles, heads, unlisted,
-                               Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
+                              {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, tiles,
+                               heads, unlisted, Binding::ofTexels(SHADE_NODES, clusters_.nodes()),
                                Binding::of(SHADE_NODE_WORDS, clusters_.nodes())},
                               gbuffer);
     // Every binding needs an image, even if the frame has no pairImage and count_pairs writes none.
     const VkImageView pairs = frame.pairImage ? frame.pairImage : frame.radiance;
     sets_.countPairs.write(set,
-                           {core, coreWords, shapes, ids, depth, uniforms, dfg, ltc, tiles, heads,
+                           {core, coreWords, shapes, ids, depth, uniforms, dfg, tiles, heads,
                             entries, surfaces, Binding::of(SHADE_COUNTERS, counters_),
                             Binding::storage(SHADE_PAIRS, pairs)},
                            gbuffer);

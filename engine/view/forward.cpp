@@ -14,8 +14,7 @@ std::vector<gpu::ReflectedBinding> bindings()
     constexpr VkDescriptorType texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     return {{gpu::FORWARD_VIEW, storage, 1},   {gpu::FORWARD_CORE, storage, 1},
             {gpu::FORWARD_SHAPES, storage, 1}, {gpu::FORWARD_NODES, storage, 1},
-            {gpu::FORWARD_DFG, texels, 1},     {gpu::FORWARD_LTC, texels, 1},
-            {gpu::FORWARD_IDS, storage, 1}};
+            {gpu::FORWARD_DFG, texels, 1},     {gpu::FORWARD_IDS, storage, 1}};
 }
 
 VkPipelineStageFlags2 stagesOf(VkShaderStageFlags shaders)
@@ -72,7 +71,6 @@ void ForwardLights::write(uint32_t slot, const Inputs& in) const
                  Binding::of(gpu::FORWARD_SHAPES, in.shapes),
                  Binding::of(gpu::FORWARD_NODES, in.nodes),
                  Binding::ofTexels(gpu::FORWARD_DFG, in.directionalAlbedo),
-                 Binding::ofTexels(gpu::FORWARD_LTC, in.transformedCosines),
                  Binding::of(gpu::FORWARD_IDS, in.ids)});
 }
 

@@ -24,7 +24,7 @@ public:
     VkDescriptorSet set(uint32_t slot) const { return sets_.set(slot); }
 
     struct Inputs {
-        const gpu::Buffer &core, &shapes, &nodes, &ids, &directionalAlbedo, &transformedCosines;
+        const gpu::Buffer &core, &shapes, &nodes, &ids, &directionalAlbedo;
     };
     void write(uint32_t slot, const Inputs& inputs) const;
     // Both do nothing unless wanted(). recordBegin makes the commands that follow wait until the

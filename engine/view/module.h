@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all views of a lighting module share: its pipelines, its lights, its tables, and the
+// What all views of a lighting module share: its pipelines, its lights, its table, and the
 // description that it was created with. Lighting owns all of this and passes it to each view.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "shared/surface_overlay.h"
 #include "surfaces/host_gbuffer.h"
 #include "surfaces/host_kernels.h"
-#include "tables/shading_tables.h"
+#include "tables/dfg_table.h"
 
 namespace candelabra::lighting
 {
@@ -34,7 +34,7 @@ struct Module {
     surfaces::GBufferSource& gbuffer;
     const surfaces::HostKernels& hostKernels;
     const Kernels& kernels;
-    tables::ShadingTables& tables;
+    tables::DfgTable& albedoTable;
     LightSet& lights;
 };
 

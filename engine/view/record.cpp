@@ -104,7 +104,7 @@ FrameContent View::contentOf(const FramePlan& p, bool listsKept) const
                      .brute = frame.culling == CND_CULLING_BRUTE,
                      .listsKept = listsKept,
                      .readsAlbedoTable = frame.lobes != CND_LOBES_SUM || frame.energyCompensation,
-                     .albedoTableFilled = module_.tables.directionalAlbedoFilled(),
+                     .albedoTableFilled = module_.albedoTable.filled(),
                      .cutByError = influenceOf(frame) == CND_INFLUENCE_BY_ERROR,
                      .countPairs = frame.countPairs == VK_TRUE,
                      .forward = forward_.wanted()};
@@ -117,7 +117,8 @@ FrameContent View::contentOf(const FramePlan& p, bool listsKept) const
 void View::recordPasses(const gpu::Frame& f, const FramePlan& p, const FramePasses& passes) noexcept
 {
     module_.gbuffer.record(f);
-    module_.tables.record(f, passes.runs(Pass::DfgTable));
+    if (passes.runs(Pass::DfgTable))
+        module_.albedoTable.recordFill(f);
     if (passes.runs(Pass::PrepareLights))
         module_.kernels.prepareLights.dispatch(
             f, sets_.prepareLights.set(f.slot), p.prepare,

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bindings of the benchmark kernels, and the shipping evaluation of the lights bound there.
+// Bindings of the benchmark kernels, and the evaluation of the lights bound there: the shipping one or,
+// with LTC, that of a rival.
+#ifdef LTC
+#define LIGHT_FAMILY_DISC
+#endif
 #include "shared/bench.h"
 #include "lib/gbuffer.glsl"
 #include "lib/brdf.glsl"
 #define LIGHT_STREAM_CORE BENCH_CORE
 #define LIGHT_STREAM_CORE_WORDS BENCH_CORE_WORDS
 #include "kernels/common/light_stream.glsl"
-#include "bench/ltc_table.glsl"
 
 layout(push_constant, scalar) uniform Push
 {
@@ -26,11 +29,21 @@ uint lightAt(uint k)
 
 #include "bench/evaluate_classified.glsl"
 
-Receiver makeBenchReceiver(BenchReceiver receiver)
+#ifdef LTC
+#include "bench/ltc/lights.glsl"
+#define BENCH_RECEIVER LtcReceiver
+#define FINISH_RECEIVER makeLtcReceiver
+#else
+#define BENCH_RECEIVER Receiver
+#define FINISH_RECEIVER
+#endif
+
+BENCH_RECEIVER makeBenchReceiver(BenchReceiver receiver)
 {
     const Surface surface =
         Surface(receiver.n, vec3(0.0), vec3(0.0), 1.0, receiver.perceptualRoughness);
     ShadingPoint p = makeShadingPoint(surface, vec3(0.0), receiver.v);
     separateLobes(p);
-    return makeReceiver(p, params.errorBudget, params.sampleCount, params.sampleSeed);
+    return FINISH_RECEIVER(
+        makeReceiver(p, params.errorBudget, params.sampleCount, params.sampleSeed));
 }

@@ -7,7 +7,6 @@
 #include "shared/conic_constants.h"
 #include "lib/gbuffer.glsl"
 #include "lib/brdf.glsl"
-#include "bench/ltc_table.glsl"
 #include "bench/sweep_random.glsl"
 
 layout(local_size_x = BENCH_GROUP) in;

@@ -17,7 +17,7 @@ layout(scalar, binding = BENCH_OUTPUT) writeonly buffer Output
 };
 
 // `evaluation` is a specialisation constant, so only one of the calls remains.
-vec3 evaluate(Receiver r, uint light)
+vec3 evaluate(BENCH_RECEIVER r, uint light)
 {
 #ifdef LIGHT_FAMILY_CONIC
     if (evaluation == EVALUATE_POINT)
@@ -37,7 +37,7 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= params.count)
         return;
-    const Receiver r = makeBenchReceiver(receivers[i]);
+    const BENCH_RECEIVER r = makeBenchReceiver(receivers[i]);
     vec3 sum = vec3(0.0);
     for (uint light = 0u; light < params.lightCount; ++light)
         sum += evaluate(r, light);

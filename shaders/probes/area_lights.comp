@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test-only: diffuse and specular response of the area lights, and transformed cosines of spheres.
+// Test-only: diffuse and specular response of the area lights.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/area_probe.h"
 #include "shared/light_types.h"
 #include "shared/lighting.h"
-layout(scalar, binding = AREA_PROBE_TABLE) readonly buffer Table
-{
-    vec4 texels[];
-};
-vec4 ltcTexel(uint index)
-{
-    return texels[index];
-}
 #include "lib/gbuffer.glsl"
-#include "lib/lights/disc.glsl"
+#include "lib/lights/sphere.glsl"
 #include "lib/lights/sphere_cap.glsl"
-#include "lib/specular/ltc.glsl"
+#include "lib/outline/disc.glsl"
+#include "lib/outline/rectangle.glsl"
+#include "lib/outline/tube.glsl"
+#include "lib/specular/conic.glsl"
 #include "lib/specular/representative.glsl"
 #include "lib/specular/sampled.glsl"
 
@@ -34,40 +29,65 @@ layout(scalar, binding = PROBE_OUTPUT) writeonly buffer Output
     AreaProbeOutput outputs[];
 };
 
+// Returns the light scaled to a distance of about 1, as shading does (shading/light.glsl).
+AreaProbeInput atUnitDistance(AreaProbeInput light)
+{
+    const bool isDisc = light.type == LIGHT_DISC;
+    const float reach = light.radius + (isDisc ? 0.0 : length(light.axisU) + length(light.axisV));
+    const float scale = inversesqrt(max(length2(light.toCentre) + reach * reach, MIN_LENGTH2));
+    light.toCentre *= scale;
+    light.axisU *= isDisc ? 1.0 : scale;
+    light.axisV *= scale;
+    light.radius *= scale;
+    return light;
+}
+
+OutlineResponse byOutline(ConicPoint p, AreaProbeInput light, bool lobe)
+{
+    const OutlineNeeds needs = OutlineNeeds(true, lobe, lobe);
+    const OutlineFrame f = makeOutlineFrame(p);
+    const bool twoSided = light.twoSided != 0u;
+    if (light.type == LIGHT_TUBE)
+        return tubeOutline(p, f, light.toCentre, light.axisU, light.radius, needs);
+    if (light.type == LIGHT_RECTANGLE)
+        return rectangleOutline(p, f, light.toCentre, light.axisU, light.axisV, twoSided, needs);
+    return discOutline(p, f, light.toCentre, light.axisU, light.radius, twoSided, needs);
+}
+
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= params.count)
         return;
-    const AreaProbeInput light = inputs[i];
+    const AreaProbeInput light = atUnitDistance(inputs[i]);
     const vec3 n = vec3(0.0, 0.0, 1.0);
     const Surface surface = Surface(n, vec3(1.0), vec3(1.0), 1.0, sqrt(light.alpha));
     const ShadingPoint p = makeShadingPoint(surface, vec3(0.0), light.v);
-    const LtcPoint q = makeLtcPoint(p);
+    const ConicPoint conic = makeConicPoint(p);
     const bool twoSided = light.twoSided != 0u;
-    AreaProbeOutput result = AreaProbeOutput(0.0, vec2(0.0), vec2(0.0), vec2(0.0));
+    AreaProbeOutput result = AreaProbeOutput(0.0, 0.0, vec2(0.0), vec2(0.0), vec2(0.0));
     if (light.type == LIGHT_SPHERE) {
         const SphereCap cap = makeSphereCap(n, light.toCentre, light.radius);
         result.formFactor = sphereFormFactor(cap.NoC, cap.s2);
-        result.ltc = ltcSphere(q, cap.c, cap.s2);
+        result.formFactorAlone = result.formFactor;
+        result.conic = conicResponse(conic, cap);
         result.sampled = sampledSphere(p, cap.c, cap.omc, AREA_PROBE_SAMPLES, light.seed);
-    } else if (light.type == LIGHT_TUBE) {
-        const TubeOutline tube = makeTubeOutline(light.toCentre, light.axisU, light.radius);
-        result.formFactor = tubeFormFactor(n, tube);
-        result.ltc = ltcTube(q, tube);
+    } else {
+        const OutlineResponse o = byOutline(conic, light, true);
+        result.formFactor = o.formFactor;
+        result.formFactorAlone = byOutline(conic, light, false).formFactor;
+        result.conic = o.specular;
+    }
+    if (light.type == LIGHT_TUBE) {
         result.representative = representativeTube(p, light.toCentre, light.axisU, light.radius);
         result.sampled =
             sampledTube(p, light.toCentre, light.axisU, light.radius, AREA_PROBE_SAMPLES, light.seed);
     } else if (light.type == LIGHT_RECTANGLE) {
-        result.formFactor = rectangleFormFactor(n, light.toCentre, light.axisU, light.axisV, twoSided);
-        result.ltc = ltcRectangle(q, light.toCentre, light.axisU, light.axisV, twoSided);
         result.representative =
             representativeRectangle(p, light.toCentre, light.axisU, light.axisV, twoSided);
         result.sampled = sampledRectangle(p, light.toCentre, light.axisU, light.axisV, twoSided,
                                           AREA_PROBE_SAMPLES, light.seed);
     } else if (light.type == LIGHT_DISC) {
-        result.formFactor = discFormFactor(n, light.toCentre, light.axisU, light.radius, twoSided);
-        result.ltc = ltcDisc(q, light.toCentre, light.axisU, light.radius, twoSided);
         result.representative =
             representativeDisc(p, light.toCentre, light.axisU, light.radius, twoSided);
         result.sampled = sampledDisc(p, light.toCentre, light.axisU, light.radius, twoSided,

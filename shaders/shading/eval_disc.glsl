@@ -21,8 +21,6 @@ vec2 cheapDiscSpecular(Receiver r, Light light, float scale)
     vec2 specular = vec2(0.0);
     if (areaMethod == SPECULAR_KARIS)
         specular = representativeDisc(r.p, light.toLight, shape.axisU, radius, twoSided);
-    else if (areaMethod == SPECULAR_LTC)
-        specular = ltcDisc(r.ltc, light.toLight, shape.axisU, radius, twoSided);
     else if (areaMethod == SPECULAR_SAMPLED)
         specular = sampledDisc(r.p, light.toLight, shape.axisU, radius, twoSided, r.sampleCount,
                                lightSeed(r, light.index));

@@ -22,8 +22,6 @@ vec2 cheapRectangleSpecular(Receiver r, Light light, float scale)
     vec2 specular = vec2(0.0);
     if (areaMethod == SPECULAR_KARIS)
         specular = representativeRectangle(r.p, light.toLight, u, v, twoSided);
-    else if (areaMethod == SPECULAR_LTC)
-        specular = ltcRectangle(r.ltc, light.toLight, u, v, twoSided);
     else if (areaMethod == SPECULAR_SAMPLED)
         specular = sampledRectangle(r.p, light.toLight, u, v, twoSided, r.sampleCount,
                                     lightSeed(r, light.index));

@@ -20,8 +20,6 @@ vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
         return karisResponse(r.p, light.toLight,
                              inversesqrt(max(length2(light.toLight), MIN_LENGTH2)),
                              light.boundingRadius, cap.s2);
-    case SPECULAR_LTC:
-        return ltcSphere(r.ltc, cap.c, cap.s2);
     case SPECULAR_SAMPLED:
         return sampledSphere(r.p, cap.c, cap.omc, r.sampleCount, lightSeed(r, light.index));
     }

@@ -21,8 +21,6 @@ vec2 cheapTubeSpecular(Receiver r, Light light, float scale)
     vec2 specular = vec2(0.0);
     if (areaMethod == SPECULAR_KARIS)
         specular = representativeTube(r.p, light.toLight, axis, radius);
-    else if (areaMethod == SPECULAR_LTC)
-        specular = ltcTube(r.ltc, makeTubeOutline(light.toLight, axis, radius));
     else if (areaMethod == SPECULAR_SAMPLED)
         specular = sampledTube(r.p, light.toLight, axis, radius, r.sampleCount,
                                lightSeed(r, light.index));

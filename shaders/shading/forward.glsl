@@ -35,17 +35,11 @@ layout(scalar, set = FORWARD_SET, binding = FORWARD_IDS) readonly buffer Forward
     uint lightIds[]; // per light: low half of the CndLightId, or LIGHT_OF_DEVICE + an index
 };
 layout(set = FORWARD_SET, binding = FORWARD_DFG) uniform textureBuffer dfgTexels;
-layout(set = FORWARD_SET, binding = FORWARD_LTC) uniform textureBuffer ltcTexels;
 
-// lib/dfg.glsl and lib/specular/ltc.glsl read their tables through these functions.
+// lib/dfg.glsl reads its table through this function.
 vec4 dfgTexel(int entry)
 {
     return texelFetch(dfgTexels, entry);
-}
-
-vec4 ltcTexel(uint index)
-{
-    return texelFetch(ltcTexels, int(index));
 }
 
 vec4 lightCentre(uint light)

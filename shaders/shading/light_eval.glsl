@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The outgoing luminance of one shaded point under one light. The includer provides lightCentre(),
-// lightEmission(), lightShapes[], ltcTexel() and, with CANDELABRA_VISIBILITY, lightIds[]. The host then
-// provides the shadow term.
+// lightEmission(), lightShapes[] and, with CANDELABRA_VISIBILITY, lightIds[]. The host then provides
+// the shadow term.
 #ifndef CND_SHADING_LIGHT_EVAL
 #define CND_SHADING_LIGHT_EVAL
 

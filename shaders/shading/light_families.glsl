@@ -31,11 +31,4 @@
 #define HAS_AS_POINT
 #endif
 
-// The family needs the table of linearly transformed cosines, as all do except punctual lights,
-// spheres in closed form and polygons.
-#if defined(LIGHT_FAMILY_ALL) || !(defined(LIGHT_FAMILY_PUNCTUAL) || defined(LIGHT_FAMILY_CONIC) || \
-                                   defined(LIGHT_FAMILY_POLYGON))
-#define HAS_COSINES
-#endif
-
 #endif

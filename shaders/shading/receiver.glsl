@@ -12,9 +12,6 @@
 #ifdef HAS_OUTLINES
 #include "lib/outline/outline.glsl"
 #endif
-#ifdef HAS_COSINES
-#include "lib/specular/ltc.glsl"
-#endif
 
 // specularMethod is the method for spheres, areaMethod the one for tubes, rectangles, discs and
 // polygons.
@@ -28,7 +25,6 @@ layout(constant_id = SPEC_ERROR_BUDGET) const uint errorBudget = 0u;
 const uint areaMethod = specularMethod;
 const bool HAS_BUDGET = errorBudget != 0u;
 #endif
-const bool IS_LTC = areaMethod == SPECULAR_LTC;
 const bool BY_OUTLINE = areaMethod == SPECULAR_CONIC || areaMethod == SPECULAR_CONIC_FULL;
 
 // The error bound for lights evaluated as points was measured only for errors of the specular lobe up
@@ -42,9 +38,6 @@ const vec2 ONE_NODE_ERROR = vec2(0.21, 0.063);
 // The values that a pixel prepares once for all lights.
 struct Receiver {
     ShadingPoint p;
-#ifdef HAS_COSINES
-    LtcPoint ltc; // set if IS_LTC
-#endif
     uint sampleCount; // SPECULAR_SAMPLED: samples per light
     uint sampleSeed;
     float aboveFrom; // spheres with n . toLight / R >= aboveFrom are evaluated as above the horizon
@@ -92,10 +85,6 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
     r.p = p;
     r.sampleCount = sampleCount;
     r.sampleSeed = sampleSeed;
-#ifdef HAS_COSINES
-    if (IS_LTC)
-        r.ltc = makeLtcPoint(p);
-#endif
 #if defined(LIGHT_FAMILY_CONIC) || defined(HAS_OUTLINES)
     r.conic = makeConicPoint(p);
     const float share = HAS_BUDGET ? specularShare(p, budget) : 0.0;

@@ -9,7 +9,6 @@ GPU_BEGIN
 
 // One area light. The shaded point is at the origin, its normal is +z, the eye is in the direction
 // v.
-const uint AREA_PROBE_TABLE = 2u; // the table of linearly transformed cosines
 struct AreaProbeInput {
     uint type;     // LIGHT_SPHERE, LIGHT_TUBE, LIGHT_RECTANGLE or LIGHT_DISC
     uint twoSided; // rectangles and discs
@@ -26,11 +25,12 @@ GPU_SIZE(AreaProbeInput, 68)
 // Responses with F = 1 and F = (1 - VoH)^5.
 struct AreaProbeOutput {
     float formFactor;
-    vec2 ltc;
-    vec2 representative; // 0 for spheres, which have a method of their own
-    vec2 sampled;        // AREA_PROBE_SAMPLES samples
+    float formFactorAlone; // of an outline that is walked without the specular lobe
+    vec2 conic;            // closed form
+    vec2 representative;   // 0 for spheres, which have a method of their own
+    vec2 sampled;          // AREA_PROBE_SAMPLES samples
 };
-GPU_SIZE(AreaProbeOutput, 28)
+GPU_SIZE(AreaProbeOutput, 32)
 const uint AREA_PROBE_SAMPLES = 256u;
 
 GPU_END

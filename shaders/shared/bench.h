@@ -16,7 +16,8 @@ const uint BENCH_CORE_WORDS = 1u;
 const uint BENCH_SHAPES = 2u;
 const uint BENCH_INPUT = 3u;
 const uint BENCH_OUTPUT = 4u;
-const uint BENCH_LTC = 6u; // also in sweep_inputs
+const uint BENCH_LTC = 40u; // kernels of bench/ltc: the table of shared/ltc.h
+
 struct BenchParams {
     uint count;       // lanes
     uint lightCount;  // time_lights: lights that every lane evaluates
@@ -52,6 +53,9 @@ const uint SPEC_BENCH_FORM_FACTOR = 17u;  // time_form_factor: which form
 const uint BENCH_FORM_FACTOR_NONE = 0u;   // the loop alone
 const uint BENCH_FORM_FACTOR_ROBUST = 1u; // lib/lights/sphere.glsl
 const uint BENCH_FORM_FACTOR_NAIVE = 2u;  // acos and atan
+
+const uint SPEC_LTC_LOBES = 19u; // bench/ltc: under how many lobes a light's form factor is
+                                 // computed; 1, as the method was published, or 2; spheres: 1
 
 // --- sweep_inputs: random and adversarial inputs, generated from a seed and an index
 #define CND_SWEEP_SLICES(X)                                                                        \

@@ -12,8 +12,7 @@ const uint FORWARD_CORE = 1u; // lights (shared/lighting.h)
 const uint FORWARD_SHAPES = 2u;
 const uint FORWARD_NODES = 3u; // nodes of the light trees (shared/clusters.h)
 const uint FORWARD_DFG = 4u;   // texel buffer (shared/dfg.h)
-const uint FORWARD_LTC = 5u;   // texel buffer (shared/ltc.h)
-const uint FORWARD_IDS = 6u;   // ids of the lights
+const uint FORWARD_IDS = 5u;   // ids of the lights
 
 struct ForwardView {
     Projection projection;

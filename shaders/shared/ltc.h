@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layout of the table of linearly transformed cosines (engine/tables/ltc_table.h), made by
-// tools/fit and read by shaders/lib/specular/ltc.glsl.
+// Layout of the table of linearly transformed cosines
+// (tools/candelabra/measure/kernels/ltc_table.h), made by tools/fit and read by
+// shaders/bench/ltc/lobes.glsl.
 #ifndef CND_SHARED_LTC_H
 #define CND_SHARED_LTC_H
 

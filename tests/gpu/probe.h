@@ -13,11 +13,10 @@ namespace candelabra::test
 class ProbeTest : public GpuTest
 {
 protected:
-    // Returns one output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT, and `other` if
-    // given, and takes ProbeParams.
+    // Returns one output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT, and takes
+    // ProbeParams.
     template <typename Output, typename Input>
-    std::vector<Output> runProbe(const gpu::Spirv& probe, const std::vector<Input>& inputs,
-                                 const gpu::Binding* other = nullptr)
+    std::vector<Output> runProbe(const gpu::Spirv& probe, const std::vector<Input>& inputs)
     {
         const uint32_t count = uint32_t(inputs.size());
         const gpu::Buffer in = upload("probe inputs", inputs);
@@ -26,10 +25,7 @@ protected:
         const gpu::Bindings bindings = kernel.createBindings(1);
         const auto input = gpu::Binding::of(gpu::PROBE_INPUT, in);
         const auto output = gpu::Binding::of(gpu::PROBE_OUTPUT, out);
-        if (other)
-            bindings.write(0, {input, output, *other});
-        else
-            bindings.write(0, {input, output});
+        bindings.write(0, {input, output});
         gpu::Timer timer(device(), "probe", 1, false);
         context().submitAndWait([&](VkCommandBuffer cmd) {
             timer.begin(cmd, 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tubes, rectangles and discs, and spheres with linearly transformed cosines: the shipping float32
-// shader functions against double-precision quadrature.
+// Area lights: the shipping float32 shader functions against double-precision quadrature.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -14,7 +13,6 @@
 #include "reference/truth.h"
 #include "shared/area_probe.h"
 #include "shared/light_types.h"
-#include "tables/ltc_table.h"
 
 namespace candelabra::test
 {
@@ -43,11 +41,7 @@ class AreaLights : public ProbeTest
 protected:
     std::vector<gpu::AreaProbeOutput> evaluate(const std::vector<gpu::AreaProbeInput>& inputs)
     {
-        const std::span<const float> table = tables::ltcTable();
-        const gpu::Buffer texels =
-            upload("LTC table", std::vector<float>(table.begin(), table.end()));
-        const auto binding = gpu::Binding::of(gpu::AREA_PROBE_TABLE, texels);
-        return runProbe<gpu::AreaProbeOutput>(spirv::area_lights_comp, inputs, &binding);
+        return runProbe<gpu::AreaProbeOutput>(spirv::area_lights_comp, inputs);
     }
 
     double uniform(double low, double high)
@@ -187,18 +181,20 @@ TEST_F(AreaLights, SpecularErrorRelativeToThePeak)
     struct Case {
         uint32_t type;
         const char* name;
-        double ltcMean, representativeMean; // upper bounds, percent
+        // Upper bounds, percent.
+        double conicMean, dielectricMean, representativeMean;
     };
     const int groups = fullTests() ? 500 : 150;
     const int directions = fullTests() ? 49 : 14;
-    for (const Case& c :
-         {Case{gpu::LIGHT_SPHERE, "sphere", 3, 0}, Case{gpu::LIGHT_TUBE, "tube", 3, 15},
-          Case{gpu::LIGHT_RECTANGLE, "rectangle", 3, 15}, Case{gpu::LIGHT_DISC, "disc", 3, 15}}) {
+    for (const Case& c : {Case{gpu::LIGHT_SPHERE, "sphere", 0.15, 0.25, 0},
+                          Case{gpu::LIGHT_TUBE, "tube", 0.15, 0.25, 15},
+                          Case{gpu::LIGHT_RECTANGLE, "rectangle", 0.15, 0.25, 15},
+                          Case{gpu::LIGHT_DISC, "disc", 0.15, 0.25, 15}}) {
         std::vector<Group> ranges;
         const auto inputs = lights(c.type, groups, directions, ranges);
         const auto outputs = evaluate(inputs);
         const auto expected = truth(inputs, true, 1e-3);
-        std::vector<double> ltc, ltcDielectric, representative, sampled;
+        std::vector<double> conic, conicDielectric, representative, sampled;
         size_t worst = 0;
         for (const Group& group : ranges) {
             double peak = 0, peakDielectric = 0;
@@ -209,26 +205,26 @@ TEST_F(AreaLights, SpecularErrorRelativeToThePeak)
             }
             for (size_t i = group.first; i < group.first + group.count; ++i) {
                 const gpu::AreaProbeOutput& out = outputs[i];
-                ltc.push_back(std::abs(out.ltc.x - expected[i].a) / peak);
-                if (ltc[i] > ltc[worst])
+                conic.push_back(std::abs(out.conic.x - expected[i].a) / peak);
+                if (conic[i] > conic[worst])
                     worst = i;
-                ltcDielectric.push_back(std::abs(dielectric(out.ltc.x, out.ltc.y) -
-                                                 dielectric(expected[i].a, expected[i].b)) /
-                                        peakDielectric);
+                conicDielectric.push_back(std::abs(dielectric(out.conic.x, out.conic.y) -
+                                                   dielectric(expected[i].a, expected[i].b)) /
+                                          peakDielectric);
                 representative.push_back(std::abs(out.representative.x - expected[i].a) / peak);
                 sampled.push_back(std::abs(out.sampled.x - expected[i].a) / peak);
             }
         }
-        const Percentiles errors(ltc), cheap(representative);
-        std::cout << c.name << ", percent of the peak, mean / p99 / largest: LTC " << errors
-                  << ", with F0 = 0.04 " << Percentiles(ltcDielectric) << ", ";
+        const Percentiles errors(conic), cheap(representative);
+        std::cout << c.name << ", percent of the peak, mean / p99 / largest: closed form " << errors
+                  << ", with F0 = 0.04 " << Percentiles(conicDielectric) << ", ";
         if (c.representativeMean > 0)
             std::cout << "representative point " << cheap << ", ";
         std::cout << gpu::AREA_PROBE_SAMPLES << " samples, median " << Percentiles(sampled).median
-                  << "; LTC worst at alpha " << inputs[worst].alpha << ", NoV " << inputs[worst].v.z
-                  << "\n";
-        EXPECT_LE(errors.mean, c.ltcMean);
-        EXPECT_LE(Percentiles(ltcDielectric).mean, c.type == gpu::LIGHT_SPHERE ? 7 : 4);
+                  << "; closed form worst at alpha " << inputs[worst].alpha << ", NoV "
+                  << inputs[worst].v.z << "\n";
+        EXPECT_LE(errors.mean, c.conicMean);
+        EXPECT_LE(Percentiles(conicDielectric).mean, c.dielectricMean);
         EXPECT_LE(Percentiles(sampled).median, 1);
         if (c.representativeMean > 0) {
             EXPECT_LE(cheap.mean, c.representativeMean);
@@ -238,7 +234,8 @@ TEST_F(AreaLights, SpecularErrorRelativeToThePeak)
 
 // Lights of any size from 1e-4 to 1e3 times the distance and any orientation, most of them cut by
 // the horizon or near it. Errors are relative to the form factor, or to that of the same light seen
-// face on, at most 1.
+// face on, at most 1. The largest errors are of slivers that pass close to the receiver and reach
+// far to both sides: their corners are in nearly opposite directions.
 TEST_F(AreaLights, FormFactorsAreExact)
 {
     struct Case {
@@ -248,8 +245,8 @@ TEST_F(AreaLights, FormFactorsAreExact)
     };
     const int count = fullTests() ? 20000 : 1500;
     for (const Case& c :
-         {Case{gpu::LIGHT_RECTANGLE, "rectangle", 1e-5}, Case{gpu::LIGHT_DISC, "disc", 1e-5},
-          Case{gpu::LIGHT_TUBE, "tube", 5e-3}}) {
+         {Case{gpu::LIGHT_RECTANGLE, "rectangle", 2e-4}, Case{gpu::LIGHT_DISC, "disc", 1e-5},
+          Case{gpu::LIGHT_TUBE, "tube", 1e-3}}) {
         std::vector<gpu::AreaProbeInput> inputs;
         std::vector<double> scales;
         for (int i = 0; i < count; ++i) {
@@ -285,6 +282,10 @@ TEST_F(AreaLights, FormFactorsAreExact)
                 light.radius = float(std::min(size2, 0.9 * gap));
                 area = 4 * size * light.radius + pi * light.radius * light.radius;
             }
+            const glm::dvec3 normal = c.type == gpu::LIGHT_DISC ? axis : glm::cross(axis, other);
+            if (c.type != gpu::LIGHT_TUBE &&
+                std::abs(glm::dot(normal, l)) * distance < 2e-6 * std::max(distance, size))
+                continue; // in the light's plane, as far as float32 can tell: the light is unseen
             inputs.push_back(light);
             scales.push_back(std::min(1.0, area / (pi * (distance * distance + size * size))));
         }
@@ -294,7 +295,9 @@ TEST_F(AreaLights, FormFactorsAreExact)
         size_t worst = 0;
         for (size_t i = 0; i < inputs.size(); ++i) {
             const double scale = std::max(scales[i], expected[i].f);
-            errors.push_back(std::abs(outputs[i].formFactor - expected[i].f) / scale);
+            errors.push_back(std::max(std::abs(outputs[i].formFactor - expected[i].f),
+                                      std::abs(outputs[i].formFactorAlone - expected[i].f)) /
+                             scale);
             if (!(errors[i] <= errors[worst]))
                 worst = i;
         }
@@ -304,11 +307,12 @@ TEST_F(AreaLights, FormFactorsAreExact)
                   << " form factor, percent of its scale, mean / p99 / largest: " << statistics
                   << "\n";
         EXPECT_LE(errors[worst], c.largest)
-            << outputs[worst].formFactor << " for " << expected[worst].f << " (+- "
-            << expected[worst].fError << "), scale " << scales[worst] << ", centre "
-            << in.toCentre.x << " " << in.toCentre.y << " " << in.toCentre.z << ", U " << in.axisU.x
-            << " " << in.axisU.y << " " << in.axisU.z << ", V " << in.axisV.x << " " << in.axisV.y
-            << " " << in.axisV.z << ", radius " << in.radius;
+            << outputs[worst].formFactor << " or " << outputs[worst].formFactorAlone << " for "
+            << expected[worst].f << " (+- " << expected[worst].fError << "), scale "
+            << scales[worst] << ", centre " << in.toCentre.x << " " << in.toCentre.y << " "
+            << in.toCentre.z << ", U " << in.axisU.x << " " << in.axisU.y << " " << in.axisU.z
+            << ", V " << in.axisV.x << " " << in.axisV.y << " " << in.axisV.z << ", radius "
+            << in.radius;
     }
 }
 
@@ -352,9 +356,9 @@ TEST_F(AreaLights, NeverNanNegativeInfiniteOrFromBelow)
     for (size_t i = 0; i < inputs.size(); ++i) {
         const gpu::AreaProbeInput& in = inputs[i];
         const gpu::AreaProbeOutput& out = outputs[i];
-        const float values[] = {
-            out.formFactor,       out.ltc.x,     out.ltc.y,    out.representative.x,
-            out.representative.y, out.sampled.x, out.sampled.y};
+        const float values[] = {out.formFactor, out.formFactorAlone,  out.conic.x,
+                                out.conic.y,    out.representative.x, out.representative.y,
+                                out.sampled.x,  out.sampled.y};
         for (size_t index = 0; index < std::size(values); ++index)
             ASSERT_TRUE(std::isfinite(values[index]) && values[index] >= 0)
                 << values[index] << " (value " << index << ") type " << in.type << " alpha "
@@ -363,7 +367,8 @@ TEST_F(AreaLights, NeverNanNegativeInfiniteOrFromBelow)
                 << in.axisU.x << " " << in.axisU.y << " " << in.axisU.z << " V " << in.axisV.x
                 << " " << in.axisV.y << " " << in.axisV.z << " radius " << in.radius;
         ASSERT_LE(out.formFactor, 1 + 1e-6f);
-        ASSERT_LE(out.ltc.x, 1 + 1e-6f);
+        ASSERT_LE(out.formFactorAlone, 1 + 1e-6f);
+        ASSERT_LE(out.conic.x, 1 + 1e-6f);
         const double top =
             in.type == gpu::LIGHT_RECTANGLE ? std::abs(in.axisU.z) + std::abs(in.axisV.z)
             : in.type == gpu::LIGHT_DISC

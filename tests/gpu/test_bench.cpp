@@ -25,7 +25,7 @@ class Bench : public test::GpuTest
 {
 };
 
-const KernelPoint& pointOf(const KernelLevel& level, CndSpecularMethod method)
+const KernelPoint& pointOf(const KernelLevel& level, const MeasuredMethod& method)
 {
     for (const KernelPoint& p : level.points)
         if (p.method == method)
@@ -42,9 +42,9 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
     Progress progress(1, false);
     const KernelLevel level = measureKernelLevel(context(), settings, progress);
     EXPECT_EQ(level.unconvergedTruths, 0u);
-    ASSERT_EQ(level.points.size(), 4u); // karis, ltc, conic and sampled
+    ASSERT_EQ(level.points.size(), 5u); // karis, conic, sampled, ltc and ltc-one-lobe
     for (const KernelPoint& p : level.points) {
-        const std::string name = specularName(p.method);
+        const std::string name = methodName(p.method);
         const ErrorStatistics& all = p.error.mirror.all;
         std::cout << "rectangle " << name << ": mean error " << 100 * all.mean
                   << "% of the peak, form factor within " << p.error.diffuse.all.max << "\n";
@@ -56,10 +56,17 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
         for (const KernelPoint::Class& c : p.classes)
             EXPECT_TRUE(std::isfinite(c.both.medianNs)) << name;
     }
-    EXPECT_LT(pointOf(level, CND_SPECULAR_LTC).error.mirror.all.mean,
-              pointOf(level, CND_SPECULAR_KARIS).error.mirror.all.mean);
+    const auto mean = [&](const MeasuredMethod& method) {
+        return pointOf(level, method).error.mirror.all.mean;
+    };
+    EXPECT_LT(mean(Rival::Ltc), mean(CND_SPECULAR_KARIS));
+    EXPECT_LT(mean(CND_SPECULAR_CONIC), mean(Rival::Ltc));
+    // With F = 1 the second lobe takes no part.
+    EXPECT_EQ(mean(Rival::LtcOneLobe), mean(Rival::Ltc));
+    EXPECT_LT(pointOf(level, Rival::Ltc).error.dielectric.all.mean,
+              pointOf(level, Rival::LtcOneLobe).error.dielectric.all.mean);
     const auto json = nlohmann::json::parse(kernelJson(settings, level).dump());
-    EXPECT_EQ(json["points"].size(), 4u);
+    EXPECT_EQ(json["points"].size(), 5u);
     EXPECT_EQ(test::schemaFaults(json, "bench_accuracy.schema.json", "#/$defs/kernels"), "");
     EXPECT_NE(kernelTables(level).find("rectangle ltc"), std::string::npos);
 }
@@ -112,12 +119,12 @@ TEST_F(Bench, RepresentativePointHasNoJumps)
     }
 }
 
-// Whole frames compared with their truth. The closed form is for spheres; the last scene has other
-// shapes.
+// Whole frames compared with their truth. The last two scenes have lights other than spheres.
 TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
 {
-    ImageLevelSettings settings{
-        .methods = {CND_SPECULAR_KARIS, CND_SPECULAR_CONIC}, .size = {48, 36}, .rounds = 1};
+    ImageLevelSettings settings{.methods = {CND_SPECULAR_KARIS, CND_SPECULAR_CONIC, Rival::Ltc},
+                                .size = {48, 36},
+                                .rounds = 1};
     Progress progress(1, false);
     const std::vector<ImageScene> scenes = measureImages(context(), settings, progress);
     ASSERT_EQ(scenes.size(), benchScenes().size());
@@ -126,23 +133,54 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
         test::schemaFaults(json, "bench_accuracy.schema.json", "#/$defs/images/properties/scenes"),
         "");
     for (const ImageScene& scene : scenes) {
-        ASSERT_EQ(scene.points.size(), 2u);
+        ASSERT_EQ(scene.points.size(), 3u);
+        const ImageDifference& ltc = scene.points[2].error;
         const ImageDifference &karis = scene.points[0].error, &conic = scene.points[1].error;
         std::cout << scene.name << ": closed form: lit relMSE " << conic.litRelMse
                   << ", mean relative error " << conic.litMeanRel << ", relMSE " << conic.relMse
                   << ", FLIP " << conic.flip << "; of the representative point " << karis.relMse
-                  << ", " << karis.flip << "\n";
+                  << ", " << karis.flip << "; of transformed cosines " << ltc.relMse << ", "
+                  << ltc.flip << ", energy " << ltc.energy << "\n";
         EXPECT_EQ(scene.unconverged, 0u);
-        EXPECT_EQ(conic.invalid + karis.invalid, 0u);
+        EXPECT_EQ(conic.invalid + karis.invalid + ltc.invalid, 0u);
         EXPECT_LT(conic.relMse, karis.relMse);
         EXPECT_LT(conic.flip, karis.flip);
+        EXPECT_LT(conic.relMse, ltc.relMse);
+        EXPECT_LE(std::abs(ltc.energy), 0.35);
         EXPECT_GT(scene.points[1].time.lightingMs, 0);
-        if (&scene != &scenes.back()) {
+        EXPECT_GT(scene.points[1].time.bruteForceMs, 0);
+        EXPECT_GT(scene.points[2].time.bruteForceMs, 0);
+        if (&scene < &scenes.back() - 1) {
             const bool cut = scene.name == "glossy floor cut by a light";
             const bool grazing = scene.name == "large light at grazing angles";
             EXPECT_LE(conic.litRelMse, cut ? 2.5e-4 : 1e-4) << scene.name;
             EXPECT_LE(conic.litMeanRel, cut || grazing ? 0.006 : 0.005) << scene.name;
         }
+    }
+}
+
+// The errors of linearly transformed cosines that the engine had when they were its method: the
+// rival is as good as it was.
+TEST_F(Bench, TransformedCosinesAreAsGoodAsTheyWere)
+{
+    struct Case {
+        uint32_t type;
+        double mean, dielectricMean; // percent of the peak
+    };
+    for (const Case& c : {Case{CND_LIGHT_SPHERE, 2.7, 5.0}, Case{CND_LIGHT_TUBE, 2.5, 3.0},
+                          Case{CND_LIGHT_RECTANGLE, 2.7, 3.2}, Case{CND_LIGHT_DISC, 2.7, 3.4}}) {
+        SampleSet set = makeSamples(c.type, 60, 1);
+        integrateTruth(set, 1e-5, [](size_t) {});
+        const LightEvaluator evaluator(context(), {.lightType = c.type, .method = Rival::Ltc});
+        const KernelError error = kernelError(set, evaluator.evaluate(set.receivers, set.lights));
+        const double mean = 100 * error.mirror.all.mean;
+        const double dielectric = 100 * error.dielectric.all.mean;
+        std::cout << lightTypeName(c.type) << ": mean error " << mean << "%, with F0 = 0.04 "
+                  << dielectric << "%, form factor within " << error.diffuse.all.max << "\n";
+        EXPECT_NEAR(mean, c.mean, 0.25 * c.mean);
+        EXPECT_NEAR(dielectric, c.dielectricMean, 0.25 * c.dielectricMean);
+        EXPECT_LE(error.diffuse.all.max, c.type == CND_LIGHT_TUBE ? 5e-3 : 1e-5);
+        EXPECT_EQ(error.invalid, 0u);
     }
 }
 

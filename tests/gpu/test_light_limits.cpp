@@ -9,6 +9,7 @@
 #include "gpu/lighting_harness.h"
 #include "gpu/probe.h"
 #include "reference/brdf.h"
+#include "render/setting_names.h"
 
 namespace candelabra::test
 {
@@ -123,13 +124,13 @@ TEST_F(LightLaws, NothingComesFromBelowTheHorizon)
             light.radius = 0.9f;
         lights.push_back(light);
     }
-    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method) {
-        RunOptions options{.specular = CndSpecularMethod(method)};
+    for (const app::Choice<CndSpecularMethod>& method : app::specularChoices) {
+        RunOptions options{.specular = method.value};
         options.lighting = sharedLighting(options);
         for (const CndCulling culling : {CND_CULLING_CLUSTERED, CND_CULLING_BRUTE}) {
             options.culling = culling;
             for (const glm::vec4& pixel : run(g, lights, options).radiance)
-                ASSERT_EQ(pixel, glm::vec4(0)) << "method " << method;
+                ASSERT_EQ(pixel, glm::vec4(0)) << method.name;
         }
     }
 }

@@ -8,6 +8,7 @@
 #include "harness/full_tests.h"
 #include "reference/light.h"
 #include "reference/truth.h"
+#include "render/setting_names.h"
 #include "scene/light_types.h"
 #include "shading/light_family.h"
 
@@ -107,22 +108,23 @@ TEST_F(LightTypes, ClusteredEqualsBruteForceForEveryMethod)
     for (const CndLightType type : allTypes()) {
         const auto lights = lightsOf(type, g, 40, 9);
         const bool sphere = lighting::isSphere(type);
-        for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method) {
+        for (const app::Choice<CndSpecularMethod>& choice : app::specularChoices) {
+            const CndSpecularMethod method = choice.value;
             // The other types have fewer methods, some of which stand for several names.
             const bool stands = method == CND_SPECULAR_KX || method == CND_SPECULAR_POINT ||
-                                method == CND_SPECULAR_LTC || method == CND_SPECULAR_CONIC_FULL;
+                                method == CND_SPECULAR_CONIC_FULL;
             // Kernels take long to create: for the other types only two methods are tested, all
             // with --full.
             const bool later = method == CND_SPECULAR_NONE || method == CND_SPECULAR_SAMPLED;
             if (!sphere && (stands || (later && !fullTests())))
                 continue;
-            RunOptions options{.specular = CndSpecularMethod(method), .sampleCount = 4};
+            RunOptions options{.specular = method, .sampleCount = 4};
             options.lighting = sharedLighting(options);
             const LightingResult clustered = run(g, lights, options);
             options.culling = CND_CULLING_BRUTE;
             const LightingResult brute = run(g, lights, options);
             EXPECT_EQ(maxRelativeDifference(clustered.radiance, brute.radiance), 0)
-                << lightTypeName(type) << ", method " << method;
+                << lightTypeName(type) << ", " << choice.name;
         }
     }
 }

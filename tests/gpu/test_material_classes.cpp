@@ -89,7 +89,7 @@ const Case cases[] = {
      CND_LIGHT_SPHERE,
      false},
     {"NoSpecular", {.specular = CND_SPECULAR_NONE}},
-    {"Ltc", {.specular = CND_SPECULAR_LTC}, CND_LIGHT_RECTANGLE},
+    {"Rectangles", {.specular = CND_SPECULAR_CONIC}, CND_LIGHT_RECTANGLE},
     {"Sampled", {.specular = CND_SPECULAR_SAMPLED, .sampleCount = 4}},
 };
 

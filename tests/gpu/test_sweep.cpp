@@ -50,7 +50,7 @@ InDouble inDouble(const gpu::SweepRecord& r, const Evaluation& evaluation)
     glm::dvec2 response(0);
     const bool reaches = glm::dot(n, to) > -radius && cap.NoC > -cap.s;
     if (reaches) {
-        switch (evaluation.method) {
+        switch (evaluation.method.specular) {
         case CND_SPECULAR_POINT:
             response = tr::pointResponse(p, cap);
             break;

@@ -18,6 +18,7 @@
 #include "io/error.h"
 #include "measure/frame/brute_check.h"
 #include "measure/frame/pick.h"
+#include "render/setting_names.h"
 
 using namespace candelabra::app;
 using candelabra::test::runWith;
@@ -219,16 +220,45 @@ TEST(Options, InfluenceErrorsAreSharesOfTheDisplay)
     EXPECT_THROW(arguments.influenceRule(), UsageError);
 }
 
+// A method that the engine had is refused with what to choose instead.
+TEST(Options, TransformedCosinesAreRefusedWithASentence)
+{
+    FrameArguments arguments;
+    arguments.specular = "ltc";
+    try {
+        arguments.specularMethod();
+        FAIL();
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(),
+                     "--specular \"ltc\": only \"candelabra bench accuracy\" still evaluates "
+                     "linearly transformed cosines; conic replaces them");
+    }
+    arguments.specular = "conic";
+    EXPECT_EQ(arguments.specularMethod(), CND_SPECULAR_CONIC);
+}
+
+// The key that changes the method in the viewer reaches every method.
+TEST(Options, EveryMethodFollowsAnother)
+{
+    CndSpecularMethod method = CND_SPECULAR_NONE;
+    for (const Choice<CndSpecularMethod>& choice : specularChoices) {
+        EXPECT_EQ(method, choice.value);
+        method = nextSpecular(method);
+    }
+    EXPECT_EQ(method, CND_SPECULAR_NONE);
+}
+
 // render --pick refuses frames in which lights cannot be drawn alone; the viewer says so.
 TEST(Options, PixelsArePickedWhereLightsCanBeDrawnAlone)
 {
-    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
+    for (const Choice<CndSpecularMethod>& method : specularChoices)
         for (const CndInfluenceRule rule :
              {CND_INFLUENCE_GIVEN, CND_INFLUENCE_UNCUT, CND_INFLUENCE_BY_ERROR}) {
-            const std::string refusal = pickRefusal(CndSpecularMethod(method), rule);
-            EXPECT_EQ(refusal.find("samples") != std::string::npos, method == CND_SPECULAR_SAMPLED);
+            const std::string refusal = pickRefusal(method.value, rule);
+            EXPECT_EQ(refusal.find("samples") != std::string::npos,
+                      method.value == CND_SPECULAR_SAMPLED);
             EXPECT_EQ(refusal.empty(),
-                      method != CND_SPECULAR_SAMPLED && rule == CND_INFLUENCE_GIVEN)
+                      method.value != CND_SPECULAR_SAMPLED && rule == CND_INFLUENCE_GIVEN)
                 << refusal;
         }
 }

@@ -107,6 +107,11 @@ TEST(Compiler, RefusesWhatIsOutOfRange)
                             .source = shadow,
                             .specularMethods = 1u << CND_SPECULAR_METHOD_COUNT}),
               "CndCompileDesc: specularMethods has bits beyond the last CndSpecularMethod");
+    EXPECT_EQ(
+        compileError(
+            {.functions = CND_HOST_VISIBILITY_BIT, .source = shadow, .specularMethods = 1u << 4}),
+        "CndCompileDesc: specularMethods has bit 4, which stood for linearly transformed "
+        "cosines; CND_SPECULAR_CONIC replaces them");
     CndCompileDesc desc{.structSize = 1, .functions = CND_HOST_VISIBILITY_BIT, .source = shadow};
     CndCompiledKernels kernels{};
     CndError error{};

@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "fit/ltc_lobe.h"
-#include "tables/ltc_table.h"
+#include "measure/kernels/ltc_table.h"
+#include "shared/ltc.h"
 
 namespace candelabra::test
 {
@@ -22,7 +23,7 @@ struct Entry {
 
 Entry entryAt(int i, int j, uint32_t lobe)
 {
-    const float* e = &tables::ltcTable()[4 * (gpu::LTC_TEXELS * (j * size + i) + lobe)];
+    const float* e = &app::ltcTable()[4 * (gpu::LTC_TEXELS * (j * size + i) + lobe)];
     return {{e[0], e[1], e[2]}, e[3]};
 }
 

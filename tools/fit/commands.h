@@ -11,7 +11,7 @@
 namespace candelabra::fit
 {
 
-// Makes the table of linearly transformed cosines that engine/tables/ltc_table.cpp includes
+// Makes the table of linearly transformed cosines that the accuracy benchmark reads
 // (ltc_table.inc). Every run makes the same table; it takes some five minutes of one core.
 void runLtc(const std::string& output);
 

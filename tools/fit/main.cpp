@@ -18,11 +18,11 @@ namespace
 void describeLtc(CLI::App& app, std::string& output)
 {
     CLI::App* ltc = app.add_subcommand(
-        "ltc", "Make the table of linearly transformed cosines (engine/tables/ltc_table.inc)");
+        "ltc", "Make the table of linearly transformed cosines of the accuracy benchmark");
     ltc->footer("Prints how far the fitted lobes are from the true ones. Every run makes the same\n"
                 "table. Takes some five minutes of one core.\n\n"
                 "Example:\n"
-                "  candelabra_fit ltc engine/tables/ltc_table.inc");
+                "  candelabra_fit ltc tools/candelabra/measure/kernels/ltc_table.inc");
     ltc->add_option("OUTPUT", output, "file to write the table to")->required();
 }
 

@@ -20,15 +20,14 @@ typedef struct CndLightingView_T* CndLightingView;
 // How the specular lobe of sphere lights is evaluated; `candelabra bench accuracy` measures time
 // and error of each method. Other lights have fewer methods. With CONIC and CONIC_FULL, area lights
 // of other shapes (tubes, rectangles, discs, polygons) use a closed form along their outlines; with
-// POINT, KARIS and KX a representative point; with SAMPLED, samples; with LTC, linearly transformed
-// cosines, except polygons, which use the closed form. Point, spot and directional lights need no
-// approximation: every method but NONE evaluates them exactly.
+// POINT, KARIS and KX a representative point; with SAMPLED, samples. Point, spot and directional
+// lights need no approximation: every method but NONE evaluates them exactly. No method has the
+// value 4, which was that of linearly transformed cosines.
 typedef enum CndSpecularMethod {
     CND_SPECULAR_NONE = 0,  // no specular lobe, diffuse only
     CND_SPECULAR_KARIS = 1, // representative point, normalised for a widened lobe (Karis 2013)
     CND_SPECULAR_POINT = 2, // the sphere is treated as a point at its centre
     CND_SPECULAR_KX = 3,    // representative point, normalised for the exact peak of the lobe
-    CND_SPECULAR_LTC = 4,   // linearly transformed cosines (Heitz, Dupuy, Hill, Neubelt 2016)
     // Closed form for spheres, derived in slope space, where the sphere is bounded by a conic: the
     // GGX distribution is integrated exactly. Microfacet shadowing and Fresnel are evaluated at two
     // directions where the sphere is near the horizon, and at one elsewhere.
@@ -37,7 +36,7 @@ typedef enum CndSpecularMethod {
     CND_SPECULAR_CONIC_FULL = 6,
     CND_SPECULAR_SAMPLED = 7, // Monte Carlo: CndLightingFrame::sampleCount samples per light and
                               // pixel
-    CND_SPECULAR_METHOD_COUNT = 8,
+    CND_SPECULAR_METHOD_COUNT = 8, // one more than the largest value
     CND_SPECULAR_METHOD_MAX_ENUM = 0x7FFFFFFF
 } CndSpecularMethod;
 

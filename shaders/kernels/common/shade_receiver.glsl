@@ -5,18 +5,11 @@
 #include "lib/joining.glsl"
 
 layout(binding = SHADE_DFG) uniform textureBuffer dfgTexels;
-layout(binding = SHADE_LTC) uniform textureBuffer ltcTexels;
 
 // lib/dfg.glsl reads its table through this function.
 vec4 dfgTexel(int entry)
 {
     return texelFetch(dfgTexels, entry);
-}
-
-// lib/specular/ltc.glsl reads its table through this function.
-vec4 ltcTexel(uint index)
-{
-    return texelFetch(ltcTexels, int(index));
 }
 
 ShadingPoint readShadingPoint(uvec2 pixel, float depth)

@@ -43,7 +43,7 @@ uint32_t methodsOf(const std::string& text)
 {
     uint32_t mask = 0;
     for (const std::string& name : splitAtCommas(text))
-        mask |= 1u << choose("--methods", name, specularChoices);
+        mask |= 1u << chooseSpecular("--methods", name);
     return mask;
 }
 

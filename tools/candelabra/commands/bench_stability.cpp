@@ -58,7 +58,7 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
     settings.inexactDivision = a.inexactDivision;
     settings.lightTypes = lightTypesOption(a.lights);
     for (const std::string& name : namesOf(a.specular))
-        settings.methods.push_back(choose("--specular", name, specularChoices));
+        settings.methods.push_back(chooseSpecular("--specular", name));
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_stability.json");
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("stability on {}", context.info().name);

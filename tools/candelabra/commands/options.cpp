@@ -347,7 +347,7 @@ CndGBufferLayout FrameArguments::gbufferLayout() const
 
 CndSpecularMethod FrameArguments::specularMethod() const
 {
-    return choose("--specular", specular, specularChoices);
+    return chooseSpecular("--specular", specular);
 }
 
 uint32_t FrameArguments::samples() const

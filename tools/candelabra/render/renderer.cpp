@@ -15,6 +15,7 @@
 #include "render/scene_environment.h"
 #include "render/scene_geometry.h"
 #include "scene/light_layers.h"
+#include "shared/specular_methods.h"
 
 namespace candelabra::app
 {
@@ -156,8 +157,8 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
     : state_(std::make_unique<State>(context, scene, options))
 {
     State& s = *state_;
-    constexpr uint32_t allMethods = (1u << CND_SPECULAR_METHOD_COUNT) - 1;
-    const uint32_t methods = options.specularMethods ? options.specularMethods : allMethods;
+    const uint32_t methods =
+        options.specularMethods ? options.specularMethods : gpu::SPECULAR_METHODS;
     s.lighting =
         take(Lighting::create(context.desc(), {.framesInFlight = options.framesInFlight,
                                                .gbufferLayout = options.gbufferLayout,

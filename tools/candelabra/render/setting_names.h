@@ -3,6 +3,8 @@
 // and in results.
 #pragma once
 
+#include <iterator>
+
 #include "candelabra/candelabra.h"
 #include "io/choice.h"
 #include "render/renderer.h"
@@ -47,6 +49,22 @@ inline const char* lobesName(CndLobeJoining lobes)
 inline const char* specularName(CndSpecularMethod method)
 {
     return nameOf(method, specularChoices);
+}
+// Returns the method that the value of an option names. Throws UsageError.
+inline CndSpecularMethod chooseSpecular(const std::string& option, const std::string& text)
+{
+    if (text == "ltc")
+        throw UsageError(option + " \"ltc\": only \"candelabra bench accuracy\" still evaluates "
+                                  "linearly transformed cosines; conic replaces them");
+    return choose(option, text, specularChoices);
+}
+// Returns the method after another one; the first one is after the last one.
+inline CndSpecularMethod nextSpecular(CndSpecularMethod method)
+{
+    for (size_t i = 0; i + 1 < std::size(specularChoices); ++i)
+        if (specularChoices[i].value == method)
+            return specularChoices[i + 1].value;
+    return specularChoices[0].value;
 }
 inline const char* cullingName(CndCulling culling)
 {

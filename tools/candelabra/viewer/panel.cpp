@@ -23,14 +23,14 @@ namespace
 // 2^-12 cd/m^2 and has 8 bins per octave; EV100 = log2(L * 100 / 12.5), with L in cd/m^2.
 constexpr float firstBinEv = -12 + 3, evPerBin = 1.0f / 8;
 
-template <typename T>
-void combo(const char* label, T& value, int count, const char* (*name)(T))
+template <typename T, size_t N>
+void combo(const char* label, T& value, const Choice<T> (&choices)[N])
 {
-    if (!ImGui::BeginCombo(label, name(value)))
+    if (!ImGui::BeginCombo(label, nameOf(value, choices)))
         return;
-    for (int i = 0; i < count; ++i)
-        if (ImGui::Selectable(name(T(i)), value == T(i)))
-            value = T(i);
+    for (const Choice<T>& choice : choices)
+        if (ImGui::Selectable(choice.name, value == choice.value))
+            value = choice.value;
     ImGui::EndCombo();
 }
 
@@ -92,9 +92,9 @@ void drawWipe(PanelState& state)
     if (!wipe.on)
         return;
     ImGui::SliderFloat("wipe", &wipe.at, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-    combo("specular##other", wipe.specular, CND_SPECULAR_METHOD_COUNT, specularName);
+    combo("specular##other", wipe.specular, specularChoices);
     drawBudget("error budget##other", wipe.errorBudget);
-    combo("culling##other", wipe.culling, 2, cullingName);
+    combo("culling##other", wipe.culling, cullingChoices);
 }
 
 // Draws the line of the wipe and, at its foot, the names of the two ways of shading.
@@ -173,11 +173,11 @@ void drawLights(PanelState& state, const PanelFigures& figures)
         ImGui::Checkbox("move lights", &state.animate);
     ImGui::Checkbox("show lights as emitters", &state.frame.lightsVisible);
     ImGui::Checkbox("levels of detail", &state.frame.levels);
-    combo("specular", state.frame.specular, CND_SPECULAR_METHOD_COUNT, specularName);
+    combo("specular", state.frame.specular, specularChoices);
     drawBudget("error budget", state.frame.errorBudget);
-    combo("culling", state.frame.culling, 2, cullingName);
+    combo("culling", state.frame.culling, cullingChoices);
     if (state.frame.culling == CND_CULLING_CLUSTERED)
-        combo("heat map", state.frame.heatMap, heatMapCount, heatMapName);
+        combo("heat map", state.frame.heatMap, heatMapChoices);
     else
         state.frame.heatMap = HeatMap::None;
 }
@@ -293,7 +293,7 @@ void drawExposure(PanelState& state, const PanelFigures& figures)
         ImGui::SliderFloat("adapt to darker", &e.speedDown, 0.1f, 20, "%.1f 1/s");
     }
     ImGui::SliderFloat("compensation", &e.compensation, -8, 8, "%+.1f EV");
-    combo("tone map", e.toneMap, CND_TONEMAP_COUNT, toneMapName);
+    combo("tone map", e.toneMap, toneMapChoices);
     bool dither = e.dither;
     ImGui::Checkbox("dither", &dither);
     e.dither = dither;

@@ -14,6 +14,7 @@
 #include "measure/frame/pick.h"
 #include "render/camera.h"
 #include "render/readback.h"
+#include "render/setting_names.h"
 #include "scene/scene_options.h"
 #include "viewer/viewer.h"
 #include "json/save.h"
@@ -60,8 +61,7 @@ void Viewer::onKey(int key)
         toggleOrbit();
         break;
     case GLFW_KEY_M:
-        frame.specular =
-            CndSpecularMethod((uint32_t(frame.specular) + 1) % CND_SPECULAR_METHOD_COUNT);
+        frame.specular = nextSpecular(frame.specular);
         break;
     case GLFW_KEY_C:
         frame.culling =

@@ -9,7 +9,6 @@
 #include "io/html_page.h"
 #include "io/markup.h"
 #include "io/table.h"
-#include "render/setting_names.h"
 #include "scene/light_types.h"
 
 namespace candelabra::app
@@ -45,7 +44,7 @@ std::string worstPixelTable(const ImageScene& scene)
     for (const ImagePoint& p : scene.points)
         for (size_t k = 0; k < std::min<size_t>(p.error.worst.size(), 3); ++k) {
             const WorstPixel& w = p.error.worst[k];
-            table.add({fmt::format("{} ({}, {})", specularName(p.method), w.x, w.y),
+            table.add({fmt::format("{} ({}, {})", methodName(p.method), w.x, w.y),
                        threeDigits(w.value), threeDigits(w.truth),
                        w.truth > 0 ? threeDigits(w.value / w.truth) : "-"});
         }
@@ -58,7 +57,7 @@ std::string sceneSection(const ImageScene& scene, size_t index)
     std::vector<WipeChoice> choices;
     for (const ImagePoint& p : scene.points) {
         const Displayed displayed = displayBoth(scene.truth, p.radiance);
-        const std::string name = specularName(p.method);
+        const std::string name = methodName(p.method);
         const auto idOf = [&](const std::string& what) {
             return fmt::format("scene{}-{}", index, what);
         };
@@ -70,8 +69,9 @@ std::string sceneSection(const ImageScene& scene, size_t index)
         }
         choices.push_back({idOf(name), name});
         figures += figure(displayed.value,
-                          fmt::format("{}: {} ms, relMSE {:.1e}, lit mean {:.1e}, FLIP {:.4f}",
-                                      name, threeDigits(p.time.lightingMs), p.error.relMse,
+                          fmt::format("{}: {} ms by brute force, relMSE {:.1e}, lit mean {:.1e}, "
+                                      "FLIP {:.4f}",
+                                      name, threeDigits(p.time.bruteForceMs), p.error.relMse,
                                       p.error.litMeanRel, p.error.flip),
                           choices.back().id);
         choices.push_back({idOf(name + "-flip"), name + ": difference"});
@@ -87,7 +87,7 @@ std::string worstSamples(const KernelLevel& kernels)
 {
     std::string out;
     for (const KernelPoint& p : kernels.points)
-        out += fmt::format("{} {}: {}% at {}\n", lightTypeName(p.lightType), specularName(p.method),
+        out += fmt::format("{} {}: {}% at {}\n", lightTypeName(p.lightType), methodName(p.method),
                            threeDigits(100 * p.error.mirror.all.max), p.worst);
     return out;
 }

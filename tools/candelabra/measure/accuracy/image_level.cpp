@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -11,7 +13,7 @@
 #include "io/svg_plot.h"
 #include "io/table.h"
 #include "load/load.h"
-#include "measure/kernels/light_kernels.h"
+#include "measure/accuracy/ltc_frame.h"
 #include "reference/render.h"
 #include "render/camera.h"
 #include "render/readback.h"
@@ -35,31 +37,69 @@ bool evaluatesLights(const char* kernel)
     return passName(kernel).starts_with("shade_");
 }
 
+// The times of one frame.
+struct DrawTimes {
+    double lightingMs = 0, shadingMs = 0, bruteForceMs = 0;
+};
+
+// Draws a frame with the renderer of runVariants.
+using Draw = std::function<DrawTimes()>;
+
+DrawTimes drawOnce(const VulkanContext& context, Renderer& renderer, const FrameOptions& options)
+{
+    context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
+    const CndLightingStats stats = renderer.lightingStats(0);
+    DrawTimes out;
+    for (uint32_t k = 0; k < stats.kernelTimeCount; ++k) {
+        const CndKernelTime& time = stats.kernelTimes[k];
+        out.lightingMs += time.ms;
+        out.shadingMs += evaluatesLights(time.name) ? time.ms : 0;
+    }
+    return out;
+}
+
+// `brute`: measure bruteForceMs.
+Draw drawByEngine(const VulkanContext& context, Renderer& renderer, const FrameOptions& options,
+                  bool brute)
+{
+    return [&context, &renderer, options, brute] {
+        DrawTimes withoutLists;
+        if (brute) {
+            FrameOptions frame = options;
+            frame.culling = CND_CULLING_BRUTE;
+            withoutLists = drawOnce(context, renderer, frame);
+        }
+        DrawTimes out = drawOnce(context, renderer, options);
+        out.bruteForceMs = withoutLists.shadingMs;
+        return out;
+    };
+}
+
+Draw drawByRival(const VulkanContext& context, Renderer& renderer, const Scene& scene,
+                 const FrameOptions& options, Rival rival)
+{
+    const auto frame = std::make_shared<LtcFrame>(context, renderer, scene, options, rival);
+    return [frame] { return DrawTimes{.bruteForceMs = frame->draw()}; };
+}
+
 // Draws frames of all variants in turn.
 Variants runVariants(const VulkanContext& context, Renderer& renderer,
-                     const std::vector<FrameOptions>& variants, uint32_t rounds,
+                     const std::vector<Draw>& variants, uint32_t rounds,
                      const std::function<void()>& onRound)
 {
     Variants out;
     const size_t n = variants.size();
-    std::vector<std::vector<double>> shading(n);
+    std::vector<std::vector<double>> shading(n), bruteForce(n);
     out.lightingMs.resize(n);
     out.images.resize(n);
     for (uint32_t round = 0; round <= rounds; ++round) {
         for (size_t i = 0; i < n; ++i) {
-            context.submitAndWait(
-                [&](VkCommandBuffer cmd) { renderer.record(cmd, 0, variants[i]); });
+            const DrawTimes times = variants[i]();
             if (round == 0) // the warm-up frame, in which pipelines are compiled
                 continue;
-            const CndLightingStats stats = renderer.lightingStats(0);
-            double all = 0, evaluating = 0;
-            for (uint32_t k = 0; k < stats.kernelTimeCount; ++k) {
-                all += stats.kernelTimes[k].ms;
-                evaluating +=
-                    evaluatesLights(stats.kernelTimes[k].name) ? stats.kernelTimes[k].ms : 0;
-            }
-            out.lightingMs[i].push_back(all);
-            shading[i].push_back(evaluating);
+            out.lightingMs[i].push_back(times.lightingMs);
+            shading[i].push_back(times.shadingMs);
+            bruteForce[i].push_back(times.bruteForceMs);
             if (round == rounds)
                 out.images[i] = readRadiance(context, renderer);
         }
@@ -71,7 +111,8 @@ Variants runVariants(const VulkanContext& context, Renderer& renderer,
             ratios.push_back(out.lightingMs[0][round] > 0
                                  ? out.lightingMs[i][round] / out.lightingMs[0][round]
                                  : 0);
-        out.times.push_back({medianOf(out.lightingMs[i]), medianOf(shading[i]), medianOf(ratios)});
+        out.times.push_back({medianOf(out.lightingMs[i]), medianOf(shading[i]), medianOf(ratios),
+                             medianOf(bruteForce[i])});
     }
     return out;
 }
@@ -102,9 +143,8 @@ void integrate(const Scene& scene, const ImageLevelSettings& s, Progress& progre
 // In the progress bar a round of frames counts as many steps as so many rows of truth.
 constexpr double stepsPerRound = 30;
 
-BudgetPoint budgetPoint(const Image& full, const Image& image)
+void compareToFull(const Image& full, const Image& image, BudgetPoint& out)
 {
-    BudgetPoint out{};
     const double peak = double(*std::max_element(full.pixels.begin(), full.pixels.end()));
     std::vector<double> relative;
     for (size_t i = 0; i < full.pixels.size(); ++i) {
@@ -114,21 +154,21 @@ BudgetPoint budgetPoint(const Image& full, const Image& image)
             relative.push_back(d / double(full.pixels[i]));
     }
     if (relative.empty())
-        return out;
+        return;
     std::sort(relative.begin(), relative.end());
     out.meanRel = std::accumulate(relative.begin(), relative.end(), 0.0) / double(relative.size());
     out.p99Rel = relative[size_t(std::ceil(0.99 * double(relative.size()))) - 1];
-    return out;
 }
 
 } // namespace
 
-std::vector<CndSpecularMethod> imageMethods()
+std::vector<MeasuredMethod> imageMethods()
 {
-    std::vector<CndSpecularMethod> out{CND_SPECULAR_KARIS};
+    std::vector<MeasuredMethod> out{CND_SPECULAR_KARIS};
     for (const CndSpecularMethod method : methodsOf(CND_LIGHT_SPHERE))
         if (method != CND_SPECULAR_KARIS)
             out.push_back(method);
+    out.insert(out.end(), {Rival::Ltc, Rival::LtcOneLobe});
     return out;
 }
 
@@ -148,19 +188,22 @@ std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageL
         integrate(scene, s, progress, measured);
         progress.doing("frames: " + scene.name);
         uint32_t mask = 0;
-        for (const CndSpecularMethod method : s.methods)
-            mask |= 1u << method;
+        for (const MeasuredMethod& method : s.methods)
+            mask |= 1u << method.specular;
         Renderer renderer(context, scene, {.size = s.size, .specularMethods = mask});
-        std::vector<FrameOptions> variants;
-        for (const CndSpecularMethod method : s.methods) {
-            variants.push_back(frameOf(scene));
-            variants.back().specular = method;
-            variants.back().sampleCount = s.sampleCount;
+        std::vector<Draw> variants;
+        for (const MeasuredMethod& method : s.methods) {
+            FrameOptions frame = frameOf(scene);
+            frame.specular = method.specular;
+            frame.sampleCount = s.sampleCount;
+            variants.push_back(method.rival == Rival::None
+                                   ? drawByEngine(context, renderer, frame, true)
+                                   : drawByRival(context, renderer, scene, frame, method.rival));
         }
         Variants run = runVariants(context, renderer, variants, s.rounds,
                                    [&] { progress.advance(stepsPerRound); });
         for (size_t i = 0; i < variants.size(); ++i) {
-            ImagePoint point{.method = variants[i].specular,
+            ImagePoint point{.method = s.methods[i],
                              .time = run.times[i],
                              .error = imageDifference(run.images[i], measured.truth),
                              .radiance = std::move(run.images[i])};
@@ -187,11 +230,13 @@ BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSetting
                        .specularMethods = 1u << CND_SPECULAR_KARIS | 1u << CND_SPECULAR_CONIC});
     BudgetSweep out{
         .scene = scene.name, .lights = scene.lights.size(), .size = s.budgetSize, .points = {}};
-    std::vector<FrameOptions> variants;
+    std::vector<Draw> variants;
     const auto add = [&](CndSpecularMethod method, double budget) {
-        variants.push_back(frameOf(scene));
-        variants.back().specular = method;
-        variants.back().errorBudget = float(budget);
+        FrameOptions frame = frameOf(scene);
+        frame.specular = method;
+        frame.errorBudget = float(budget);
+        variants.push_back(drawByEngine(context, renderer, frame, false));
+        out.points.push_back({.method = method, .budget = budget});
     };
     add(CND_SPECULAR_KARIS, 0);
     for (const double budget : {0.0, 0.003, 0.01, 0.03})
@@ -200,9 +245,8 @@ BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSetting
                                      [&] { progress.advance(stepsPerRound); });
     for (size_t i = 0; i < variants.size(); ++i) {
         const size_t full = std::min<size_t>(i, 1);
-        BudgetPoint point = budgetPoint(run.images[full], run.images[i]);
-        point.method = variants[i].specular;
-        point.budget = double(variants[i].errorBudget);
+        BudgetPoint& point = out.points[i];
+        compareToFull(run.images[full], run.images[i], point);
         point.time = run.times[i];
         std::vector<double> ratios;
         for (uint32_t round = 0; round < s.rounds; ++round)
@@ -210,7 +254,6 @@ BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSetting
                                  ? run.lightingMs[i][round] / run.lightingMs[full][round]
                                  : 0);
         point.ratioToFull = medianOf(ratios);
-        out.points.push_back(point);
     }
     return out;
 }
@@ -236,17 +279,26 @@ Json toJson(const FrameTime& t)
     return {{"lightingMs", t.lightingMs}, {"shadingMs", t.shadingMs}, {"ratioToKaris", t.ratio}};
 }
 
+Json timeJson(const ImagePoint& p)
+{
+    Json out = p.method.rival == Rival::None ? toJson(p.time) : Json::object();
+    out["bruteForceMs"] = p.time.bruteForceMs;
+    return out;
+}
+
 } // namespace
 
 std::string imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets)
 {
     std::string out;
     for (const ImageScene& scene : scenes) {
-        Table table({"method", "lighting ms", "/ karis", "relMSE", "lit relMSE", "lit mean",
-                     "max / peak", "energy", "FLIP"});
+        Table table({"method", "lighting ms", "/ karis", "brute force ms", "relMSE", "lit relMSE",
+                     "lit mean", "max / peak", "energy", "FLIP"});
         for (const ImagePoint& p : scene.points)
-            table.add({specularName(p.method), threeDigits(p.time.lightingMs),
-                       fmt::format("{:.2f}", p.time.ratio), fmt::format("{:.1e}", p.error.relMse),
+            table.add({methodName(p.method),
+                       p.method.rival == Rival::None ? threeDigits(p.time.lightingMs) : "-",
+                       p.method.rival == Rival::None ? fmt::format("{:.2f}", p.time.ratio) : "-",
+                       threeDigits(p.time.bruteForceMs), fmt::format("{:.1e}", p.error.relMse),
                        fmt::format("{:.1e}", p.error.litRelMse),
                        fmt::format("{:.1e}", p.error.litMeanRel),
                        fmt::format("{:.1e}", p.error.maxOverPeak),
@@ -267,8 +319,8 @@ Json imageJson(const ImageLevelSettings& s, const std::vector<ImageScene>& scene
     for (const ImageScene& scene : scenes) {
         Json points = Json::array();
         for (const ImagePoint& p : scene.points)
-            points.push_back({{"method", specularName(p.method)},
-                              {"time", toJson(p.time)},
+            points.push_back({{"method", methodName(p.method)},
+                              {"time", timeJson(p)},
                               {"error", toJson(p.error)}});
         list.push_back(
             {{"name", scene.name}, {"unconvergedTruths", scene.unconverged}, {"points", points}});
@@ -301,16 +353,16 @@ std::string imagePlot(const std::vector<ImageScene>& scenes, const DeviceInfo& d
     for (const ImageScene& scene : scenes)
         for (size_t i = 0; i < scene.points.size(); ++i) {
             if (series.size() <= i)
-                series.push_back({.name = specularName(scene.points[i].method),
+                series.push_back({.name = methodName(scene.points[i].method),
                                   .points = {},
                                   .emphasised = scene.points[i].method == CND_SPECULAR_CONIC,
                                   .connected = false});
-            series[i].points.emplace_back(scene.points[i].time.shadingMs,
+            series[i].points.emplace_back(scene.points[i].time.bruteForceMs,
                                           scene.points[i].error.relMse);
         }
     return logLogPlot({.title = "Image error against time, one point per scene",
                        .subtitle = device.name,
-                       .xAxis = "GPU time of shading (ms)",
+                       .xAxis = "GPU time of every light at every pixel (ms)",
                        .yAxis = "relMSE to truth"},
                       series);
 }

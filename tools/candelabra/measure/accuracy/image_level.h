@@ -9,18 +9,18 @@
 
 #include "io/progress.h"
 #include "measure/accuracy/image_error.h"
+#include "measure/kernels/methods.h"
 #include "render/renderer.h"
 #include "scene/scene_error.h"
 
 namespace candelabra::app
 {
 
-// The specular methods that frames can be lit with, beginning with the representative point
-// (karis).
-std::vector<CndSpecularMethod> imageMethods();
+// The methods that frames can be lit with, beginning with the representative point (karis).
+std::vector<MeasuredMethod> imageMethods();
 
 struct ImageLevelSettings {
-    std::vector<CndSpecularMethod> methods = imageMethods(); // times are relative to the first
+    std::vector<MeasuredMethod> methods = imageMethods(); // times are relative to the first
     PixelSize size{192, 144};
     uint32_t rounds = 5; // frames of every variant, after one warm-up frame
     double truthTolerance = 1e-4;
@@ -31,14 +31,17 @@ struct ImageLevelSettings {
     PixelSize budgetSize{640, 360};
 };
 
+// GPU times, medians over the rounds. A rival has no lists, so that its only time is bruteForceMs.
 struct FrameTime {
-    double lightingMs = 0; // all passes of the lighting module, median over the rounds
-    double shadingMs = 0;  // the passes that evaluate lights, median over the rounds
-    double ratio = 0;      // of lightingMs to the first variant's, median over the rounds
+    double lightingMs = 0; // all passes of the lighting module
+    double shadingMs = 0;  // the passes that evaluate lights
+    double ratio = 0;      // of lightingMs to the first variant's
+    // The passes that evaluate every light at every pixel, of another frame; error budgets: 0.
+    double bruteForceMs = 0;
 };
 
 struct ImagePoint {
-    CndSpecularMethod method;
+    MeasuredMethod method;
     FrameTime time;
     ImageDifference error;
     Image radiance;
@@ -68,7 +71,8 @@ struct BudgetSweep {
     std::vector<BudgetPoint> points; // karis, then conic with growing budgets
 };
 
-// The benchmark's own scenes of planes and balls, which together hold area lights of every type.
+// The benchmark's own scenes of planes and balls, which together hold area lights of every type,
+// and the showcase.
 std::vector<Scene> benchScenes();
 
 double imageLevelSteps(const ImageLevelSettings& settings);
@@ -83,7 +87,7 @@ BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSetting
 std::string imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets);
 Json imageJson(const ImageLevelSettings& settings, const std::vector<ImageScene>& scenes,
                const BudgetSweep& budgets);
-// Plots relMSE against milliseconds, one series per method.
+// Plots relMSE against milliseconds by brute force, one series per method.
 std::string imagePlot(const std::vector<ImageScene>& scenes, const DeviceInfo& device);
 
 } // namespace candelabra::app

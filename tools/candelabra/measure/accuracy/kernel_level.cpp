@@ -8,7 +8,6 @@
 #include "io/svg_plot.h"
 #include "io/table.h"
 #include "lights/light_types.h"
-#include "render/setting_names.h"
 #include "scene/light_types.h"
 
 namespace candelabra::app
@@ -43,7 +42,7 @@ void addErrors(const VulkanContext& context, const KernelLevelSettings& s, uint3
     out.unconvergedTruths +=
         size_t(std::count_if(set.samples.begin(), set.samples.end(),
                              [](const LightSample& sample) { return !sample.truth.converged; }));
-    for (const CndSpecularMethod method : methodsOf(lightType)) {
+    for (const MeasuredMethod& method : comparedMethods(lightType)) {
         const LightEvaluator evaluator(
             context, {.lightType = lightType, .method = method, .sampleCount = s.sampleCount});
         const auto responses = evaluator.evaluate(set.receivers, set.lights);
@@ -75,8 +74,8 @@ struct ClassPlan {
     int both, diffuse;
 };
 
-int addEvaluation(Plan& plan, const KernelLevelSettings& s, uint32_t type, CndSpecularMethod method,
-                  EvaluationClass c, int base)
+int addEvaluation(Plan& plan, const KernelLevelSettings& s, uint32_t type,
+                  const MeasuredMethod& method, EvaluationClass c, int base)
 {
     // Only the closed form treats lights near the horizon apart.
     const bool conic = method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL;
@@ -102,7 +101,7 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
             for (size_t i = 0; i < out.points.size(); ++i) {
                 if (out.points[i].lightType != type)
                     continue;
-                const CndSpecularMethod method = out.points[i].method;
+                const MeasuredMethod& method = out.points[i].method;
                 const int both = method == CND_SPECULAR_KARIS
                                      ? karis
                                      : addEvaluation(plan, s, type, method, c, karis);
@@ -204,7 +203,7 @@ std::string errorTable(const KernelLevel& level)
         if (type != CND_LIGHT_TYPE_COUNT && type != p.lightType)
             table.rule();
         type = p.lightType;
-        table.add({fmt::format("{} {}", lightTypeName(p.lightType), specularName(p.method)),
+        table.add({fmt::format("{} {}", lightTypeName(p.lightType), methodName(p.method)),
                    meanP99Max(p.error.mirror.all), meanP99Max(p.error.mirror.above),
                    meanP99Max(p.error.mirror.crossing), meanP99Max(p.error.dielectric.all),
                    percent(p.error.scanL1), fmt::format("{:.1e}", 100 * p.error.diffuse.all.max),
@@ -225,7 +224,7 @@ std::string timeTable(const KernelLevel& level)
             table.rule();
         type = p.lightType;
         std::vector<std::string> row{
-            fmt::format("{} {}", lightTypeName(p.lightType), specularName(p.method))};
+            fmt::format("{} {}", lightTypeName(p.lightType), methodName(p.method))};
         for (const auto c :
              {EvaluationClass::Above, EvaluationClass::Near, EvaluationClass::General}) {
             const KernelPoint::Class* entry = classOf(p, c);
@@ -273,7 +272,7 @@ Json kernelJson(const KernelLevelSettings& s, const KernelLevel& level)
             times[className(c.evaluationClass)] = time;
         }
         points.push_back({{"light", lightTypeName(p.lightType)},
-                          {"method", specularName(p.method)},
+                          {"method", methodName(p.method)},
                           {"error", toJson(p.error)},
                           {"worst", p.worst},
                           {"time", times}});
@@ -305,7 +304,7 @@ std::string kernelPlot(const KernelLevel& level, const DeviceInfo& device)
         if (!time || p.lightType == CND_LIGHT_DISTANT_SPHERE) // the same code as spheres
             continue;
         series.push_back(
-            {.name = fmt::format("{} {}", lightTypeName(p.lightType), specularName(p.method)),
+            {.name = fmt::format("{} {}", lightTypeName(p.lightType), methodName(p.method)),
              .points = {{time->both.medianNs, 100 * p.error.mirror.all.mean}},
              .emphasised = p.lightType == CND_LIGHT_SPHERE});
     }

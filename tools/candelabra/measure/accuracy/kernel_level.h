@@ -26,7 +26,7 @@ struct KernelLevelSettings {
 // One method for one light type.
 struct KernelPoint {
     uint32_t lightType;
-    CndSpecularMethod method;
+    MeasuredMethod method;
     KernelError error;
     std::string worst; // what is special about the worst sample with F = 1
     struct Class {

@@ -101,19 +101,23 @@ public:
         if (!lights_.count(key))
             lights_.emplace(
                 key, uploadLights(device, lightsOf(v.evaluation.lightType, v.lights, settings_)));
+        const bool isRival = v.evaluation.method.rival != Rival::None;
         Prepared out;
         out.kernel = gpu::Kernel<gpu::BenchParams>(
             device,
             v.formFactor ? spirv::time_form_factor_comp_sphere
+            : isRival    ? spirv::time_lights_comp_ltc
                          : ofFamily(spirv::time_lights_comp, v.evaluation),
             {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
-             {gpu::SPEC_SPECULAR_METHOD, v.evaluation.method},
+             {gpu::SPEC_SPECULAR_METHOD, v.evaluation.method.specular},
              {gpu::SPEC_LIGHT_TYPE, v.evaluation.lightType},
              {gpu::SPEC_ERROR_BUDGET, v.evaluation.errorBudget > 0},
              {gpu::SPEC_BENCH_EVALUATION, uint32_t(v.evaluationClass)},
-             {gpu::SPEC_BENCH_FORM_FACTOR, v.form}});
+             {gpu::SPEC_BENCH_FORM_FACTOR, v.form},
+             {gpu::SPEC_LTC_LOBES, ltcLobes(v.evaluation.method.rival)}});
         out.bindings = out.kernel.createBindings(1);
-        writeBindings(out.bindings, lights_.at(key), receivers_, output_, ltcTable_);
+        writeBindings(out.bindings, lights_.at(key), receivers_, output_,
+                      isRival ? &ltcTable_ : nullptr);
         return out;
     }
 

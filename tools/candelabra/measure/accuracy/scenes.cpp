@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "generate/generators.h"
 #include "measure/accuracy/image_level.h"
 
 namespace candelabra::app
@@ -162,12 +163,20 @@ Scene everyShape()
     return s;
 }
 
+Scene showcase()
+{
+    Scene s = generateShowcase({});
+    s.lightsVisible = false;
+    s.lobes = CND_LOBES_SUM;
+    return s;
+}
+
 } // namespace
 
 std::vector<Scene> benchScenes()
 {
-    return {smallLights(), glossyBalls(), cutPlane(),  grazing(),
-            tinyBright(),  manyOnMetal(), everyShape()};
+    return {smallLights(), glossyBalls(), cutPlane(),   grazing(),
+            tinyBright(),  manyOnMetal(), everyShape(), showcase()};
 }
 
 } // namespace candelabra::app

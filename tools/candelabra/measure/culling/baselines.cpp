@@ -82,7 +82,6 @@ Baselines::Baselines(const VulkanContext& context, Renderer& renderer, const Sce
       kernels_(context.device()),
       timer_(context.device(), "baselines", 1, true),
       dfg_(context.device()),
-      ltc_(uploadLtcTable(context.device())),
       uniforms_(context.device(), 1)
 {
     const gpu::Device& device = context.device();
@@ -235,23 +234,20 @@ void Baselines::writeBindings()
     const Binding depth = Binding::sampled(SHADE_DEPTH, frame_.depth);
     const Binding radiance = Binding::storage(SHADE_RADIANCE, frame_.radiance);
     const Binding dfg = Binding::ofTexels(SHADE_DFG, dfg_.buffer());
-    const Binding ltc = Binding::ofTexels(SHADE_LTC, ltc_);
     const Binding found = Binding::of(BASELINE_FOUND, found_);
     for (size_t i = 0; i < 2; ++i) {
         const Binding heads = Binding::of(BASELINE_HEADS, lists_[i].heads);
         const Binding entries = Binding::of(BASELINE_ENTRIES, lists_[i].entries);
         const Binding grid = Binding::of(BASELINE_GRID, lists_[i].grid);
-        sets_.shade[i].write(0,
-                             {core, coreWords, shapes, ids, uniforms, depth, radiance, dfg, ltc,
-                              heads, entries, grid},
-                             gbuffer);
+        sets_.shade[i].write(
+            0, {core, coreWords, shapes, ids, uniforms, depth, radiance, dfg, heads, entries, grid},
+            gbuffer);
         sets_.pairs[i].write(0,
-                             {core, coreWords, shapes, ids, uniforms, depth, dfg, ltc, heads,
-                              entries, grid, Binding::of(BASELINE_COUNTERS, lists_[i].counters),
-                              found},
+                             {core, coreWords, shapes, ids, uniforms, depth, dfg, heads, entries,
+                              grid, Binding::of(BASELINE_COUNTERS, lists_[i].counters), found},
                              gbuffer);
     }
-    sets_.floor.write(0, {core, coreWords, shapes, ids, uniforms, depth, radiance, dfg, ltc, found},
+    sets_.floor.write(0, {core, coreWords, shapes, ids, uniforms, depth, radiance, dfg, found},
                       gbuffer);
 }
 

@@ -75,7 +75,6 @@ private:
     Kernels kernels_;
     gpu::Timer timer_;
     tables::DfgTable dfg_;
-    gpu::Buffer ltc_;
     uint32_t lightCount_ = 0;
     glm::dvec3 lightOrigin_{0};
     gpu::Buffer records_, order_, core_, shapes_, spheres_;

@@ -8,8 +8,8 @@
 
 #include "candelabra_bench_shaders.h"
 #include "lights/pack_lights.h"
+#include "measure/kernels/ltc_table.h"
 #include "shading/light_family.h"
-#include "tables/ltc_table.h"
 
 namespace candelabra::app
 {
@@ -45,21 +45,15 @@ constexpr size_t maxBatch = size_t(1) << 18;
 
 } // namespace
 
-std::vector<CndSpecularMethod> methodsOf(uint32_t lightType)
-{
-    std::vector<CndSpecularMethod> out;
-    for (uint32_t m = 0; m < CND_SPECULAR_METHOD_COUNT; ++m) {
-        const auto method = CndSpecularMethod(m);
-        if (method != CND_SPECULAR_NONE && lighting::canonicalMethod(lightType, method) == method)
-            out.push_back(method);
-    }
-    return out;
-}
-
 const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
                            const Evaluation& evaluation)
 {
-    return *families[lighting::familyOf(evaluation.lightType, evaluation.method)];
+    return *families[lighting::familyOf(evaluation.lightType, evaluation.method.specular)];
+}
+
+uint32_t ltcLobes(Rival rival)
+{
+    return rival == Rival::LtcOneLobe ? 1 : 2;
 }
 
 DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> lights)
@@ -93,7 +87,7 @@ gpu::Buffer uploadReceivers(const gpu::Device& device,
 
 gpu::Buffer uploadLtcTable(const gpu::Device& device)
 {
-    gpu::Buffer out = upload(device, "transformed cosines", tables::ltcTable());
+    gpu::Buffer out = upload(device, "transformed cosines", ltcTable());
     gpu::createTexelView(device, out);
     return out;
 }
@@ -113,24 +107,33 @@ void shaderToHostBarrier(const gpu::Device& device, VkCommandBuffer cmd)
 
 void writeBindings(const gpu::Bindings& bindings, const DeviceLights& lights,
                    const gpu::Buffer& receivers, const gpu::Buffer& output,
-                   const gpu::Buffer& ltcTable)
+                   const gpu::Buffer* ltcTable)
 {
     using gpu::Binding;
-    bindings.write(
-        0, {Binding::ofTexels(gpu::BENCH_CORE, lights.core),
-            Binding::of(gpu::BENCH_CORE_WORDS, lights.core),
-            Binding::of(gpu::BENCH_SHAPES, lights.shapes), Binding::of(gpu::BENCH_INPUT, receivers),
-            Binding::of(gpu::BENCH_OUTPUT, output), Binding::ofTexels(gpu::BENCH_LTC, ltcTable)});
+    std::vector<Binding> more;
+    if (ltcTable)
+        more.push_back(Binding::ofTexels(gpu::BENCH_LTC, *ltcTable));
+    bindings.write(0,
+                   {Binding::ofTexels(gpu::BENCH_CORE, lights.core),
+                    Binding::of(gpu::BENCH_CORE_WORDS, lights.core),
+                    Binding::of(gpu::BENCH_SHAPES, lights.shapes),
+                    Binding::of(gpu::BENCH_INPUT, receivers),
+                    Binding::of(gpu::BENCH_OUTPUT, output)},
+                   more);
 }
 
 LightEvaluator::LightEvaluator(const VulkanContext& context, const Evaluation& evaluation)
     : context_(context),
       evaluation_(evaluation),
-      kernel_(context.device(), ofFamily(spirv::evaluate_lights_comp, evaluation),
+      isRival_(evaluation.method.rival != Rival::None),
+      kernel_(context.device(),
+              isRival_ ? spirv::evaluate_lights_comp_ltc
+                       : ofFamily(spirv::evaluate_lights_comp, evaluation),
               {{gpu::SPEC_LIGHTS_AS_TEXELS, 0},
-               {gpu::SPEC_SPECULAR_METHOD, evaluation.method},
+               {gpu::SPEC_SPECULAR_METHOD, evaluation.method.specular},
                {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
-               {gpu::SPEC_ERROR_BUDGET, evaluation.errorBudget > 0}}),
+               {gpu::SPEC_ERROR_BUDGET, evaluation.errorBudget > 0},
+               {gpu::SPEC_LTC_LOBES, ltcLobes(evaluation.method.rival)}}),
       bindings_(kernel_.createBindings(1)),
       ltcTable_(uploadLtcTable(context.device()))
 {
@@ -150,7 +153,7 @@ LightEvaluator::evaluateBatch(std::span<const gpu::BenchReceiver> receivers,
     const gpu::Buffer result =
         gpu::createBuffer(device, "bench responses", receivers.size() * sizeof(gpu::BenchResponse),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Readback);
-    writeBindings(bindings_, onDevice, in, result, ltcTable_);
+    writeBindings(bindings_, onDevice, in, result, isRival_ ? &ltcTable_ : nullptr);
     const gpu::BenchParams params{.count = uint32_t(receivers.size()),
                                   .sampleCount = evaluation_.sampleCount,
                                   .errorBudget = evaluation_.errorBudget};

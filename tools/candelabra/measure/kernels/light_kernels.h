@@ -9,6 +9,7 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
+#include "measure/kernels/methods.h"
 #include "render/vulkan_context.h"
 #include "scene/light_types.h"
 #include "shared/bench.h"
@@ -19,18 +20,17 @@ namespace candelabra::app
 // One light type under one specular method: a specialisation of the kernels.
 struct Evaluation {
     uint32_t lightType = CND_LIGHT_SPHERE;
-    CndSpecularMethod method = CND_SPECULAR_CONIC;
+    MeasuredMethod method = CND_SPECULAR_CONIC;
     float errorBudget = 0;
     uint32_t sampleCount = 1024; // CND_SPECULAR_SAMPLED
 };
 
-// The methods that differ from each other for a type, in the order of the list; NONE is not among
-// them.
-std::vector<CndSpecularMethod> methodsOf(uint32_t lightType);
-
-// The module of a bench kernel, such as spirv::time_lights_comp, that evaluates a type by a method.
+// The module of a bench kernel, such as spirv::time_lights_comp, that evaluates a type by a method
+// of the engine.
 const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
                            const Evaluation& evaluation);
+// The value of SPEC_LTC_LOBES.
+uint32_t ltcLobes(Rival rival);
 
 // Lights of one type in device memory as kernels read them, relative to receivers at the origin.
 struct DeviceLights {
@@ -59,20 +59,22 @@ private:
 
     const VulkanContext& context_;
     Evaluation evaluation_;
+    bool isRival_;
     gpu::Kernel<gpu::BenchParams> kernel_;
     gpu::Bindings bindings_;
-    gpu::Buffer ltcTable_;
+    gpu::Buffer ltcTable_; // read by rivals
 };
 
-// The table of linearly transformed cosines, for BENCH_LTC.
+// The table of shared/ltc.h, for BENCH_LTC.
 gpu::Buffer uploadLtcTable(const gpu::Device& device);
 
 // Makes what kernels wrote visible to the host once it has waited.
 void shaderToHostBarrier(const gpu::Device& device, VkCommandBuffer cmd);
 
-// The bindings that every kernel with bench/lights.glsl has.
+// Writes the bindings that every kernel with bench/lights.glsl has. `ltcTable`: for rivals, which
+// have one more binding; else null.
 void writeBindings(const gpu::Bindings& bindings, const DeviceLights& lights,
                    const gpu::Buffer& receivers, const gpu::Buffer& output,
-                   const gpu::Buffer& ltcTable);
+                   const gpu::Buffer* ltcTable);
 
 } // namespace candelabra::app

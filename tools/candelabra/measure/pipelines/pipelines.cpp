@@ -137,13 +137,12 @@ std::vector<PipelineCost> measurePipelines(const PipelineSettings& settings, Dev
     lightsAtTime(showcase, 0, lights);
     std::erase_if(lights,
                   [&](const CndLight& light) { return !(settings.lightTypes >> light.type & 1); });
-    const uint32_t allMethods = (1u << CND_SPECULAR_METHOD_COUNT) - 1;
     const uint32_t classes = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
-    Lighting lighting =
-        take(Lighting::create(device.desc(), {.framesInFlight = 1,
-                                              .specularMethods = settings.methods & allMethods,
-                                              .materialClasses = classes,
-                                              .influenceByError = VK_TRUE}));
+    Lighting lighting = take(Lighting::create(
+        device.desc(), {.framesInFlight = 1,
+                        .specularMethods = settings.methods & gpu::SPECULAR_METHODS,
+                        .materialClasses = classes,
+                        .influenceByError = VK_TRUE}));
     take(lighting.setLights(lights, {0, 0, 0}));
     take(Environment::create(device.desc(), {.framesInFlight = 1}));
     take(Exposure::create(device.desc(), {.framesInFlight = 1}));

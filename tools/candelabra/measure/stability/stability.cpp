@@ -33,7 +33,7 @@ std::vector<Evaluation> evaluations(const StabilitySettings& s)
         return !wanted.empty() && std::find(wanted.begin(), wanted.end(), value) == wanted.end();
     };
     std::erase_if(out, [&](const Evaluation& e) {
-        return unwanted(s.lightTypes, e.lightType) || unwanted(s.methods, e.method);
+        return unwanted(s.lightTypes, e.lightType) || unwanted(s.methods, e.method.specular);
     });
     return out;
 }
@@ -46,7 +46,7 @@ bool hasQuadrature(const Evaluation& e)
 
 bool isClosedForm(const Evaluation& e)
 {
-    return lighting::isClosedForm(e.method) && !cndIsPunctual(e.lightType);
+    return lighting::isClosedForm(e.method.specular) && !cndIsPunctual(e.lightType);
 }
 
 bool hasContinuity(const Evaluation& e)
@@ -199,7 +199,7 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
         uint32_t((settings.quadratureSamples + measurable - 1) / measurable); // rounded up
     for (const Evaluation& evaluation : all) {
         progress.doing(fmt::format("{} {}", lightTypeName(evaluation.lightType),
-                                   specularName(evaluation.method)));
+                                   methodName(evaluation.method)));
         Sweep sweep(context, evaluation, settings.seed, settings.inexactDivision);
         for (uint32_t slice = 0; slice < sweepSliceCount; ++slice)
             out.slices.push_back({evaluation, slice, sweep.count(slice, 0, each, [&](uint64_t n) {
@@ -225,7 +225,7 @@ namespace
 
 std::string nameOf(const Evaluation& e)
 {
-    return fmt::format("{} {}{}", lightTypeName(e.lightType), specularName(e.method),
+    return fmt::format("{} {}{}", lightTypeName(e.lightType), methodName(e.method),
                        e.errorBudget > 0 ? fmt::format(" budget {}", e.errorBudget) : "");
 }
 

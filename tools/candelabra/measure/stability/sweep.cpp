@@ -30,7 +30,7 @@ gpu::Kernel<gpu::SweepParams> makeKernel(const gpu::Device& device, const Evalua
     }
     return {device,
             spirv,
-            {{gpu::SPEC_SPECULAR_METHOD, evaluation.method},
+            {{gpu::SPEC_SPECULAR_METHOD, evaluation.method.specular},
              {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
              {gpu::SPEC_ERROR_BUDGET, evaluation.errorBudget > 0},
              {gpu::SPEC_SWEEP_RECORD, recording}}};
@@ -76,7 +76,6 @@ Sweep::Sweep(const VulkanContext& context, const Evaluation& evaluation, uint32_
       counters_(gpu::createBuffer(context.device(), "sweep counters", sizeof(gpu::SweepCounters),
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Readback)),
       bad_(makeRecords(context.device(), gpu::SWEEP_MAX_BAD)),
-      ltcTable_(uploadLtcTable(context.device())),
       timer_(context.device(), "sweep", 1, false)
 {
 }
@@ -85,8 +84,7 @@ void Sweep::dispatch(const gpu::Kernel<gpu::SweepParams>& kernel, const gpu::Swe
                      const gpu::Buffer& records)
 {
     bindings_.write(0, {gpu::Binding::of(gpu::SWEEP_OUTPUT, records),
-                        gpu::Binding::of(gpu::SWEEP_COUNTERS, counters_),
-                        gpu::Binding::ofTexels(gpu::BENCH_LTC, ltcTable_)});
+                        gpu::Binding::of(gpu::SWEEP_COUNTERS, counters_)});
     counters_.as<gpu::SweepCounters>()[0] = {};
     context_.submitAndWait([&](VkCommandBuffer cmd) {
         timer_.begin(cmd, 0);

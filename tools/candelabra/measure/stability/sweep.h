@@ -46,7 +46,7 @@ private:
     uint32_t seed_;
     gpu::Kernel<gpu::SweepParams> counting_, recording_;
     gpu::Bindings bindings_;
-    gpu::Buffer counters_, bad_, ltcTable_;
+    gpu::Buffer counters_, bad_;
     gpu::Timer timer_;
 };
 

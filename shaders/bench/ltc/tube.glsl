@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Diffuse lighting by a tube light (a capsule), and its outline for the specular methods.
-#ifndef CND_LIB_LIGHTS_TUBE
-#define CND_LIB_LIGHTS_TUBE
+// The outline of a tube light (a capsule) as a polygon, and its form factor.
+#ifndef CND_BENCH_LTC_TUBE
+#define CND_BENCH_LTC_TUBE
 
-#include "lib/contour.glsl"
+#include "bench/ltc/contour.glsl"
 
 // How many edges replace the arc of each end. The outline's two long edges are exact.
 const int TUBE_ARC_EDGES = 6;

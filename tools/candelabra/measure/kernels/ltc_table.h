@@ -6,10 +6,10 @@
 
 #include "shared/ltc.h"
 
-namespace candelabra::tables
+namespace candelabra::app
 {
 
 // Returns LTC_TABLE_SIZE^2 * LTC_TEXELS texels of 4 floats, laid out as an array of vec4.
 std::span<const float> ltcTable();
 
-} // namespace candelabra::tables
+} // namespace candelabra::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binding of the table that lib/specular/ltc.glsl reads.
+// Binding of the table that bench/ltc/lobes.glsl reads.
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/bench.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The form factor of an ellipse, from the vector irradiance of the elliptic cone that it is seen under.
-#ifndef CND_LIB_ELLIPTIC_CONE
-#define CND_LIB_ELLIPTIC_CONE
+#ifndef CND_BENCH_LTC_ELLIPTIC_CONE
+#define CND_BENCH_LTC_ELLIPTIC_CONE
 
 #include "lib/lights/sphere.glsl"
 

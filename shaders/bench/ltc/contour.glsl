@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Form factor of a convex outline, cut at the horizon, by its contour integral: Lambert 1760, in the
 // form of Baum, Rushmeier and Winget 1989, F = 1/(2 pi) sum of angle_i n.(Pi x Pi+1) / |Pi x Pi+1|.
-#ifndef CND_LIB_CONTOUR
-#define CND_LIB_CONTOUR
+#ifndef CND_BENCH_LTC_CONTOUR
+#define CND_BENCH_LTC_CONTOUR
 
 #include "lib/math.glsl"
 

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016, "Real-time polygonal-light shading
-// with linearly transformed cosines"), with our own fit (tools/fit). Its maps keep the horizon in
-// place. So lights are cut at the true horizon, no light leaks from below it, and the response to a
-// light that fills the hemisphere is the lobe's directional albedo.
-#ifndef CND_LIB_SPECULAR_LTC
-#define CND_LIB_SPECULAR_LTC
+// A rival of the engine's closed forms: linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt
+// 2016, "Real-time polygonal-light shading with linearly transformed cosines"), with our own fit
+// (tools/fit). Its maps keep the horizon in place. So lights are cut at the true horizon, no light
+// leaks from below it, and the response to a light that fills the hemisphere is the lobe's directional
+// albedo.
+#ifndef CND_BENCH_LTC_LOBES
+#define CND_BENCH_LTC_LOBES
 
+#include "shared/bench.h"
 #include "shared/ltc.h"
+#include "bench/ltc/elliptic_cone.glsl"
+#include "bench/ltc/table.glsl"
+#include "bench/ltc/tube.glsl"
 #include "lib/brdf.glsl"
-#include "lib/elliptic_cone.glsl"
 #include "lib/lights/rectangle.glsl"
-#include "lib/lights/tube.glsl"
 
-// Returns an entry of the table of engine/tables/ltc_table.h. The includer defines this function.
-vec4 ltcTexel(uint index);
+layout(constant_id = SPEC_LTC_LOBES) const uint ltcLobes = 2u;
 
 // One lobe, given by a linear map with the rows rowX, rowY and n: w = (rowX.l, rowY.l, n.l).
 struct LtcLobe {
@@ -88,7 +90,9 @@ vec3 ltcMap(LtcLobe q, vec3 n, vec3 l)
 const vec3 LTC_NORMAL = vec3(0.0, 0.0, 1.0);
 
 // Returns the responses (A, B) with F = 1 and F = (1 - VoH)^5. `white` and `dielectric` are the form
-// factors of the light under both lobes; the response of the dielectric lobe is F0 (A - B) + B.
+// factors of the light under both lobes; the response of the dielectric lobe is F0 (A - B) + B. As the
+// method was published, both are the form factor under the white lobe: B / A is then the same as in a
+// uniform environment.
 vec2 ltcResponse(LtcPoint q, float white, float dielectric)
 {
     const float a = q.white.albedo * white;
@@ -98,7 +102,7 @@ vec2 ltcResponse(LtcPoint q, float white, float dielectric)
 }
 
 // The functions below return form factors under one lobe (ltc...Lobe) and the responses
-// (F = 1, F = (1 - VoH)^5) to lights of unit luminance. Their arguments are those of lib/lights.
+// (F = 1, F = (1 - VoH)^5) to lights of unit luminance.
 
 // A sphere in the unit direction c; s2 is sin^2 of its half angle. In the mapped space its dual cone is
 // s2 M M^T - w w^T, where w is the mapped c, so no axes are needed.
@@ -116,8 +120,7 @@ float ltcSphereLobe(LtcLobe q, vec3 n, vec3 c, float s2)
     return ellipticConeFormFactor(cone, w);
 }
 
-// Returns the responses to a sphere by the form factor under the white lobe alone, as the method was
-// published: B / A is then the same as in a uniform environment.
+// Returns the responses to a sphere by the form factor under the white lobe alone.
 vec2 ltcSphere(LtcPoint q, vec3 c, float s2)
 {
     return ltcResponse(q, 1.0, 1.0) * ltcSphereLobe(q.white, q.n, c, min(s2, 0.9999));
@@ -140,8 +143,9 @@ vec2 ltcDisc(LtcPoint q, vec3 toCentre, vec3 normal, float radius, bool twoSided
     const vec3 u = anyPerpendicular(normal) * (radius * scale);
     const vec3 v = cross(normal, u);
     const vec3 c = toCentre * scale;
-    return ltcResponse(q, ltcEllipseLobe(q.white, q.n, c, u, v),
-                       ltcEllipseLobe(q.dielectric, q.n, c, u, v));
+    const float white = ltcEllipseLobe(q.white, q.n, c, u, v);
+    return ltcResponse(q, white,
+                       ltcLobes == 1u ? white : ltcEllipseLobe(q.dielectric, q.n, c, u, v));
 }
 
 float ltcParallelogramLobe(LtcLobe q, vec3 n, vec3 centre, vec3 u, vec3 v)
@@ -153,20 +157,29 @@ vec2 ltcRectangle(LtcPoint q, vec3 toCentre, vec3 axisU, vec3 axisV, bool twoSid
 {
     if (!facesRectangle(toCentre, axisU, axisV, twoSided))
         return vec2(0.0);
-    return ltcResponse(q, ltcParallelogramLobe(q.white, q.n, toCentre, axisU, axisV),
-                       ltcParallelogramLobe(q.dielectric, q.n, toCentre, axisU, axisV));
+    const float white = ltcParallelogramLobe(q.white, q.n, toCentre, axisU, axisV);
+    return ltcResponse(q, white,
+                       ltcLobes == 1u
+                           ? white
+                           : ltcParallelogramLobe(q.dielectric, q.n, toCentre, axisU, axisV));
+}
+
+mat3 ltcMatrix(LtcLobe q, vec3 n)
+{
+    return transpose(mat3(q.rowX, q.rowY, n));
 }
 
 float ltcTubeLobe(LtcLobe q, vec3 n, TubeOutline tube)
 {
-    return tubeOutlineFormFactor(LTC_NORMAL, transpose(mat3(q.rowX, q.rowY, n)), tube);
+    return tubeOutlineFormFactor(LTC_NORMAL, ltcMatrix(q, n), tube);
 }
 
 vec2 ltcTube(LtcPoint q, TubeOutline tube)
 {
     if (tubeIsBelow(q.n, tube))
         return vec2(0.0);
-    return ltcResponse(q, ltcTubeLobe(q.white, q.n, tube), ltcTubeLobe(q.dielectric, q.n, tube));
+    const float white = ltcTubeLobe(q.white, q.n, tube);
+    return ltcResponse(q, white, ltcLobes == 1u ? white : ltcTubeLobe(q.dielectric, q.n, tube));
 }
 
 #endif

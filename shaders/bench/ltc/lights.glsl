@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rival of the engine's closed forms: lights evaluated by linearly transformed cosines. The functions
+// have the names of those in shading/light_eval.glsl and bench/evaluate_classified.glsl, for a receiver
+// of their own. Include it after shading/light_walk.glsl, compiled for the family DISC: the form factor
+// of discs is taken from their outline. That of polygons, rectangles and tubes is the contour integral
+// by which the specular lobe is evaluated, too.
+#ifndef CND_BENCH_LTC_LIGHTS
+#define CND_BENCH_LTC_LIGHTS
+
+#include "bench/ltc/lobes.glsl"
+#include "lib/lights/sphere.glsl"
+#include "lib/lights/sphere_cap.glsl"
+#include "shading/eval_polygon.glsl"
+
+struct LtcReceiver {
+    Receiver base;
+    LtcPoint ltc;
+};
+
+LtcReceiver makeLtcReceiver(Receiver base)
+{
+    return LtcReceiver(base, makeLtcPoint(base.p));
+}
+
+// The form factor of a light, and the response of the specular lobe.
+struct LtcResponse {
+    float formFactor;
+    vec2 specular;
+};
+
+// `above`: the sphere is wholly above the horizon.
+LtcResponse sphereByCosines(LtcReceiver r, Light light, bool above)
+{
+    const SphereCap cap = makeSphereCap(r.base.p.n, light.toLight, light.boundingRadius);
+    const float formFactor = above ? cap.NoC * cap.s2 : sphereFormFactor(cap.NoC, cap.s2);
+    return LtcResponse(formFactor, ltcSphere(r.ltc, cap.c, cap.s2));
+}
+
+LtcResponse tubeByCosines(LtcReceiver r, Light light, vec3 axis, float radius)
+{
+    const TubeOutline tube = makeTubeOutline(light.toLight, axis, radius);
+    return LtcResponse(tubeFormFactor(r.base.p.n, tube), ltcTube(r.ltc, tube));
+}
+
+LtcResponse rectangleByCosines(LtcReceiver r, Light light, vec3 u, vec3 v, bool twoSided)
+{
+    const bool seen = facesRectangle(light.toLight, u, v, twoSided);
+    const float f = parallelogramFormFactor(r.base.p.n, light.toLight, u, v);
+    return LtcResponse(seen ? f : 0.0, ltcRectangle(r.ltc, light.toLight, u, v, twoSided));
+}
+
+LtcResponse discByCosines(LtcReceiver r, Light light, vec3 normal, float radius, bool twoSided)
+{
+    const OutlineNeeds diffuse = OutlineNeeds(true, false, false);
+    const float f = discOutline(r.base.conic, r.base.frame, light.toLight, normal, radius, twoSided,
+                                diffuse).formFactor;
+    return LtcResponse(f, ltcDisc(r.ltc, light.toLight, normal, radius, twoSided));
+}
+
+// Returns the form factor of a polygon after a linear map.
+float polygonFormFactor(vec3 n, mat3 map, Polygon polygon)
+{
+    const float offset2 = length2(map * polygon.axisU) + length2(map * polygon.axisV);
+    Contour k = beginContour(n, map * polygon.toCentre, offset2);
+    vec3 from = map * cornerOf(polygon, polygon.count - 1u);
+    for (uint i = 0u; i < polygon.count; ++i) {
+        const vec3 to = map * cornerOf(polygon, i);
+        contourEdge(k, 0.5 * (from + to), 0.5 * (to - from));
+        from = to;
+    }
+    return contourFormFactor(k);
+}
+
+LtcResponse polygonByCosines(LtcReceiver r, Polygon polygon)
+{
+    if (!facesRectangle(polygon.toCentre, polygon.axisU, polygon.axisV, polygon.twoSided))
+        return LtcResponse(0.0, vec2(0.0));
+    const vec3 n = r.base.p.n;
+    const float white = polygonFormFactor(LTC_NORMAL, ltcMatrix(r.ltc.white, n), polygon);
+    const float dielectric =
+        ltcLobes == 1u ? white
+                       : polygonFormFactor(LTC_NORMAL, ltcMatrix(r.ltc.dielectric, n), polygon);
+    return LtcResponse(polygonFormFactor(n, mat3(1.0), polygon),
+                       ltcResponse(r.ltc, white, dielectric));
+}
+
+// Returns the response to a light of unit emission. The light's type is a specialisation constant, so
+// only one of the calls remains.
+LtcResponse responseByCosines(LtcReceiver r, Light given, bool above)
+{
+    const LightShape shape = lightShapes[given.index];
+    float scale;
+    const Light light = atUnitDistance(given, scale);
+    const vec3 u = scale * shape.axisU, v = scale * shape.axisV;
+    const float radius = scale * shape.radius;
+    if (lightType == LIGHT_TUBE)
+        return tubeByCosines(r, light, u, radius);
+    if (lightType == LIGHT_RECTANGLE)
+        return rectangleByCosines(r, light, u, v, isTwoSided(shape));
+    if (lightType == LIGHT_DISC)
+        return discByCosines(r, light, shape.axisU, radius, isTwoSided(shape));
+    if (lightType == LIGHT_POLYGON)
+        return polygonByCosines(r, Polygon(light.toLight, u, v, scale, light.boundingRadius,
+                                           firstCornerShape(shape), cornerCount(shape),
+                                           isTwoSided(shape)));
+    return sphereByCosines(r, given, above);
+}
+
+vec3 evaluateByCosines(LtcReceiver r, uint index, bool above)
+{
+    const Light light = readLight(r.base, index);
+    const LtcResponse response = responseByCosines(r, light, above);
+    return emissionTowards(r.base, light, length2(light.toLight)) *
+        (diffuseResponse(r.base.p, response.formFactor) + schlick(r.base.p, response.specular));
+}
+
+vec3 evaluateAbove(LtcReceiver r, uint light)
+{
+    return evaluateByCosines(r, light, true);
+}
+
+vec3 evaluateGeneral(LtcReceiver r, uint light)
+{
+    return evaluateByCosines(r, light, false);
+}
+
+// Evaluates a light unless it is wholly below the horizon.
+vec3 evaluateClassified(LtcReceiver r, uint light)
+{
+    const Light seen = readLight(r.base, light);
+    const bool reaches = dot(r.base.p.n, seen.toLight) > -seen.boundingRadius;
+    return reaches ? evaluateGeneral(r, light) : vec3(0.0);
+}
+
+#endif
