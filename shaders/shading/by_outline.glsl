@@ -5,13 +5,6 @@
 
 #include "shading/light.glsl"
 
-// The rim of a disc is divided in its own way.
-#ifdef LIGHT_FAMILY_DISC
-const bool ARCS_ARE_NEVER_CUT = true;
-#else
-const bool ARCS_ARE_NEVER_CUT = false;
-#endif
-
 // Any light; lights above the horizon whose arcs are not cut; and small lights well above the horizon,
 // if an error budget allows to evaluate their specular response at one point.
 #define OUTLINE_GENERAL OutlineNeeds(true, BY_OUTLINE, BY_OUTLINE)

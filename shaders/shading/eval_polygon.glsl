@@ -41,10 +41,14 @@ OutlineResponse polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
         seesFlatLight(polygon.toCentre, normal, polygon.boundingRadius, polygon.twoSided);
     vec3 from = toFrame(r.frame, cornerOf(polygon, front ? 0u : polygon.count - 1u));
     OutlinePoint last = pointAt(k, from);
-    for (uint i = 0u; i < polygon.count; ++i) {
-        const uint next = front ? polygon.count - 1u - i : i;
-        addEdgeTo(k, from, last, toFrame(r.frame, cornerOf(polygon, next)));
-    }
+    uint i = 0u;
+    do { // a lane that is done may run once more (lens.glsl)
+        if (i < polygon.count) {
+            const uint next = front ? polygon.count - 1u - i : i;
+            addEdgeTo(k, from, last, toFrame(r.frame, cornerOf(polygon, next)));
+        }
+        ++i;
+    } while (i < polygon.count);
     if (needs.across && k.crosses)
         addHorizon(k);
     const OutlineResponse o = outlineResponse(r.conic, k);

@@ -75,8 +75,7 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
         found.above |= height >= aboveFrom ? bit : 0u;
 #endif
 #if defined(HAS_OUTLINES) && !defined(LIGHT_FAMILY_ALL)
-        const bool easy =
-            ARCS_ARE_NEVER_CUT || !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
+        const bool easy = !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
         found.above |= height >= radius && easy ? bit : 0u;
         if (HAS_BUDGET) {
             precise const float pointLimit2 = r.pointLimit * d2;

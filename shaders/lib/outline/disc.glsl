@@ -18,7 +18,10 @@ OutlineResponse discOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 fa
     Outline k = beginOutline(p, f, toCentre, centre, stretched2, needs);
     const bool seen = seesFlatLight(centre, normal, radius, twoSided) && !d.below;
     if (needs.lobe) {
-        addRim(k, d, needs.across);
+        if (needs.cuts)
+            addRim(k, d, needs.across);
+        else
+            addSmallRim(k, d);
         setRimHeights(k, d);
     }
     const vec3 first = d.from.x * d.u + d.from.y * d.v;

@@ -11,6 +11,7 @@
 #include "lib/outline/disc_view.glsl"
 
 const uint DISC_PIECES = 6u;
+const vec2 DISC_STEP = vec2(0.50000000, 0.86602540); // cosine and sine of 360 degrees / DISC_PIECES
 const uint DISC_PARTS = 8u;         // into which a piece may be divided, a power of two
 const float DISC_PIECE_TURN = 0.6;  // least cosine of the angle by which w turns in a piece
 const float DISC_PIECE_OFF = 0.002; // largest angle between w on the conic and on the rim
@@ -101,37 +102,52 @@ RimPoint rimPoint(Outline k, DiscView d, vec2 angle)
     return p;
 }
 
-// A piece of the rim between two points, which follow each other and are less than a full turn apart.
-//
-// As a rational Bezier curve with weights, the rim P has the control points Pa, cos C + m and Pb, where
-// cos is that of half the angle between a and b, C is the disc's centre, and m goes from there to the
-// middle M of the rim between a and b. w is A (|P| v + P) / |P|. Where |P| is replaced by the parabola
-// with the values at a, M and b, the directions of w are those of a conic whose middle control point is
-// A (((1 + cos) |PM| - (|Pa| + |Pb|) / 2) v + cos C + m). This is exact for a disc far away.
-struct RimPiece {
-    ArcControl control;
-    float off2; // squared angle between w on the conic and on the rim
+// The middle of the rim between two points, which follow each other and are less than a full turn
+// apart.
+struct RimMiddle {
+    vec3 offset;
+    float cosine; // of half the angle between the points
+    float longer; // see rimControl
 };
 
-RimPiece rimPiece(Outline k, DiscView d, RimPoint a, RimPoint b)
+RimMiddle rimMiddle(Outline k, DiscView d, RimPoint a, RimPoint b)
 {
     const float whole = a.angle.x * b.angle.y - a.angle.y * b.angle.x; // sine of the angle
     const float side = whole < 0.0 ? -1.0 : 1.0;
-    const vec2 toMiddle = side * unitVector(vec2(1.0 + dot(a.angle, b.angle), whole));
-    const RimPoint m = rimPoint(k, d, complexProduct(a.angle, toMiddle));
-    const float cosine = toMiddle.x;
-    const float longer =
-        (1.0 + cosine) * m.distance.longer - 0.5 * (a.distance.longer + b.distance.longer);
+    const vec2 half1 = side * unitVector(vec2(1.0 + dot(a.angle, b.angle), whole));
+    const vec2 angle = complexProduct(a.angle, half1);
+    RimMiddle m;
+    m.offset = angle.x * d.u + angle.y * d.v;
+    m.cosine = half1.x;
+    m.longer = (1.0 + m.cosine) * distanceOf(k, m.offset).longer -
+        0.5 * (a.distance.longer + b.distance.longer);
+    return m;
+}
+
+// Returns the control point of a piece of the rim. As a rational Bezier curve with weights, the rim P
+// has the control points Pa, cos C + m and Pb, where cos is that of half the angle between a and b, C
+// is the disc's centre, and m goes from there to the middle M of the rim between a and b. w is
+// A (|P| v + P) / |P|. Where |P| is replaced by the parabola with the values at a, M and b, the
+// directions of w are those of a conic whose middle control point is
+//   A (((1 + cos) |PM| - (|Pa| + |Pb|) / 2) v + cos C + m).
+// This is exact for a disc far away.
+ArcControl rimControl(Outline k, RimPoint a, RimMiddle m, RimPoint b)
+{
     const float norm = sqrt(a.distance.inverse * b.distance.inverse);
-    const vec3 dl = norm * (m.offset + longer * vec3(k.v.x, 0.0, k.v.y));
-    RimPiece piece;
-    piece.control = ArcControl(k.invD * stretched(k.alpha, dl), norm * cosine * k.distance);
-    // 16 times the curve at a quarter and at three quarters of it, and the parabola there.
-    const float shared1 = 10.0 + 6.0 * cosine;
-    const vec3 both = shared1 * k.distance * k.lc + a.offset + b.offset + 6.0 * m.offset;
-    const vec3 first = both + 8.0 * a.offset, second = both + 8.0 * b.offset;
+    const vec3 dl = norm * (m.offset + m.longer * vec3(k.v.x, 0.0, k.v.y));
+    return ArcControl(k.invD * stretched(k.alpha, dl), norm * m.cosine * k.distance);
+}
+
+// Returns the square of the angle between w on the conic and on the rim, from the differences of the
+// parabola and |P| at a quarter and at three quarters of the curve.
+float squaredOff(Outline k, RimPoint a, RimMiddle m, RimPoint b)
+{
+    // 16 times the curve, and the parabola.
+    const float weight = 10.0 + 6.0 * m.cosine;
+    const vec3 both = weight * k.distance * k.lc + a.offset + b.offset + 6.0 * m.offset;
     const float value =
-        shared1 * k.distance + a.distance.longer + b.distance.longer + 6.0 * longer;
+        weight * k.distance + a.distance.longer + b.distance.longer + 6.0 * m.longer;
+    const vec3 first = both + 8.0 * a.offset, second = both + 8.0 * b.offset;
     const float valueFirst = value + 8.0 * a.distance.longer;
     const float valueSecond = value + 8.0 * b.distance.longer;
     const float offFirst = valueFirst - sqrt(length2(first));
@@ -139,11 +155,27 @@ RimPiece rimPiece(Outline k, DiscView d, RimPoint a, RimPoint b)
     const float off = max(abs(offFirst), abs(offSecond));
     const vec3 eye = stretched(k.alpha, vec3(k.v.x, 0.0, k.v.y));
     const vec3 w = 0.5 * ((valueFirst + valueSecond) * eye + stretched(k.alpha, first + second));
-    piece.off2 = off * off * length2(eye) / max(length2(w), MIN_LENGTH2);
-    return piece;
+    return off * off * length2(eye) / max(length2(w), MIN_LENGTH2);
 }
 
-// Adds the integral of the specular lobe along the rim above the horizon.
+// Adds the whole rim of a disc whose directions of w lie so close together that no piece needs to be
+// halved.
+void addSmallRim(inout Outline k, DiscView d)
+{
+    const RimPoints points = makeRimPoints(k, d);
+    vec2 at = vec2(-1.0, 0.0);
+    RimPoint a = rimPoint(k, d, rimAngle(points, at));
+    uint piece = 0u;
+    do {
+        at = complexProduct(at, DISC_STEP);
+        const RimPoint b = rimPoint(k, d, rimAngle(points, at));
+        addPiece(k, a.o, b.o, rimControl(k, a, rimMiddle(k, d, a, b), b), 1.0);
+        a = b;
+        ++piece;
+    } while (piece < DISC_PIECES);
+}
+
+// Adds the rim above the horizon.
 void addRim(inout Outline k, DiscView d, bool across)
 {
     const RimPoints points = makeRimPoints(k, d);
@@ -165,22 +197,23 @@ void addRim(inout Outline k, DiscView d, bool across)
     // follow, so that the division does not depend on what came before.
     const uint parts = DISC_PIECES * DISC_PARTS;
     uint done = 0u, length = DISC_PARTS;
-    while (done < parts) {
+    do {
         const float angle = turn * (float(done + length) / float(parts));
         const vec2 to = rimAngle(points, complexProduct(begin, vec2(cos(angle), sin(angle))));
         const RimPoint b = rimPoint(k, d, done + length == parts ? last : to);
-        const RimPiece piece = rimPiece(k, d, a, b);
-        const bool isShort = turnOf(k, a.o, b.o, piece.control) > DISC_PIECE_TURN &&
-            piece.off2 < DISC_PIECE_OFF * DISC_PIECE_OFF;
+        const RimMiddle m = rimMiddle(k, d, a, b);
+        const ArcControl control = rimControl(k, a, m, b);
+        const bool isShort = turnOf(k, a.o, b.o, control) > DISC_PIECE_TURN &&
+            squaredOff(k, a, m, b) < DISC_PIECE_OFF * DISC_PIECE_OFF;
         if (isShort || length == 1u) {
-            addPiece(k, a.o, b.o, piece.control, 1.0);
+            addPiece(k, a.o, b.o, control, 1.0);
             a = b;
             done += length;
             length = min(done & (~done + 1u), DISC_PARTS); // the lowest bit of `done`
         } else {
             length /= 2u;
         }
-    }
+    } while (done < parts);
 }
 
 // Returns N . L of the rim's point where it is highest (side 1) or lowest (side -1), by steps of

@@ -186,7 +186,8 @@ float turnOf(Outline k, OutlinePoint a, OutlinePoint b, ArcControl control)
     return first + second < 0.0 ? -1.0 : first * second - sqrt(sines2);
 }
 
-// Adds an arc.
+// Adds an arc. The number of its pieces differs between lanes. Around such a loop, llvmpipe (Mesa 22.3)
+// runs a lane that is done with the outer loop once more; callers must see to it that it adds nothing.
 void addLobe(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
 {
     const ArcControl control = controlOf(k, a, b, circle);
@@ -199,7 +200,8 @@ void addLobe(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
         const bool blends = halves > 0.0 && halves < 1.0;
         const uint pieces = blends || cosine < CUT_TWICE ? 3u : cosine < CUT_ONCE ? 2u : 1u;
         OutlinePoint from = a;
-        for (uint piece = 1u; piece <= pieces; ++piece) {
+        uint piece = 1u;
+        do {
             const bool isWhole = blends && piece == 1u;
             const bool isFirst = piece == (blends ? 2u : 1u);
             OutlinePoint to = b;
@@ -210,7 +212,8 @@ void addLobe(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
             from = to;
             if (isWhole)
                 from = a;
-        }
+            ++piece;
+        } while (piece <= pieces);
     } else {
         addPiece(k, a, b, control, 1.0);
     }

@@ -128,15 +128,17 @@ void addTubeArcs(inout Outline k, TubeEnd e, vec2 range)
         k.crosses = true;
         k.enters = a.dl;
     }
-    for (float part = 1.0; part <= parts; part += 1.0) {
+    float part = 1.0;
+    do { // a lane that is done may run once more (lens.glsl)
         const float next = min((2.0 * part / parts - 1.0) * limit, range.y);
-        if (next > angle) {
+        if (next > angle && part <= parts) {
             const OutlinePoint b = pointAt(k, onTubeEnd(e, vec2(cos(next), sin(next))));
             addArc(k, a, b, e.seen, true);
             a = b;
             angle = next;
         }
-    }
+        part += 1.0;
+    } while (part <= parts);
     if (range.y < limit) {
         k.crosses = true;
         k.leaves = a.dl;
@@ -154,7 +156,8 @@ void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last
         divided ? vec2(cosQuarter, sqrt(max(1.0 - cosQuarter * cosQuarter, 0.0))) : e.half1;
     const uint arcs = divided ? 4u : e.half1.x < 1.0 ? 2u : 0u;
     vec2 at = vec2(e.half1.x, -e.half1.y);
-    for (uint part = 0u; part <= arcs; ++part) { // tested in front, as in addTubeArcs
+    uint part = 0u;
+    do { // a lane that is done may run once more (lens.glsl)
         const bool isSide = part == 0u;
         at = isSide ? at : complexProduct(at, turn);
         // The ends of the arc are computed as the ends of the sides are.
@@ -165,10 +168,13 @@ void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last
         ArcCircle circle = greatCircle(k, last, next);
         if (!isSide)
             circle = e.seen;
-        if (!isSide || !t.endOn)
-            addArc(k, last, next, circle, true);
-        last = next;
-    }
+        if (part <= arcs) {
+            if (!isSide || !t.endOn)
+                addArc(k, last, next, circle, true);
+            last = next;
+        }
+        ++part;
+    } while (part <= arcs);
 }
 
 // Adds the visible part of one side and of the end after it.
