@@ -34,6 +34,8 @@ OutlineResponse polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
     const float height = dot(r.p.n, normal) * inversesqrt(max(length2(normal), MIN_LENGTH2));
     Outline k = beginOutline(r.conic, r.frame, polygon.toCentre, centre,
                              size2 * (0.5 + 0.5 * height * height), needs);
+    const OutlineExtent extent =
+        extentOf(k, toFrame(r.frame, polygon.axisU), toFrame(r.frame, polygon.axisV), 0.0);
     // The corners are counterclockwise around the side that emits, so a receiver that sees this side
     // looks at them against the sense of the outline.
     const bool front = dot(normal, polygon.toCentre) < 0.0;
@@ -51,7 +53,7 @@ OutlineResponse polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
     } while (i < polygon.count);
     if (needs.across && k.crosses)
         addHorizon(k);
-    const OutlineResponse o = outlineResponse(r.conic, k);
+    const OutlineResponse o = outlineResponse(r.conic, k, extent);
     return OutlineResponse(seen ? o.formFactor : 0.0, seen ? o.specular : vec2(0.0));
 }
 

@@ -268,9 +268,10 @@ glm::dvec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed, const ConicCo
     if (cap.NoC < cap.s)
         sub = cut;
     const double sinC = std::sqrt(glm::max(1.0 - cap.NoC * cap.NoC, 0.0));
-    const LightHeights z = lightHeights(p, cap, sinC, makeCapFrame(p, sub.c, sub.NoC).v1, k);
+    const LightHeights z =
+        lightHeights(p, capHeights(cap, sinC, k), makeCapFrame(p, sub.c, sub.NoC).v1, k);
     const ConicRegion o = wholeCap(p, sub.c, sub.NoC, sub.s2, sub.omc);
-    const glm::dvec2 two = shadeTwoNodes(p, o, z, k);
+    const glm::dvec2 two = shadeTwoNodes(p, o, z, 0.0, k);
     return mixed ? glm::mix(shadeOneNode(p, o, k), two, nearness(cap)) : two;
 }
 
@@ -287,8 +288,8 @@ glm::dvec2 conicFullUnclipped(ConicPoint p, SphereCap cap, const ConicConstants&
 glm::dvec2 conicClipped(ConicPoint p, SphereCap cap, const ConicConstants& k)
 {
     const CapFrame f = makeCapFrame(p, cap.c, cap.NoC);
-    const LightHeights z = lightHeights(p, cap, f.sinC, f.v1, k);
-    return shadeTwoNodes(p, clippedCap(p, cap, f), z, k);
+    const LightHeights z = lightHeights(p, capHeights(cap, f.sinC, k), f.v1, k);
+    return shadeTwoNodes(p, clippedCap(p, cap, f), z, 0.0, k);
 }
 
 unsigned conicClassOf(ConicPoint p, SphereCap cap)

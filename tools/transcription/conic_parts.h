@@ -53,6 +53,10 @@ struct CapHeights {
     double low, high, mean;
 };
 
+struct HeightNodes {
+    double low, high;
+};
+
 struct LightHeights {
     double low, high;
     double mean, variance;
@@ -88,9 +92,11 @@ ConicRegion wholeCap(ConicPoint p, glm::dvec3 c, double NoC, double s2, double o
 double smith(ConicPoint p, double NoL);
 glm::dvec2 shadeOneNode(ConicPoint p, ConicRegion o, const ConicConstants& k);
 CapHeights capHeights(SphereCap cap, double sinC, const ConicConstants& k);
-LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1,
-                          const ConicConstants& k);
-glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, const ConicConstants& k);
+HeightNodes heightNodes(CapHeights z, const ConicConstants& k);
+LightHeights weighHeights(ConicPoint p, CapHeights z, HeightNodes nodes, double ha, double hb);
+LightHeights lightHeights(ConicPoint p, CapHeights z, double v1, const ConicConstants& k);
+glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, double elongation,
+                         const ConicConstants& k);
 glm::dvec2 atanTail(glm::dvec2 t2);
 glm::dvec2 atan2Pair(glm::dvec2 y, glm::dvec2 x);
 double atanhRatio(double y, double x);

@@ -139,19 +139,17 @@ CapHeights capHeights(SphereCap cap, double sinC, const ConicConstants& k)
     return z;
 }
 
-LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1,
-                          const ConicConstants& k)
+HeightNodes heightNodes(CapHeights z, const ConicConstants& k)
 {
-    const CapHeights z = capHeights(cap, sinC, k);
     const double spread2 = k.CONIC_LIGHT_SPREAD * (z.mean - z.low) * (z.high - z.mean);
     const double spread = glm::min(std::sqrt(glm::max(spread2, 0.0)), 0.98 * z.mean);
-    const double za = z.mean - spread;
-    const double zb = glm::min(z.mean + spread, 1.0);
-    const double across = p.vv - v1 * v1;
-    const double reachA = v1 + std::sqrt(glm::max(1.0 - za * za, 0.0));
-    const double reachB = v1 + std::sqrt(glm::max(1.0 - zb * zb, 0.0));
-    const double ha = reachA * reachA + across;
-    const double hb = reachB * reachB + across;
+    return HeightNodes(z.mean - spread, glm::min(z.mean + spread, 1.0));
+}
+
+LightHeights weighHeights(ConicPoint p, CapHeights z, HeightNodes nodes, double ha, double hb)
+{
+    const double za = nodes.low;
+    const double zb = nodes.high;
     const double ma = (p.NoV + za) * (p.NoV + za);
     const double mb = (p.NoV + zb) * (p.NoV + zb);
     const double da = (ha + ma) * (hb + p.a2 * mb);
@@ -161,14 +159,26 @@ LightHeights lightHeights(ConicPoint p, SphereCap cap, double sinC, double v1,
     return LightHeights(z.low, z.high, za + gap * share, gap * gap * share * (1.0 - share));
 }
 
-glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, const ConicConstants& k)
+LightHeights lightHeights(ConicPoint p, CapHeights z, double v1, const ConicConstants& k)
+{
+    const HeightNodes nodes = heightNodes(z, k);
+    const double across = p.vv - v1 * v1;
+    const double reachA = v1 + std::sqrt(glm::max(1.0 - nodes.low * nodes.low, 0.0));
+    const double reachB = v1 + std::sqrt(glm::max(1.0 - nodes.high * nodes.high, 0.0));
+    return weighHeights(p, z, nodes, reachA * reachA + across, reachB * reachB + across);
+}
+
+glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, double elongation,
+                         const ConicConstants& k)
 {
     const double height = z.high - z.low;
     const double lobeWidth = p.a2 + k.CONIC_WIDTH_FROM_SLOPE * o.x2;
     const double q = 1.0 + o.x2 * p.invA2;
     const double m2 = 1.0 + o.x2;
     const double partial = 1.0 - k.CONIC_TAIL * o.integral;
-    const double slopeRadius2 = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
+    const double discRadius2 = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
+    const double longer = elongation * glm::max(1.0 - 2.0 * o.integral, 0.0);
+    const double slopeRadius2 = discRadius2 + longer * discRadius2;
     const double m2p = m2 * partial + k.CONIC_LENGTHENING * slopeRadius2;
     const double lobeAndLight =
         lobeWidth + k.CONIC_WIDTH_FROM_HEIGHT * p.oneMinusA2 * height * height;
@@ -198,7 +208,7 @@ glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, const Coni
     const double largest = glm::max(0.0, mean - z.low) * glm::max(0.0, z.high - mean);
     const double blended =
         glm::mix(k.CONIC_NARROW_VARIANCE * shift2, k.CONIC_WIDE_VARIANCE * z.variance, wide);
-    const double v = glm::min(blended, 0.95 * largest);
+    const double v = glm::max(glm::min(blended, 0.95 * largest), 0.0);
 
     const double deviation = std::sqrt(v);
     const double scale = largest + v + MIN_VARIANCE;
@@ -219,7 +229,8 @@ glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, const Coni
 
     const double slopeLow = meanSlope * (rel + k.CONIC_FRESNEL_STEP * stepLow);
     const double slopeHigh = meanSlope * (rel + k.CONIC_FRESNEL_STEP * stepHigh);
-    const double mm = m2 + k.CONIC_FRESNEL_LENGTHENING * slopeRadius2 / partial;
+    const double narrowRadius2 = discRadius2 + (1.0 - wide) * longer * discRadius2;
+    const double mm = m2 + k.CONIC_FRESNEL_LENGTHENING * narrowRadius2 / partial;
     const double mmLow = glm::max(mm + slopeLow * (2.0 * ds + slopeLow * dd), 1e-6);
     const double mmHigh = glm::max(mm + slopeHigh * (2.0 * ds + slopeHigh * dd), 1e-6);
     const double invMm = 1.0 / (mmLow * mmHigh);

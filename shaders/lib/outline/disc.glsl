@@ -32,7 +32,7 @@ OutlineResponse discOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 fa
         k.leaves = differenceTo(k, last);
         addHorizon(k);
     }
-    const OutlineResponse o = outlineResponse(p, k);
+    const OutlineResponse o = outlineResponse(p, k, extentOf(k, d.u, d.v, 0.0));
     return OutlineResponse(seen ? o.formFactor : 0.0, seen ? o.specular : vec2(0.0));
 }
 

@@ -41,6 +41,7 @@ OutlineResponse rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, ve
     const float size2 = max(length2(u), length2(v));
     const float stretched2 = length2(stretched(p.alpha, u)) + length2(stretched(p.alpha, v));
     Outline k = beginOutline(p, f, toCentre, centre, stretched2, needs);
+    const OutlineExtent extent = extentOf(k, u, v, 0.0);
     const bool seen = seesFlatLight(centre, normal, sqrt(size2), twoSided);
     vec2 corner = vec2(-1.0, -1.0);
     vec3 from = -u - w;
@@ -53,7 +54,7 @@ OutlineResponse rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, ve
     } while (edge < 4u);
     if (needs.across && k.crosses)
         addHorizon(k);
-    const OutlineResponse o = outlineResponse(p, k);
+    const OutlineResponse o = outlineResponse(p, k, extent);
     return OutlineResponse(seen ? o.formFactor : 0.0, seen ? o.specular : vec2(0.0));
 }
 

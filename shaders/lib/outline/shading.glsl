@@ -10,6 +10,45 @@ struct OutlineResponse {
     vec2 specular;    // with F = 1 and with F = (1 - VoH)^5; 0 without a lobe
 };
 
+// How the directions to a whole light, without regard to the horizon, spread around the direction to
+// its centre.
+struct OutlineExtent {
+    // The mean of the two principal variances over their geometric mean, minus 1: 0 for a light that
+    // appears round, 0.25 for one that appears twice as long as wide.
+    float elongation;
+    // Variance of n . l, and its covariance with the displacement perpendicular to lc and to the normal
+    // (along the cross product of the normal and lc).
+    float heightVariance, slant;
+};
+
+// Variance of a light's points along an axis, over the squared half axis: 1/3 for a rectangle, 1/4 for
+// a disc.
+const float AXIS_VARIANCE = 0.3;
+const float MAX_ELONGATION = 100.0; // that of flat lights seen from the side has no bound
+
+// Returns the extent of a light with the half axes u and v and the radius sqrt(r2) in all directions.
+// With u' and v' for the parts perpendicular to lc, the covariance of its directions is
+//   AXIS_VARIANCE (u' u'^T + v' v'^T + r2) / distance^2.
+// The divisor limits it for lights that are closer than they are wide.
+OutlineExtent extentOf(Outline k, vec3 u, vec3 v, float r2)
+{
+    const float axes2 = length2(u) + length2(v) + 2.0 * r2;
+    const float inv = inversesqrt(max(k.distance * k.distance + AXIS_VARIANCE * axes2, MIN_LENGTH2));
+    const vec3 a = inv * (u - dot(k.lc, u) * k.lc), b = inv * (v - dot(k.lc, v) * k.lc);
+    const float round2 = inv * inv * r2;
+    const float sum = length2(a) + length2(b);
+    const float area = dot(k.lc, cross(a, b));
+    const float product = max(area * area + round2 * (sum + round2), 1e-30);
+    const float ratio = (0.5 * sum + round2) * inversesqrt(product);
+    const float across2 = dot(k.lc.xy, k.lc.xy);
+    const vec2 aside = inversesqrt(max(across2, MIN_LENGTH2)) * vec2(-k.lc.y, k.lc.x);
+    OutlineExtent o;
+    o.elongation = clamp(ratio - 1.0, 0.0, MAX_ELONGATION);
+    o.heightVariance = AXIS_VARIANCE * (a.z * a.z + b.z * b.z + round2 * across2);
+    o.slant = AXIS_VARIANCE * (a.z * dot(aside, a.xy) + b.z * dot(aside, b.xy));
+    return o;
+}
+
 // Returns a / |a|, or 0 for a = 0. The squares of the components of a may be too small for a float.
 vec3 unitDirection(vec3 a)
 {
@@ -17,29 +56,50 @@ vec3 unitDirection(vec3 a)
     return b * inversesqrt(max(length2(b), MIN_LENGTH2));
 }
 
-// Returns N . L over the emitter. Its mean is that of a cap of directions with the same vector
-// irradiance: for a cap |f| is the squared sine of its half angle.
-CapHeights outlineHeights(Outline k, vec3 f)
+// Returns N . L over the emitter. The mean of the directions is along f. For a cap of directions |f| is
+// the squared sine of its half angle, and the length of the mean is 1 - (1 - cos) / 2. For small lights
+// the second term is half the variance of their directions, and for a given |f|, which is the area,
+// that grows with the elongation. A light that fills the hemisphere is round.
+CapHeights outlineHeights(Outline k, OutlineExtent extent, vec3 f)
 {
     CapHeights z;
     z.high = k.inside ? 1.0 : clamp(k.high, 0.0, 1.0);
     z.low = clamp(k.low, 0.0, z.high);
     const vec3 unit = unitDirection(f);
-    const float cosine = sqrt(max(1.0 - dot(f, unit), 0.0));
-    z.mean = clamp(0.5 * unit.z * (1.0 + cosine), z.low, z.high);
+    const float cosine2 = max(1.0 - dot(f, unit), 0.0);
+    const float shorter = (0.5 - 0.5 * sqrt(cosine2)) * (1.0 + extent.elongation * cosine2);
+    z.mean = clamp(unit.z * (1.0 - shorter), z.low, z.high);
     return z;
 }
 
-// Returns the response to an outline that is complete.
-OutlineResponse outlineResponse(ConicPoint p, Outline k)
+// Returns N . L over the emitter as wide lobes see it. `azimuth`: unit vector along the mean direction
+// in the plane of the surface.
+LightHeights outlineLightHeights(ConicPoint p, Outline k, OutlineExtent extent, CapHeights z,
+                                 vec2 azimuth)
+{
+    const HeightNodes nodes = heightNodes(z);
+    // Directions of a slanting light that are higher than the mean are displaced aside, on average by
+    // the covariance over the variance of n . l (linear regression). The divisor is at least the
+    // squared distance of the nodes from the mean, so that no node is displaced beyond the light.
+    const float spread = z.mean - nodes.low;
+    const float perHeight = extent.slant / max(max(extent.heightVariance, spread * spread), 1e-20);
+    const vec2 v = k.v.x * vec2(azimuth.x, -azimuth.y); // along the azimuth and aside
+    const float lowAside = perHeight * (nodes.low - z.mean);
+    const float highAside = perHeight * (nodes.high - z.mean);
+    return weighHeights(p, z, nodes, squaredReach(v, nodes.low, lowAside),
+                        squaredReach(v, nodes.high, highAside));
+}
+
+// Returns the response to an outline that is complete, of a light with the given extent.
+OutlineResponse outlineResponse(ConicPoint p, Outline k, OutlineExtent extent)
 {
     OutlineResponse o;
     const vec3 f = (0.5 * INV_PI) * k.diffuse;
     o.formFactor = saturate(f.z);
     o.specular = vec2(0.0);
     if (k.needs.lobe) {
-        const CapHeights z = outlineHeights(k, f);
-        const float v1 = k.v.x * unitDirection(vec3(f.xy, 0.0)).x;
+        const CapHeights z = outlineHeights(k, extent, f);
+        const vec2 azimuth = unitDirection(vec3(f.xy, 0.0)).xy;
         const vec3 Phi = (0.5 * INV_PI) * k.specular;
         // No half vector that reflects the eye to a direction above the horizon has a longer slope than
         // `longest`. Slivers may exceed it by rounding.
@@ -52,7 +112,8 @@ OutlineResponse outlineResponse(ConicPoint p, Outline k)
         region.av = k.v.x * limited.x;
         region.x2 = dot(limited, limited);
         region.mu = max(k.v.y + region.av, MIN_CONIC_MU);
-        o.specular = shadeTwoNodes(p, region, lightHeights(p, z, v1));
+        const LightHeights asSeen = outlineLightHeights(p, k, extent, z, azimuth);
+        o.specular = shadeTwoNodes(p, region, asSeen, extent.elongation);
     }
     return o;
 }

@@ -202,7 +202,8 @@ OutlineResponse tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 to
     const TubeView t = viewTube(centre, axis, radius);
     const float stretched2 = length2(stretched(p.alpha, axis)) + t.r2;
     Outline k = beginOutline(p, f, toCentre, centre, stretched2, needs);
-    const vec3 side = (sqrt(t.r2) * t.cosine) * t.across;
+    const float r = sqrt(t.r2);
+    const vec3 side = (r * t.cosine) * t.across;
     OutlinePoint last = pointAt(k, side - axis - t.sine2 * t.perpendicular);
     uint end = 0u;
     do {
@@ -215,7 +216,10 @@ OutlineResponse tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 to
     } while (end < 2u);
     if (needs.across && k.crosses)
         addHorizon(k);
-    const OutlineResponse o = outlineResponse(p, k);
+    // The half axis across the tube is the radius, and the one along it is half the length with both
+    // ends.
+    const vec3 longer = sqrt(t.axisLength * (t.axisLength + 2.0 * r)) * t.along;
+    const OutlineResponse o = outlineResponse(p, k, extentOf(k, longer, vec3(0.0), t.r2));
     // The vector irradiance of a tube of any length is at most that of an endless one. Rounding
     // exceeds it if the receiver almost touches the axis of a thin tube.
     const float most = t.endOn ? 1.0 : sqrt(t.sine2);

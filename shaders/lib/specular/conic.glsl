@@ -49,7 +49,7 @@ vec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed)
     const float sinC = sqrt(max(1.0 - cap.NoC * cap.NoC, 0.0));
     const LightHeights z = lightHeights(p, capHeights(cap, sinC), makeCapFrame(p, sub.c, sub.NoC).v1);
     const ConicRegion o = wholeCap(p, sub.c, sub.NoC, sub.s2, sub.omc);
-    const vec2 two = shadeTwoNodes(p, o, z);
+    const vec2 two = shadeTwoNodes(p, o, z, 0.0);
     return mixed ? mix(shadeOneNode(p, o), two, nearness(cap)) : two;
 }
 
@@ -71,7 +71,7 @@ vec2 conicClipped(ConicPoint p, SphereCap cap)
 {
     const CapFrame f = makeCapFrame(p, cap.c, cap.NoC);
     const ConicRegion o = clippedCap(p, cap, f);
-    return shadeTwoNodes(p, o, lightHeights(p, capHeights(cap, f.sinC), f.v1));
+    return shadeTwoNodes(p, o, lightHeights(p, capHeights(cap, f.sinC), f.v1), 0.0);
 }
 
 uint conicClassOf(ConicPoint p, SphereCap cap)

@@ -75,32 +75,55 @@ struct LightHeights {
     float mean, variance;
 };
 
-// Replaces the light, with the heights z, by two directions in the plane of n and its centre, whose N
-// . L are equally far from the mean. D at both gives their weights. With v1 = v_t . c_t / |c_t|, where
-// c is the direction to the centre (of the cap that the region is made from), the half vector v + l of
-// a direction with N . L = z has the squared length (v1 + sqrt(1 - z^2))^2 + |v_t|^2 - v1^2 in the
-// plane of the surface and (NoV + z)^2 along the normal. The function does not need the region.
-// Callers call it first, so that its long chain of operations overlaps the computation of the region's
-// root.
-LightHeights lightHeights(ConicPoint p, CapHeights z, float v1)
+// N . L of two directions that replace a light, equally far from the mean.
+struct HeightNodes {
+    float low, high;
+};
+
+HeightNodes heightNodes(CapHeights z)
 {
     const float spread2 = CONIC_LIGHT_SPREAD * (z.mean - z.low) * (z.high - z.mean);
     const float spread = min(sqrt(max(spread2, 0.0)), 0.98 * z.mean); // keeps both above the horizon
-    const float za = z.mean - spread;
-    const float zb = min(z.mean + spread, 1.0);
-    const float across = p.vv - v1 * v1;
-    const float reachA = v1 + sqrt(max(1.0 - za * za, 0.0));
-    const float reachB = v1 + sqrt(max(1.0 - zb * zb, 0.0));
-    // Squared length of both half vectors in the plane of the surface (ha, hb) and along the normal.
-    const float ha = reachA * reachA + across;
-    const float hb = reachB * reachB + across;
-    const float ma = (p.NoV + za) * (p.NoV + za);
+    return HeightNodes(z.mean - spread, min(z.mean + spread, 1.0));
+}
+
+// Returns the squared length, in the plane of the surface, of the half vector v + l of a direction with
+// N . L = z. v: components of the eye's direction along an azimuth and perpendicular to it; `aside`:
+// the perpendicular component of l.
+float squaredReach(vec2 v, float z, float aside)
+{
+    const float along = v.x + sqrt(max(1.0 - z * z - aside * aside, 0.0));
+    return along * along + (v.y + aside) * (v.y + aside);
+}
+
+// Returns N . L over a light with the heights z that two directions replace. D at both gives their
+// weights: ha and hb are the squared lengths of their half vectors in the plane of the surface.
+LightHeights weighHeights(ConicPoint p, CapHeights z, HeightNodes nodes, float ha, float hb)
+{
+    const float za = nodes.low;
+    const float zb = nodes.high;
+    const float ma = (p.NoV + za) * (p.NoV + za); // squared length along the normal
     const float mb = (p.NoV + zb) * (p.NoV + zb);
     const float da = (ha + ma) * (hb + p.a2 * mb); // D at both directions has the ratio da^2 : db^2
     const float db = (hb + mb) * (ha + p.a2 * ma);
     const float share = db * db / (da * da + db * db);
     const float gap = zb - za;
     return LightHeights(z.low, z.high, za + gap * share, gap * gap * share * (1.0 - share));
+}
+
+// Returns N . L over a round light, whose two directions are in the plane of n and its centre. With
+// v1 = v_t . c_t / |c_t|, where c is the direction to the centre (of the cap that the region is made
+// from), the half vector v + l of a direction with N . L = z has the squared length
+// (v1 + sqrt(1 - z^2))^2 + |v_t|^2 - v1^2 in the plane of the surface. The function does not need the
+// region. Callers call it first, so that its long chain of operations overlaps the computation of the
+// region's root.
+LightHeights lightHeights(ConicPoint p, CapHeights z, float v1)
+{
+    const HeightNodes nodes = heightNodes(z);
+    const float across = p.vv - v1 * v1;
+    const float reachA = v1 + sqrt(max(1.0 - nodes.low * nodes.low, 0.0));
+    const float reachB = v1 + sqrt(max(1.0 - nodes.high * nodes.high, 0.0));
+    return weighHeights(p, z, nodes, reachA * reachA + across, reachB * reachB + across);
 }
 
 // Returns the response with two nodes of N . L.
@@ -120,7 +143,11 @@ LightHeights lightHeights(ConicPoint p, CapHeights z, float v1)
 //    because the distribution does.
 // 4. Shadowing is evaluated at both nodes, and Fresnel at two half vectors that lead to them, which are
 //    steps along d.
-vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
+// 5. The area gives the geometric mean of the two principal variances of the slopes. `elongation` is
+//    the ratio of their arithmetic mean to it, minus 1, and so the variance is that of a disc times
+//    1 + elongation. A light that holds much of the lobe is cut off by the lobe, which is round. In
+//    wide lobes Fresnel takes all lights as round.
+vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, float elongation)
 {
     // The variance of the slopes is proportional to 1 / partial, because the variance of the whole lobe
     // is infinite.
@@ -129,7 +156,9 @@ vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
     const float q = 1.0 + o.x2 * p.invA2;
     const float m2 = 1.0 + o.x2;
     const float partial = 1.0 - CONIC_TAIL * o.integral;
-    const float slopeRadius2 = p.a2 * min(o.integral * q * q, MAX_SLOPE_VARIANCE);
+    const float discRadius2 = p.a2 * min(o.integral * q * q, MAX_SLOPE_VARIANCE);
+    const float longer = elongation * max(1.0 - 2.0 * o.integral, 0.0);
+    const float slopeRadius2 = discRadius2 + longer * discRadius2;
     const float m2p = m2 * partial + CONIC_LENGTHENING * slopeRadius2; // m . m times `partial`
     const float lobeAndLight = lobeWidth + CONIC_WIDTH_FROM_HEIGHT * p.oneMinusA2 * height * height;
     const float invFirst = 1.0 / (lobeAndLight * m2p); // one division for two reciprocals, as below
@@ -183,7 +212,8 @@ vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z)
     const float slopeLow = meanSlope * (rel + CONIC_FRESNEL_STEP * stepLow);
     const float slopeHigh = meanSlope * (rel + CONIC_FRESNEL_STEP * stepHigh);
     // m . m and v . h at the half vectors of both nodes.
-    const float mm = m2 + CONIC_FRESNEL_LENGTHENING * slopeRadius2 / partial;
+    const float narrowRadius2 = discRadius2 + (1.0 - wide) * longer * discRadius2;
+    const float mm = m2 + CONIC_FRESNEL_LENGTHENING * narrowRadius2 / partial;
     const float mmLow = max(mm + slopeLow * (2.0 * ds + slopeLow * dd), 1e-6);
     const float mmHigh = max(mm + slopeHigh * (2.0 * ds + slopeHigh * dd), 1e-6);
     const float invMm = 1.0 / (mmLow * mmHigh);
