@@ -25,7 +25,7 @@ void main()
     const Receiver r =
         makeReceiver(p, frameParams.errorBudget, frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
-    do {
+    do { // a lane that is done may run once more (Mesa 22.3); its block is then empty
         shadeBlock(sums, r, block.first, block.count, true);
         block = nextBlock(block);
     } while (block.count != 0u);

@@ -28,9 +28,10 @@ struct FoundWord {
 };
 
 #ifdef HAS_OUTLINES
-// Tells whether no arc of a light's outline needs to be cut (lib/outline/lens.glsl). All w = A (v + l)
-// of the light are within a ball around A (v + c), where c is the direction to its centre, whose
-// squared radius is at most R^2 / (d^2 - R^2), so the angle between any two of them is limited.
+// Tells whether no arc of a light's outline needs to be cut (lib/outline/lens.glsl), and no piece of a
+// disc's rim needs to be halved. All w = A (v + l) of the light are within a ball around A (v + c),
+// where c is the direction to its centre, whose squared radius is at most R^2 / (d^2 - R^2). So the
+// angle between any two of them is limited, and an arc turns little more than its ends are apart.
 bool isUncut(Receiver r, vec3 toLight, float height, float d2, float radius2)
 {
     precise const float d = sqrt(d2);

@@ -16,8 +16,8 @@
 // evaluation of one light takes, without those of SPECULAR_SAMPLED. It counts the arcs of the
 // light's outline and their pieces (lib/outline/): 4 edges of a rectangle, up to 8 of a polygon,
 // and 2 sides and up to 16 arcs of a tube across the horizon, with 3 pieces each. The rim of a disc
-// has 6 pieces that may be halved three times, its range of heights takes 8 steps of Newton's
-// method, and its form factor a series of 9 terms.
+// has 6 pieces that may be halved three times, its range of heights takes 8 turns of Newton's
+// method, and its form factor a series of 12 terms.
 #define CND_LIGHT_FAMILIES(X)                                                                      \
     X(0, PUNCTUAL, 24)                                                                             \
     X(1, CONIC, 0)                                                                                 \

@@ -20,8 +20,8 @@ class OutlineAccuracy : public test::GpuTest
 
 } // namespace
 
-// The bars of tubes and rectangles are below what they have if their elongation and their slant are
-// taken as 0 (means of 0.084 and 0.104).
+// The bounds of the mean for tubes and rectangles are below the errors that the shaders have if the
+// elongation and the slant of these lights are taken as 0 (0.084 and 0.104).
 TEST_F(OutlineAccuracy, AgainstQuadrature)
 {
     struct Case {

@@ -3,8 +3,8 @@
 // and the heights of the rim.
 //
 // The rim is divided into pieces, each of which is taken for an arc of a conic in the directions of w.
-// There are DISC_PIECES of them at first. A piece is halved while the directions of w turn too far in
-// it or the conic leaves the rim too far.
+// There are DISC_PIECES of them at first. A piece is halved, down to an eighth of its length, while the
+// directions of w turn too far in it or the conic leaves the rim too far.
 #ifndef CND_LIB_OUTLINE_DISC_LOBE
 #define CND_LIB_OUTLINE_DISC_LOBE
 
@@ -37,8 +37,11 @@ float rimStretch(DiscView d)
 vec2 stretchedAngle(vec2 t, float stretch)
 {
     const float s2 = stretch * stretch;
-    const float inv = 1.0 / max(1.0 + s2 + (1.0 - s2) * t.x, 1e-12);
-    return vec2(1.0 - s2 + (1.0 + s2) * t.x, 2.0 * stretch * t.y) * inv;
+    // 1 + cos and 1 - cos, without cancellation. For large stretches a few digits of them matter.
+    const float plus = t.x < 0.0 ? t.y * t.y / (1.0 - t.x) : 1.0 + t.x;
+    const float minus = t.x > 0.0 ? t.y * t.y / (1.0 + t.x) : 1.0 - t.x;
+    const float inv = 1.0 / max(plus + s2 * minus, 1e-12);
+    return vec2(plus - s2 * minus, 2.0 * stretch * t.y) * inv;
 }
 
 // Returns a vector with half the angle of the unit vector a, -90..90 degrees.
@@ -158,8 +161,8 @@ float squaredOff(Outline k, RimPoint a, RimMiddle m, RimPoint b)
     return off * off * length2(eye) / max(length2(w), MIN_LENGTH2);
 }
 
-// Adds the whole rim of a disc whose directions of w lie so close together that no piece needs to be
-// halved.
+// Adds the whole rim of a disc that shading/light_walk.glsl takes for easy. Its pieces are not halved,
+// though those of a few of these discs leave the rim by up to 0.004.
 void addSmallRim(inout Outline k, DiscView d)
 {
     const RimPoints points = makeRimPoints(k, d);
@@ -187,8 +190,9 @@ void addRim(inout Outline k, DiscView d, bool across)
         last = d.to;
         begin = rimPassing(points, first);
         const vec2 end = rimPassing(points, last);
-        // An angle close to 0 or to a full turn may have the wrong sign by rounding. d.turn tells them
-        // apart, because more than half the rim is never less than 0.001 in s.
+        // Rounding may give an angle close to 0 or to a full turn the wrong sign. d.turn tells them
+        // apart: more than half the rim is never less than 0.001 in s, and less than half the rim never
+        // more than a full turn minus 0.001.
         turn = atan(begin.x * end.y - begin.y * end.x, dot(begin, end));
         turn = max(turn + (turn < (d.turn > PI ? 0.001 : -0.001) ? 2.0 * PI : 0.0), 0.0);
     }
@@ -225,7 +229,7 @@ float rimHeight(vec3 p0, vec3 p1, vec3 p2, vec2 at, float side)
     for (uint step = 0u; step <= DISC_HEIGHT_STEPS; ++step) {
         const vec3 p = p0 + angle.x * p1 + angle.y * p2, q = angle.x * p2 - angle.y * p1;
         const float inv2 = 1.0 / max(length2(p), MIN_LENGTH2);
-        // First and second derivative of ln |p|, and of N . L times |p|.
+        // r1, r2: first and second derivative of ln |p|. first, second: those of N . L, both times |p|.
         const float r1 = inv2 * dot(p, q);
         const float r2 = inv2 * (length2(q) + dot(p, p0 - p)) - 2.0 * r1 * r1;
         const float first = q.z - p.z * r1;
@@ -249,8 +253,10 @@ void setRimHeights(inout Outline k, DiscView d)
     const vec3 p0 = (1.0 + s2) * centre + (1.0 - s2) * d.u;
     const vec3 p1 = (1.0 - s2) * centre + (1.0 + s2) * d.u;
     const vec3 p2 = 2.0 * stretch * d.v;
-    // The normal is a multiple of p0 + x p1 + y p2, and (x, y) points from within the rim to its next
-    // point.
+    // The line along the normal meets the disc's plane at a multiple of p0 + x p1 + y p2, and (x, y)
+    // points from within the rim to the rim's point nearest to there. `at` is (x, y) times a factor
+    // that is negative if the line meets the plane below the receiver; the highest point is then on the
+    // other side.
     const vec2 at = unitVector(vec2(cross(p2, p0).z, cross(p0, p1).z));
     k.high = rimHeight(p0, p1, p2, at, 1.0);
     k.low = rimHeight(p0, p1, p2, -at, -1.0);

@@ -5,8 +5,8 @@
 
 #include "lib/outline/outline.glsl"
 
-const float DISC_SERIES_LIMIT = 0.35; // discArcIntegrals uses the series up to this e
-const int DISC_SERIES_TERMS = 9;      // the first term left out is below 0.18^9 = 2e-7
+const float DISC_SERIES_LIMIT = 0.5;  // discArcIntegrals uses the series up to this e
+const int DISC_SERIES_TERMS = 12;     // the first term left out is below 0.27^12 = 2e-7
 
 // Returns the integrals over phi of cos(phi) / (1 + e cos(phi)) times 1, times cos(phi) and times
 // sin(phi), for 0 <= e < 1 and root = sqrt(1 - e^2). `from` and `to` are (cos, sin) of the first and

@@ -8,9 +8,10 @@
 // rational Bezier curve the conic has the control points w0, W1 and w1 with
 //   W1 = (w0 + w1 - 2 sin^2 A (v + kappa c)) / (2 cos),
 // where sin and cos are those of half the arc, c is the circle's axis and kappa the cosine of its half
-// angle. W1 gives the tangents at the ends and thereby the height of the lens, and the curve's weight
-// gives the ratio of its area to that of a parabola (segmentShare). The area is exact for a light so
-// small that the lobe is constant over it.
+// angle (disc_lobe.glsl has the control point of a piece of a disc's rim). W1 gives the tangents at the
+// ends and thereby the height of the lens, and the curve's weight gives the ratio of its area to that
+// of a parabola (segmentShare). The area is exact for a light so small that the lobe is constant over
+// it.
 //
 // Let e be the tangent of the lens' elevation above the middle of the chord, and e f the one above its
 // other points; f falls off like a parabola. The directions of a thin strip of the lens, from the chord
@@ -85,12 +86,6 @@ void addPiece(inout Outline k, OutlinePoint a, OutlinePoint b, ArcControl contro
     k.specular += weight * (area + (excess - across) * axb + along * sum);
 }
 
-float growth(float x)
-{
-    const float t = saturate(x);
-    return t * t * (3.0 - 2.0 * t);
-}
-
 vec2 unitVector(vec2 a)
 {
     return a * inversesqrt(max(dot(a, a), MIN_LENGTH2));
@@ -102,8 +97,8 @@ vec2 unitVector(vec2 a)
 // where t is the angle along the arc's circle from the point next to the mirror direction: one half is
 // the turn around the lobe, and the other one the way past its middle at the distance `width`.
 
-// Returns `width` from w next to the mirror direction and its change per radian of t. The factor was
-// fitted.
+// Returns `width`. `w`: at the point next to the mirror direction; `turn`: its change there per radian
+// of t. The factor 1.25 was fitted.
 float passingWidth(vec3 w, vec3 turn)
 {
     return clamp(1.25 * sqrt(length2(w) / max(length2(turn), SMALLEST_ANGLE)), 0.001, 1.0);
@@ -187,15 +182,16 @@ float turnOf(Outline k, OutlinePoint a, OutlinePoint b, ArcControl control)
 }
 
 // Adds an arc. The number of its pieces differs between lanes. Around such a loop, llvmpipe (Mesa 22.3)
-// runs a lane that is done with the outer loop once more; callers must see to it that it adds nothing.
+// runs a lane that is done with an outer loop once more while others go on. Callers whose count differs
+// between lanes must see to it that this turn adds nothing.
 void addLobe(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
 {
     const ArcControl control = controlOf(k, a, b, circle);
     if (k.needs.cuts) {
         const float cosine = turnOf(k, a, b, control);
         const ArcCuts cuts = makeArcCuts(k, a, b, circle);
-        const float halves = growth((CUT_ONCE - cosine) / CUT_ONCE_RANGE);
-        const float middle = growth((CUT_TWICE - cosine) / CUT_TWICE_RANGE) / 6.0;
+        const float halves = smoothstep(0.0, CUT_ONCE_RANGE, CUT_ONCE - cosine);
+        const float middle = smoothstep(0.0, CUT_TWICE_RANGE, CUT_TWICE - cosine) / 6.0;
         // The whole arc and then both halves, with weights; or one, two or three pieces.
         const bool blends = halves > 0.0 && halves < 1.0;
         const uint pieces = blends || cosine < CUT_TWICE ? 3u : cosine < CUT_ONCE ? 2u : 1u;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light from an emitter whose outline, as the receiver sees it, consists of circle arcs on the sphere
-// of directions: edges of polygons and sides of tubes are arcs of great circles, the ends of tubes are
-// arcs of small circles, and the rim of a disc is divided into arcs of conics. One walk along the
-// outline gives the diffuse and the specular response.
+// Light from an emitter by its outline, as the receiver sees it on the sphere of directions. Edges of
+// polygons and sides of tubes are arcs of great circles, and the ends of tubes are arcs of small
+// circles. The rim of a disc is divided into pieces that are taken for arcs of conics (disc_lobe.glsl).
+// One walk along the outline gives the diffuse and the specular response.
 //
 // Both are integrals over the emitter's directions that Stokes' theorem turns into integrals along
 // its outline, counterclockwise as the receiver sees it:

@@ -50,7 +50,7 @@ struct OutlinePoint {
 struct OutlineNeeds {
     bool across; // it may cross the horizon
     bool lobe;   // the specular response is wanted as well
-    bool cuts;   // its arcs may need to be cut into pieces (lens.glsl)
+    bool cuts;   // its arcs may need to be cut, or pieces of its rim halved (lens.glsl, disc_lobe.glsl)
 };
 
 struct Outline {

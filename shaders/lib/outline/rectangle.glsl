@@ -15,8 +15,9 @@ bool seesFlatLight(vec3 centre, vec3 normal, float size, bool twoSided)
     return twoSided ? abs(facing) > limit : facing < -limit;
 }
 
-// Adds the edge to the next corner of a flat light. `from`, `to`: offsets of both corners; `last`: the
-// point of `from`, which is only used if the light cannot cross the horizon. Both then move to `to`.
+// Adds the edge to the next corner of a flat light. `from`, `to`: offsets of both corners, where `from`
+// is only used if the light may cross the horizon; `last`: the point of the first corner, only used if
+// it may not. The one that is used moves to the next corner.
 void addEdgeTo(inout Outline k, inout vec3 from, inout OutlinePoint last, vec3 to)
 {
     if (k.needs.across) {

@@ -67,7 +67,9 @@ CapHeights outlineHeights(Outline k, OutlineExtent extent, vec3 f)
     z.low = clamp(k.low, 0.0, z.high);
     const vec3 unit = unitDirection(f);
     const float cosine2 = max(1.0 - dot(f, unit), 0.0);
-    const float shorter = (0.5 - 0.5 * sqrt(cosine2)) * (1.0 + extent.elongation * cosine2);
+    // No light is shortened more than a hemisphere. The elongation of large lights nearby exceeds that.
+    const float shorter =
+        min((0.5 - 0.5 * sqrt(cosine2)) * (1.0 + extent.elongation * cosine2), 0.5);
     z.mean = clamp(unit.z * (1.0 - shorter), z.low, z.high);
     return z;
 }
@@ -99,7 +101,9 @@ OutlineResponse outlineResponse(ConicPoint p, Outline k, OutlineExtent extent)
     o.specular = vec2(0.0);
     if (k.needs.lobe) {
         const CapHeights z = outlineHeights(k, extent, f);
-        const vec2 azimuth = unitDirection(vec3(f.xy, 0.0)).xy;
+        // A light around the normal has no azimuth. The eye's direction is then taken as aside.
+        const vec2 aside = unitDirection(vec3(f.xy, 0.0)).xy;
+        const vec2 azimuth = dot(aside, aside) > 0.0 ? aside : vec2(0.0, 1.0);
         const vec3 Phi = (0.5 * INV_PI) * k.specular;
         // No half vector that reflects the eye to a direction above the horizon has a longer slope than
         // `longest`. Slivers may exceed it by rounding.
@@ -113,7 +117,9 @@ OutlineResponse outlineResponse(ConicPoint p, Outline k, OutlineExtent extent)
         region.x2 = dot(limited, limited);
         region.mu = max(k.v.y + region.av, MIN_CONIC_MU);
         const LightHeights asSeen = outlineLightHeights(p, k, extent, z, azimuth);
-        o.specular = shadeTwoNodes(p, region, asSeen, extent.elongation);
+        // A light that fills much of the hemisphere is round, as in outlineHeights.
+        const float elongation = extent.elongation * max(1.0 - sqrt(length2(f)), 0.0);
+        o.specular = shadeTwoNodes(p, region, asSeen, elongation);
     }
     return o;
 }

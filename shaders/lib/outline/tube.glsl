@@ -186,7 +186,7 @@ void addClippedTubeHalf(inout Outline k, TubeView t, TubeEnd e)
     }
     const TubeRanges ranges = rangesAboveHorizon(e, k.distance * k.lc.z);
     uint range = 0u;
-    do {
+    do { // twice in every lane, so no lane runs it once more (lens.glsl)
         if (range == 0u ? ranges.hasFirst : ranges.hasSecond)
             addTubeArcs(k, e, range == 0u ? ranges.first : ranges.second);
         ++range;
