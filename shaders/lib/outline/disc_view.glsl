@@ -61,7 +61,9 @@ DiscView viewDisc(vec3 centre, vec3 normal, float radius, bool across)
 {
     DiscView o;
     const float height = dot(centre, normal);
-    const vec3 inPlane = centre - height * normal;
+    // Close to the axis the difference is mostly rounding, which is not perpendicular to the normal.
+    const vec3 aside = centre - height * normal;
+    const vec3 inPlane = aside - dot(aside, normal) * normal;
     const float r2 = length2(inPlane);
     const bool offAxis = r2 > 1e-12 * height * height && r2 > MIN_LENGTH2;
     const float offset = offAxis ? sqrt(r2) : 0.0;

@@ -32,7 +32,9 @@ TubeView viewTube(vec3 centre, vec3 axis, float radius)
     k.axisLength = sqrt(max(axis2, MIN_LENGTH2));
     k.along = axis2 > MIN_LENGTH2 ? axis / k.axisLength : vec3(0.0, 0.0, 1.0);
     k.height = dot(centre, k.along);
-    k.perpendicular = centre - k.height * k.along;
+    // Close to the axis the difference is mostly rounding, which is not perpendicular to the axis.
+    const vec3 aside = centre - k.height * k.along;
+    k.perpendicular = aside - dot(aside, k.along) * k.along;
     k.h2 = length2(k.perpendicular);
     // For a receiver on the line of the axis, any direction across the line will do.
     const bool beside = k.h2 > 1e-12 * length2(centre);
