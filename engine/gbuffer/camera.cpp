@@ -108,7 +108,8 @@ VkRect2D CameraTerms::pixelsOfBall(const glm::dvec3& center, double radius, uint
     // of a double, and so would the quotients by ww below.
     if (ww <= 1e-9 * ahead * ahead)
         return {{0, 0}, {width, height}};
-    // No pixel shows a ball that lies entirely behind the camera (w < 0 at all of its points).
+    // The clip coordinate w is negative at all points of this ball or positive at all of them. If
+    // it is negative, the ball is behind the camera, and no pixel shows it.
     if (ahead < 0)
         return {};
     // The points at ndc.x are a plane, row 0 - ndc.x w. At either end of the ball's image it

@@ -44,10 +44,10 @@ struct CameraTerms {
     double pixelScale(uint32_t width, uint32_t height) const;
 
     // Returns a rectangle that holds every pixel which shows a part of the ball, in an image of
-    // width x height pixels. It is at most three pixels larger than needed at each side. The
-    // rectangle is empty if the ball lies entirely behind the camera, and it is the whole image if
-    // the ball reaches the camera's plane (the plane through the eye, parallel to the image) or
-    // comes very close to it. `center` (m) is in view space; `radius` is in m.
+    // width x height pixels. It is at most three pixels larger than needed at each side. If all of
+    // the ball is behind the camera, the rectangle is empty. If the ball reaches the camera's plane
+    // (the plane through the eye, parallel to the image) or comes very close to it, the rectangle
+    // is the whole image. `center` (m) is in view space; `radius` is in m.
     VkRect2D pixelsOfBall(const glm::dvec3& center, double radius, uint32_t width,
                           uint32_t height) const;
 

@@ -21,8 +21,8 @@ using namespace candelabra;
 namespace
 {
 
+using lighting::dvec3From;
 using lighting::setFloats;
-using lighting::toDouble;
 using std::numbers::pi;
 // Farther from the origin than this, squared distances are not finite floats.
 constexpr double maxCoordinate = 1e15;
@@ -62,7 +62,7 @@ glm::dvec3 requireReceiver(const float* at)
 
 glm::dvec3 requireDirection(const CndLight& light)
 {
-    const glm::dvec3 direction = toDouble(light.direction);
+    const glm::dvec3 direction = dvec3From(light.direction);
     if (!(std::abs(glm::length(direction) - 1) <= 1e-3))
         gpu::failArgument("direction of the light to convert must be a unit vector");
     return glm::normalize(direction);
@@ -154,7 +154,7 @@ CndResult cndSphereFromPoint(const CndLight* point, float radius, const float at
     return gpu::guard(error, [&] {
         gpu::requireNotNull("cndSphereFromPoint", {point, at, sphere});
         requireType(*point, CND_LIGHT_POINT, "cndSphereFromPoint");
-        const double distance = glm::length(toDouble(point->position) - requireReceiver(at));
+        const double distance = glm::length(dvec3From(point->position) - requireReceiver(at));
         if (!(radius >= 0 && double(radius) < distance))
             gpu::failArgument("radius must be >= 0 and smaller than the distance from at to the "
                               "light, which is " +
@@ -162,7 +162,7 @@ CndResult cndSphereFromPoint(const CndLight* point, float radius, const float at
         CndLight out{};
         out.layers = point->layers;
         out.type = CND_LIGHT_SPHERE;
-        setFloats(out.position, toDouble(point->position));
+        setFloats(out.position, dvec3From(point->position));
         out.influenceRadius = point->influenceRadius;
         // The radius chosen is smaller than influenceRadius even where the light does not reach
         // `at`.
@@ -186,7 +186,7 @@ CndResult cndPointFromSphere(const CndLight* sphere, CndLight* point, CndError* 
         CndLight out{};
         out.layers = sphere->layers;
         out.type = CND_LIGHT_POINT;
-        setFloats(out.position, toDouble(sphere->position));
+        setFloats(out.position, dvec3From(sphere->position));
         out.influenceRadius = sphere->influenceRadius;
         setEmission(out, *sphere, pi * double(sphere->radius) * double(sphere->radius));
         *point = out;
@@ -244,10 +244,10 @@ CndResult cndSphereFromDirectional(const CndLight* directional, const float at[3
         out.type = CND_LIGHT_SPHERE;
         out.influenceRadius = std::numeric_limits<float>::infinity();
         setFloats(out.position, receiver - away * direction);
-        if (!(glm::length(toDouble(out.position)) <= maxCoordinate))
+        if (!(glm::length(dvec3From(out.position)) <= maxCoordinate))
             gpu::failArgument("distance puts the light farther than 1e15 m from the origin");
         // The receiver sees the light where single precision has put it.
-        const double actual = glm::length(toDouble(out.position) - receiver);
+        const double actual = glm::length(dvec3From(out.position) - receiver);
         out.radius = float(s * away);
         if (!(out.radius > 0 && double(out.radius) < actual))
             gpu::failArgument("sine and distance put the receiver inside the light");
@@ -264,7 +264,7 @@ CndResult cndDirectionalFromSphere(const CndLight* sphere, const float at[3], Cn
         gpu::requireNotNull("cndDirectionalFromSphere", {sphere, at, directional});
         requireType(*sphere, CND_LIGHT_SPHERE, "cndDirectionalFromSphere");
         requirePositive(sphere->radius, "radius");
-        const glm::dvec3 toReceiver = requireReceiver(at) - toDouble(sphere->position);
+        const glm::dvec3 toReceiver = requireReceiver(at) - dvec3From(sphere->position);
         const double distance = glm::length(toReceiver);
         if (!(double(sphere->radius) < distance))
             gpu::failArgument("at must be outside the sphere light");

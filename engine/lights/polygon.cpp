@@ -145,7 +145,7 @@ double polygonArea(const CndPolygon& polygon)
 
 float polygonRadius(const CndLight& light)
 {
-    const glm::dvec3 u = toDouble(light.axisU), v = toDouble(light.axisV);
+    const glm::dvec3 u = dvec3From(light.axisU), v = dvec3From(light.axisV);
     double radius = 0;
     for (uint32_t i = 0; i < light.polygon->cornerCount; ++i) {
         const glm::dvec2 corner = cornerOf(*light.polygon, i);
@@ -167,7 +167,7 @@ CndResult cndPolygonFromCorners(const float (*corners)[3], uint32_t count, CndLi
             gpu::failArgument(lighting::wrongCount);
         std::array<glm::dvec3, CND_MAX_CORNERS> points;
         for (uint32_t i = 0; i < count; ++i) {
-            points[i] = lighting::toDouble(corners[i]);
+            points[i] = lighting::dvec3From(corners[i]);
             for (const float coordinate : corners[i])
                 if (!(std::abs(coordinate) <= gpu::MAX_LIGHT_COORDINATE)) // true for NaN
                     gpu::failArgument("corners[" + std::to_string(i) +

@@ -7,7 +7,8 @@
 namespace candelabra::lighting
 {
 
-inline glm::dvec3 toDouble(const float (&v)[3])
+// Returns a vector of the C ABI in double precision.
+inline glm::dvec3 dvec3From(const float (&v)[3])
 {
     return {v[0], v[1], v[2]};
 }

@@ -17,11 +17,11 @@ namespace
 CndLight inView(CndLight light, const glm::dmat4& viewFromWorld, const glm::dvec3& lightOrigin)
 {
     const auto turned = [&](const float(&v)[3]) {
-        return glm::dmat3(viewFromWorld) * lighting::toDouble(v);
+        return glm::dmat3(viewFromWorld) * lighting::dvec3From(v);
     };
     set(light.position,
         glm::dvec3(viewFromWorld *
-                   glm::dvec4(lightOrigin + lighting::toDouble(light.position), 1)));
+                   glm::dvec4(lightOrigin + lighting::dvec3From(light.position), 1)));
     set(light.direction, turned(light.direction));
     set(light.axisU, turned(light.axisU));
     set(light.axisV, turned(light.axisV));
