@@ -128,7 +128,7 @@ std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
 {
     std::string preamble = "#extension GL_GOOGLE_include_directive : require\n";
     if (!job.family.empty())
-        preamble += "#define LIGHT_FAMILY_" + job.family + "\n";
+        preamble += "#define CND_LIGHT_FAMILY_" + job.family + "\n";
     if (desc.functions & CND_HOST_VISIBILITY_BIT && !job.family.empty())
         preamble += "#define CANDELABRA_VISIBILITY\n";
     if (desc.functions & CND_HOST_READ_SURFACE_BIT)
@@ -137,9 +137,9 @@ std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
     const std::string kernelName = "kernels/" + job.kernel + ".comp";
     const ShaderSource& kernel = *find(kernelName);
     const std::string_view source = desc.source;
-    // Every kernel includes the declaration of ShadowQuery: those that evaluate no lights get the
-    // same source, and a source that lacks the promised function is then reported as such instead
-    // of "ShadowQuery undeclared".
+    // Every kernel includes the declaration of CndShadowQuery: those that evaluate no lights get
+    // the same source, and a source that lacks the promised function is then reported as such
+    // instead of "CndShadowQuery undeclared".
     constexpr std::string_view query = "\n#include \"lib/shadow_query.glsl\"\n";
     const char* const texts[] = {kernel.text.data(), query.data(), source.data()};
     const int lengths[] = {int(kernel.text.size()), int(query.size()), int(source.size())};

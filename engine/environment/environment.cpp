@@ -27,7 +27,7 @@ static_assert(gpu::LOBES_SUM == CND_LOBES_SUM);
 
 constexpr uint32_t defaultCubeSize = 256;
 
-CndEnvironmentDesc checked(CndEnvironmentDesc desc)
+CndEnvironmentDesc checked(const gpu::Device& device, CndEnvironmentDesc desc)
 {
     if (desc.structSize != sizeof desc)
         gpu::failArgument("CndEnvironmentDesc: structSize is " + std::to_string(desc.structSize) +
@@ -41,6 +41,8 @@ CndEnvironmentDesc checked(CndEnvironmentDesc desc)
         gpu::failArgument("CndEnvironmentDesc: cubeSize must be a power of two from 64 to 2048, "
                           "is " +
                           std::to_string(desc.cubeSize));
+    desc.radianceFormat = surfaces::checkedRadianceFormat(
+        device, "CndEnvironmentDesc: radianceFormat", desc.radianceFormat);
     return desc;
 }
 
@@ -115,7 +117,7 @@ glm::dmat3 rotationOf(const float (&columns)[9])
 
 Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& desc)
     : device_(device),
-      desc_(checked(desc)),
+      desc_(checked(device_, desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
       uniforms_(device_, desc_.framesInFlight),
       timer_(device_, "environment", desc_.framesInFlight + 1, desc_.timestamps),
@@ -125,7 +127,10 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
       prefilter_(device_, spirv::environment_prefilter_comp),
       irradianceKernel_(device_, spirv::environment_irradiance_comp),
       hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
-      shade_(device_, hostKernels_.of(spirv::shade_environment_comp),
+      shade_(device_,
+             surfaces::addingTo(desc_.radianceFormat,
+                                hostKernels_.of(spirv::shade_environment_comp),
+                                gpu::SHADE_ENVIRONMENT_RADIANCE),
              {{gpu::SPEC_GBUFFER, gbuffer_.code()}}, hostKernels_.setLayout()),
       sampler_(createSampler(device_)),
       recorded_(desc_.framesInFlight)
@@ -190,27 +195,8 @@ void Environment::recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map)
 // Moves the cube maps to layout GENERAL, in which they stay. Their previous contents are discarded.
 void Environment::recordLayouts(const gpu::Frame& f) const noexcept
 {
-    VkImageMemoryBarrier2 barriers[3];
-    const gpu::CubeImage* images[3] = {&source_, &prefiltered_, &irradiance_};
-    for (int i = 0; i < 3; ++i)
-        barriers[i] = {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                       .srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                       .srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                       .dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                       .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                                        VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                       .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                       .newLayout = VK_IMAGE_LAYOUT_GENERAL,
-                       .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                       .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                       .image = images[i]->image.get(),
-                       .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS,
-                                            0, VK_REMAINING_ARRAY_LAYERS}};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .imageMemoryBarrierCount = 3,
-                                .pImageMemoryBarriers = barriers};
-    device_.CmdPipelineBarrier2(f.cmd, &info);
+    for (const gpu::CubeImage* cube : {&source_, &prefiltered_, &irradiance_})
+        f.layoutBarrier(cube->image.get(), VK_IMAGE_LAYOUT_GENERAL);
 }
 
 void Environment::recordCube(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept
@@ -263,8 +249,6 @@ void Environment::validate(const CndEnvironmentFrame& frame) const
         if (side < 1 || side > 16384)
             gpu::failArgument("CndEnvironmentFrame: size " + std::to_string(frame.width) + "x" +
                               std::to_string(frame.height) + " is outside 1x1..16384x16384");
-    if (frame.clearDepth != 0 && frame.clearDepth != 1)
-        gpu::failArgument("CndEnvironmentFrame: clearDepth must be 0 or 1");
     gbuffer_.requireImages("CndEnvironmentFrame", frame);
     if (!frame.radiance)
         gpu::failArgument("CndEnvironmentFrame: radiance is null");
@@ -282,7 +266,8 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
 {
     using namespace gpu;
     validate(frame);
-    uniforms_.write(frame.frameSlot, surfaces::frameParams(frame, gbuffer_.dielectricF0()));
+    const FrameParams params = surfaces::frameParams(frame, gbuffer_, desc_.radianceFormat);
+    uniforms_.write(frame.frameSlot, params);
     const surfaces::GBufferViews images = gbuffer_.views(frame);
     sets_.shade.write(frame.frameSlot,
                       {Binding::sampled(SHADE_ENVIRONMENT_DEPTH, images.depth),
@@ -308,7 +293,9 @@ void Environment::record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame)
                     {.environmentFromView = glm::mat3(environmentFromView),
                      .lastLevel = float(prefiltered_.mips.size() - 1),
                      .scale = frame.scale,
-                     .showsBackground = frame.background != VK_FALSE},
+                     .showsBackground = frame.background != VK_FALSE,
+                     .depth = surfaces::storedDepth(gbuffer_.desc(), frame.camera, frame.clearDepth,
+                                                    params.projection)},
                     divideUp(frame.width, SHADE_ENVIRONMENT_GROUP),
                     divideUp(frame.height, SHADE_ENVIRONMENT_GROUP));
     device_.endLabel(cmd);

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "candelabra_shaders.h"
+#include "gpu/display_format.h"
+#include "gpu/image_format.h"
 #include "gpu/recordings.h"
 
 namespace candelabra::exposure
@@ -40,7 +42,7 @@ uint32_t nextOwner() noexcept
     return next++;
 }
 
-CndExposureDesc checked(const CndExposureDesc& desc)
+CndExposureDesc checked(const gpu::Device& device, CndExposureDesc desc)
 {
     if (desc.structSize != sizeof desc)
         gpu::failArgument("CndExposureDesc: structSize is " + std::to_string(desc.structSize) +
@@ -48,6 +50,8 @@ CndExposureDesc checked(const CndExposureDesc& desc)
     if (desc.framesInFlight < 1 || desc.framesInFlight > 8)
         gpu::failArgument("CndExposureDesc: framesInFlight must be 1..8, is " +
                           std::to_string(desc.framesInFlight));
+    desc.displayFormat =
+        gpu::checkedDisplayFormat(device, "CndExposureDesc: displayFormat", desc.displayFormat);
     return desc;
 }
 
@@ -55,7 +59,8 @@ CndExposureDesc checked(const CndExposureDesc& desc)
 
 Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
     : device_(device),
-      timer_(device_, "exposure", checked(desc).framesInFlight, desc.timestamps),
+      desc_(checked(device_, desc)),
+      timer_(device_, "exposure", desc_.framesInFlight, desc_.timestamps),
       adapt_(device_, spirv::adapt_exposure_comp),
       slots_(desc.framesInFlight),
       owner_(nextOwner())
@@ -63,9 +68,13 @@ Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
     for (uint32_t metering = 0; metering < histogram_.size(); ++metering)
         histogram_[metering] = gpu::Kernel<gpu::LuminanceHistogramParams>(
             device_, spirv::luminance_histogram_comp, {{gpu::SPEC_METERING, metering}});
+    const gpu::FormattedSpirv toneMap(spirv::tone_map_comp, gpu::TONE_MAP_DISPLAY,
+                                      desc_.displayFormat, gpu::StorageUse::Write);
     for (uint32_t curve = 0; curve < CND_TONEMAP_COUNT; ++curve)
-        toneMap_[curve] = gpu::Kernel<gpu::ToneMapParams>(device_, spirv::tone_map_comp,
-                                                          {{gpu::SPEC_TONE_MAP, curve}});
+        toneMap_[curve] = gpu::Kernel<gpu::ToneMapParams>(
+            device_, toneMap,
+            {{gpu::SPEC_TONE_MAP, curve},
+             {gpu::SPEC_DISPLAY_STEPS, gpu::lastDisplayStep(desc_.displayFormat)}});
     const uint32_t slots = desc.framesInFlight;
     sets_ = {histogram_[0].createBindings(slots), adapt_.createBindings(slots),
              toneMap_[0].createBindings(slots)};
@@ -107,6 +116,9 @@ void Exposure::validate(const CndExposureFrame& frame) const
                               std::to_string(frame.height) + " is outside 1x1..16384x16384");
     if (!frame.radiance)
         gpu::failArgument("CndExposureFrame: radiance is null");
+    if (!gpu::canBeRead(frame.radianceImageLayout))
+        gpu::failArgument("CndExposureFrame: radianceImageLayout must be SHADER_READ_ONLY_OPTIMAL, "
+                          "READ_ONLY_OPTIMAL or GENERAL");
     if (!(frame.deltaTime >= 0 && std::isfinite(frame.deltaTime)))
         gpu::failArgument("CndExposureFrame: deltaTime must be finite and >= 0");
     validateSettings(frame.settings);
@@ -118,13 +130,14 @@ void Exposure::writeBindings(const CndExposureFrame& frame) const
 {
     using namespace gpu;
     const uint32_t slot = frame.frameSlot;
+    const SampledImage radiance = SampledImage::of(frame.radiance, frame.radianceImageLayout);
     if (!frame.settings.manual)
-        sets_.histogram.write(slot, {Binding::sampled(HISTOGRAM_RADIANCE, frame.radiance),
+        sets_.histogram.write(slot, {Binding::sampled(HISTOGRAM_RADIANCE, radiance),
                                      Binding::of(HISTOGRAM_MASK, mask_),
                                      Binding::of(HISTOGRAM_DATA, data_)});
     sets_.adapt.write(slot, {Binding::of(ADAPT_DATA, data_), Binding::of(ADAPT_STATE, state_)});
     if (frame.display)
-        sets_.toneMap.write(slot, {Binding::sampled(TONE_MAP_RADIANCE, frame.radiance),
+        sets_.toneMap.write(slot, {Binding::sampled(TONE_MAP_RADIANCE, radiance),
                                    Binding::of(TONE_MAP_STATE, state_),
                                    Binding::storage(TONE_MAP_DISPLAY, frame.display)});
 }

@@ -45,6 +45,7 @@ private:
     };
 
     gpu::Device device_;
+    CndExposureDesc desc_;
     gpu::Timer timer_;
     std::array<gpu::Kernel<gpu::LuminanceHistogramParams>, CND_METERING_MASK + 1>
         histogram_; // by CndMetering

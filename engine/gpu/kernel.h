@@ -27,6 +27,9 @@ struct Frame {
     // Makes all shader and transfer writes so far visible to later compute shaders, indirect
     // commands and transfers.
     void barrier() const noexcept;
+    // Moves a colour image whose contents are not needed any more to the layout `to`, in which
+    // compute shaders read and write it after this.
+    void layoutBarrier(VkImage image, VkImageLayout to) const noexcept;
     // Makes all transfer writes so far visible to the host, once it has waited for the frame.
     void hostBarrier() const noexcept;
 };
@@ -53,6 +56,27 @@ struct SpecConstant {
     uint32_t value;
 };
 
+// Tells whether hosts may name this layout for a colour image that shaders read.
+// VK_IMAGE_LAYOUT_UNDEFINED stands for SHADER_READ_ONLY_OPTIMAL.
+constexpr bool canBeRead(VkImageLayout layout)
+{
+    return layout == VK_IMAGE_LAYOUT_UNDEFINED || layout == VK_IMAGE_LAYOUT_GENERAL ||
+           layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL ||
+           layout == VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL;
+}
+
+// An image that shaders read without writing it, and the layout in which it is.
+struct SampledImage {
+    VkImageView view = VK_NULL_HANDLE;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+
+    // `named`: the layout as the host names it.
+    static SampledImage of(VkImageView view, VkImageLayout named)
+    {
+        return named ? SampledImage{view, named} : SampledImage{view};
+    }
+};
+
 // One descriptor of a set: the binding number and the resource bound to it.
 struct Binding {
     uint32_t binding;
@@ -68,10 +92,11 @@ struct Binding {
     {
         return {.binding = b, .texels = x.texels.get()};
     }
-    static Binding sampled(uint32_t b, VkImageView view)
+    static Binding sampled(uint32_t b, const SampledImage& x)
     {
-        return {.binding = b, .image = view, .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        return {.binding = b, .image = x.view, .layout = x.layout};
     }
+    static Binding sampled(uint32_t b, VkImageView view) { return sampled(b, SampledImage{view}); }
     static Binding storage(uint32_t b, VkImageView view)
     {
         return {.binding = b, .image = view, .layout = VK_IMAGE_LAYOUT_GENERAL};

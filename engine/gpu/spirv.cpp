@@ -7,40 +7,12 @@
 #include <string>
 
 #include "gpu/failure.h"
+#include "gpu/spirv_words.h"
 
 namespace candelabra::gpu
 {
 namespace
 {
-
-// Opcodes, decorations, storage classes and dimensions: SPIR-V specification 1.6, section 3.
-enum : uint32_t {
-    OpTypeInt = 21,
-    OpTypeFloat = 22,
-    OpTypeVector = 23,
-    OpTypeMatrix = 24,
-    OpTypeImage = 25,
-    OpTypeSampler = 26,
-    OpTypeSampledImage = 27,
-    OpTypeArray = 28,
-    OpTypeStruct = 30,
-    OpTypePointer = 32,
-    OpConstant = 43,
-    OpFunctionEnd = 56,
-    OpVariable = 59,
-    OpDecorate = 71,
-    OpMemberDecorate = 72,
-    DecorationArrayStride = 6,
-    DecorationMatrixStride = 7,
-    DecorationBinding = 33,
-    DecorationDescriptorSet = 34,
-    DecorationOffset = 35,
-    StorageUniformConstant = 0,
-    StorageUniform = 2,
-    StoragePushConstant = 9,
-    StorageStorageBuffer = 12,
-    DimBuffer = 5,
-};
 
 struct Decorations {
     uint32_t binding = ~0u, set = 0, arrayStride = 0;
@@ -52,7 +24,6 @@ class Module
 public:
     explicit Module(const Spirv& spirv) : name_(spirv.name), words_(spirv.words)
     {
-        constexpr size_t headerWords = 5;
         constexpr uint32_t magic = 0x07230203;
         bool whole = words_.size() >= headerWords && words_[0] == magic;
         uint32_t last = 0;
@@ -102,8 +73,6 @@ public:
     }
 
 private:
-    static uint32_t opcode(const uint32_t* at) { return at[0] & 0xFFFFu; }
-
     void read(uint32_t op, const uint32_t* at)
     {
         if (op >= OpTypeInt && op <= OpTypePointer)

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "gpu/display_format.h"
 #include "lights/light_limits.h"
 #include "shading/light_batches.h"
 #include "shading/light_family.h"
@@ -12,7 +13,7 @@ namespace candelabra::lighting
 namespace
 {
 
-CndLightingDesc checked(CndLightingDesc desc)
+CndLightingDesc checked(const gpu::Device& device, CndLightingDesc desc)
 {
     if (desc.structSize != sizeof desc)
         gpu::failArgument("CndLightingDesc: structSize is " + std::to_string(desc.structSize) +
@@ -29,6 +30,10 @@ CndLightingDesc checked(CndLightingDesc desc)
         desc.specularMethods = 1u << CND_SPECULAR_CONIC;
     if (desc.lightTypes >> CND_LIGHT_TYPE_COUNT)
         gpu::failArgument("CndLightingDesc: lightTypes has bits beyond the last CndLightType");
+    desc.radianceFormat = surfaces::checkedRadianceFormat(device, "CndLightingDesc: radianceFormat",
+                                                          desc.radianceFormat);
+    desc.overlayFormat =
+        gpu::checkedDisplayFormat(device, "CndLightingDesc: overlayFormat", desc.overlayFormat);
     return desc;
 }
 
@@ -36,7 +41,7 @@ CndLightingDesc checked(CndLightingDesc desc)
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
     : device_(device),
-      desc_(checked(desc)),
+      desc_(checked(device_, desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
       hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
       kernels_(device_, hostKernels_, desc_, gbuffer_.code(), readsLightIds(desc_)),

@@ -10,6 +10,7 @@
 #include "lights/light_types.h"
 #include "shading/brute_rects.h"
 #include "shared/exposure.h"
+#include "surfaces/radiance_format.h"
 
 namespace candelabra::lighting
 {
@@ -82,8 +83,10 @@ void checkInfluence(const CndInfluence& i, bool byError)
         gpu::failArgument("CndLightingFrame: influence.toneMap is not a CndToneMap");
 }
 
-InfluenceKernels::InfluenceKernels(const gpu::Device& device)
-    : choose(device, spirv::choose_influence_comp), cutLights(device, spirv::cut_lights_comp)
+InfluenceKernels::InfluenceKernels(const gpu::Device& device, VkFormat radianceFormat)
+    : choose(device, surfaces::addingTo(radianceFormat, spirv::choose_influence_comp,
+                                        gpu::CHOOSE_INFLUENCE_RADIANCE)),
+      cutLights(device, spirv::cut_lights_comp)
 {
 }
 

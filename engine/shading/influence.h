@@ -25,7 +25,7 @@ void checkInfluence(const CndInfluence& influence, bool byError);
 // type and specular method.
 struct InfluenceKernels {
     InfluenceKernels() = default;
-    explicit InfluenceKernels(const gpu::Device& device);
+    InfluenceKernels(const gpu::Device& device, VkFormat radianceFormat);
     gpu::Kernel<gpu::ChooseInfluenceParams> choose;
     gpu::Kernel<gpu::CutLightsParams> cutLights;
 };

@@ -59,7 +59,7 @@ inline void checkSpecularMethods(const char* owner, uint32_t specularMethods)
     const std::string member = std::string(owner) + ": specularMethods has ";
     if (specularMethods >> CND_SPECULAR_METHOD_COUNT)
         gpu::failArgument(member + "bits beyond the last CndSpecularMethod");
-    if (specularMethods & ~gpu::SPECULAR_METHODS)
+    if (specularMethods & ~gpu::ALL_SPECULAR_METHODS)
         gpu::failArgument(member + "bit 4, which stood for linearly transformed cosines; "
                                    "CND_SPECULAR_CONIC replaces them");
 }

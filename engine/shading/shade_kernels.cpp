@@ -7,6 +7,7 @@
 #include "candelabra_shaders.h"
 #include "lights/light_limits.h"
 #include "shading/light_family.h"
+#include "surfaces/radiance_format.h"
 
 namespace candelabra::lighting
 {
@@ -29,10 +30,12 @@ uint32_t tileClassesOf(const CndLightingDesc& desc)
 }
 
 ShadeKernels::ShadeKernels(const gpu::Device& device, const surfaces::HostKernels& host,
-                           uint32_t gbuffer, uint32_t methods, uint32_t tileClasses, bool measures)
+                           uint32_t gbuffer, VkFormat radianceFormat, uint32_t methods,
+                           uint32_t tileClasses, bool measures)
     : device_(&device),
       host_(&host),
       gbuffer_(gbuffer),
+      radianceFormat_(radianceFormat),
       methods_(methods),
       tileClasses_(tileClasses),
       measures_(measures)
@@ -56,7 +59,9 @@ gpu::Kernel<Params> ShadeKernels::makeKernel(std::span<const gpu::Spirv* const> 
     const gpu::Spirv* kernel = &host_->of(*families[familyOf(lightType, method)]);
     if (device_->lanesAreCpuVector && kernel == spirv::shade_tiles_comp[gpu::FAMILY_CONIC])
         kernel = &spirv::shade_tiles_comp_lanes_alone_conic;
-    return gpu::Kernel<Params>(*device_, *kernel,
+    const gpu::FormattedSpirv code =
+        surfaces::addingTo(radianceFormat_, *kernel, gpu::SHADE_RADIANCE);
+    return gpu::Kernel<Params>(*device_, code,
                                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
                                 {gpu::SPEC_SPECULAR_METHOD, uint32_t(method)},
                                 {gpu::SPEC_LIGHT_TYPE, lightType},

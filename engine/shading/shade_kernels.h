@@ -23,11 +23,12 @@ uint32_t tileClassesOf(const CndLightingDesc& desc);
 class ShadeKernels
 {
 public:
-    // `gbuffer`: value of SPEC_GBUFFER. `methods`: mask of 1 << CndSpecularMethod. `tileClasses`:
+    // `gbuffer`: value of SPEC_GBUFFER. `radianceFormat`: of the images that kernels add light to.
+    // `methods`: mask of 1 << CndSpecularMethod. `tileClasses`:
     // what tileClassesOf returns. `measures`: CndLightingDesc::influenceByError. `device` and
     // `host` must outlive this object.
     ShadeKernels(const gpu::Device& device, const surfaces::HostKernels& host, uint32_t gbuffer,
-                 uint32_t methods, uint32_t tileClasses, bool measures);
+                 VkFormat radianceFormat, uint32_t methods, uint32_t tileClasses, bool measures);
     // Creates the pipelines of the light type that are missing. Returns true if any was created.
     bool require(uint32_t lightType);
 
@@ -71,6 +72,7 @@ private:
     const gpu::Device* device_;
     const surfaces::HostKernels* host_;
     uint32_t gbuffer_;
+    VkFormat radianceFormat_;
     uint32_t methods_, tileClasses_;
     bool measures_;
     OfType types_[CND_LIGHT_TYPE_COUNT];

@@ -27,7 +27,9 @@ void checkCamera(const CndCamera& camera)
             if (std::abs(identity[c][row] - (c == row)) > 1e-5) // matrices of floats reach 1e-6
                 gpu::failArgument("CndCamera: viewFromWorld must be a rotation and a translation");
     if (glm::determinant(r) < 0) // one-sided lights would face the wrong way
-        gpu::failArgument("CndCamera: viewFromWorld must not be a reflection");
+        gpu::failArgument(
+            "CndCamera: viewFromWorld must not be a reflection: negate its third row, "
+            "and the third column of clipFromView");
 }
 
 gpu::Projection projectionOf(const float (&m)[16], float clearDepth)

@@ -10,7 +10,9 @@
 
 #include "gpu/kernel.h"
 #include "shared/frame.h"
-#include "surfaces/camera.h"
+#include "surfaces/host_gbuffer.h"
+#include "surfaces/radiance_format.h"
+#include "surfaces/stored_depth.h"
 
 namespace candelabra::surfaces
 {
@@ -19,18 +21,24 @@ namespace candelabra::surfaces
 // 0. `frame` is a CndLightingFrame or a CndEnvironmentFrame, whose camera has passed checkCamera.
 // Throws gpu::Failure if the projection is none that projectionOf takes.
 template <typename Frame>
-gpu::FrameParams frameParams(const Frame& frame, float dielectricF0)
+gpu::FrameParams frameParams(const Frame& frame, const GBufferSource& gbuffer,
+                             VkFormat radianceFormat)
 {
+    const CndGBufferDesc& desc = gbuffer.desc();
+    const FrameDepth depth = frameDepth(desc.depthKind, frame.camera, frame.clearDepth);
     glm::dmat4 viewFromWorld;
     std::memcpy(&viewFromWorld, frame.camera.viewFromWorld, sizeof viewFromWorld);
     return {.viewFromWorld = glm::mat3(glm::dmat3(viewFromWorld)),
-            .projection = projectionOf(frame.camera.clipFromView, frame.clearDepth),
+            .projection = depth.projection,
             .size = {frame.width, frame.height},
             .invImageSize = 1.0f / glm::vec2(frame.width, frame.height),
-            .clearDepth = frame.clearDepth,
-            .dielectricF0 = dielectricF0,
+            .clearDepth = depth.clear,
+            .dielectricF0 = gbuffer.dielectricF0(),
             .lobes =
-                uint32_t(frame.lobes) | (frame.energyCompensation ? gpu::COMPENSATE_ENERGY : 0)};
+                uint32_t(frame.lobes) | (frame.energyCompensation ? gpu::COMPENSATE_ENERGY : 0),
+            .largestRadiance = largestRadiance(radianceFormat),
+            .constantRoughness = desc.constantRoughness,
+            .constantMetalness = desc.constantMetalness};
 }
 
 // A uniform buffer with room for the parameters of one frame per frame slot.

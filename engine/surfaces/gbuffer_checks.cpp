@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks the host's description of its G-buffer.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 
@@ -159,15 +160,56 @@ void checkEnumerators(const CndGBufferDesc& d)
     check("reflectance is not a CndReflectance", d.reflectance, CND_REFLECTANCE_SPECULAR);
 }
 
+void checkConstants(const CndGBufferDesc& d)
+{
+    if (d.roughness == CND_CHANNEL_NONE && !(d.constantRoughness > 0 && d.constantRoughness <= 1))
+        fail("roughness names no channel: constantRoughness must then be above 0 and at most 1");
+    if (d.roughness != CND_CHANNEL_NONE && d.constantRoughness != 0)
+        fail("constantRoughness is set, but roughness names a channel");
+    if (!(d.constantMetalness >= 0 && d.constantMetalness <= 1))
+        fail("constantMetalness must be 0..1");
+    if (d.metalness != CND_CHANNEL_NONE && d.constantMetalness != 0)
+        fail("constantMetalness is set, but metalness names a channel");
+}
+
+// Checks the members about depth, which every layout has.
+void checkDepth(const gpu::Device& device, const CndGBufferDesc& d)
+{
+    if (uint32_t(d.depthKind) > CND_DEPTH_POSITION_WORLD)
+        fail("depthKind is not a CndDepthKind");
+    if (!(d.depthUnit >= 0 && std::isfinite(d.depthUnit)))
+        fail("depthUnit must be finite and >= 0");
+    if (d.depthUnit > 0 && d.depthKind != CND_DEPTH_LINEAR)
+        fail("depthUnit is set, but depthKind is not CND_DEPTH_LINEAR");
+    if (d.depthFormat == VK_FORMAT_UNDEFINED)
+        return;
+    if (d.depthKind == CND_DEPTH_PROJECTED) {
+        if (std::ranges::find(depthFormats, d.depthFormat) == std::end(depthFormats))
+            fail("depthFormat " + std::to_string(d.depthFormat) +
+                 " is neither a depth format nor R32_SFLOAT");
+        requireSampled(device, "depthFormat", d.depthFormat);
+        return;
+    }
+    const ColourFormat& format = *find(device, "depth", d.depthFormat);
+    if (format.numbers == Numbers::Encoded)
+        fail(std::string("depthFormat ") + format.name + " decodes depths as colours");
+    const bool positions = d.depthKind != CND_DEPTH_LINEAR;
+    if (positions && (format.channels < 4 || format.numbers != Numbers::Signed))
+        fail(std::string("depthFormat ") + format.name +
+             " cannot hold positions, which need four channels and both signs");
+}
+
 } // namespace
 
 void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& d)
 {
     if (uint32_t(layout) > CND_GBUFFER_CUSTOM)
         gpu::failArgument("gbufferLayout is not a CndGBufferLayout");
+    checkDepth(device, d);
     if (layout != CND_GBUFFER_HOST) {
-        if (d.roughness != CND_CHANNEL_NONE)
-            fail("it is filled in, but gbufferLayout is not CND_GBUFFER_HOST");
+        if (d.roughness != CND_CHANNEL_NONE || d.constantRoughness != 0)
+            fail("members besides those about depth are filled in, but gbufferLayout is not "
+                 "CND_GBUFFER_HOST");
         return;
     }
     checkEnumerators(d);
@@ -184,26 +226,36 @@ void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndG
     for (const Image& i : images)
         checkTaken(i);
     checkNormal(d, images[0]);
-    if (d.roughness == CND_CHANNEL_NONE)
-        fail("roughness names no channel");
+    checkConstants(d);
     checkChannel("roughness", d.roughness, images);
     checkChannel("metalness", d.metalness, images);
     checkChannel("f90", d.f90, images);
-    if (d.roughness == d.metalness || d.roughness == d.f90)
+    if (d.roughness != CND_CHANNEL_NONE && (d.roughness == d.metalness || d.roughness == d.f90))
         fail("roughness is in the channel of another quantity");
-    if (specularColour && (d.metalness != CND_CHANNEL_NONE || d.dielectricF0 != 0))
-        fail("metalness and dielectricF0 are of CND_REFLECTANCE_METALNESS, reflectance is "
+    if (specularColour &&
+        (d.metalness != CND_CHANNEL_NONE || d.constantMetalness != 0 || d.dielectricF0 != 0))
+        fail("metalness, constantMetalness and dielectricF0 are of CND_REFLECTANCE_METALNESS, "
+             "reflectance is "
              "CND_REFLECTANCE_SPECULAR");
     if (!specularColour && d.f90 != CND_CHANNEL_NONE)
         fail("f90 is of CND_REFLECTANCE_SPECULAR, reflectance is CND_REFLECTANCE_METALNESS");
     if (!(d.dielectricF0 >= 0 && d.dielectricF0 <= 1))
         fail("dielectricF0 must be 0..1");
-    if (d.depthFormat == VK_FORMAT_UNDEFINED)
-        return;
-    if (std::ranges::find(depthFormats, d.depthFormat) == std::end(depthFormats))
-        fail("depthFormat " + std::to_string(d.depthFormat) +
-             " is neither a depth format nor R32_SFLOAT");
-    requireSampled(device, "depthFormat", d.depthFormat);
+}
+
+void checkLayouts(const char* frameName, VkImageLayout gbuffer, VkImageLayout depth)
+{
+    constexpr VkImageLayout ofDepth[] = {
+        VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+        VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL};
+    if (!gpu::canBeRead(gbuffer))
+        gpu::failArgument(std::string(frameName) +
+                          ": gbufferImageLayout must be SHADER_READ_ONLY_OPTIMAL, "
+                          "READ_ONLY_OPTIMAL or GENERAL");
+    if (!gpu::canBeRead(depth) && std::ranges::find(ofDepth, depth) == std::end(ofDepth))
+        gpu::failArgument(std::string(frameName) +
+                          ": depthImageLayout is no layout in which shaders read depth: it may be "
+                          "GENERAL, or a read-only layout of shaders or of depth");
 }
 
 } // namespace candelabra::surfaces

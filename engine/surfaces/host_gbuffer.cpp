@@ -19,9 +19,10 @@ static_assert(gpu::GBUFFER_ROUGHNESS_SMOOTHNESS == CND_ROUGHNESS_SMOOTHNESS);
 
 uint32_t codeOf(CndGBufferLayout layout, const CndGBufferDesc& d)
 {
+    const uint32_t always = layout | d.depthKind << gpu::GBUFFER_DEPTH_KIND_SHIFT;
     if (layout != CND_GBUFFER_HOST)
-        return layout;
-    return layout | d.normalEncoding << gpu::GBUFFER_NORMAL_SHIFT |
+        return always;
+    return always | d.normalEncoding << gpu::GBUFFER_NORMAL_SHIFT |
            d.normalSpace << gpu::GBUFFER_WORLD_SHIFT |
            d.roughnessKind << gpu::GBUFFER_ROUGHNESS_KIND_SHIFT |
            d.reflectance << gpu::GBUFFER_SPECULAR_COLOUR_SHIFT |
@@ -58,14 +59,19 @@ std::array<gpu::Binding, 2> GBufferViews::normalBindings(uint32_t first) const
 
 GBufferSource::GBufferSource(const gpu::Device& device, CndGBufferLayout layout,
                              const CndGBufferDesc& desc)
+    : desc_(desc)
 {
     checkGBuffer(device, layout, desc);
     code_ = codeOf(layout, desc);
-    dielectricF0_ = desc.dielectricF0 > 0 ? desc.dielectricF0 : gpu::DIELECTRIC_F0;
     readsSpecular_ = readsSpecular(layout, desc);
     if (!isPacked())
         standIn_ = gpu::createImage(device, "no packed G-buffer", VK_FORMAT_R32_UINT, 1, 1,
                                     VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+}
+
+float GBufferSource::dielectricF0() const
+{
+    return desc_.dielectricF0 > 0 ? desc_.dielectricF0 : gpu::DIELECTRIC_F0;
 }
 
 void GBufferSource::record(const gpu::Frame& frame) noexcept
@@ -73,20 +79,7 @@ void GBufferSource::record(const gpu::Frame& frame) noexcept
     if (standInReady_ || isPacked())
         return;
     standInReady_ = true;
-    const VkImageMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-        .dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-        .dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-        .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-        .newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = standIn_.image.get(),
-        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .imageMemoryBarrierCount = 1,
-                                .pImageMemoryBarriers = &barrier};
-    frame.device.CmdPipelineBarrier2(frame.cmd, &info);
+    frame.layoutBarrier(standIn_.image.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 } // namespace candelabra::surfaces

@@ -9,6 +9,7 @@
 #include "gpu/failure.h"
 #include "gpu/kernel.h"
 #include "shared/host_gbuffer.h"
+#include "surfaces/stored_depth.h"
 
 namespace candelabra::surfaces
 {
@@ -17,12 +18,16 @@ namespace candelabra::surfaces
 // host has told, or if the device cannot sample these formats.
 void checkGBuffer(const gpu::Device& device, CndGBufferLayout layout, const CndGBufferDesc& desc);
 
+// Throws gpu::Failure if shaders cannot read images in these layouts of a frame, which may be
+// VK_IMAGE_LAYOUT_UNDEFINED (CndLightingFrame::gbufferImageLayout).
+void checkLayouts(const char* frameName, VkImageLayout gbuffer, VkImageLayout depth);
+
 // The images that the kernels of a frame bind. Normals, albedo and specular have two bindings each,
 // of which a layout uses one at most; the others get some image of a type that they can read.
 struct GBufferViews {
-    std::array<VkImageView, 3> packed; // textures of integers: normals, albedo, specular
-    std::array<VkImageView, 3> floats; // the same as textures of floats
-    VkImageView depth;
+    std::array<gpu::SampledImage, 3> packed; // textures of integers: normals, albedo, specular
+    std::array<gpu::SampledImage, 3> floats; // the same as textures of floats
+    gpu::SampledImage depth;
 
     // Returns the bindings of a kernel, apart from depth, whose first one is `first`.
     std::array<gpu::Binding, 6> bindings(uint32_t first) const;
@@ -39,10 +44,14 @@ public:
 
     // Returns the layout as the value of the specialisation constant SPEC_GBUFFER.
     uint32_t code() const { return code_; }
-    float dielectricF0() const { return dielectricF0_; }
+    const CndGBufferDesc& desc() const { return desc_; }
+    float dielectricF0() const;
+    // Whether the depth image holds depth of the frame's projection.
+    bool depthIsProjected() const { return desc_.depthKind == CND_DEPTH_PROJECTED; }
 
-    // Throws gpu::Failure if an image view that kernels read is null. `f` is a CndLightingFrame or
-    // a CndEnvironmentFrame, and `frameName` the name of its type.
+    // Throws gpu::Failure if an image view that kernels read is null, or cannot be read in the
+    // layout that the frame says, or if clearDepth cannot be what pixels are cleared to. `f` is a
+    // CndLightingFrame or a CndEnvironmentFrame, and `frameName` the name of its type.
     template <typename Frame>
     void requireImages(const char* frameName, const Frame& f) const
     {
@@ -51,6 +60,8 @@ public:
                 gpu::failArgument(std::string(frameName) + ": " + name + " is null");
         };
         require("depth", f.depth);
+        checkLayouts(frameName, f.gbufferImageLayout, f.depthImageLayout);
+        checkClearDepth(frameName, desc_.depthKind, f.clearDepth);
         if (isCustom())
             return;
         require("normalRoughness", f.normalRoughness);
@@ -61,14 +72,17 @@ public:
     template <typename Frame>
     GBufferViews views(const Frame& f) const
     {
-        const VkImageView integers = isPacked() ? f.normalRoughness : standIn_.view.get();
-        GBufferViews v{{integers, integers, integers}, {f.depth, f.depth, f.depth}, f.depth};
-        if (isFull()) {
-            v.packed = {f.normalRoughness, f.albedo, f.specular};
-        } else if (!isCustom()) {
-            const VkImageView normal = isHosts() ? f.normalRoughness : f.albedo;
-            v.floats = {normal, f.albedo, readsSpecular_ ? f.specular : f.albedo};
-        }
+        using gpu::SampledImage;
+        const SampledImage normals = SampledImage::of(f.normalRoughness, f.gbufferImageLayout);
+        const SampledImage albedo = SampledImage::of(f.albedo, f.gbufferImageLayout);
+        const SampledImage specular = SampledImage::of(f.specular, f.gbufferImageLayout);
+        const SampledImage depth = SampledImage::of(f.depth, f.depthImageLayout);
+        const SampledImage integers = isPacked() ? normals : SampledImage{standIn_.view.get()};
+        GBufferViews v{{integers, integers, integers}, {depth, depth, depth}, depth};
+        if (isFull())
+            v.packed = {normals, albedo, specular};
+        else if (!isCustom())
+            v.floats = {isHosts() ? normals : albedo, albedo, readsSpecular_ ? specular : albedo};
         return v;
     }
 
@@ -82,8 +96,8 @@ private:
     bool isCustom() const { return layout() == gpu::GBUFFER_LAYOUT_CUSTOM; }
     bool isPacked() const { return !isHosts() && !isCustom(); }
 
+    CndGBufferDesc desc_;
     uint32_t code_;
-    float dielectricF0_;
     bool readsSpecular_;
     gpu::Image standIn_; // of one texel, bound as textures of integers if the layout has none
     bool standInReady_ = false;

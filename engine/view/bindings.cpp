@@ -14,7 +14,14 @@ void View::writeBindings(const FramePlan& plan) const
     const LightSet& lights = module_.lights;
     const gpu::Buffer& albedoTable = module_.albedoTable.buffer();
     uniforms_.write(slot, plan.params);
-    const surfaces::GBufferViews images = module_.gbuffer.views(frame);
+    surfaces::GBufferViews images = module_.gbuffer.views(frame);
+    if (!module_.gbuffer.depthIsProjected()) {
+        sets_.projectDepth.write(slot,
+                                 {Binding::sampled(gpu::PROJECT_DEPTH_STORED, images.depth),
+                                  Binding::storage(gpu::PROJECT_DEPTH_OUTPUT, depth_.view.get()),
+                                  uniforms_.at(slot, gpu::PROJECT_DEPTH_FRAME)});
+        images.depth = {depth_.view.get(), VK_IMAGE_LAYOUT_GENERAL};
+    }
     sets_.prepareLights.write(slot, {Binding::of(gpu::PREPARE_LIGHTS_RECORDS, lights.records()),
                                      Binding::of(gpu::PREPARE_LIGHTS_CORE, core_),
                                      Binding::of(gpu::PREPARE_LIGHTS_SHAPES, shapes_),

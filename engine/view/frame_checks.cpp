@@ -28,8 +28,6 @@ void checkSurfaces(const Module& module, const CndLightingViewDesc& view,
         gpu::failArgument("CndLightingFrame: size " + std::to_string(frame.width) + "x" +
                           std::to_string(frame.height) + " is outside 1x1.." +
                           std::to_string(view.maxWidth) + "x" + std::to_string(view.maxHeight));
-    if (frame.clearDepth != 0 && frame.clearDepth != 1)
-        gpu::failArgument("CndLightingFrame: clearDepth must be 0 or 1");
     module.gbuffer.requireImages("CndLightingFrame", frame);
     module.hostKernels.requireSet("CndLightingFrame", frame.hostSet);
     surfaces::checkCamera(frame.camera);

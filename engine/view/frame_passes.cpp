@@ -10,9 +10,10 @@ namespace
 
 // The name of each Pass, which is that of its kernel.
 constexpr std::array<const char*, passCount> names = {
-    "device_lights", "light_order",   "dfg_table",      "prepare_lights", "measure_influence",
-    "cut_lights",    "tile_clusters", "split_tiles",    "block_clusters", "light_tree",
-    "cluster_lists", "shade_tiles",   "shade_unlisted", "shade_brute",    "count_pairs"};
+    "device_lights", "light_order",       "dfg_table",   "prepare_lights",
+    "project_depth", "measure_influence", "cut_lights",  "tile_clusters",
+    "split_tiles",   "block_clusters",    "light_tree",  "cluster_lists",
+    "shade_tiles",   "shade_unlisted",    "shade_brute", "count_pairs"};
 
 constexpr Pass clustering[] = {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters,
                                Pass::LightTree, Pass::ClusterLists};
@@ -39,6 +40,8 @@ FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
         skip(Pass::DfgTable, "lobes are added as they are");
     if (c.albedoTableFilled)
         skip(Pass::DfgTable, "filled by an earlier frame");
+    if (c.depthIsProjected)
+        skip(Pass::ProjectDepth, "the G-buffer has depth");
     if (c.brute)
         for (const Pass pass :
              {Pass::TileClusters, Pass::SplitTiles, Pass::BlockClusters, Pass::ClusterLists,
@@ -52,7 +55,8 @@ FramePasses::FramePasses(const FrameContent& c) : listsAlone_(!c.distantInView)
         for (const Pass pass : {Pass::MeasureInfluence, Pass::CutLights})
             skip(pass, "not asked for");
     if (c.listsKept)
-        for (const Pass pass : {Pass::PrepareLights, Pass::MeasureInfluence, Pass::CutLights})
+        for (const Pass pass :
+             {Pass::PrepareLights, Pass::ProjectDepth, Pass::MeasureInfluence, Pass::CutLights})
             skip(pass, "surfaces and lights unchanged");
     if (!c.placedInView)
         for (const Pass pass :

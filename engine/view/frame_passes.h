@@ -16,6 +16,7 @@ enum class Pass : uint8_t {
     LightOrder,
     DfgTable,
     PrepareLights,
+    ProjectDepth,
     MeasureInfluence,
     CutLights,
     TileClusters,
@@ -41,6 +42,7 @@ struct FrameContent {
     bool lightsChanged = false; // some changes are not uploaded yet
     bool deviceLights = false;  // some lights come from the device (CndDeviceLights)
     bool deviceLightsChanged = false;
+    bool depthIsProjected = true; // the host's depth image holds depth
     bool brute = false;
     bool listsKept = false; // this frame uses the lists of the previous one
     bool readsAlbedoTable = false, albedoTableFilled = false;

@@ -2,6 +2,7 @@
 #include "view/module.h"
 
 #include "candelabra_shaders.h"
+#include "gpu/image_format.h"
 
 namespace candelabra::lighting
 {
@@ -10,12 +11,18 @@ Kernels::Kernels(const gpu::Device& device, const surfaces::HostKernels& host,
                  const CndLightingDesc& desc, uint32_t gbuffer, bool withIds)
     : prepareLights(device, spirv::prepare_lights_comp, {{gpu::PREPARE_LIGHTS_WITH_IDS, withIds}}),
       clusters(device, host, gbuffer, tileClassesOf(desc)),
-      shade(device, host, gbuffer, desc.specularMethods, tileClassesOf(desc),
+      shade(device, host, gbuffer, desc.radianceFormat, desc.specularMethods, tileClassesOf(desc),
             desc.influenceByError),
-      influence(desc.influenceByError ? InfluenceKernels(device) : InfluenceKernels()),
-      surfaceOverlay(device, host.of(spirv::surface_overlay_comp), {{gpu::SPEC_GBUFFER, gbuffer}},
-                     host.setLayout())
+      influence(desc.influenceByError ? InfluenceKernels(device, desc.radianceFormat)
+                                      : InfluenceKernels()),
+      surfaceOverlay(device,
+                     gpu::FormattedSpirv(host.of(spirv::surface_overlay_comp),
+                                         gpu::SURFACE_OVERLAY_IMAGE, desc.overlayFormat,
+                                         gpu::StorageUse::Write),
+                     {{gpu::SPEC_GBUFFER, gbuffer}}, host.setLayout())
 {
+    if (desc.gbuffer.depthKind != CND_DEPTH_PROJECTED)
+        projectDepth = {device, spirv::project_depth_comp, {{gpu::SPEC_GBUFFER, gbuffer}}};
 }
 
 } // namespace candelabra::lighting

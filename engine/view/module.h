@@ -7,6 +7,7 @@
 #include "lights/light_set.h"
 #include "shading/influence.h"
 #include "shading/shade_kernels.h"
+#include "shared/project_depth.h"
 #include "shared/surface_overlay.h"
 #include "surfaces/host_gbuffer.h"
 #include "surfaces/host_kernels.h"
@@ -25,6 +26,7 @@ struct Kernels {
     ShadeKernels shade;
     InfluenceKernels influence; // empty without CndLightingDesc::influenceByError
     gpu::Kernel<gpu::SurfaceOverlayParams> surfaceOverlay;
+    gpu::Kernel<gpu::ProjectDepthParams> projectDepth; // empty if hosts' depth is projected
 };
 
 struct Module {

@@ -101,6 +101,7 @@ FrameContent View::contentOf(const FramePlan& p, bool listsKept) const
                      .lightsChanged = lights.isChanged(),
                      .deviceLights = lights.hasDeviceLights(),
                      .deviceLightsChanged = lights.deviceLightsChanged(),
+                     .depthIsProjected = module_.gbuffer.depthIsProjected(),
                      .brute = frame.culling == CND_CULLING_BRUTE,
                      .listsKept = listsKept,
                      .readsAlbedoTable = frame.lobes != CND_LOBES_SUM || frame.energyCompensation,
@@ -123,6 +124,8 @@ void View::recordPasses(const gpu::Frame& f, const FramePlan& p, const FramePass
         module_.kernels.prepareLights.dispatch(
             f, sets_.prepareLights.set(f.slot), p.prepare,
             divideUp(p.prepare.lightCount, gpu::PREPARE_LIGHTS_GROUP));
+    if (passes.runs(Pass::ProjectDepth))
+        recordProjectDepth(f, p);
     if (passes.runs(Pass::TileClusters))
         clusters_.recordReset(f, module_.lights.typeCounts());
     f.barrier();
@@ -138,6 +141,17 @@ void View::recordPasses(const gpu::Frame& f, const FramePlan& p, const FramePass
             else
                 recordBrute(f, p, type);
         }
+}
+
+void View::recordProjectDepth(const gpu::Frame& f, const FramePlan& p) const noexcept
+{
+    f.layoutBarrier(depth_.image.get(), VK_IMAGE_LAYOUT_GENERAL); // all of it is written anew
+    module_.kernels.projectDepth.dispatch(
+        f, sets_.projectDepth.set(f.slot),
+        {surfaces::storedDepth(module_.gbuffer.desc(), p.frame.camera, p.frame.clearDepth,
+                               p.params.projection)},
+        divideUp(p.frame.width, gpu::PROJECT_DEPTH_GROUP),
+        divideUp(p.frame.height, gpu::PROJECT_DEPTH_GROUP));
 }
 
 // Sets the radii of influence so that the display differs by no more than the frame allows.

@@ -33,8 +33,9 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
         failArgument("CndSurfaceOverlay: quantity is not a CndSurfaceQuantity");
     if (!overlay.image)
         failArgument("CndSurfaceOverlay: image is null");
-    overlayUniforms_.write(frame.frameSlot,
-                           surfaces::frameParams(frame, module_.gbuffer.dielectricF0()));
+    const FrameParams params =
+        surfaces::frameParams(frame, module_.gbuffer, module_.desc.radianceFormat);
+    overlayUniforms_.write(frame.frameSlot, params);
     const surfaces::GBufferViews images = module_.gbuffer.views(frame);
     sets_.surfaceOverlay.write(frame.frameSlot,
                                {Binding::sampled(SHADE_DEPTH, images.depth),
@@ -56,7 +57,10 @@ void View::recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
     module_.gbuffer.record(f);
     module_.kernels.surfaceOverlay.dispatch(
         f, sets_.surfaceOverlay.set(f.slot),
-        {.quantity = uint32_t(overlay.quantity), .eyeWorld = eyeInPeriod},
+        {.quantity = uint32_t(overlay.quantity),
+         .eyeWorld = eyeInPeriod,
+         .depth = surfaces::storedDepth(module_.gbuffer.desc(), frame.camera, frame.clearDepth,
+                                        params.projection)},
         divideUp(frame.width, SURFACE_OVERLAY_GROUP),
         divideUp(frame.height, SURFACE_OVERLAY_GROUP));
     f.device.endLabel(cmd);

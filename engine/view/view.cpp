@@ -70,6 +70,12 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
              .shadeBrute = shade.brute.createBindings(slots),
              .countPairs = shade.any.countPairs.createBindings(perType),
              .surfaceOverlay = k.surfaceOverlay.createBindings(slots)};
+    if (!module.gbuffer.depthIsProjected()) {
+        sets_.projectDepth = k.projectDepth.createBindings(slots);
+        depth_ = gpu::createImage(
+            module.device, "projected depth", VK_FORMAT_R32_SFLOAT, desc_.maxWidth, desc_.maxHeight,
+            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+    }
     if (module.desc.forwardStages)
         forward_ = ForwardLights(module.device, module.desc.forwardStages, slots);
     if (module.desc.influenceByError)

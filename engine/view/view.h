@@ -51,6 +51,7 @@ private:
     FrameContent contentOf(const FramePlan& plan, bool listsKept) const;
     void recordPasses(const gpu::Frame& f, const FramePlan& plan,
                       const FramePasses& passes) noexcept;
+    void recordProjectDepth(const gpu::Frame& f, const FramePlan& plan) const noexcept;
     void recordInfluence(const gpu::Frame& f, const FramePlan& plan) noexcept;
     void recordClusters(const gpu::Frame& f, const FramePlan& plan,
                         const FramePasses& passes) const noexcept;
@@ -73,7 +74,7 @@ private:
     // light type.
     struct Sets {
         gpu::Bindings prepareLights, shadeTiles, shadeUnlisted, shadeBrute, countPairs,
-            surfaceOverlay;
+            surfaceOverlay, projectDepth;
     };
     // The part of the statistics of a slot's recording that the device does not count.
     struct SlotPlan {
@@ -92,9 +93,10 @@ private:
     Sets sets_;
     gpu::Buffer core_, shapes_, ids_; // per light; ids_ holds one element if nothing reads ids
     VkDeviceSize polygonRoom_ = 0;    // how many polygons have room for their corners in shapes_
-    gpu::Buffer counters_;            // gpu::LightingCounters
-    gpu::RecordingSlots slots_;       // through which the host reads the counters
-    std::vector<SlotPlan> plans_;     // per slot
+    gpu::Image depth_;     // what project_depth computes; empty if the host's depth is projected
+    gpu::Buffer counters_; // gpu::LightingCounters
+    gpu::RecordingSlots slots_;   // through which the host reads the counters
+    std::vector<SlotPlan> plans_; // per slot
     ForwardLights forward_;
     std::optional<Influence> influence_; // CndLightingDesc::influenceByError
     ListsKey lists_;                     // what the lists of the last frame were made for

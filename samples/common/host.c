@@ -125,9 +125,9 @@ VkDeviceMemory allocateHostMemory(const Host* host, VkMemoryRequirements needs,
 HostImage createHostImage(const Host* host, VkFormat format, uint32_t width, uint32_t height,
                           VkImageUsageFlags usage)
 {
+    const int isDepth = format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D32_SFLOAT_S8_UINT;
     HostImage result = {.format = format,
-                        .aspect = format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                 : VK_IMAGE_ASPECT_COLOR_BIT};
+                        .aspect = isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT};
     const VkImageCreateInfo image = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                      .imageType = VK_IMAGE_TYPE_2D,
                                      .format = format,

@@ -36,14 +36,14 @@ typedef struct Host {
 // The wall fills the picture, faces the camera and is matt.
 #define WALL_DISTANCE 2.0f // metres
 #define WALL_ALBEDO 0.5f
-#define WALL_ALBEDO_CODE 0x1BFFFFu // what packAlbedoFull() of lib/gbuffer.glsl makes of it
+#define WALL_ALBEDO_CODE 0x1BFFFFu // what cndPackAlbedoFull() of lib/gbuffer.glsl makes of it
 
 Host createHost(uint32_t width, uint32_t height);
 void destroyHost(Host* host);
 
 // The parts of createHost, for samples that draw something else: everything but the images, with
 // instance and device extensions for a window (a count of 0: none); and 2D images, which can also
-// be cleared and copied.
+// be cleared and copied. The view of an image with stencil is of its depth aspect.
 void createHostDevice(Host* host, uint32_t instanceExtensionCount,
                       const char* const* instanceExtensions, uint32_t deviceExtensionCount,
                       const char* const* deviceExtensions);

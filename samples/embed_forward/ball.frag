@@ -2,7 +2,7 @@
 // Shades the front of a transparent ball with all lights of the view.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define FORWARD_SET 0
+#define CND_FORWARD_SET 0
 #include "lib/forward.glsl"
 
 layout(push_constant, scalar) uniform Push
@@ -19,21 +19,21 @@ layout(location = 0) out vec4 radiance;
 
 void main()
 {
-    const Projection projection = forwardView.projection;
-    const vec3 ray = normalize(viewRay(projection, uvec2(gl_FragCoord.xy), invImageSize));
+    const CndProjection projection = cndForwardView.projection;
+    const vec3 ray = normalize(cndViewRay(projection, uvec2(gl_FragCoord.xy), invImageSize));
     const float along = dot(ray, centre);
     const float inside = radius * radius - dot(centre - along * ray, centre - along * ray);
     if (inside <= 0.0)
         discard;
     const vec3 position = (along - sqrt(inside)) * ray;
 
-    Surface surface;
+    CndSurface surface;
     surface.normal = (position - centre) / radius;
     surface.albedo = albedo;
     surface.F0 = vec3(F0);
     surface.specularWeight = F90;
     surface.perceptualRoughness = perceptualRoughness;
-    radiance = vec4(opacity * litSurface(surface, position), opacity);
+    radiance = vec4(opacity * cndLitSurface(surface, position), opacity);
     gl_FragDepth = (projection.m22 * position.z + projection.m32) /
                    (projection.m23 * position.z + projection.m33);
 }

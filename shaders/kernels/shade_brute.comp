@@ -20,7 +20,8 @@ uint lightAt(uint k)
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
-layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
+#define RADIANCE_IMAGE SHADE_RADIANCE
+#include "kernels/common/add_radiance.glsl"
 
 void main()
 {
@@ -36,6 +37,5 @@ void main()
     Sums sums = noLight();
     for (uint first = 0u; first < params.batch.count; first += WALK_BLOCK)
         shadeBlock(sums, r, first, min(WALK_BLOCK, params.batch.count - first), false);
-    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
-    imageStore(radianceImage, ivec2(pixel), before + vec4(total(sums), 0.0));
+    addRadiance(ivec2(pixel), total(sums));
 }

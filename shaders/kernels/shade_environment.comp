@@ -8,6 +8,7 @@
 #define GBUFFER_IMAGES SHADE_ENVIRONMENT_GBUFFER
 #define FRAME_PARAMS SHADE_ENVIRONMENT_FRAME
 #include "kernels/common/read_gbuffer.glsl"
+#include "kernels/common/stored_depth.glsl"
 #include "lib/dfg.glsl"
 #include "lib/joining.glsl"
 #include "lib/projection.glsl"
@@ -18,7 +19,8 @@ layout(push_constant, scalar) uniform Push
     ShadeEnvironmentParams params;
 };
 layout(binding = SHADE_ENVIRONMENT_DEPTH) uniform texture2D depthImage;
-layout(binding = SHADE_ENVIRONMENT_RADIANCE, rgba32f) uniform image2D radianceImage;
+#define RADIANCE_IMAGE SHADE_ENVIRONMENT_RADIANCE
+#include "kernels/common/add_radiance.glsl"
 layout(binding = SHADE_ENVIRONMENT_CUBE) uniform samplerCube environment;
 layout(binding = SHADE_ENVIRONMENT_PREFILTERED) uniform samplerCube prefiltered;
 layout(binding = SHADE_ENVIRONMENT_IRRADIANCE) uniform samplerCube irradiance;
@@ -62,18 +64,16 @@ void main()
     const uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, frameParams.size)))
         return;
-    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
+    const float depth = visibleDepth(params.depth, texelFetch(depthImage, ivec2(pixel), 0));
     if (depth == frameParams.clearDepth) {
         if (params.showsBackground == 0u)
             return;
         const vec3 seen = params.scale * background(pixel);
-        imageStore(radianceImage, ivec2(pixel),
-                   vec4(imageLoad(radianceImage, ivec2(pixel)).rgb + seen, 1.0));
+        storeRadiance(ivec2(pixel), vec4(imageLoad(radianceImage, ivec2(pixel)).rgb + seen, 1.0));
         return;
     }
     const vec3 position = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
     const vec3 light = shade(makeShadingPoint(readSurface(ivec2(pixel)), position,
                                               towardsEye(frameParams.projection, position)));
-    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
-    imageStore(radianceImage, ivec2(pixel), before + vec4(params.scale * light, 0.0));
+    addRadiance(ivec2(pixel), params.scale * light);
 }

@@ -15,18 +15,13 @@ layout(push_constant, scalar) uniform Push
 #include "kernels/common/tile_walk.glsl"
 #include "shading/light_walk.glsl"
 
-layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
+#define RADIANCE_IMAGE SHADE_RADIANCE
+#include "kernels/common/add_radiance.glsl"
 
 Receiver receiverAt(uvec2 pixel, float depth)
 {
     return makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
                         frameParams.sampleCount, pixelSeed(pixel));
-}
-
-void addToRadiance(uvec2 pixel, vec3 light)
-{
-    const vec4 before = imageLoad(radianceImage, ivec2(pixel));
-    imageStore(radianceImage, ivec2(pixel), before + vec4(light, 0.0));
 }
 
 // Each lane evaluates all lights of its pixel.
@@ -41,7 +36,7 @@ void shadeAlone(uint tile, uvec2 pixel, float depth)
         shadeBlock(sums, r, block.first, block.count, true);
         block = nextBlock(block);
     } while (block.count != 0u);
-    addToRadiance(pixel, total(sums));
+    addRadiance(ivec2(pixel), total(sums));
 }
 
 // LANES_ALONE leaves out what is for GPUs only, because llvmpipe takes three times as long to compile a
@@ -105,7 +100,7 @@ void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
     sums.near = nearLight[gl_LocalInvocationIndex];
     sums.general = acrossLight[gl_LocalInvocationIndex];
     if (lit)
-        addToRadiance(pixel, total(sums));
+        addRadiance(ivec2(pixel), total(sums));
 }
 #else
 const bool lanesTogether = false;

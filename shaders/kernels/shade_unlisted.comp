@@ -31,7 +31,8 @@ uint lightAt(uint k)
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
-layout(binding = SHADE_RADIANCE, rgba32f) uniform image2D radianceImage;
+#define RADIANCE_IMAGE SHADE_RADIANCE
+#include "kernels/common/add_radiance.glsl"
 
 void main()
 {
@@ -71,7 +72,5 @@ void main()
         }
         shadeBlock(sums, r, 0u, count, true);
     }
-    const ivec2 at = ivec2(packedPixel & 0xFFFFu, packedPixel >> 16);
-    const vec4 before = imageLoad(radianceImage, at);
-    imageStore(radianceImage, at, before + vec4(total(sums), 0.0));
+    addRadiance(ivec2(packedPixel & 0xFFFFu, packedPixel >> 16), total(sums));
 }

@@ -7,6 +7,7 @@
 #define GBUFFER_IMAGES SHADE_GBUFFER
 #define FRAME_PARAMS SHADE_FRAME
 #include "kernels/common/read_gbuffer.glsl"
+#include "kernels/common/stored_depth.glsl"
 #include "lib/projection.glsl"
 #include "lib/tone_map.glsl"
 
@@ -71,9 +72,10 @@ vec3 faults(Surface s, HostTexels t, vec3 position)
 // Returns a quantity at a pixel as a display colour.
 vec3 quantityAt(uint quantity, uvec2 pixel)
 {
-    const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
-    if (depth == frameParams.clearDepth)
+    const vec4 texel = texelFetch(depthImage, ivec2(pixel), 0);
+    if (!storesSurface(params.depth, texel))
         return vec3(0.0);
+    const float depth = projectedDepth(params.depth, texel);
     const Surface s = readSurface(ivec2(pixel));
     const vec3 position = viewPosition(frameParams.projection, pixel, frameParams.invImageSize, depth);
     switch (quantity) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exposes the scene radiance, applies the tone curve and the sRGB encoding, and dithers to 8 bits.
+// Exposes the scene radiance, applies the tone curve and the sRGB encoding, and dithers to the
+// steps of the display.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -7,6 +8,7 @@
 
 layout(local_size_x = TONE_MAP_GROUP) in;
 layout(constant_id = SPEC_TONE_MAP) const uint curve = TONEMAP_NONE;
+layout(constant_id = SPEC_DISPLAY_STEPS) const uint lastStep = 255u;
 layout(push_constant, scalar) uniform Push
 {
     ToneMapParams params;
@@ -40,12 +42,13 @@ void main()
     const uint end = min(pixel.y + TONE_MAP_ROWS, params.size.y);
     const float exposure = state.exposure;
     const uint dither = params.dither, seed = params.ditherSeed;
+    const float last = float(lastStep);
     do {
         const vec3 radiance = texelFetch(radianceImage, ivec2(pixel), 0).rgb;
         const vec3 encoded = encodeSrgb(toneMap(curve, expose(radiance, exposure)));
         const vec3 steps =
-            dither != 0u ? quantize(encoded, hash(uvec3(pixel, seed))) : quantize(encoded);
-        imageStore(displayImage, ivec2(pixel), vec4(steps / 255.0, 1.0));
+            dither != 0u ? quantize(encoded, last, hash(uvec3(pixel, seed))) : quantize(encoded, last);
+        imageStore(displayImage, ivec2(pixel), vec4(steps / last, 1.0));
         ++pixel.y;
     } while (pixel.y < end);
 }

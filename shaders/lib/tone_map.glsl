@@ -115,23 +115,23 @@ vec3 encodeSrgb(vec3 c)
     return mix(high, low, lessThanEqual(c, vec3(0.0031308)));
 }
 
-// Rounds an encoded value in [0, 1] to a step 0..255, with dither. The noise is triangular over two
-// steps, which makes the mean and the variance of the error independent of the signal. Within half a
-// step of the ends, where clipping would shift the mean, it is uniform over one step, so that black and
-// white stay exact.
-vec3 quantize(vec3 encoded, uvec3 random)
+// Rounds an encoded value in [0, 1] to a step 0..`last`, such as 255, with dither. The noise is
+// triangular over two steps, which makes the mean and the variance of the error independent of the
+// signal. Within half a step of the ends, where clipping would shift the mean, it is uniform over one
+// step, so that black and white stay exact.
+vec3 quantize(vec3 encoded, float last, uvec3 random)
 {
-    const vec3 value = 255.0 * encoded;
+    const vec3 value = last * encoded;
     const vec3 u = (vec3(random & 0xFFFFu) + 0.5) / 65536.0;
     const vec3 v = (vec3(random >> 16u) + 0.5) / 65536.0;
-    const bvec3 atEnd = greaterThan(abs(value - 127.5), vec3(127.0));
+    const bvec3 atEnd = greaterThan(abs(value - 0.5 * last), vec3(0.5 * last - 0.5));
     const vec3 noise = mix(u + v - 1.0, u - 0.5, atEnd);
-    return clamp(floor(value + noise + 0.5), 0.0, 255.0);
+    return clamp(floor(value + noise + 0.5), 0.0, last);
 }
 
-vec3 quantize(vec3 encoded)
+vec3 quantize(vec3 encoded, float last)
 {
-    return floor(255.0 * encoded + 0.5);
+    return floor(last * encoded + 0.5);
 }
 
 #endif

@@ -7,6 +7,7 @@
 #ifndef CND_SHARED_ENVIRONMENT_H
 #define CND_SHARED_ENVIRONMENT_H
 
+#include "shared/host_gbuffer.h"
 #include "shared/lighting.h"
 
 GPU_BEGIN
@@ -86,8 +87,9 @@ struct ShadeEnvironmentParams {
     float lastLevel;          // last level of the prefiltered cube
     float scale;              // factor on the environment's luminance
     uint showsBackground;     // 1: pixels without a surface show the environment
+    StoredDepth depth;
 };
-GPU_SIZE(ShadeEnvironmentParams, 48)
+GPU_SIZE(ShadeEnvironmentParams, 68)
 
 GPU_END
 

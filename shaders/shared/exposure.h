@@ -102,8 +102,9 @@ const uint TONEMAP_REINHARD = 1u;
 const uint TONEMAP_ACES = 2u;
 const uint TONEMAP_PBR_NEUTRAL = 3u;
 const uint TONEMAP_AGX = 4u;
-const uint SPEC_TONE_MAP = 0u; // tone_map: TONEMAP_*
-const uint SPEC_METERING = 1u; // luminance_histogram: METERING_*
+const uint SPEC_TONE_MAP = 0u;      // tone_map: TONEMAP_*
+const uint SPEC_METERING = 1u;      // luminance_histogram: METERING_*
+const uint SPEC_DISPLAY_STEPS = 2u; // tone_map: the largest code of a channel of the display
 
 GPU_END
 

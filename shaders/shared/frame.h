@@ -33,8 +33,12 @@ struct FrameParams {
     float errorBudget; // relative to the highest response; 0: no light is simplified
     uint sampleCount;  // SPECULAR_SAMPLED: samples per light
     uint sampleSeed;
+    float largestRadiance; // the largest value that the scene radiance image can hold
+    // Where a layout of the host has no such channel.
+    float constantRoughness; // perceptual
+    float constantMetalness;
 };
-GPU_SIZE(FrameParams, 132)
+GPU_SIZE(FrameParams, 144)
 
 GPU_END
 

@@ -8,8 +8,8 @@
 
 GPU_BEGIN
 
-const uint GBUFFER_LAYOUT_MASK =
-    3u; // CndGBufferLayout; the other fields describe GBUFFER_LAYOUT_HOST
+const uint GBUFFER_LAYOUT_MASK = 3u; // CndGBufferLayout
+// The fields from here to GBUFFER_F90_SHIFT describe GBUFFER_LAYOUT_HOST.
 const uint GBUFFER_NORMAL_SHIFT = 2u;
 const uint GBUFFER_NORMAL_MASK = 3u; // CndNormalEncoding
 const uint GBUFFER_NORMAL_UNORM = 0u;
@@ -26,6 +26,20 @@ const uint GBUFFER_CHANNEL_MASK = 15u;         // CndGBufferChannel
 const uint GBUFFER_ROUGHNESS_SHIFT = 8u;
 const uint GBUFFER_METALNESS_SHIFT = 12u;
 const uint GBUFFER_F90_SHIFT = 16u;
+// What the depth image holds, in every layout.
+const uint GBUFFER_DEPTH_KIND_SHIFT = 20u;
+const uint GBUFFER_DEPTH_KIND_MASK = 3u; // CndDepthKind
+const uint DEPTH_PROJECTED = 0u;
+const uint DEPTH_LINEAR = 1u;
+const uint DEPTH_POSITION_VIEW = 2u;
+const uint DEPTH_POSITION_WORLD = 3u;
+
+// What turns a texel of a depth image that holds no projected depth into the z of view space.
+struct StoredDepth {
+    vec4 z;      // z = dot(z, vec4(stored position, 1)); z.x is the factor of a linear depth
+    float clear; // value where there is no surface: of the linear depth, or of the position's alpha
+};
+GPU_SIZE(StoredDepth, 20)
 
 // The images, as a kernel binds them: their binding numbers relative to that of the first. What a
 // layout stores as packed integers and what it stores as floats are different images to a shader.

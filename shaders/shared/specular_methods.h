@@ -23,7 +23,7 @@ CND_SPECULAR_METHODS(X)
 #undef X
 // Mask of 1 << id with all methods.
 #define X(id, NAME, name) | 1u << id
-const uint SPECULAR_METHODS = 0u CND_SPECULAR_METHODS(X);
+const uint ALL_SPECULAR_METHODS = 0u CND_SPECULAR_METHODS(X);
 #undef X
 GPU_END
 

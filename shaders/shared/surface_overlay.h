@@ -4,6 +4,7 @@
 #ifndef CND_SHARED_SURFACE_OVERLAY_H
 #define CND_SHARED_SURFACE_OVERLAY_H
 
+#include "shared/host_gbuffer.h"
 #include "shared/lighting.h"
 
 GPU_BEGIN
@@ -25,8 +26,9 @@ const uint SURFACE_OVERLAY_IMAGE = 7u;
 struct SurfaceOverlayParams {
     uint quantity; // SURFACE_*
     vec3 eyeWorld; // m; the origin of view space in world space, modulo SURFACE_PERIOD
+    StoredDepth depth;
 };
-GPU_SIZE(SurfaceOverlayParams, 16)
+GPU_SIZE(SurfaceOverlayParams, 36)
 const float SURFACE_PERIOD = 2.0f; // m; period of the colours of SURFACE_POSITION
 
 // Tolerances of SURFACE_FAULTS.

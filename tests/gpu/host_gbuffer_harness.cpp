@@ -20,6 +20,7 @@ struct Texel {
 };
 
 constexpr Texel texelFormats[] = {
+    {VK_FORMAT_R32_SFLOAT, {32}, Texel::Float},
     {VK_FORMAT_R8G8_UNORM, {8, 8}, Texel::Unorm},
     {VK_FORMAT_R8G8B8A8_UNORM, {8, 8, 8, 8}, Texel::Unorm},
     {VK_FORMAT_R8G8B8A8_SNORM, {8, 8, 8, 8}, Texel::Snorm},
@@ -177,6 +178,32 @@ HostPacking::HostPacking(const CndGBufferDesc& desc, uint32_t width, uint32_t he
     }
 }
 
+double HostPacking::addDepth(double depth)
+{
+    const CndGBufferDesc& d = out_.desc;
+    if (d.depthKind == CND_DEPTH_PROJECTED)
+        return appendDepth(out_.depth, d.depthFormat, depth);
+    const CpuGBuffer& g = out_.asFull;
+    const uint32_t pixel = uint32_t(g.depth.size());
+    const bool surface = float(depth) != g.clearDepth;
+    CpuGBuffer one = g; // with this pixel
+    one.depth.push_back(float(depth));
+    const glm::dvec3 view =
+        surface ? viewPosition(one, pixel % g.width, pixel / g.width) : glm::dvec3(0);
+    glm::dmat4 viewFromWorld;
+    std::memcpy(&viewFromWorld, g.camera.viewFromWorld, sizeof viewFromWorld);
+    const glm::dvec4 clear(double(g.clearDepth)); // the frame's clearDepth, of whatever kind
+    glm::dvec4 stored = clear;
+    if (surface && d.depthKind == CND_DEPTH_LINEAR)
+        stored = glm::dvec4(-view.z / (d.depthUnit > 0 ? double(d.depthUnit) : 1));
+    else if (surface && d.depthKind == CND_DEPTH_POSITION_VIEW)
+        stored = glm::dvec4(view, 0.5);
+    else if (surface)
+        stored = glm::dvec4(glm::dvec3(glm::inverse(viewFromWorld) * glm::dvec4(view, 1)), 0.5);
+    appendTexel(out_.depth, d.depthFormat, stored);
+    return depth;
+}
+
 void HostPacking::add(const HostSurface& s, double depth)
 {
     const CndGBufferDesc& d = out_.desc;
@@ -192,7 +219,8 @@ void HostPacking::add(const HostSurface& s, double depth)
     const auto channel = [&](CndGBufferChannel c) -> double& {
         return images[(c - 1) / 4][(c - 1) % 4];
     };
-    channel(d.roughness) = roughnessToStored(d.roughnessKind, s.perceptualRoughness);
+    if (d.roughness != CND_CHANNEL_NONE)
+        channel(d.roughness) = roughnessToStored(d.roughnessKind, s.perceptualRoughness);
     if (d.metalness != CND_CHANNEL_NONE)
         channel(d.metalness) = s.metalness;
     if (d.f90 != CND_CHANNEL_NONE)
@@ -201,7 +229,7 @@ void HostPacking::add(const HostSurface& s, double depth)
     const VkFormat formats[3] = {d.normalRoughnessFormat, d.albedoFormat, d.specularFormat};
     for (int i = 0; i < 3; ++i)
         images[i] = appendTexel(out_.images[i], formats[i], images[i]);
-    const double readDepth = appendDepth(out_.depth, d.depthFormat, depth);
+    const double readDepth = addDepth(depth);
     addPixel(out_.unrounded, fullSurface(d, s, readDepth));
 
     // Decode what was stored, following the same description backwards.
@@ -211,8 +239,11 @@ void HostPacking::add(const HostSurface& s, double depth)
     if (isOctahedral(d))
         normal = fromOctahedron(glm::dvec2(normal));
     read.normal = glm::transpose(storedFromView_) * normal;
-    read.perceptualRoughness = roughnessFromStored(d.roughnessKind, channel(d.roughness));
-    read.metalness = d.metalness != CND_CHANNEL_NONE ? channel(d.metalness) : 0;
+    read.perceptualRoughness = d.roughness != CND_CHANNEL_NONE
+                                   ? roughnessFromStored(d.roughnessKind, channel(d.roughness))
+                                   : double(d.constantRoughness);
+    read.metalness =
+        d.metalness != CND_CHANNEL_NONE ? channel(d.metalness) : double(d.constantMetalness);
     read.baseColour = glm::dvec3(images[1]);
     CpuSurface full = fullSurface(d, read, readDepth);
     if (specular) {
@@ -230,7 +261,8 @@ HostGBufferTest::HostImages HostGBufferTest::uploadHost(const HostPixels& p)
                                  d.depthFormat};
     HostImages images;
     for (int i = 0; i < 4; ++i) {
-        const bool isDepth = i == 3 && formats[3] != VK_FORMAT_R32_SFLOAT;
+        const bool isDepth =
+            i == 3 && formats[3] != VK_FORMAT_R32_SFLOAT && d.depthKind == CND_DEPTH_PROJECTED;
         const VkImageAspectFlags aspect =
             isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
         const bool stencil = formats[i] == VK_FORMAT_D32_SFLOAT_S8_UINT;

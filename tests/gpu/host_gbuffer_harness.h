@@ -36,6 +36,9 @@ public:
 
 private:
     HostPixels out_;
+    // Appends what the depth image holds of the next pixel; returns the depth that it means.
+    double addDepth(double depth);
+
     glm::dmat3 storedFromView_; // rotation of normals from view space to the stored space
 };
 

@@ -12,11 +12,11 @@ inline constexpr const char* surfaceSource = R"(
 layout(set = 1, binding = 0) uniform utexture2D hostNormals;
 layout(set = 1, binding = 1) uniform utexture2D hostAlbedo;
 layout(set = 1, binding = 2) uniform utexture2D hostSpecular;
-Surface candelabraReadSurface(ivec2 pixel)
+CndSurface candelabraReadSurface(ivec2 pixel)
 {
-    return unpackGBufferFull(texelFetch(hostNormals, pixel, 0).xy,
-                             texelFetch(hostAlbedo, pixel, 0).xy,
-                             texelFetch(hostSpecular, pixel, 0).xy);
+    return cndUnpackGBufferFull(texelFetch(hostNormals, pixel, 0).xy,
+                                texelFetch(hostAlbedo, pixel, 0).xy,
+                                texelFetch(hostSpecular, pixel, 0).xy);
 }
 )";
 

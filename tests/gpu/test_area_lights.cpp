@@ -330,9 +330,9 @@ TEST_F(AreaLights, NeverNanNegativeInfiniteOrFromBelow)
     };
     for (int i = 0; i < random; ++i) {
         gpu::AreaProbeInput light{};
-        const uint32_t types[] = {gpu::LIGHT_SPHERE, gpu::LIGHT_TUBE, gpu::LIGHT_RECTANGLE,
-                                  gpu::LIGHT_DISC};
-        light.type = types[i % 4];
+        constexpr uint32_t shapes[] = {gpu::LIGHT_SPHERE, gpu::LIGHT_TUBE, gpu::LIGHT_RECTANGLE,
+                                       gpu::LIGHT_DISC};
+        light.type = shapes[i % 4];
         light.twoSided = uint32_t(random_() % 2);
         light.seed = uint32_t(random_());
         light.alpha = float(random_() % 8 ? std::pow(uniform(0.0447, 1), 2) : 0);

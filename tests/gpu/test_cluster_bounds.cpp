@@ -197,7 +197,7 @@ Made ClusterBoundsTest::make(const CpuGBuffer& g, bool lanesTogether, float spli
     surfaces::GBufferSource source(device(), CND_GBUFFER_FULL, {});
     surfaces::FrameUniforms uniforms(device(), 1);
     const auto frame = surfaceFrame<CndLightingFrame>(g, images);
-    uniforms.write(0, surfaces::frameParams(frame, source.dielectricF0()));
+    uniforms.write(0, surfaces::frameParams(frame, source, VK_FORMAT_R32G32B32A32_SFLOAT));
     const Places at(g);
     std::optional<Kernels>& kernels = kernels_[lanesTogether];
     if (!kernels)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <tuple>
 
 #include "gpu/lighting_harness.h"
 #include "harness/constants.h"
@@ -154,7 +155,9 @@ TEST_F(DeviceLightsTest, AreReadAgainWithEverySet)
                                 second = randomSpheres(g_, 50, 11);
     fill(first);
     CndDeviceLights device = desc(CND_LIGHT_SPHERE, 50, 0); // none at first
-    const auto [lighting, view] = createLighting(g_, 2);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g_, 2);
     const Images images = uploadImages(g_);
     CndError error{};
     const auto frame = [&](uint32_t slot) {
@@ -188,7 +191,9 @@ TEST_F(DeviceLightsTest, StayWhenLightsAreAddedBesideThem)
     const std::vector<CndLight> spheres = randomSpheres(g_, 60, 13);
     fill(spheres);
     const CndDeviceLights device = desc(CND_LIGHT_SPHERE, 60, 60);
-    const auto [lighting, view] = createLighting(g_, 2);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g_, 2);
     const Images images = uploadImages(g_);
     CndError error{};
     std::vector<CndLight> all = spheres;
@@ -224,7 +229,9 @@ TEST_F(DeviceLightsTest, StayWhenLightsAreAddedBesideThem)
 TEST_F(DeviceLightsTest, ArgumentsOutOfRangeAreNamed)
 {
     fill(randomSpheres(g_, 10, 12));
-    const auto [lighting, view] = createLighting(g_, 1);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g_, 1);
     const auto expect = [&](const char* named, CndResult code, auto change) {
         CndDeviceLights device = desc(CND_LIGHT_SPHERE, 10, 10);
         change(device);

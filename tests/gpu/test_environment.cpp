@@ -177,7 +177,8 @@ TEST_F(EnvironmentTest, DiffuseLightMatchesDoubleIntegration)
         Sky sky;
         double bound; // relative to the largest radiance over all normals
     } skies[] = {{"cloudy", cloudySky, 1e-3}, {"sunny", sunnySky, 4e-3}};
-    for (const auto& [name, sky, bound] : skies) {
+    for (const auto& [name, skyOf, bound] : skies) {
+        const Sky& sky = skyOf;
         setImage(imageOf(sky, 2048), 256);
         std::vector<double> errors;
         double peak = 0;

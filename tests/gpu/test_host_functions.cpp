@@ -4,6 +4,7 @@
 // layout.
 #include <cstdlib>
 #include <string>
+#include <tuple>
 
 #include "candelabra/compiler.hpp"
 #include "gpu/environment_harness.h"
@@ -27,10 +28,10 @@ struct Shadow {
 constexpr const char* shadowSource = R"(
 struct Shadow { vec3 centre; float visible; uint type; };
 layout(scalar, set = 1, binding = 0) readonly buffer Shadows { Shadow shadows[]; };
-float candelabraVisibility(ShadowQuery q)
+float candelabraVisibility(CndShadowQuery q)
 {
-    const Shadow s = shadows[q.light & ~LIGHT_OF_DEVICE];
-    const bool distant = s.type == LIGHT_DIRECTIONAL || s.type == LIGHT_DISTANT_SPHERE;
+    const Shadow s = shadows[q.light & ~CND_LIGHT_OF_DEVICE];
+    const bool distant = s.type == CND_LIGHT_DIRECTIONAL || s.type == CND_LIGHT_DISTANT_SPHERE;
     const vec3 centre = distant ? q.toLight : q.position + q.toLight;
     const bool right = q.type == s.type && distance(centre, s.centre) < 1e-3 &&
                        abs(length(q.normal) - 1.0) < 1e-3;
@@ -94,6 +95,7 @@ protected:
         return createLighting(g_, CndLightingDesc{.framesInFlight = 1,
                                                   .gbufferLayout = options.layout,
                                                   .specularMethods = 1u << options.specular,
+                                                  .gbuffer = options.gbuffer,
                                                   .hostKernels = options.hostKernels});
     }
     CndLightingView createNarrowView(CndLighting lighting)
@@ -109,6 +111,32 @@ protected:
     {
         cndDestroyLightingView(view);
         cndDestroyLighting(lighting);
+    }
+    // Puts linear depths, in metres, in place of images_.depth.
+    void storeLinearDepth()
+    {
+        std::vector<float> distances;
+        for (uint32_t y = 0; y < g_.height; ++y)
+            for (uint32_t x = 0; x < g_.width; ++x)
+                distances.push_back(g_.depth[size_t(y) * g_.width + x] == g_.clearDepth
+                                        ? g_.clearDepth
+                                        : float(-viewPosition(g_, x, y).z));
+        const gpu::Buffer data = upload("linear depth data", distances);
+        images_.depth =
+            gpu::createImage(device(), "linear depth", VK_FORMAT_R32_SFLOAT, g_.width, g_.height,
+                             VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                             VK_IMAGE_ASPECT_COLOR_BIT);
+        const VkImage image = images_.depth.image.get();
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            transition(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+            const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                         .imageExtent = {g_.width, g_.height, 1}};
+            vkCmdCopyBufferToImage(cmd, data.get(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                                   &copy);
+            transition(cmd, image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        });
     }
     std::vector<glm::vec4> frame(CndLightingView view, const RunOptions& options)
     {
@@ -206,14 +234,18 @@ TEST_F(HostFunctions, IdsStayThroughEdits)
                                               .lightTypes = 1u << CND_LIGHT_POINT,
                                               .specularMethods = 1u << RunOptions{}.specular});
     const RunOptions options = withShadows(kernels);
-    const auto [lighting, view] = create(options);
-    const auto [plain, plainView] = create({});
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = create(options);
+    CndLighting plain{};
+    CndLightingView plainView{};
+    std::tie(plain, plainView) = create({});
     std::vector<CndLight> lights = randomSpheres(g_, 120, 9);
     for (size_t i = 0; i < lights.size(); i += 2)
         lights[i].type = CND_LIGHT_POINT;
     std::vector<CndLightId> ids(lights.size());
     CndError error{};
-    const auto add = [&, plain = plain, lighting = lighting](size_t first, size_t count) {
+    const auto add = [&](size_t first, size_t count) {
         EXPECT_EQ(cndAddLights(lighting, uint32_t(count), &lights[first], &ids[first], &error),
                   CND_SUCCESS);
         std::vector<CndLight> scaled;
@@ -327,6 +359,32 @@ TEST_F(HostFunctions, ASurfaceThatTheHostReadsIsLitLikeOneOfOurLayout)
     EXPECT_LE(maxRelativeDifference(readRadiance(images_), underSky), 1e-4);
 }
 
+// The module turns linear depths into depth for hosts' functions too.
+TEST_F(HostFunctions, ASurfaceThatTheHostReadsMayHaveLinearDepth)
+{
+    const CompiledKernels kernels = compiled({.functions = CND_HOST_READ_SURFACE_BIT,
+                                              .source = surfaceSource,
+                                              .lightTypes = 1u << CND_LIGHT_SPHERE,
+                                              .specularMethods = 1u << RunOptions{}.specular});
+    const Images read = uploadImages(g_);
+    const gpu::Bindings host = surfaceSet(device(), read);
+    const RunOptions options{
+        .layout = CND_GBUFFER_CUSTOM,
+        .gbuffer = {.depthFormat = VK_FORMAT_R32_SFLOAT, .depthKind = CND_DEPTH_LINEAR},
+        .hostKernels = kernels.hostKernels(host.layout()),
+        .hostSet = host.set(0)};
+    const std::vector<CndLight> lights = randomSpheres(g_, 200, 9);
+    const auto [plain, plainView] = create({});
+    setLights(plain, lights);
+    const std::vector<glm::vec4> expected = frame(plainView, {});
+    destroy(plain, plainView);
+    const auto [lighting, view] = create(options);
+    setLights(lighting, lights);
+    storeLinearDepth();
+    EXPECT_LE(maxRelativeDifference(frame(view, options), expected), 1e-4);
+    destroy(lighting, view);
+}
+
 // A set layout alone requires no set. A shadow term does not affect the environment, which needs no
 // set for it.
 TEST_F(HostFunctions, ASetIsNeededWhereAKernelUsesIt)
@@ -343,7 +401,7 @@ TEST_F(HostFunctions, ASetIsNeededWhereAKernelUsesIt)
     setImage(sky, 64, nullptr, &withSet, CND_GBUFFER_FULL);
     EXPECT_TRUE(agree(shade(g_), underSky));
 
-    desc.source = "float candelabraVisibility(ShadowQuery q) { return 1.0; }";
+    desc.source = "float candelabraVisibility(CndShadowQuery q) { return 1.0; }";
     const CompiledKernels plain = compiled(desc);
     const std::vector<CndLight> lights = randomSpheres(g_, 20, 9);
     EXPECT_TRUE(
@@ -388,7 +446,9 @@ TEST_F(HostFunctions, WhatIsMissingOrForeignIsNamed)
     code.wordCount = 3;
     refused("is not SPIR-V", alone());
 
-    const auto [lighting, view] = create(options);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = create(options);
     CndError error{};
     CndLightId id{};
     const CndLight tube = lightsOf(CND_LIGHT_TUBE, g_, 1, 1)[0];
@@ -396,7 +456,7 @@ TEST_F(HostFunctions, WhatIsMissingOrForeignIsNamed)
     EXPECT_NE(std::string(error.message).find("shade_tiles:TUBE is missing"), std::string::npos)
         << error.message;
     const CndLightingFrame frame = frameOf(g_, images_, {});
-    context().submitAndWait([&, view = view](VkCommandBuffer cmd) {
+    context().submitAndWait([&](VkCommandBuffer cmd) {
         EXPECT_EQ(cndRecordLighting(view, cmd, &frame, &error), CND_ERROR_INVALID_ARGUMENT);
     });
     EXPECT_NE(std::string(error.message).find("hostSet is null"), std::string::npos);

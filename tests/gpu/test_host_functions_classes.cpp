@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr const char* halfShadowSource = R"(
-float candelabraVisibility(ShadowQuery q)
+float candelabraVisibility(CndShadowQuery q)
 {
     return q.light % 2u == 0u ? 1.0 : 0.25;
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <tuple>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -32,6 +33,7 @@ struct Layout {
     // 1.3e-3.
     double tolerance = 1e-3;
     CndSpecularMethod method = CND_SPECULAR_KARIS;
+    bool orthographic = false;
 };
 
 const Layout layouts[] = {
@@ -94,13 +96,42 @@ const Layout layouts[] = {
       .depthFormat = VK_FORMAT_D32_SFLOAT_S8_UINT},
      true,
      2e-3},
+    // Hosts without some of the channels, and without depth.
+    {"ConstantsLinearDepth",
+     {.normalEncoding = CND_NORMAL_SNORM,
+      .normalSpace = CND_NORMALS_VIEW,
+      .constantRoughness = 0.4f,
+      .constantMetalness = 0.5f,
+      .normalRoughnessFormat = VK_FORMAT_R16G16B16A16_SFLOAT,
+      .albedoFormat = VK_FORMAT_R8G8B8A8_UNORM,
+      .specularFormat = VK_FORMAT_R8G8_UNORM,
+      .depthFormat = VK_FORMAT_R32_SFLOAT,
+      .depthKind = CND_DEPTH_LINEAR,
+      .depthUnit = 2},
+     true},
+    {"PositionsOrthographic",
+     {.normalEncoding = CND_NORMAL_SNORM,
+      .normalSpace = CND_NORMALS_WORLD,
+      .roughness = CND_CHANNEL_NORMAL_A,
+      .normalRoughnessFormat = VK_FORMAT_R16G16B16A16_SFLOAT,
+      .albedoFormat = VK_FORMAT_R8G8B8A8_UNORM,
+      .specularFormat = VK_FORMAT_R8G8_UNORM,
+      .depthFormat = VK_FORMAT_R32G32B32A32_SFLOAT,
+      .depthKind = CND_DEPTH_POSITION_WORLD},
+     false,
+     1e-3,
+     CND_SPECULAR_KARIS,
+     true},
 };
 
-CndCamera camera(bool reversed)
+CndCamera cameraOf(const Layout& layout)
 {
     CndCamera out;
-    setPerspective(out, 1.0, double(imageWidth) / imageHeight, nearPlane, reversed ? 0 : 60,
-                   reversed);
+    const double aspect = double(imageWidth) / imageHeight;
+    if (layout.orthographic)
+        setOrthographic(out, 12, aspect, nearPlane, 60, layout.reversed);
+    else
+        setPerspective(out, 1.0, aspect, nearPlane, layout.reversed ? 0 : 60, layout.reversed);
     const glm::dmat4 viewFromWorld =
         glm::translate(glm::rotate(glm::dmat4(1), 1.1, glm::normalize(glm::dvec3(1, 2, -0.5))),
                        glm::dvec3(4, -7, 2));
@@ -111,7 +142,7 @@ CndCamera camera(bool reversed)
 // Walls at several depths with holes between them; every pixel has its own bump and material.
 HostPixels randomSurfaces(const Layout& layout)
 {
-    const CndCamera c = camera(layout.reversed);
+    const CndCamera c = cameraOf(layout);
     const float clearDepth = layout.reversed ? 0.0f : 1.0f;
     const CpuGBuffer walls = randomGBuffer(imageWidth, imageHeight, c, clearDepth, 4);
     HostPacking packing(layout.desc, imageWidth, imageHeight, c, clearDepth);
@@ -363,6 +394,33 @@ TEST_F(SurfaceOverlay, MarksPlantedMistakes)
             EXPECT_NEAR(shown[i][k], pixels[i].colour[k], 2) << pixels[i].what << ' ' << k;
 }
 
+// Positions that cannot be seen are marked like depths behind the eye.
+TEST_F(SurfaceOverlay, MarksPositionsThatCannotBe)
+{
+    CndGBufferDesc desc = floats;
+    desc.depthFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    desc.depthKind = CND_DEPTH_POSITION_VIEW;
+    const double nan = std::nan(""), infinity = HUGE_VAL;
+    const std::pair<glm::dvec4, glm::u8vec3> pixels[] = {{{0, 0, -3, 1}, {128, 128, 128}},
+                                                         {{9, 9, 9, 0}, {0, 0, 0}}, // no surface
+                                                         {{0, 0, 3, 1}, {0, 0, 255}},
+                                                         {{0, 0, nan, 1}, {0, 0, 255}},
+                                                         {{0, 0, -infinity, 1}, {0, 0, 255}}};
+    HostPixels p{.desc = desc, .width = uint32_t(std::size(pixels)), .height = 1};
+    p.asFull = {.width = p.width, .height = 1, .clearDepth = 0};
+    setPerspective(p.asFull.camera, 0.2, 1, nearPlane);
+    for (const auto& [position, colour] : pixels) {
+        appendTexel(p.images[0], desc.normalRoughnessFormat, {0, 0, 1, 0.5});
+        appendTexel(p.images[1], desc.albedoFormat, {0.5, 0.5, 0.5, 0});
+        appendTexel(p.images[2], desc.specularFormat, {});
+        appendTexel(p.depth, desc.depthFormat, position);
+    }
+    const Picture shown = show(p)[CND_SURFACE_FAULTS];
+    for (size_t i = 0; i < std::size(pixels); ++i)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(shown[i][k], pixels[i].second[k], 2) << i << ' ' << k;
+}
+
 // Checks every quantity, and the six small pictures of CND_SURFACE_ALL.
 TEST_F(SurfaceOverlay, ShowsWhatIsRead)
 {
@@ -442,7 +500,9 @@ TEST_F(SurfaceOverlay, AndLightingOfTheSameSlotHaveTheirOwnCameras)
     const CpuGBuffer g = randomGBuffer(imageWidth, imageHeight, 9);
     const Images images = uploadImages(g);
     const gpu::Image picture = createPicture(g.width, g.height);
-    const auto [lighting, view] = createLighting(g, 1);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g, 1);
     setLights(lighting, randomSpheres(g, 40, 9));
     const CndLightingFrame frame = LightingTest::frameOf(g, images, {});
     CndLightingFrame zoomed = frame;
@@ -450,13 +510,13 @@ TEST_F(SurfaceOverlay, AndLightingOfTheSameSlotHaveTheirOwnCameras)
 
     using Record = std::function<void(VkCommandBuffer)>;
     const auto lightingOf = [&](const CndLightingFrame& f) -> Record {
-        return [&, view = view](VkCommandBuffer cmd) {
+        return [&](VkCommandBuffer cmd) {
             CndError error{};
             EXPECT_EQ(cndRecordLighting(view, cmd, &f, &error), CND_SUCCESS) << error.message;
         };
     };
     const auto overlayOf = [&](const CndLightingFrame& f) -> Record {
-        return [&, view = view](VkCommandBuffer cmd) {
+        return [&](VkCommandBuffer cmd) {
             const CndSurfaceOverlay position{sizeof position, CND_SURFACE_POSITION,
                                              picture.view.get()};
             CndError error{};

@@ -2,6 +2,8 @@
 // Tests of CND_INFLUENCE_BY_ERROR: cut lights change no pixel of the display by more than the
 // error, compared with brute force under all light. Nothing is measured that should not be, and
 // other rules are unaffected.
+#include <tuple>
+
 #include "gpu/influence_harness.h"
 #include "harness/paths.h"
 #include "load/load.h"
@@ -231,7 +233,9 @@ TEST_F(InfluenceTest, WhatCannotBeMeasuredIsRefused)
     bad.toneMap = CND_TONEMAP_COUNT;
     refused(bad, "influence.toneMap");
 
-    const auto [lighting, view] = createLighting(g, 1);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g, 1);
     frame_.influence = good;
     context().submitAndWait([&](VkCommandBuffer cmd) {
         EXPECT_EQ(cndRecordLighting(view, cmd, &frame_, &error), CND_ERROR_INVALID_ARGUMENT);

@@ -3,6 +3,7 @@
 // statistics of the lists.
 #include <cstring>
 #include <string>
+#include <tuple>
 
 #include "gpu/lighting_harness.h"
 
@@ -106,7 +107,9 @@ TEST_F(LightLayers, ChangeFromFrameToFrameAndByEdits)
         lights[i].layers = 1;
     }
     std::vector<CndLight> all = withHidden(lights);
-    const auto [lighting, view] = createLighting(g_, 1);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g_, 1);
     const Images images = uploadImages(g_);
     CndError error{};
     setLights(lighting, all);
@@ -217,7 +220,9 @@ TEST_F(LightLayers, OfLightsOnTheDevice)
 
 TEST_F(LightLayers, BeyondTheLastAreNamed)
 {
-    const auto [lighting, view] = createLighting(g_, 1);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g_, 1);
     const Images images = uploadImages(g_);
     CndError error{};
     CndLight light = randomSpheres(g_, 1, 1)[0];

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "reference/light.h"
 
@@ -227,7 +228,9 @@ TEST_F(LightingTest, LightSetGrowsAndShrinksAcrossFrames)
     const Images images = uploadImages(g);
     CndError error{};
     constexpr uint32_t framesInFlight = 3;
-    const auto [lighting, view] = createLighting(g, framesInFlight);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g, framesInFlight);
     ASSERT_TRUE(lighting && view);
     uint32_t slot = 0;
     for (const uint32_t count : {3u, 5000u, 0u, 100u, 20000u, 7u}) {

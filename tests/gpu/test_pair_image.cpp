@@ -3,6 +3,7 @@
 #include "gpu/lighting_harness.h"
 
 #include <cmath>
+#include <tuple>
 
 namespace candelabra::test
 {
@@ -15,7 +16,9 @@ TEST_F(LightingTest, PairImageSumsToTheStatistics)
         lights[i].type = CND_LIGHT_POINT; // the counts of two types are added
     const Images images = uploadImages(g), pairs = uploadImages(g);
     CndError error{};
-    const auto [lighting, view] = createLighting(g, 1);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g, 1);
     ASSERT_TRUE(lighting && view);
     const CndLightSet set{sizeof set, uint32_t(lights.size()), lights.data(), {}};
     ASSERT_EQ(cndSetLights(lighting, &set, &error), CND_SUCCESS) << error.message;

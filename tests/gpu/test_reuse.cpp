@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 
 namespace candelabra::test
 {
@@ -84,7 +85,9 @@ TEST_F(LightingTest, ChangedLightsAreListedAgainDespiteThePromise)
     const CpuGBuffer g = surfaces(4);
     const Images images = uploadImages(g);
     CndError error{};
-    const auto [lighting, view] = createLighting(g, 1);
+    CndLighting lighting{};
+    CndLightingView view{};
+    std::tie(lighting, view) = createLighting(g, 1);
     ASSERT_TRUE(lighting && view);
     for (const uint32_t seed : {1u, 2u}) {
         const auto lights = randomSpheres(g, 100, seed);

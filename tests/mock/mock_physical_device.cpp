@@ -40,6 +40,9 @@ void VKAPI_CALL formatProperties(VkPhysicalDevice, VkFormat, VkFormatProperties2
 {
     constexpr VkFormatFeatureFlags all = 0x7FFFFFFF;
     out->formatProperties = {all, all, all};
+    auto* const more = static_cast<VkFormatProperties3*>(out->pNext);
+    if (more && more->sType == VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_3)
+        more->linearTilingFeatures = more->optimalTilingFeatures = more->bufferFeatures = ~0ull;
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layouts of a host's G-buffer: valid ones are accepted, and every mistake gets its own sentence.
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -39,6 +40,22 @@ CndGBufferDesc specularColour()
             .depthFormat = VK_FORMAT_R32_SFLOAT};
 }
 
+// A host whose surfaces all have the same roughness and metalness.
+CndGBufferDesc constants()
+{
+    return {.constantRoughness = 0.5f, .constantMetalness = 1};
+}
+
+// A host that stores a share of the distance to its far plane.
+CndGBufferDesc linear()
+{
+    CndGBufferDesc d = common();
+    d.depthFormat = VK_FORMAT_R16_SFLOAT;
+    d.depthKind = CND_DEPTH_LINEAR;
+    d.depthUnit = 500;
+    return d;
+}
+
 // Returns what both modules say about the layout; empty if they accept it.
 std::string sentence(const CndGBufferDesc& gbuffer, CndGBufferLayout layout = CND_GBUFFER_HOST)
 {
@@ -60,8 +77,37 @@ struct Mistake {
 
 // The exact message for each mistake, after "CndGBufferDesc: ".
 const Mistake mistakes[] = {
-    {"roughness names no channel", common,
+    {"roughness names no channel: constantRoughness must then be above 0 and at most 1", common,
      [](CndGBufferDesc& d) { d.roughness = CND_CHANNEL_NONE; }},
+    {"roughness names no channel: constantRoughness must then be above 0 and at most 1", constants,
+     [](CndGBufferDesc& d) { d.constantRoughness = std::nanf(""); }},
+    {"constantRoughness is set, but roughness names a channel", common,
+     [](CndGBufferDesc& d) { d.constantRoughness = 0.5f; }},
+    {"constantMetalness is set, but metalness names a channel", common,
+     [](CndGBufferDesc& d) { d.constantMetalness = 0.5f; }},
+    {"constantMetalness must be 0..1", constants,
+     [](CndGBufferDesc& d) { d.constantMetalness = -1; }},
+    {"depthKind is not a CndDepthKind", common,
+     [](CndGBufferDesc& d) { d.depthKind = CndDepthKind(4); }},
+    {"depthUnit is set, but depthKind is not CND_DEPTH_LINEAR", common,
+     [](CndGBufferDesc& d) { d.depthUnit = 100; }},
+    {"depthUnit must be finite and >= 0", linear, [](CndGBufferDesc& d) { d.depthUnit = -1; }},
+    {"depthFormat R8G8B8A8_SRGB decodes depths as colours", linear,
+     [](CndGBufferDesc& d) { d.depthFormat = VK_FORMAT_R8G8B8A8_SRGB; }},
+    {"depthFormat R16_SFLOAT cannot hold positions, which need four channels and both signs",
+     linear,
+     [](CndGBufferDesc& d) {
+         d.depthKind = CND_DEPTH_POSITION_WORLD;
+         d.depthUnit = 0;
+     }},
+    {"depthFormat R16G16B16A16_UNORM cannot hold positions, which need four channels and both "
+     "signs",
+     linear,
+     [](CndGBufferDesc& d) {
+         d.depthKind = CND_DEPTH_POSITION_VIEW;
+         d.depthUnit = 0;
+         d.depthFormat = VK_FORMAT_R16G16B16A16_UNORM;
+     }},
     {"normalEncoding is not a CndNormalEncoding", common,
      [](CndGBufferDesc& d) { d.normalEncoding = CndNormalEncoding(4); }},
     {"normalSpace is not a CndNormalSpace", common,
@@ -84,7 +130,8 @@ const Mistake mistakes[] = {
      [](CndGBufferDesc& d) { d.metalness = CND_CHANNEL_SPECULAR_B; }},
     {"roughness is red of specular, whose format R8G8B8A8_SRGB decodes it as a colour", common,
      [](CndGBufferDesc& d) { d.specularFormat = VK_FORMAT_R8G8B8A8_SRGB; }},
-    {"metalness and dielectricF0 are of CND_REFLECTANCE_METALNESS, reflectance is "
+    {"metalness, constantMetalness and dielectricF0 are of CND_REFLECTANCE_METALNESS, reflectance "
+     "is "
      "CND_REFLECTANCE_SPECULAR",
      specularColour, [](CndGBufferDesc& d) { d.dielectricF0 = 0.05f; }},
     {"f90 is of CND_REFLECTANCE_SPECULAR, reflectance is CND_REFLECTANCE_METALNESS", common,
@@ -117,6 +164,23 @@ TEST(HostGBuffer, LayoutsThatCanBe)
     CndGBufferDesc dielectric = common();
     dielectric.metalness = CND_CHANNEL_NONE;
     EXPECT_EQ(sentence(dielectric), "");
+    EXPECT_EQ(sentence(constants()), "");
+    EXPECT_EQ(sentence(linear()), "");
+    CndGBufferDesc positions = common();
+    positions.depthKind = CND_DEPTH_POSITION_WORLD;
+    positions.depthFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+    EXPECT_EQ(sentence(positions), "");
+}
+
+// The depth image is described for every layout.
+TEST(HostGBuffer, DepthIsDescribedForEveryLayout)
+{
+    const CndGBufferDesc depth{.depthFormat = VK_FORMAT_R32_SFLOAT, .depthKind = CND_DEPTH_LINEAR};
+    EXPECT_EQ(sentence(depth, CND_GBUFFER_FULL), "");
+    EXPECT_EQ(sentence(depth, CND_GBUFFER_COMPACT), "");
+    CndGBufferDesc wrong = depth;
+    wrong.depthKind = CndDepthKind(7);
+    EXPECT_EQ(sentence(wrong, CND_GBUFFER_FULL), "CndGBufferDesc: depthKind is not a CndDepthKind");
 }
 
 TEST(HostGBuffer, EveryMistakeHasItsSentence)
@@ -131,7 +195,8 @@ TEST(HostGBuffer, EveryMistakeHasItsSentence)
 TEST(HostGBuffer, LayoutAndDescriptionBelongTogether)
 {
     EXPECT_EQ(sentence(common(), CND_GBUFFER_FULL),
-              "CndGBufferDesc: it is filled in, but gbufferLayout is not CND_GBUFFER_HOST");
+              "CndGBufferDesc: members besides those about depth are filled in, but gbufferLayout "
+              "is not CND_GBUFFER_HOST");
     EXPECT_EQ(sentence({}, CndGBufferLayout(4)), "gbufferLayout is not a CndGBufferLayout");
 }
 

@@ -11,7 +11,7 @@ layout(location = 2) out uvec2 specular;
 
 void main()
 {
-    normalRoughness = packNormalRoughnessFull(normalize(normalView), 0.5);
-    albedo = packAlbedoFull(vec3(0.8, 0.4, 0.2));
-    specular = packSpecularFull(vec3(0.04), 1.0);
+    normalRoughness = cndPackNormalRoughnessFull(normalize(normalView), 0.5);
+    albedo = cndPackAlbedoFull(vec3(0.8, 0.4, 0.2));
+    specular = cndPackSpecularFull(vec3(0.04), 1.0);
 }

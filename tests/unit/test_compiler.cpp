@@ -12,7 +12,7 @@ namespace candelabra::test
 namespace
 {
 
-constexpr const char* shadow = "float candelabraVisibility(ShadowQuery q)\n"
+constexpr const char* shadow = "float candelabraVisibility(CndShadowQuery q)\n"
                                "{\n"
                                "    return q.light == 3u ? 0.5 : 1.0;\n"
                                "}\n";
@@ -47,9 +47,9 @@ TEST(Compiler, MakesTheKernelsThatTheFunctionsBelongIn)
                          .source = shadow,
                          .lightTypes = 1u << CND_LIGHT_POINT}),
               points);
-    const std::string both = std::string(shadow) + "Surface candelabraReadSurface(ivec2 pixel)\n"
+    const std::string both = std::string(shadow) + "CndSurface candelabraReadSurface(ivec2 pixel)\n"
                                                    "{\n"
-                                                   "    Surface s;\n"
+                                                   "    CndSurface s;\n"
                                                    "    s.normal = vec3(0.0, 0.0, 1.0);\n"
                                                    "    s.albedo = s.F0 = vec3(0.5);\n"
                                                    "    s.specularWeight = 1.0;\n"
@@ -68,7 +68,7 @@ TEST(Compiler, MakesTheKernelsThatTheFunctionsBelongIn)
 TEST(Compiler, ErrorsNameTheLineOfTheSource)
 {
     EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT,
-                            .source = "float candelabraVisibility(ShadowQuery q)\n"
+                            .source = "float candelabraVisibility(CndShadowQuery q)\n"
                                       "{\n"
                                       "    return moon(q.light);\n"
                                       "}\n",

@@ -94,8 +94,9 @@ TEST(ExposureSettings, masksOutOfRangeAreRefused)
 {
     std::vector<uint8_t> weights(64 * 64, 15);
     EXPECT_EQ(refusal([&] { exposure::validateMask(weights.data(), 64, 64); }), "");
-    for (const auto& [width, height] : {std::pair{0u, 1u}, {1u, 0u}, {65u, 1u}, {1u, 65u}})
-        EXPECT_NE(refusal([&] { exposure::validateMask(weights.data(), width, height); }), "");
+    for (const auto& size : {std::pair{0u, 1u}, {1u, 0u}, {65u, 1u}, {1u, 65u}})
+        EXPECT_NE(refusal([&] { exposure::validateMask(weights.data(), size.first, size.second); }),
+                  "");
     weights[70] = 16;
     EXPECT_NE(refusal([&] { exposure::validateMask(weights.data(), 64, 64); }).find("[70] is 16"),
               std::string::npos);

@@ -46,12 +46,12 @@ TEST(ReferenceToneMap, everyCurveStaysInRangeAndRises)
 
 TEST(ReferenceToneMap, badInputsAreDefined)
 {
-    const double inf = std::numeric_limits<double>::infinity();
+    const double infinite = std::numeric_limits<double>::infinity();
     for (int i = 0; i < CND_TONEMAP_COUNT; ++i) {
         const auto curve = static_cast<CndToneMap>(i);
         EXPECT_EQ(toneMap(curve, glm::dvec3(NAN)), toneMap(curve, glm::dvec3(0))) << i;
         EXPECT_EQ(toneMap(curve, glm::dvec3(-3)), toneMap(curve, glm::dvec3(0))) << i;
-        EXPECT_GT(grey(curve, inf), 0.97) << i;
+        EXPECT_GT(grey(curve, infinite), 0.97) << i;
         EXPECT_LT(grey(curve, 0), 1e-6) << i;
     }
     EXPECT_THROW(toneMap(CND_TONEMAP_COUNT, glm::dvec3(1)), std::invalid_argument);

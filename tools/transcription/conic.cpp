@@ -263,7 +263,7 @@ double nearness(SphereCap cap)
 
 glm::dvec2 conicUnclipped(ConicPoint p, SphereCap cap, bool mixed, const ConicConstants& k)
 {
-    SubstituteCap sub = SubstituteCap(cap.c, cap.NoC, cap.s * cap.s, cap.omc);
+    SubstituteCap sub{cap.c, cap.NoC, cap.s * cap.s, cap.omc};
     const SubstituteCap cut = substituteCap(p, cap, k);
     if (cap.NoC < cap.s)
         sub = cut;

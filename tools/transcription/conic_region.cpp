@@ -143,7 +143,7 @@ HeightNodes heightNodes(CapHeights z, const ConicConstants& k)
 {
     const double spread2 = k.CONIC_LIGHT_SPREAD * (z.mean - z.low) * (z.high - z.mean);
     const double spread = glm::min(std::sqrt(glm::max(spread2, 0.0)), 0.98 * z.mean);
-    return HeightNodes(z.mean - spread, glm::min(z.mean + spread, 1.0));
+    return {z.mean - spread, glm::min(z.mean + spread, 1.0)};
 }
 
 LightHeights weighHeights(ConicPoint p, CapHeights z, HeightNodes nodes, double ha, double hb)
@@ -156,7 +156,7 @@ LightHeights weighHeights(ConicPoint p, CapHeights z, HeightNodes nodes, double 
     const double db = (hb + mb) * (ha + p.a2 * ma);
     const double share = db * db / (da * da + db * db);
     const double gap = zb - za;
-    return LightHeights(z.low, z.high, za + gap * share, gap * gap * share * (1.0 - share));
+    return {z.low, z.high, za + gap * share, gap * gap * share * (1.0 - share)};
 }
 
 LightHeights lightHeights(ConicPoint p, CapHeights z, double v1, const ConicConstants& k)

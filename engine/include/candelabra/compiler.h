@@ -17,23 +17,23 @@ extern "C" {
 // The functions that CndCompileDesc::source defines. A kernel calls them; their signatures must be
 // exactly these.
 typedef enum CndHostFunctionBits {
-    // `float candelabraVisibility(ShadowQuery query)`: a shadow term, 0 (in shadow) to 1 (fully
+    // `float candelabraVisibility(CndShadowQuery query)`: a shadow term, 0 (in shadow) to 1 (fully
     // lit), finite, by which every light is multiplied where it is evaluated. Members of the query
     // are in view space, in metres:
     // - `light` is the low half of the light's CndLightId. It is unique within the set and smaller
     //   than the largest number of lights that the set has ever had, so it can index an array. For
-    //   CndDeviceLights it is LIGHT_OF_DEVICE plus the light's index.
-    // - `type` is LIGHT_SPHERE, LIGHT_POINT ...
+    //   CndDeviceLights it is CND_LIGHT_OF_DEVICE plus the light's index.
+    // - `type` is CND_LIGHT_SPHERE, CND_LIGHT_POINT ...
     // - `position` and `normal` (unit) are the surface's.
     // - `toLight` points from the surface to the light's centre. For distant lights it is the unit
     //   vector towards the light.
     CND_HOST_VISIBILITY_BIT = 1,
-    // `Surface candelabraReadSurface(ivec2 pixel)`: the surface of a pixel, for CND_GBUFFER_CUSTOM.
-    // It is called only for pixels whose depth holds a surface. It must fill in `normal`, `albedo`,
-    // `F0`, `specularWeight` (Schlick's F90) and `perceptualRoughness`. `normal` is in view space
-    // and has any length between 1e-6 and 1e6: the kernel normalises it. Compute it with `precise`
-    // variables, so that every kernel gets the same bits. The camera's rotation is available as
-    // gbufferView.viewFromWorld.
+    // `CndSurface candelabraReadSurface(ivec2 pixel)`: the surface of a pixel, for
+    // CND_GBUFFER_CUSTOM. It is called only for pixels whose depth holds a surface. It must fill in
+    // `normal`, `albedo`, `F0`, `specularWeight` (Schlick's F90) and `perceptualRoughness`.
+    // `normal` is in view space and has any length between 1e-6 and 1e6: the kernel normalises it.
+    // Compute it with `precise` variables, so that every kernel gets the same bits. The camera's
+    // rotation is available as cndGbufferView.viewFromWorld.
     CND_HOST_READ_SURFACE_BIT = 2,
     CND_HOST_FUNCTION_MAX_ENUM = 0x7FFFFFFF
 } CndHostFunctionBits;
@@ -43,8 +43,8 @@ typedef struct CndCompileDesc {
     uint32_t functions; // mask of CndHostFunctionBits, not 0
     // GLSL 4.60 without its version directive, zero terminated: the functions, whatever they call,
     // and bindings in descriptor set 1 (`layout(set = 1, binding = 0) ...`). The source is appended
-    // to each kernel, so it sees the kernel's names. It may include the installed shaders of "lib/"
-    // and "shared/".
+    // to each kernel, whose names all begin with cnd, Cnd or CND_; your names may be any others. It
+    // may include the installed shaders of "lib/" and "shared/".
     const char* source;
     const char* sourceName; // name of the source in error messages; NULL: "source"
     // The light types and methods that the lighting module will use. Fewer of them compile faster.

@@ -21,8 +21,9 @@ typedef struct CndEnvironmentDesc {
     // sharpness of the background and of mirror reflections. The module takes 256 * cubeSize^2
     // bytes for it (17 MB for 256).
     uint32_t cubeSize;
-    VkBool32 timestamps;        // VK_TRUE: measure the GPU time of every kernel
-    CndGBufferDesc gbuffer;     // read only with CND_GBUFFER_HOST
+    VkBool32 timestamps; // VK_TRUE: measure the GPU time of every kernel
+    CndGBufferDesc gbuffer;
+    VkFormat radianceFormat;    // as CndLightingDesc::radianceFormat
     CndHostKernels hostKernels; // kernels with functions of the host; only shade_environment is
                                 // used
 } CndEnvironmentDesc;
@@ -47,14 +48,21 @@ typedef struct CndEnvironmentFrame {
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
     uint32_t width, height; // pixels, 1..16384
     CndCamera camera;
-    float clearDepth; // depth value of pixels without a surface: 0 with reversed depth, else 1
+    // What pixels without a surface hold. With CND_DEPTH_PROJECTED: 0 with reversed depth, else 1.
+    // Otherwise any finite number, which red (CND_DEPTH_LINEAR) or alpha (positions) is cleared to.
+    float clearDepth;
     VkImageView normalRoughness;
     VkImageView albedo;
     VkImageView specular; // may be VK_NULL_HANDLE if the layout does not read it
                           // (CND_GBUFFER_COMPACT)
-    VkImageView depth;    // view of the depth aspect of a depth format, or of R32_SFLOAT
-    VkImageView radiance; // R32G32B32A32_SFLOAT storage image; outgoing luminance (cd/m^2) is ADDED
-                          // to it
+    VkImageView depth;    // of a depth format a view of the depth aspect; CndGBufferDesc::depthKind
+    // The layouts in which the images are on entry and on exit: of normalRoughness, albedo and
+    // specular, and of depth. VK_IMAGE_LAYOUT_UNDEFINED (0) means SHADER_READ_ONLY_OPTIMAL; also
+    // allowed are READ_ONLY_OPTIMAL and GENERAL, and for depth DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+    // DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL and DEPTH_READ_ONLY_OPTIMAL.
+    VkImageLayout gbufferImageLayout, depthImageLayout;
+    // Storage image of radianceFormat; outgoing luminance (cd/m^2) is ADDED to it.
+    VkImageView radiance;
     float worldFromEnvironment[9]; // rotation matrix (3 columns) from the space of the image to the
                                    // world
     float scale;                   // >= 0 and finite, factor on the luminance of the image

@@ -37,6 +37,13 @@ typedef struct CndExposureDesc {
     uint32_t framesInFlight; // 1..8: frames recorded and not yet waited for
     // VK_TRUE: measure the GPU time of every kernel.
     VkBool32 timestamps;
+    // Format of the frames' display images: R8G8B8A8_UNORM (VK_FORMAT_UNDEFINED, 0, means this) or,
+    // on devices that can write them as storage images without a format in the shader,
+    // B8G8R8A8_UNORM, A2B10G10R10_UNORM_PACK32 or A2R10G10B10_UNORM_PACK32. No device writes _SRGB
+    // formats as storage images. Create an image of such a format with
+    // VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT and VK_IMAGE_CREATE_EXTENDED_USAGE_BIT and give a _UNORM
+    // view of it: what is written is sRGB-encoded already.
+    VkFormat displayFormat;
 } CndExposureDesc;
 
 // EV here is EV100 = log2(L * 100 / 12.5) for average luminance L in cd/m^2 (ISO 2720, K = 12.5).
@@ -58,9 +65,9 @@ typedef struct CndExposureSettings {
     float speedUp, speedDown;
     CndMetering metering;
     CndToneMap toneMap;
-    // VK_TRUE: add noise before rounding to 8 bits, so that the mean is kept. Its distribution is
-    // triangular over two output steps; within half a step of black and of white it is uniform over
-    // one step.
+    // VK_TRUE: add noise before rounding to the steps of the display, so that the mean is kept. Its
+    // distribution is triangular over two output steps; within half a step of black and of white it
+    // is uniform over one step.
     VkBool32 dither;
 } CndExposureSettings;
 
@@ -78,10 +85,11 @@ CND_API float cndExposureFromEv100(float ev100);
 
 // One frame of one view.
 //
-// On entry: radiance (R32G32B32A32_SFLOAT) in SHADER_READ_ONLY_OPTIMAL, visible to COMPUTE_SHADER /
-// SHADER_SAMPLED_READ; display (R8G8B8A8_UNORM storage image) in GENERAL, or VK_NULL_HANDLE to
-// adapt without tone mapping. On exit: layouts unchanged; display has been written by
-// COMPUTE_SHADER / SHADER_STORAGE_WRITE and is not yet made visible.
+// On entry: radiance (any format that shaders read as floats) in SHADER_READ_ONLY_OPTIMAL (or as
+// radianceImageLayout says), visible to COMPUTE_SHADER / SHADER_SAMPLED_READ; display (storage
+// image of CndExposureDesc::displayFormat) in GENERAL, or VK_NULL_HANDLE to adapt without tone
+// mapping. On exit: layouts unchanged; display has been written by COMPUTE_SHADER /
+// SHADER_STORAGE_WRITE and is not yet made visible.
 //
 // Radiance may hold any value: NaN and negative channels are displayed as 0, infinity as white, and
 // NaN pixels are not metered.
@@ -90,6 +98,9 @@ typedef struct CndExposureFrame {
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
     uint32_t width, height; // pixels, 1..16384; may change between frames, the history is kept
     VkImageView radiance;
+    // Layout of radiance: SHADER_READ_ONLY_OPTIMAL (VK_IMAGE_LAYOUT_UNDEFINED, 0, means this),
+    // READ_ONLY_OPTIMAL or GENERAL.
+    VkImageLayout radianceImageLayout;
     VkImageView display; // receives sRGB-encoded values; alpha is 1
     float deltaTime;     // seconds since the previous frame, finite and >= 0
     // VK_TRUE: jump to the converged value. For a first frame, a camera cut, a single image.

@@ -129,7 +129,16 @@ typedef struct CndLightingDesc {
     // created in cndCreateLighting for spheres and for the types in lightTypes, and for other types
     // when a light set first contains the type.
     uint32_t specularMethods;
-    CndGBufferDesc gbuffer; // read only with CND_GBUFFER_HOST
+    CndGBufferDesc gbuffer;
+    // Format of the frames' radiance images: R32G32B32A32_SFLOAT (VK_FORMAT_UNDEFINED, 0, means
+    // this), R16G16B16A16_SFLOAT or, on devices that can read and write it as a storage image
+    // without a format in the shader, B10G11R11_UFLOAT_PACK32. Each light type adds its light with
+    // a rounding to the format. Luminance beyond the range of a format is stored as the largest
+    // value that the format can hold, 65,504 cd/m^2 or 64,512 cd/m^2.
+    VkFormat radianceFormat;
+    // Format of CndSurfaceOverlay::image, one of those of CndExposureDesc::displayFormat;
+    // VK_FORMAT_UNDEFINED (0) means R8G8B8A8_UNORM.
+    VkFormat overlayFormat;
     // Stages (VK_SHADER_STAGE_VERTEX_BIT, _FRAGMENT_BIT, _COMPUTE_BIT) of the host's own shaders
     // that evaluate lights through cndGetForwardSet; 0: there are none.
     VkShaderStageFlags forwardStages;
@@ -171,23 +180,31 @@ typedef struct CndLightingViewDesc {
 // One frame of one view.
 //
 // On entry: normalRoughness, albedo, specular and depth are in
-// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, radiance is in VK_IMAGE_LAYOUT_GENERAL, and all are
-// visible to COMPUTE_SHADER (SHADER_SAMPLED_READ, for radiance SHADER_STORAGE_READ |
-// SHADER_STORAGE_WRITE). On exit: layouts are unchanged; radiance has been written by
-// COMPUTE_SHADER / SHADER_STORAGE_WRITE and is not yet made visible.
+// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL (or as gbufferImageLayout and depthImageLayout say),
+// radiance is in VK_IMAGE_LAYOUT_GENERAL, and all are visible to COMPUTE_SHADER
+// (SHADER_SAMPLED_READ, for radiance SHADER_STORAGE_READ | SHADER_STORAGE_WRITE). On exit: layouts
+// are unchanged; radiance has been written by COMPUTE_SHADER / SHADER_STORAGE_WRITE and is not yet
+// made visible.
 typedef struct CndLightingFrame {
     uint32_t structSize;
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
     uint32_t width, height; // pixels, 1..maxWidth and 1..maxHeight of the view
     CndCamera camera;
-    float clearDepth; // depth value of pixels without a surface: 0 with reversed depth, else 1
+    // What pixels without a surface hold. With CND_DEPTH_PROJECTED: 0 with reversed depth, else 1.
+    // Otherwise any finite number, which red (CND_DEPTH_LINEAR) or alpha (positions) is cleared to.
+    float clearDepth;
     VkImageView normalRoughness;
     VkImageView albedo;
     VkImageView specular; // may be VK_NULL_HANDLE if the layout does not read it
                           // (CND_GBUFFER_COMPACT)
-    VkImageView depth;    // view of the depth aspect of a depth format, or of R32_SFLOAT
-    VkImageView radiance; // R32G32B32A32_SFLOAT storage image; outgoing luminance (cd/m^2) is ADDED
-                          // to it
+    VkImageView depth;    // of a depth format a view of the depth aspect; CndGBufferDesc::depthKind
+    // The layouts in which the images are on entry and on exit: of normalRoughness, albedo and
+    // specular, and of depth. VK_IMAGE_LAYOUT_UNDEFINED (0) means SHADER_READ_ONLY_OPTIMAL; also
+    // allowed are READ_ONLY_OPTIMAL and GENERAL, and for depth DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+    // DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL and DEPTH_READ_ONLY_OPTIMAL.
+    VkImageLayout gbufferImageLayout, depthImageLayout;
+    // Storage image of radianceFormat; outgoing luminance (cd/m^2) is ADDED to it.
+    VkImageView radiance;
     CndSpecularMethod specularMethod; // one of CndLightingDesc::specularMethods; 0 is
                                       // CND_SPECULAR_NONE
     // With CND_SPECULAR_SAMPLED: samples per light and pixel, 1..4096; 0: 64.
@@ -266,7 +283,8 @@ typedef enum CndSurfaceQuantity {
 typedef struct CndSurfaceOverlay {
     uint32_t structSize;
     CndSurfaceQuantity quantity;
-    // R8G8B8A8_UNORM storage image, to be displayed like CndExposureFrame::display.
+    // Storage image of CndLightingDesc::overlayFormat, to be displayed like
+    // CndExposureFrame::display.
     VkImageView image;
 } CndSurfaceOverlay;
 

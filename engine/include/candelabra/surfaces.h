@@ -34,8 +34,8 @@ typedef enum CndGBufferLayout {
     // The host's own layout, described by CndGBufferDesc.
     CND_GBUFFER_HOST = 2,
     // Surfaces are read by a GLSL function of the host (candelabra/compiler.h,
-    // CND_HOST_READ_SURFACE_BIT). The module itself reads only the depth image of a frame; its
-    // other images may be null.
+    // CND_HOST_READ_SURFACE_BIT). The module itself reads only the depth image of a frame, as
+    // CndGBufferDesc::depthKind describes it; its other images may be null.
     CND_GBUFFER_CUSTOM = 3,
     CND_GBUFFER_LAYOUT_MAX_ENUM = 0x7FFFFFFF
 } CndGBufferLayout;
@@ -57,6 +57,24 @@ typedef enum CndNormalSpace {
     CND_NORMALS_WORLD = 1,
     CND_NORMAL_SPACE_MAX_ENUM = 0x7FFFFFFF
 } CndNormalSpace;
+
+// What the image `depth` of a frame holds. Kinds other than CND_DEPTH_PROJECTED need no depth
+// range: of clipFromView only x, y and w then matter. A kernel computes depth from them, once per
+// frame.
+typedef enum CndDepthKind {
+    // The depth of clipFromView, as the raster pass writes it: clip z / clip w, 0..1, of which one
+    // end is clearDepth.
+    CND_DEPTH_PROJECTED = 0,
+    // Red holds the distance from the eye along the z axis of view space, |z|, in units of
+    // depthUnit; its sign does not matter. The distance from the eye to the position, along the
+    // ray, is something else: store |z|.
+    CND_DEPTH_LINEAR = 1,
+    // rgb holds the position in view space, in metres; alpha differs from clearDepth.
+    CND_DEPTH_POSITION_VIEW = 2,
+    // rgb holds the position in world space, in metres; alpha differs from clearDepth.
+    CND_DEPTH_POSITION_WORLD = 3,
+    CND_DEPTH_KIND_MAX_ENUM = 0x7FFFFFFF
+} CndDepthKind;
 
 // One channel of one image of a frame: normalRoughness, albedo or specular.
 typedef enum CndGBufferChannel {
@@ -96,25 +114,34 @@ typedef enum CndReflectance {
     CND_REFLECTANCE_MAX_ENUM = 0x7FFFFFFF
 } CndReflectance;
 
-// The host's own G-buffer layout, for CND_GBUFFER_HOST: what each channel of the frame's images
-// holds. Shaders read all channels as floats, so views must not be UINT or SINT. Colours must be
-// linear when read (give an _SRGB view of images that store encoded colours). The description is
-// checked when the module is created; where formats are given, it is checked against them too.
+// The host's own G-buffer: what each channel of the frame's images holds. The members about depth
+// are read with every layout, the others with CND_GBUFFER_HOST only. All images have one sample per
+// pixel (INTEGRATION.md says what to do with multisampled ones). Shaders read all channels as
+// floats, so views must not be UINT or SINT. Colours must be linear when read (give an _SRGB view
+// of images that store encoded colours). The description is checked when the module is created;
+// where formats are given, it is checked against them too.
 typedef struct CndGBufferDesc {
     CndNormalEncoding normalEncoding;
     CndNormalSpace normalSpace;
-    CndGBufferChannel roughness; // not CND_CHANNEL_NONE
-    CndRoughnessKind roughnessKind;
+    CndGBufferChannel roughness; // CND_CHANNEL_NONE: constantRoughness everywhere
+    float constantRoughness;     // without a channel: perceptual roughness, above 0 and at most 1;
+                                 // otherwise 0
+    CndRoughnessKind roughnessKind; // of the channel
     CndReflectance reflectance;
     CndGBufferChannel metalness; // with CND_REFLECTANCE_METALNESS, 0..1; CND_CHANNEL_NONE:
-                                 // metalness is 0 everywhere
-    float dielectricF0;          // with CND_REFLECTANCE_METALNESS, 0..1; 0 means 0.04
+                                 // constantMetalness everywhere
+    float constantMetalness;     // 0..1; with a channel, or with CND_REFLECTANCE_SPECULAR: 0
+    float dielectricF0;    // with CND_REFLECTANCE_METALNESS, 0..1: F0 of what is no metal; 0 means
+                           // 0.04
     CndGBufferChannel f90; // with CND_REFLECTANCE_SPECULAR: Schlick's F90, 0..1; CND_CHANNEL_NONE:
                            // F90 is 1
     // Formats of the image views, for the checks; VK_FORMAT_UNDEFINED skips the check of that
-    // image. Depth may be D16, D24 or D32, with or without stencil, or R32_SFLOAT as a colour
-    // format.
+    // image. Projected depth may be D16, D24 or D32, with or without stencil, or R32_SFLOAT as a
+    // colour format; linear depth any format of floats; positions four channels with both signs.
     VkFormat normalRoughnessFormat, albedoFormat, specularFormat, depthFormat;
+    CndDepthKind depthKind;
+    float depthUnit; // with CND_DEPTH_LINEAR: metres per unit of what is stored, above 0, for
+                     // example the far plane where |z| / far is stored; 0 means 1
 } CndGBufferDesc;
 
 // SPIR-V of one kernel that contains functions of the host. It must have been made by

@@ -7,9 +7,9 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/host_gbuffer.h"
 #include "kernels/common/frame_params.glsl"
+#include "kernels/common/gbuffer_code.glsl"
 #include "lib/gbuffer.glsl"
 
-layout(constant_id = GBUFFER_CODE) const uint gbufferCode = 0u;
 const uint gbufferLayout = gbufferCode & GBUFFER_LAYOUT_MASK;
 const uint normalEncoding = (gbufferCode >> GBUFFER_NORMAL_SHIFT) & GBUFFER_NORMAL_MASK;
 const bool normalsOfWorld = ((gbufferCode >> GBUFFER_WORLD_SHIFT) & 1u) != 0u;
@@ -54,7 +54,7 @@ vec3 hostNormal(vec4 texel)
 }
 
 #ifdef CANDELABRA_READ_SURFACE
-// The host's function may read gbufferView.viewFromWorld (candelabra/compiler.h).
+// The host's function may read gbufferView.viewFromWorld, with its prefix (candelabra/compiler.h).
 #define gbufferView frameParams
 
 Surface candelabraReadSurface(ivec2 pixel);
@@ -107,6 +107,8 @@ float channelOf(HostTexels t, uint channel)
 // Returns the perceptual roughness that the host stored, which may be out of range.
 float storedRoughness(HostTexels t)
 {
+    if (roughnessChannel == 0u)
+        return frameParams.constantRoughness;
     const float stored = channelOf(t, roughnessChannel);
     if (roughnessKind == GBUFFER_ROUGHNESS_ALPHA)
         return stored < 0.0 ? stored : sqrt(stored);
@@ -124,7 +126,8 @@ Surface hostSurface(HostTexels t)
         s.specularWeight = f90Channel == 0u ? 1.0 : channelOf(t, f90Channel);
         return s;
     }
-    const float metalness = metalnessChannel == 0u ? 0.0 : channelOf(t, metalnessChannel);
+    const float metalness =
+        metalnessChannel == 0u ? frameParams.constantMetalness : channelOf(t, metalnessChannel);
     s.albedo = t.albedo.rgb * (1.0 - metalness);
     s.F0 = mix(vec3(frameParams.dielectricF0), t.albedo.rgb, metalness);
     s.specularWeight = 1.0;

@@ -7,7 +7,7 @@ int main(void)
 {
     const CndCompileDesc desc = {.structSize = sizeof desc,
                                  .functions = CND_HOST_VISIBILITY_BIT,
-                                 .source = "float candelabraVisibility(ShadowQuery q)\n"
+                                 .source = "float candelabraVisibility(CndShadowQuery q)\n"
                                            "{\n"
                                            "    return q.light == 0u ? 0.5 : 1.0;\n"
                                            "}\n",

@@ -158,7 +158,7 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
 {
     State& s = *state_;
     const uint32_t methods =
-        options.specularMethods ? options.specularMethods : gpu::SPECULAR_METHODS;
+        options.specularMethods ? options.specularMethods : gpu::ALL_SPECULAR_METHODS;
     s.lighting =
         take(Lighting::create(context.desc(), {.framesInFlight = options.framesInFlight,
                                                .gbufferLayout = options.gbufferLayout,

@@ -42,7 +42,7 @@ LtcFrame::LtcFrame(const VulkanContext& context, Renderer& renderer, const Scene
       ltcTable_(uploadLtcTable(context.device())),
       uniforms_(context.device(), 1)
 {
-    uniforms_.write(0, surfaces::frameParams(frame_, 0));
+    uniforms_.write(0, surfaces::frameParams(frame_, gbuffer_, VK_FORMAT_R32G32B32A32_SFLOAT));
     glm::dmat4 viewFromWorld;
     std::memcpy(&viewFromWorld, frame_.camera.viewFromWorld, sizeof viewFromWorld);
     std::vector<CndLight> lights;

@@ -78,7 +78,7 @@ Baselines::Baselines(const VulkanContext& context, Renderer& renderer, const Sce
       options_(options),
       frame_(renderer.lightingFrame(0, options)),
       gbuffer_(context.device(), CND_GBUFFER_FULL, {}),
-      params_(surfaces::frameParams(frame_, 0)),
+      params_(surfaces::frameParams(frame_, gbuffer_, VK_FORMAT_R32G32B32A32_SFLOAT)),
       kernels_(context.device()),
       timer_(context.device(), "baselines", 1, true),
       dfg_(context.device()),

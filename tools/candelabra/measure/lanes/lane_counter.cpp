@@ -106,7 +106,7 @@ PFN_vkVoidFunction VKAPI_CALL LaneCounter::functions(VkInstance instance, const 
     return found ? found : vkGetInstanceProcAddr(instance, name);
 }
 
-LaneCounter::LaneCounter(const VulkanContext& context) : context_(context)
+LaneCounter::LaneCounter(const VulkanContext& context)
 {
     const gpu::Device& device = context.device();
     const VkDeviceSize bytes =

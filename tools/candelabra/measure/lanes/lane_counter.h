@@ -37,7 +37,6 @@ public:
 private:
     struct Functions;
 
-    const VulkanContext& context_;
     gpu::Buffer counts_;
     gpu::Bindings set_;
 };

@@ -140,7 +140,7 @@ std::vector<PipelineCost> measurePipelines(const PipelineSettings& settings, Dev
     const uint32_t classes = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
     Lighting lighting = take(Lighting::create(
         device.desc(), {.framesInFlight = 1,
-                        .specularMethods = settings.methods & gpu::SPECULAR_METHODS,
+                        .specularMethods = settings.methods & gpu::ALL_SPECULAR_METHODS,
                         .materialClasses = classes,
                         .influenceByError = VK_TRUE}));
     take(lighting.setLights(lights, {0, 0, 0}));

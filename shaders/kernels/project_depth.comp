@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Computes the depth of the frame's projection from linear depths or positions.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/lighting.h"
+#include "shared/project_depth.h"
+#define GBUFFER_CODE SPEC_GBUFFER
+#define FRAME_PARAMS PROJECT_DEPTH_FRAME
+#include "kernels/common/stored_depth.glsl"
+
+layout(local_size_x = PROJECT_DEPTH_GROUP, local_size_y = PROJECT_DEPTH_GROUP) in;
+layout(push_constant, scalar) uniform Push
+{
+    ProjectDepthParams params;
+};
+layout(binding = PROJECT_DEPTH_STORED) uniform texture2D storedImage;
+layout(binding = PROJECT_DEPTH_OUTPUT, r32f) uniform writeonly image2D depthImage;
+
+void main()
+{
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, frameParams.size)))
+        return;
+    const float depth = visibleDepth(params.depth, texelFetch(storedImage, pixel, 0));
+    imageStore(depthImage, pixel, vec4(depth));
+}
