@@ -259,9 +259,10 @@ LightSet::Staging& LightSet::freeStaging()
             return staging;
     store_.staging.push_back({createStaging(capacity_)});
     device_.say(CND_MESSAGE_INFO,
-                "lights have %zu staging buffers of %llu bytes now, because frames in flight "
+                "lights have %u staging buffers of %llu bytes now, because frames in flight "
                 "still read the others",
-                store_.staging.size(), (unsigned long long)store_.staging.back().buffer.size);
+                uint32_t(store_.staging.size()),
+                (unsigned long long)store_.staging.back().buffer.size);
     return store_.staging.back();
 }
 

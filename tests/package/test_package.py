@@ -113,20 +113,56 @@ def show_window(program):
 
 def consume(folder, *options):
     configure_and_build(source / "tests/package/consumer", folder, *options)
-    for library in ("candelabra", "candelabra_static"):
-        run(folder / f"with_{library}")
+    run_hosts(folder)
+
+
+def run_hosts(folder):
+    hosts = sorted(folder.glob("with_*[a-z0-9]"))
+    require({h.name for h in hosts} >= {"with_candelabra", "with_candelabra_static"}, f"built {hosts}")
+    for host in hosts:
+        print(host.name, run(host), end="")
     dynamic = run("readelf", "-d", folder / "with_candelabra_static")
     require("libcandelabra" not in dynamic, "the static library was linked as a shared one")
 
 
+# Neither the library nor its hosts need these. CMake stops if one of them is required.
+WITHOUT = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=TRUE" for name in
+           ("Vulkan", "glslang", "glfw3", "GTest", "CLI11", "fmt", "meshoptimizer", "nlohmann_json", "spdlog",
+            "TinyGLTF", "OpenEXR", "PkgConfig", "Python3", "Doxygen")]
+
+
 def found():
-    consume(work / "found", f"-DCMAKE_PREFIX_PATH={prefix}")
-    run(work / "found/with_compiler")
+    """Projects that find the installed package: one in C alone, one in C and C++."""
+    consume(work / "found_c", f"-DCMAKE_PREFIX_PATH={prefix}", *WITHOUT)
+    consume(work / "found", f"-DCMAKE_PREFIX_PATH={prefix}", "-DCPP=ON", *WITHOUT)
 
 
 def fetched():
-    consume(work / "fetched", f"-DCANDELABRA_SOURCE={source}", "-DCMAKE_BUILD_TYPE=Release")
-    run_sample(work / "fetched/embed_minimal/embed_minimal")
+    """Fetched by the commands of the guide, from a repository whose branch is main, then by add_subdirectory.
+    The second project has the source and build folders of the first one, so nothing is compiled twice."""
+    repository = clean(work / "repository")
+    shutil.copytree(source, repository, ignore=lambda folder, names: [
+        n for n in names if n == ".git" or folder == str(source) and n in ("build", "out")])
+    author = ("-c", "user.name=test", "-c", "user.email=test@localhost")
+    run("git", "init", "-q", "-b", "main", repository)
+    run("git", "-C", repository, "add", "-A")
+    run("git", "-C", repository, *author, "commit", "-q", "-m", "The source")
+    guide = (source / "engine/INTEGRATION.md").read_text(encoding="utf-8")
+    commands, = re.findall(r"```cmake\n(include\(FetchContent\).*?)```", guide, re.DOTALL)
+    require("https://ADDRESS/candelabra.git" in commands, f"no address to replace in {commands}")
+    get, folder = work / "get.cmake", work / "fetched"
+    get.write_text(commands.replace("https://ADDRESS/candelabra.git", f"file://{repository}"), encoding="utf-8")
+    options = [f"-DGET={get}", "-DCPP=ON", "-DCMAKE_BUILD_TYPE=Release"]
+    consume(folder, *options, f"-DSAMPLE={source}/samples/embed_minimal")
+    run_sample(folder / "sample/embed_minimal")
+
+    fetched_source, fetched_build = folder / "_deps/candelabra-src", folder / "_deps/candelabra-build"
+    get.write_text(f"add_subdirectory({fetched_source} {fetched_build})\n", encoding="utf-8")
+    for stale in (folder / "CMakeCache.txt", *folder.glob("with_*[a-z0-9]")):
+        stale.unlink()
+    run("cmake", "-G", generator, "-S", source / "tests/package/consumer", "-B", folder, *options, *WITHOUT)
+    run("cmake", "--build", folder, "--parallel", 2)
+    run_hosts(folder)
 
 
 def pkg_config():
@@ -134,11 +170,16 @@ def pkg_config():
     flags = shlex.split(run("pkg-config", "--cflags", "--libs", "candelabra", **where))
     static = shlex.split(run("pkg-config", "--cflags", "--libs", "--static", "candelabra", **where))
     main = source / "tests/package/consumer/main.c"
-    run("cc", main, "-o", work / "pc_shared", *flags)
-    run(work / "pc_shared", LD_LIBRARY_PATH=str(libdir()))
-    run("cc", main, "-o", work / "pc_static",
-        *(f.replace("-lcandelabra", "-l:libcandelabra.a") for f in static))
-    run(work / "pc_static")
+    archive = [f.replace("-lcandelabra", "-l:libcandelabra.a") for f in static]
+    for name, compiler in {"c": ("cc", main),
+                           "cpp17": ("c++", "-std=c++17", main.with_name("host.cpp")),
+                           "cpp20": ("c++", "-std=c++20", main.with_name("host.cpp"))}.items():
+        run(*compiler, "-o", work / f"pc_{name}_shared", *flags)
+        run(work / f"pc_{name}_shared", LD_LIBRARY_PATH=str(libdir()))
+        run(*compiler, "-o", work / f"pc_{name}_static", *archive)
+        run(work / f"pc_{name}_static")
+        require("libcandelabra" not in run("readelf", "-d", work / f"pc_{name}_static"),
+                "the static library was linked as a shared one")
     shaders, = shlex.split(run("pkg-config", "--variable=shaderdir", "candelabra", **where))
     require((pathlib.Path(shaders) / "lib/gbuffer.glsl").exists(), f"no shaders in {shaders}")
     flags = shlex.split(run("pkg-config", "--cflags", "--libs", "candelabra_compiler", **where))

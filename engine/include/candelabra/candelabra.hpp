@@ -1,21 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++20 interface of the C ABI: handles that own their objects, results instead of
-// out-parameters, and structSize filled in.
-// Units, ranges, ownership and thread rules are those of candelabra.h. Nothing throws.
+// The C++ interface of the C ABI: handles that own their objects, results instead of
+// out-parameters, and structSize filled in. It needs C++17; the examples in the documents use
+// C++20, because they name the members that they initialise. Units, ranges, ownership and thread
+// rules are those of candelabra.h. Nothing throws.
 #pragma once
+
+#if __cplusplus < 201703L && (!defined(_MSVC_LANG) || _MSVC_LANG < 201703L)
+#error "candelabra/candelabra.hpp needs C++17. Use candelabra/candelabra.h with C and older C++."
+#endif
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
-#include <span>
 #include <utility>
+#if __has_include(<version>)
+#include <version>
+#endif
+#if defined(__cpp_lib_span)
+#include <span>
+#endif
 
 #include "candelabra/candelabra.h"
 
 namespace candelabra
 {
+
+#if defined(__cpp_lib_span)
+template <typename T>
+using Span = std::span<T>;
+#else
+// Elements that lie one after another, borrowed from an array, a std::vector or the like.
+template <typename T>
+class Span
+{
+public:
+    constexpr Span() = default;
+    constexpr Span(T* data, size_t size) : data_(data), size_(size) {}
+    template <size_t n>
+    constexpr Span(T (&array)[n]) : data_(array), size_(n)
+    {
+    }
+    template <typename Container, typename = decltype(std::declval<Container&>().data()),
+              typename = decltype(std::declval<Container&>().size())>
+    constexpr Span(Container&& container) : data_(container.data()), size_(container.size())
+    {
+    }
+    constexpr T* data() const { return data_; }
+    constexpr size_t size() const { return size_; }
+    constexpr T* begin() const { return data_; }
+    constexpr T* end() const { return data_ + size_; }
+
+private:
+    T* data_ = nullptr;
+    size_t size_ = 0;
+};
+#endif
 
 // A value of type T, or the error that prevented it.
 template <typename T>
@@ -235,11 +276,11 @@ public:
     static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
                                        std::array<CndLightingViewDesc, n> views) noexcept
     {
-        return plan(device, desc, std::span<CndLightingViewDesc>(views));
+        return plan(device, desc, Span<CndLightingViewDesc>(views));
     }
     // As above for any number of views. Fills in their structSize, so they are not const.
     static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
-                                       std::span<CndLightingViewDesc> views = {}) noexcept
+                                       Span<CndLightingViewDesc> views = {}) noexcept
     {
         for (CndLightingViewDesc& view : views)
             view.structSize = sizeof view;
@@ -251,7 +292,7 @@ public:
         return detail::usage(cndGetLightingMemory, handle_);
     }
     // `origin`: the point in world space that the lights' positions are relative to.
-    Result<void> setLights(std::span<const CndLight> lights, const double (&origin)[3]) noexcept
+    Result<void> setLights(Span<const CndLight> lights, const double (&origin)[3]) noexcept
     {
         return setLights({0,
                           uint32_t(lights.size()),
@@ -265,7 +306,7 @@ public:
         return detail::call(cndSetLights, handle_, &set);
     }
     // Writes the lights' ids to `ids`, which must have as many elements as `lights`.
-    Result<void> addLights(std::span<const CndLight> lights, std::span<CndLightId> ids) noexcept
+    Result<void> addLights(Span<const CndLight> lights, Span<CndLightId> ids) noexcept
     {
         if (ids.size() != lights.size())
             return CndError{CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS,
@@ -280,8 +321,7 @@ public:
             return added.error();
         return id;
     }
-    Result<void> updateLights(std::span<const CndLightId> ids,
-                              std::span<const CndLight> lights) noexcept
+    Result<void> updateLights(Span<const CndLightId> ids, Span<const CndLight> lights) noexcept
     {
         if (ids.size() != lights.size())
             return CndError{CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS,
@@ -289,7 +329,7 @@ public:
         return detail::call(cndUpdateLights, handle_, uint32_t(ids.size()), ids.data(),
                             lights.data());
     }
-    Result<void> removeLights(std::span<const CndLightId> ids) noexcept
+    Result<void> removeLights(Span<const CndLightId> ids) noexcept
     {
         return detail::call(cndRemoveLights, handle_, uint32_t(ids.size()), ids.data());
     }
@@ -363,7 +403,7 @@ public:
     {
         return detail::usage(cndGetExposureMemory, handle_);
     }
-    Result<void> setMask(std::span<const uint8_t> weights, uint32_t width, uint32_t height) noexcept
+    Result<void> setMask(Span<const uint8_t> weights, uint32_t width, uint32_t height) noexcept
     {
         if (weights.size() != size_t(width) * height)
             return CndError{CND_ERROR_INVALID_ARGUMENT, VK_SUCCESS,
@@ -393,8 +433,8 @@ inline Result<std::array<float, 3>> luminousPowerOfLight(const CndLight& light) 
 
 // Makes `light` a polygon with these corners in space; see cndPolygonFromCorners. `light` then
 // refers to `polygon`.
-inline Result<void> polygonFromCorners(std::span<const std::array<float, 3>> corners,
-                                       CndLight& light, CndPolygon& polygon) noexcept
+inline Result<void> polygonFromCorners(Span<const std::array<float, 3>> corners, CndLight& light,
+                                       CndPolygon& polygon) noexcept
 {
     CndError error{};
     if (cndPolygonFromCorners(reinterpret_cast<const float(*)[3]>(corners.data()),

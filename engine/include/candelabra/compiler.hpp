@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C++20 interface of candelabra/compiler.h. Link candelabra::compiler to use it.
+// The C++ interface of candelabra/compiler.h. Link candelabra::compiler to use it.
 #pragma once
 
 #include "candelabra/candelabra.hpp"

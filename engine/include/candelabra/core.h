@@ -15,7 +15,19 @@
 #define CND_MAKE_VERSION(major, minor, patch) (((major) << 22) | ((minor) << 12) | (patch))
 #define CND_VERSION CND_MAKE_VERSION(CND_VERSION_MAJOR, CND_VERSION_MINOR, CND_VERSION_PATCH)
 
-#if defined(__GNUC__)
+#if !defined(VK_API_VERSION_1_3)
+#error "Candelabra needs the headers of Vulkan 1.3 or newer."
+#endif
+
+// On Windows, CND_SHARED says that the functions are in a DLL; the CMake target of the shared
+// library defines it. CND_EXPORTS is defined while the library is compiled.
+#if defined(_WIN32) && defined(CND_EXPORTS)
+#define CND_API __declspec(dllexport)
+#elif defined(_WIN32) && defined(CND_SHARED)
+#define CND_API __declspec(dllimport)
+#elif defined(_WIN32)
+#define CND_API
+#elif defined(__GNUC__)
 #define CND_API __attribute__((visibility("default")))
 #else
 #define CND_API
