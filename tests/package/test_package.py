@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests Candelabra as other projects get it: installed into a folder that is then moved, found from
-clean build folders, or fetched. Usage: test_package.py STEP SOURCE BUILD GENERATOR; the step `install`
-must run first. Everything is written to BUILD/package."""
+clean build folders, fetched, added to a source tree, or by a package manager. Usage: test_package.py STEP
+SOURCE BUILD GENERATOR; the step `install` must run first. Everything is written to BUILD/package."""
 import os
 import pathlib
 import re
 import shlex
 import shutil
+import runpy
 import subprocess
 import sys
+import types
+import unittest.mock
 
 step, source, build, generator = sys.argv[1], *map(pathlib.Path, sys.argv[2:4]), sys.argv[4]
 work = build / "package"
@@ -77,7 +80,15 @@ def install():
         require(re.fullmatch(rf"{name}\.so\.\d+\.\d+", major_minor[1]), f"SONAME {major_minor[1]}")
         require("glslang" not in run("readelf", "-d", library), f"{name} needs a glslang of the system")
 
-    texts = [p for p in prefix.rglob("*")
+    documents = sorted((prefix / "share/doc/candelabra").glob("*.md"))
+    require(len(documents) == 4, f"installed {documents}")
+    for document in documents:
+        text = document.read_text(encoding="utf-8")
+        named = re.findall(r"\b[A-Z]+\.md\b|\bsamples/\w+", text)
+        linked = [link.partition("#")[0] for link in re.findall(r"\]\(([^)]+)\)", text)]
+        for name in {*named, *filter(None, linked)}:
+            require((document.parent / name).exists(), f"{document} refers to {name}, which is not installed")
+    texts = [p for folder in ("include", "lib", "share/candelabra") for p in (prefix / folder).rglob("*")
              if p.suffix in (".h", ".hpp", ".glsl", ".cmake", ".pc") and p.is_file()]
     require(len(texts) > 10, f"only {len(texts)} files were installed")
     for path in texts:
@@ -90,7 +101,7 @@ def install():
 
 
 def sample(name):
-    configure_and_build(source / "samples" / name, work / name, f"-DCMAKE_PREFIX_PATH={prefix}")
+    configure_and_build(prefix / "share/doc/candelabra/samples" / name, work / name, f"-DCMAKE_PREFIX_PATH={prefix}")
     {"embed_window": show_window}.get(name, run_sample)(work / name / name)
 
 
@@ -111,14 +122,18 @@ def show_window(program):
         require((coloured == 0) == (name == "faults"), f"{file}: {coloured} coloured pixels")
 
 
-def consume(folder, *options):
+CPP = ("cpp17", "cpp20")
+
+
+def consume(folder, options, *names):
     configure_and_build(source / "tests/package/consumer", folder, *options)
-    run_hosts(folder)
+    run_hosts(folder, *names)
 
 
-def run_hosts(folder):
+def run_hosts(folder, *names):
     hosts = sorted(folder.glob("with_*[a-z0-9]"))
-    require({h.name for h in hosts} >= {"with_candelabra", "with_candelabra_static"}, f"built {hosts}")
+    require({h.name for h in hosts} == {f"with_{n}" for n in ("candelabra", "candelabra_static", *names)},
+            f"built {hosts}")
     for host in hosts:
         print(host.name, run(host), end="")
     dynamic = run("readelf", "-d", folder / "with_candelabra_static")
@@ -133,13 +148,15 @@ WITHOUT = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=TRUE" for name in
 
 def found():
     """Projects that find the installed package: one in C alone, one in C and C++."""
-    consume(work / "found_c", f"-DCMAKE_PREFIX_PATH={prefix}", *WITHOUT)
-    consume(work / "found", f"-DCMAKE_PREFIX_PATH={prefix}", "-DCPP=ON", *WITHOUT)
+    options = [f"-DCMAKE_PREFIX_PATH={prefix}", *WITHOUT]
+    consume(work / "found_c", options, "compiler")
+    consume(work / "found", [*options, "-DCPP=ON"], "compiler", *CPP)
 
 
 def fetched():
-    """Fetched by the commands of the guide, from a repository whose branch is main, then by add_subdirectory.
-    The second project has the source and build folders of the first one, so nothing is compiled twice."""
+    """Fetched by the commands of the guide, from a repository whose branch is main; then by add_subdirectory, which
+    also installs the static library alone. The second project has the source and build folders of the first one, so
+    nothing is compiled twice."""
     repository = clean(work / "repository")
     shutil.copytree(source, repository, ignore=lambda folder, names: [
         n for n in names if n == ".git" or folder == str(source) and n in ("build", "out")])
@@ -153,16 +170,79 @@ def fetched():
     get, folder = work / "get.cmake", work / "fetched"
     get.write_text(commands.replace("https://ADDRESS/candelabra.git", f"file://{repository}"), encoding="utf-8")
     options = [f"-DGET={get}", "-DCPP=ON", "-DCMAKE_BUILD_TYPE=Release"]
-    consume(folder, *options, f"-DSAMPLE={source}/samples/embed_minimal")
+    consume(folder, [*options, f"-DSAMPLE={source}/samples/embed_minimal"], *CPP)
     run_sample(folder / "sample/embed_minimal")
 
     fetched_source, fetched_build = folder / "_deps/candelabra-src", folder / "_deps/candelabra-build"
     get.write_text(f"add_subdirectory({fetched_source} {fetched_build})\n", encoding="utf-8")
     for stale in (folder / "CMakeCache.txt", *folder.glob("with_*[a-z0-9]")):
         stale.unlink()
-    run("cmake", "-G", generator, "-S", source / "tests/package/consumer", "-B", folder, *options, *WITHOUT)
+    run("cmake", "-G", generator, "-S", source / "tests/package/consumer", "-B", folder, *options, *WITHOUT,
+        "-DCANDELABRA_INSTALL=ON", "-DBUILD_SHARED_LIBS=OFF")
     run("cmake", "--build", folder, "--parallel", 2)
-    run_hosts(folder)
+    run_hosts(folder, *CPP)
+    static = clean(work / "static")
+    run("cmake", "--install", folder, "--prefix", static)
+    require(not list(static.rglob("*.so*")), "the shared library was installed too")
+    consume(work / "found_static", [f"-DCMAKE_PREFIX_PATH={static}", *WITHOUT])
+
+
+def configured(folder, log):
+    """Fails if CMake was given an option that the project does not know, or chose another build."""
+    require("not used by the project" not in log, log)
+    cache = (folder / "CMakeCache.txt").read_text(encoding="utf-8")
+    for option in ("CANDELABRA_BUILD_TOOLS", "CANDELABRA_BUILD_COMPILER"):
+        require(f"{option}:BOOL=OFF" in cache, f"{option} is not OFF in {folder}")
+
+
+def conan():
+    """The Conan recipe, with stand-ins for Conan's modules: the files that it exports can be configured."""
+    exported = clean(work / "conan")
+
+    def copy(recipe, pattern, origin, target):
+        for path in pathlib.Path(origin).glob(pattern):
+            to = pathlib.Path(target) / path.relative_to(origin)
+            to.parent.mkdir(parents=True, exist_ok=True)
+            (shutil.copytree if path.is_dir() else shutil.copy)(path, to)
+
+    toolchain = types.SimpleNamespace(cache_variables={}, generate=lambda: None)
+    modules = {name: unittest.mock.MagicMock() for name in ("conan", "conan.tools", "conan.tools.build",
+                                                            "conan.tools.cmake", "conan.tools.files")}
+    modules["conan"].ConanFile = object
+    modules["conan.tools.cmake"].CMakeToolchain = lambda recipe: toolchain
+    modules["conan.tools.files"].copy = copy
+    modules["conan.tools.files"].load = lambda recipe, path: pathlib.Path(path).read_text(encoding="utf-8")
+    file = source / "engine/package/conan/conanfile.py"
+    with unittest.mock.patch.dict(sys.modules, modules):
+        recipe = runpy.run_path(str(file))["Candelabra"]()
+    recipe.recipe_folder, recipe.export_sources_folder = str(file.parent), str(exported)
+    recipe.set_version()
+    version = (libdir() / "cmake/candelabra/candelabraConfigVersion.cmake").read_text(encoding="utf-8")
+    require(f'PACKAGE_VERSION "{recipe.version}"' in version, f"the recipe's version is {recipe.version}")
+    recipe.export_sources()
+    recipe.generate()
+    options = [f"-D{name}={value}" for name, value in toolchain.cache_variables.items()]
+    configured(exported / "build", run("cmake", "-G", generator, "-S", exported, "-B", exported / "build", *options,
+                                       "-DBUILD_SHARED_LIBS=ON"))
+
+
+def vcpkg():
+    """The vcpkg port, with stand-ins for vcpkg's functions: its options can be configured."""
+    folder = clean(work / "vcpkg")
+    folder.mkdir()
+    port = source / "engine/package/vcpkg/portfile.cmake"
+    script = folder / "stand_ins.cmake"
+    script.write_text("\n".join(f"function({name})\nendfunction()" for name in sorted(set(
+        re.findall(r"^(vcpkg_\w+)", port.read_text(encoding="utf-8"), re.MULTILINE)) - {"vcpkg_cmake_configure"})) + f"""
+function(vcpkg_cmake_configure)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" SOURCE_PATH OPTIONS)
+    execute_process(COMMAND ${{CMAKE_COMMAND}} -G "{generator}" -S ${{arg_SOURCE_PATH}} -B "{folder}/build"
+        -DBUILD_SHARED_LIBS=OFF ${{arg_OPTIONS}} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+set(CURRENT_PACKAGES_DIR "{folder}/packages")
+include("{port}")
+""", encoding="utf-8")
+    configured(folder / "build", run("cmake", "-P", script))
 
 
 def pkg_config():
@@ -235,5 +315,5 @@ def debian():
 if step.startswith("sample:"):
     sample(step.removeprefix("sample:"))
 else:
-    {"install": install, "found": found, "fetched": fetched, "pkg_config": pkg_config,
-     "program": program, "debian": debian}[step]()
+    {"install": install, "found": found, "fetched": fetched, "pkg_config": pkg_config, "conan": conan,
+     "vcpkg": vcpkg, "program": program, "debian": debian}[step]()

@@ -3,6 +3,7 @@
 """Rules about files that no compiler checks: the first line of a file, the width of lines, banned names,
 pure shader functions, complete lists of kernels, one version, the files at the top level.
 Usage: test_structure.py REPOSITORY"""
+import json
 import pathlib
 import re
 import sys
@@ -84,6 +85,9 @@ core = root / "engine/include/candelabra/core.h"
 header = re.findall(r"#define CND_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", core.read_text())
 if ".".join(header) != project:
     fail(core, f"says version {'.'.join(header)}, CMakeLists.txt {project}")
+port = root / "engine/package/vcpkg/vcpkg.json"
+if json.loads(port.read_text())["version"] != project:
+    fail(port, f"does not have the version of CMakeLists.txt, {project}")
 
 TOP_LEVEL = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "engine", "samples",
              "shaders", "tests", "tools", "build", "out"}
