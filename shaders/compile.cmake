@@ -10,9 +10,11 @@ if(DEFINE)
     string(REPLACE "+" ";-D" defines "-D${DEFINE}") # several are joined by '+'
     list(APPEND family ${defines})
 endif()
+# Modules run on every device of Vulkan 1.1 (engine/DECISIONS.md, 58), so all shaders are compiled for it.
+set(VULKAN vulkan1.1)
 set(spv ${OUTPUT}.spv)
 execute_process(
-    COMMAND ${GLSLANG} -V --target-env vulkan1.3 --quiet -I${INCLUDE} ${family} --depfile ${OUTPUT}.d.in
+    COMMAND ${GLSLANG} -V --target-env ${VULKAN} --quiet -I${INCLUDE} ${family} --depfile ${OUTPUT}.d.in
         -o ${spv} ${INPUT}
     OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 if(failed OR log MATCHES "WARNING")
@@ -24,7 +26,7 @@ endif()
 # are left out). It changes no calculation. Bindings and specialisation constants that a kernel does not
 # use stay, because the engine reads them all.
 execute_process(
-    COMMAND ${SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout --preserve-bindings
+    COMMAND ${SPIRV_OPT} --target-env=${VULKAN} --scalar-block-layout --preserve-bindings
         --preserve-spec-constants --eliminate-dead-branches --inline-entry-points-exhaustive
         --eliminate-dead-functions --private-to-local --eliminate-local-single-block
         --eliminate-local-single-store --eliminate-dead-code-aggressive ${spv} -o ${spv}
@@ -33,7 +35,7 @@ if(failed)
     file(REMOVE ${OUTPUT})
     message(FATAL_ERROR "spirv-opt ${INPUT}:\n${log}")
 endif()
-execute_process(COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${spv}
+execute_process(COMMAND ${SPIRV_VAL} --target-env ${VULKAN} --scalar-block-layout ${spv}
     OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 if(failed)
     file(REMOVE ${OUTPUT})

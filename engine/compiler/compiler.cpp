@@ -2,6 +2,7 @@
 #include "candelabra/compiler.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <string>
@@ -124,6 +125,25 @@ std::vector<Job> jobsOf(const CndCompileDesc& desc)
     gpu::failArgument("cndCompileKernels: " + line + kernel);
 }
 
+// The newest SPIR-V of a version of Vulkan.
+struct Target {
+    uint32_t apiVersion;
+    glslang::EShTargetClientVersion vulkan;
+    glslang::EShTargetLanguageVersion spirv;
+};
+constexpr Target targets[] = {
+    {VK_API_VERSION_1_1, glslang::EShTargetVulkan_1_1, glslang::EShTargetSpv_1_3},
+    {VK_API_VERSION_1_2, glslang::EShTargetVulkan_1_2, glslang::EShTargetSpv_1_5},
+    {VK_API_VERSION_1_3, glslang::EShTargetVulkan_1_3, glslang::EShTargetSpv_1_6}};
+
+// Returns null for other versions.
+const Target* targetOf(const CndCompileDesc& desc)
+{
+    const uint32_t version = desc.apiVersion ? desc.apiVersion : targets[0].apiVersion;
+    const auto found = std::ranges::find(targets, version, &Target::apiVersion);
+    return found == std::end(targets) ? nullptr : found;
+}
+
 std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
 {
     std::string preamble = "#extension GL_GOOGLE_include_directive : require\n";
@@ -150,8 +170,9 @@ std::vector<uint32_t> compile(const Job& job, const CndCompileDesc& desc)
     shader.setStringsWithLengthsAndNames(texts, lengths, names, 3);
     shader.setPreamble(preamble.c_str());
     shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
-    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
-    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
+    const Target& target = *targetOf(desc);
+    shader.setEnvClient(glslang::EShClientVulkan, target.vulkan);
+    shader.setEnvTarget(glslang::EShTargetSpv, target.spirv);
     constexpr auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
     Includer includer;
     if (!shader.parse(GetDefaultResources(), 460, false, messages, includer))
@@ -178,6 +199,9 @@ void check(const CndCompileDesc& desc)
     if (desc.lightTypes >> CND_LIGHT_TYPE_COUNT)
         gpu::failArgument("CndCompileDesc: lightTypes has bits beyond the last CndLightType");
     lighting::checkSpecularMethods("CndCompileDesc", desc.specularMethods);
+    if (!targetOf(desc))
+        gpu::failArgument("CndCompileDesc: apiVersion must be 0, VK_API_VERSION_1_1, "
+                          "VK_API_VERSION_1_2 or VK_API_VERSION_1_3");
 }
 
 } // namespace

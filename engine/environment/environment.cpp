@@ -46,19 +46,6 @@ CndEnvironmentDesc checked(const gpu::Device& device, CndEnvironmentDesc desc)
     return desc;
 }
 
-// Cube maps are read with linear filtering, which Vulkan does not guarantee for 32-bit floats. Half
-// floats could not hold the sun's luminance.
-void requireLinearFilter(const gpu::Device& device)
-{
-    VkFormatProperties2 properties{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2};
-    device.GetPhysicalDeviceFormatProperties2(device.physicalDevice, VK_FORMAT_R32G32B32A32_SFLOAT,
-                                              &properties);
-    if (!(properties.formatProperties.optimalTilingFeatures &
-          VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT))
-        gpu::failUnsupported("cndCreateEnvironment: the device cannot filter images of format "
-                             "R32G32B32A32_SFLOAT linearly");
-}
-
 uint32_t mipCount(uint32_t size)
 {
     return uint32_t(std::bit_width(size));
@@ -116,7 +103,7 @@ glm::dmat3 rotationOf(const float (&columns)[9])
 } // namespace
 
 Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& desc)
-    : device_(device),
+    : device_(device, gpu::environmentModule),
       desc_(checked(device_, desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
       uniforms_(device_, desc_.framesInFlight),
@@ -135,7 +122,6 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
       sampler_(createSampler(device_)),
       recorded_(desc_.framesInFlight)
 {
-    requireLinearFilter(device_);
     const uint32_t mips = mipCount(desc_.cubeSize), levels = levelCount(desc_.cubeSize);
     source_ = gpu::createCubeImage(device_, "environment", desc_.cubeSize, mips);
     prefiltered_ = gpu::createCubeImage(device_, "prefiltered environment", desc_.cubeSize, levels);

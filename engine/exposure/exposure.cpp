@@ -58,7 +58,7 @@ CndExposureDesc checked(const gpu::Device& device, CndExposureDesc desc)
 } // namespace
 
 Exposure::Exposure(const CndDeviceDesc& device, const CndExposureDesc& desc)
-    : device_(device),
+    : device_(device, gpu::exposureModule),
       desc_(checked(device_, desc)),
       timer_(device_, "exposure", desc_.framesInFlight, desc_.timestamps),
       adapt_(device_, spirv::adapt_exposure_comp),

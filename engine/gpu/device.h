@@ -4,30 +4,28 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "gpu/failure.h"
-#include "gpu/functions.h"
+#include "gpu/requirements.h"
 
 namespace candelabra::gpu
 {
 
-// The most storage buffers that a kernel has (cluster_lists). A host's descriptor set adds its own.
-constexpr uint32_t maxStorageBuffers = 10;
-
-class Device
+class Device : public InstanceFunctions
 {
 public:
-    explicit Device(const CndDeviceDesc& desc);
+    // Throws Failure if the device lacks something that the parts need.
+    Device(const CndDeviceDesc& desc, Parts parts);
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
 #define X(name) PFN_vk##name name = nullptr;
-    CND_INSTANCE_FUNCTIONS(X)
     CND_DEVICE_FUNCTIONS(X)
+    CND_RASTER_FUNCTIONS(X)
     CND_DEBUG_FUNCTIONS(X)
 #undef X
 
+    Parts parts; // the parts of the engine that use this device
     VkInstance instance;
     VkPhysicalDevice physicalDevice;
     VkDevice handle;
@@ -36,6 +34,7 @@ public:
     CndAllocator allocator;     // if allocate is null, the engine allocates device memory itself
     CndMessageCallback message; // may be null
     void* messageUser;
+    uint32_t apiVersion = 0; // of Vulkan, that host and physical device both have
     VkPhysicalDeviceLimits limits{};
     // The device is llvmpipe, which runs the lanes of a subgroup as one vector of a CPU. Some costs
     // are then the reverse of a GPU's. Storage reads, shared memory, atomics and subgroup
@@ -72,13 +71,5 @@ public:
     uint32_t memoryType(uint32_t typeBits, VkMemoryPropertyFlags required,
                         VkMemoryPropertyFlags preferred) const;
 };
-
-// Returns in words what the engine needs and the device lacks; empty when nothing is missing.
-std::vector<std::string> missingFeatures(VkInstance instance, VkPhysicalDevice physicalDevice,
-                                         PFN_vkGetInstanceProcAddr getInstanceProcAddr);
-
-// Sets every feature that the engine needs to VK_TRUE.
-void requireFeatures(VkPhysicalDeviceFeatures& core10, VkPhysicalDeviceVulkan12Features& core12,
-                     VkPhysicalDeviceVulkan13Features& core13);
 
 } // namespace candelabra::gpu

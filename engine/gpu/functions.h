@@ -1,50 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every Vulkan function that the engine calls, except those that cndCheckDevice looks up before
-// there is a device. The engine does not load Vulkan: the table is filled through the host's
-// vkGetInstanceProcAddr.
+// Every Vulkan function that the engine calls. The engine does not load Vulkan: the table is filled
+// through the host's vkGetInstanceProcAddr.
 #pragma once
 
+// What is asked about the physical device, before and after there is a device.
 #define CND_INSTANCE_FUNCTIONS(X)                                                                  \
+    X(EnumerateDeviceExtensionProperties)                                                          \
+    X(GetDeviceProcAddr)                                                                           \
+    X(GetPhysicalDeviceFeatures2)                                                                  \
     X(GetPhysicalDeviceFormatProperties2)                                                          \
-    X(GetPhysicalDeviceProperties2)                                                                \
     X(GetPhysicalDeviceMemoryProperties)                                                           \
-    X(GetPhysicalDeviceQueueFamilyProperties)                                                      \
-    X(GetDeviceProcAddr)
+    X(GetPhysicalDeviceProperties2)                                                                \
+    X(GetPhysicalDeviceQueueFamilyProperties)
 
+// All modules together call these. Every one of them is part of Vulkan 1.0.
 #define CND_DEVICE_FUNCTIONS(X)                                                                    \
     X(AllocateDescriptorSets)                                                                      \
     X(AllocateMemory)                                                                              \
     X(BindBufferMemory)                                                                            \
     X(BindImageMemory)                                                                             \
-    X(CmdBeginRendering)                                                                           \
     X(CmdBindDescriptorSets)                                                                       \
-    X(CmdBindIndexBuffer)                                                                          \
     X(CmdBindPipeline)                                                                             \
-    X(CmdBindVertexBuffers)                                                                        \
     X(CmdCopyBuffer)                                                                               \
-    X(CmdCopyBufferToImage)                                                                        \
     X(CmdDispatch)                                                                                 \
     X(CmdDispatchIndirect)                                                                         \
-    X(CmdDraw)                                                                                     \
-    X(CmdDrawIndexedIndirect)                                                                      \
-    X(CmdEndRendering)                                                                             \
     X(CmdFillBuffer)                                                                               \
-    X(CmdPipelineBarrier2)                                                                         \
+    X(CmdPipelineBarrier)                                                                          \
     X(CmdPushConstants)                                                                            \
     X(CmdResetQueryPool)                                                                           \
-    X(CmdSetCullMode)                                                                              \
-    X(CmdSetDepthCompareOp)                                                                        \
-    X(CmdSetFrontFace)                                                                             \
-    X(CmdSetScissor)                                                                               \
-    X(CmdSetViewport)                                                                              \
     X(CmdUpdateBuffer)                                                                             \
-    X(CmdWriteTimestamp2)                                                                          \
+    X(CmdWriteTimestamp)                                                                           \
     X(CreateBuffer)                                                                                \
     X(CreateBufferView)                                                                            \
     X(CreateComputePipelines)                                                                      \
     X(CreateDescriptorPool)                                                                        \
     X(CreateDescriptorSetLayout)                                                                   \
-    X(CreateGraphicsPipelines)                                                                     \
     X(CreateImage)                                                                                 \
     X(CreateImageView)                                                                             \
     X(CreatePipelineLayout)                                                                        \
@@ -68,6 +58,24 @@
     X(GetQueryPoolResults)                                                                         \
     X(MapMemory)                                                                                   \
     X(UpdateDescriptorSets)
+
+// What only the raster pass and the program call; some are part of Vulkan 1.3. The pointers are
+// null in devices of modules.
+#define CND_RASTER_FUNCTIONS(X)                                                                    \
+    X(CmdBeginRendering)                                                                           \
+    X(CmdBindIndexBuffer)                                                                          \
+    X(CmdBindVertexBuffers)                                                                        \
+    X(CmdCopyBufferToImage)                                                                        \
+    X(CmdDraw)                                                                                     \
+    X(CmdDrawIndexedIndirect)                                                                      \
+    X(CmdEndRendering)                                                                             \
+    X(CmdPipelineBarrier2)                                                                         \
+    X(CmdSetCullMode)                                                                              \
+    X(CmdSetDepthCompareOp)                                                                        \
+    X(CmdSetFrontFace)                                                                             \
+    X(CmdSetScissor)                                                                               \
+    X(CmdSetViewport)                                                                              \
+    X(CreateGraphicsPipelines)
 
 // VK_EXT_debug_utils; the pointers are null if the host did not enable it.
 #define CND_DEBUG_FUNCTIONS(X)                                                                     \

@@ -131,20 +131,24 @@ std::vector<uint32_t> withFormat(std::span<const uint32_t> words, const Declarat
 
 void requireStorage(const Device& device, const char* member, VkFormat format, StorageUse use)
 {
+    const bool named = spirvFormat(format) != FormatUnknown;
+    if (!named && device.apiVersion < VK_API_VERSION_1_3)
+        failUnsupported(std::string(member) + ": storage images of this format need Vulkan 1.3, of "
+                                              "VkApplicationInfo::apiVersion and of the device");
     VkFormatProperties3 more{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_3};
-    VkFormatProperties2 properties{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2, .pNext = &more};
+    VkFormatProperties2 properties{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2,
+                                   .pNext = named ? nullptr : &more};
     device.GetPhysicalDeviceFormatProperties2(device.physicalDevice, format, &properties);
     VkFormatFeatureFlags2 needs = VK_FORMAT_FEATURE_2_STORAGE_IMAGE_BIT;
-    if (spirvFormat(format) == FormatUnknown)
+    if (!named)
         needs |= VK_FORMAT_FEATURE_2_STORAGE_WRITE_WITHOUT_FORMAT_BIT;
-    if (spirvFormat(format) == FormatUnknown && use == StorageUse::ReadAndWrite)
+    if (!named && use == StorageUse::ReadAndWrite)
         needs |= VK_FORMAT_FEATURE_2_STORAGE_READ_WITHOUT_FORMAT_BIT;
     const VkFormatFeatureFlags2 has =
         more.optimalTilingFeatures | properties.formatProperties.optimalTilingFeatures;
     if ((has & needs) != needs)
-        failUnsupported(
-            std::string(member) + ": the device has no storage images of this format" +
-            (spirvFormat(format) == FormatUnknown ? " that shaders access without naming it" : ""));
+        failUnsupported(std::string(member) + ": the device has no storage images of this format" +
+                        (named ? "" : " that shaders access without naming it"));
 }
 
 FormattedSpirv::FormattedSpirv(const Spirv& original, uint32_t binding, VkFormat format,

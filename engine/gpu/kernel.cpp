@@ -7,40 +7,31 @@
 namespace candelabra::gpu
 {
 
+void Frame::memoryBarrier(VkPipelineStageFlags from, VkAccessFlags written, VkPipelineStageFlags to,
+                          VkAccessFlags read) const noexcept
+{
+    const VkMemoryBarrier barrier{
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = written, .dstAccessMask = read};
+    device.CmdPipelineBarrier(cmd, from, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
 void Frame::barrier() const noexcept
 {
-    const VkMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-        .srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                        VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
-                        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-        .srcAccessMask =
-            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT |
-            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
-            VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
-        .dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                        VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
-                        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-        .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                         VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT |
-                         VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
-                         VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .memoryBarrierCount = 1,
-                                .pMemoryBarriers = &barrier};
-    device.CmdPipelineBarrier2(cmd, &info);
+    constexpr VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                                            VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
+                                            VK_PIPELINE_STAGE_TRANSFER_BIT;
+    constexpr VkAccessFlags accesses = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                                       VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
+                                       VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    memoryBarrier(stages, accesses, stages, accesses | VK_ACCESS_UNIFORM_READ_BIT);
 }
 
 void Frame::layoutBarrier(VkImage image, VkImageLayout to) const noexcept
 {
-    const VkImageMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-        .srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-        .srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-        .dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-        .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                         VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+    const VkImageMemoryBarrier barrier{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+        .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
+        .dstAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT,
         .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
         .newLayout = to,
         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
@@ -48,23 +39,14 @@ void Frame::layoutBarrier(VkImage image, VkImageLayout to) const noexcept
         .image = image,
         .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
                              VK_REMAINING_ARRAY_LAYERS}};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .imageMemoryBarrierCount = 1,
-                                .pImageMemoryBarriers = &barrier};
-    device.CmdPipelineBarrier2(cmd, &info);
+    constexpr VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    device.CmdPipelineBarrier(cmd, stage, stage, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
 void Frame::hostBarrier() const noexcept
 {
-    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                   .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .memoryBarrierCount = 1,
-                                .pMemoryBarriers = &barrier};
-    device.CmdPipelineBarrier2(cmd, &info);
+    memoryBarrier(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
 Handle<VkShaderModule> createShaderModule(const Device& device, const Spirv& spirv)
@@ -200,10 +182,11 @@ KernelBase::KernelBase(const Device& device, const Spirv& spirv, uint32_t params
     const auto storageBuffers = std::count_if(
         reflection_.bindings.begin(), reflection_.bindings.end(),
         [](const ReflectedBinding& b) { return b.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER; });
-    if (storageBuffers > ptrdiff_t(maxStorageBuffers))
-        failUnsupported(
-            std::string("internal: ") + name_ + " has " + std::to_string(storageBuffers) +
-            " storage buffers, cndCheckDevice requires only " + std::to_string(maxStorageBuffers));
+    if (storageBuffers > ptrdiff_t(maxStorageBuffers(device.parts)))
+        failUnsupported(std::string("internal: ") + name_ + " has " +
+                        std::to_string(storageBuffers) +
+                        " storage buffers, cndCheckDevice requires only " +
+                        std::to_string(maxStorageBuffers(device.parts)));
     constexpr VkShaderStageFlags stage = VK_SHADER_STAGE_COMPUTE_BIT;
     setLayout_ = createSetLayout(device, name_, reflection_.bindings, stage);
     if (reflection_.usesHostSet && !hostLayout)

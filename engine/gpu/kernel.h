@@ -24,6 +24,9 @@ struct Frame {
     uint32_t slot;                            // index of the frame in flight
     VkDescriptorSet hostSet = VK_NULL_HANDLE; // descriptor set 1, for kernels that use it
 
+    // Makes what the stages `from` have written visible to what the stages `to` read.
+    void memoryBarrier(VkPipelineStageFlags from, VkAccessFlags written, VkPipelineStageFlags to,
+                       VkAccessFlags read) const noexcept;
     // Makes all shader and transfer writes so far visible to later compute shaders, indirect
     // commands and transfers.
     void barrier() const noexcept;

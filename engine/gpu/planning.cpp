@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/planning.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 #include "gpu/failure.h"
 #include "gpu/functions.h"
@@ -15,11 +17,7 @@ namespace
 // State of the current Planning, thread-local because Vulkan functions carry no user pointer.
 struct Context {
     Planning* planning = nullptr;
-    PFN_vkGetDeviceBufferMemoryRequirements getBufferNeeds = nullptr;
-    PFN_vkGetDeviceImageMemoryRequirements getImageNeeds = nullptr;
-    VkMemoryRequirements needs{}; // of the buffer or image created last, which are queried right
-                                  // after creation
-    uint64_t handles = 0;         // number of handles given out
+    uint64_t handles = 0; // number of handles given out
 };
 thread_local Context context;
 
@@ -28,26 +26,6 @@ H newHandle()
 {
     return reinterpret_cast<H>(++context.handles); // NOLINT
 }
-
-void describe(const VkBufferCreateInfo* info, VkDevice device)
-{
-    const VkDeviceBufferMemoryRequirements query{
-        .sType = VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS, .pCreateInfo = info};
-    VkMemoryRequirements2 needs{.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
-    context.getBufferNeeds(device, &query, &needs);
-    context.needs = needs.memoryRequirements;
-}
-
-void describe(const VkImageCreateInfo* info, VkDevice device)
-{
-    const VkDeviceImageMemoryRequirements query{
-        .sType = VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS, .pCreateInfo = info};
-    VkMemoryRequirements2 needs{.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
-    context.getImageNeeds(device, &query, &needs);
-    context.needs = needs.memoryRequirements;
-}
-
-void describe(const void*, VkDevice) {}
 
 // Nothing<F>::call has the signature of the Vulkan function F. It succeeds without doing anything,
 // and returns made-up handles where F would create objects.
@@ -61,10 +39,8 @@ struct Nothing<R(VKAPI_PTR*)(A...)> {
 
 template <typename Info, typename H>
 struct Nothing<VkResult(VKAPI_PTR*)(VkDevice, const Info*, const VkAllocationCallbacks*, H*)> {
-    static VkResult VKAPI_CALL call(VkDevice device, const Info* info, const VkAllocationCallbacks*,
-                                    H* out)
+    static VkResult VKAPI_CALL call(VkDevice, const Info*, const VkAllocationCallbacks*, H* out)
     {
-        describe(info, device);
         *out = newHandle<H>();
         return VK_SUCCESS;
     }
@@ -93,11 +69,15 @@ struct Nothing<PFN_vkAllocateDescriptorSets> {
     }
 };
 
-// vkGetBufferMemoryRequirements and vkGetImageMemoryRequirements.
-template <typename H>
-struct Nothing<void(VKAPI_PTR*)(VkDevice, H, VkMemoryRequirements*)> {
-    static void VKAPI_CALL call(VkDevice, H, VkMemoryRequirements* out) { *out = context.needs; }
-};
+// Buffers and images are created and take no memory, because only they know what memory they need.
+bool isReal(const char* name)
+{
+    constexpr const char* real[] = {
+        "vkCreateBuffer", "vkDestroyBuffer", "vkGetBufferMemoryRequirements",
+        "vkCreateImage",  "vkDestroyImage",  "vkGetImageMemoryRequirements"};
+    return std::any_of(std::begin(real), std::end(real),
+                       [&](const char* r) { return std::strcmp(name, r) == 0; });
+}
 
 } // namespace
 
@@ -111,15 +91,7 @@ Planning::Planning(const CndDeviceDesc& device)
         getInstanceProcAddr_(device.instance, "vkGetDeviceProcAddr"));
     if (!getDeviceProcAddr_)
         failUnsupported("the host's vkGetInstanceProcAddr has no vkGetDeviceProcAddr");
-    Context c{.planning = this};
-    c.getBufferNeeds = reinterpret_cast<PFN_vkGetDeviceBufferMemoryRequirements>(
-        getDeviceProcAddr_(device.device, "vkGetDeviceBufferMemoryRequirements"));
-    c.getImageNeeds = reinterpret_cast<PFN_vkGetDeviceImageMemoryRequirements>(
-        getDeviceProcAddr_(device.device, "vkGetDeviceImageMemoryRequirements"));
-    if (!c.getBufferNeeds || !c.getImageNeeds)
-        failUnsupported("the device has no vkGetDeviceBufferMemoryRequirements or no "
-                        "vkGetDeviceImageMemoryRequirements (Vulkan 1.3 is needed)");
-    context = c;
+    context = {.planning = this};
     desc_.getInstanceProcAddr = instanceFunction;
     desc_.debugUtilsEnabled = VK_FALSE;
     desc_.allocator = {.allocate = allocate,
@@ -142,8 +114,9 @@ PFN_vkVoidFunction Planning::instanceFunction(VkInstance instance, const char* n
 
 PFN_vkVoidFunction Planning::deviceFunction(VkDevice device, const char* name)
 {
-    if (!context.planning->getDeviceProcAddr_(device, name))
-        return nullptr; // creation will not find it either
+    const PFN_vkVoidFunction found = context.planning->getDeviceProcAddr_(device, name);
+    if (!found || isReal(name)) // creation will not find it either
+        return found;
 #define X(f)                                                                                       \
     if (std::strcmp(name, "vk" #f) == 0)                                                           \
         return reinterpret_cast<PFN_vkVoidFunction>(PFN_vk##f(Nothing<PFN_vk##f>::call));

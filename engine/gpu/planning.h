@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Planning finds out how much memory a module will take without creating it. The module's own code
-// runs with Vulkan functions that only record the requested sizes, so there is no separate list of
-// buffers to keep up to date.
+// runs with Vulkan functions that create buffers and images without memory, and nothing else, so
+// there is no separate list of buffers to keep up to date.
 #pragma once
 
 #include "candelabra/candelabra.h"

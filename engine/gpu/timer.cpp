@@ -57,8 +57,8 @@ void Timer::begin(VkCommandBuffer cmd, uint32_t slot) noexcept
     if (!pool_)
         return;
     device_->CmdResetQueryPool(cmd, pool_.get(), slot * stampsPerSlot, stampsPerSlot);
-    device_->CmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
-                                slot * stampsPerSlot);
+    device_->CmdWriteTimestamp(cmd, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, pool_.get(),
+                               slot * stampsPerSlot);
 }
 
 void Timer::stamp(VkCommandBuffer cmd, const char* name) noexcept
@@ -69,8 +69,8 @@ void Timer::stamp(VkCommandBuffer cmd, const char* name) noexcept
     if (slot.count == maxScopes)
         return;
     slot.names[slot.count++] = name;
-    device_->CmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(),
-                                current_ * stampsPerSlot + slot.count);
+    device_->CmdWriteTimestamp(cmd, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, pool_.get(),
+                               current_ * stampsPerSlot + slot.count);
 }
 
 CndResult Timer::read(uint32_t slotIndex, CndKernelTime* times, uint32_t& count) const noexcept

@@ -33,27 +33,21 @@ uint32_t cndGetVersion(void)
     return CND_VERSION;
 }
 
-CndResult cndCheckDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
-                         PFN_vkGetInstanceProcAddr getInstanceProcAddr, char* missing,
-                         size_t missingSize)
+CndResult cndCheckDevice(const CndDeviceDesc* device, uint32_t modules, CndError* error)
 {
-    std::string text;
-    const CndResult result = gpu::guard(nullptr, [&] {
-        gpu::requireNotNull("cndCheckDevice", {instance, physicalDevice,
-                                               reinterpret_cast<const void*>(getInstanceProcAddr)});
-        for (const std::string& m :
-             gpu::missingFeatures(instance, physicalDevice, getInstanceProcAddr))
-            text += (text.empty() ? "" : ", ") + m;
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndCheckDevice", {device});
+        const gpu::Parts parts = gpu::modulesOf("cndCheckDevice", modules);
+        gpu::requireNeeds(gpu::InstanceFunctions(*device), *device, parts);
     });
-    if (missing && missingSize)
-        std::snprintf(missing, missingSize, "%s", text.c_str());
-    return result == CND_SUCCESS && !text.empty() ? CND_ERROR_UNSUPPORTED : result;
 }
 
-void cndRequireFeatures(VkPhysicalDeviceFeatures* core10, VkPhysicalDeviceVulkan12Features* core12,
-                        VkPhysicalDeviceVulkan13Features* core13)
+CndResult cndRequireFeatures(uint32_t modules, VkPhysicalDeviceFeatures2* features, CndError* error)
 {
-    gpu::requireFeatures(*core10, *core12, *core13);
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndRequireFeatures", {features});
+        gpu::requireFeatures(*features, gpu::modulesOf("cndRequireFeatures", modules));
+    });
 }
 
 uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits)

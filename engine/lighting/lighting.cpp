@@ -40,7 +40,7 @@ CndLightingDesc checked(const gpu::Device& device, CndLightingDesc desc)
 } // namespace
 
 Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
-    : device_(device),
+    : device_(device, gpu::lightingModule),
       desc_(checked(device_, desc)),
       gbuffer_(device_, desc_.gbufferLayout, desc_.gbuffer),
       hostKernels_(desc_.hostKernels, desc_.gbufferLayout),

@@ -17,28 +17,20 @@ std::vector<gpu::ReflectedBinding> bindings()
             {gpu::FORWARD_DFG, texels, 1},     {gpu::FORWARD_IDS, storage, 1}};
 }
 
-VkPipelineStageFlags2 stagesOf(VkShaderStageFlags shaders)
+VkPipelineStageFlags stagesOf(VkShaderStageFlags shaders)
 {
-    VkPipelineStageFlags2 stages = 0;
+    VkPipelineStageFlags stages = 0;
     if (shaders & VK_SHADER_STAGE_VERTEX_BIT)
-        stages |= VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
+        stages |= VK_PIPELINE_STAGE_VERTEX_SHADER_BIT;
     if (shaders & VK_SHADER_STAGE_FRAGMENT_BIT)
-        stages |= VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+        stages |= VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
     if (shaders & VK_SHADER_STAGE_COMPUTE_BIT)
-        stages |= VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+        stages |= VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     return stages;
 }
 
-constexpr VkPipelineStageFlags2 ourStages =
-    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-
-void recordBarrier(const gpu::Frame& frame, const VkMemoryBarrier2& barrier) noexcept
-{
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .memoryBarrierCount = 1,
-                                .pMemoryBarriers = &barrier};
-    frame.device.CmdPipelineBarrier2(frame.cmd, &info);
-}
+constexpr VkPipelineStageFlags ourStages =
+    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
 
 } // namespace
 
@@ -79,9 +71,7 @@ void ForwardLights::recordBegin(const gpu::Frame& frame,
 {
     if (!wanted())
         return;
-    recordBarrier(frame, {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                          .srcStageMask = stagesOf(stages_),
-                          .dstStageMask = ourStages});
+    frame.memoryBarrier(stagesOf(stages_), 0, ourStages, 0);
     frame.device.CmdUpdateBuffer(frame.cmd, view_.get(), 0, sizeof view, &view);
 }
 
@@ -89,13 +79,8 @@ void ForwardLights::recordEnd(const gpu::Frame& frame) const noexcept
 {
     if (!wanted())
         return;
-    recordBarrier(frame, {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                          .srcStageMask = ourStages,
-                          .srcAccessMask =
-                              VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                          .dstStageMask = stagesOf(stages_),
-                          .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                                           VK_ACCESS_2_SHADER_SAMPLED_READ_BIT});
+    frame.memoryBarrier(ourStages, VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                        stagesOf(stages_), VK_ACCESS_SHADER_READ_BIT);
 }
 
 } // namespace candelabra::lighting

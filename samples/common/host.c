@@ -26,11 +26,14 @@ static VkPhysicalDevice choosePhysicalDevice(VkInstance instance)
     uint32_t count = 16;
     vkEnumeratePhysicalDevices(instance, &count, devices);
     for (uint32_t i = 0; i < count; ++i) {
-        char missing[256];
-        if (cndCheckDevice(instance, devices[i], vkGetInstanceProcAddr, missing, sizeof missing) ==
-            CND_SUCCESS)
+        const CndDeviceDesc desc = {.structSize = sizeof desc,
+                                    .instance = instance,
+                                    .physicalDevice = devices[i],
+                                    .getInstanceProcAddr = vkGetInstanceProcAddr};
+        CndError error;
+        if (cndCheckDevice(&desc, 0, &error) == CND_SUCCESS)
             return devices[i];
-        fprintf(stderr, "device %u lacks: %s\n", i, missing);
+        fprintf(stderr, "device %u: %s\n", i, error.message);
     }
     stop("no Vulkan device that Candelabra can use", 0);
     return VK_NULL_HANDLE;
@@ -68,8 +71,8 @@ void createHostDevice(Host* host, uint32_t instanceExtensionCount,
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &core13};
     VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                                           .pNext = &core12};
-    cndRequireFeatures(&features.features, &core12, &core13);
-    core13.dynamicRendering = VK_TRUE; // for the samples' own rendering
+    cndRequireFeatures(0, &features, NULL);
+    core13.dynamicRendering = core13.synchronization2 = VK_TRUE; // for the samples' own work
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                            .queueFamilyIndex = host->queueFamily,

@@ -12,19 +12,17 @@ namespace
 PFN_vkGetInstanceProcAddr hostGetInstanceProcAddr = nullptr;
 PFN_vkGetPhysicalDeviceProperties2 hostGetProperties = nullptr;
 
-void VKAPI_CALL propertiesOfUnknownDriver(VkPhysicalDevice device,
+void VKAPI_CALL propertiesOfAnotherDevice(VkPhysicalDevice device,
                                           VkPhysicalDeviceProperties2* properties)
 {
     hostGetProperties(device, properties);
-    for (auto* s = static_cast<VkBaseOutStructure*>(properties->pNext); s; s = s->pNext)
-        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES)
-            reinterpret_cast<VkPhysicalDeviceDriverProperties*>(s)->driverID = VkDriverId(0);
+    properties->properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_OTHER;
 }
 
 PFN_vkVoidFunction VKAPI_CALL gpuLikeProcAddr(VkInstance instance, const char* name)
 {
     if (std::string_view(name) == "vkGetPhysicalDeviceProperties2")
-        return reinterpret_cast<PFN_vkVoidFunction>(propertiesOfUnknownDriver);
+        return reinterpret_cast<PFN_vkVoidFunction>(propertiesOfAnotherDevice);
     return hostGetInstanceProcAddr(instance, name);
 }
 

@@ -9,7 +9,7 @@
 namespace candelabra::test
 {
 
-// Returns the host's device under the name of an unknown driver. The engine then does not know that
+// Returns the host's device as one that is not a CPU. The engine then does not know that
 // llvmpipe limits loops, so tests keep lists and walks far below 65535 steps. One such device may
 // be in use at a time.
 CndDeviceDesc gpuLike(const CndDeviceDesc& host);

@@ -38,11 +38,18 @@ struct Booked<N, R(VKAPI_PTR*)(A...)> {
 #define HOST(f) Booked<#f, PFN_vk##f>::host
 
 struct Override {
-    static void VKAPI_CALL CmdPipelineBarrier2(VkCommandBuffer cmd, const VkDependencyInfo* info)
+    static void VKAPI_CALL CmdPipelineBarrier(VkCommandBuffer cmd, VkPipelineStageFlags from,
+                                              VkPipelineStageFlags to, VkDependencyFlags flags,
+                                              uint32_t memoryCount, const VkMemoryBarrier* memory,
+                                              uint32_t bufferCount,
+                                              const VkBufferMemoryBarrier* buffers,
+                                              uint32_t imageCount,
+                                              const VkImageMemoryBarrier* images)
     {
-        book->onCall("CmdPipelineBarrier2");
-        book->onModuleBarrier(*info);
-        HOST(CmdPipelineBarrier2)(cmd, info);
+        book->onCall("CmdPipelineBarrier");
+        book->onModuleBarrier(from | to, {buffers, bufferCount}, {images, imageCount});
+        HOST(CmdPipelineBarrier)
+        (cmd, from, to, flags, memoryCount, memory, bufferCount, buffers, imageCount, images);
     }
     static void VKAPI_CALL UpdateDescriptorSets(VkDevice device, uint32_t count,
                                                 const VkWriteDescriptorSet* writes,
@@ -91,7 +98,7 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* nam
 #define X(f)                                                                                       \
     if (std::strcmp(name, "vk" #f) == 0)                                                           \
         return reinterpret_cast<PFN_vkVoidFunction>(PFN_vk##f(Override::f));
-    X(CmdPipelineBarrier2)
+    X(CmdPipelineBarrier)
     X(UpdateDescriptorSets)
     X(CmdBindDescriptorSets)
     X(CmdDispatch)
@@ -118,10 +125,10 @@ bool isTransfer(uint32_t from, uint32_t to)
 }
 
 // The stages that a queue supports which computes but cannot draw.
-constexpr VkPipelineStageFlags2 computeStages =
-    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
-    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_HOST_BIT |
-    VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+constexpr VkPipelineStageFlags computeStages =
+    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
+    VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT |
+    VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
 
 } // namespace
 
@@ -131,8 +138,6 @@ Ownership::Ownership(const CndDeviceDesc& host, bool real) : desc_(host), real_(
     hostInstanceProcAddr = host.getInstanceProcAddr;
     hostDeviceProcAddr = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
         host.getInstanceProcAddr(host.instance, "vkGetDeviceProcAddr"));
-    HOST(CmdPipelineBarrier2) = reinterpret_cast<PFN_vkCmdPipelineBarrier2>(
-        hostDeviceProcAddr(host.device, "vkCmdPipelineBarrier2"));
     desc_.getInstanceProcAddr = getInstanceProcAddr;
 }
 
@@ -153,22 +158,18 @@ void Ownership::onCall(const char* function)
         called.insert(function);
 }
 
-void Ownership::onModuleBarrier(const VkDependencyInfo& info)
+void Ownership::onModuleBarrier(VkPipelineStageFlags stages,
+                                std::span<const VkBufferMemoryBarrier> buffers,
+                                std::span<const VkImageMemoryBarrier> images)
 {
-    const auto check = [&](const auto& barrier) {
-        if ((barrier.srcStageMask | barrier.dstStageMask) & ~computeStages)
-            fault("a barrier of a module has stages that compute queues lack");
-    };
-    for (const auto& barrier : std::span(info.pMemoryBarriers, info.memoryBarrierCount))
-        check(barrier);
+    if (stages & ~computeStages)
+        fault("a barrier of a module has stages that compute queues lack");
     const auto checkOwned = [&](const auto& barrier) {
-        check(barrier);
         if (isTransfer(barrier.srcQueueFamilyIndex, barrier.dstQueueFamilyIndex))
             fault("a module transfers ownership");
     };
-    for (const auto& b : std::span(info.pBufferMemoryBarriers, info.bufferMemoryBarrierCount))
-        checkOwned(b);
-    for (const auto& b : std::span(info.pImageMemoryBarriers, info.imageMemoryBarrierCount)) {
+    std::for_each(buffers.begin(), buffers.end(), checkOwned);
+    for (const VkImageMemoryBarrier& b : images) {
         checkOwned(b);
         if (images_.contains(b.image))
             fault("a module has a barrier for an image of the host's");
@@ -244,7 +245,7 @@ void Ownership::barrier(VkCommandBuffer cmd, std::span<const VkImageMemoryBarrie
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                 .imageMemoryBarrierCount = uint32_t(passed.size()),
                                 .pImageMemoryBarriers = passed.data()};
-    HOST(CmdPipelineBarrier2)(cmd, &info);
+    vkCmdPipelineBarrier2(cmd, &info);
 }
 
 } // namespace candelabra::test

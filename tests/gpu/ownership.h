@@ -56,7 +56,9 @@ public:
 
     // Called by the function table.
     void onCall(const char* function);
-    void onModuleBarrier(const VkDependencyInfo& info);
+    void onModuleBarrier(VkPipelineStageFlags stages,
+                         std::span<const VkBufferMemoryBarrier> buffers,
+                         std::span<const VkImageMemoryBarrier> images);
     void onWrite(const VkWriteDescriptorSet& write);
     void onBind(VkCommandBuffer cmd, VkDescriptorSet set) { bound_[cmd] = set; }
     void onDispatch(VkCommandBuffer cmd);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Devices that lack something: the host's functions are interposed to hide a feature or a limit.
+// Devices that lack something: the host's functions are interposed to hide a limit.
 #include "candelabra/candelabra.hpp"
 #include "gpu/gpu_like_device.h"
 #include "gpu/lighting_harness.h"
@@ -11,17 +11,7 @@ namespace
 
 // Global because Vulkan's function pointers carry no context.
 PFN_vkGetInstanceProcAddr realGetInstanceProcAddr = nullptr;
-PFN_vkGetPhysicalDeviceFeatures2 realGetFeatures = nullptr;
 PFN_vkGetPhysicalDeviceProperties2 realGetProperties = nullptr;
-
-void VKAPI_CALL featuresWithoutScalarLayout(VkPhysicalDevice device,
-                                            VkPhysicalDeviceFeatures2* features)
-{
-    realGetFeatures(device, features);
-    for (auto* s = static_cast<VkBaseOutStructure*>(features->pNext); s; s = s->pNext)
-        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES)
-            reinterpret_cast<VkPhysicalDeviceVulkan12Features*>(s)->scalarBlockLayout = VK_FALSE;
-}
 
 void VKAPI_CALL propertiesWithSmallTexelBuffers(VkPhysicalDevice device,
                                                 VkPhysicalDeviceProperties2* properties)
@@ -39,8 +29,6 @@ F find(const CndDeviceDesc& desc, const char* name)
 PFN_vkVoidFunction VKAPI_CALL poorInstanceProcAddr(VkInstance instance, const char* name)
 {
     const std::string function = name;
-    if (function == "vkGetPhysicalDeviceFeatures2")
-        return reinterpret_cast<PFN_vkVoidFunction>(featuresWithoutScalarLayout);
     if (function == "vkGetPhysicalDeviceProperties2")
         return reinterpret_cast<PFN_vkVoidFunction>(propertiesWithSmallTexelBuffers);
     return realGetInstanceProcAddr(instance, name);
@@ -49,7 +37,6 @@ PFN_vkVoidFunction VKAPI_CALL poorInstanceProcAddr(VkInstance instance, const ch
 CndDeviceDesc poorDevice(const CndDeviceDesc& host)
 {
     realGetInstanceProcAddr = host.getInstanceProcAddr;
-    realGetFeatures = find<PFN_vkGetPhysicalDeviceFeatures2>(host, "vkGetPhysicalDeviceFeatures2");
     realGetProperties =
         find<PFN_vkGetPhysicalDeviceProperties2>(host, "vkGetPhysicalDeviceProperties2");
     CndDeviceDesc desc = host;
@@ -58,26 +45,6 @@ CndDeviceDesc poorDevice(const CndDeviceDesc& host)
 }
 
 } // namespace
-
-TEST_F(LightingTest, MissingFeatureIsNamed)
-{
-    const CndDeviceDesc& host = deviceDesc();
-    char missing[256];
-    EXPECT_EQ(cndCheckDevice(host.instance, host.physicalDevice, host.getInstanceProcAddr, missing,
-                             sizeof missing),
-              CND_SUCCESS)
-        << missing;
-    EXPECT_STREQ(missing, "");
-    const CndDeviceDesc poor = poorDevice(host);
-    EXPECT_EQ(cndCheckDevice(poor.instance, poor.physicalDevice, poor.getInstanceProcAddr, missing,
-                             sizeof missing),
-              CND_ERROR_UNSUPPORTED);
-    EXPECT_STREQ(missing, "feature scalarBlockLayout");
-    EXPECT_TRUE(checkDevice(host.instance, host.physicalDevice, host.getInstanceProcAddr));
-    const auto result = checkDevice(poor.instance, poor.physicalDevice, poor.getInstanceProcAddr);
-    EXPECT_EQ(result.error().code, CND_ERROR_UNSUPPORTED);
-    EXPECT_STREQ(result.error().message, "the device lacks: feature scalarBlockLayout");
-}
 
 // "Not yet" and "never" are different answers.
 TEST_F(LightingTest, StatsOfFramesThatNeverWereAreAnError)

@@ -61,7 +61,7 @@ public:
             EXPECT_EQ(vkCreateSemaphore(desc_.device, &semaphore, nullptr, &finished_[part]),
                       VK_SUCCESS);
         }
-        device_ = std::make_unique<gpu::Device>(desc_);
+        device_ = std::make_unique<gpu::Device>(desc_, gpu::allModules | gpu::rasterPass);
     }
     ~TwoQueues()
     {
@@ -123,7 +123,7 @@ private:
             .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &core13};
         VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                                            .pNext = &core12};
-        cndRequireFeatures(&features.features, &core12, &core13);
+        gpu::requireFeatures(features, gpu::allModules | gpu::rasterPass);
         const float priority = 1;
         VkDeviceQueueCreateInfo queues[FamilyCount];
         for (uint32_t f = 0; f < FamilyCount; ++f)
@@ -376,11 +376,11 @@ TEST_F(QueueFamilies, ModulesTouchWhatTheirFamilyOwns)
                                         "CmdDispatch",
                                         "CmdDispatchIndirect",
                                         "CmdFillBuffer",
-                                        "CmdPipelineBarrier2",
+                                        "CmdPipelineBarrier",
                                         "CmdPushConstants",
                                         "CmdResetQueryPool",
                                         "CmdUpdateBuffer",
-                                        "CmdWriteTimestamp2",
+                                        "CmdWriteTimestamp",
                                         "UpdateDescriptorSets",
                                         "CmdBeginDebugUtilsLabelEXT",
                                         "CmdEndDebugUtilsLabelEXT"};

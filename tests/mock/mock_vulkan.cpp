@@ -108,6 +108,9 @@ struct Mock<N, VkResult(VKAPI_PTR*)(VkDevice, const Info*, const VkAllocationCal
             mock->buffers[*out] = {info->size};
         if constexpr (std::is_same_v<Info, VkMemoryAllocateInfo>)
             mock->memories[*out].size = info->allocationSize;
+        if constexpr (std::is_same_v<Info, VkShaderModuleCreateInfo>)
+            if (mock->shaders)
+                mock->shaders->emplace_back(info->pCode, info->pCode + info->codeSize / 4);
         return VK_SUCCESS;
     }
 };
@@ -311,19 +314,6 @@ struct Override {
         const Call c("GetImageMemoryRequirements");
         *needs = {1024, 16, 1};
     }
-    static void VKAPI_CALL GetDeviceBufferMemoryRequirements(
-        VkDevice, const VkDeviceBufferMemoryRequirements* query, VkMemoryRequirements2* needs)
-    {
-        const Call c("GetDeviceBufferMemoryRequirements");
-        needs->memoryRequirements = {query->pCreateInfo->size, 16, 1};
-    }
-    static void VKAPI_CALL GetDeviceImageMemoryRequirements(VkDevice,
-                                                            const VkDeviceImageMemoryRequirements*,
-                                                            VkMemoryRequirements2* needs)
-    {
-        const Call c("GetDeviceImageMemoryRequirements");
-        needs->memoryRequirements = {1024, 16, 1};
-    }
 };
 
 PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice, const char* wanted)
@@ -351,13 +341,12 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice, const char* wanted)
     X(GetQueryPoolResults)
     X(GetBufferMemoryRequirements)
     X(GetImageMemoryRequirements)
-    X(GetDeviceBufferMemoryRequirements)
-    X(GetDeviceImageMemoryRequirements)
 #undef X
 #define X(f)                                                                                       \
     if (name == #f)                                                                                \
         return reinterpret_cast<PFN_vkVoidFunction>(PFN_vk##f(Mock<#f, PFN_vk##f>::call));
     CND_DEVICE_FUNCTIONS(X)
+    CND_RASTER_FUNCTIONS(X)
 #undef X
     return nullptr;
 }
@@ -377,7 +366,10 @@ MockVulkan::MockVulkan()
     : limits{.maxImageDimension2D = 16384,
              .maxTexelBufferElements = 1u << 27,
              .maxStorageBufferRange = 1u << 27,
+             .maxPerStageDescriptorStorageBuffers = 64,
              .maxComputeWorkGroupCount = {65535},
+             .maxComputeWorkGroupInvocations = 1024,
+             .maxComputeWorkGroupSize = {1024, 1024, 64},
              .maxDrawIndirectCount = 1u << 20,
              .minStorageBufferOffsetAlignment = 16,
              .timestampComputeAndGraphics = VK_TRUE,

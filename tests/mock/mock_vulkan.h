@@ -44,12 +44,23 @@ public:
     // Name of a device function that is reported as missing.
     std::string absent;
     VkPhysicalDeviceLimits limits; // generous values
-    VkDriverId driver = VkDriverId(0);
+    bool isLlvmpipe = false;
+    uint32_t apiVersion = VK_API_VERSION_1_3; // of the physical device
+    // The instance was created for Vulkan 1.0: queries with a chain fill in nothing of it.
+    bool ignoresChains = false;
+    std::set<std::string> extensions; // of the physical device
+    std::string lackingFeature;       // the physical device has all features but this one
+    VkSubgroupFeatureFlags subgroupOperations = ~0u;
+    VkMemoryPropertyFlags lackingMemory = 0; // no memory has these properties
+    VkFormatFeatureFlags lackingFormatFeatures = 0;
 
     // submit() puts everything recorded since the last submission in flight; finish() completes it.
     // Fills are executed at completion, all other commands never.
     uint64_t submit();
     void finish(uint64_t submission);
+
+    // Receives the code of every shader module, if it is not null.
+    std::vector<std::vector<uint32_t>>* shaders = nullptr;
 
     // Names of all device functions called since the set was last cleared, and of all looked up.
     std::set<std::string> called, lookedUp;

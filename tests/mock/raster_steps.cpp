@@ -86,7 +86,7 @@ const std::vector<Step>& rasterSteps()
         {"create raster pass", false,
          [](Host& h, CndError* error) {
              return gpu::guard(error, [&] {
-                 h.rasterDevice = std::make_unique<gpu::Device>(h.device);
+                 h.rasterDevice = std::make_unique<gpu::Device>(h.device, gpu::rasterPass);
                  h.raster = std::make_unique<gbuffer::GBuffer>(
                      *h.rasterDevice, gbuffer::GBufferDesc{.timestamps = true});
              });

@@ -124,5 +124,26 @@ TEST(Compiler, RefusesWhatIsOutOfRange)
     cndDestroyCompiledKernels(nullptr);
 }
 
+TEST(Compiler, CompilesForTheVersionOfTheHost)
+{
+    const std::pair<uint32_t, uint32_t> versions[] = {{0, 0x00010300},
+                                                      {VK_API_VERSION_1_1, 0x00010300},
+                                                      {VK_API_VERSION_1_2, 0x00010500},
+                                                      {VK_API_VERSION_1_3, 0x00010600}};
+    for (const auto& [vulkan, spirv] : versions) {
+        auto compiled = CompiledKernels::create({.functions = CND_HOST_VISIBILITY_BIT,
+                                                 .source = shadow,
+                                                 .lightTypes = 1u << CND_LIGHT_POINT,
+                                                 .apiVersion = vulkan});
+        ASSERT_TRUE(compiled) << compiled.error().message;
+        EXPECT_EQ(compiled.value().hostKernels().kernels[0].words[1], spirv) << vulkan;
+    }
+    EXPECT_EQ(compileError({.functions = CND_HOST_VISIBILITY_BIT,
+                            .source = shadow,
+                            .apiVersion = VK_API_VERSION_1_0}),
+              "CndCompileDesc: apiVersion must be 0, VK_API_VERSION_1_1, VK_API_VERSION_1_2 or "
+              "VK_API_VERSION_1_3");
+}
+
 } // namespace
 } // namespace candelabra::test

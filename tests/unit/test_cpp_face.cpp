@@ -66,9 +66,11 @@ TEST(CppFace, LargestLightCount)
 
 TEST(CppFace, NoDeviceIsNoSuccess)
 {
-    const auto result = checkDevice(VK_NULL_HANDLE, VK_NULL_HANDLE, nullptr);
+    const auto result = checkDevice({});
     EXPECT_FALSE(result);
-    EXPECT_STREQ(result.error().message, "checkDevice: an argument is null");
+    EXPECT_STREQ(
+        result.error().message,
+        "CndDeviceDesc: instance, physicalDevice and getInstanceProcAddr must not be null");
 }
 
 } // namespace

@@ -203,20 +203,20 @@ Result<std::optional<Stats>> stats(Function function, H handle, uint32_t frameSl
 
 } // namespace detail
 
-// Returns success, or an error whose message names everything that the device lacks.
-inline Result<void> checkDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
-                                PFN_vkGetInstanceProcAddr getInstanceProcAddr) noexcept
+// Returns success, or an error whose message names everything that the modules (a mask of
+// CndModuleBits; 0: all) need and the device lacks. CndDeviceDesc::device is not used.
+inline Result<void> checkDevice(CndDeviceDesc device, uint32_t modules = 0) noexcept
 {
-    constexpr char lead[] = "the device lacks: ";
-    constexpr size_t length = sizeof lead - 1;
-    CndError error{};
-    error.code = cndCheckDevice(instance, physicalDevice, getInstanceProcAddr,
-                                error.message + length, sizeof error.message - length);
-    if (error.code == CND_ERROR_UNSUPPORTED)
-        std::copy_n(lead, length, error.message);
-    else if (error.code != CND_SUCCESS)
-        error = {error.code, VK_SUCCESS, "checkDevice: an argument is null"};
-    return error;
+    device.structSize = sizeof device;
+    return detail::call(cndCheckDevice, &device, modules);
+}
+
+// Sets the features that the modules (a mask of CndModuleBits; 0: all) need, in the structs of the
+// chain.
+inline Result<void> requireFeatures(VkPhysicalDeviceFeatures2& features,
+                                    uint32_t modules = 0) noexcept
+{
+    return detail::call(cndRequireFeatures, modules, &features);
 }
 
 // Returns the largest number of lights in a set for a device with these limits.

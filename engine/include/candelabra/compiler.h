@@ -51,6 +51,11 @@ typedef struct CndCompileDesc {
     // `lightTypes` is a mask of 1 << CndLightType, 0 for all types; `specularMethods` is a mask of
     // 1 << CndSpecularMethod, 0 for CND_SPECULAR_CONIC alone.
     uint32_t lightTypes, specularMethods;
+    // The version of Vulkan that the code is for: VK_API_VERSION_1_1 (0 means this), 1_2 or 1_3,
+    // which are SPIR-V 1.3, 1.5 and 1.6. It may be lower than that of the device, and need be
+    // higher than 1.1 only for functions that use something newer. Code for 1.3 needs the feature
+    // maintenance4.
+    uint32_t apiVersion;
 } CndCompileDesc;
 
 typedef struct CndCompiledKernels_T* CndCompiledKernels;

@@ -151,22 +151,35 @@ typedef struct CndDeviceDesc {
     CndAllocator allocator;
     CndMessageCallback message; // may be NULL
     void* messageUser;          // passed to `message` as its first argument
+    // VkApplicationInfo::apiVersion of the instance, at least VK_API_VERSION_1_1; a lower version
+    // is CND_ERROR_UNSUPPORTED. 0 means the version of the physical device. With a lower one than
+    // that, nothing is used of later versions.
+    uint32_t apiVersion;
 } CndDeviceDesc;
 
-// Checks whether a device has everything that the modules need: Vulkan 1.3, features, limits,
-// formats, and memory that the CPU can write.
-// Returns CND_SUCCESS if so. Otherwise returns CND_ERROR_UNSUPPORTED and writes what is missing
-// into `missing` (comma separated, zero terminated, truncated at missingSize bytes). `missing` may
-// be NULL.
-CND_API CndResult cndCheckDevice(VkInstance instance, VkPhysicalDevice physicalDevice,
-                                 PFN_vkGetInstanceProcAddr getInstanceProcAddr, char* missing,
-                                 size_t missingSize);
+// The modules, as a mask; a mask of 0 means all of them.
+typedef enum CndModuleBits {
+    CND_MODULE_LIGHTING_BIT = 1,
+    CND_MODULE_ENVIRONMENT_BIT = 2,
+    CND_MODULE_EXPOSURE_BIT = 4,
+    CND_MODULE_BITS_MAX_ENUM = 0x7FFFFFFF
+} CndModuleBits;
 
-// Sets to VK_TRUE every feature that the modules need, in the feature structs that the host chains
-// into VkDeviceCreateInfo. Other members are left alone. The pointers must not be NULL.
-CND_API void cndRequireFeatures(VkPhysicalDeviceFeatures* core10,
-                                VkPhysicalDeviceVulkan12Features* core12,
-                                VkPhysicalDeviceVulkan13Features* core13);
+// Checks whether a physical device has everything that the modules (a mask of CndModuleBits) need:
+// Vulkan 1.1, features, limits, linear filtering of R32G32B32A32_SFLOAT (environment), and memory
+// that the CPU can write. CndDeviceDesc::device is not
+// used and may be VK_NULL_HANDLE. If something is missing, returns CND_ERROR_UNSUPPORTED and names
+// all of it in `error`, which may be NULL. Creation of a module makes the same check.
+CND_API CndResult cndCheckDevice(const CndDeviceDesc* device, uint32_t modules, CndError* error);
+
+// Sets to VK_TRUE every feature that the modules (a mask of CndModuleBits) need, in the structs
+// that the host chains into VkDeviceCreateInfo. Other members are left alone. Returns
+// CND_ERROR_INVALID_ARGUMENT and names the struct in `error`, which may be NULL, if the chain lacks
+// the struct of a feature. Lighting and environment need scalarBlockLayout, of
+// VkPhysicalDeviceVulkan12Features or VkPhysicalDeviceScalarBlockLayoutFeatures; exposure needs no
+// feature.
+CND_API CndResult cndRequireFeatures(uint32_t modules, VkPhysicalDeviceFeatures2* features,
+                                     CndError* error);
 
 // GPU time of one pass in one frame, the sum over its dispatches.
 typedef struct CndKernelTime {

@@ -89,8 +89,7 @@ typedef struct CndEnvironmentStats {
 // the same errors as creation would.
 CND_API CndResult cndPlanEnvironment(const CndDeviceDesc* device, const CndEnvironmentDesc* desc,
                                      CndMemoryUsage* usage, CndError* error);
-// Creates the module. Fails with CND_ERROR_UNSUPPORTED if the device cannot filter
-// R32G32B32A32_SFLOAT images linearly.
+// Creates the module.
 CND_API CndResult cndCreateEnvironment(const CndDeviceDesc* device, const CndEnvironmentDesc* desc,
                                        CndEnvironment* environment, CndError* error);
 // The GPU must have finished all work recorded with the object. NULL is ignored.

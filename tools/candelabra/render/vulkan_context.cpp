@@ -127,7 +127,7 @@ VulkanContext::VulkanContext(const ContextOptions& options)
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = queueFamily_};
     try {
-        gpu_ = std::make_unique<gpu::Device>(desc_);
+        gpu_ = std::make_unique<gpu::Device>(desc_, gpu::allModules | gpu::rasterPass);
         check(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "creating a command pool");
         gpu_->name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, "one-time commands");
         gpu_->name(VK_OBJECT_TYPE_QUEUE, queue_, "queue");
@@ -167,7 +167,7 @@ void VulkanContext::createDevice()
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &core13};
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                                        .pNext = &core12};
-    cndRequireFeatures(&features.features, &core12, &core13);
+    gpu::requireFeatures(features, gpu::allModules | gpu::rasterPass);
     features.features.samplerAnisotropy = available.samplerAnisotropy;
 
     const float priority = 1.0f;

@@ -10,7 +10,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "candelabra/candelabra.h"
+#include "gpu/failure.h"
+#include "gpu/requirements.h"
 #include "io/error.h"
 #include "io/table.h"
 #include "render/check.h"
@@ -112,8 +113,17 @@ DeviceInfo describe(VkInstance instance, VkPhysicalDevice handle, uint32_t index
         properties.pNext = &driver;
         vkGetPhysicalDeviceProperties2(handle, &properties);
     }
-    std::array<char, 1024> missing{};
-    cndCheckDevice(instance, handle, vkGetInstanceProcAddr, missing.data(), missing.size());
+    std::string missing;
+    try {
+        const CndDeviceDesc desc{.structSize = sizeof desc,
+                                 .instance = instance,
+                                 .physicalDevice = handle,
+                                 .getInstanceProcAddr = vkGetInstanceProcAddr};
+        missing = gpu::missingNeeds(gpu::InstanceFunctions(desc), desc,
+                                    gpu::allModules | gpu::rasterPass);
+    } catch (const gpu::Failure& failure) {
+        missing = failure.message;
+    }
     std::string driverText = driver.driverName;
     if (driver.driverInfo[0])
         driverText += std::string(driverText.empty() ? "" : " ") + driver.driverInfo;
@@ -125,7 +135,7 @@ DeviceInfo describe(VkInstance instance, VkPhysicalDevice handle, uint32_t index
                              std::to_string(VK_API_VERSION_MINOR(version)) + "." +
                              std::to_string(VK_API_VERSION_PATCH(version)),
             .driver = driverText,
-            .missing = missing.data()};
+            .missing = missing};
 }
 
 bool isNumber(const std::string& text)
@@ -184,7 +194,8 @@ const char* deviceTypeName(VkPhysicalDeviceType type)
     }
 }
 
-VulkanInstance::VulkanInstance(Validation validation, Presentation presentation)
+VulkanInstance::VulkanInstance(Validation validation, Presentation presentation,
+                               uint32_t apiVersion)
     : validation_(validation), presentation_(presentation)
 {
     const bool validate = validation == Validation::On;
@@ -206,7 +217,7 @@ VulkanInstance::VulkanInstance(Validation validation, Presentation presentation)
                                         .applicationVersion = CND_VERSION,
                                         .pEngineName = "candelabra",
                                         .engineVersion = CND_VERSION,
-                                        .apiVersion = VK_API_VERSION_1_3};
+                                        .apiVersion = apiVersion};
     VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(*messages_);
     const VkValidationFeatureEnableEXT enabled =
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;

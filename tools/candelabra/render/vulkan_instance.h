@@ -61,9 +61,10 @@ const char* deviceTypeName(VkPhysicalDeviceType type);
 class VulkanInstance
 {
 public:
-    // Throws RunError if there is no Vulkan loader, or no validation layer or display where one is
-    // asked for.
-    VulkanInstance(Validation validation, Presentation presentation);
+    // `apiVersion`: VkApplicationInfo::apiVersion. Throws RunError if there is no Vulkan loader, or
+    // no validation layer or display where one is asked for.
+    VulkanInstance(Validation validation, Presentation presentation,
+                   uint32_t apiVersion = VK_API_VERSION_1_3);
     ~VulkanInstance();
     VulkanInstance(const VulkanInstance&) = delete;
     VulkanInstance& operator=(const VulkanInstance&) = delete;

@@ -39,9 +39,7 @@ struct LaneCounter::Functions {
     static void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out)
     {
         vkGetPhysicalDeviceProperties2(device, out);
-        for (auto* s = static_cast<VkBaseOutStructure*>(out->pNext); s; s = s->pNext)
-            if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES)
-                reinterpret_cast<VkPhysicalDeviceDriverProperties*>(s)->driverID = VkDriverId(0);
+        out->properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     }
     static VkResult VKAPI_CALL createModule(VkDevice device, const VkShaderModuleCreateInfo* given,
                                             const VkAllocationCallbacks* callbacks,

@@ -146,7 +146,7 @@ std::vector<PipelineCost> measurePipelines(const PipelineSettings& settings, Dev
     take(lighting.setLights(lights, {0, 0, 0}));
     take(Environment::create(device.desc(), {.framesInFlight = 1}));
     take(Exposure::create(device.desc(), {.framesInFlight = 1}));
-    const gpu::Device raster(device.desc());
+    const gpu::Device raster(device.desc(), gpu::rasterPass);
     constexpr uint32_t allTextures = (1u << gpu::TEXTURES_PER_MATERIAL) - 1;
     const gbuffer::MeshVariant meshes[] = {
         {},
