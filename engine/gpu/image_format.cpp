@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "gpu/format_name.h"
 #include "gpu/spirv_words.h"
 
 namespace candelabra::gpu
@@ -133,8 +134,8 @@ void requireStorage(const Device& device, const char* member, VkFormat format, S
 {
     const bool named = spirvFormat(format) != FormatUnknown;
     if (!named && device.apiVersion < VK_API_VERSION_1_3)
-        failUnsupported(std::string(member) + ": storage images of this format need Vulkan 1.3, of "
-                                              "VkApplicationInfo::apiVersion and of the device");
+        failUnsupported(std::string(member) + ": storage images of " + formatName(format) +
+                        " need Vulkan 1.3, of VkApplicationInfo::apiVersion and of the device");
     VkFormatProperties3 more{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_3};
     VkFormatProperties2 properties{.sType = VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2,
                                    .pNext = named ? nullptr : &more};
@@ -147,7 +148,8 @@ void requireStorage(const Device& device, const char* member, VkFormat format, S
     const VkFormatFeatureFlags2 has =
         more.optimalTilingFeatures | properties.formatProperties.optimalTilingFeatures;
     if ((has & needs) != needs)
-        failUnsupported(std::string(member) + ": the device has no storage images of this format" +
+        failUnsupported(std::string(member) + ": the device has no storage images of " +
+                        formatName(format) +
                         (named ? "" : " that shaders access without naming it"));
 }
 

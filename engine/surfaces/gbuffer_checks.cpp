@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string>
 
+#include "gpu/format_name.h"
 #include "surfaces/host_gbuffer.h"
 
 namespace candelabra::surfaces
@@ -19,12 +20,13 @@ struct ColourFormat {
     VkFormat format;
     uint32_t channels;
     Numbers numbers;
-    const char* name;
+
+    std::string name() const { return gpu::formatName(format); }
 };
 
 #define FORMAT(name, channels, numbers)                                                            \
     {                                                                                              \
-        VK_FORMAT_##name, channels, Numbers::numbers, #name                                        \
+        VK_FORMAT_##name, channels, Numbers::numbers                                               \
     }
 // The formats of G-buffer images that shaders read as floats.
 constexpr ColourFormat colourFormats[] = {FORMAT(R8_UNORM, 1, Unsigned),
@@ -75,7 +77,7 @@ void requireSampled(const gpu::Device& device, const char* member, VkFormat form
     device.GetPhysicalDeviceFormatProperties2(device.physicalDevice, format, &properties);
     if (!(properties.formatProperties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
         gpu::failUnsupported(std::string("CndGBufferDesc: the device cannot sample ") + member +
-                             " (VkFormat " + std::to_string(format) + ")");
+                             ", whose format is " + gpu::formatName(format));
 }
 
 // One of the three colour images of a frame.
@@ -94,7 +96,7 @@ const ColourFormat* find(const gpu::Device& device, const char* image, VkFormat 
     const auto* const known = std::ranges::find(colourFormats, format, &ColourFormat::format);
     const std::string member = std::string(image) + "Format";
     if (known == std::end(colourFormats))
-        fail(member + " " + std::to_string(format) +
+        fail(member + " " + gpu::formatName(format) +
              " is no colour format that shaders read as floats");
     requireSampled(device, member.c_str(), format);
     return known;
@@ -104,7 +106,7 @@ void checkTaken(const Image& image)
 {
     if (image.known && image.known->channels < image.taken)
         fail(std::string(image.takenBy) + " needs " + std::to_string(image.taken) + " channels, " +
-             image.name + "Format " + image.known->name + " has " +
+             image.name + "Format " + image.known->name() + " has " +
              std::to_string(image.known->channels));
 }
 
@@ -125,9 +127,9 @@ void checkChannel(const char* member, CndGBufferChannel channel, const Image (&i
     if (!image.known)
         return;
     if (component >= image.known->channels)
-        fail(where + ", which its format " + image.known->name + " has not");
+        fail(where + ", which its format " + image.known->name() + " has not");
     if (image.known->numbers == Numbers::Encoded && component < 3)
-        fail(where + ", whose format " + image.known->name + " decodes it as a colour");
+        fail(where + ", whose format " + image.known->name() + " decodes it as a colour");
 }
 
 void checkNormal(const CndGBufferDesc& d, const Image& image)
@@ -136,13 +138,13 @@ void checkNormal(const CndGBufferDesc& d, const Image& image)
         d.normalEncoding == CND_NORMAL_SNORM || d.normalEncoding == CND_NORMAL_OCTAHEDRAL_SNORM;
     if (!image.known)
         return;
-    const std::string format = std::string("normalRoughnessFormat ") + image.known->name;
+    const std::string format = std::string("normalRoughnessFormat ") + image.known->name();
     if (image.known->numbers == Numbers::Encoded)
         fail(format + " decodes normals as colours");
     if (isSigned && image.known->numbers == Numbers::Unsigned)
         fail(format + " has no negative values, which normalEncoding asks for");
     const bool isSnorm = image.known->numbers == Numbers::Signed &&
-                         std::string(image.known->name).find("SNORM") != std::string::npos;
+                         std::string(image.known->name()).find("SNORM") != std::string::npos;
     if (!isSigned && isSnorm)
         fail(format + " holds negative values, normalEncoding says 0..1");
 }
@@ -185,17 +187,17 @@ void checkDepth(const gpu::Device& device, const CndGBufferDesc& d)
         return;
     if (d.depthKind == CND_DEPTH_PROJECTED) {
         if (std::ranges::find(depthFormats, d.depthFormat) == std::end(depthFormats))
-            fail("depthFormat " + std::to_string(d.depthFormat) +
-                 " is neither a depth format nor R32_SFLOAT");
+            fail("depthFormat " + gpu::formatName(d.depthFormat) +
+                 " is neither a depth format nor VK_FORMAT_R32_SFLOAT");
         requireSampled(device, "depthFormat", d.depthFormat);
         return;
     }
     const ColourFormat& format = *find(device, "depth", d.depthFormat);
     if (format.numbers == Numbers::Encoded)
-        fail(std::string("depthFormat ") + format.name + " decodes depths as colours");
+        fail(std::string("depthFormat ") + format.name() + " decodes depths as colours");
     const bool positions = d.depthKind != CND_DEPTH_LINEAR;
     if (positions && (format.channels < 4 || format.numbers != Numbers::Signed))
-        fail(std::string("depthFormat ") + format.name +
+        fail(std::string("depthFormat ") + format.name() +
              " cannot hold positions, which need four channels and both signs");
 }
 

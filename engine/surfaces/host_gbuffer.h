@@ -61,7 +61,7 @@ public:
         };
         require("depth", f.depth);
         checkLayouts(frameName, f.gbufferImageLayout, f.depthImageLayout);
-        checkClearDepth(frameName, desc_.depthKind, f.clearDepth);
+        checkClearDepth(frameName, desc_.depthKind, f.camera, f.clearDepth);
         if (isCustom())
             return;
         require("normalRoughness", f.normalRoughness);

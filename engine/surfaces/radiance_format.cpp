@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "gpu/format_name.h"
+
 namespace candelabra::surfaces
 {
 
@@ -13,9 +15,9 @@ VkFormat checkedRadianceFormat(const gpu::Device& device, const char* member, Vk
         format = VK_FORMAT_R32G32B32A32_SFLOAT;
     if (format != VK_FORMAT_R32G32B32A32_SFLOAT && format != VK_FORMAT_R16G16B16A16_SFLOAT &&
         format != VK_FORMAT_B10G11R11_UFLOAT_PACK32)
-        gpu::failArgument(std::string(member) +
-                          " must be R32G32B32A32_SFLOAT, R16G16B16A16_SFLOAT or "
-                          "B10G11R11_UFLOAT_PACK32");
+        gpu::failArgument(std::string(member) + " is " + gpu::formatName(format) +
+                          ", must be VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT "
+                          "or VK_FORMAT_B10G11R11_UFLOAT_PACK32");
     gpu::requireStorage(device, member, format, gpu::StorageUse::ReadAndWrite);
     return format;
 }

@@ -50,12 +50,15 @@ gpu::StoredDepth storedDepth(const CndGBufferDesc& desc, const CndCamera& camera
     return out;
 }
 
-void checkClearDepth(const char* frameName, CndDepthKind kind, float clearDepth)
+void checkClearDepth(const char* frameName, CndDepthKind kind, const CndCamera& camera,
+                     float clearDepth)
 {
     if (kind == CND_DEPTH_PROJECTED && clearDepth != 0 && clearDepth != 1)
         gpu::failArgument(std::string(frameName) + ": clearDepth must be 0 or 1");
     if (!std::isfinite(clearDepth))
         gpu::failArgument(std::string(frameName) + ": clearDepth must be finite");
+    if (kind == CND_DEPTH_PROJECTED)
+        checkDepthDirection(frameName, projectionOf(camera.clipFromView, clearDepth), clearDepth);
 }
 
 } // namespace candelabra::surfaces

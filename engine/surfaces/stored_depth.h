@@ -25,8 +25,9 @@ FrameDepth frameDepth(CndDepthKind kind, const CndCamera& camera, float clearDep
 gpu::StoredDepth storedDepth(const CndGBufferDesc& desc, const CndCamera& camera, float clearDepth,
                              const gpu::Projection& projection);
 
-// Throws gpu::Failure if no pixel can be cleared to `clearDepth`. `frameName`: name of the frame's
-// type.
-void checkClearDepth(const char* frameName, CndDepthKind kind, float clearDepth);
+// Throws gpu::Failure if no pixel without a surface can be `clearDepth`. `frameName`: name of the
+// frame's type.
+void checkClearDepth(const char* frameName, CndDepthKind kind, const CndCamera& camera,
+                     float clearDepth);
 
 } // namespace candelabra::surfaces

@@ -92,15 +92,17 @@ const Mistake mistakes[] = {
     {"depthUnit is set, but depthKind is not CND_DEPTH_LINEAR", common,
      [](CndGBufferDesc& d) { d.depthUnit = 100; }},
     {"depthUnit must be finite and >= 0", linear, [](CndGBufferDesc& d) { d.depthUnit = -1; }},
-    {"depthFormat R8G8B8A8_SRGB decodes depths as colours", linear,
+    {"depthFormat VK_FORMAT_R8G8B8A8_SRGB decodes depths as colours", linear,
      [](CndGBufferDesc& d) { d.depthFormat = VK_FORMAT_R8G8B8A8_SRGB; }},
-    {"depthFormat R16_SFLOAT cannot hold positions, which need four channels and both signs",
+    {"depthFormat VK_FORMAT_R16_SFLOAT cannot hold positions, which need four channels and both "
+     "signs",
      linear,
      [](CndGBufferDesc& d) {
          d.depthKind = CND_DEPTH_POSITION_WORLD;
          d.depthUnit = 0;
      }},
-    {"depthFormat R16G16B16A16_UNORM cannot hold positions, which need four channels and both "
+    {"depthFormat VK_FORMAT_R16G16B16A16_UNORM cannot hold positions, which need four channels and "
+     "both "
      "signs",
      linear,
      [](CndGBufferDesc& d) {
@@ -126,10 +128,10 @@ const Mistake mistakes[] = {
      [](CndGBufferDesc& d) { d.roughness = CND_CHANNEL_SPECULAR_G; }},
     {"roughness is in the channel of another quantity", common,
      [](CndGBufferDesc& d) { d.roughness = CND_CHANNEL_SPECULAR_G; }},
-    {"metalness is blue of specular, which its format R8G8_UNORM has not", common,
+    {"metalness is blue of specular, which its format VK_FORMAT_R8G8_UNORM has not", common,
      [](CndGBufferDesc& d) { d.metalness = CND_CHANNEL_SPECULAR_B; }},
-    {"roughness is red of specular, whose format R8G8B8A8_SRGB decodes it as a colour", common,
-     [](CndGBufferDesc& d) { d.specularFormat = VK_FORMAT_R8G8B8A8_SRGB; }},
+    {"roughness is red of specular, whose format VK_FORMAT_R8G8B8A8_SRGB decodes it as a colour",
+     common, [](CndGBufferDesc& d) { d.specularFormat = VK_FORMAT_R8G8B8A8_SRGB; }},
     {"metalness, constantMetalness and dielectricF0 are of CND_REFLECTANCE_METALNESS, reflectance "
      "is "
      "CND_REFLECTANCE_SPECULAR",
@@ -137,19 +139,21 @@ const Mistake mistakes[] = {
     {"f90 is of CND_REFLECTANCE_SPECULAR, reflectance is CND_REFLECTANCE_METALNESS", common,
      [](CndGBufferDesc& d) { d.f90 = CND_CHANNEL_ALBEDO_A; }},
     {"dielectricF0 must be 0..1", common, [](CndGBufferDesc& d) { d.dielectricF0 = 1.5f; }},
-    {"normalRoughnessFormat 81 is no colour format that shaders read as floats", common,
-     [](CndGBufferDesc& d) { d.normalRoughnessFormat = VK_FORMAT_R16G16_UINT; }},
-    {"the normal needs 3 channels, normalRoughnessFormat R16G16_UNORM has 2", common,
+    {"normalRoughnessFormat VK_FORMAT_R16G16_UINT is no colour format that shaders read as floats",
+     common, [](CndGBufferDesc& d) { d.normalRoughnessFormat = VK_FORMAT_R16G16_UINT; }},
+    {"the normal needs 3 channels, normalRoughnessFormat VK_FORMAT_R16G16_UNORM has 2", common,
      [](CndGBufferDesc& d) { d.normalRoughnessFormat = VK_FORMAT_R16G16_UNORM; }},
-    {"normalRoughnessFormat R8G8B8A8_SRGB decodes normals as colours", common,
+    {"normalRoughnessFormat VK_FORMAT_R8G8B8A8_SRGB decodes normals as colours", common,
      [](CndGBufferDesc& d) { d.normalRoughnessFormat = VK_FORMAT_R8G8B8A8_SRGB; }},
-    {"normalRoughnessFormat R16G16_UNORM has no negative values, which normalEncoding asks for",
+    {"normalRoughnessFormat VK_FORMAT_R16G16_UNORM has no negative values, which normalEncoding "
+     "asks for",
      specularColour, [](CndGBufferDesc& d) { d.normalRoughnessFormat = VK_FORMAT_R16G16_UNORM; }},
-    {"normalRoughnessFormat R8G8B8A8_SNORM holds negative values, normalEncoding says 0..1", common,
-     [](CndGBufferDesc& d) { d.normalRoughnessFormat = VK_FORMAT_R8G8B8A8_SNORM; }},
-    {"the base colour needs 3 channels, albedoFormat R8G8_UNORM has 2", common,
+    {"normalRoughnessFormat VK_FORMAT_R8G8B8A8_SNORM holds negative values, normalEncoding says "
+     "0..1",
+     common, [](CndGBufferDesc& d) { d.normalRoughnessFormat = VK_FORMAT_R8G8B8A8_SNORM; }},
+    {"the base colour needs 3 channels, albedoFormat VK_FORMAT_R8G8_UNORM has 2", common,
      [](CndGBufferDesc& d) { d.albedoFormat = VK_FORMAT_R8G8_UNORM; }},
-    {"depthFormat 76 is neither a depth format nor R32_SFLOAT", common,
+    {"depthFormat VK_FORMAT_R16_SFLOAT is neither a depth format nor VK_FORMAT_R32_SFLOAT", common,
      [](CndGBufferDesc& d) { d.depthFormat = VK_FORMAT_R16_SFLOAT; }},
 };
 

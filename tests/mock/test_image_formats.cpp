@@ -8,6 +8,7 @@
 
 #include "candelabra/candelabra.hpp"
 #include "candelabra_shaders.h"
+#include "gpu/format_name.h"
 #include "gpu/image_format.h"
 #include "gpu/spirv_words.h"
 #include "mock/mock_vulkan.h"
@@ -39,8 +40,9 @@ TEST(ImageFormats, RadianceHasOneOfThree)
         EXPECT_EQ(lighting(format), "");
         EXPECT_EQ(environment(format), "");
     }
-    const std::string refused = "radianceFormat must be R32G32B32A32_SFLOAT, R16G16B16A16_SFLOAT "
-                                "or B10G11R11_UFLOAT_PACK32";
+    const std::string refused = "radianceFormat is VK_FORMAT_R8G8B8A8_UNORM, must be "
+                                "VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT or "
+                                "VK_FORMAT_B10G11R11_UFLOAT_PACK32";
     EXPECT_EQ(lighting(VK_FORMAT_R8G8B8A8_UNORM), "CndLightingDesc: " + refused);
     EXPECT_EQ(environment(VK_FORMAT_R8G8B8A8_UNORM), "CndEnvironmentDesc: " + refused);
 }
@@ -59,16 +61,20 @@ TEST(ImageFormats, DisplaysHaveOneOfFour)
           VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_A2R10G10B10_UNORM_PACK32})
         EXPECT_EQ(exposure(format), "");
     EXPECT_EQ(exposure(VK_FORMAT_R16G16B16A16_SFLOAT),
-              "CndExposureDesc: displayFormat must be R8G8B8A8_UNORM, B8G8R8A8_UNORM, "
-              "A2B10G10R10_UNORM_PACK32 or A2R10G10B10_UNORM_PACK32");
-    EXPECT_EQ(exposure(VK_FORMAT_B8G8R8A8_SRGB),
-              "CndExposureDesc: displayFormat is an _SRGB format, which shaders cannot write: "
-              "create the image with VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT, give a _UNORM view of it, "
-              "and name that view's format here");
+              "CndExposureDesc: displayFormat is VK_FORMAT_R16G16B16A16_SFLOAT, must be "
+              "VK_FORMAT_R8G8B8A8_UNORM, "
+              "VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_A2B10G10R10_UNORM_PACK32 or "
+              "VK_FORMAT_A2R10G10B10_UNORM_PACK32");
+    EXPECT_EQ(
+        exposure(VK_FORMAT_B8G8R8A8_SRGB),
+        "CndExposureDesc: displayFormat is VK_FORMAT_B8G8R8A8_SRGB, which shaders cannot write: "
+        "create the image with VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT, give a _UNORM view of it, "
+        "and name that view's format here");
     const auto lighting = Lighting::create(
         vulkan.desc(), {.framesInFlight = 1, .overlayFormat = VK_FORMAT_R8G8B8A8_SRGB});
-    EXPECT_TRUE(std::string(lighting.error().message)
-                    .starts_with("CndLightingDesc: overlayFormat is an _SRGB format"));
+    EXPECT_TRUE(
+        std::string(lighting.error().message)
+            .starts_with("CndLightingDesc: overlayFormat is VK_FORMAT_R8G8B8A8_SRGB, which"));
 }
 
 // What the engine changes in the code of a kernel is the type of one image; everything else, also
@@ -146,6 +152,16 @@ TEST(ImageLayouts, OnlyLayoutsThatShadersReadIn)
                  "CndExposureFrame: radianceImageLayout must be SHADER_READ_ONLY_OPTIMAL, "
                  "READ_ONLY_OPTIMAL or GENERAL");
     vulkan.finish(vulkan.submit());
+}
+
+TEST(ImageFormats, MessagesNameThem)
+{
+    EXPECT_EQ(gpu::formatName(VK_FORMAT_UNDEFINED), "VK_FORMAT_UNDEFINED");
+    EXPECT_EQ(gpu::formatName(VK_FORMAT_R16G16B16A16_SFLOAT), "VK_FORMAT_R16G16B16A16_SFLOAT");
+    EXPECT_EQ(gpu::formatName(VK_FORMAT_ASTC_12x12_SRGB_BLOCK), "VK_FORMAT_ASTC_12x12_SRGB_BLOCK");
+    EXPECT_EQ(gpu::formatName(VkFormat(185)), "VkFormat 185");
+    for (int format = 0; format < 185; ++format) // all formats of Vulkan 1.0
+        EXPECT_TRUE(gpu::formatName(VkFormat(format)).starts_with("VK_FORMAT_")) << format;
 }
 
 } // namespace

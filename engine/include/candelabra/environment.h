@@ -48,8 +48,9 @@ typedef struct CndEnvironmentFrame {
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
     uint32_t width, height; // pixels, 1..16384
     CndCamera camera;
-    // What pixels without a surface hold. With CND_DEPTH_PROJECTED: 0 with reversed depth, else 1.
-    // Otherwise any finite number, which red (CND_DEPTH_LINEAR) or alpha (positions) is cleared to.
+    // What pixels without a surface hold. With CND_DEPTH_PROJECTED: 0 with reversed depth, else 1;
+    // the depth of the near end of a perspective camera is refused. Otherwise any finite number,
+    // which red (CND_DEPTH_LINEAR) or alpha (positions) is cleared to.
     float clearDepth;
     VkImageView normalRoughness;
     VkImageView albedo;

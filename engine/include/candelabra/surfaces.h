@@ -11,9 +11,12 @@ extern "C" {
 
 // A camera. The view transform is double; the projection is float. Matrices are column-major.
 typedef struct CndCamera {
-    double viewFromWorld[16]; // a rotation and a translation; no scale, no reflection
+    // A rotation and a translation, whose last row is 0, 0, 0, 1; no scale, no reflection. A
+    // transposed matrix is refused if it has a translation.
+    double viewFromWorld[16];
     // Perspective (finite or infinite, depth reversed or not) or orthographic. Off-centre
-    // projections are allowed; shear is not.
+    // projections are allowed; shear is not. A perspective projection that is transposed, or that
+    // gives nothing in front of the eye a depth of 0..1, is refused.
     float clipFromView[16];
 } CndCamera;
 
