@@ -16,6 +16,7 @@
 
 #include "ball.h"
 #include "host.h"
+#include "picture.h"
 
 template <typename T>
 T orExit(candelabra::Result<T> result)
@@ -216,32 +217,13 @@ static bool isRight(const Host& host, const std::vector<float>& radiance)
     return compared[0] > 10000 && compared[1] > 3000 && largest < 5e-5;
 }
 
-static void writePpm(const char* path, const Host& host, const std::vector<float>& radiance)
-{
-    std::FILE* file = std::fopen(path, "wb");
-    if (!file) {
-        std::fprintf(stderr, "cannot write %s\n", path);
-        std::exit(2);
-    }
-    std::fprintf(file, "P6 %u %u 255\n", host.width, host.height);
-    for (size_t i = 0; i < radiance.size(); ++i)
-        if (i % 4 != 3) { // 25 cd/m^2 is displayed as white
-            const float encoded = std::pow(std::clamp(radiance[i] / 25, 0.0f, 1.0f), 1 / 2.2f);
-            std::fputc(int(std::lround(255 * encoded)), file);
-        }
-    if (std::fclose(file) != 0) {
-        std::fprintf(stderr, "cannot write %s\n", path);
-        std::exit(2);
-    }
-}
-
 int main(int argc, char** argv)
 {
     Host host = createHost(320, 200);
     drawFrame(host);
     std::vector<float> radiance(size_t(host.width) * host.height * 4);
     readPixels(&host, &host.radiance, blended, radiance.data(), radiance.size() * sizeof(float));
-    writePpm(argc > 1 ? argv[1] : "embed_forward.ppm", host, radiance);
+    writePicture(argc > 1 ? argv[1] : "embed_forward.ppm", &host, radiance.data(), 25);
     const bool right = isRight(host, radiance);
     destroyHost(&host);
     std::puts(right ? "right" : "WRONG");

@@ -127,6 +127,7 @@ ROOMS = [
     ("samples/embed_forward", ["samples/common", "shaders/lib/forward.glsl", "ball_frag.h", "ball_vert.h"]),
     ("samples/embed_minimal", ["samples/common"]),
     ("samples/embed_render_pass", ["samples/common", "wall_frag.h", "wall_vert.h"]),
+    ("samples/embed_shadows", ["samples/common", "bar_vert.h"]),
     ("samples/embed_window", ["samples/common", "boxes.frag.inc", "boxes.vert.inc"]),
 
     # Tests may include everything, and nothing includes tests.
