@@ -143,7 +143,7 @@ gpu::Handle<VkPipeline> createPipeline(const gpu::Device& device, CndGBufferLayo
     VkPipeline pipeline{};
     gpu::check(device.CreateGraphicsPipelines(device.handle, device.pipelineCache, 1, &info,
                                               device.allocationCallbacks, &pipeline),
-               std::string("creating pipeline ") + desc.name);
+               "creating pipeline ", desc.name);
     device.name(VK_OBJECT_TYPE_PIPELINE, pipeline, desc.name);
     return {device, pipeline};
 }

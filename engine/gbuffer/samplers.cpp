@@ -39,7 +39,7 @@ VkSampler SamplerCache::get(Wrap wrapU, Wrap wrapV, bool nearest)
     VkSampler sampler{};
     gpu::check(device_.CreateSampler(device_.handle, &info, device_.allocationCallbacks, &sampler),
                "creating a texture sampler");
-    samplers_.emplace_back(device_, sampler);
+    samplers_.push_back(gpu::Handle(device_, sampler)); // owned before the vector may need memory
     device_.name(VK_OBJECT_TYPE_SAMPLER, sampler, "material sampler");
     known_.emplace(key, sampler);
     return sampler;

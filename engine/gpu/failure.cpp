@@ -20,11 +20,12 @@ CndResult resultOf(VkResult result) noexcept
     }
 }
 
-void check(VkResult result, const std::string& what)
+void check(VkResult result, std::string_view action, std::string_view name)
 {
     if (result < 0)
         throw Failure{resultOf(result), result,
-                      what + " failed (VkResult " + std::to_string(int(result)) + ")"};
+                      std::string(action).append(name) + " failed (VkResult " +
+                          std::to_string(int(result)) + ")"};
 }
 
 void failArgument(std::string message)

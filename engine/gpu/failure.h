@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "candelabra/candelabra.h"
@@ -24,8 +25,11 @@ struct Failure {
 // CND_NOT_READY.
 CndResult resultOf(VkResult result) noexcept;
 
-// Throws a Failure if `result` is an error; `what` names the call and the object.
-void check(VkResult result, const std::string& what);
+// Throws a Failure if `result` is an error. The sentence begins with `action` and `name`, such as
+// "creating image " and the image's name. They are put together only then: an argument that had to
+// be allocated could throw after the call of Vulkan whose object nobody owns yet, because the order
+// in which arguments are evaluated is not specified.
+void check(VkResult result, std::string_view action, std::string_view name = {});
 
 // The fail functions throw a Failure with the result code of their name.
 [[noreturn]] void failArgument(std::string message);

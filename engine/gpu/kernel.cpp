@@ -56,7 +56,7 @@ Handle<VkShaderModule> createShaderModule(const Device& device, const Spirv& spi
                                         .pCode = spirv.words.data()};
     VkShaderModule shader{};
     check(device.CreateShaderModule(device.handle, &info, device.allocationCallbacks, &shader),
-          std::string("creating shader ") + spirv.name);
+          "creating shader ", spirv.name);
     Handle<VkShaderModule> owner(device, shader);
     device.name(VK_OBJECT_TYPE_SHADER_MODULE, shader, spirv.name);
     return owner;
@@ -76,7 +76,7 @@ Handle<VkDescriptorSetLayout> createSetLayout(const Device& device, const char* 
     VkDescriptorSetLayout layout{};
     check(
         device.CreateDescriptorSetLayout(device.handle, &info, device.allocationCallbacks, &layout),
-        std::string("creating the set layout of ") + name);
+        "creating the set layout of ", name);
     Handle<VkDescriptorSetLayout> owner(device, layout);
     device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, name);
     return owner;
@@ -94,7 +94,7 @@ Handle<VkPipelineLayout> createPipelineLayout(const Device& device, const char* 
                                           .pPushConstantRanges = &range};
     VkPipelineLayout layout{};
     check(device.CreatePipelineLayout(device.handle, &info, device.allocationCallbacks, &layout),
-          std::string("creating the pipeline layout of ") + name);
+          "creating the pipeline layout of ", name);
     Handle<VkPipelineLayout> owner(device, layout);
     device.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, name);
     return owner;
@@ -117,7 +117,7 @@ Bindings::Bindings(const Device& device, const char* name, std::vector<Reflected
                                           .pPoolSizes = sizes.data()};
     VkDescriptorPool pool{};
     check(device.CreateDescriptorPool(device.handle, &info, device.allocationCallbacks, &pool),
-          std::string("creating the descriptor pool of ") + name);
+          "creating the descriptor pool of ", name);
     pool_ = Handle(device, pool);
     const std::vector<VkDescriptorSetLayout> layouts(setCount, layout_.get());
     const VkDescriptorSetAllocateInfo allocation{.sType =
@@ -126,7 +126,7 @@ Bindings::Bindings(const Device& device, const char* name, std::vector<Reflected
                                                  .descriptorSetCount = setCount,
                                                  .pSetLayouts = layouts.data()};
     check(device.AllocateDescriptorSets(device.handle, &allocation, sets_.data()),
-          std::string("allocating descriptor sets of ") + name);
+          "allocating descriptor sets of ", name);
     for (VkDescriptorSet set : sets_)
         device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set, name);
 }
@@ -216,7 +216,7 @@ KernelBase::KernelBase(const Device& device, const Spirv& spirv, uint32_t params
     VkPipeline pipeline{};
     check(device.CreateComputePipelines(device.handle, device.pipelineCache, 1, &info,
                                         device.allocationCallbacks, &pipeline),
-          std::string("creating pipeline ") + name_);
+          "creating pipeline ", name_);
     pipeline_ = Handle(device, pipeline);
     device.name(VK_OBJECT_TYPE_PIPELINE, pipeline, name_);
 }

@@ -93,14 +93,16 @@ CndMemory fromDevice(const Device& device, const CndMemoryRequest& request)
                                     .memoryTypeIndex = device.memoryType(
                                         needs.memoryTypeBits, request.required, request.preferred)};
     CndMemory out{};
-    check(device.AllocateMemory(device.handle, &info, device.allocationCallbacks, &out.memory),
-          "allocating " + bytesFor(request));
+    const VkResult allocated =
+        device.AllocateMemory(device.handle, &info, device.allocationCallbacks, &out.memory);
+    if (allocated < 0)
+        check(allocated, "allocating ", bytesFor(request));
     try {
         device.name(VK_OBJECT_TYPE_DEVICE_MEMORY, out.memory,
                     std::string(request.name) + " memory");
         if (isMapped(request))
             check(device.MapMemory(device.handle, out.memory, 0, VK_WHOLE_SIZE, 0, &out.mapped),
-                  std::string("mapping ") + request.name);
+                  "mapping ", request.name);
     } catch (...) {
         release(device, out);
         throw;
@@ -113,7 +115,7 @@ void bindImage(const Device& device, const std::string& name, const VkImageCreat
 {
     VkImage created{};
     check(device.CreateImage(device.handle, &info, device.allocationCallbacks, &created),
-          "creating image " + name);
+          "creating image ", name);
     image = Handle(device, created);
     VkMemoryRequirements needs{};
     device.GetImageMemoryRequirements(device.handle, created, &needs);
@@ -121,7 +123,7 @@ void bindImage(const Device& device, const std::string& name, const VkImageCreat
     request.image = created;
     memory = Memory(device, request);
     check(device.BindImageMemory(device.handle, created, memory.get(), memory.offset()),
-          "binding memory of image " + name);
+          "binding memory of image ", name);
     device.name(VK_OBJECT_TYPE_IMAGE, created, name);
 }
 
@@ -136,7 +138,7 @@ Handle<VkImageView> createView(const Device& device, const std::string& name, Vk
                                      .subresourceRange = range};
     VkImageView view{};
     check(device.CreateImageView(device.handle, &info, device.allocationCallbacks, &view),
-          "creating a view of image " + name);
+          "creating a view of image ", name);
     Handle<VkImageView> owner(device, view);
     device.name(VK_OBJECT_TYPE_IMAGE_VIEW, view, name);
     return owner;
@@ -179,7 +181,7 @@ Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize 
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = result.size, .usage = usage};
     VkBuffer buffer{};
     check(device.CreateBuffer(device.handle, &info, device.allocationCallbacks, &buffer),
-          "creating buffer " + name);
+          "creating buffer ", name);
     result.buffer = Handle(device, buffer);
     VkMemoryRequirements needs{};
     device.GetBufferMemoryRequirements(device.handle, buffer, &needs);
@@ -189,7 +191,7 @@ Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize 
     result.mapped = isMapped(request) ? result.memory.mapped() : nullptr;
     check(
         device.BindBufferMemory(device.handle, buffer, result.memory.get(), result.memory.offset()),
-        "binding memory of buffer " + name);
+        "binding memory of buffer ", name);
     device.name(VK_OBJECT_TYPE_BUFFER, buffer, name);
     return result;
 }

@@ -45,7 +45,7 @@ Timer::Timer(const Device& device, const char* name, uint32_t slots, bool enable
                                      .queryCount = slots * stampsPerSlot};
     VkQueryPool pool{};
     check(device.CreateQueryPool(device.handle, &info, device.allocationCallbacks, &pool),
-          std::string("creating the timestamp pool of ") + name);
+          "creating the timestamp pool of ", name);
     pool_ = Handle(device, pool);
     device.name(VK_OBJECT_TYPE_QUERY_POOL, pool, std::string(name) + " timestamps");
 }
