@@ -10,13 +10,13 @@ layout(scalar, binding = HOST_SCENE_BINDING) readonly buffer Scene
 {
     HostScene scene;
 };
-layout(location = 0) in vec3 positionWorld;
 layout(location = 1) flat in uint wallIndex;
 #ifdef FULL
 layout(location = 0) out uvec2 normalRoughness;
 layout(location = 1) out uvec2 albedo;
 layout(location = 2) out uvec2 specular;
 #else
+layout(location = 0) in vec3 positionWorld;
 layout(location = 0) out vec4 normalRoughness;
 layout(location = 1) out vec4 albedo;
 layout(location = 2) out vec4 place;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the walls of the scene that tests draw into G-buffers of hosts, one per instance.
+// Draws the walls of the scene that tests draw into G-buffers of hosts, one per instance. With FULL it goes with
+// the fragment shader for the layout FULL, which needs no position.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/host_scene.h"
@@ -8,7 +9,9 @@ layout(scalar, binding = HOST_SCENE_BINDING) readonly buffer Scene
 {
     HostScene scene;
 };
+#ifndef FULL
 layout(location = 0) out vec3 positionWorld;
+#endif
 layout(location = 1) flat out uint wallIndex;
 
 void main()
@@ -17,7 +20,10 @@ void main()
                                     vec2(1.0, 1.0), vec2(0.0, 1.0));
     const vec2 at = corners[gl_VertexIndex];
     const HostSceneWall wall = scene.walls[gl_InstanceIndex];
-    positionWorld = wall.corner + at.x * wall.edgeU + at.y * wall.edgeV;
+    const vec3 position = wall.corner + at.x * wall.edgeU + at.y * wall.edgeV;
     wallIndex = gl_InstanceIndex;
-    gl_Position = scene.clipFromWorld * vec4(positionWorld, 1.0);
+    gl_Position = scene.clipFromWorld * vec4(position, 1.0);
+#ifndef FULL
+    positionWorld = position;
+#endif
 }

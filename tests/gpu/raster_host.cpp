@@ -308,8 +308,8 @@ void RasterHost::createRenderPass()
 
 void RasterHost::createPipeline()
 {
-    const gpu::Handle<VkShaderModule> vertex =
-        gpu::createShaderModule(device_, spirv::host_scene_vert);
+    const gpu::Handle<VkShaderModule> vertex = gpu::createShaderModule(
+        device_, case_.native ? spirv::host_scene_vert_full : spirv::host_scene_vert);
     const gpu::Handle<VkShaderModule> fragment = gpu::createShaderModule(
         device_, case_.native ? spirv::host_scene_frag_full : spirv::host_scene_frag);
     const auto stage = [](VkShaderStageFlagBits which, const gpu::Handle<VkShaderModule>& module) {
