@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the walls of the scene that tests draw into G-buffers of hosts, one per instance. With FULL it goes with
-// the fragment shader for the layout FULL, which needs no position.
+// Draws the walls of the scene that tests draw into G-buffers of hosts, one per instance. With FULL it
+// goes with the fragment shader for the layout FULL, which needs no position.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/host_scene.h"
