@@ -40,7 +40,7 @@ shutil.rmtree(work, ignore_errors=True)
 work.mkdir()
 run(source / "tools/gpu_check", "bundle", bundle, "--no-build", environment=os.environ | {"CANDELABRA_BUILD": str(build)})
 size = sum(p.stat().st_size for p in bundle.rglob("*") if p.is_file())
-require(size < 60e6, f"the bundle has {size} bytes")
+require(size < 64 * 2**20, f"the bundle has {size} bytes")
 for path in bundle.rglob("*"):
     require(not path.is_symlink(), f"{path} is a link, which may not survive a copy")
 
