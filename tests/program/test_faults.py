@@ -36,7 +36,7 @@ def environment(**more):
 
 def start(arguments, folder, executable=(program,), **options):
     if device and arguments and arguments[0] not in (
-            "compare", "truth", "devices", "manual", "completions") and "--device" not in arguments:
+            "compare", "truth", "devices", "help", "manual", "completions", "examples") and "--device" not in arguments:
         arguments = [*arguments, "--device", device]
     options = {"stdout": subprocess.PIPE, "env": environment()} | options
     return subprocess.Popen([*executable, *arguments], cwd=folder, stdin=subprocess.DEVNULL,
@@ -159,10 +159,11 @@ BASE = {
     "bench skip": ["bench", "skip", "--lights=5", "--size=8x8", "--out=o"],
     "bench stability": ["bench", "stability", "--configs=1000", "--out=o"],
     "devices": ["devices"], "manual": ["manual"], "completions": ["completions", "bash"],
+    "help": ["help"], "examples": ["examples", "o"],
 }
 # Command lines that are wrong only as a whole; each single option is right.
 COMBINATIONS = [
-    ([], "subcommand"), (["paint"], "paint"), (["bench"], "subcommand"), (["bench", "speed"], "speed"), (["bench", "skip", "hall"], "hall"),
+    ([], "no command"), (["paint"], "paint"), (["bench"], "no command of bench"), (["bench", "speed"], "speed"), (["bench", "skip", "hall"], "hall"),
     (["render"], "scene"), (["render", "hall"], "nothing to write"), (["render", "village", "-o", "x.png"], "village"),
     (["render", "hall", "more", "-o", "x.png"], "more"), (["completions"], "shell"), (["completions", "csh"], "csh"),
     (["render", "hall", "-o", "x.png", "-o", "./x.png"], "twice"), (["render", "hall", "-o"], "-o"),
@@ -183,6 +184,8 @@ COMBINATIONS = [
     (["truth", "scene.json", "--merge", "a", "-o", "x.exr"], "--merge"), (["truth", "--merge", "no_such.truth", "-o", "x.exr"], "no_such.truth"),
     (["truth", "--merge", "noise.truth", "-o", "x.exr"], "noise.truth"), (["truth", "--merge", "empty.truth", "-o", "x.exr"], "empty.truth"),
     (["truth", "hall", "-o", "x.exr"], "hall"), (["truth", "scene.json", "-o", "scene.json"], "scene.json"),
+    (["render", "hall", "-o", "x.png", "--light", "100"], "did you mean --lights?"), (["help", "rendr"], "did you mean render?"),
+    (["examples", "."], "--replace"), (["examples", "no/such"], "no/such"),
     (["compare"], "A"), (["compare", "run.json"], "B"),
     (["compare", "--a", "run.json"], "B"), (["compare", "--a", "no_such.json", "--b", "run.json"], "no_such.json"),
     (["compare", "run.json", "noise.json"], "noise.json"), (["compare", "run.json", "other.json"], "other.json"),
@@ -283,6 +286,7 @@ def test_files(folder):
     long = "x" * 300
     for arguments, named in ((["render", "hall", "-o", long + ".png"], "too long"),
                              (["render", "hall", "-o", "pipe.hdr"], "pipe.hdr"),
+                             (["render", "hall", "-o", "/proc/x.png"], "/proc/x.png"),
                              (["truth", "scene.json", "-o", "folder.exr"], "folder.exr"),
                              (["profile", "hall", "--json", long], "too long"),
                              (["stress", "--out", "file.txt"], "file.txt"),

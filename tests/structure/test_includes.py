@@ -57,7 +57,7 @@ ROOMS = [
     ("tools/candelabra/json", ["tools/candelabra/gltf", "tools/candelabra/generate", "tools/candelabra/scene",
                                PUBLIC]),
     ("tools/candelabra/load", ["tools/candelabra/json", "tools/candelabra/gltf", "tools/candelabra/generate",
-                               "tools/candelabra/scene", PUBLIC]),
+                               "tools/candelabra/scene", "tools/candelabra/io", PUBLIC]),
     ("tools/candelabra/truth", ["tools/candelabra/scene", "tools/candelabra/io", "engine/reference", PUBLIC]),
     # The program renders through the public API. Besides that it may use engine/gpu and the raster pass,
     # both of which are made to be used alone.

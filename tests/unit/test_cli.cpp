@@ -16,6 +16,7 @@
 #include "generate/generators.h"
 #include "harness/run_program.h"
 #include "io/error.h"
+#include "io/suggestion.h"
 #include "measure/frame/brute_check.h"
 #include "measure/frame/pick.h"
 #include "render/setting_names.h"
@@ -55,7 +56,8 @@ TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)
         std::vector<const char*> arguments;
         const char* named;
     } cases[] = {
-        {{}, "subcommand"},
+        {{}, "no command is given; choose from render"},
+        {{"bench"}, "no command of bench is given; choose from accuracy"},
         {{"paint"}, "paint"},
         {{"render"}, "scene"},
         {{"render", "hall"}, "-o"},
@@ -134,6 +136,55 @@ TEST(Cli, HelpHasExamplesAtEveryLevel)
         EXPECT_NE(outcome.out.find("Examples:\n  candelabra "), std::string::npos) << arguments[0];
         EXPECT_EQ(outcome.err, "");
     }
+}
+
+TEST(Cli, SaysWhatWasProbablyMeant)
+{
+    const struct {
+        std::vector<const char*> arguments;
+        const char* said;
+    } cases[] = {
+        {{"rendr"}, "did you mean render?"},
+        {{"help", "rendr"}, "did you mean render?"},
+        {{"help", "bench", "cull"}, "\"cull\" is no command of bench; did you mean"},
+        {{"render", "hal", "-o", "x.png"}, "did you mean hall?"},
+        {{"render", "hall", "--light", "100", "-o", "x.png"}, "did you mean --lights?"},
+        {{"render", "--light=100", "hall", "-o", "x.png"}, "--light: render has no such option"},
+        {{"render", "hall", "-lights", "9", "-o", "x.png"}, "did you mean --lights?"},
+        {{"render", "hall", "--frobnicate", "-o", "x.png"}, "--frobnicate: render has no such"},
+    };
+    for (const auto& [arguments, said] : cases) {
+        const Outcome outcome = runWith(arguments);
+        EXPECT_EQ(outcome.exitCode, exitUsage);
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+    }
+}
+
+TEST(Cli, HelpIsACommandToo)
+{
+    EXPECT_EQ(runWith({"help"}).out, runWith({"--help"}).out);
+    EXPECT_EQ(runWith({"help", "render"}).out, runWith({"render", "--help"}).out);
+    EXPECT_EQ(runWith({"help", "bench", "culling"}).out,
+              runWith({"bench", "culling", "--help"}).out);
+    EXPECT_EQ(runWith({"-q", "help", "render"}).out, runWith({"render", "--help"}).out);
+    EXPECT_NE(runWith({"help", "render"}).out.find("--lights"), std::string::npos);
+    EXPECT_NE(runWith({"help"}).out.find("help "), std::string::npos); // is listed itself
+}
+
+TEST(Cli, ClosestWordsAreNearEnough)
+{
+    const std::vector<std::string> known{"--lights", "--lights-visible", "--lod", "--size"};
+    EXPECT_EQ(closestWord("--light", known), "--lights");
+    EXPECT_EQ(closestWord("-LIGHTS", known), "--lights");
+    EXPECT_EQ(closestWord("--szie", known), "--size"); // neighbours exchanged
+    EXPECT_EQ(closestWord("--si", known), "--size");   // the beginning of one word
+    EXPECT_EQ(closestWord("--l", known), "");
+    EXPECT_EQ(closestWord("--color", known), "");
+    EXPECT_EQ(closestWord("-x", known), "");
+    EXPECT_EQ(closestWord("", known), "");
+    EXPECT_EQ(didYouMean("--lodd", known), "; did you mean --lod?");
+    EXPECT_EQ(didYouMean("--nothing-like-it", known), "");
 }
 
 TEST(Cli, VersionIsTheLibrarys)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 #include "commands/commands.h"
 #include "io/error.h"
 #include "io/report.h"
+#include "io/suggestion.h"
 #include "render/check.h"
 #include "scene/scene_error.h"
 
@@ -55,29 +58,100 @@ void describe(CLI::App& app, ProgramContext& context)
         "  candelabra render hall --lights 16000 -o hall.png\n"
         "  candelabra profile hall --lights 4000    time every pass of a frame\n"
         "  candelabra view hall --lights 4000       fly through the hall\n"
-        "  candelabra render --help                 list the options of one command");
+        "  candelabra help render                   list the options of one command\n"
+        "  candelabra examples                      write small files to try, here");
 }
 
-// Returns the error message for a command or subcommand that does not exist, or an empty text if
-// all do.
-std::string unknownCommand(const CLI::App& root, int argc, const char* const* argv)
+std::vector<const CLI::App*> partsOf(const CLI::App& app)
 {
-    const CLI::App* app = &root;
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+// The commands at the beginning of a command line.
+struct Named {
+    std::vector<const CLI::App*> path; // the program, then its command, and that command's part
+    const char* unknown = nullptr;     // the word after them, if it should be a command but is none
+};
+
+Named namedCommands(const CLI::App& root, int argc, const char* const* argv)
+{
+    Named out{.path = {&root}};
     for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
-        const auto all = app->get_subcommands([](const CLI::App*) { return true; });
-        if (all.empty())
-            return "";
-        std::string names;
-        const CLI::App* chosen = nullptr;
-        for (size_t k = 0; k < all.size(); ++k) {
-            names += (!k ? "" : k + 1 < all.size() ? ", " : " and ") + all[k]->get_name();
-            if (all[k]->get_name() == argv[i])
-                chosen = all[k];
+        const auto parts = partsOf(*out.path.back());
+        if (parts.empty())
+            break;
+        const auto found = std::find_if(parts.begin(), parts.end(), [&](const CLI::App* part) {
+            return part->get_name() == argv[i];
+        });
+        if (found == parts.end()) {
+            out.unknown = argv[i];
+            break;
         }
-        if (!chosen)
-            return fmt::format("\"{}\" is no command{}; choose from {}", argv[i],
-                               app == &root ? "" : " of " + app->get_name(), names);
-        app = chosen;
+        out.path.push_back(*found);
+    }
+    return out;
+}
+
+// Returns " (see: candelabra help ...)".
+std::string seeHelp(const Named& named)
+{
+    std::string words;
+    for (size_t i = 1; i < named.path.size(); ++i)
+        words += " " + named.path[i]->get_name();
+    return " (see: candelabra help" + words + ")";
+}
+
+// Returns the error message for a command that does not exist or is missing, or an empty text if
+// the command is there.
+std::string commandSentence(const Named& named, const CLI::ParseError& error)
+{
+    const CLI::App& last = *named.path.back();
+    const auto parts = partsOf(last);
+    const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) && !parts.empty();
+    if (!named.unknown && !missing)
+        return "";
+    std::string list;
+    std::vector<std::string> names;
+    for (size_t k = 0; k < parts.size(); ++k) {
+        names.push_back(parts[k]->get_name());
+        list += (!k ? "" : k + 1 < parts.size() ? ", " : " and ") + names.back();
+    }
+    const std::string of = named.path.size() == 1 ? "" : " of " + last.get_name();
+    if (!named.unknown)
+        return fmt::format("no command{} is given; choose from {}{}", of, list, seeHelp(named));
+    const std::string closest = didYouMean(named.unknown, names);
+    return fmt::format("\"{}\" is no command{}{}", named.unknown, of,
+                       closest.empty() ? "; choose from " + list : closest);
+}
+
+bool hasOption(const CLI::App& app, const std::string& name)
+{
+    return app.get_option_no_throw(name) != nullptr;
+}
+
+// Returns the error message for an option that does not exist, or an empty text if the error is
+// another one.
+std::string optionSentence(const Named& named, int argc, const char* const* argv,
+                           const CLI::ParseError& error)
+{
+    if (!dynamic_cast<const CLI::ExtrasError*>(&error))
+        return "";
+    const std::string said = error.what();
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i], option = argument.substr(0, argument.find('='));
+        const auto has = [&](const CLI::App* app) { return hasOption(*app, option); };
+        if (option.size() < 2 || option[0] != '-' || said.find(option) == std::string::npos ||
+            std::any_of(named.path.begin(), named.path.end(), has))
+            continue;
+        std::vector<std::string> known;
+        for (const CLI::App* app : named.path)
+            for (const CLI::Option* one : app->get_options())
+                for (const std::string& name : one->get_lnames())
+                    known.push_back("--" + name);
+        const std::string command =
+            named.path.size() == 1 ? "candelabra" : named.path.back()->get_name();
+        return fmt::format("{}: {} has no such option{}{}", option, command,
+                           didYouMean(option, known), seeHelp(named));
     }
     return "";
 }
@@ -86,11 +160,12 @@ std::string unknownCommand(const CLI::App& root, int argc, const char* const* ar
 std::string parseSentence(const CLI::App& app, int argc, const char* const* argv,
                           const CLI::ParseError& error)
 {
-    if (const std::string unknown = unknownCommand(app, argc, argv); !unknown.empty())
-        return unknown;
-    const std::string first = argc > 1 ? argv[1] : "-";
-    return fmt::format("{} (see: candelabra {}--help)", error.what(),
-                       first[0] == '-' ? "" : first + " ");
+    const Named named = namedCommands(app, argc, argv);
+    if (const std::string command = commandSentence(named, error); !command.empty())
+        return command;
+    if (const std::string option = optionSentence(named, argc, argv, error); !option.empty())
+        return option;
+    return error.what() + seeHelp(named);
 }
 
 // Refuses "--option=" and empty values. With "--camera= -o x.png" the parser would take "-o" for
@@ -117,8 +192,25 @@ void refuseEmptyValues(const CLI::App& app)
                     throw UsageError(option->get_name() + ": its value is empty");
 }
 
-int parseAndRun(int argc, const char* const* argv)
+// Returns the arguments with "help WORDS" replaced by "WORDS --help", so that both print the same
+// and refuse the same.
+std::vector<const char*> withHelpAsOption(int argc, const char* const* argv)
 {
+    std::vector<const char*> out(argv, argv + argc);
+    const auto first = std::find_if(out.begin() + std::min(argc, 1), out.end(),
+                                    [](const char* argument) { return argument[0] != '-'; });
+    if (first == out.end() || std::string(*first) != "help")
+        return out;
+    out.erase(first);
+    out.push_back("--help");
+    return out;
+}
+
+int parseAndRun(int typedCount, const char* const* typed)
+{
+    const std::vector<const char*> arguments = withHelpAsOption(typedCount, typed);
+    const int argc = int(arguments.size());
+    const char* const* argv = arguments.data();
     ProgramContext context{.commandLine = commandLine(argc, argv)};
     CLI::App app("Lights scenes with thousands of physically sized sphere lights.", "candelabra");
     Run run;
@@ -132,11 +224,14 @@ int parseAndRun(int argc, const char* const* argv)
     addTruthCommand(app, run);
     addBenchCommand(app, run);
     addDevicesCommand(app, run);
+    addExamplesCommand(app, run);
     addManualCommands(app, run);
     refuseAssignmentsOfNothing(argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) { // --help, --version
+        if (const Named named = namedCommands(app, argc, argv); named.unknown)
+            return complain(exitUsage, commandSentence(named, help));
         std::ostringstream text;
         app.exit(help, text);
         writeText("-", text.str());

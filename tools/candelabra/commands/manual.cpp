@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra manual, candelabra completions: what --help says, for man and for shells.
+// candelabra help, candelabra manual, candelabra completions: what --help says, also for man and
+// for shells.
 #include <functional>
 
 #include <fmt/format.h>
@@ -182,6 +183,14 @@ std::string manualPage(const CLI::App& root)
 
 void addManualCommands(CLI::App& app, Run& run)
 {
+    CLI::App* help =
+        app.add_subcommand("help", "Print the help of the program or of one of its commands");
+    // The program reads "help WORDS" as "WORDS --help", so this command is never run. It is listed
+    // with the others.
+    help->add_option("command")->description("the command, such as render or bench culling");
+    help->footer("Examples:\n"
+                 "  candelabra help\n"
+                 "  candelabra help bench culling");
     CLI::App* manual = app.add_subcommand("manual", "Print the manual page");
     manual->footer("Examples:\n"
                    "  candelabra manual > candelabra.1 && man ./candelabra.1");

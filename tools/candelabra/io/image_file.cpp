@@ -98,6 +98,12 @@ void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes
     file.keep();
 }
 
+std::string writeRefusal(const std::string& path)
+{
+    const TemporaryFile file(temporaryName(path), 0600); // the destructor removes it
+    return file.fd() < 0 ? std::strerror(errno) : "";
+}
+
 std::vector<uint8_t> readImageFile(const std::string& path)
 {
     const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);

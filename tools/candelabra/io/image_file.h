@@ -21,6 +21,10 @@ std::string temporaryName(const std::string& path);
 // Creates `path`, or replaces it, with these bytes. If that fails, `path` is as it was before.
 void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes);
 
+// Returns why writeFileAtomically could not create a file at `path`, or an empty text if it could.
+// Whether there is room for the file remains open. Leaves everything as it is.
+std::string writeRefusal(const std::string& path);
+
 std::vector<uint8_t> readImageFile(const std::string& path); // at most 4 GiB
 
 // Throws unless both sides of the image are 1..16384, it has 1 or 3 channels, and Image::pixels has

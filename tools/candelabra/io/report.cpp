@@ -78,9 +78,10 @@ void requireWritable(const std::string& option, const std::string& path)
     if (const long most = pathconf(directory.c_str(), _PC_NAME_MAX);
         most > 0 && length > size_t(most))
         throw UsageError(fmt::format("{} {}: the name is too long", option, path));
-    if (access(directory.c_str(), W_OK))
-        throw UsageError(fmt::format("{} {}: cannot write into {}: {}", option, path, directory,
-                                     std::strerror(errno)));
+    // Permissions alone do not tell: for root every folder looks writable, even those of /proc.
+    if (const std::string refusal = writeRefusal(path); !refusal.empty())
+        throw UsageError(
+            fmt::format("{} {}: cannot write into {}: {}", option, path, directory, refusal));
 }
 
 std::string commandLine(int argc, const char* const* argv, const std::string& program)

@@ -6,6 +6,8 @@
 #include "generate/generators.h"
 #include "generate/lights.h"
 #include "gltf/gltf.h"
+#include "io/suggestion.h"
+#include "scene/file_kind.h"
 #include "scene/scene_error.h"
 #include "scene/scene_file.h"
 #include "json/scene_json.h"
@@ -24,13 +26,15 @@ bool fileExists(const std::string& path)
 
 Scene loadFile(const std::string& scene, const SceneOptions& options)
 {
+    refuseOtherFiles(scene);
     if (isGltf(scene))
         return loadGltf(scene, options);
     if (hasExtension(scene, ".json") || fileExists(scene))
         return loadSceneJson(scene);
     throw SceneError(
         "unknown scene \"" + printable(scene, 4096) +
-        "\": use hall, field, fence, showcase, or the path of a .gltf, .glb or .json file");
+        "\": use hall, field, fence, showcase, or the path of a .gltf, .glb or .json file" +
+        didYouMean(scene, {"hall", "field", "fence", "showcase"}));
 }
 
 Scene loadWithoutEnvironment(const std::string& scene, const SceneOptions& options)
