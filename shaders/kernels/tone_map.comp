@@ -20,20 +20,6 @@ layout(scalar, binding = TONE_MAP_STATE) readonly buffer State
 };
 layout(binding = TONE_MAP_DISPLAY, rgba8) uniform writeonly image2D displayImage;
 
-// The hash function pcg3d (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering").
-uvec3 hash(uvec3 v)
-{
-    v = v * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    return v;
-}
-
 void main()
 {
     uvec2 pixel = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y * TONE_MAP_ROWS);
@@ -47,7 +33,8 @@ void main()
         const vec3 radiance = texelFetch(radianceImage, ivec2(pixel), 0).rgb;
         const vec3 encoded = encodeSrgb(toneMap(curve, expose(radiance, exposure)));
         const vec3 steps =
-            dither != 0u ? quantize(encoded, last, hash(uvec3(pixel, seed))) : quantize(encoded, last);
+            dither != 0u ? quantize(encoded, last, ditherNoise(uvec3(pixel, seed)))
+                         : quantize(encoded, last);
         imageStore(displayImage, ivec2(pixel), vec4(steps / last, 1.0));
         ++pixel.y;
     } while (pixel.y < end);

@@ -115,6 +115,29 @@ vec3 encodeSrgb(vec3 c)
     return mix(high, low, lessThanEqual(c, vec3(0.0031308)));
 }
 
+// The inverse of the sRGB encoding.
+vec3 decodeSrgb(vec3 encoded)
+{
+    const vec3 low = encoded / 12.92;
+    const vec3 high = pow((max(encoded, 0.04045) + 0.055) / 1.055, vec3(2.4));
+    return mix(high, low, lessThanEqual(encoded, vec3(0.04045)));
+}
+
+// Random bits for quantize(): the hash function pcg3d (Jarzynski and Olano 2020, "Hash Functions for
+// GPU Rendering").
+uvec3 ditherNoise(uvec3 v)
+{
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return v;
+}
+
 // Rounds an encoded value in [0, 1] to a step 0..`last`, such as 255, with dither. The noise is
 // triangular over two steps, which makes the mean and the variance of the error independent of the
 // signal. Within half a step of the ends, where clipping would shift the mean, it is uniform over one

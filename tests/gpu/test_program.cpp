@@ -146,6 +146,58 @@ TEST_F(ProgramTest, CullingAndFrameCountDoNotChangeTheImage)
     EXPECT_EQ(a, app::loadPfm(path("c.pfm")).pixels);
 }
 
+// Samples change nothing but what they should: one is the picture as ever, several give the same
+// bits in every run, keep the light of the picture, and smooth its edges.
+TEST_F(ProgramTest, SamplesSmoothEdges)
+{
+    const std::string start = "render hall --lights 150 --size 96x54 -q -o ";
+    ASSERT_EQ(run(start + "a.png --frames 1").exitCode, 0);
+    ASSERT_EQ(run(start + "b.png --aa 1").exitCode, 0);
+    EXPECT_EQ(text("a.png"), text("b.png"));
+    const Outcome sampled = run(start + "c.png -o c.pfm --aa 4 --json c.json --validate");
+    ASSERT_EQ(sampled.exitCode, 0) << sampled.err;
+    ASSERT_EQ(run(start + "d.png -o d.pfm --aa 4").exitCode, 0);
+    EXPECT_EQ(text("c.png"), text("d.png"));
+    EXPECT_EQ(text("c.pfm"), text("d.pfm"));
+    EXPECT_NE(text("a.png"), text("c.png"));
+    EXPECT_NEAR(readPng(path("a.png")).mean, readPng(path("c.png")).mean, 15);
+    const auto json = nlohmann::json::parse(text("c.json"));
+    EXPECT_EQ(test::schemaFaults(json, "render.schema.json"), "");
+    EXPECT_EQ(json["samplesPerFrame"], 4);
+    EXPECT_EQ(json["gpuTime"]["frames"], 1);
+    EXPECT_EQ(json["exposure"]["invalidPixels"], 0);
+}
+
+// A sequence that was interrupted gets the same pictures as one that was not: the exposure of each
+// frame adapts from the frame before, whether that was drawn or is there already.
+TEST_F(ProgramTest, SequencesAreResumedWithTheirExposure)
+{
+    const std::string sequence = "render hall --lights 60 --size 48x27 --frames 6 --path turn "
+                                 "--fps 4 --moving --aa 2 -o f.%02d.png -o f.%02d.pfm";
+    const Outcome first = run(sequence + " --validate");
+    ASSERT_EQ(first.exitCode, 0) << first.err;
+    std::map<std::string, std::string> pictures;
+    for (int i = 0; i < 6; ++i)
+        for (const char* extension : {".png", ".pfm"}) {
+            const std::string name = "f.0" + std::to_string(i) + extension;
+            pictures[name] = text(name);
+            EXPECT_GT(pictures[name].size(), 100u) << name;
+        }
+    EXPECT_EQ(pictures.size(), 12u);
+    EXPECT_NE(pictures["f.00.png"], pictures["f.03.png"]);
+    for (const char* removed : {"f.00.png", "f.02.pfm", "f.03.png", "f.05.png"})
+        std::filesystem::remove(dir_ / removed);
+    const auto kept = std::filesystem::last_write_time(dir_ / "f.04.png");
+    const Outcome again = run(sequence + " --resume -q --validate");
+    ASSERT_EQ(again.exitCode, 0) << again.err;
+    for (const auto& [name, bytes] : pictures)
+        EXPECT_TRUE(text(name) == bytes) << name;
+    EXPECT_EQ(std::filesystem::last_write_time(dir_ / "f.04.png"), kept);
+    const Outcome other = run(sequence + " --seed 2 --resume");
+    EXPECT_EQ(other.exitCode, 2);
+    EXPECT_NE(other.err.find("another command"), std::string::npos) << other.err;
+}
+
 TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
 {
     app::Image sky{.width = 32, .height = 16, .channels = 3};

@@ -118,6 +118,50 @@ TEST_F(RendererTest, TwoRenderersGiveTheSameBits)
     EXPECT_EQ(readDisplay(context(), first), readDisplay(context(), second));
 }
 
+// A rectangle's upper edge runs through a row of pixels; each sample sees the pixel in it or not.
+// The mean of the radiance is the share of the rectangle in the row's filter. The mean of the
+// display is that share of the display's white, although the rectangle is a hundred times brighter.
+TEST_F(RendererTest, SamplesAreTheMeanOfWhatTheyShow)
+{
+    constexpr double luminance = 100, height = 8; // the view is 8 m high, a pixel 1 m
+    Scene scene;
+    CndLight light{.type = CND_LIGHT_RECTANGLE,
+                   .emission = {float(luminance), float(luminance), float(luminance)},
+                   .influenceRadius = 1000,
+                   .axisU = {100, 0, 0},
+                   .axisV = {0, 100, 0},
+                   .twoSided = 1};
+    light.position[1] = 0.75f - 100; // its upper edge is 3/4 of a pixel above the middle
+    scene.lights = {light};
+    FrameOptions frame{.camera = {.position = {0, 0, 5},
+                                  .orthographic = true,
+                                  .orthographicHeight = height,
+                                  .farPlane = 100},
+                       .lightsVisible = true};
+    cndDefaultExposureSettings(&frame.exposure);
+    frame.exposure.manual = VK_TRUE;
+    frame.exposure.manualEv100 = 0; // white is 1.2 cd/m^2
+    frame.exposure.toneMap = CND_TONEMAP_NONE;
+    Renderer renderer(context(), scene, optionsOf({16, 8}));
+    constexpr uint32_t samples = 64;
+    renderFrames(context(), renderer, frame, {.samples = samples}, false, [] {});
+    const Image radiance = readRadiance(context(), renderer);
+    const std::vector<uint8_t> display = readDisplay(context(), renderer);
+    for (uint32_t y = 0; y < 8; ++y) {
+        // How far the centre of the row is below the edge, and the filter's share above that.
+        const double d = std::clamp(double(y) + 0.5 - 4 + 0.75, -1.5, 1.5);
+        const double share = d < -0.5  ? std::pow(1.5 + d, 3) / 6
+                             : d < 0.5 ? 0.5 + 0.75 * d - d * d * d / 3
+                                       : 1 - std::pow(1.5 - d, 3) / 6;
+        const double encoded =
+            share <= 0.0031308 ? 12.92 * share : 1.055 * std::pow(share, 1 / 2.4) - 0.055;
+        for (const uint32_t x : {0u, 7u, 15u}) {
+            EXPECT_NEAR(radiance.pixels[3 * (y * 16 + x)], share * luminance, luminance / 64) << y;
+            EXPECT_NEAR(display[3 * (y * 16 + x)], 255 * encoded, 5) << y;
+        }
+    }
+}
+
 // Neither animation nor adaptation may start before the first measured frame.
 TEST_F(RendererTest, WarmUpFramesLeaveNoTrace)
 {

@@ -102,7 +102,7 @@ PLACES = ["no/such/folder/x.json", ".", "/dev/null"]
 # or the device is known are listed too: nothing has been drawn by then.
 BAD = {
     "--lights": COUNTS, "--seed": COUNTS, "--samples": [*COUNTS, "0", "4097"],
-    "--frames": [*COUNTS, "0"], "--overlaps": [*NUMBERS, "0", "-1"],
+    "--frames": [*COUNTS, "0"], "--aa": [*COUNTS, "0", "4097"], "--fps": [*NUMBERS, "0"], "--overlaps": [*NUMBERS, "0", "-1"],
     "--size": SIZES, "--camera": ["nowhere", "99", "1,2", "0,0,0,0,0,0", "0,0,0,0,0,-1,200", "0,0,0,0,nan,1"],
     "--lights-visible": NAMES, "--exposure": ["bright", "41", "nan"], "--compensation": [*NUMBERS, "21"],
     "--metering": NAMES, "--tonemap": NAMES, "--specular": NAMES, "--gbuffer": NAMES,
@@ -116,7 +116,7 @@ BAD = {
     "--html": PLACES, "--out": ["file.txt", "/dev/null/x", "file.txt/x"],
     "--pick": ["4", "8,0", "0,8", "a,b", "-1,0", "1,2,3"],
     "--output": ["x.bmp", "x", "no/such/x.png", "/dev/full", "folder.png"],
-    "--path": NAMES, "--check": NAMES, "--light-costs": COUNTS, "--rounds": [*COUNTS, "0"],
+    "--path": [*NAMES, "file.txt", "empty.json", "folder.json"], "--check": NAMES, "--light-costs": COUNTS, "--rounds": [*COUNTS, "0"],
     "--point-rounds": COUNTS, "--brute-limit": [*NUMBERS, "-1"], "--groups": [*COUNTS, "0"],
     "--budget-size": SIZES, "--configs": [*NUMBERS, "-1", "0.5"], "--quadrature": [*NUMBERS, "-1"],
     "--sweeps": [*COUNTS], "--parts": ["everything", "profile,,skip", ","],
@@ -185,6 +185,10 @@ COMBINATIONS = [
     (["truth", "--merge", "noise.truth", "-o", "x.exr"], "noise.truth"), (["truth", "--merge", "empty.truth", "-o", "x.exr"], "empty.truth"),
     (["truth", "hall", "-o", "x.exr"], "hall"), (["truth", "scene.json", "-o", "scene.json"], "scene.json"),
     (["render", "hall", "-o", "x.png", "--light", "100"], "did you mean --lights?"), (["help", "rendr"], "did you mean render?"),
+    (["render", "hall", "-o", "f.%04d.png"], "--frames"), (["render", "hall", "--frames", "2", "-o", "%d%d.png"], "two places"),
+    (["render", "hall", "--frames", "2", "-o", "%d.png", "-o", "x.png"], "x.png"), (["render", "hall", "-o", "x.png", "--resume"], "--resume"),
+    (["render", "hall", "-o", "x.png", "--aa", "2", "--debug", "class"], "--aa"),
+    (["render", "hall", "-o", "x.png", "--aa", "2", "--influence-error", "0.5/255"], "--aa"),
     (["examples", "."], "--replace"), (["examples", "no/such"], "no/such"),
     (["compare"], "A"), (["compare", "run.json"], "B"),
     (["compare", "--a", "run.json"], "B"), (["compare", "--a", "no_such.json", "--b", "run.json"], "no_such.json"),

@@ -22,7 +22,7 @@ ROOMS = [
     ("shaders/kernels", ["shaders/kernels/common", "shaders/shading", "shaders/lib", "shaders/shared"]),
     ("shaders/gbuffer", ["shaders/lib", "shaders/shared"]),
     ("shaders/bench", ["shaders/kernels/common", "shaders/shading", "shaders/lib", "shaders/shared"]),
-    ("shaders/program", ["shaders/shared"]),
+    ("shaders/program", ["shaders/lib", "shaders/shared"]),
     ("shaders/probes", ["shaders/shading", "shaders/lib/forward.glsl", "shaders/lib", "shaders/shared"]),
 
     (PUBLIC, []),
@@ -63,7 +63,8 @@ ROOMS = [
     # both of which are made to be used alone.
     ("tools/candelabra/render", ["tools/candelabra/scene", "tools/candelabra/io", PUBLIC, "engine/gpu",
                                  "engine/gbuffer", "shaders/shared/specular_methods.h",
-                                 "shaders/shared/heat_map.h", "candelabra_commit.h",
+                                 "shaders/shared/accumulate.h", "shaders/shared/heat_map.h",
+                                 "candelabra_commit.h",
                                  "candelabra_program_shaders.h"]),
     # The rooms that measure compare with the double-precision truth. Some of them may use internals of
     # the engine: their lists name more of the engine than PUBLIC.

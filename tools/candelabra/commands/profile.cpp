@@ -37,12 +37,12 @@ struct ProfileArguments {
     bool append = false;
 };
 
-CameraPath cameraPath(const std::string& text)
+ProfilePath cameraPath(const std::string& text)
 {
     if (text == "still")
-        return CameraPath::Still;
+        return ProfilePath::Still;
     if (text == "turn")
-        return CameraPath::Turn;
+        return ProfilePath::Turn;
     throw UsageError("--path \"" + text + "\": choose one of still, turn");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra render: renders a scene into image files.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,7 +11,9 @@
 
 #include "commands/commands.h"
 #include "commands/messages.h"
+#include "commands/sequence.h"
 #include "io/error.h"
+#include "io/numbered_name.h"
 #include "io/progress.h"
 #include "io/table.h"
 #include "load/load.h"
@@ -18,6 +21,7 @@
 #include "measure/frame/influence_check.h"
 #include "measure/frame/pick.h"
 #include "render/camera.h"
+#include "render/camera_path.h"
 #include "render/provenance.h"
 #include "render/readback.h"
 
@@ -30,8 +34,8 @@ struct RenderArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string frames = "1", time = "0", json, pick;
-    bool explain = false;
+    std::string samples = "auto", frames, time = "0", fps = "60", path = "still", json, pick;
+    bool explain = false, resume = false;
     std::vector<std::string> outputs;
 };
 
@@ -41,8 +45,14 @@ struct RenderPlan {
     FrameOptions frame;
     CndGBufferLayout gbufferLayout;
     FrameCounts counts;
+    std::optional<uint32_t> samples; // of each frame; empty: the device decides
+    bool sequence = false;           // every frame is written, to numbered files
+    double interval = frameTime;     // seconds from frame to frame, if anything moves
     std::optional<PixelPosition> pick;
 };
+
+// Samples of a frame that is written to a picture on a GPU, unless --aa says otherwise.
+constexpr uint32_t gpuSamples = 16;
 
 // Returns the same path for the same file, however its path is spelled.
 std::filesystem::path identity(const std::string& path)
@@ -52,12 +62,29 @@ std::filesystem::path identity(const std::string& path)
     return unknown ? std::filesystem::path(path) : out;
 }
 
+// Returns true if the outputs are numbered. Checks that either all or none of them are.
+bool isSequence(const RenderArguments& a)
+{
+    const auto numbered = [](const std::string& output) { return isNumbered(output); };
+    if (std::none_of(a.outputs.begin(), a.outputs.end(), numbered)) {
+        if (a.resume)
+            throw UsageError("--resume: needs numbered pictures, such as -o f.%04d.png");
+        return false;
+    }
+    for (const std::string& output : a.outputs)
+        numberedName("-o", output, 0); // throws if there is no place for a number, or two
+    if (a.frames.empty())
+        throw UsageError("-o " + a.outputs[0] + ": give --frames N, the number of pictures");
+    requireWritable("-o", sequenceRecord(a.outputs[0]));
+    return true;
+}
+
 void requireOutputs(const RenderArguments& a)
 {
     std::set<std::filesystem::path> files;
     for (const std::string& output : a.outputs) {
         requireImageExtension("-o", output);
-        requireWritable("-o", output);
+        requireWritable("-o", isNumbered(output) ? numberedName("-o", output, 0) : output);
         if (!files.insert(identity(output)).second)
             throw UsageError("-o " + output + ": this file is written twice");
     }
@@ -84,12 +111,32 @@ std::optional<PixelPosition> pickedPixel(const RenderArguments& a)
     return PixelPosition{uint32_t(*x), uint32_t(*y)};
 }
 
+// Returns how many samples --aa asks for, or nothing if the device decides.
+std::optional<uint32_t> frameSamples(const RenderArguments& a, bool sequence)
+{
+    const bool heatMap = a.frame.heatMapMode() != HeatMap::None;
+    const bool byError = a.frame.influenceRule().rule == CND_INFLUENCE_BY_ERROR;
+    if (a.samples == "auto") {
+        const bool timed = !a.frames.empty() && a.frames != "1" && !sequence;
+        const bool still = !a.outputs.empty() && !timed;
+        return still && !heatMap && !byError ? std::nullopt : std::optional(1u);
+    }
+    const uint32_t samples = unsignedOption("--aa", a.samples, 1, maxFrameSamples);
+    if (samples > 1 && heatMap)
+        throw UsageError("--aa: cannot be combined with --debug, which shows single pixels");
+    if (samples > 1 && byError)
+        throw UsageError("--aa: cannot be combined with --influence-error, which follows the "
+                         "exposure of the frame before");
+    return samples;
+}
+
 RenderPlan plan(const RenderArguments& a)
 {
     if (a.outputs.empty() && a.json.empty() && a.pick.empty() && !a.explain)
         throw UsageError("render: there is nothing to write; give -o FILE (.png, .exr, .hdr, "
                          ".pfm), --json FILE, --pick X,Y or --explain");
     requireOutputs(a);
+    const bool sequence = isSequence(a);
     const CndInfluence influence = a.frame.influenceRule();
     const bool byError = influence.rule == CND_INFLUENCE_BY_ERROR;
     if (byError && a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
@@ -109,7 +156,12 @@ RenderPlan plan(const RenderArguments& a)
             .gbufferLayout = a.frame.gbufferLayout(),
             // After three frames both slots have an exposure, and the frame before has cut lights.
             .counts = {.warmUp = byError ? 3u : 1u,
-                       .measured = unsignedOption("--frames", a.frames, 1, 1'000'000)},
+                       .measured = a.frames.empty()
+                                       ? 1
+                                       : unsignedOption("--frames", a.frames, 1, 1'000'000)},
+            .samples = frameSamples(a, sequence),
+            .sequence = sequence,
+            .interval = 1 / numberOption("--fps", a.fps, 0.01, 1000),
             .pick = pickedPixel(a)};
 }
 
@@ -131,6 +183,7 @@ Json describe(const ProgramContext& program, const RenderArguments& a, const Ren
              {"image", {{"widthPixels", size.width}, {"heightPixels", size.height}}},
              {"settings", toJson(p.frame, p.gbufferLayout)},
              {"warmUpFrames", p.counts.warmUp},
+             {"samplesPerFrame", p.counts.samples},
              {"gpuTime", toJson(frames.times)},
              {"plan", toJson(frames.last.plan)},
              {"lighting", toJson(lighting)},
@@ -143,6 +196,82 @@ Json describe(const ProgramContext& program, const RenderArguments& a, const Ren
     return out;
 }
 
+// Prints and writes what is asked about the last frame, whose options are those of the plan.
+int examine(const ProgramContext& program, const RenderArguments& a, const RenderPlan& p,
+            const VulkanContext& context, const Scene& scene, Renderer& renderer,
+            const MeasuredFrames& frames)
+{
+    std::optional<Pick> picked;
+    if (p.pick) {
+        picked = pickPixel(context, renderer, scene, p.frame, *p.pick);
+        if (a.json != "-")
+            writeText("-", pickText(*picked, scene));
+    }
+    std::optional<InfluenceCheck> cut;
+    if (p.frame.influence.rule == CND_INFLUENCE_BY_ERROR) {
+        cut = checkInfluence(context, renderer, p.frame, frames.last, scene.lights.size());
+        if (a.json != "-")
+            writeText("-", influenceText(*cut));
+    }
+    if (a.explain && a.json != "-")
+        writeText("-", planText(frames.last));
+    if (a.json != "-" && !program.quiet && frames.times.frames())
+        writeText("-", passTable(frames.times));
+    if (!a.json.empty())
+        writeJson(a.json, describe(program, a, p, context, scene, renderer, frames, picked, cut));
+    return printValidationMessages(context) ? exitFailed : exitOk;
+}
+
+// Says what will be rendered.
+void announce(const Scene& scene, PixelSize size, const VulkanContext& context, uint32_t samples)
+{
+    spdlog::info("{}: {}, {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
+                 counted(scene.instances.size() + scene.analyticObjects.size(), "object"),
+                 size.width, size.height,
+                 samples > 1 ? fmt::format("{} samples per pixel", samples) : "1 sample per pixel",
+                 context.info().name);
+}
+
+// Draws all frames, and writes pictures of the last one or, of a sequence, of each.
+MeasuredFrames drawFrames(const ProgramContext& program, const RenderArguments& a,
+                          const RenderPlan& p, const CameraPath& path, bool moving,
+                          const VulkanContext& context, Renderer& renderer)
+{
+    std::optional<Sequence> sequence;
+    if (p.sequence)
+        sequence.emplace(a.outputs, p.counts.measured, program.commandLine, a.resume);
+    Progress progress(p.counts.warmUp + double(p.counts.measured) * p.counts.samples,
+                      !program.quiet);
+    progress.doing("rendering");
+    const auto camera = [&](uint32_t frame) { return path.at(frame, p.counts.measured); };
+    FrameHooks hooks;
+    if (sequence)
+        hooks = sequenceHooks(context, renderer, *sequence, a.outputs, camera);
+    else
+        hooks.prepare = [&](uint32_t frame, FrameOptions& options) {
+            options.camera = camera(frame);
+            return true;
+        };
+    return renderFrames(
+        context, renderer, p.frame, p.counts, moving, [&] { progress.advance(1); }, hooks,
+        p.interval);
+}
+
+// Writes pictures of the last frame, unless the `drawn` frames of a sequence are written already.
+void writePictures(const RenderArguments& a, const RenderPlan& p, size_t drawn,
+                   const VulkanContext& context, const Renderer& renderer)
+{
+    if (p.sequence)
+        spdlog::info("wrote {}, {} were there; {} has the exposure of each",
+                     counted(drawn, "frame"), p.counts.measured - drawn,
+                     sequenceRecord(a.outputs[0]));
+    else
+        for (const std::string& output : a.outputs) {
+            saveFrame(context, renderer, output);
+            spdlog::info("wrote {}", output);
+        }
+}
+
 int render(const ProgramContext& program, const RenderArguments& a)
 {
     RenderPlan p = plan(a);
@@ -150,7 +279,8 @@ int render(const ProgramContext& program, const RenderArguments& a)
     a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
     logWarnings(scene);
-    p.frame.camera = selectCamera(scene, a.frame.camera);
+    const CameraPath path(scene, selectCamera(scene, a.frame.camera), a.path);
+    p.frame.camera = path.start();
     p.frame.lightsVisible = a.frame.lightsVisibleOverride().value_or(scene.lightsVisible);
     const PixelSize size = a.frame.pixelSize(scene, p.frame.camera);
     makeCamera(p.frame.camera,
@@ -160,47 +290,21 @@ int render(const ProgramContext& program, const RenderArguments& a)
             fmt::format("--pick {}: the image has {}x{} pixels", a.pick, size.width, size.height));
 
     const VulkanContext context(a.device.contextOptions());
-    spdlog::info("{}: {}, {}, {}x{}, on {}", scene.name, counted(scene.lights.size(), "light"),
-                 counted(scene.instances.size() + scene.analyticObjects.size(), "object"),
-                 size.width, size.height, context.info().name);
+    const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
+    p.counts.samples = p.samples.value_or(isGpu ? gpuSamples : 1);
+    announce(scene, size, context, p.counts.samples);
     Renderer renderer(context, scene,
                       {.size = size,
                        .gbufferLayout = p.gbufferLayout,
                        .specularMethods = 1u << p.frame.specular,
                        .influenceByError = p.frame.influence.rule == CND_INFLUENCE_BY_ERROR});
-    const bool moving = !scene.lightMotions.empty();
-    MeasuredFrames frames;
-    {
-        Progress progress(p.counts.warmUp + p.counts.measured, !program.quiet);
-        progress.doing("rendering");
-        frames = renderFrames(context, renderer, p.frame, p.counts, moving,
-                              [&] { progress.advance(1); });
-    }
-    for (const std::string& output : a.outputs) {
-        saveFrame(context, renderer, output);
-        spdlog::info("wrote {}", output);
-    }
-    std::optional<Pick> picked;
-    if (p.pick) {
-        picked = pickPixel(context, renderer, scene, p.frame, *p.pick);
-        if (a.json != "-")
-            writeText("-", pickText(*picked, scene));
-    }
-    std::optional<InfluenceCheck> cut;
-    if (p.frame.influence.rule == CND_INFLUENCE_BY_ERROR) {
-        FrameOptions shown = p.frame; // the options of the last frame
-        shown.time += moving ? frameTime * (p.counts.measured - 1) : 0;
-        cut = checkInfluence(context, renderer, shown, frames.last, scene.lights.size());
-        if (a.json != "-")
-            writeText("-", influenceText(*cut));
-    }
-    if (a.explain && a.json != "-")
-        writeText("-", planText(frames.last));
-    if (a.json != "-" && !program.quiet)
-        writeText("-", passTable(frames.times));
-    if (!a.json.empty())
-        writeJson(a.json, describe(program, a, p, context, scene, renderer, frames, picked, cut));
-    return printValidationMessages(context) ? exitFailed : exitOk;
+    const bool moving = !scene.lightMotions.empty() || path.moves();
+    const MeasuredFrames frames = drawFrames(program, a, p, path, moving, context, renderer);
+    writePictures(a, p, frames.times.frames(), context, renderer);
+    // What follows looks at the last frame.
+    p.frame.camera = path.at(p.counts.measured - 1, p.counts.measured);
+    p.frame.time += moving ? p.interval * (p.counts.measured - 1) : 0;
+    return examine(program, a, p, context, scene, renderer, frames);
 }
 
 } // namespace
@@ -218,9 +322,35 @@ void addRenderCommand(CLI::App& app, Run& run)
         ->type_name("FILE");
     command
         ->add_option("--frames", a->frames,
-                     "number of frames to render and time, after a warm-up frame like the first")
+                     "number of frames to render and time, after a warm-up frame like the first "
+                     "(1); -o with a place for their number, such as f.%04d.png, writes all of "
+                     "them, any other -o the last")
+        ->type_name("N");
+    command
+        ->add_option(
+            "--aa", a->samples,
+            "anti-aliasing: a frame is the mean of N samples, each lit anew and shifted "
+            "by a part of a pixel; linear files get the mean of radiance, pictures that of "
+            "the light on the display; auto: 16 for pictures on a GPU; "
+            "1 on a CPU, with several --frames that are only timed, with --debug and "
+            "with --influence-error")
+        ->type_name("N|auto")
+        ->capture_default_str();
+    command
+        ->add_option("--path", a->path,
+                     "path of the camera: still; turn, once around the vertical in all frames; or "
+                     "a text file with a camera per line, each as for --camera, through which it "
+                     "moves in all frames")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    command
+        ->add_option("--fps", a->fps,
+                     "frames per second, for lights that move and for eyes that adapt")
         ->type_name("N")
         ->capture_default_str();
+    command->add_flag("--resume", a->resume,
+                      "leave out numbered frames that the same command has written already; the "
+                      "exposure goes on as if they had been drawn");
     command->add_option("--time", a->time, "scene time of the first frame in seconds, for --moving")
         ->type_name("SECONDS")
         ->capture_default_str();
@@ -249,7 +379,10 @@ void addRenderCommand(CLI::App& app, Run& run)
                     "  candelabra render hall --camera 0,2,10,0,1,0,60 --exposure 8 -o e.png\n"
                     "  candelabra render hall --pick 640,360\n"
                     "  candelabra render hall --size 320x180 --influence-error 0.5/255 -o cut.png\n"
-                    "  candelabra render hall --debug efficiency --explain -o heat.png");
+                    "  candelabra render hall --debug efficiency --explain -o heat.png\n"
+                    "  candelabra render hall --aa 64 --size 1920x1080 -o smooth.png\n"
+                    "  candelabra render hall --path turn --frames 240 -o f.%04d.png\n"
+                    "  ffmpeg -framerate 60 -i f.%04d.png -pix_fmt yuv420p turn.mp4");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return render(program, *a); }; });
 }

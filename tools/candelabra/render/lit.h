@@ -2,6 +2,7 @@
 #pragma once
 
 #include "candelabra/candelabra.h"
+#include "render/accumulation.h"
 #include "scene/scene.h"
 
 namespace candelabra::app
@@ -11,6 +12,7 @@ namespace candelabra::app
 // the same image.
 struct Lit {
     Camera camera;
+    FrameSample sample;
     double lightTime;
     bool lightsVisible;
     bool levels;
@@ -25,8 +27,8 @@ struct Lit {
     bool operator==(const Lit&) const = default;
     bool sameSurfaces(const Lit& other) const
     {
-        return camera == other.camera && lightsVisible == other.lightsVisible &&
-               levels == other.levels;
+        return camera == other.camera && sample == other.sample &&
+               lightsVisible == other.lightsVisible && levels == other.levels;
     }
 };
 

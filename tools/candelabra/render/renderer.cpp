@@ -74,8 +74,9 @@ struct Renderer::State {
     std::optional<uint32_t>
         emitterLayers; // layers of the emitters in the G-buffer; empty: no lights yet
     double lightTime = 0;
-    std::optional<Lit> drawn;            // what the images show
-    std::optional<HeatMapPass> heatMaps; // created for the first frame that shows a heat map
+    std::optional<Lit> drawn;                 // what the images show
+    std::optional<HeatMapPass> heatMaps;      // created for the first frame that shows a heat map
+    std::optional<Accumulation> accumulation; // created for the first frame of several samples
     // After surfaces and their environment, after lighting, and after exposure.
     FrameStamps stamps;
 
@@ -93,6 +94,12 @@ struct Renderer::State {
         gbuffer.prepare(geometry);
     }
     double aspect() const { return double(options.size.width) / options.size.height; }
+    CndCamera cameraOf(const FrameOptions& frame) const
+    {
+        CndCamera camera = makeCamera(frame.camera, aspect());
+        shiftBySample(camera, frame.sample, options.size);
+        return camera;
+    }
     void setLights(double time);
     void moveLights(double time);
     void createSized();
@@ -101,6 +108,7 @@ struct Renderer::State {
     std::vector<CndPassPlan> plan(const FrameStats& stats) const;
     void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
     void recordEnvironment(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame) const;
+    void recordDisplay(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
     CndLightingFrame lightingFrame(uint32_t slot, const FrameOptions& frame) const;
     // The members that frames of lighting and of the environment have in common.
     template <typename Frame>
@@ -109,7 +117,7 @@ struct Renderer::State {
         return {.frameSlot = slot,
                 .width = options.size.width,
                 .height = options.size.height,
-                .camera = makeCamera(frame.camera, aspect()),
+                .camera = cameraOf(frame),
                 .clearDepth = clearDepth,
                 .normalRoughness = targets.normalRoughness.view.get(),
                 .albedo = targets.albedo.view.get(),
@@ -141,6 +149,7 @@ void Renderer::State::createSized()
 {
     drawn.reset();
     heatMaps.reset();
+    accumulation.reset();
     const gpu::Device& device = context.device();
     const auto [width, height] = options.size;
     // The old images are destroyed first, so that old and new ones never take memory at the same
@@ -208,7 +217,7 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
     const glm::vec3 background = environment.get() ? glm::vec3(0) : scene.background;
     gbuffer.record(cmd, geometry,
                    {.slot = slot,
-                    .camera = makeCamera(frame.camera, aspect()),
+                    .camera = cameraOf(frame),
                     .clearDepth = clearDepth,
                     .background = {background.x, background.y, background.z},
                     .attachments = targets.attachments(),
@@ -265,9 +274,9 @@ CndInfluence Renderer::State::influenceOf(uint32_t slot, const FrameOptions& fra
 Lit Renderer::State::litBy(uint32_t slot, const FrameOptions& f) const
 {
     const CndInfluence influence = influenceOf(slot, f);
-    return {f.camera,           lightTime,          f.lightsVisible,  f.levels,  f.specular,
-            f.sampleCount,      f.sampleSeed,       f.errorBudget,    f.culling, influence.rule,
-            influence.maxError, influence.exposure, influence.toneMap};
+    return {f.camera,       f.sample,           lightTime,          f.lightsVisible,  f.levels,
+            f.specular,     f.sampleCount,      f.sampleSeed,       f.errorBudget,    f.culling,
+            influence.rule, influence.maxError, influence.exposure, influence.toneMap};
 }
 
 void Renderer::moveLights(double time)
@@ -281,11 +290,14 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
     s.moveLights(frame.time);
     const Lit lit = s.litBy(slot, frame);
     const bool counts = frame.countPairs || frame.heatMap != HeatMap::None;
-    const bool kept = frame.reuse == Reuse::Lighting && !counts && s.drawn == lit;
+    const bool oneSample = frame.sample.count == 1;
+    const bool kept = frame.reuse == Reuse::Lighting && oneSample && !counts && s.drawn == lit;
     if (frame.heatMap != HeatMap::None && !s.heatMaps)
         s.heatMaps.emplace(s.context.device(), s.options.size, s.options.framesInFlight);
+    if (!oneSample && !s.accumulation)
+        s.accumulation.emplace(s.context.device(), s.options.size, s.options.framesInFlight);
     const bool sameSurfaces = frame.reuse != Reuse::None && s.drawn && s.drawn->sameSurfaces(lit);
-    const VkImage radiance = s.targets.radiance.image.get(), display = s.display.image.get();
+    const VkImage radiance = s.targets.radiance.image.get();
     s.litSlots[slot] = !kept;
     s.stamps.begin(cmd, slot);
     if (kept) {
@@ -306,22 +318,38 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
         transition(cmd, radiance, computeWrite, computeRead);
     }
     s.stamps.stamp(cmd, slot);
-    transition(cmd, display, discarded, computeWrite);
-    take(s.exposure.record(cmd, {.frameSlot = slot,
-                                 .width = s.options.size.width,
-                                 .height = s.options.size.height,
-                                 .radiance = s.targets.radiance.view.get(),
-                                 .display = s.display.view.get(),
-                                 .deltaTime = frame.deltaTime,
-                                 .reset = frame.resetExposure,
-                                 .ditherSeed = frame.ditherSeed,
-                                 .settings = frame.exposure}));
-    s.stamps.stamp(cmd, slot);
-    s.exposedSlots[slot] = true;
+    s.recordDisplay(cmd, slot, frame);
+}
+
+// Records what follows lighting: exposure, which draws the display image, the sums of samples, and
+// the heat map.
+void Renderer::State::recordDisplay(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
+{
+    const FrameSample& sample = frame.sample;
+    const bool first = sample.index == 0; // the exposure of a frame follows from its first sample
+    transition(cmd, display.image.get(), discarded, computeWrite);
+    take(exposure.record(cmd, {.frameSlot = slot,
+                               .width = options.size.width,
+                               .height = options.size.height,
+                               .radiance = targets.radiance.view.get(),
+                               .display = display.view.get(),
+                               .deltaTime = first ? frame.deltaTime : 0,
+                               .reset = first && frame.resetExposure,
+                               .ditherSeed = frame.ditherSeed + sample.index,
+                               .settings = frame.exposure}));
+    stamps.stamp(cmd, slot);
+    exposedSlots[slot] = true;
     if (frame.heatMap != HeatMap::None)
-        s.heatMaps->record(cmd, slot, frame.heatMap, s.display.view.get());
-    transition(cmd, radiance, computeRead, transferRead);
-    transition(cmd, display, computeWrite, transferRead);
+        heatMaps->record(cmd, slot, frame.heatMap, display.view.get());
+    ImageAccess radianceUse = computeRead;
+    if (sample.count > 1) {
+        transition(cmd, targets.radiance.image.get(), computeRead, computeWrite);
+        accumulation->record(cmd, slot, sample, targets.radiance.view.get(), display.view.get(),
+                             frame.exposure.dither);
+        radianceUse = computeWrite;
+    }
+    transition(cmd, targets.radiance.image.get(), radianceUse, transferRead);
+    transition(cmd, display.image.get(), computeWrite, transferRead);
 }
 
 void Renderer::recordUnlit(VkCommandBuffer cmd, const FrameOptions& frame)

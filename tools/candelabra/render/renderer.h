@@ -11,6 +11,7 @@
 #include "gbuffer/targets.h"
 #include "gpu/memory.h"
 #include "io/parse.h"
+#include "render/accumulation.h"
 #include "render/heat_map.h"
 #include "render/pass_times.h"
 #include "render/vulkan_context.h"
@@ -39,6 +40,10 @@ enum class Reuse {
 
 struct FrameOptions {
     Camera camera;
+    // The samples of a frame are recorded one after the other. Each is lit anew: with several,
+    // Reuse::Lighting reuses nothing. After the last one, the radiance and the display image are
+    // the means of all.
+    FrameSample sample;
     double time = 0;           // s; decides where moving lights are
     float deltaTime = 0;       // s since the previous frame, for the adaptation of exposure
     bool resetExposure = true; // jump to the converged exposure

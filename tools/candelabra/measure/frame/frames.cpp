@@ -13,52 +13,107 @@
 namespace candelabra::app
 {
 
-MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
-                            const FrameOptions& options, FrameCounts counts, bool moving,
-                            const std::function<void()>& onFrame)
+namespace
 {
-    FrameRing ring(context, 2);
-    MeasuredFrames out;
-    FrameOptions frame = options;
-    uint32_t drawn = 0, collected = 0, lastSlot = 0;
-    uint32_t firstMeasured = UINT32_MAX; // index of the first frame after the warm-up
-    const auto collect = [&](uint32_t slot) {
-        out.last = renderer.stats(slot);
-        if (collected++ >= firstMeasured)
-            out.times.add(out.last.passes);
-    };
-    const auto draw = [&] {
-        const auto [cmd, slot, reused] = ring.begin();
+
+// Draws samples of frames in a ring of two slots, and collects their statistics in order.
+class FrameCollector
+{
+public:
+    FrameCollector(const VulkanContext& context, Renderer& renderer)
+        : renderer_(renderer), ring_(context, 2)
+    {
+    }
+    // Records and submits a sample. Times are collected if it is `measured`.
+    void draw(const FrameOptions& frame, bool measured)
+    {
+        const auto [cmd, slot, reused] = ring_.begin();
         if (reused)
             collect(slot);
-        renderer.record(cmd, slot, frame);
-        ring.submit();
-        lastSlot = slot;
-        ++drawn;
+        renderer_.record(cmd, slot, frame);
+        ring_.submit();
+        drawn_[slot] = {.open = true, .measured = measured, .lastSample = frame.sample.isLast()};
+        newest_ = slot;
+    }
+    // Waits for the GPU and collects what has not been collected.
+    void wait()
+    {
+        ring_.wait();
+        collect(1 - newest_);
+        collect(newest_);
+    }
+    const MeasuredFrames& result() const { return out_; }
+
+private:
+    struct Drawn {
+        bool open = false; // its statistics have not been collected
+        bool measured = false, lastSample = true;
     };
-    while (drawn < counts.warmUp) {
-        draw();
+    void collect(uint32_t slot)
+    {
+        Drawn& drawn = drawn_[slot];
+        if (!drawn.open)
+            return;
+        drawn.open = false;
+        out_.last = renderer_.stats(slot);
+        if (!drawn.measured)
+            return;
+        const std::vector<PassTime>& passes = out_.last.passes;
+        passes_.insert(passes_.end(), passes.begin(), passes.end());
+        if (!drawn.lastSample)
+            return;
+        out_.times.add(passes_);
+        passes_.clear();
+    }
+
+    Renderer& renderer_;
+    FrameRing ring_;
+    Drawn drawn_[2];
+    uint32_t newest_ = 0;
+    std::vector<PassTime> passes_; // of the samples of the frame so far
+    MeasuredFrames out_;
+};
+
+} // namespace
+
+MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
+                            const FrameOptions& options, FrameCounts counts, bool moving,
+                            const std::function<void()>& onFrame, const FrameHooks& hooks,
+                            double interval)
+{
+    FrameCollector frames(context, renderer);
+    FrameOptions frame = options;
+    for (uint32_t i = 0; i < counts.warmUp; ++i) {
+        frames.draw(frame, false);
         onFrame();
     }
     using Clock = std::chrono::steady_clock;
     for (const auto start = Clock::now();
          std::chrono::duration<double>(Clock::now() - start).count() < counts.warmUpSeconds;)
-        draw();
-    firstMeasured = drawn;
+        frames.draw(frame, false);
     for (uint32_t i = 0; i < counts.measured; ++i) {
-        draw();
-        onFrame();
+        FrameOptions drawn = frame;
+        if (hooks.finished)
+            frames.wait(); // for the warm-up frames
+        const bool wanted = !hooks.prepare || hooks.prepare(i, drawn);
+        for (uint32_t sample = 0; sample < counts.samples; ++sample) {
+            drawn.sample = {sample, counts.samples};
+            if (wanted)
+                frames.draw(drawn, true);
+            onFrame();
+        }
+        if (wanted && hooks.finished) {
+            frames.wait();
+            hooks.finished(i, frames.result().last);
+        }
         if (moving) {
-            frame.time += frameTime;
-            frame.deltaTime = float(frameTime);
+            frame.time += interval;
+            frame.deltaTime = float(interval);
             frame.resetExposure = false;
         }
     }
-    ring.wait();
-    if (drawn > 1)
-        collect(1 - lastSlot);
-    collect(lastSlot);
-    return out;
+    frames.wait();
+    return frames.result();
 }
 
 CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, FrameOptions options)
@@ -72,10 +127,15 @@ CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, Fr
 
 std::string passTable(const PassTimes& times)
 {
-    Table table({"GPU pass", "min ms", "median ms", "p95 ms"});
+    const bool one = times.frames() == 1; // then all statistics are the same
+    Table table(one ? std::vector<std::string>{"GPU pass", "ms"}
+                    : std::vector<std::string>{"GPU pass", "min ms", "median ms", "p95 ms"});
     const auto add = [&](const PassSummary& pass) {
-        table.add({pass.name, threeDigits(pass.minMs), threeDigits(pass.medianMs),
-                   threeDigits(pass.p95Ms)});
+        if (one)
+            table.add({pass.name, threeDigits(pass.medianMs)});
+        else
+            table.add({pass.name, threeDigits(pass.minMs), threeDigits(pass.medianMs),
+                       threeDigits(pass.p95Ms)});
     };
     for (const PassSummary& pass : times.summary())
         add(pass);

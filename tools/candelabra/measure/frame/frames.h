@@ -24,6 +24,9 @@ struct FrameCounts {
     // More warm-up frames are drawn for so many seconds, because the clock of a GPU that was idle
     // rises slowly.
     double warmUpSeconds = 0;
+    // A measured frame is the mean of so many (FrameOptions::sample), and its time is their sum.
+    // Warm-up frames have one sample.
+    uint32_t samples = 1;
 };
 
 struct MeasuredFrames {
@@ -31,19 +34,29 @@ struct MeasuredFrames {
     FrameStats last;
 };
 
+// What happens before and after each measured frame. Both functions may be empty.
+struct FrameHooks {
+    // Changes the options of the measured frame `index`. Returns false to leave the frame out.
+    std::function<bool(uint32_t index, FrameOptions& options)> prepare;
+    // Is called when the GPU has finished the frame and no other is in flight.
+    std::function<void(uint32_t index, const FrameStats& stats)> finished;
+};
+
 // Renders frames through a frame ring with two slots. Warm-up frames and the first measured frame
-// show `options`. With `moving`, later frames are frameTime apart and exposure adapts; without it
-// all frames are the same. If exposure converges at once (FrameOptions::resetExposure), warm-up
-// frames leave no trace in any image. `onFrame` is called after each frame is submitted, except
-// those of FrameCounts::warmUpSeconds. Returns when the GPU has finished.
+// show `options`. With `moving`, later frames are `interval` seconds apart and exposure adapts;
+// without it all frames are the same. If exposure converges at once (FrameOptions::resetExposure),
+// warm-up frames leave no trace in any image. `onFrame` is called after each sample of a frame is
+// submitted, except those of FrameCounts::warmUpSeconds. Returns when the GPU has finished.
 MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
                             const FrameOptions& options, FrameCounts counts, bool moving,
-                            const std::function<void()>& onFrame);
+                            const std::function<void()>& onFrame, const FrameHooks& hooks = {},
+                            double interval = frameTime);
 
 // Renders one more frame like `options`, but with clustered culling and without a heat map, counts
 // its (pixel, light) pairs, and returns its statistics.
 CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, FrameOptions options);
 
+// Returns a table with the spread of the time of each pass, or of one frame its times alone.
 std::string passTable(const PassTimes& times);
 // Returns a line with the number of lights of each type, if the frame was lit, then a line per
 // pass, which says that the pass runs or why it was skipped.

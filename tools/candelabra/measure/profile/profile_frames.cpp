@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "io/statistics.h"
 #include "io/table.h"
 #include "measure/frame/frames.h"
+#include "render/camera_path.h"
 #include "render/frame_ring.h"
 #include "render/readback.h"
 
@@ -80,16 +79,9 @@ ProfilingOverhead overheadOf(const FrameSeries& series, double stampMs)
     return out;
 }
 
-Camera cameraAt(const Camera& camera, CameraPath path, uint32_t i, uint32_t rounds)
+Camera cameraAt(const Camera& camera, ProfilePath path, uint32_t i, uint32_t rounds)
 {
-    if (path == CameraPath::Still)
-        return camera;
-    Camera turned = camera;
-    const double angle = 2 * std::numbers::pi * i / std::max(rounds, 1u);
-    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0));
-    turned.forward = glm::dvec3(turn * glm::dvec4(camera.forward, 0));
-    turned.up = glm::dvec3(turn * glm::dvec4(camera.up, 0));
-    return turned;
+    return path == ProfilePath::Still ? camera : turnedBy(camera, double(i) / std::max(rounds, 1u));
 }
 
 namespace

@@ -62,12 +62,12 @@ struct ProfilingOverhead {
     double passes = 0; // gpuMs divided by spanMs, median of the frames
 };
 
-enum class CameraPath { Still, Turn };
+enum class ProfilePath { Still, Turn };
 
 struct ProfileSettings {
     // The variants are drawn in turn, and in the opposite order in every other round.
     std::vector<FrameOptions> variants;
-    CameraPath path = CameraPath::Still;
+    ProfilePath path = ProfilePath::Still;
     bool moving = false; // lights move; a round is a sixtieth of a second
     uint32_t rounds = 1;
     double warmUpSeconds = 0; // the warm-up takes at least so long
@@ -94,9 +94,9 @@ struct Profile {
 
 ProfilingOverhead overheadOf(const FrameSeries& series, double stampMs);
 
-// Returns the camera of round `i` of `rounds`. With CameraPath::Turn it turns once around the
+// Returns the camera of round `i` of `rounds`. With ProfilePath::Turn it turns once around the
 // vertical through its position in all rounds.
-Camera cameraAt(const Camera& camera, CameraPath path, uint32_t i, uint32_t rounds);
+Camera cameraAt(const Camera& camera, ProfilePath path, uint32_t i, uint32_t rounds);
 
 // Draws all rounds. `onRound` is called after each round, except for warm-up rounds beyond
 // maxWarmUp. Measured frames are added to `trace` if it is not null, which needs one frame in

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests what sequences of pictures are made of: places of samples in a pixel, numbered names, paths
+// of the camera, and the record of finished frames.
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "commands/sequence.h"
+#include "io/error.h"
+#include "io/numbered_name.h"
+#include "render/accumulation.h"
+#include "render/camera.h"
+#include "render/camera_path.h"
+#include "scene/scene_error.h"
+
+using namespace candelabra::app;
+
+namespace
+{
+
+class SequenceTest : public testing::Test
+{
+protected:
+    void SetUp() override { std::filesystem::create_directories(dir_); }
+    void TearDown() override { std::filesystem::remove_all(dir_); }
+    std::string path(const std::string& name) const { return (dir_ / name).string(); }
+    std::string write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(dir_ / name, std::ios::binary) << text;
+        return path(name);
+    }
+    const std::filesystem::path dir_ = std::filesystem::temp_directory_path() /
+                                       ("candelabra_sequence_" + std::to_string(getpid()));
+};
+
+Scene sceneWithCamera()
+{
+    Scene scene;
+    scene.cameras.push_back({.name = "front", .position = {0, 0, 10}});
+    return scene;
+}
+
+} // namespace
+
+TEST(FrameSamples, FillThePixelEvenly)
+{
+    EXPECT_EQ(sampleOffset({}), glm::dvec2(0));
+    for (const uint32_t count : {2u, 3u, 16u, 100u, 256u}) {
+        std::set<double> xs, ys;
+        for (uint32_t i = 0; i < count; ++i) {
+            const glm::dvec2 at = sampleOffset({i, count});
+            EXPECT_LT(std::max(std::abs(at.x), std::abs(at.y)), 0.5);
+            xs.insert(at.x);
+            ys.insert(at.y);
+        }
+        EXPECT_EQ(xs.size(), count);
+        EXPECT_EQ(ys.size(), count);
+    }
+    // All 5 shapes of 16 equal rectangles have one of 16 points each, and the mean is the centre.
+    for (uint32_t columns = 1; columns <= 16; columns *= 2) {
+        std::set<std::pair<int, int>> cells;
+        glm::dvec2 sum(0);
+        for (uint32_t i = 0; i < 16; ++i) {
+            const glm::dvec2 at = sampleOffset({i, 16});
+            cells.insert({int((at.x + 0.5) * columns), int((at.y + 0.5) * (16 / columns))});
+            sum += at;
+        }
+        EXPECT_EQ(cells.size(), 16u) << columns;
+        EXPECT_EQ(sum, glm::dvec2(0));
+    }
+}
+
+// A point that a camera sees at the centre of a pixel moves by the offset in the other direction.
+TEST(FrameSamples, ShiftPerspectiveAndOrthographicImages)
+{
+    for (const bool orthographic : {false, true}) {
+        const Camera camera{.position = {1, 2, 3}, .orthographic = orthographic, .farPlane = 100};
+        const PixelSize size{200, 100};
+        const auto pixelOf = [&](const CndCamera& c, const glm::dvec4& view) {
+            glm::dvec4 clip(0);
+            for (int column = 0; column < 4; ++column)
+                for (int row = 0; row < 4; ++row)
+                    clip[row] += c.clipFromView[4 * column + row] * view[column];
+            return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(size.width, size.height);
+        };
+        const glm::dvec4 point(0.1, 0.2, -4, 1);
+        CndCamera shifted = makeCamera(camera, 2);
+        const glm::dvec2 before = pixelOf(shifted, point);
+        const FrameSample sample{3, 16};
+        shiftBySample(shifted, sample, size);
+        const glm::dvec2 moved = pixelOf(shifted, point) - before;
+        EXPECT_NEAR(glm::length(moved + sampleOffset(sample)), 0, 1e-4) << orthographic;
+    }
+}
+
+TEST(NumberedName, HasOnePlace)
+{
+    EXPECT_EQ(numberedName("-o", "a/f.%04d.png", 7), "a/f.0007.png");
+    EXPECT_EQ(numberedName("-o", "%d", 12), "12");
+    EXPECT_EQ(numberedName("-o", "50%_%02d%", 123), "50%_123%");
+    EXPECT_EQ(namedInstead("f.%04d.png", "exposure"), "f.exposure.png");
+    EXPECT_EQ(sequenceRecord("a/f.%04d.png"), "a/f.exposure.txt");
+    for (const char* without : {"f.png", "100%.png", "%4d.png", "%s", "%", "%0", "%0000d"})
+        EXPECT_FALSE(isNumbered(without)) << without;
+    EXPECT_THROW(numberedName("-o", "f.png", 0), UsageError);
+    EXPECT_THROW(numberedName("-o", "%d-%d.png", 0), UsageError);
+}
+
+TEST_F(SequenceTest, CamerasMoveThroughTheLinesOfAFile)
+{
+    const Scene scene = sceneWithCamera();
+    const std::string file = write("path.txt", "# from the front to the side\n\nfront\n"
+                                               "5, 1, 5, 0, 0, 0, 30\n10,0,0,0,0,0,60\n");
+    const CameraPath path(scene, {}, file);
+    EXPECT_TRUE(path.moves());
+    EXPECT_EQ(path.at(0, 5), scene.cameras[0]);
+    EXPECT_EQ(path.at(2, 5).position, glm::dvec3(5, 1, 5));
+    EXPECT_EQ(path.at(4, 5).position, glm::dvec3(10, 0, 0));
+    const Camera between = path.at(3, 5); // half way from the second to the third
+    EXPECT_NEAR(between.verticalFov, std::numbers::pi / 4, 1e-12);
+    EXPECT_NEAR(glm::length(between.forward), 1, 1e-12);
+    EXPECT_NEAR(between.position.x, 0.5 * (5 + 10) + (5 - 0) / 16.0, 1e-12); // Catmull-Rom
+    EXPECT_EQ(path.at(0, 1), scene.cameras[0]);
+
+    const CameraPath still(scene, scene.cameras[0], "still"), turn(scene, scene.cameras[0], "turn");
+    EXPECT_FALSE(still.moves());
+    EXPECT_EQ(still.at(3, 5), scene.cameras[0]);
+    EXPECT_EQ(turn.at(0, 4).position, scene.cameras[0].position);
+    EXPECT_NEAR(glm::distance(turn.at(1, 4).forward, glm::dvec3(-1, 0, 0)), 0, 1e-12);
+}
+
+TEST_F(SequenceTest, FaultyPathsAreRefusedWithTheirLine)
+{
+    const auto refusal = [&](const std::string& text) -> std::string {
+        try {
+            CameraPath(sceneWithCamera(), {}, write("path.txt", text));
+        } catch (const UsageError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(refusal("front\n").find("two cameras or more"), std::string::npos);
+    EXPECT_NE(refusal("front\nback\n").find("path.txt: line 2: "), std::string::npos);
+    EXPECT_NE(refusal("0,0,0,0,0,1\n1,0,0,1,0,-1\n").find("line 2: looks the opposite way"),
+              std::string::npos);
+    EXPECT_THROW(CameraPath(sceneWithCamera(), {}, path("none.txt")), SceneError);
+}
+
+TEST_F(SequenceTest, FramesThatAreThereAreKeptWithTheirExposure)
+{
+    const std::vector<std::string> outputs{path("f.%02d.png"), path("f.%02d.exr")};
+    const std::string command = "candelabra render hall -o f.%02d.png";
+    {
+        Sequence first(outputs, 4, command, false);
+        for (uint32_t frame = 0; frame < 3; ++frame) {
+            EXPECT_FALSE(first.has(frame));
+            write("f.0" + std::to_string(frame) + ".png", "x");
+            write("f.0" + std::to_string(frame) + ".exr", "x");
+            first.add(frame, 9.1f + float(frame) / 3);
+            EXPECT_TRUE(first.has(frame));
+        }
+    }
+    std::filesystem::remove(path("f.00.exr"));
+    std::ofstream(path("f.exposure.txt"), std::ios::app) << "3 7.2"; // cut off by a signal
+    Sequence next(outputs, 4, command + " --resume -q", true);
+    EXPECT_FALSE(next.has(0)); // one of its pictures is missing
+    EXPECT_TRUE(next.has(1));
+    EXPECT_TRUE(next.has(2));
+    EXPECT_EQ(next.adaptedEv100(2), 9.1f + float(2) / 3); // every bit
+    write("f.03.png", "x");
+    write("f.03.exr", "x");
+    EXPECT_FALSE(next.has(3)); // there, but not known to be complete
+    EXPECT_THROW(Sequence(outputs, 4, command + " --aa 4", true), UsageError);
+    Sequence anew(outputs, 4, command, false);
+    EXPECT_FALSE(anew.has(1));
+}
