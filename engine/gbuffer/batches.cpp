@@ -81,7 +81,8 @@ MeshVariant variantOf(const Material& material, const PackedMesh& mesh)
     MeshVariant v{.emissive = material.isEmissive(),
                   .colored = mesh.colored,
                   .tintsF0 = mesh.colored && material.metalness != 0,
-                  .masked = material.masked};
+                  .coverage = material.coverage,
+                  .unlit = material.unlit};
     const TextureSet set = textureSetOf(material);
     for (uint32_t i = 0; i < set.size(); ++i)
         if (set[i] != -1 && (i != gpu::TEXTURE_EMISSIVE || v.emissive))
@@ -230,7 +231,8 @@ std::vector<bool> texturedMeshes(const GeometryDesc& desc)
         const Material& material = desc.materials[instance.material];
         const TextureSet set = textureSetOf(material);
         const bool textures = std::any_of(set.begin(), set.end(), [](int32_t t) { return t >= 0; });
-        textured[instance.mesh] = textured[instance.mesh] || material.masked || textures;
+        textured[instance.mesh] =
+            textured[instance.mesh] || material.coverage != Coverage::Full || textures;
     }
     return textured;
 }

@@ -49,7 +49,7 @@ struct Batches {
 Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
                      uint32_t maxDraws);
 
-// Returns for each mesh whether an instance of it has textures or an alpha mask.
+// Returns for each mesh whether an instance of it has textures or a coverage.
 std::vector<bool> texturedMeshes(const GeometryDesc& desc);
 
 gpu::MaterialRecord materialRecord(const Material& material);

@@ -118,7 +118,7 @@ struct GBuffer::Impl {
     void setState(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
     void beginRendering(VkCommandBuffer cmd, const FrameInputs& in, bool emissive) const noexcept;
     void drawMeshes(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
-                    bool emissive) const noexcept;
+                    uint32_t coverageFrame, bool emissive) const noexcept;
     void drawAnalytic(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
                       const FrameInputs& in) const noexcept;
     void drawBackground(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
@@ -217,11 +217,12 @@ void GBuffer::Impl::setState(VkCommandBuffer cmd, const FrameInputs& in) const n
 
 // Draws the meshes whose material emits light, or the others.
 void GBuffer::Impl::drawMeshes(VkCommandBuffer cmd, const GeometryImpl& g,
-                               const CameraTerms& camera, bool emissive) const noexcept
+                               const CameraTerms& camera, uint32_t coverageFrame,
+                               bool emissive) const noexcept
 {
     const DoubleSingle position(camera.position);
     const gpu::MeshParams params{glm::mat3(camera.viewFromWorld), camera.clipFromView, position.hi,
-                                 position.lo};
+                                 position.lo, coverageFrame};
     const VkPipelineLayout layout = pipelines.meshLayout.get();
     device.CmdPushConstants(cmd, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof params, &params);
     const VkBuffer streams[StreamCount] = {g.vertices.get(), g.vertices.get(), g.visible.get()};
@@ -360,13 +361,13 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
     s.setState(cmd, in);
     s.beginRendering(cmd, in, false);
     if (meshes)
-        s.drawMeshes(cmd, g, camera, false);
+        s.drawMeshes(cmd, g, camera, in.coverageFrame, false);
     s.device.CmdEndRendering(cmd);
     betweenDraws(s.device, cmd);
     s.beginRendering(cmd, in, true);
     s.drawBackground(cmd, in);
     if (meshes)
-        s.drawMeshes(cmd, g, camera, true);
+        s.drawMeshes(cmd, g, camera, in.coverageFrame, true);
     if (in.drawAnalytic && !g.analyticObjects.empty())
         s.drawAnalytic(cmd, g, camera, in);
     if (in.drawEmitters && !s.emitters.empty())

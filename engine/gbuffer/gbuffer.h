@@ -36,6 +36,9 @@ struct FrameInputs {
     bool cullInstances = true;      // false: draw every instance (to check the culling)
     // The coarser levels of meshes are drawn where they are off by no more than this, in pixels.
     float maxLevelError = defaultMaxLevelError;
+    // The number of this frame among several that are averaged. Surfaces of Coverage::Dithered
+    // cover other pixels in each, so that their average has each pixel covered by the right share.
+    uint32_t coverageFrame = 0;
     bool drawInstances = true;
     bool drawAnalytic = true;
     bool drawEmitters = true;

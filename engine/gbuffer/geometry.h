@@ -49,11 +49,22 @@ struct TextureRef {
                                               // 1))
 };
 
+// Which fragments of a surface are drawn; the values are those of COVERAGE_* (shared/raster.h).
+enum class Coverage : uint32_t {
+    Full,
+    // Fragments with a coverage of at least alphaCutoff. Without mip levels the edge is only as
+    // fine as the texture's resolution.
+    Masked,
+    // A share of the fragments as large as their coverage, chosen by pixel, instance and
+    // FrameInputs::coverageFrame.
+    Dithered
+};
+
 // A metallic-roughness material (glTF 2.0). Layout COMPACT cannot store dielectricF0, diffuseWeight
 // and specularWeight and uses 0.04, 1 and 1 instead.
 struct Material {
     float baseColor[3]{1, 1, 1}; // 0..1
-    float alpha = 1;             // coverage, used by masked materials only
+    float alpha = 1;             // coverage; not used with Coverage::Full
     float metalness = 0;
     float perceptualRoughness = 1;
     float dielectricF0[3]{0.04f, 0.04f, 0.04f};
@@ -61,17 +72,20 @@ struct Material {
     float specularWeight = 1;   // Schlick's F90; 0 with dielectricF0 = 0: no specular lobe
     float emission[3]{0, 0, 0}; // cd/m^2
     float normalScale = 1;
-    // Discard fragments with coverage below alphaCutoff. Without mip levels the edge is only as
-    // fine as the texture's resolution.
-    bool masked = false;
+    Coverage coverage = Coverage::Full;
     float alphaCutoff = 0.5f;
-    bool doubleSided = false;            // back faces are drawn too, with the normal reversed
+    bool doubleSided = false; // back faces are drawn too, with the normal reversed
+    // Emits `emission`, multiplied by baseColorTexture and vertex colours, and reflects nothing.
+    bool unlit = false;
     TextureRef baseColorTexture;         // rgb: base colour, a: coverage
     TextureRef metallicRoughnessTexture; // g: roughness, b: metalness
     TextureRef normalTexture;            // tangent space, xyz * 2 - 1 is the normal
     TextureRef emissiveTexture;
 
-    bool isEmissive() const { return emission[0] != 0 || emission[1] != 0 || emission[2] != 0; }
+    bool isEmissive() const
+    {
+        return unlit || emission[0] != 0 || emission[1] != 0 || emission[2] != 0;
+    }
 };
 
 struct Instance {

@@ -282,7 +282,8 @@ void Pipelines::prepareMesh(const MeshVariant& variant)
         std::string("mesh ") + shaders.kind + (variant.emissive ? " emissive" : "");
     Mesh mesh{.layout = createMeshLayout(name), .pipeline = {}};
     const std::array constants{gpu::SpecConstant{gpu::RASTER_TEXTURES, variant.textures},
-                               gpu::SpecConstant{gpu::RASTER_MASKED, variant.masked}};
+                               gpu::SpecConstant{gpu::RASTER_COVERAGE, uint32_t(variant.coverage)},
+                               gpu::SpecConstant{gpu::RASTER_UNLIT, variant.unlit}};
     const std::span<const VkVertexInputAttributeDescription> attributes = meshAttributes;
     mesh.pipeline =
         createPipeline(*device_, layout_,

@@ -5,13 +5,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "gbuffer/coverage.glsl"
 #include "gbuffer/mesh_varyings.glsl"
 #include "gbuffer/material_record.glsl"
 #include "gbuffer/output.glsl"
 
 #ifdef SAMPLED
 layout(constant_id = RASTER_TEXTURES) const uint textures = 0u;
-layout(constant_id = RASTER_MASKED) const bool masked = false;
+layout(constant_id = RASTER_COVERAGE) const uint coverage = COVERAGE_FULL;
+layout(constant_id = RASTER_UNLIT) const bool unlit = false;
 const bool hasBaseColor = (textures >> TEXTURE_BASE_COLOR & 1u) != 0u;
 const bool hasMetallicRoughness = (textures >> TEXTURE_METALLIC_ROUGHNESS & 1u) != 0u;
 const bool hasNormal = (textures >> TEXTURE_NORMAL & 1u) != 0u;
@@ -46,6 +48,18 @@ vec3 meshNormal()
     return hasNormal ? perturbedNormal(materialTexel(varyingMaterial.x, 1u).z) : varyingNormal;
 }
 
+// Returns whether a surface of that coverage is drawn at this pixel. The front and the back of a mesh
+// are two layers.
+bool isCovered(float alpha)
+{
+    if (coverage == COVERAGE_MASKED)
+        return alpha >= materialTexel(varyingMaterial.x, 1u).w;
+    if (coverage == COVERAGE_DITHERED)
+        return alpha > coverageThreshold(uvec2(gl_FragCoord.xy), varyingMaterial.z,
+                                         2u * varyingMaterial.y + (gl_FrontFacing ? 1u : 0u));
+    return true;
+}
+
 // Writes the material with its textures, or discards the fragment.
 void writeMaterial(vec3 normal)
 {
@@ -61,9 +75,14 @@ void writeMaterial(vec3 normal)
     }
     if (hasEmissive)
         m.emission *= texture(emissiveTexture, textureUv(TEXTURE_EMISSIVE)).rgb;
-    const float alpha = materialTexel(varyingMaterial.x, 0u).a;
-    if (masked && color.a * alpha < materialTexel(varyingMaterial.x, 1u).w)
+    if (!isCovered(color.a * materialTexel(varyingMaterial.x, 0u).a))
         discard;
+#ifdef EMISSIVE
+    if (unlit) {
+        writeEmitter(normal, m.emission * color.rgb);
+        return;
+    }
+#endif
     writeSurface(normal, m);
 }
 #else

@@ -66,7 +66,7 @@ void main()
     varyingTangent = vec4(params.viewFromWorld * tangentWorld, tangent.w * handedness);
     varyingUv = uv;
     varyingColor = color;
-    varyingMaterial = uvec3(material, 0u, 0u);
+    varyingMaterial = uvec3(material, instance, params.coverageFrame);
 #else
     MaterialSample m = plainMaterial(material);
 #ifdef COLORED

@@ -11,7 +11,8 @@
 #endif
 
 layout(location = 0) VARYING vec3 varyingNormal; // view space, not normalised
-// Index of the material; unless sampled, also the roughness in the bits that it has beside the normal.
+// Index of the material, and: unless sampled, the roughness in the bits that it has beside the normal;
+// if sampled, the instance, and MeshParams::coverageFrame.
 layout(location = 1) flat VARYING uvec3 varyingMaterial;
 #ifdef SAMPLED
 layout(location = 2) VARYING vec4 varyingTangent; // view space

@@ -137,8 +137,14 @@ struct MeshParams {
     mat4 clipFromView;
     vec3 cameraHi; // world space; the position is hi + lo
     vec3 cameraLo;
+    uint coverageFrame; // number of the frame among those that are averaged
 };
-GPU_SIZE(MeshParams, 124)
+GPU_SIZE(MeshParams, 128) // as much as every device takes
+
+// Which fragments of a mesh are drawn: all, those of a coverage above a cutoff, or a share of them.
+const uint COVERAGE_FULL = 0u;
+const uint COVERAGE_MASKED = 1u;
+const uint COVERAGE_DITHERED = 2u;
 
 // --- Background, where there is no surface
 
@@ -210,7 +216,8 @@ GPU_SIZE(EmitterCorners, 64)
 
 // --- Specialisation constants
 const uint RASTER_TEXTURES = 0u; // sampled meshes: mask of 1 << TEXTURE_*
-const uint RASTER_MASKED = 1u;   // sampled meshes: an alpha mask
+const uint RASTER_COVERAGE = 1u; // sampled meshes: COVERAGE_*
+const uint RASTER_UNLIT = 2u;    // sampled meshes: they emit their base colour and nothing else
 const uint RASTER_SHAPE = 0u;    // analytic: ANALYTIC_*; emitters: LIGHT_*
 
 GPU_END

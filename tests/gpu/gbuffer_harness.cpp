@@ -191,7 +191,8 @@ RasterImage RasterTest::renderWith(gbuffer::GBuffer& pass, const gbuffer::Geomet
                      .width = options.width,
                      .height = options.height,
                      .cullInstances = options.cullInstances,
-                     .maxLevelError = options.maxLevelError});
+                     .maxLevelError = options.maxLevelError,
+                     .coverageFrame = options.coverageFrame});
     });
     RasterImage image;
     image.width = options.width;

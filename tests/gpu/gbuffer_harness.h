@@ -52,6 +52,7 @@ struct RasterOptions {
     glm::vec3 background{0};
     bool cullInstances = true;
     float maxLevelError = 0; // most tests draw meshes as they describe them
+    uint32_t coverageFrame = 0;
     std::vector<CndLight> emitters;
     glm::dvec3 emitterOrigin{0};
 };

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "gpu/gbuffer_harness.h"
+#include "harness/constants.h"
 #include "shared/gbuffer.h"
 
 namespace candelabra::test
@@ -235,7 +236,7 @@ TEST_F(GBufferTexture, NormalMapsTurnTheNormal)
 
 TEST_F(GBufferTexture, MaskShowsWhatIsBehind)
 {
-    material.masked = true;
+    material.coverage = gbuffer::Coverage::Masked;
     material.alpha = 0.9f;
     material.alphaCutoff = 0.5f;
     // The coverages are 0.9, 0.71, 0.07 and 0.35.
@@ -253,6 +254,105 @@ TEST_F(GBufferTexture, MaskShowsWhatIsBehind)
         EXPECT_NEAR(viewPosition(image, uint32_t(i % 64), uint32_t(i / 64)).z, kept ? -2 : -3,
                     1e-5);
         EXPECT_NEAR(storedRoughness(image, i), kept ? 1 : 0.5, 1e-5);
+    }
+}
+
+// Counts the pixels that show the surface in z = -2, of which the quad is.
+size_t nearCount(const RasterImage& image)
+{
+    size_t count = 0;
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x)
+            count += viewPosition(image, x, y).z > -2.5;
+    return count;
+}
+
+// A surface is drawn at as many pixels as its coverage says, in every frame and, of many frames, at
+// every pixel.
+TEST_F(GBufferTexture, CoverageIsAShareOfPixelsAndFrames)
+{
+    material.coverage = gbuffer::Coverage::Dithered;
+    gbuffer::GBuffer pass(device(), {.framesInFlight = 1});
+    for (const float alpha : {0.f, 0.1f, 0.5f, 0.9f, 1.f}) {
+        SCOPED_TRACE(alpha);
+        scene = {};
+        const uint32_t quad = scene.addMesh(quadMesh());
+        scene.addInstance(quad, scene.addMaterial(gbuffer::Material{}),
+                          glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -3)));
+        material.alpha = alpha;
+        scene.addInstance(quad, scene.addMaterial(material),
+                          glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -2)));
+        const gbuffer::Geometry geometry = uploadGeometry(scene);
+        constexpr uint32_t frames = 32;
+        std::vector<uint32_t> drawn(64 * 64);
+        for (options.coverageFrame = 0; options.coverageFrame < frames; ++options.coverageFrame) {
+            const RasterImage image = renderWith(pass, geometry, options);
+            EXPECT_NEAR(double(nearCount(image)) / (64 * 64), double(alpha), 0.005);
+            for (uint32_t i = 0; i < drawn.size(); ++i)
+                drawn[i] += viewPosition(image, i % 64, i / 64).z > -2.5;
+        }
+        for (const uint32_t count : drawn)
+            ASSERT_NEAR(double(count) / frames, double(alpha), 0.1);
+        options.coverageFrame = 0;
+        expectSameImage(renderWith(pass, geometry, options), renderWith(pass, geometry, options));
+    }
+}
+
+// Surfaces of coverage 1/2, one behind the other, leave half of the pixels free that those in front
+// of them leave free. Every second one shows its back.
+TEST_F(GBufferTexture, LayersCoverIndependently)
+{
+    material.coverage = gbuffer::Coverage::Dithered;
+    material.alpha = 0.5f;
+    material.doubleSided = true;
+    const uint32_t dithered = scene.addMaterial(material);
+    const uint32_t quad = scene.addMesh(quadMesh());
+    gbuffer::GBuffer pass(device(), {.framesInFlight = 1});
+    for (uint32_t layers = 1; layers <= 4; ++layers) {
+        SCOPED_TRACE(layers);
+        glm::dmat4 shape = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -1.0 - layers));
+        if (layers % 2 == 0)
+            shape = glm::rotate(shape, pi, glm::dvec3(0, 1, 0));
+        scene.addInstance(quad, dithered, shape);
+        const gbuffer::Geometry geometry = uploadGeometry(scene);
+        double free = 0;
+        for (options.coverageFrame = 0; options.coverageFrame < 8; ++options.coverageFrame)
+            free += 1 - double(renderWith(pass, geometry, options).coveredCount()) / (64 * 64);
+        EXPECT_NEAR(free / 8, std::pow(0.5, layers), 0.02);
+    }
+}
+
+TEST_F(GBufferTexture, UnlitSurfacesEmitTextureTimesVertexColour)
+{
+    material.unlit = true;
+    for (float& channel : material.baseColor)
+        channel = 0;
+    for (const auto layout : {CND_GBUFFER_FULL, CND_GBUFFER_COMPACT}) {
+        options.layout = layout;
+        scene = {};
+        material.emission[0] = 100;
+        material.emission[1] = 50;
+        RasterScene::MeshData mesh = quadMesh();
+        for (gbuffer::Vertex& v : mesh.vertices)
+            v.color[1] = 0.5f;
+        material.baseColorTexture.texture = int32_t(scene.addTexture(
+            nearest2x2, texels({quadrants[0], quadrants[1], quadrants[2], quadrants[3]})));
+        const RasterImage image = renderQuad(mesh);
+        for (int q = 0; q < 4; ++q) {
+            const size_t i = pixel(q % 2, q / 2);
+            EXPECT_NEAR(image.radiance[i].r, 100.f * float(quadrants[q][0]) / 255, 1e-3);
+            EXPECT_NEAR(image.radiance[i].g, 25.f * float(quadrants[q][1]) / 255, 1e-3);
+            EXPECT_EQ(image.radiance[i].b, 0);
+            if (layout == CND_GBUFFER_FULL) {
+                EXPECT_EQ(image.albedo[i], glm::uvec2(0));
+                EXPECT_EQ(image.specular[i], glm::uvec2(0));
+            }
+        }
+        // Without textures and without light it is black, and nothing else.
+        scene = {};
+        material.baseColorTexture.texture = -1;
+        material.emission[0] = material.emission[1] = 0;
+        EXPECT_EQ(renderQuad().radiance[0], glm::vec4(0, 0, 0, 1));
     }
 }
 

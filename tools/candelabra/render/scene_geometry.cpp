@@ -46,9 +46,12 @@ gbuffer::Material convert(const Material& in)
         .diffuseWeight = in.diffuseWeight,
         .specularWeight = in.specularWeight,
         .normalScale = in.normalScale,
-        .masked = in.alphaMode == AlphaMode::Mask,
+        .coverage = in.alphaMode == AlphaMode::Mask    ? gbuffer::Coverage::Masked
+                    : in.alphaMode == AlphaMode::Blend ? gbuffer::Coverage::Dithered
+                                                       : gbuffer::Coverage::Full,
         .alphaCutoff = in.alphaCutoff,
         .doubleSided = in.doubleSided,
+        .unlit = in.unlit,
         .baseColorTexture = convert(in.baseColorTexture),
         .metallicRoughnessTexture = convert(in.metallicRoughnessTexture),
         .normalTexture = convert(in.normalTexture),

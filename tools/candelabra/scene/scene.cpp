@@ -41,7 +41,7 @@ uint32_t materialClasses(const Scene& scene)
         used[object.material] = true;
     for (size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
-        if (!used[i])
+        if (!used[i] || m.unlit)
             continue;
         // Textures can only lower metalness and base colour. Some texel may leave them as they are,
         // so the factors alone decide.

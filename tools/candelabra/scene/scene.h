@@ -47,14 +47,16 @@ struct TextureRef {
     glm::vec3 uRow{1, 0, 0}, vRow{0, 1, 0};
 };
 
-enum class AlphaMode { Opaque, Mask };
+// Where a surface is: everywhere, where its coverage is at least a cutoff, or on that share of the
+// light's way to the viewer that its coverage says, as a fine screen would be.
+enum class AlphaMode { Opaque, Mask, Blend };
 
 // Metallic-roughness material: diffuse albedo = baseColor * (1 - metalness) * diffuseWeight,
 // F0 = mix(dielectricF0, baseColor, metalness), alpha = perceptualRoughness^2.
 struct Material {
     std::string name;
     glm::vec3 baseColor{1};
-    float alpha = 1; // coverage, used with AlphaMode::Mask
+    float alpha = 1; // coverage, used unless AlphaMode is Opaque
     float metalness = 0;
     float perceptualRoughness = 1;
     glm::vec3 dielectricF0{0.04f};
@@ -65,6 +67,8 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    // Lights add nothing, and the emission is multiplied by baseColorTexture and vertex colours.
+    bool unlit = false;
     TextureRef baseColorTexture;         // sRGB rgb, a: coverage
     TextureRef metallicRoughnessTexture; // g: roughness, b: metalness
     TextureRef normalTexture;            // tangent space, xyz * 2 - 1

@@ -153,7 +153,8 @@ std::vector<PipelineCost> measurePipelines(const PipelineSettings& settings, Dev
         {.colored = true},
         {.textures = allTextures & ~(1u << gpu::TEXTURE_EMISSIVE)},
         {.emissive = true, .textures = allTextures},
-        {.masked = true, .textures = 1u << gpu::TEXTURE_BASE_COLOR}};
+        {.coverage = gbuffer::Coverage::Masked, .textures = 1u << gpu::TEXTURE_BASE_COLOR},
+        {.coverage = gbuffer::Coverage::Dithered, .textures = 1u << gpu::TEXTURE_BASE_COLOR}};
     gbuffer::GBuffer(raster, {.framesInFlight = 1}).prepare(meshes);
 
     std::vector<PipelineCost> out;
