@@ -177,7 +177,7 @@ void makeSweepLight(uint slice, SweepPoint p)
     if (chance(0.3))
         u = besides(-at.xyz); // faces the receiver
     if (slice >= SWEEP_EDGE && chance(0.2))
-        u = besides(normalize(cross(at.xyz, u))); // is seen from the side
+        u = besides(normalize(cross(at.xyz, randomDirection()))); // is seen from the side
     const vec3 w = normalize(cross(u, abs(u.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
     float aspect = randomLog10(-2.0, 0.0);
     if (slice == SWEEP_SLIVER) {

@@ -117,7 +117,7 @@ TEST_F(Gltf, WhatIsLeftOutIsReported)
     b.mesh({{"attributes", Json::object()}});
     b.rootNode({{"mesh", 1}});
     b.rootNode({{"mesh", 2}});
-    b.json["animations"] = {Json::object()};
+    b.json["animations"] = Json::array({Json::object()});
     b.json["extensionsUsed"] = {"EXT_nothing", "KHR_lights_punctual"};
     const Scene scene = load(b);
     EXPECT_EQ(scene.instances.size(), 1u);

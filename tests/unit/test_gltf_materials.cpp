@@ -30,7 +30,7 @@ protected:
     {
         GltfBuilder b = triangleScene();
         b.json["meshes"][0]["primitives"][0]["material"] = 0;
-        b.json["materials"] = {Json::parse(material)};
+        b.json["materials"] = Json::array({Json::parse(material)});
         for (size_t i = 0; i < textures; ++i)
             b.json["textures"].push_back({{"source", 0}});
         if (textures)
