@@ -5,6 +5,7 @@
 #include "scene/scene_error.h"
 #include "unit/broken_scene_cases.h"
 #include "unit/gltf_builder.h"
+#include "unit/gltf_compressed.h"
 #include "unit/scene_invariants.h"
 
 namespace candelabra::test
@@ -13,7 +14,11 @@ namespace candelabra::test
 Seeds fuzzSeeds()
 {
     Seeds out;
-    for (const GltfBuilder& builder : {triangleScene(), completeGltf()}) {
+    GltfBuilder webp = completeGltf();
+    webp.json["images"][0]["bufferView"] = webp.view(smallWebP());
+    for (const GltfBuilder& builder :
+         {triangleScene(), completeGltf(), webp, meshoptGrid(4),
+          dracoGrid(4, DracoMethod::Sequential), dracoGrid(4, DracoMethod::Edgebreaker)}) {
         out.push_back(builder.text());
         const Bytes glb = builder.glb();
         out.emplace_back(glb.begin(), glb.end());

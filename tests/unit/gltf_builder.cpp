@@ -126,22 +126,29 @@ int GltfBuilder::rootNode(const Json& node)
     return index;
 }
 
-std::string GltfBuilder::text() const
+// Returns the JSON with `first` as buffer 0, if there is any data.
+Json GltfBuilder::withBuffers(const Json& first) const
 {
     Json copy = json;
     if (!binary.empty())
-        copy["buffers"] = {
-            {{"byteLength", binary.size()},
-             {"uri", "data:application/octet-stream;base64," + encodeBase64(binary)}}};
-    return copy.dump();
+        copy["buffers"] = Json::array({first});
+    if (fallbackBuffer)
+        copy["buffers"].push_back(
+            {{"byteLength", 1 << 20},
+             {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+    return copy;
+}
+
+std::string GltfBuilder::text() const
+{
+    return withBuffers({{"byteLength", binary.size()},
+                        {"uri", "data:application/octet-stream;base64," + encodeBase64(binary)}})
+        .dump();
 }
 
 Bytes GltfBuilder::glb() const
 {
-    Json copy = json;
-    if (!binary.empty())
-        copy["buffers"] = {{{"byteLength", binary.size()}}};
-    return makeGlb(copy.dump(), binary);
+    return makeGlb(withBuffers({{"byteLength", binary.size()}}).dump(), binary);
 }
 
 GltfBuilder triangleScene()

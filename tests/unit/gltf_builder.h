@@ -46,6 +46,8 @@ constexpr int componentByte = 5120, componentUnsignedByte = 5121, componentShort
 struct GltfBuilder {
     Json json = {{"asset", {{"version", "2.0"}}}};
     Bytes binary;
+    // There is a second buffer without data, in which compressed views have their places.
+    bool fallbackBuffer = false;
 
     // Adds a buffer view of these bytes and returns its index.
     template <typename T>
@@ -78,6 +80,9 @@ struct GltfBuilder {
 
     std::string text() const; // as .gltf
     Bytes glb() const;
+
+private:
+    Json withBuffers(const Json& first) const;
 };
 
 // A node with one triangle (0,0,0), (1,0,0), (0,1,0) with normals +z; no lights, no camera.

@@ -224,6 +224,7 @@ TEST(Options, IdleOnesAreNamed)
         arguments.overlaps = "3";
         arguments.punctualRadius = "0.1";
         arguments.sunRadius = "0.01";
+        arguments.emissiveLights = true;
         arguments.moving = true;
         arguments.warnOfIdleOptions(lights);
         spdlog::set_default_logger(before);
@@ -231,18 +232,19 @@ TEST(Options, IdleOnesAreNamed)
     };
     const auto named = [](const std::string& text) {
         std::string out;
-        for (const char* option :
-             {"--seed", "--overlaps", "--moving", "--punctual-radius", "--sun-radius"})
+        for (const char* option : {"--seed", "--overlaps", "--moving", "--punctual-radius",
+                                   "--sun-radius", "--emissive-lights"})
             if (text.find(std::string(option) + " has no effect") != std::string::npos)
                 out += std::string(option) + " ";
         return out;
     };
-    EXPECT_EQ(named(warnings("hall", std::nullopt)), "--punctual-radius --sun-radius ");
+    EXPECT_EQ(named(warnings("hall", std::nullopt)),
+              "--punctual-radius --sun-radius --emissive-lights ");
     EXPECT_EQ(named(warnings("showcase", std::nullopt)),
-              "--seed --overlaps --punctual-radius --sun-radius ");
+              "--seed --overlaps --punctual-radius --sun-radius --emissive-lights ");
     EXPECT_EQ(named(warnings("a.glb", std::nullopt)), "--seed --overlaps --moving ");
     EXPECT_EQ(named(warnings("a.glb", 5)), "");
-    EXPECT_EQ(named(warnings("a.json", 5)), "--punctual-radius --sun-radius ");
+    EXPECT_EQ(named(warnings("a.json", 5)), "--punctual-radius --sun-radius --emissive-lights ");
 }
 
 TEST(Options, InfluenceErrorsAreSharesOfTheDisplay)

@@ -123,9 +123,77 @@ TEST_F(Gltf, WhatIsLeftOutIsReported)
     EXPECT_EQ(scene.instances.size(), 1u);
     for (const char* text : {"meshes[1].primitives[0]: consists of points or lines",
                              "meshes[2].primitives[0]: has no POSITION", "animations",
-                             "\"EXT_nothing\" is not supported"})
+                             "\"EXT_nothing\" is not supported: what it adds is left out"})
         EXPECT_TRUE(warns(scene, text)) << text;
     EXPECT_FALSE(warns(scene, "KHR_lights_punctual"));
+}
+
+// Files that need an extension are drawn without it, as far as that is possible.
+TEST_F(Gltf, MissingExtensionsAreNamedWithAHint)
+{
+    GltfBuilder b = triangleScene();
+    b.json["extensionsUsed"] = b.json["extensionsRequired"] = {"KHR_texture_basisu"};
+    b.json["extensionsRequired"].push_back("EXT_nothing");
+    const Scene scene = load(b);
+    EXPECT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.warnings.size(), 3u); // and it has no lights
+    EXPECT_TRUE(warns(scene, "\"KHR_texture_basisu\" is not supported: KTX2 textures are left out; "
+                             "export with PNG"));
+    b.json["nodes"][0].erase("mesh");
+    EXPECT_NE(error(b).find("has nothing that can be drawn without the extensions that it requires "
+                            "and that are not supported: \"EXT_nothing\", "
+                            "\"KHR_texture_basisu\""),
+              std::string::npos)
+        << error(b);
+}
+
+TEST_F(Gltf, WarningsOfTheSameReasonAreOneSentence)
+{
+    GltfBuilder b = triangleScene();
+    const int positions = b.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+    for (int i = 1; i < 6; ++i) {
+        b.mesh({{"attributes", {{"POSITION", positions}}}, {"mode", 1}});
+        b.rootNode({{"mesh", i}});
+    }
+    const Scene scene = load(b);
+    EXPECT_EQ(scene.warnings.size(), 2u);
+    EXPECT_TRUE(warns(scene, "meshes[1].primitives[0] (and 4 others): consists of points"));
+}
+
+TEST_F(Gltf, InstancesOfOneMesh)
+{
+    GltfBuilder b = triangleScene();
+    const int translations = b.floats({0, 0, 1, 0, 5, 0}, "VEC3");
+    // A quarter turn about z, as normalised bytes, and none at all.
+    const int rotations = b.accessor(b.view(std::vector<int8_t>{0, 0, 90, 90, 0, 0, 0, 127}),
+                                     componentByte, "VEC4", 2, {{"normalized", true}});
+    const int scales = b.floats({2, 2, 2, -1, 1, 1}, "VEC3");
+    b.json["nodes"][0]["translation"] = {10, 0, 0};
+    b.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", translations},
+        {"ROTATION", rotations},
+        {"SCALE", scales},
+        {"_COLOR", translations}};
+    const Scene scene = load(b);
+    ASSERT_EQ(scene.instances.size(), 2u);
+    // Corner (1, 0, 0) -> (2, 0, 0) -> (0, 2, 0) -> (0, 2, 1) -> (10, 2, 1)
+    EXPECT_NEAR(glm::distance(worldPosition(scene, scene.instances[0], 1), {10, 2, 1}), 0, 1e-12);
+    // The second one is mirrored, and still shows its front to +z.
+    const glm::dvec3 face = worldAreaNormal(scene, scene.instances[1], 0);
+    EXPECT_NEAR(glm::distance(glm::normalize(face), {0, 0, 1}), 0, 1e-12);
+    EXPECT_NEAR(glm::distance(worldNormal(scene, scene.instances[1], 0), {0, 0, 1}), 0, 1e-6);
+    Json& attributes = b.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+    attributes["SCALE"] = b.floats({1, 1, 1}, "VEC3");
+    EXPECT_NE(error(b).find("SCALE: accessors[6] has 1 elements, others have 2"), std::string::npos)
+        << error(b);
+    attributes["SCALE"] = rotations;
+    EXPECT_NE(error(b).find("wrong number of components"), std::string::npos);
+    attributes = Json::object();
+    EXPECT_EQ(load(b).instances.size(), 1u);
+    attributes["SCALE"] = b.accessor(-1, componentFloat, "VEC3", 1 << 23);
+    EXPECT_NE(error(b).find("has 8388608 instances, more than the"), std::string::npos);
+    attributes["SCALE"] = b.floats({1e30f, 1, 1}, "VEC3");
+    EXPECT_NE(error(b).find("nodes[0]: has a transform that exceeds 1e12 m"), std::string::npos);
 }
 
 TEST_F(Gltf, TheDefaultSceneIsUsed)

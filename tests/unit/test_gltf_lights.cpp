@@ -80,7 +80,7 @@ TEST_F(GltfLights, RadiusMakesASphereOfTheSameIntensity)
         {"type": "point", "intensity": 50, "range": 9, "extras": {"radius": 0.25}},
         {"type": "point", "intensity": 50},
         {"type": "point", "extras": "radius"},
-        {"type": "spot", "spot": {}, "extras": {"radius": 1}}])";
+        {"type": "spot", "spot": {}}])";
     const Scene plain = load(scene("KHR_lights_punctual", lights));
     EXPECT_EQ(plain.lights[0].type, uint32_t{CND_LIGHT_SPHERE});
     EXPECT_EQ(plain.lights[0].radius, 0.25f);
@@ -90,7 +90,7 @@ TEST_F(GltfLights, RadiusMakesASphereOfTheSameIntensity)
     EXPECT_EQ(plain.lights[1].type, uint32_t{CND_LIGHT_POINT});
     EXPECT_EQ(plain.lights[2].type, uint32_t{CND_LIGHT_POINT});
     EXPECT_EQ(plain.lights[3].type, uint32_t{CND_LIGHT_SPOT});
-    EXPECT_EQ(plain.warnings.size(), 1u); // a spot light has no radius
+    EXPECT_TRUE(plain.warnings.empty());
 
     SceneOptions options;
     options.punctualRadius = 0.5;
@@ -100,6 +100,49 @@ TEST_F(GltfLights, RadiusMakesASphereOfTheSameIntensity)
     EXPECT_EQ(sized.lights[1].radius, 0.5f);
     EXPECT_NEAR(sized.lights[1].emission[0] * pi * 0.25, 50, 1e-4);
     EXPECT_EQ(sized.lights[3].type, uint32_t{CND_LIGHT_SPOT});
+}
+
+TEST_F(GltfLights, SpotsWithARadiusBecomeDiscs)
+{
+    const Scene s = load(scene("KHR_lights_punctual", R"([
+        {"type": "spot", "intensity": 50, "range": 9, "spot": {}, "extras": {"radius": 0.25}}])"));
+    const CndLight& disc = s.lights.at(0);
+    EXPECT_EQ(disc.type, uint32_t{CND_LIGHT_DISC});
+    EXPECT_EQ(disc.radius, 0.25f);
+    EXPECT_EQ(disc.direction[2], -1);
+    EXPECT_FALSE(disc.twoSided);
+    EXPECT_NEAR(disc.emission[0] * pi * 0.25 * 0.25, 50, 1e-4); // cd along the axis
+    ASSERT_EQ(s.warnings.size(), 1u);
+    EXPECT_TRUE(warns(s, "lights[0]: is a spot with a radius, so it becomes a disc"));
+}
+
+// Lights are shared by nodes, so a node's own radius comes first.
+TEST_F(GltfLights, NodesGiveARadius)
+{
+    GltfBuilder b = scene("KHR_lights_punctual", R"([
+        {"type": "point", "intensity": 50, "extras": {"radius": 0.25}}, {"type": "point"},
+        {"type": "point"}, {"type": "point"}, {"type": "directional"}])");
+    b.json["nodes"][0]["extras"] = {{"radius", 2}};
+    b.json["nodes"][1]["extras"] = {{"radius", 3}};
+    b.json["nodes"][4]["extras"] = {{"radius", 4}};
+    // Older exporters of Blender put the light below the node of the object.
+    b.json["nodes"][2]["name"] = "Lamp_Orientation";
+    b.json["nodes"][3]["name"] = "Lamp";
+    for (const int child : {2, 3})
+        b.json["nodes"].push_back(
+            {{"name", "Lamp"}, {"children", {child}}, {"extras", {{"radius", 0.5}}}});
+    b.json["scenes"][0]["nodes"] = {0, 1, 4, 5, 6};
+    const Scene s = load(b);
+    ASSERT_EQ(s.lights.size(), 5u);
+    EXPECT_EQ(s.lights[0].radius, 2);
+    EXPECT_NEAR(s.lights[0].emission[0] * pi * 4, 50, 1e-4);
+    EXPECT_EQ(s.lights[1].radius, 3);
+    EXPECT_EQ(s.lights[2].type, uint32_t{CND_LIGHT_DIRECTIONAL});
+    EXPECT_TRUE(warns(s, "nodes[4]: has a radius, which directional lights do not use"));
+    EXPECT_EQ(s.lights[3].radius, 0.5f);
+    EXPECT_EQ(s.lights[4].type, uint32_t{CND_LIGHT_POINT});
+    b.json["nodes"][1]["extras"] = {{"radius", -3}};
+    EXPECT_NE(error(b).find("nodes[1].extras.radius: must be > 0"), std::string::npos);
 }
 
 TEST_F(GltfLights, AreaSpheresScaleWithTheirNodes)

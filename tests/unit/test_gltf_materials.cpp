@@ -4,6 +4,7 @@
 
 #include "io/image.h"
 #include "load/load.h"
+#include "unit/gltf_compressed.h"
 #include "unit/gltf_fixture.h"
 
 namespace candelabra::test
@@ -146,14 +147,81 @@ TEST_F(GltfMaterials, TextureTransform)
 
 TEST_F(GltfMaterials, WhatIsLeftOutIsReported)
 {
-    const Scene scene = load(withMaterial(R"({"alphaMode": "BLEND",
-        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 2}},
-        "extensions": {"KHR_materials_unlit": {}}})",
+    const Scene scene = load(withMaterial(R"({
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 2}}})",
                                           1));
     EXPECT_EQ(scene.materials.at(0).baseColorTexture.texture, -1);
-    EXPECT_EQ(scene.materials.at(0).alphaMode, AlphaMode::Opaque);
-    for (const char* text : {"blended", "TEXCOORD_2", "unlit"})
-        EXPECT_TRUE(warns(scene, text)) << text;
+    EXPECT_TRUE(warns(scene, "TEXCOORD_2"));
+}
+
+TEST_F(GltfMaterials, UnlitMaterialsEmitTheirColour)
+{
+    const Scene scene = load(withMaterial(R"({
+        "alphaMode": "BLEND", "emissiveFactor": [1, 1, 1], "normalTexture": {"index": 0},
+        "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 0.25],
+                                 "baseColorTexture": {"index": 0}},
+        "extensions": {"KHR_materials_unlit": {}}})",
+                                          1));
+    const Material& m = scene.materials.at(0);
+    EXPECT_TRUE(m.unlit);
+    EXPECT_EQ(m.emission, glm::vec3(100, 50, 0)); // cd/m^2
+    EXPECT_EQ(m.baseColor, glm::vec3(0));
+    EXPECT_EQ(m.dielectricF0, glm::vec3(0));
+    EXPECT_EQ(m.metalness, 0);
+    EXPECT_GE(m.baseColorTexture.texture, 0);
+    EXPECT_EQ(m.emissiveTexture.texture, -1);
+    EXPECT_EQ(m.normalTexture.texture, -1);
+    EXPECT_EQ(m.alphaMode, AlphaMode::Blend);
+    EXPECT_EQ(m.alpha, 0.25f);
+    EXPECT_EQ(scene.warnings.size(), 1u); // it has no lights
+}
+
+TEST_F(GltfMaterials, SpecularGlossiness)
+{
+    const char* material = R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [0.5, 0.25, 0.125, 0.75], "specularFactor": [0.5, 0.25, 0.5],
+        "glossinessFactor": 0.75, "specularGlossinessTexture": {"index": 0}}}})";
+    GltfBuilder b = withMaterial(material, 1);
+    const Json extension = b.json["materials"][0]["extensions"];
+    b.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"].erase(
+        "specularGlossinessTexture");
+    const Material plain = load(b).materials.at(0);
+    EXPECT_EQ(plain.baseColor, glm::vec3(0.5f, 0.25f, 0.125f));
+    EXPECT_EQ(plain.alpha, 0.75f);
+    EXPECT_EQ(plain.metalness, 0);
+    EXPECT_EQ(plain.perceptualRoughness, 0.25f);
+    EXPECT_EQ(plain.dielectricF0, glm::vec3(0.5f, 0.25f, 0.5f));
+    EXPECT_EQ(plain.diffuseWeight, 0.5f);
+    // The texture is (10, 20, 30) with a glossiness of 1, and white.
+    b.json["materials"][0]["extensions"] = extension;
+    const Scene textured = load(b);
+    const Material& m = textured.materials.at(0);
+    const auto linear = [](double code) { return std::pow((code / 255 + 0.055) / 1.055, 2.4); };
+    EXPECT_NEAR(m.dielectricF0.y, 0.25 * (linear(20) + 1) / 2, 1e-6);
+    EXPECT_EQ(m.perceptualRoughness, 1);
+    const Texture& roughness =
+        textured.textures.at(static_cast<size_t>(m.metallicRoughnessTexture.texture));
+    EXPECT_EQ(roughness.rgba[1], 64); // 255 (1 - 0.75)
+    EXPECT_TRUE(warns(textured, "materials[0]: has a specular texture"));
+}
+
+TEST_F(GltfMaterials, WebPImages)
+{
+    GltfBuilder b =
+        withMaterial(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})", 1);
+    b.json["images"].push_back({{"bufferView", b.view(smallWebP())}, {"mimeType", "image/webp"}});
+    // The PNG is for programs that do not know the extension.
+    b.json["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    const Scene scene = load(b);
+    ASSERT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.textures[0].rgba, (std::vector<uint8_t>{10, 20, 30, 128, 255, 255, 255, 255}));
+    EXPECT_EQ(scene.textures[0].width, 2u);
+    const size_t at = b.json["bufferViews"].back()["byteOffset"];
+    for (const size_t byte : {at, at + 12, at + 20}) {
+        GltfBuilder broken = b;
+        broken.binary[byte] ^= 0xff;
+        EXPECT_NE(error(broken).find("images[1]: "), std::string::npos) << byte << error(broken);
+    }
 }
 
 // Two triangles form a square in z = 0 with the image upright (v down), two more form a square

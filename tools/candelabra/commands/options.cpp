@@ -141,6 +141,8 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
                     "glTF files: directional lights become distant spheres whose angular radius "
                     "has this sine (the Sun: 0.00465)")
         ->type_name("SINE");
+    command.add_flag("--emissive-lights", emissiveLights,
+                     "glTF files: flat rectangles whose material emits become area lights");
     command
         .add_option(
             "--environment", environment,
@@ -189,6 +191,7 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
         out.punctualRadius = numberOption("--punctual-radius", punctualRadius, 1e-6, 1e6);
     if (!sunRadius.empty())
         out.sunRadius = numberOption("--sun-radius", sunRadius, 1e-6, 1);
+    out.emissiveLights = emissiveLights;
     out.environment = environment;
     lobes.applyTo(out);
     if (!environmentRotation.empty())
@@ -211,6 +214,8 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
         warn("--punctual-radius", "it is for point lights of glTF files");
     if (!sunRadius.empty() && (!file || scene.ends_with(".json")))
         warn("--sun-radius", "it is for directional lights of glTF files");
+    if (emissiveLights && (!file || scene.ends_with(".json")))
+        warn("--emissive-lights", "it is for emissive materials of glTF files");
     if (environment.empty() && !environmentRotation.empty())
         warn("--environment-rotation", "there is no --environment");
     if (environment.empty() && !environmentScale.empty())

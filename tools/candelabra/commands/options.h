@@ -50,7 +50,7 @@ struct SceneArguments {
     std::string seed, overlaps, punctualRadius, sunRadius;
     std::string environment, environmentRotation, environmentScale;
     LobeArguments lobes;
-    bool moving = false;
+    bool moving = false, emissiveLights = false;
 
     // With a `fallback`, which is the default scene, SCENE may be left out, or be named with
     // --scene.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks the JSON of a glTF file before tinygltf reads it, because tinygltf ignores properties of
 // the wrong type and truncates large integers.
-#include <array>
 #include <initializer_list>
 #include <span>
 #include <string_view>
@@ -25,13 +24,14 @@ enum class Kind {
     Number,
     Boolean,
     String,
-    Index,    // an integer, an index into the array `target`
-    Object,   // an object with the members `fields`
-    Numbers,  // an array of minItems to maxItems numbers
-    Indices,  // an array of indices into `target`
-    Objects,  // an array of objects with the members `fields`
-    IndexMap, // an object whose values are indices into `target`
-    List      // any array
+    Index,      // an integer, an index into the array `target`
+    Object,     // an object with the members `fields`
+    Numbers,    // an array of minItems to maxItems numbers
+    Indices,    // an array of indices into `target`
+    Objects,    // an array of objects with the members `fields`
+    IndexMap,   // an object whose values are indices into `target`
+    IntegerMap, // an object whose values are integers
+    List        // any array
 };
 
 struct Field {
@@ -113,19 +113,36 @@ constexpr Field accessor[] = {index("bufferView", "/bufferViews"),
                               string("type").need(),
                               string("name"),
                               object("sparse", sparse)};
-constexpr Field bufferView[] = {
-    index("buffer", "/buffers").need(), integer("byteOffset", 0, maxByte),
-    integer("byteLength", 1, maxByte).need(), integer("byteStride", 4, 252), string("name")};
-constexpr Field buffer[] = {integer("byteLength", 1, maxByte).need(), string("uri"),
-                            string("name")};
+constexpr Field meshopt[] = {index("buffer", "/buffers").need(),
+                             integer("byteOffset", 0, maxByte),
+                             integer("byteLength", 1, maxByte).need(),
+                             integer("byteStride", 1, 256).need(),
+                             integer("count", 1, maxInteger).need(),
+                             string("mode").need(),
+                             string("filter")};
+constexpr Field bufferViewExtensions[] = {object("EXT_meshopt_compression", meshopt),
+                                          object("KHR_meshopt_compression", meshopt)};
+constexpr Field bufferView[] = {index("buffer", "/buffers").need(),
+                                integer("byteOffset", 0, maxByte),
+                                integer("byteLength", 1, maxByte).need(),
+                                integer("byteStride", 4, 252),
+                                string("name"),
+                                object("extensions", bufferViewExtensions)};
+constexpr Field fallback[] = {boolean("fallback")};
+constexpr Field bufferExtensions[] = {object("EXT_meshopt_compression", fallback),
+                                      object("KHR_meshopt_compression", fallback)};
+constexpr Field buffer[] = {integer("byteLength", 1, maxByte).need(), string("uri"), string("name"),
+                            object("extensions", bufferExtensions)};
 
 // --- textures and materials
 constexpr Field image[] = {string("uri"), string("mimeType"), string("name"),
                            index("bufferView", "/bufferViews")};
 constexpr Field sampler[] = {integer("magFilter", 0, maxInteger), integer("wrapS", 0, maxInteger),
                              integer("wrapT", 0, maxInteger), string("name")};
+constexpr Field textureSource[] = {index("source", "/images").need()};
+constexpr Field textureSources[] = {object("EXT_texture_webp", textureSource)};
 constexpr Field texture[] = {index("sampler", "/samplers"), index("source", "/images"),
-                             string("name")};
+                             string("name"), object("extensions", textureSources)};
 constexpr Field textureTransform[] = {numbers("offset", 2), number("rotation"), numbers("scale", 2),
                                       integer("texCoord", 0, maxInteger)};
 constexpr Field textureExtensions[] = {object("KHR_texture_transform", textureTransform)};
@@ -144,9 +161,14 @@ constexpr Field specular[] = {
     number("specularFactor", unitInterval), numbers("specularColorFactor", 3, notNegative),
     object("specularTexture", textureInfo), object("specularColorTexture", textureInfo)};
 constexpr Field unlit[] = {string("name")};
+constexpr Field specularGlossiness[] = {
+    numbers("diffuseFactor", 4, unitInterval), object("diffuseTexture", textureInfo),
+    numbers("specularFactor", 3, unitInterval), number("glossinessFactor", unitInterval),
+    object("specularGlossinessTexture", textureInfo)};
 constexpr Field materialExtensions[] = {
     object("KHR_materials_emissive_strength", emissiveStrength), object("KHR_materials_ior", ior),
-    object("KHR_materials_specular", specular), object("KHR_materials_unlit", unlit)};
+    object("KHR_materials_specular", specular), object("KHR_materials_unlit", unlit),
+    object("KHR_materials_pbrSpecularGlossiness", specularGlossiness)};
 constexpr Field material[] = {string("name"),
                               object("pbrMetallicRoughness", metallicRoughness),
                               object("normalTexture", textureInfo),
@@ -159,15 +181,23 @@ constexpr Field material[] = {string("name"),
                               object("extensions", materialExtensions)};
 
 // --- meshes, nodes, cameras, lights
+constexpr Field draco[] = {index("bufferView", "/bufferViews").need(),
+                           Field{"attributes", Kind::IntegerMap, true, {0, maxInteger}}};
+constexpr Field primitiveExtensions[] = {object("KHR_draco_mesh_compression", draco)};
 constexpr Field primitive[] = {index("attributes", "/accessors", Kind::IndexMap).need(),
-                               index("indices", "/accessors"), index("material", "/materials"),
-                               integer("mode", 0, 6), list("targets")};
+                               index("indices", "/accessors"),
+                               index("material", "/materials"),
+                               integer("mode", 0, 6),
+                               list("targets"),
+                               object("extensions", primitiveExtensions)};
 constexpr Field mesh[] = {objects("primitives", primitive).need(), string("name")};
 constexpr Field lightReference[] = {
     index("light", "/extensions/KHR_lights_punctual/lights").need()};
 constexpr Field areaReference[] = {index("light", "/extensions/KHR_lights_area/lights").need()};
+constexpr Field instancing[] = {index("attributes", "/accessors", Kind::IndexMap).need()};
 constexpr Field nodeExtensions[] = {object("KHR_lights_punctual", lightReference),
-                                    object("KHR_lights_area", areaReference)};
+                                    object("KHR_lights_area", areaReference),
+                                    object("EXT_mesh_gpu_instancing", instancing)};
 constexpr Field node[] = {index("camera", "/cameras"),
                           index("mesh", "/meshes"),
                           index("skin", "/skins"),
@@ -278,6 +308,13 @@ void checkField(const nlohmann::json& document, const JsonValue& value, const Fi
         for (const auto& entry : value.json().items())
             checkIndex(document, value.member(entry.key()), field.target);
         return;
+    case Kind::IntegerMap:
+        value.requireObject();
+        for (const auto& entry : value.json().items())
+            value.member(entry.key())
+                .integer(static_cast<int64_t>(field.range.min),
+                         static_cast<int64_t>(field.range.max));
+        return;
     default:
         break;
     }
@@ -357,6 +394,13 @@ void checkBufferView(const JsonValue& view)
     if (const auto stride = view.find("byteStride"))
         if (stride->json().get<int64_t>() % 4 != 0)
             stride->fail("must be a multiple of 4, is " + stride->json().dump());
+    const auto extensions = view.find("extensions");
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (const auto meshopt = extensions ? extensions->find(name) : std::nullopt) {
+            checkOneOf(meshopt->member("mode"), {"ATTRIBUTES", "TRIANGLES", "INDICES"});
+            if (const auto filter = meshopt->find("filter"))
+                checkOneOf(*filter, {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"});
+        }
 }
 
 void checkMaterial(const JsonValue& material)
@@ -387,42 +431,13 @@ void checkVersion(const JsonValue& asset)
         }
 }
 
-constexpr std::array<std::string_view, 8> supportedExtensions = {
-    "KHR_lights_punctual",   "KHR_lights_area",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",     "KHR_materials_specular", "KHR_materials_unlit",
-    "KHR_texture_transform", "KHR_mesh_quantization"};
-
-bool isSupported(const std::string& extension)
-{
-    for (const std::string_view name : supportedExtensions)
-        if (extension == name)
-            return true;
-    return false;
-}
-
-void checkExtensions(const JsonValue& document, const std::string& file,
-                     std::vector<std::string>& warnings)
-{
-    checkItems(document, "extensionsRequired", [&](const JsonValue& name) {
-        if (!isSupported(name.string()))
-            name.fail("\"" + printable(name.string(), 60) + "\" is not supported");
-    });
-    checkItems(document, "extensionsUsed", [&](const JsonValue& name) {
-        if (!isSupported(name.string()))
-            warnings.push_back(printable(file, 4096) + ": extension \"" +
-                               printable(name.string(), 60) + "\" is not supported and ignored");
-    });
-}
-
 } // namespace
 
-void checkGltfJson(const std::string& file, const nlohmann::json& json,
-                   std::vector<std::string>& warnings)
+void checkGltfJson(const std::string& file, const nlohmann::json& json, GltfWarnings& warnings)
 {
     const JsonValue document(file, json);
     document.requireObject();
     checkVersion(document.member("asset"));
-    checkExtensions(document, file, warnings);
     checkObject(json, document, schema::root);
     checkItems(document, "accessors", checkAccessor);
     checkItems(document, "bufferViews", checkBufferView);
@@ -434,8 +449,8 @@ void checkGltfJson(const std::string& file, const nlohmann::json& json,
                    checkLight);
     for (const char* unused : {"animations", "skins"})
         if (const auto items = document.find(unused); items && items->size() > 0)
-            warnings.push_back(printable(file, 4096) + ": " + unused +
-                               " are ignored; meshes are drawn in their rest pose");
+            warnings.add("",
+                         std::string(unused) + " are ignored; meshes are drawn in their rest pose");
 }
 
 } // namespace candelabra::app

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "gltf/compression.h"
+#include "gltf/extensions.h"
 #include "scene/scene_file.h"
 
 namespace candelabra::app
@@ -151,6 +153,16 @@ std::string relativePath(const GltfDocument& document, const std::string& uri,
     return path;
 }
 
+// Returns true for a buffer without data, into which compressed buffer views are decompressed.
+bool isFallback(const nlohmann::json& buffer)
+{
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (const auto* extension = GltfDocument::extension(buffer, name))
+            if (extension->value("fallback", false))
+                return true;
+    return false;
+}
+
 void loadBuffers(GltfDocument& document, GltfContainer& container)
 {
     const auto found = document.json.find("buffers");
@@ -162,9 +174,12 @@ void loadBuffers(GltfDocument& document, GltfContainer& container)
         std::vector<uint8_t> bytes;
         if (buffers[i].contains("uri"))
             bytes = readGltfUri(document, buffers[i]["uri"].get<std::string>(), element + ".uri");
-        else if (i == 0 && container.isBinary)
+        else if (i == 0 && container.isBinary && !container.binary.empty())
             bytes = std::move(container.binary);
-        else
+        else if (isFallback(buffers[i])) {
+            document.buffers.emplace_back();
+            continue;
+        } else
             document.fail(element, "has no uri");
         const uint64_t declared = buffers[i]["byteLength"].get<uint64_t>();
         if (bytes.size() < declared)
@@ -185,6 +200,12 @@ void parseWithTinyGltf(GltfDocument& document)
                             "samplers", "accessors", "bufferViews", "cameras"})
         if (document.json.contains(key))
             reduced[key] = document.json[key];
+    // It refuses indices without a buffer view, which are those that Draco replaces.
+    if (reduced.contains("meshes"))
+        for (nlohmann::json& mesh : reduced["meshes"])
+            for (nlohmann::json& primitive : mesh["primitives"])
+                if (GltfDocument::extension(primitive, "KHR_draco_mesh_compression"))
+                    primitive.erase("indices");
     if (const auto* lights = GltfDocument::extension(document.json, "KHR_lights_punctual"))
         reduced["extensions"]["KHR_lights_punctual"] = *lights;
     const std::string text = reduced.dump();
@@ -212,12 +233,6 @@ std::string gltfElement(const char* array, size_t index)
 void GltfDocument::fail(const std::string& element, const std::string& reason) const
 {
     failScene(file, element, reason);
-}
-
-void GltfDocument::warn(const std::string& element, const std::string& reason) const
-{
-    warnings.push_back(printable(file, 4096) + ": " + (element.empty() ? "" : element + ": ") +
-                       reason);
 }
 
 std::span<const uint8_t> GltfDocument::bufferView(int index, const std::string& element) const
@@ -275,9 +290,12 @@ GltfDocument openGltf(const std::string& path)
     GltfContainer container = readGltfContainer(path);
     document.json = parseSceneJson(path, container.json);
     container.json.clear();
+    document.missingExtensions = checkGltfExtensions(path, document.json, document.warnings);
     checkGltfJson(path, document.json, document.warnings);
     loadBuffers(document, container);
     parseWithTinyGltf(document);
+    decompressMeshopt(document);
+    decompressDraco(document);
     return document;
 }
 

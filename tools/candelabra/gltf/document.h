@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
+#include "gltf/warnings.h"
+
 namespace candelabra::app
 {
 
@@ -29,12 +31,19 @@ struct GltfDocument {
     nlohmann::json json;
     // What tinygltf made of it, without buffers and images, which the loader reads itself.
     // Extensions and extras are read from `json`, because tinygltf::Value cuts integers to 32 bits.
+    // Decompression changes the buffer views and accessors of `model`, and not those of `json`.
     tinygltf::Model model;
-    std::vector<std::vector<uint8_t>> buffers; // each has the byteLength that was declared for it
-    mutable std::vector<std::string> warnings;
+    // The buffers of the file, each with the byteLength that was declared for it, and after them
+    // what was decompressed.
+    std::vector<std::vector<uint8_t>> buffers;
+    std::string missingExtensions; // those that the file requires and the loader does not read
+    mutable GltfWarnings warnings;
 
     [[noreturn]] void fail(const std::string& element, const std::string& reason) const;
-    void warn(const std::string& element, const std::string& reason) const;
+    void warn(const std::string& element, const std::string& reason) const
+    {
+        warnings.add(element, reason);
+    }
     // The bytes of a buffer view. Fails if it extends beyond its buffer.
     std::span<const uint8_t> bufferView(int index, const std::string& element) const;
     // Returns object["extensions"][name], or nullptr if there is none. `object` may be any JSON
@@ -48,10 +57,8 @@ std::string gltfElement(const char* array, size_t index);
 GltfContainer readGltfContainer(const std::string& path);
 
 // Checks types, ranges, array lengths and indices of every property that the loader or tinygltf
-// reads, the glTF version, and the required extensions. Warns of unknown optional extensions and of
-// content that is not used.
-void checkGltfJson(const std::string& file, const nlohmann::json& json,
-                   std::vector<std::string>& warnings);
+// reads, and the glTF version. Warns of content that is not used.
+void checkGltfJson(const std::string& file, const nlohmann::json& json, GltfWarnings& warnings);
 
 // Reads what a "uri" stands for: base64 data, or a file in the folder of document.file or below
 // that folder. Absolute paths, "..", and schemes other than data: are errors.

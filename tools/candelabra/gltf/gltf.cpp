@@ -7,7 +7,9 @@
 #include <tuple>
 
 #include "gltf/document.h"
+#include "gltf/emissive.h"
 #include "gltf/gltf.h"
+#include "gltf/instancing.h"
 #include "gltf/lights.h"
 #include "gltf/material.h"
 #include "gltf/mesh.h"
@@ -44,6 +46,7 @@ private:
     static constexpr int64_t noMesh = -1;
 
     void addMesh(const GltfPlacedNode& placed);
+    void addInstance(const std::string& element, size_t gltfMesh, glm::dmat4 worldFromMesh);
     void addCamera(const GltfPlacedNode& placed);
     // The index of a primitive's mesh in scene.meshes. The mesh is read when it is first asked for.
     // noMesh if the primitive cannot be drawn.
@@ -61,6 +64,7 @@ private:
     GltfMeshBudget budget_;
     std::map<std::tuple<size_t, size_t, bool>, int64_t> meshes_;
     GltfLights lights_;
+    GltfEmissiveRectangles emissive_;
 };
 
 void SceneBuilder::add(const GltfPlacedNode& placed)
@@ -70,7 +74,7 @@ void SceneBuilder::add(const GltfPlacedNode& placed)
         addMesh(placed);
     if (node.camera >= 0)
         addCamera(placed);
-    addGltfLights(document_, placed.node, placed.worldFromNode, options_, lights_);
+    addGltfLights(document_, placed, options_, lights_);
 }
 
 int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, bool mirrored)
@@ -103,9 +107,21 @@ int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, bool mirrored)
 
 void SceneBuilder::addMesh(const GltfPlacedNode& placed)
 {
-    const auto gltfMesh = static_cast<size_t>(document_.model.nodes[placed.node].mesh);
     const std::string element = gltfElement("nodes", placed.node);
-    const double determinant = glm::determinant(glm::dmat3(placed.worldFromNode));
+    const auto gltfMesh = static_cast<size_t>(document_.model.nodes[placed.node].mesh);
+    const size_t room = maxInstances - scene_.instances.size();
+    for (const glm::dmat4& nodeFromMesh : readGltfInstancing(document_, placed.node, room)) {
+        const glm::dmat4 worldFromMesh = placed.worldFromNode * nodeFromMesh;
+        refuseHugeTransform(document_, element, worldFromMesh);
+        addInstance(element, gltfMesh, worldFromMesh);
+    }
+}
+
+// Adds one copy of a mesh, which belongs to the node `element`.
+void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh,
+                               glm::dmat4 worldFromMesh)
+{
+    const double determinant = glm::determinant(glm::dmat3(worldFromMesh));
     if (determinant == 0 || !std::isfinite(1 / determinant)) {
         document_.warn(element, "has a transform that flattens its mesh; the mesh is left out");
         return;
@@ -114,18 +130,22 @@ void SceneBuilder::addMesh(const GltfPlacedNode& placed)
     // mirroring transform M is split into (M S) S with S = diag(-1, 1, 1): the right S goes into a
     // mirrored mesh, and M S is the transform of the instance.
     const bool mirrored = determinant < 0;
-    glm::dmat4 world = placed.worldFromNode;
     if (mirrored)
-        world[0] = -world[0];
+        worldFromMesh[0] = -worldFromMesh[0];
     const auto& primitives = document_.model.meshes[gltfMesh].primitives;
     for (size_t p = 0; p < primitives.size(); ++p) {
         const int64_t index = mesh(gltfMesh, p, mirrored);
         if (index == noMesh)
             continue;
+        const uint32_t materialIndex = material(primitives[p]);
+        if (options_.emissiveLights &&
+            emissive_.replace(scene_.meshes[static_cast<size_t>(index)],
+                              scene_.materials[materialIndex], worldFromMesh, lights_))
+            continue;
         if (scene_.instances.size() >= maxInstances)
             document_.fail(element, "brings the scene above " + std::to_string(maxInstances) +
                                         " mesh instances");
-        scene_.instances.push_back({static_cast<uint32_t>(index), material(primitives[p]), world});
+        scene_.instances.push_back({static_cast<uint32_t>(index), materialIndex, worldFromMesh});
     }
 }
 
@@ -190,6 +210,7 @@ Camera framingCamera(const Scene& scene)
 
 void SceneBuilder::finish()
 {
+    emissive_.warn(document_);
     scene_.lights = std::move(lights_.lights);
     placeLights(scene_, lights_.positions);
     if (scene_.lights.empty() && !options_.lights)
@@ -238,7 +259,11 @@ Scene loadGltf(const std::string& path, const SceneOptions& options)
     for (const GltfPlacedNode& placed : placeGltfNodes(document))
         builder.add(placed);
     builder.finish();
-    scene.warnings = document.warnings;
+    if (scene.instances.empty() && !document.missingExtensions.empty())
+        document.fail("", "has nothing that can be drawn without the extensions that it requires "
+                          "and that are not supported: " +
+                              document.missingExtensions);
+    scene.warnings = document.warnings.sentences(path);
     return scene;
 }
 

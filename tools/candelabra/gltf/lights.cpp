@@ -53,22 +53,43 @@ void setInfluence(const GltfDocument& document, const std::string& element, doub
 void setRadius(const GltfDocument& document, const std::string& element, double radius,
                CndLight& light)
 {
-    light.type = CND_LIGHT_SPHERE;
     light.radius = static_cast<float>(radius);
     if (!(light.radius > 0) || !(radius <= maxCoordinate))
         document.fail(element, "radius must be > 0 and at most 1e12, is " + std::to_string(radius));
 }
 
-// Reads extras.radius. "extras" may hold anything: it is used only if it is an object with a
-// "radius".
-std::optional<double> extrasRadius(const GltfDocument& document, const nlohmann::json& light,
-                                   const std::string& element)
+// A radius that a file gives to a light, and where it stands.
+struct GivenRadius {
+    double metres = 0;
+    std::string element;
+};
+
+// Reads extras.radius of a light or of a node. "extras" may hold anything: it is used only if it is
+// an object with a "radius".
+std::optional<GivenRadius> extrasRadius(const GltfDocument& document, const nlohmann::json& owner,
+                                        const std::string& element)
 {
-    const auto extras = light.find("extras");
-    if (extras == light.end() || !extras->is_object() || !extras->contains("radius"))
+    const auto extras = owner.find("extras");
+    if (extras == owner.end() || !extras->is_object() || !extras->contains("radius"))
         return std::nullopt;
     const JsonValue value(document.file, *extras, element + ".extras");
-    return value.member("radius").number(NumberRange::positive(maxCoordinate));
+    return GivenRadius{value.member("radius").number(NumberRange::positive(maxCoordinate)),
+                       element};
+}
+
+// Returns the radius that the file gives to the light of a node. The node's own comes first,
+// because several nodes may share a light. Blender up to version 3.5 puts a light into a node of
+// its own, called ..._Orientation, below the node of the object, whose extras are meant for the
+// light.
+std::optional<GivenRadius> givenRadius(const GltfDocument& document, const GltfPlacedNode& placed,
+                                       const nlohmann::json& light, const std::string& element)
+{
+    const nlohmann::json& nodes = document.json["nodes"];
+    auto radius = extrasRadius(document, nodes[placed.node], gltfElement("nodes", placed.node));
+    if (!radius && placed.parent && nodes[placed.node].value("name", "").ends_with("_Orientation"))
+        radius =
+            extrasRadius(document, nodes[*placed.parent], gltfElement("nodes", *placed.parent));
+    return radius ? radius : extrasRadius(document, light, element);
 }
 
 // Sets the light's direction to the node's -z axis. Returns false if that axis has length 0.
@@ -99,7 +120,18 @@ void setCone(const GltfDocument& document, const std::string& element,
         document.fail(element + ".spot", "angles are equal in single precision");
 }
 
-void addPunctual(const GltfDocument& document, size_t index, const glm::dmat4& worldFromNode,
+// Turns a point light into a sphere, and a spot into a disc, of the same intensity: along its axis
+// in the case of the disc, which has the cosine of the angle to the axis in place of the spot's
+// cone.
+void giveRadius(const GltfDocument& document, const std::string& element, double radius,
+                CndLight& light, Emission& emission)
+{
+    light.type = light.type == CND_LIGHT_SPOT ? CND_LIGHT_DISC : CND_LIGHT_SPHERE;
+    setRadius(document, element, radius, light);
+    emission.intensity /= pi * radius * radius; // I = pi R^2 L
+}
+
+void addPunctual(const GltfDocument& document, size_t index, const GltfPlacedNode& placed,
                  const SceneOptions& options, GltfLights& out)
 {
     const std::string element = "extensions.KHR_lights_punctual." + gltfElement("lights", index);
@@ -111,36 +143,38 @@ void addPunctual(const GltfDocument& document, size_t index, const glm::dmat4& w
     emission.intensity = source.intensity;
     if (source.color.size() == 3)
         emission.color = {source.color[0], source.color[1], source.color[2]};
-    const bool isPoint = source.type == "point";
-    auto radius = extrasRadius(document, json, element);
-    if (radius && !isPoint) {
-        document.warn(element, "extras.radius is used by point lights only");
-        radius.reset();
-    }
-    if (isPoint && !radius)
-        radius = options.punctualRadius;
-    light.type = isPoint                 ? CND_LIGHT_POINT
+    light.type = source.type == "point"  ? CND_LIGHT_POINT
                  : source.type == "spot" ? CND_LIGHT_SPOT
                                          : CND_LIGHT_DIRECTIONAL;
-    if (isPoint && radius) {
-        setRadius(document, element, *radius, light);
-        emission.intensity /= pi * *radius * *radius; // I = pi R^2 L
-    }
-    if (!isPoint && !direction(worldFromNode, light)) {
+    if (light.type != CND_LIGHT_POINT && !direction(placed.worldFromNode, light)) {
         document.warn(element, "is scaled to zero size by its node and is left out");
         return;
     }
     if (light.type == CND_LIGHT_SPOT)
         setCone(document, element, source.spot, light);
-    if (light.type == CND_LIGHT_DIRECTIONAL && options.sunRadius) {
-        light.type = CND_LIGHT_DISTANT_SPHERE;
-        light.radius = static_cast<float>(*options.sunRadius);
-        emission.intensity /= pi * *options.sunRadius * *options.sunRadius; // E = pi s^2 L
+    const auto given = givenRadius(document, placed, json, element);
+    if (light.type == CND_LIGHT_DIRECTIONAL) {
+        if (given)
+            document.warn(given->element, "has a radius, which directional lights do not use; "
+                                          "--sun-radius gives them a size");
+        if (options.sunRadius) {
+            light.type = CND_LIGHT_DISTANT_SPHERE;
+            light.radius = static_cast<float>(*options.sunRadius);
+            // E = pi s^2 L
+            emission.intensity /= pi * *options.sunRadius * *options.sunRadius;
+        }
+    } else if (given) {
+        if (light.type == CND_LIGHT_SPOT)
+            document.warn(given->element, "is a spot with a radius, so it becomes a disc, which "
+                                          "has no cone: its light falls off with the cosine");
+        giveRadius(document, given->element, given->metres, light, emission);
+    } else if (light.type == CND_LIGHT_POINT && options.punctualRadius) {
+        giveRadius(document, element, *options.punctualRadius, light, emission);
     }
     setEmission(document, element, emission, light);
     setInfluence(document, element, source.range, light);
     out.lights.push_back(light);
-    out.positions.push_back(glm::dvec3(worldFromNode[3]));
+    out.positions.push_back(glm::dvec3(placed.worldFromNode[3]));
 }
 
 // Returns the unit normal of a node's xy plane on the side of the node's -z axis, whatever the
@@ -213,9 +247,9 @@ void addArea(const GltfDocument& document, size_t index, const glm::dmat4& world
                 break;
             }
         const auto radius = source.find("radius");
+        light.type = disk ? CND_LIGHT_DISC : CND_LIGHT_SPHERE;
         setRadius(document, element, (radius ? radius->number() : 1) * scale, light);
         if (disk) {
-            light.type = CND_LIGHT_DISC;
             const glm::dvec3 n = facing(worldFromNode);
             for (int i = 0; i < 3; ++i)
                 light.direction[i] = static_cast<float>(n[i]);
@@ -230,14 +264,14 @@ void addArea(const GltfDocument& document, size_t index, const glm::dmat4& world
 
 } // namespace
 
-void addGltfLights(const GltfDocument& document, size_t node, const glm::dmat4& worldFromNode,
+void addGltfLights(const GltfDocument& document, const GltfPlacedNode& placed,
                    const SceneOptions& options, GltfLights& out)
 {
-    const nlohmann::json& json = document.json["nodes"][node];
+    const nlohmann::json& json = document.json["nodes"][placed.node];
     if (const auto* extension = GltfDocument::extension(json, "KHR_lights_punctual"))
-        addPunctual(document, (*extension)["light"].get<size_t>(), worldFromNode, options, out);
+        addPunctual(document, (*extension)["light"].get<size_t>(), placed, options, out);
     if (const auto* extension = GltfDocument::extension(json, "KHR_lights_area"))
-        addArea(document, (*extension)["light"].get<size_t>(), worldFromNode, out);
+        addArea(document, (*extension)["light"].get<size_t>(), placed.worldFromNode, out);
 }
 
 } // namespace candelabra::app

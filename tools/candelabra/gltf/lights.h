@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "gltf/document.h"
+#include "gltf/nodes.h"
 #include "scene/scene.h"
 #include "scene/scene_options.h"
 
@@ -22,19 +23,21 @@ struct GltfLights {
     std::vector<glm::dvec3> positions;
 };
 
-// Adds the light of node `node`, placed by the node's world transform, if the node has a light.
+// Adds the light of a node, placed by the node's world transform, if the node has a light.
 //
 // KHR_lights_punctual: point and spot lights have their intensity in cd, directional lights in lx.
 // `range` is the influence radius; without it the radius is INFINITY. A point light with
-// extras.radius (metres, > 0), or otherwise with options.punctualRadius, becomes a sphere of that
-// radius and the same intensity, with L = I / (pi R^2). With options.sunRadius, a directional light
-// becomes a distant sphere of the same illuminance. The node's scale changes none of these.
+// extras.radius (metres, > 0; of the node or of the light), or otherwise with
+// options.punctualRadius, becomes a sphere of that radius and the same intensity, with
+// L = I / (pi R^2). A spot with extras.radius becomes a one-sided disc of the same intensity along
+// its axis. With options.sunRadius, a directional light becomes a distant sphere of the same
+// illuminance. The node's scale changes none of these.
 //
 // KHR_lights_area (glTF pull request 1948, which was never ratified; this is our reading of it):
 // the shape is "sphere", "disk" or "rect". The intensity is in cd/m^2; radius, width and height are
 // in metres (default 1) and are multiplied by the node's scale. `range` is our addition. Disks and
 // rects face -z and are one-sided.
-void addGltfLights(const GltfDocument& document, size_t node, const glm::dmat4& worldFromNode,
+void addGltfLights(const GltfDocument& document, const GltfPlacedNode& placed,
                    const SceneOptions& options, GltfLights& out);
 
 } // namespace candelabra::app

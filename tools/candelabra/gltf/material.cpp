@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/material.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
-#include <memory>
 #include <tuple>
 
-#include <stb/stb_image.h>
-
+#include "gltf/image.h"
 #include "scene/scene_file.h"
 
 namespace candelabra::app
@@ -25,8 +24,13 @@ class GltfTextures
 public:
     GltfTextures(const GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
-    // Returns -1, with a warning, if the texture has no PNG or JPEG image.
+    // Returns -1, with a warning, if the texture has no image that can be read.
     int32_t find(int gltfTexture, bool srgb);
+    // The mean of a texture of sRGB colours that was read as linear data, in linear values.
+    glm::vec3 meanColor(int32_t texture) const;
+    // Adds a texture whose green is the roughness of a texture that has the glossiness, divided by
+    // `factor`, in its alpha. Returns its index.
+    int32_t roughnessOfGlossiness(int32_t texture, float factor);
 
 private:
     Texture decode(size_t image);
@@ -36,57 +40,6 @@ private:
     std::map<std::tuple<int, int, bool>, int32_t> known_; // (image, sampler, srgb) -> texture
     uint64_t texels_ = 0;                                 // decoded so far
 };
-
-constexpr int maxImageSide = 16384; // pixels; common Vulkan devices can sample that
-// All textures of a scene together may have 2 GiB: a few kilobytes of PNG can unpack to a gigabyte.
-constexpr uint64_t maxTexels = uint64_t{1} << 29;
-
-// True for the two image formats of glTF 2.0. stb_image reads more formats, but its other decoders
-// have a history of memory errors.
-bool isPngOrJpeg(std::span<const uint8_t> bytes)
-{
-    constexpr uint8_t png[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    constexpr uint8_t jpeg[] = {0xff, 0xd8, 0xff};
-    const auto startsWith = [&](std::span<const uint8_t> magic) {
-        return bytes.size() > magic.size() &&
-               std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
-    };
-    return startsWith(png) || startsWith(jpeg);
-}
-
-Texture decodeImage(const GltfDocument& document, const std::string& element,
-                    std::span<const uint8_t> bytes, uint64_t texelsLeft)
-{
-    if (!isPngOrJpeg(bytes))
-        document.fail(element, "is neither a PNG nor a JPEG image");
-    if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
-        document.fail(element, "is larger than 2 GiB");
-    const auto* data = bytes.data();
-    const int size = static_cast<int>(bytes.size());
-    int width = 0, height = 0, channels = 0;
-    const auto failDecode = [&] {
-        const char* reason = stbi_failure_reason();
-        document.fail(element,
-                      "cannot be decoded: " + printable(reason ? reason : "unknown reason"));
-    };
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        failDecode();
-    if (width < 1 || height < 1 || width > maxImageSide || height > maxImageSide)
-        document.fail(element, "has " + std::to_string(width) + " x " + std::to_string(height) +
-                                   " pixels; at most 16384 a side are allowed");
-    if (static_cast<uint64_t>(width) * static_cast<uint64_t>(height) > texelsLeft)
-        document.fail(element, "exceeds the 2 GiB of pixels that a scene's textures may have");
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
-    if (!pixels)
-        failDecode();
-    Texture texture;
-    texture.width = static_cast<uint32_t>(width);
-    texture.height = static_cast<uint32_t>(height);
-    const size_t count = static_cast<size_t>(width) * static_cast<size_t>(height) * 4;
-    texture.rgba.assign(pixels.get(), pixels.get() + count);
-    return texture;
-}
 
 // Sets wrapping and filtering. glTF uses the enumerants of OpenGL.
 void applySampler(const tinygltf::Sampler& sampler, Texture& texture)
@@ -102,14 +55,18 @@ int32_t GltfTextures::find(int gltfTexture, bool srgb)
 {
     const auto index = static_cast<size_t>(gltfTexture);
     const tinygltf::Texture& source = document_.model.textures[index];
-    if (source.source < 0) {
-        document_.warn(gltfElement("textures", index), "has no PNG or JPEG image and is left out");
+    const auto* webp =
+        GltfDocument::extension(document_.json["textures"][index], "EXT_texture_webp");
+    const int image = webp ? (*webp)["source"].get<int>() : source.source;
+    if (image < 0) {
+        document_.warn(gltfElement("textures", index),
+                       "has no PNG, JPEG or WebP image and is left out");
         return -1;
     }
-    const auto key = std::make_tuple(source.source, source.sampler, srgb);
+    const auto key = std::make_tuple(image, source.sampler, srgb);
     if (const auto found = known_.find(key); found != known_.end())
         return found->second;
-    Texture texture = decode(static_cast<size_t>(source.source));
+    Texture texture = decode(static_cast<size_t>(image));
     texture.srgb = srgb;
     if (source.sampler >= 0)
         applySampler(document_.model.samplers[static_cast<size_t>(source.sampler)], texture);
@@ -117,6 +74,35 @@ int32_t GltfTextures::find(int gltfTexture, bool srgb)
     const auto result = static_cast<int32_t>(scene_.textures.size() - 1);
     known_.emplace(key, result);
     return result;
+}
+
+glm::vec3 GltfTextures::meanColor(int32_t texture) const
+{
+    const Texture& source = scene_.textures[static_cast<size_t>(texture)];
+    std::array<double, 256> linear; // IEC 61966-2-1
+    for (size_t i = 0; i < linear.size(); ++i) {
+        const double x = static_cast<double>(i) / 255;
+        linear[i] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    }
+    glm::dvec3 sum{0};
+    for (size_t i = 0; i < source.rgba.size(); i += 4)
+        for (size_t c = 0; c < 3; ++c)
+            sum[static_cast<int>(c)] += linear[source.rgba[i + c]];
+    return glm::vec3(sum / (static_cast<double>(source.rgba.size()) / 4));
+}
+
+int32_t GltfTextures::roughnessOfGlossiness(int32_t texture, float factor)
+{
+    Texture roughness = scene_.textures[static_cast<size_t>(texture)];
+    texels_ += roughness.rgba.size() / 4;
+    if (texels_ > maxGltfTexels)
+        document_.fail("", "has more than the 2 GiB of pixels that a scene's textures may have");
+    for (size_t i = 0; i < roughness.rgba.size(); i += 4) {
+        const float glossiness = factor * static_cast<float>(roughness.rgba[i + 3]);
+        roughness.rgba[i + 1] = static_cast<uint8_t>(255.5f - glossiness);
+    }
+    scene_.textures.push_back(std::move(roughness));
+    return static_cast<int32_t>(scene_.textures.size() - 1);
 }
 
 Texture GltfTextures::decode(size_t image)
@@ -137,10 +123,14 @@ Texture GltfTextures::decode(size_t image)
     } else {
         bytes = document_.bufferView(json["bufferView"].get<int>(), element);
     }
-    Texture texture = decodeImage(document_, element, bytes, maxTexels - texels_);
+    Texture texture = decodeGltfImage(document_, element, bytes, maxGltfTexels - texels_);
     texels_ += static_cast<uint64_t>(texture.width) * texture.height;
     return texture;
 }
+
+// The luminance of white in unlit materials, cd/m^2. Their colours are meant for a screen, and this
+// is how bright screens are.
+constexpr float unlitLuminance = 100;
 
 // Clamps a factor to [0, 1]. Rounding by exporters may have moved it out by up to 1e-4; larger
 // errors were refused when the file was opened.
@@ -185,6 +175,8 @@ private:
     void readEmission(const tinygltf::Material& source, const nlohmann::json& json,
                       Material& material);
     void readDielectric(const nlohmann::json& json, Material& material);
+    void readSpecularGlossiness(const nlohmann::json& extension, Material& material);
+    void makeUnlit(Material& material);
 
     const GltfDocument& document_;
     GltfTextures textures_;
@@ -239,7 +231,7 @@ void MaterialReader::readSurface(const tinygltf::Material& source, const nlohman
     if (source.alphaMode == "MASK")
         material.alphaMode = AlphaMode::Mask;
     else if (source.alphaMode == "BLEND")
-        document_.warn(element_, "is blended by alpha; it is drawn opaque");
+        material.alphaMode = AlphaMode::Blend;
 }
 
 void MaterialReader::readEmission(const tinygltf::Material& source, const nlohmann::json& json,
@@ -286,6 +278,49 @@ void MaterialReader::readDielectric(const nlohmann::json& json, Material& materi
                        "specularFactor is weighted by metallicFactor alone, without its texture");
 }
 
+// Reads KHR_materials_pbrSpecularGlossiness, whose diffuse colour, F0 and glossiness replace those
+// of the metallic-roughness model. F0 has no texture here: its mean stands for that.
+void MaterialReader::readSpecularGlossiness(const nlohmann::json& extension, Material& material)
+{
+    const auto factor = [&](const char* key, size_t i) {
+        const auto found = extension.find(key);
+        return found == extension.end() ? 1.0f : unit((*found)[i].get<double>());
+    };
+    glm::vec3 F0;
+    for (size_t i = 0; i < 3; ++i) {
+        material.baseColor[static_cast<int>(i)] = factor("diffuseFactor", i);
+        F0[static_cast<int>(i)] = factor("specularFactor", i);
+    }
+    material.alpha = factor("diffuseFactor", 3);
+    material.metalness = 0;
+    const float glossiness = unit(numberOr(extension, "glossinessFactor", 1));
+    material.perceptualRoughness = 1 - glossiness;
+    material.baseColorTexture = textureRef(extension, "diffuseTexture", true);
+    material.metallicRoughnessTexture = textureRef(extension, "specularGlossinessTexture", false);
+    if (int32_t& texture = material.metallicRoughnessTexture.texture; texture >= 0) {
+        document_.warn(element_, "has a specular texture; its mean colour is used everywhere");
+        F0 *= textures_.meanColor(texture);
+        texture = textures_.roughnessOfGlossiness(texture, glossiness);
+        material.perceptualRoughness = 1;
+    }
+    material.dielectricF0 = F0;
+    material.diffuseWeight = 1 - std::max({F0.x, F0.y, F0.z});
+}
+
+// Turns the base colour into light that the surface emits. Lights add nothing to it.
+void MaterialReader::makeUnlit(Material& material)
+{
+    material.unlit = true;
+    material.emission = material.baseColor * unlitLuminance;
+    material.baseColor = glm::vec3(0);
+    material.dielectricF0 = glm::vec3(0);
+    material.specularWeight = 0;
+    material.metalness = 0;
+    material.metallicRoughnessTexture = TextureRef{};
+    material.normalTexture = TextureRef{};
+    material.emissiveTexture = TextureRef{};
+}
+
 Material MaterialReader::read(size_t index)
 {
     element_ = gltfElement("materials", index);
@@ -295,9 +330,13 @@ Material MaterialReader::read(size_t index)
     material.name = source.name;
     readSurface(source, json, material);
     readEmission(source, json, material);
-    readDielectric(json, material);
+    if (const auto* extension =
+            GltfDocument::extension(json, "KHR_materials_pbrSpecularGlossiness"))
+        readSpecularGlossiness(*extension, material);
+    else
+        readDielectric(json, material);
     if (GltfDocument::extension(json, "KHR_materials_unlit"))
-        document_.warn(element_, "is unlit; it is lit like every other material here");
+        makeUnlit(material);
     const float largest = std::numeric_limits<float>::max();
     for (int i = 0; i < 3; ++i)
         if (!(material.emission[i] <= largest))

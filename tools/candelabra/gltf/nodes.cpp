@@ -88,31 +88,40 @@ glm::dmat4 localTransform(const GltfDocument& document, size_t index)
                 document.fail(nodeName(index) + ".matrix", "must have 0, 0, 0, 1 as its last row");
         return m;
     }
-    glm::dmat4 m{1};
-    if (!node.rotation.empty()) {
-        const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-        if (!(glm::length(q) > 1e-6))
-            document.fail(nodeName(index) + ".rotation", "must not be zero");
-        m = glm::mat4_cast(glm::normalize(q));
-    }
+    GltfTransform transform;
+    if (!node.rotation.empty())
+        transform.rotation = glm::make_vec4(node.rotation.data());
     if (!node.scale.empty())
-        for (int i = 0; i < 3; ++i)
-            m[i] *= node.scale[static_cast<size_t>(i)];
+        transform.scale = glm::make_vec3(node.scale.data());
     if (!node.translation.empty())
-        m[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1);
+        transform.translation = glm::make_vec3(node.translation.data());
+    return gltfMatrix(document, nodeName(index) + ".rotation", transform);
+}
+
+} // namespace
+
+glm::dmat4 gltfMatrix(const GltfDocument& document, const std::string& rotation,
+                      const GltfTransform& transform)
+{
+    const glm::dvec4& r = transform.rotation;
+    const glm::dquat q(r.w, r.x, r.y, r.z);
+    if (!(glm::length(q) > 1e-6))
+        document.fail(rotation, "must not be zero");
+    glm::dmat4 m = glm::mat4_cast(glm::normalize(q));
+    for (int i = 0; i < 3; ++i)
+        m[i] *= transform.scale[i];
+    m[3] = glm::dvec4(transform.translation, 1);
     return m;
 }
 
-void refuseHuge(const GltfDocument& document, size_t index, const glm::dmat4& world)
+void refuseHugeTransform(const GltfDocument& document, const std::string& element,
+                         const glm::dmat4& world)
 {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 3; ++row)
             if (!(std::abs(world[column][row]) <= maxCoordinate))
-                document.fail(nodeName(index),
-                              "has a transform that exceeds 1e12 m in world space");
+                document.fail(element, "has a transform that exceeds 1e12 m in world space");
 }
-
-} // namespace
 
 std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
 {
@@ -125,16 +134,16 @@ std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
     // the transform of the parent.
     std::vector<GltfPlacedNode> open;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        open.push_back({*root, glm::dmat4(1)});
+        open.push_back({*root, glm::dmat4(1), {}});
     while (!open.empty()) {
         GltfPlacedNode current = open.back();
         open.pop_back();
         current.worldFromNode *= localTransform(document, current.node);
-        refuseHuge(document, current.node, current.worldFromNode);
+        refuseHugeTransform(document, nodeName(current.node), current.worldFromNode);
         placed.push_back(current);
         const std::vector<int>& children = document.model.nodes[current.node].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child)
-            open.push_back({static_cast<size_t>(*child), current.worldFromNode});
+            open.push_back({static_cast<size_t>(*child), current.worldFromNode, current.node});
     }
     return placed;
 }

@@ -2,6 +2,8 @@
 // Walks the node hierarchy of a glTF scene. Internal to the glTF loader. Throws SceneError.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -14,7 +16,23 @@ namespace candelabra::app
 struct GltfPlacedNode {
     size_t node = 0;
     glm::dmat4 worldFromNode{1};
+    std::optional<size_t> parent;
 };
+
+struct GltfTransform {
+    glm::dvec3 translation{0};
+    glm::dvec4 rotation{0, 0, 0, 1}; // quaternion x, y, z, w, of any length but 0
+    glm::dvec3 scale{1};
+};
+
+// Returns the matrix that scales, then rotates, then translates. Fails, with a message that names
+// `rotation`, if the quaternion is zero.
+glm::dmat4 gltfMatrix(const GltfDocument& document, const std::string& rotation,
+                      const GltfTransform& transform);
+
+// Fails if the transform to world space of something in `element` exceeds 1e12 m.
+void refuseHugeTransform(const GltfDocument& document, const std::string& element,
+                         const glm::dmat4& world);
 
 // Returns the nodes of the default scene, parents before children, in the order of the file.
 // Without a default scene they are those of scene 0, and without any scene all root nodes and their

@@ -224,6 +224,7 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
                     .width = options.size.width,
                     .height = options.size.height,
                     .maxLevelError = frame.levels ? gbuffer::defaultMaxLevelError : 0,
+                    .coverageFrame = frame.sample.index,
                     .drawEmitters = frame.lightsVisible});
     if (environment.get())
         recordEnvironment(cmd, slot, frame);

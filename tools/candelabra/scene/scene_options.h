@@ -29,6 +29,8 @@ struct SceneOptions {
     std::optional<double> punctualRadius;
     // Directional lights become distant spheres whose angular radius has this sine.
     std::optional<double> sunRadius;
+    // Flat rectangles with an emissive material become area lights.
+    bool emissiveLights = false;
     std::string environment;             // an .hdr, .exr or .pfm file; empty: no environment
     double environmentRotation = 0;      // as SceneEnvironment::rotation
     double environmentScale = 1;         // as SceneEnvironment::scale
