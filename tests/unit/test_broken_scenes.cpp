@@ -100,7 +100,7 @@ TEST(BrokenScenes, WhatIsNoFile)
     };
     folder.write("folder.gltf/x", std::string("x"));
     EXPECT_EQ(unfitMessage(message(folder.path("folder.gltf")), folder.path("folder.gltf"),
-                           "is a directory"),
+                           "is a folder"),
               "");
     EXPECT_EQ(unfitMessage(message(folder.path("none.glb")), folder.path("none.glb"),
                            "cannot be opened: No such file"),

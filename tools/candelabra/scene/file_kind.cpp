@@ -128,10 +128,9 @@ std::string otherFileKind(const std::string& path, std::string_view start)
         return std::string("is ") + kind->what + kind->advice;
     if (hasExtension(path, ".json") && start.starts_with("glTF"))
         return "is binary glTF, whose name must end in .glb";
-    const bool gltf = hasExtension(path, ".glb") || hasExtension(path, ".gltf");
     const size_t first = start.find_first_not_of(" \t\r\n");
-    if (gltf && first != std::string_view::npos && !start.starts_with("glTF") &&
-        !start.starts_with("\xef\xbb\xbf") && start[first] != '{')
+    if (hasExtension(path, ".glb") && first != std::string_view::npos &&
+        !start.starts_with("glTF") && !start.starts_with("\xef\xbb\xbf") && start[first] != '{')
         return "is not glTF: it begins with neither \"glTF\" nor {";
     return "";
 }
