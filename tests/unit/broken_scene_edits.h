@@ -16,9 +16,8 @@ struct Edit {
 // Indices in completeGltf: accessors 0 positions, 1 normals, 2 uv, 3 indices, 4 colours;
 // bufferViews in the same order, then 5 sparse indices, 6 sparse values, 7 image.
 inline constexpr Edit gltfEdits[] = {
-    // As .gltf these are no glTF at all, as .glb their JSON must be an object.
-    {"root is a list", "", "[]", ""},
-    {"root is null", "", "null", ""},
+    {"root is a list", "", "[]", "must be an object"},
+    {"root is null", "", "null", "must be an object"},
     {"no asset", "/asset", "", "\"asset\" is missing"},
     {"asset is a number", "/asset", "2", "asset: must be an object"},
     {"version 1", "/asset/version", "\"1.0\"", "asset.version"},

@@ -193,6 +193,17 @@ TEST_F(GltfGeometry, VertexColoursOfEveryType)
     }
 }
 
+TEST_F(GltfGeometry, VertexColoursOutsideTheRangeAreClamped)
+{
+    GltfBuilder b = triangleScene();
+    b.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
+        b.floats({0.5f, 1.5f, -0.5f, 0.5f, 1.00001f, 0.5f, 0.25f, 0.5f, 0.75f}, "VEC3");
+    const Scene scene = load(b);
+    EXPECT_EQ(scene.meshes.at(0).vertices[0].color, glm::vec4(0.5f, 1, 0, 1));
+    EXPECT_EQ(scene.meshes[0].vertices[1].color, glm::vec4(0.5f, 1, 0.5f, 1));
+    EXPECT_TRUE(warns(scene, "1 vertex colours are not between 0 and 1 and are clamped"));
+}
+
 } // namespace
 
 } // namespace candelabra::test

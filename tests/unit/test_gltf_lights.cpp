@@ -102,6 +102,16 @@ TEST_F(GltfLights, RadiusMakesASphereOfTheSameIntensity)
     EXPECT_EQ(sized.lights[3].type, uint32_t{CND_LIGHT_SPOT});
 }
 
+// glTF 2.0 wants the inner angle to be smaller, but exporters write equal ones for hard edges.
+TEST_F(GltfLights, SpotsMayHaveAHardEdge)
+{
+    const Scene s = load(scene("KHR_lights_punctual", R"([
+        {"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}}])"));
+    EXPECT_EQ(s.lights.at(0).outerConeAngle, 0.5f);
+    EXPECT_FLOAT_EQ(s.lights.at(0).innerConeAngle, 0.4995f);
+    EXPECT_TRUE(warns(s, "lights[0].spot: has nearly equal angles"));
+}
+
 TEST_F(GltfLights, SpotsWithARadiusBecomeDiscs)
 {
     const Scene s = load(scene("KHR_lights_punctual", R"([
@@ -271,7 +281,7 @@ TEST_F(GltfLights, ErrorsNameTheLight)
                          "lights[0]: range 1.000000 must be greater than the light's radius"));
     EXPECT_TRUE(contains(punctual(R"([{"type": "spot"}])"), "lights[0]: \"spot\" is missing"));
     EXPECT_TRUE(contains(
-        punctual(R"([{"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 1}}])"),
+        punctual(R"([{"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 0.9}}])"),
         "lights[0].spot: angles must satisfy"));
     EXPECT_TRUE(contains(punctual(R"([{"type": "point", "intensity": 3e38, "color": [9, 9, 9]}])"),
                          "lights[0]: emits more than single precision holds"));

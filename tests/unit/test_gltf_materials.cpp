@@ -154,6 +154,13 @@ TEST_F(GltfMaterials, WhatIsLeftOutIsReported)
     EXPECT_TRUE(warns(scene, "TEXCOORD_2"));
 }
 
+TEST_F(GltfMaterials, EmissiveFactorsAboveOneAreUsed)
+{
+    const Scene scene = load(withMaterial(R"({"emissiveFactor": [3, 0, 0.5]})"));
+    EXPECT_EQ(scene.materials.at(0).emission, glm::vec3(3, 0, 0.5f));
+    EXPECT_TRUE(warns(scene, "materials[0]: has an emissiveFactor above 1"));
+}
+
 TEST_F(GltfMaterials, UnlitMaterialsEmitTheirColour)
 {
     const Scene scene = load(withMaterial(R"({

@@ -109,15 +109,21 @@ void setCone(const GltfDocument& document, const std::string& element,
 {
     const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
     // Exporters may round pi/2 up. The largest float below pi/2 is used then.
-    if (!(inner >= 0) || !(outer > inner) || !(outer <= 1.5708))
+    if (!(inner >= 0) || !(outer >= inner) || !(outer > 0) || !(outer <= 1.5708))
         document.fail(element + ".spot",
                       "angles must satisfy 0 <= innerConeAngle < outerConeAngle <= pi/2, are " +
                           std::to_string(inner) + " and " + std::to_string(outer));
-    light.innerConeAngle = static_cast<float>(inner);
     light.outerConeAngle =
         std::min(static_cast<float>(outer), std::nextafter(static_cast<float>(pi / 2), 0.0f));
-    if (!(light.innerConeAngle < light.outerConeAngle))
-        document.fail(element + ".spot", "angles are equal in single precision");
+    // The cosines of both angles must differ. Some exporters make spots with a hard edge by equal
+    // angles, which glTF 2.0 does not allow.
+    const float largestInner = 0.999f * light.outerConeAngle;
+    light.innerConeAngle = static_cast<float>(inner);
+    if (light.innerConeAngle > largestInner) {
+        light.innerConeAngle = largestInner;
+        document.warn(element + ".spot",
+                      "has nearly equal angles; the edge of its cone is a thousandth wide");
+    }
 }
 
 // Turns a point light into a sphere, and a spot into a disc, of the same intensity: along its axis

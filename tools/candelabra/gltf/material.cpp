@@ -8,6 +8,8 @@
 #include <map>
 #include <tuple>
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include "gltf/image.h"
 #include "scene/scene_file.h"
 
@@ -240,7 +242,11 @@ void MaterialReader::readEmission(const tinygltf::Material& source, const nlohma
     const auto* extension = GltfDocument::extension(json, "KHR_materials_emissive_strength");
     const double strength = extension ? numberOr(*extension, "emissiveStrength", 1) : 1;
     // The unit is cd/m^2 (glTF 2.0, section 3.9.4).
-    material.emission = glm::vec3(glm::dvec3(unitColor(source.emissiveFactor)) * strength);
+    const glm::dvec3 factor =
+        glm::max(glm::dvec3(glm::make_vec3(source.emissiveFactor.data())), 0.0);
+    if (glm::any(glm::greaterThan(factor, glm::dvec3(1.0001))))
+        document_.warn(element_, "has an emissiveFactor above 1, which is used as it is");
+    material.emission = glm::vec3(factor * strength);
     material.emissiveTexture = textureRef(json, "emissiveTexture", true);
 }
 

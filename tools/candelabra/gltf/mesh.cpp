@@ -324,18 +324,19 @@ void PrimitiveReader::readColors(const std::vector<uint32_t>& used, Mesh& mesh) 
     if (!accessor->isFloat() && !accessor->isNormalized())
         document_.fail(element_ + ".attributes.COLOR_0",
                        accessor->element() + " has integers that are not normalized");
+    size_t outside = 0;
     for (size_t i = 0; i < used.size(); ++i) {
         glm::vec4 color = accessor->read(used[i]);
         if (accessor->components() == 3)
             color.w = 1;
         // Colours multiply a reflectance, so they have the range of reflectances.
-        if (glm::any(glm::lessThan(color, glm::vec4(0))) ||
-            glm::any(glm::greaterThan(color, glm::vec4(1.0001f))))
-            document_.fail(element_ + ".attributes.COLOR_0", accessor->element() + " element " +
-                                                                 std::to_string(used[i]) +
-                                                                 " is not between 0 and 1");
-        mesh.vertices[i].color = glm::min(color, glm::vec4(1));
+        outside += glm::any(glm::lessThan(color, glm::vec4(-1e-4f))) ||
+                   glm::any(glm::greaterThan(color, glm::vec4(1.0001f)));
+        mesh.vertices[i].color = glm::clamp(color, glm::vec4(0), glm::vec4(1));
     }
+    if (outside)
+        document_.warn(element_, std::to_string(outside) +
+                                     " vertex colours are not between 0 and 1 and are clamped");
 }
 
 bool PrimitiveReader::readNormals(const std::vector<uint32_t>& used, Mesh& mesh) const
