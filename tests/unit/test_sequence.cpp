@@ -178,4 +178,6 @@ TEST_F(SequenceTest, FramesThatAreThereAreKeptWithTheirExposure)
     EXPECT_THROW(Sequence(outputs, 4, command + " --aa 4", true), UsageError);
     Sequence anew(outputs, 4, command, false);
     EXPECT_FALSE(anew.has(1));
+    write("f.exposure.txt", "notes of somebody\n");
+    EXPECT_THROW(Sequence(outputs, 4, command, false), UsageError);
 }

@@ -71,7 +71,7 @@ Sequence::Sequence(const std::vector<std::string>& outputs, uint32_t frames,
     : outputs_(outputs), record_(sequenceRecord(outputs.at(0))), evs_(frames)
 {
     const std::string wanted = significant(command);
-    if (resume && !readRecord(wanted))
+    if (!readRecord(wanted, resume) && resume)
         spdlog::warn("warning: --resume: there is no {}, so all frames are drawn", record_);
     std::string text = fmt::format("{}\n{}\n", firstLine, wanted);
     for (uint32_t frame = 0; frame < frames; ++frame)
@@ -80,14 +80,17 @@ Sequence::Sequence(const std::vector<std::string>& outputs, uint32_t frames,
     writeText(record_, text); // without lines that were cut off
 }
 
-bool Sequence::readRecord(const std::string& command)
+bool Sequence::readRecord(const std::string& command, bool resume)
 {
     std::ifstream file(record_);
     std::string line;
     if (!file)
         return false;
     if (!std::getline(file, line) || line != firstLine)
-        throw UsageError("--resume: " + record_ + " is not a file of candelabra sequences");
+        throw UsageError(record_ + ": the sequence needs a file of this name, but something else "
+                                   "is there");
+    if (!resume)
+        return true;
     if (!std::getline(file, line) || line != command)
         throw UsageError(
             fmt::format("--resume: the frames are those of another command: {}", line));

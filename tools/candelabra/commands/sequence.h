@@ -19,7 +19,8 @@ class Sequence
 {
 public:
     // `outputs`: names with a place for the number. `command`: the command line. With `resume`
-    // frames that are there are kept. Throws UsageError if another command made them.
+    // frames that are there are kept. Throws UsageError if another command made them, or if the
+    // text file would replace one that is none of a sequence.
     Sequence(const std::vector<std::string>& outputs, uint32_t frames, const std::string& command,
              bool resume);
 
@@ -35,7 +36,9 @@ public:
     const std::string& record() const { return record_; }
 
 private:
-    bool readRecord(const std::string& command);
+    // Reads the text file, unless the sequence begins anew. Returns false if there is none. Throws
+    // UsageError if it is another file, or of another command.
+    bool readRecord(const std::string& command, bool resume);
 
     std::vector<std::string> outputs_;
     std::string record_;
