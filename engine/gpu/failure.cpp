@@ -20,12 +20,38 @@ CndResult resultOf(VkResult result) noexcept
     }
 }
 
+std::string resultName(VkResult result)
+{
+    switch (result) {
+#define CND_CASE(name)                                                                             \
+    case name:                                                                                     \
+        return #name;
+        CND_CASE(VK_ERROR_OUT_OF_HOST_MEMORY)
+        CND_CASE(VK_ERROR_OUT_OF_DEVICE_MEMORY)
+        CND_CASE(VK_ERROR_INITIALIZATION_FAILED)
+        CND_CASE(VK_ERROR_DEVICE_LOST)
+        CND_CASE(VK_ERROR_MEMORY_MAP_FAILED)
+        CND_CASE(VK_ERROR_LAYER_NOT_PRESENT)
+        CND_CASE(VK_ERROR_EXTENSION_NOT_PRESENT)
+        CND_CASE(VK_ERROR_FEATURE_NOT_PRESENT)
+        CND_CASE(VK_ERROR_INCOMPATIBLE_DRIVER)
+        CND_CASE(VK_ERROR_TOO_MANY_OBJECTS)
+        CND_CASE(VK_ERROR_FORMAT_NOT_SUPPORTED)
+        CND_CASE(VK_ERROR_FRAGMENTED_POOL)
+        CND_CASE(VK_ERROR_UNKNOWN)
+        CND_CASE(VK_ERROR_OUT_OF_POOL_MEMORY)
+        CND_CASE(VK_ERROR_INVALID_EXTERNAL_HANDLE)
+#undef CND_CASE
+    default:
+        return "VkResult " + std::to_string(int(result));
+    }
+}
+
 void check(VkResult result, std::string_view action, std::string_view name)
 {
     if (result < 0)
         throw Failure{resultOf(result), result,
-                      std::string(action).append(name) + " failed (VkResult " +
-                          std::to_string(int(result)) + ")"};
+                      std::string(action).append(name) + " failed (" + resultName(result) + ")"};
 }
 
 void failArgument(std::string message)

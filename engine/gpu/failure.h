@@ -25,6 +25,10 @@ struct Failure {
 // CND_NOT_READY.
 CndResult resultOf(VkResult result) noexcept;
 
+// Returns "VK_ERROR_DEVICE_LOST" and the like, for messages; for results that are no errors of
+// Vulkan 1.1 "VkResult" and the number.
+std::string resultName(VkResult result);
+
 // Throws a Failure if `result` is an error. The sentence begins with `action` and `name`, such as
 // "creating image " and the image's name. They are put together only then: an argument that had to
 // be allocated could throw after the call of Vulkan whose object nobody owns yet, because the order

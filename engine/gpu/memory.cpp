@@ -68,8 +68,8 @@ CndMemory fromHost(const CndAllocator& host, const CndMemoryRequest& request)
     const VkResult result = host.allocate(host.user, &request, &out);
     if (result != VK_SUCCESS)
         throw Failure{result < 0 ? resultOf(result) : CND_ERROR_OUT_OF_MEMORY, result,
-                      "CndAllocator: allocate failed for " + bytesFor(request) + " (VkResult " +
-                          std::to_string(int(result)) + ")"};
+                      "CndAllocator: allocate failed for " + bytesFor(request) + " (" +
+                          resultName(result) + ")"};
     if (const char* fault = faultOf(request, out)) {
         host.free(host.user, out.allocation);
         failArgument(std::string("CndAllocator: allocate gave ") + fault + " for " + request.name);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "candelabra/candelabra.hpp"
+#include "gpu/failure.h"
 #include "harness/host_log.h"
 #include "mock/host_steps.h"
 
@@ -43,6 +44,23 @@ TEST(Messages, TellOfLateWorkAndNeverWhileRecording)
     // Tubes are a new type, and the capacity is too small; the same holds for discs.
     EXPECT_EQ(heard["set more lights of another type"], 2u);
     EXPECT_EQ(heard["add lights of another type"], 2u);
+}
+
+TEST(Messages, NameResultsOfVulkan)
+{
+    EXPECT_EQ(gpu::resultName(VK_ERROR_DEVICE_LOST), "VK_ERROR_DEVICE_LOST");
+    EXPECT_EQ(gpu::resultName(VK_ERROR_OUT_OF_POOL_MEMORY), "VK_ERROR_OUT_OF_POOL_MEMORY");
+    for (int error = VK_ERROR_UNKNOWN; error < 0; ++error) // all errors of Vulkan 1.0
+        EXPECT_TRUE(gpu::resultName(VkResult(error)).starts_with("VK_ERROR_")) << error;
+    EXPECT_EQ(gpu::resultName(VkResult(-5000)), "VkResult -5000");
+
+    MockVulkan vulkan;
+    vulkan.failingCall = 1;
+    vulkan.error = VK_ERROR_DEVICE_LOST;
+    const auto lighting = Lighting::create(vulkan.desc(), {.framesInFlight = 1});
+    ASSERT_FALSE(lighting);
+    const std::string said = lighting.error().message;
+    EXPECT_TRUE(said.ends_with(" failed (VK_ERROR_DEVICE_LOST)")) << said;
 }
 
 TEST(Messages, RoomMadeAtCreationIsEnough)
