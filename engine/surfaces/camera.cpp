@@ -77,7 +77,9 @@ gpu::Projection projectionOf(const float (&m)[16], float clearDepth)
     for (const int i : {1, 2, 3, 4, 6, 7})
         if (m[i] != 0)
             gpu::failArgument("CndCamera: clipFromView may only scale and shift x and y (element " +
-                              std::to_string(i) + " must be 0)");
+                              std::to_string(i) +
+                              " must be 0); it is the projection alone, not its product with the "
+                              "view matrix");
     for (const float x : m)
         if (!std::isfinite(x))
             gpu::failArgument("CndCamera: clipFromView must be finite");

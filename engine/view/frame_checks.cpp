@@ -44,7 +44,11 @@ void checkFrame(const Module& module, const CndLightingViewDesc& view,
     if (!module.kernels.shade.allows(frame.specularMethod))
         gpu::failArgument("CndLightingFrame: specularMethod " +
                           std::to_string(frame.specularMethod) +
-                          " is not among CndLightingDesc::specularMethods");
+                          " is not among CndLightingDesc::specularMethods" +
+                          (frame.specularMethod == CND_SPECULAR_NONE
+                               ? "; 0, CND_SPECULAR_NONE, means light without highlights, and the "
+                                 "method to begin with is CND_SPECULAR_CONIC"
+                               : ""));
     if (frame.sampleCount > maxSampleCount)
         gpu::failArgument("CndLightingFrame: sampleCount must be at most " +
                           std::to_string(maxSampleCount) + ", is " +

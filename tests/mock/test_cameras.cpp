@@ -67,6 +67,14 @@ Matrix orthographic(float nearPlane, float farPlane, bool reversed)
             1};
 }
 
+// What a clipFromView with this element is refused with.
+std::string shears(int element)
+{
+    return "CndCamera: clipFromView may only scale and shift x and y (element " +
+           std::to_string(element) +
+           " must be 0); it is the projection alone, not its product with the view matrix";
+}
+
 constexpr std::array<double, 16> someView{0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, 7, 1};
 
 // Records the frames of both modules with a camera, and returns the sentence, in which the name of
@@ -191,7 +199,16 @@ TEST_F(Cameras, ATransposedProjectionIsNoticed)
     centred[8] = 0;
     EXPECT_EQ(sentence(transposed(centred), 1), said);
     EXPECT_EQ(sentence(transposed(perspective(-1, 0.1f, 100, 0, 1)), 1), // off centre
-              "CndCamera: clipFromView may only scale and shift x and y (element 2 must be 0)");
+              shears(2));
+}
+
+TEST_F(Cameras, AProductOfProjectionAndViewIsNoticed)
+{
+    Matrix product = infinite(-1, 0.1f, true); // times a view that looks along +y, z up
+    product[9] = product[5];
+    product[7] = 1;
+    product[5] = product[11] = 0;
+    EXPECT_EQ(sentence(product, 0), shears(7));
 }
 
 TEST_F(Cameras, TheClearedDepthIsThatOfTheFarEnd)

@@ -254,6 +254,12 @@ TEST(HostGBuffer, FramesNeedTheImagesThatAreRead)
                      "CndSurfaceOverlay: quantity is not a CndSurfaceQuantity");
         const auto unlit = view.value().record(cmd, frame);
         EXPECT_STREQ(unlit.error().message, "CndLightingFrame: radiance is null");
+        frame.radiance = any;
+        const auto noMethod = view.value().record(cmd, frame);
+        EXPECT_STREQ(noMethod.error().message,
+                     "CndLightingFrame: specularMethod 0 is not among "
+                     "CndLightingDesc::specularMethods; 0, CND_SPECULAR_NONE, means light without "
+                     "highlights, and the method to begin with is CND_SPECULAR_CONIC");
         vulkan.finish(vulkan.submit());
     }
 }
