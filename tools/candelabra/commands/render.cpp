@@ -222,14 +222,19 @@ int examine(const ProgramContext& program, const RenderArguments& a, const Rende
     return printValidationMessages(context) ? exitFailed : exitOk;
 }
 
-// Says what will be rendered.
-void announce(const Scene& scene, PixelSize size, const VulkanContext& context, uint32_t samples)
+// Says what will be rendered. `onCpu`: a picture has one sample because the device is a CPU.
+void announce(const Scene& scene, PixelSize size, const VulkanContext& context, uint32_t samples,
+              bool onCpu)
 {
     spdlog::info("{}: {}, {}, {}x{}, {}, on {}", scene.name, counted(scene.lights.size(), "light"),
                  counted(scene.instances.size() + scene.analyticObjects.size(), "object"),
                  size.width, size.height,
                  samples > 1 ? fmt::format("{} samples per pixel", samples) : "1 sample per pixel",
                  context.info().name);
+    if (onCpu)
+        spdlog::info("edges are not smooth: the device is a CPU, where --aa {} takes {} times as "
+                     "long",
+                     gpuSamples, gpuSamples);
 }
 
 // Draws all frames, and writes pictures of the last one or, of a sequence, of each.
@@ -292,7 +297,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const VulkanContext context(a.device.contextOptions());
     const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
     p.counts.samples = p.samples.value_or(isGpu ? gpuSamples : 1);
-    announce(scene, size, context, p.counts.samples);
+    announce(scene, size, context, p.counts.samples, !p.samples && !isGpu);
     Renderer renderer(context, scene,
                       {.size = size,
                        .gbufferLayout = p.gbufferLayout,
