@@ -162,6 +162,35 @@ TEST_F(RendererTest, SamplesAreTheMeanOfWhatTheyShow)
     }
 }
 
+// In each sample a surface covers other pixels, so every pixel is covered by its share of samples.
+TEST_F(RendererTest, SamplesAverageCoverage)
+{
+    constexpr float luminance = 100, coverage = 0.25f;
+    Scene scene;
+    scene.meshes.push_back({{{.position = {-100, -100, 0}, .normal = {0, 0, 1}},
+                             {.position = {100, -100, 0}, .normal = {0, 0, 1}},
+                             {.position = {0, 200, 0}, .normal = {0, 0, 1}}},
+                            {0, 1, 2}});
+    scene.materials.push_back({.baseColor = glm::vec3(0),
+                               .alpha = coverage,
+                               .emission = glm::vec3(luminance),
+                               .alphaMode = AlphaMode::Blend,
+                               .unlit = true});
+    scene.instances.push_back({});
+    FrameOptions frame{
+        .camera = {
+            .position = {0, 0, 5}, .orthographic = true, .orthographicHeight = 8, .farPlane = 100}};
+    cndDefaultExposureSettings(&frame.exposure);
+    Renderer renderer(context(), scene, optionsOf({16, 8}));
+    const Image one = radiance(renderer, frame);
+    EXPECT_EQ(std::count(one.pixels.begin(), one.pixels.end(), 0.0f) +
+                  std::count(one.pixels.begin(), one.pixels.end(), luminance),
+              3 * 16 * 8);
+    renderFrames(context(), renderer, frame, {.samples = 64}, false, [] {});
+    for (const float value : readRadiance(context(), renderer).pixels)
+        EXPECT_NEAR(value, coverage * luminance, 0.05f * luminance);
+}
+
 // Neither animation nor adaptation may start before the first measured frame.
 TEST_F(RendererTest, WarmUpFramesLeaveNoTrace)
 {
