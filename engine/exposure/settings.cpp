@@ -11,10 +11,11 @@ namespace candelabra::exposure
 namespace
 {
 
-// Starlight is about EV -16 and the sun's disc EV 33. With any allowed compensation the exposure
-// factor 1 / (1.2 * 2^EV) is still a normal float.
+// Starlight is about EV -16 and the sun's disc EV 33. With any allowed compensation and middle grey
+// the exposure factor, 8 * middleGrey / 2^EV, is still a normal float.
 constexpr float maxEv100 = 64;
 constexpr float maxCompensation = 32;
+constexpr float minMiddleGrey = 1e-6f;
 // Percentiles are passed to the kernel in units of 2^-32, of which the smallest window is 4295.
 constexpr double minPercentileWindow = 1e-6;
 
@@ -53,6 +54,9 @@ void validateSettings(const CndExposureSettings& s)
 {
     requireWithin("manualEv100", s.manualEv100, maxEv100);
     requireWithin("compensation", s.compensation, maxCompensation);
+    if (!(s.middleGrey >= minMiddleGrey && s.middleGrey <= 1))
+        gpu::failArgument("CndExposureSettings: middleGrey must be from 0.000001 to 1, is " +
+                          std::to_string(s.middleGrey));
     requireWithin("minEv100", s.minEv100, maxEv100);
     requireWithin("maxEv100", s.maxEv100, maxEv100);
     require(s.minEv100 <= s.maxEv100, "CndExposureSettings: minEv100 must not exceed maxEv100");
@@ -90,6 +94,7 @@ gpu::AdaptExposureParams adaptParams(const CndExposureSettings& s, float deltaTi
             .reset = reset ? 1u : 0u,
             .manualEv100 = s.manualEv100,
             .compensation = s.compensation,
+            .middleGrey = s.middleGrey,
             .minEv100 = s.minEv100,
             .maxEv100 = s.maxEv100,
             .lowShare = fixedPoint(s.lowPercentile),
@@ -105,6 +110,7 @@ void cndDefaultExposureSettings(CndExposureSettings* settings)
     *settings = {.manual = VK_FALSE,
                  .manualEv100 = 10, // EV100 of a lit interior
                  .compensation = 0,
+                 .middleGrey = 0.18f,
                  .minEv100 = -6,
                  .maxEv100 = 18,
                  .lowPercentile = 0.10f,
@@ -121,7 +127,7 @@ float cndEv100FromCamera(float aperture, float shutterTime, float iso)
     return std::log2(aperture * aperture / shutterTime * 100 / iso);
 }
 
-float cndExposureFromEv100(float ev100)
+float cndExposureFromEv100(float ev100, float middleGrey)
 {
-    return 1 / (1.2f * std::exp2(ev100));
+    return 8 * middleGrey / std::exp2(ev100);
 }

@@ -147,9 +147,10 @@ std::optional<double> percentileMeanLog2(const Histogram& histogram, double low,
     return mass > 0 ? std::optional(sum / mass) : std::nullopt;
 }
 
-double exposureFromEv100(double ev100, double compensation)
+double exposureFromEv100(double ev100, double compensation, double middleGrey)
 {
-    return 1 / (1.2 * std::exp2(ev100 - compensation));
+    const double luminance = std::exp2(ev100 - compensation) * 12.5 / 100;
+    return middleGrey / luminance;
 }
 
 Adaptation adapt(const Histogram& histogram, const CndExposureSettings& settings,
@@ -157,7 +158,7 @@ Adaptation adapt(const Histogram& histogram, const CndExposureSettings& settings
 {
     if (settings.manual) {
         const double ev = settings.manualEv100;
-        return {ev, ev, exposureFromEv100(ev, settings.compensation)};
+        return {ev, ev, exposureFromEv100(ev, settings.compensation, settings.middleGrey)};
     }
     const auto clampEv = [&](double ev) {
         return std::clamp<double>(ev, settings.minEv100, settings.maxEv100);
@@ -172,7 +173,8 @@ Adaptation adapt(const Histogram& histogram, const CndExposureSettings& settings
     const double speed = result.targetEv100 > start ? settings.speedUp : settings.speedDown;
     result.adaptedEv100 =
         clampEv(result.targetEv100 + (start - result.targetEv100) * std::exp(-deltaTime * speed));
-    result.exposure = exposureFromEv100(result.adaptedEv100, settings.compensation);
+    result.exposure =
+        exposureFromEv100(result.adaptedEv100, settings.compensation, settings.middleGrey);
     return result;
 }
 

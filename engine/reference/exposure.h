@@ -84,7 +84,8 @@ struct Adaptation {
 Adaptation adapt(const Histogram& histogram, const CndExposureSettings& settings,
                  double previousEv100, double deltaTime, bool reset);
 
-// Returns 1 / (1.2 * 2^(ev100 - compensation)); Lagarde and de Rousiers 2014, eq. 85.
-double exposureFromEv100(double ev100, double compensation);
+// Returns the factor that gives the luminance of EV100 `ev100 - compensation`, 2^EV100 * 12.5 / 100
+// cd/m^2, the exposed value `middleGrey`.
+double exposureFromEv100(double ev100, double compensation, double middleGrey);
 
 } // namespace candelabra::reference

@@ -2,6 +2,7 @@
 #include "reference/tone_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -88,13 +89,9 @@ glm::dvec3 agx(const glm::dvec3& color)
     return glm::pow(value, glm::dvec3(displayExponent));
 }
 
-} // namespace
-
-glm::dvec3 toneMap(CndToneMap curve, const glm::dvec3& exposed)
+// Applies the curve as its authors published it.
+glm::dvec3 publishedCurve(CndToneMap curve, const glm::dvec3& color)
 {
-    glm::dvec3 color;
-    for (int i = 0; i < 3; ++i)
-        color[i] = exposed[i] > 0 ? std::min(exposed[i], whiteBeyond) : 0;
     switch (curve) {
     case CND_TONEMAP_NONE:
         return clip(color);
@@ -109,6 +106,44 @@ glm::dvec3 toneMap(CndToneMap curve, const glm::dvec3& exposed)
     default:
         throw std::invalid_argument("the tone mapping curve is unknown");
     }
+}
+
+// Finds the grey that a curve displays at a luminance of 0.18, by bisection, divided by 0.18.
+double findMiddleGreyGain(CndToneMap curve)
+{
+    constexpr double middleGrey = 0.18;
+    const glm::dvec3 luminanceWeights{0.2126, 0.7152, 0.0722};
+    double below = 0, above = 1;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (below + above);
+        const glm::dvec3 shown = publishedCurve(curve, glm::dvec3(middle));
+        (glm::dot(luminanceWeights, shown) < middleGrey ? below : above) = middle;
+    }
+    return above / middleGrey;
+}
+
+} // namespace
+
+double middleGreyGain(CndToneMap curve)
+{
+    static const auto gains = [] {
+        std::array<double, CND_TONEMAP_COUNT> out{};
+        for (int i = 0; i < CND_TONEMAP_COUNT; ++i)
+            out[i] = findMiddleGreyGain(CndToneMap(i));
+        return out;
+    }();
+    if (uint32_t(curve) >= gains.size())
+        throw std::invalid_argument("the tone mapping curve is unknown");
+    return gains[curve];
+}
+
+glm::dvec3 toneMap(CndToneMap curve, const glm::dvec3& exposed)
+{
+    const double gain = middleGreyGain(curve);
+    glm::dvec3 color;
+    for (int i = 0; i < 3; ++i)
+        color[i] = exposed[i] > 0 ? gain * std::min(exposed[i], whiteBeyond) : 0;
+    return publishedCurve(curve, color);
 }
 
 double srgbEncode(double linear)

@@ -18,8 +18,13 @@ namespace candelabra::reference
 //   PBR_NEUTRAL  Khronos PBR Neutral specification (KhronosGroup/ToneMapping, PBR_Neutral).
 //   AGX          Sobotka's AgX base look in Wrensch's "Minimal AgX Implementation" (a sixth-order
 //                polynomial), linearised with the exponent 2.2 of its display.
-// An unknown curve throws std::invalid_argument.
+// All curves are applied to the exposed value times middleGreyGain(). An unknown curve throws
+// std::invalid_argument.
 glm::dvec3 toneMap(CndToneMap curve, const glm::dvec3& exposed);
+
+// The factor with which a curve displays the exposed grey 0.18 at a luminance of 0.18. Throws
+// std::invalid_argument for an unknown curve.
+double middleGreyGain(CndToneMap curve);
 
 // Encodes display-linear [0, 1] with the exact piecewise form of IEC 61966-2-1.
 double srgbEncode(double linear);

@@ -113,7 +113,8 @@ int main(void)
 
     // The luminance of a Lambertian surface is albedo / pi times its illuminance.
     const float expected = WALL_ALBEDO / PI * ILLUMINANCE;
-    const float exposed = expected * cndExposureFromEv100(settings().manualEv100);
+    const CndExposureSettings used = settings();
+    const float exposed = expected * cndExposureFromEv100(used.manualEv100, used.middleGrey);
     const float expectedDisplay = 255 * srgb(exposed);
     printf("%.3f cd/m^2 (expected %.3f), on the display %d (%.1f)\n", radiance[0], expected,
            display[0], expectedDisplay);

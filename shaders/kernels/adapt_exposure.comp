@@ -117,7 +117,7 @@ void main()
     }
     state.targetEv100 = target;
     state.adaptedEv100 = adapted;
-    // The exposure for saturation-based speed (ISO 12232; Lagarde and de Rousiers 2014, eq. 85).
-    state.exposure = 1.0 / (1.2 * exp2(adapted - params.compensation));
+    // The luminance that EV100 stands for, 2^EV100 / 8 cd/m^2, gets the exposed value middleGrey.
+    state.exposure = 8.0 * params.middleGrey / exp2(adapted - params.compensation);
     state.owner = params.owner;
 }

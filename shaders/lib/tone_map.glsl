@@ -82,18 +82,21 @@ vec3 expose(vec3 radiance, float exposure)
     return mix(min(finite * exposure, WHITE_BEYOND), vec3(0.0), unusable);
 }
 
-// Applies a curve, TONEMAP_*, to a colour that expose() has returned.
+// Applies a curve, TONEMAP_*, to a colour that expose() has returned. The colour is multiplied by a
+// constant first, so that every curve displays middle grey, 0.18, as 0.18. The constants are the value
+// that the curve maps to 0.18, divided by 0.18: 1 / 0.82 for Reinhard, 0.22 / 0.18 for PBR Neutral, and
+// found by bisection for the other two (engine/reference/tone_map.cpp).
 vec3 toneMap(uint curve, vec3 c)
 {
     switch (curve) {
     case TONEMAP_REINHARD:
-        return toneMapReinhard(c);
+        return toneMapReinhard(1.2195122 * c);
     case TONEMAP_ACES:
-        return toneMapAces(c);
+        return toneMapAces(1.4619268 * c);
     case TONEMAP_PBR_NEUTRAL:
-        return toneMapPbrNeutral(c);
+        return toneMapPbrNeutral(1.2222222 * c);
     case TONEMAP_AGX:
-        return toneMapAgx(c);
+        return toneMapAgx(0.8084178 * c);
     default:
         return min(c, 1.0);
     }

@@ -76,12 +76,13 @@ struct AdaptExposureParams {
     uint reset;  // 0 or 1
     float manualEv100;
     float compensation;
+    float middleGrey; // exposed value of the luminance that EV100 stands for
     float minEv100, maxEv100;
     uint lowShare, highShare; // shares ignored at the dark and the bright end, times 2^32
     float keepUp, keepDown;   // exp(-dt speed): share of the distance to the target that remains
     uint owner;               // number of the exposure object
 };
-GPU_SIZE(AdaptExposureParams, 44)
+GPU_SIZE(AdaptExposureParams, 48)
 
 // --- tone_map: a lane takes TONE_MAP_ROWS pixels of a column, since llvmpipe's cost of starting a
 // lane is a tenth of that of a pixel

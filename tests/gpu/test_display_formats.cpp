@@ -147,7 +147,7 @@ TEST_F(DisplayFormats, TenBitsHaveFinerSteps)
 {
     const Picture picture = ramps();
     const CndExposureSettings settings = manualSettings(0, CND_TONEMAP_NONE);
-    const double exposure = reference::exposureFromEv100(0, 0);
+    const double exposure = reference::exposureFromEv100(0, 0, settings.middleGrey);
     for (const VkFormat format :
          {VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_A2R10G10B10_UNORM_PACK32}) {
         if (!writes(format))

@@ -32,7 +32,10 @@ Picture colours(uint32_t width, uint32_t height)
 // Manual exposure that maps `luminance` to 1.
 CndExposureSettings whiteAt(double luminance)
 {
-    return manualSettings(float(std::log2(luminance / 1.2)), CND_TONEMAP_NONE);
+    CndExposureSettings settings =
+        manualSettings(float(std::log2(8 * luminance)), CND_TONEMAP_NONE);
+    settings.middleGrey = 1;
+    return settings;
 }
 
 double decodeSrgb(double encoded)
@@ -64,7 +67,7 @@ TEST_F(ExposureTest, everyCurveMatchesTheReference)
     const Picture picture = colours(123, 77);
     for (uint32_t i = 0; i < CND_TONEMAP_COUNT; ++i) {
         const CndExposureSettings settings = manualSettings(0.7f, CndToneMap(i));
-        const double exposure = reference::exposureFromEv100(0.7f, 0);
+        const double exposure = reference::exposureFromEv100(0.7f, 0, settings.middleGrey);
         const std::vector<uint8_t> rgba = display(picture, settings);
         ASSERT_EQ(rgba.size(), picture.rgba.size());
         double worst = 0;
@@ -166,6 +169,55 @@ TEST_F(ExposureTest, automaticExposureReachesTheDisplay)
     for (size_t i = 0; i < rgba.size(); ++i) {
         const double expected = i % 4 == 3 ? 1 : reference::srgbEncode(700 * exposure);
         ASSERT_NEAR(rgba[i], 255 * expected, 0.51);
+    }
+}
+
+// A grey card in sunlight: a diffuse albedo of 0.18 under 100,000 lx has a luminance of 5730
+// cd/m^2. Whatever is metered, and with every curve, it is exposed at 0.18 and displayed at 0.18 of
+// white.
+TEST_F(ExposureTest, aGreyCardIsDisplayedAsMiddleGrey)
+{
+    constexpr double middleGrey = 0.18, withinEv = 0.02;
+    const std::vector<uint8_t> weights{0, 3, 15, 1};
+    CndError error{};
+    ASSERT_EQ(cndSetExposureMask(exposure_, weights.data(), 2, 2, &error), CND_SUCCESS);
+    for (const double illuminance : {0.2, 10.0, 1'000.0, 100'000.0}) {
+        const float luminance = float(middleGrey * illuminance / 3.14159265358979);
+        const Picture card = flatPicture(33, 17, luminance);
+        const auto expectMiddleGrey = [&](CndExposureSettings settings, const std::string& what) {
+            const double exposed = double(luminance) * double(measure(card, settings).exposure);
+            EXPECT_NEAR(std::log2(exposed / middleGrey), 0, withinEv) << what;
+            for (uint32_t curve = 0; curve < CND_TONEMAP_COUNT; ++curve) {
+                settings.toneMap = CndToneMap(curve);
+                const std::vector<uint8_t> rgba = display(card, settings);
+                // Half a step of 255 is 0.015 EV here.
+                for (size_t c = 0; c < 3; ++c)
+                    EXPECT_NEAR(std::log2(decodeSrgb(rgba[c] / 255.0) / middleGrey), 0,
+                                withinEv + 0.015)
+                        << what << ", curve " << curve;
+            }
+        };
+        const std::string lux = std::to_string(illuminance) + " lx, ";
+        for (const CndMetering metering :
+             {CND_METERING_AVERAGE, CND_METERING_CENTRE_WEIGHTED, CND_METERING_MASK}) {
+            CndExposureSettings settings = plainSettings();
+            settings.metering = metering;
+            expectMiddleGrey(settings, lux + "metering " + std::to_string(metering));
+        }
+        // By hand: a reflected-light meter with K = 12.5 reads log2(L 100 / 12.5).
+        expectMiddleGrey(manualSettings(std::log2(luminance * 8), CND_TONEMAP_NONE),
+                         lux + "manual");
+    }
+}
+
+// The calibration is linear: another middle grey scales exposed values, in both modes.
+TEST_F(ExposureTest, middleGreyScalesTheExposure)
+{
+    const Picture picture = flatPicture(9, 9, 40);
+    for (CndExposureSettings settings : {plainSettings(), manualSettings(8, CND_TONEMAP_NONE)}) {
+        const double usual = double(measure(picture, settings).exposure);
+        settings.middleGrey = 0.045f;
+        EXPECT_NEAR(double(measure(picture, settings).exposure) / usual, 0.25, 1e-5);
     }
 }
 

@@ -200,6 +200,41 @@ TEST_F(ProgramTest, SequencesAreResumedWithTheirExposure)
     EXPECT_NE(other.err.find("another command"), std::string::npos) << other.err;
 }
 
+// At noon and at night: a card of albedo 0.18 that fills the picture is displayed as middle grey,
+// 118 of 255, and the log says which EV100 that took.
+TEST_F(ProgramTest, AGreyCardIsMiddleGreyAndTheExposureIsPrinted)
+{
+    const auto writeCard = [&](double illuminance) {
+        std::ofstream(path("card.json"))
+            << R"({"camera": {"position": [0, 0, 2], "look_at": [0, 0, 0], "up": [0, 1, 0],
+                   "vertical_fov_degrees": 40},
+                   "object": {"type": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]},
+                   "material": {"albedo": [0.18, 0.18, 0.18], "specular": false,
+                                "perceptual_roughness": 1},
+                   "lights": [{"type": "directional", "direction": [0, 0, -1], "illuminance": [)"
+            << illuminance << "," << illuminance << "," << illuminance << "]}]}";
+    };
+    struct Case {
+        double illuminance; // lx
+        const char* options;
+    };
+    for (const Case& c : {Case{100'000, ""},
+                          {100'000, " --metering average --tonemap aces"},
+                          {1, " --tonemap agx"},
+                          {1, " --tonemap reinhard --exposure -1.126"}}) {
+        writeCard(c.illuminance);
+        const Outcome outcome =
+            run(std::string("render card.json --size 48x27 -o card.png") + c.options);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        // 0.02 EV is 0.7 of 255 here, and dithering keeps the mean.
+        EXPECT_NEAR(readPng(path("card.png")).mean, 117.6, 0.9) << c.illuminance << c.options;
+        const size_t at = outcome.err.find("EV100 ");
+        ASSERT_NE(at, std::string::npos) << outcome.err;
+        const double ev = std::log2(0.18 * c.illuminance / 3.14159265 * 100 / 12.5);
+        EXPECT_NEAR(std::stod(outcome.err.substr(at + 6)), ev, 0.02) << c.options;
+    }
+}
+
 TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
 {
     app::Image sky{.width = 32, .height = 16, .channels = 3};

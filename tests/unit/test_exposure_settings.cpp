@@ -41,6 +41,7 @@ TEST(ExposureSettings, defaultsAreAsDocumentedAndValid)
     const CndExposureSettings s = defaults();
     EXPECT_FALSE(s.manual);
     EXPECT_EQ(s.compensation, 0);
+    EXPECT_EQ(s.middleGrey, 0.18f);
     EXPECT_EQ(s.minEv100, -6);
     EXPECT_EQ(s.maxEv100, 18);
     EXPECT_EQ(s.lowPercentile, 0.10f);
@@ -63,6 +64,10 @@ TEST(ExposureSettings, everyFieldOutOfRangeIsNamed)
     const Case cases[] = {
         {"manualEv100", {-65, 65, nan, infinity}, {-64, 64}, &CndExposureSettings::manualEv100},
         {"compensation", {-33, 33, nan, infinity}, {-32, 32}, &CndExposureSettings::compensation},
+        {"middleGrey",
+         {0, -0.18f, 1.001f, nan, infinity},
+         {1e-6f, 1},
+         &CndExposureSettings::middleGrey},
         {"minEv100", {-65, 18.5f, nan, -infinity}, {-64, 18}, &CndExposureSettings::minEv100},
         {"maxEv100", {65, -6.5f, nan, infinity}, {64, -6}, &CndExposureSettings::maxEv100},
         {"percentiles", {-0.01f, 0.9f, 1, nan}, {0, 0.89f}, &CndExposureSettings::lowPercentile},
@@ -111,6 +116,7 @@ TEST(ExposureSettings, parametersAreExact)
     EXPECT_EQ(p.lowShare, 1u << 30);
     EXPECT_EQ(p.highShare, 0u);
     EXPECT_EQ(p.reset, 1u);
+    EXPECT_EQ(p.middleGrey, 0.18f);
     EXPECT_FLOAT_EQ(p.keepUp, std::exp(-1.5f));
     EXPECT_FLOAT_EQ(p.keepDown, std::exp(-0.5f));
     s.lowPercentile = 0;
@@ -130,8 +136,11 @@ TEST(ExposureConversions, knownCameras)
     EXPECT_NEAR(cndEv100FromCamera(16, 0.01f, 100), 14.644, 1e-3);
     EXPECT_NEAR(cndEv100FromCamera(1, 1, 100), 0, 1e-6);
     EXPECT_NEAR(cndEv100FromCamera(1, 1, 400), -2, 1e-6);
-    EXPECT_NEAR(cndExposureFromEv100(0), 1 / 1.2, 1e-7);
-    EXPECT_NEAR(cndExposureFromEv100(3) * 9.6, 1, 1e-6); // 9.6 cd/m^2 saturate at EV100 3
+    // EV100 3 is a luminance of 1 cd/m^2 (K = 12.5).
+    EXPECT_FLOAT_EQ(cndExposureFromEv100(3, 0.18f), 0.18f);
+    EXPECT_FLOAT_EQ(cndExposureFromEv100(5, 0.25f), 0.0625f);
+    // The calibration of ISO 12232 by saturation: 9.6 cd/m^2 saturate at EV100 3.
+    EXPECT_NEAR(cndExposureFromEv100(3, 12.5f / 120) * 9.6, 1, 1e-6);
 }
 
 } // namespace candelabra::test

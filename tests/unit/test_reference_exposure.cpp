@@ -25,6 +25,7 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 CndExposureSettings automatic()
 {
     CndExposureSettings settings{};
+    settings.middleGrey = 0.18f;
     settings.minEv100 = -6;
     settings.maxEv100 = 18;
     settings.lowPercentile = 0.1f;
@@ -280,13 +281,13 @@ TEST(ReferenceExposure, clampCompensationAndManualFollowTheContract)
     EXPECT_EQ(adapt(average({0}), settings, 9, 0, true).adaptedEv100, 4);
     EXPECT_EQ(adapt(average({nan}), settings, 0, 0, true).adaptedEv100, 4);
     settings.compensation = 1;
-    EXPECT_DOUBLE_EQ(adapt(average({0}), settings, 9, 0, true).exposure, 1 / (1.2 * 8));
+    EXPECT_DOUBLE_EQ(adapt(average({0}), settings, 9, 0, true).exposure, double(0.18f));
     settings.manual = VK_TRUE;
     settings.manualEv100 = -3;
     const Adaptation manual = adapt(average({1}), settings, 9, 0.1, false);
     EXPECT_EQ(manual.targetEv100, -3);
     EXPECT_EQ(manual.adaptedEv100, -3);
-    EXPECT_DOUBLE_EQ(manual.exposure, 16 / 1.2);
+    EXPECT_DOUBLE_EQ(manual.exposure, 128 * double(0.18f)); // 2^(3 + 1) / 0.125
     EXPECT_EQ(adapt(average({1}), automatic(), 9, 0, false).adaptedEv100, 9); // no time has passed
 }
 

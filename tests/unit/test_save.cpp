@@ -205,6 +205,7 @@ TEST_F(Save, ScenesOfMeshesReferToTheirSource)
         const Scene saved = again(scene, {name, 7, {true, 0.2f, 0.5f}});
         expectSameLights(scene, saved);
         expectSameCamera(scene.cameras[0], saved.cameras[0]);
+        EXPECT_EQ(saved.exposureCompensation, -1);
         ASSERT_EQ(saved.instances.size(), scene.instances.size()) << name;
         for (size_t i = 0; i < scene.instances.size(); ++i)
             EXPECT_EQ(saved.instances[i].worldFromObject, scene.instances[i].worldFromObject);

@@ -12,7 +12,11 @@ extern "C" {
 // Exposure of one view: it holds the adaptation history, so every view needs its own object.
 typedef struct CndExposure_T* CndExposure;
 
-// The curve that maps exposed values to display values.
+// The curve that maps exposed values to display values. All curves display the exposed value 0.18
+// (middle grey) as 0.18 of the display's white, which is 118 of 255 after the sRGB encoding:
+// exposed values are multiplied by a constant of the curve first, which toneMap() in
+// shaders/lib/tone_map.glsl has. So another curve changes contrast and highlights, and leaves
+// middle grey as it is.
 typedef enum CndToneMap {
     CND_TONEMAP_NONE = 0, // clips exposed values to [0,1]
     CND_TONEMAP_REINHARD = 1,
@@ -52,9 +56,15 @@ typedef struct CndExposureDesc {
 // last. Pixels without any light (zero or negative luminance, such as an empty background) are
 // counted in the first bin but left out of the mean, unless there are no other pixels.
 typedef struct CndExposureSettings {
-    VkBool32 manual;          // VK_TRUE: use manualEv100 and build no histogram
-    float manualEv100;        // -64..64; not limited by minEv100 and maxEv100
-    float compensation;       // EV, -32..32; added brightness: +1 doubles the exposed values
+    VkBool32 manual;    // VK_TRUE: use manualEv100 and build no histogram
+    float manualEv100;  // -64..64; not limited by minEv100 and maxEv100
+    float compensation; // EV, -32..32; added brightness: +1 doubles the exposed values
+    // The calibration: the exposed value of a surface whose luminance is the one that EV100 stands
+    // for, 2^EV100 / 8 cd/m^2. From 0.000001 to 1. With 0.18, a grey card that fills the
+    // metered picture is displayed as middle grey. 0.1042 (12.5 / 120) is the calibration by
+    // saturation (ISO 12232; Lagarde and de Rousiers 2014, eq. 85), in which the exposed value 1 is
+    // 3.26 EV above the metered luminance.
+    float middleGrey;
     float minEv100, maxEv100; // -64..64, min <= max: range of the metered EV100
     // The mean ignores the darkest lowPercentile and the brightest 1 - highPercentile of the
     // histogram's weight. 0 <= lowPercentile, lowPercentile + 1e-6 <= highPercentile <= 1.
@@ -71,17 +81,18 @@ typedef struct CndExposureSettings {
     VkBool32 dither;
 } CndExposureSettings;
 
-// Writes the default settings: automatic exposure, no compensation, EV100 range -6..18, percentiles
-// 0.10..0.90, speeds 3 and 1 per second, centre-weighted metering, PBR Neutral, dithered.
+// Writes the default settings: automatic exposure, no compensation, middle grey 0.18, EV100 range
+// -6..18, percentiles 0.10..0.90, speeds 3 and 1 per second, centre-weighted metering, PBR Neutral,
+// dithered.
 // manualEv100 is 10. `settings` must not be NULL.
 CND_API void cndDefaultExposureSettings(CndExposureSettings* settings);
 
 // Returns the EV100 of camera settings, log2(N^2 / t * 100 / S): `aperture` N in f-stops,
 // `shutterTime` t in seconds, `iso` S. The arguments must be > 0 and are not checked.
 CND_API float cndEv100FromCamera(float aperture, float shutterTime, float iso);
-// Returns the factor from luminance (cd/m^2) to exposed value: 1 / (1.2 * 2^EV100)
-// (saturation-based speed, ISO 12232; Lagarde and de Rousiers 2014, eq. 85).
-CND_API float cndExposureFromEv100(float ev100);
+// Returns the factor from luminance (cd/m^2) to exposed value, middleGrey / (2^EV100 / 8), for a
+// CndExposureSettings::middleGrey. The arguments are not checked.
+CND_API float cndExposureFromEv100(float ev100, float middleGrey);
 
 // One frame of one view.
 //

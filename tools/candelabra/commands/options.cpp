@@ -264,7 +264,10 @@ void FrameArguments::addTo(CLI::App& command)
     command.add_option("--exposure", exposure, "automatic, or a fixed EV100")
         ->type_name("auto|EV")
         ->capture_default_str();
-    command.add_option("--compensation", compensation, "make the picture brighter by this many EV")
+    command
+        .add_option("--compensation", compensation,
+                    "make the picture brighter by this many EV; hall, field, fence and showcase, "
+                    "where it is night, have -1 EV of their own")
         ->type_name("EV")
         ->capture_default_str();
     addChoice(command, "--metering", metering, meteringChoices,
@@ -296,6 +299,12 @@ void FrameArguments::addCullingTo(CLI::App& command)
     addChoice(command, "--culling", culling, cullingChoices,
               "how a pixel finds its lights, by clusters or by trying all");
 }
+    command
+        .add_option("--middle-grey", middleGrey,
+                    "calibration of the exposure: the exposed value of a surface that has the "
+                    "metered luminance; every tone map displays 0.18 as middle grey, 118 of 255")
+        ->type_name("SHARE")
+        ->capture_default_str();
 
 void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
 {
@@ -433,3 +442,4 @@ CndExposureSettings FrameArguments::exposureSettings() const
 }
 
 } // namespace candelabra::app
+    out.middleGrey = float(numberOption("--middle-grey", middleGrey, 0.001, 1));

@@ -76,6 +76,7 @@ struct FrameArguments {
 
     void addTo(CLI::App& command);
     // Adds only the options of what is seen: size, camera and visible lights.
+    std::string middleGrey = "0.18";
     void addViewTo(CLI::App& command);
     void addCullingTo(CLI::App& command);
     void addReuseTo(CLI::App& command, Reuse fallback);

@@ -277,6 +277,18 @@ void writePictures(const RenderArguments& a, const RenderPlan& p, size_t drawn,
         }
 }
 
+std::string exposureText(const CndExposureSettings& settings, float sceneCompensation,
+                         const CndExposureStats& stats)
+{
+    std::string out = fmt::format("exposed at EV100 {:.2f} ({})", stats.adaptedEv100,
+                                  settings.manual ? "as given" : "automatic");
+    if (sceneCompensation != 0)
+        out += fmt::format(", {:+g} EV of the scene", sceneCompensation);
+    if (settings.compensation != 0)
+        out += fmt::format(", {:+g} EV by --compensation", settings.compensation);
+    return out + fmt::format(", middle grey {:g}", settings.middleGrey);
+}
+
 int render(const ProgramContext& program, const RenderArguments& a)
 {
     RenderPlan p = plan(a);
@@ -305,6 +317,8 @@ int render(const ProgramContext& program, const RenderArguments& a)
                        .influenceByError = p.frame.influence.rule == CND_INFLUENCE_BY_ERROR});
     const bool moving = !scene.lightMotions.empty() || path.moves();
     const MeasuredFrames frames = drawFrames(program, a, p, path, moving, context, renderer);
+    spdlog::info("{}",
+                 exposureText(p.frame.exposure, scene.exposureCompensation, frames.last.exposure));
     writePictures(a, p, frames.times.frames(), context, renderer);
     // What follows looks at the last frame.
     p.frame.camera = path.at(p.counts.measured - 1, p.counts.measured);

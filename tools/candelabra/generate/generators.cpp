@@ -14,7 +14,10 @@ bool isBuiltIn(const std::string& scene)
     return isGenerated(scene) || scene == "showcase";
 }
 
-Scene generateScene(const std::string& scene, const SceneOptions& options)
+namespace
+{
+
+Scene generateByName(const std::string& scene, const SceneOptions& options)
 {
     if (scene == "hall")
         return generateHall(options);
@@ -23,6 +26,15 @@ Scene generateScene(const std::string& scene, const SceneOptions& options)
     if (scene == "fence")
         return generateFence(options);
     return generateShowcase(options);
+}
+
+} // namespace
+
+Scene generateScene(const std::string& scene, const SceneOptions& options)
+{
+    Scene out = generateByName(scene, options);
+    out.exposureCompensation = -1; // all of them are at night
+    return out;
 }
 
 } // namespace candelabra::app

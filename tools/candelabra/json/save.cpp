@@ -187,6 +187,8 @@ std::string sceneDescription(const Scene& scene, const SceneSource& source, cons
         out["lights"].push_back(lightJson(light, scene.lightOrigin));
     if (scene.resolution)
         out["resolution"] = {scene.resolution->x, scene.resolution->y};
+    if (scene.exposureCompensation != 0)
+        out["exposure_compensation"] = scene.exposureCompensation;
     out["background"] = toJson(glm::dvec3(scene.background));
     out["lights_visible_to_camera"] = scene.lightsVisible;
     return out.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";

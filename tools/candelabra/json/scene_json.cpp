@@ -9,6 +9,8 @@
 //
 // "scene" may also be the path of a glTF file, relative to the folder of the description.
 // "material", if given, is used for the roughness and metalness of all materials.
+//
+// "exposure_compensation" is the EV by which the picture is made brighter, such as -1 at night.
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -250,6 +252,7 @@ Scene loadSceneJson(const std::string& path)
     const JsonValue root(path, document);
     root.refuseOtherKeys({"camera", "object", "objects", "material", "source", "lights",
                           "resolution", "background", "lights_visible_to_camera", "lights_occlude",
+                          "exposure_compensation",
                           // for people who read the file, not used:
                           "name", "about", "channels", "references", "rendered_terms"});
     Scene scene;
@@ -273,6 +276,9 @@ Scene loadSceneJson(const std::string& path)
         scene.resolution = readResolution(*resolution);
     if (const auto background = root.find("background"))
         scene.background = color(*background, {0});
+    // The night of a source need not be one under other lights.
+    const auto compensation = root.find("exposure_compensation");
+    scene.exposureCompensation = compensation ? float(compensation->number({-20, 20})) : 0;
     const auto visible = root.find("lights_visible_to_camera");
     scene.lightsVisible = visible && visible->boolean();
     const auto occlude = root.find("lights_occlude");

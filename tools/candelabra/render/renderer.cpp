@@ -105,6 +105,7 @@ struct Renderer::State {
     void createSized();
     Lit litBy(uint32_t slot, const FrameOptions& frame) const;
     CndInfluence influenceOf(uint32_t slot, const FrameOptions& frame) const;
+    CndExposureSettings exposureOf(const FrameOptions& frame) const;
     std::vector<CndPassPlan> plan(const FrameStats& stats) const;
     void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
     void recordEnvironment(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame) const;
@@ -256,6 +257,13 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
     return out;
 }
 
+CndExposureSettings Renderer::State::exposureOf(const FrameOptions& frame) const
+{
+    CndExposureSettings out = frame.exposure;
+    out.compensation += scene.exposureCompensation;
+    return out;
+}
+
 // The previous frame in the slot has finished, so its exposure is read without waiting and is the
 // same in every run.
 CndInfluence Renderer::State::influenceOf(uint32_t slot, const FrameOptions& frame) const
@@ -263,10 +271,10 @@ CndInfluence Renderer::State::influenceOf(uint32_t slot, const FrameOptions& fra
     CndInfluence out = frame.influence;
     if (out.rule != CND_INFLUENCE_BY_ERROR)
         return out;
-    const CndExposureSettings& e = frame.exposure;
+    const CndExposureSettings e = exposureOf(frame);
     out.toneMap = e.toneMap;
     if (e.manual)
-        out.exposure = cndExposureFromEv100(e.manualEv100 - e.compensation);
+        out.exposure = cndExposureFromEv100(e.manualEv100 - e.compensation, e.middleGrey);
     else if (exposedSlots[slot])
         out.exposure = finished(exposure.stats(slot)).exposure;
     return out;
@@ -337,7 +345,7 @@ void Renderer::State::recordDisplay(VkCommandBuffer cmd, uint32_t slot, const Fr
                                .deltaTime = first ? frame.deltaTime : 0,
                                .reset = first && frame.resetExposure,
                                .ditherSeed = frame.ditherSeed + sample.index,
-                               .settings = frame.exposure}));
+                               .settings = exposureOf(frame)}));
     stamps.stamp(cmd, slot);
     exposedSlots[slot] = true;
     if (frame.heatMap != HeatMap::None)

@@ -61,7 +61,7 @@ struct FrameOptions {
     CndInfluence influence{};
     Reuse reuse = Reuse::None;
     HeatMap heatMap = HeatMap::None; // painted over the display image; needs clustered culling
-    CndExposureSettings exposure{};
+    CndExposureSettings exposure{};  // Scene::exposureCompensation is added
 };
 
 // Statistics of one finished frame.

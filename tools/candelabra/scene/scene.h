@@ -156,6 +156,9 @@ Bounds sceneBounds(const Scene& scene);
 
 // The mask of CndMaterialClass for all materials in use: which of the two lobes some surface may
 // lack.
+    // EV, added to the compensation of every frame. Scenes at night have a negative one, as in
+    // photography: metered to middle grey, a night would look like a day.
+    float exposureCompensation = 0;
 uint32_t materialClasses(const Scene& scene);
 
 // Sets `out` to the scene's lights, the moving ones at the places where they are at `time` seconds.

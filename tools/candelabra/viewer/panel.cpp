@@ -293,6 +293,8 @@ void drawExposure(PanelState& state, const PanelFigures& figures)
         ImGui::SliderFloat("adapt to darker", &e.speedDown, 0.1f, 20, "%.1f 1/s");
     }
     ImGui::SliderFloat("compensation", &e.compensation, -8, 8, "%+.1f EV");
+    ImGui::SliderFloat("middle grey", &e.middleGrey, 0.05f, 0.5f, "%.3f",
+                       ImGuiSliderFlags_AlwaysClamp);
     combo("tone map", e.toneMap, toneMapChoices);
     bool dither = e.dither;
     ImGui::Checkbox("dither", &dither);

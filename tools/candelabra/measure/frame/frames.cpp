@@ -231,7 +231,8 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"lightsVisible", options.lightsVisible},
             {"levelsOfDetail", options.levels},
             {"exposure", options.exposure.manual ? "manual" : "auto"},
-            {"compensationEv", options.exposure.compensation}};
+            {"compensationEv", options.exposure.compensation},
+            {"middleGrey", options.exposure.middleGrey}};
 }
 
 Json sceneJson(const Scene& scene, const Renderer& renderer)
