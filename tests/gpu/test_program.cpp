@@ -240,7 +240,7 @@ TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
     app::Image sky{.width = 32, .height = 16, .channels = 3};
     sky.pixels.assign(32 * 16 * 3, 50.0f);
     app::saveHdr(path("sky.hdr"), sky);
-    const std::string start = "render field --lights 0 --size 64x36 -q -o ";
+    const std::string start = "render field --lights 0 --size 64x36 --default-light off -q -o ";
     ASSERT_EQ(run(start + "dark.pfm").exitCode, 0);
     const Outcome lit = run(start + "lit.pfm --environment sky.hdr --environment-scale 2 "
                                     "--environment-rotation 30 --lobes sum "

@@ -15,6 +15,8 @@ void logWarnings(const Scene& scene)
         spdlog::warn("warning: {}", scene.warnings[i]);
     if (scene.warnings.size() > shown)
         spdlog::warn("warning: {} more like these", scene.warnings.size() - shown);
+    for (const std::string& note : scene.notes)
+        spdlog::info("{}", note);
 }
 
 size_t printValidationMessages(const VulkanContext& context)

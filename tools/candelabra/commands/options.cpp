@@ -12,11 +12,21 @@
 #include "commands/choice_option.h"
 #include "generate/generators.h"
 #include "io/table.h"
+#include "render/camera.h"
 #include "render/setting_names.h"
+#include "scene/fit_camera.h"
 #include "scene/scene_options.h"
 
 namespace candelabra::app
 {
+
+namespace
+{
+
+constexpr Choice<bool> onOffChoices[] = {{"on", true}, {"off", false}};
+constexpr PixelSize usualSize{1280, 720};
+
+} // namespace
 
 uint32_t unsignedOption(const std::string& option, const std::string& text, uint32_t min,
                         uint32_t max)
@@ -158,7 +168,20 @@ void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
         .add_option("--environment-scale", environmentScale,
                     "factor for the environment's luminance (1)")
         ->type_name("FACTOR");
+    command
+        .add_option("--environment-illuminance", environmentIlluminance,
+                    "scale the environment so that it gives level ground this illuminance; a clear "
+                    "sky without the sun gives about 15,000 lx, a full moon 0.2 lx")
+        ->type_name("LX");
     lobes.addTo(command);
+}
+
+void SceneArguments::addDefaultLightTo(CLI::App& command)
+{
+    defaultLight = "on";
+    addChoice(command, "--default-light", defaultLight, onOffChoices,
+              "light a scene that has no light of its own by a studio: a soft grey sky with a key "
+              "light");
 }
 
 void SceneArguments::addLightsTo(CLI::App& command)
@@ -200,6 +223,15 @@ SceneOptions SceneArguments::options(std::optional<uint32_t> lights) const
             std::numbers::pi / 180;
     if (!environmentScale.empty())
         out.environmentScale = numberOption("--environment-scale", environmentScale, 0, 1e9);
+    if (!environmentIlluminance.empty()) {
+        if (!environmentScale.empty())
+            throw UsageError("--environment-illuminance: cannot be combined with "
+                             "--environment-scale, because it chooses the factor itself");
+        out.environmentIlluminance =
+            numberOption("--environment-illuminance", environmentIlluminance, 1e-6, 1e9);
+    }
+    if (!defaultLight.empty())
+        out.defaultLight = choose("--default-light", defaultLight, onOffChoices);
     return out;
 }
 
@@ -220,6 +252,8 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
         warn("--environment-rotation", "there is no --environment");
     if (environment.empty() && !environmentScale.empty())
         warn("--environment-scale", "there is no --environment");
+    if (environment.empty() && !environmentIlluminance.empty())
+        warn("--environment-illuminance", "there is no --environment");
     if (generated || lights.value_or(0))
         return;
     const std::string reason =
@@ -233,13 +267,6 @@ void SceneArguments::warnOfIdleOptions(std::optional<uint32_t> lights) const
         warn("--seed", reason);
 }
 
-namespace
-{
-
-constexpr Choice<bool> onOffChoices[] = {{"on", true}, {"off", false}};
-
-} // namespace
-
 void FrameArguments::addViewTo(CLI::App& command)
 {
     command
@@ -250,8 +277,10 @@ void FrameArguments::addViewTo(CLI::App& command)
         .add_option(
             "--camera", camera,
             "camera of the scene by name (hall: nave, gallery; field: terrace, overview; fence: "
-            "path, above; showcase: front, above) or by index, or a new one: position and target "
-            "in metres, and vertical field of view in degrees; default: the scene's first")
+            "path, above; showcase: front, above; glTF files: their own, then three-quarter, "
+            "front, right, back, left and above, in rooms inside and inside-2) or by index, or a "
+            "new one: position and target in metres, and vertical field of view in degrees; "
+            "default: the scene's first")
         ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
     addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
               "show area lights as emitters (default: as the scene says)");
@@ -261,7 +290,10 @@ void FrameArguments::addTo(CLI::App& command)
 {
     specular = specularName(CND_SPECULAR_CONIC);
     addViewTo(command);
-    command.add_option("--exposure", exposure, "automatic, or a fixed EV100")
+    command
+        .add_option("--exposure", exposure,
+                    "automatic, or a fixed EV100; in the studio of --default-light, automatic is "
+                    "the EV100 of its light")
         ->type_name("auto|EV")
         ->capture_default_str();
     command
@@ -269,6 +301,12 @@ void FrameArguments::addTo(CLI::App& command)
                     "make the picture brighter by this many EV; hall, field, fence and showcase, "
                     "where it is night, have -1 EV of their own")
         ->type_name("EV")
+        ->capture_default_str();
+    command
+        .add_option("--middle-grey", middleGrey,
+                    "calibration of the exposure: the exposed value of a surface that has the "
+                    "metered luminance; every tone map displays 0.18 as middle grey, 118 of 255")
+        ->type_name("SHARE")
         ->capture_default_str();
     addChoice(command, "--metering", metering, meteringChoices,
               "how automatic exposure weights the pixels");
@@ -294,17 +332,20 @@ void FrameArguments::addTo(CLI::App& command)
               "quarter of a pixel");
 }
 
+void FrameArguments::addFitTo(CLI::App& command)
+{
+    command
+        .add_option("--fit", fit,
+                    "move the camera, without turning it, to where this node of a glTF file, with "
+                    "all below it, fills 85% of the picture; a name, or its number in the file")
+        ->type_name("NODE|INDEX");
+}
+
 void FrameArguments::addCullingTo(CLI::App& command)
 {
     addChoice(command, "--culling", culling, cullingChoices,
               "how a pixel finds its lights, by clusters or by trying all");
 }
-    command
-        .add_option("--middle-grey", middleGrey,
-                    "calibration of the exposure: the exposed value of a surface that has the "
-                    "metered luminance; every tone map displays 0.18 as middle grey, 118 of 255")
-        ->type_name("SHARE")
-        ->capture_default_str();
 
 void FrameArguments::addReuseTo(CLI::App& command, Reuse fallback)
 {
@@ -333,17 +374,34 @@ void FrameArguments::addInfluenceTo(CLI::App& command)
         ->type_name("E, such as 0.5/255 or 0.002");
 }
 
+PixelSize FrameArguments::givenSize() const
+{
+    if (size.empty())
+        return usualSize;
+    const auto parsed = parseSize(size);
+    if (!parsed)
+        throw UsageError("--size \"" + size + "\": expected WIDTHxHEIGHT such as 1280x720");
+    return *parsed;
+}
+
+double FrameArguments::imageAspect() const
+{
+    const PixelSize given = givenSize();
+    return double(given.width) / given.height;
+}
+
+Camera FrameArguments::chosenCamera(const Scene& scene) const
+{
+    const Camera chosen = selectCamera(scene, camera);
+    return fit.empty() ? chosen : fitCamera(scene, selectNode(scene, fit), chosen, imageAspect());
+}
+
 PixelSize FrameArguments::pixelSize(const Scene& scene, const Camera& chosen) const
 {
-    PixelSize out{1280, 720};
-    if (!size.empty()) {
-        const auto parsed = parseSize(size);
-        if (!parsed)
-            throw UsageError("--size \"" + size + "\": expected WIDTHxHEIGHT such as 1280x720");
-        out = *parsed;
-    } else if (scene.resolution) {
+    PixelSize out = givenSize();
+    if (size.empty() && scene.resolution) {
         out = {scene.resolution->x, scene.resolution->y};
-    } else if (chosen.aspect) {
+    } else if (size.empty() && chosen.aspect) {
         // The default height, and the width that gives square pixels.
         const double width = std::round(out.height * *chosen.aspect);
         out.width = uint32_t(std::clamp(width, 1.0, double(maxSide)));
@@ -436,10 +494,10 @@ CndExposureSettings FrameArguments::exposureSettings() const
         out.manualEv100 = float(*ev);
     }
     out.compensation = float(numberOption("--compensation", compensation, -20, 20));
+    out.middleGrey = float(numberOption("--middle-grey", middleGrey, 0.001, 1));
     out.metering = choose("--metering", metering, meteringChoices);
     out.toneMap = choose("--tonemap", toneMap, toneMapChoices);
     return out;
 }
 
 } // namespace candelabra::app
-    out.middleGrey = float(numberOption("--middle-grey", middleGrey, 0.001, 1));

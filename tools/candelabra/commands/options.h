@@ -48,7 +48,8 @@ struct LobeArguments {
 struct SceneArguments {
     std::string scene, lightsOption;
     std::string seed, overlaps, punctualRadius, sunRadius;
-    std::string environment, environmentRotation, environmentScale;
+    std::string environment, environmentRotation, environmentScale, environmentIlluminance;
+    std::string defaultLight; // empty: off, for commands without the option
     LobeArguments lobes;
     bool moving = false, emissiveLights = false;
 
@@ -57,6 +58,8 @@ struct SceneArguments {
     void addTo(CLI::App& command, const std::string& fallback = "");
     // For commands that draw one number of lights.
     void addLightsTo(CLI::App& command);
+    // For commands that make pictures to look at.
+    void addDefaultLightTo(CLI::App& command);
     // The value of --lights, or nothing if it is not given. Throws UsageError.
     std::optional<uint32_t> lightCount() const;
     // Throws UsageError.
@@ -67,17 +70,18 @@ struct SceneArguments {
 
 // How a frame is drawn.
 struct FrameArguments {
-    std::string size, camera;
+    std::string size, camera, fit;
     std::string gbuffer = "full", specular, culling = "clustered";
     std::string sampleCount = "64", errorBudget = "0";
     std::string influence = "given", influenceError;
     std::string lightsVisible, reuse, heatMap = "none", lod = "on";
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
+    std::string middleGrey = "0.18";
 
     void addTo(CLI::App& command);
     // Adds only the options of what is seen: size, camera and visible lights.
-    std::string middleGrey = "0.18";
     void addViewTo(CLI::App& command);
+    void addFitTo(CLI::App& command);
     void addCullingTo(CLI::App& command);
     void addReuseTo(CLI::App& command, Reuse fallback);
     void addDebugTo(CLI::App& command);
@@ -85,6 +89,10 @@ struct FrameArguments {
 
     // All of these throw UsageError for a value that they cannot read.
     PixelSize pixelSize(const Scene& scene, const Camera& camera) const;
+    PixelSize givenSize() const; // --size, else 1280x720
+    double imageAspect() const;  // width / height of --size, else of the usual size
+    // Returns the camera that --camera and --fit choose.
+    Camera chosenCamera(const Scene& scene) const;
     CndGBufferLayout gbufferLayout() const;
     CndSpecularMethod specularMethod() const;
     uint32_t samples() const; // per light, of the specular method "sampled"

@@ -215,6 +215,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
     a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
     logWarnings(scene);
+    requireSomethingToDraw(scene, a.scene.scene);
     const Camera camera = selectCamera(scene, a.frame.camera);
     const PixelSize size = a.frame.pixelSize(scene, camera);
     makeCamera(camera, double(size.width) / size.height); // throws before a device is created

@@ -142,7 +142,9 @@ RenderPlan plan(const RenderArguments& a)
     if (byError && a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
         throw UsageError("--influence-error: cannot be combined with --specular sampled, whose "
                          "noise hides the error");
-    return {.scene = a.scene.options(a.scene.lightCount()),
+    SceneOptions scene = a.scene.options(a.scene.lightCount());
+    scene.imageAspect = a.frame.imageAspect();
+    return {.scene = scene,
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
                       .levels = a.frame.levels(),
                       .specular = a.frame.specularMethod(),
@@ -277,13 +279,16 @@ void writePictures(const RenderArguments& a, const RenderPlan& p, size_t drawn,
         }
 }
 
-std::string exposureText(const CndExposureSettings& settings, float sceneCompensation,
+// `given` tells whether --exposure has set the EV100.
+std::string exposureText(const CndExposureSettings& settings, const Scene& scene, bool given,
                          const CndExposureStats& stats)
 {
     std::string out = fmt::format("exposed at EV100 {:.2f} ({})", stats.adaptedEv100,
-                                  settings.manual ? "as given" : "automatic");
-    if (sceneCompensation != 0)
-        out += fmt::format(", {:+g} EV of the scene", sceneCompensation);
+                                  given              ? "as given"
+                                  : scene.knownEv100 ? "for the light of the studio"
+                                                     : "automatic");
+    if (scene.exposureCompensation != 0)
+        out += fmt::format(", {:+g} EV of the scene", scene.exposureCompensation);
     if (settings.compensation != 0)
         out += fmt::format(", {:+g} EV by --compensation", settings.compensation);
     return out + fmt::format(", middle grey {:g}", settings.middleGrey);
@@ -296,8 +301,11 @@ int render(const ProgramContext& program, const RenderArguments& a)
     a.device.requireRoomFor(p.scene.lights.value_or(0));
     const Scene scene = loadScene(a.scene.scene, p.scene);
     logWarnings(scene);
-    const CameraPath path(scene, selectCamera(scene, a.frame.camera), a.path);
+    requireSomethingToDraw(scene, a.scene.scene);
+    const CameraPath path(scene, a.frame.chosenCamera(scene), a.path);
     p.frame.camera = path.start();
+    const bool evIsGiven = p.frame.exposure.manual;
+    useKnownExposure(scene, p.frame.exposure);
     p.frame.lightsVisible = a.frame.lightsVisibleOverride().value_or(scene.lightsVisible);
     const PixelSize size = a.frame.pixelSize(scene, p.frame.camera);
     makeCamera(p.frame.camera,
@@ -317,8 +325,8 @@ int render(const ProgramContext& program, const RenderArguments& a)
                        .influenceByError = p.frame.influence.rule == CND_INFLUENCE_BY_ERROR});
     const bool moving = !scene.lightMotions.empty() || path.moves();
     const MeasuredFrames frames = drawFrames(program, a, p, path, moving, context, renderer);
-    spdlog::info("{}",
-                 exposureText(p.frame.exposure, scene.exposureCompensation, frames.last.exposure));
+    if (!p.sequence)
+        spdlog::info("{}", exposureText(p.frame.exposure, scene, evIsGiven, frames.last.exposure));
     writePictures(a, p, frames.times.frames(), context, renderer);
     // What follows looks at the last frame.
     p.frame.camera = path.at(p.counts.measured - 1, p.counts.measured);
@@ -334,6 +342,7 @@ void addRenderCommand(CLI::App& app, Run& run)
     const auto a = std::make_shared<RenderArguments>();
     a->scene.addTo(*command);
     a->scene.addLightsTo(*command);
+    a->scene.addDefaultLightTo(*command);
     command
         ->add_option("-o,--output", a->outputs,
                      "image file: .png for the display image, .exr, .hdr or .pfm for linear scene "
@@ -386,6 +395,7 @@ void addRenderCommand(CLI::App& app, Run& run)
     command->add_flag("--explain", a->explain,
                       "list the passes that the last frame ran, and why it skipped the others");
     a->frame.addTo(*command);
+    a->frame.addFitTo(*command);
     a->frame.addCullingTo(*command);
     a->frame.addInfluenceTo(*command);
     a->frame.addDebugTo(*command);

@@ -31,7 +31,6 @@ ViewerOptions optionsOf(const ViewArguments& a)
 {
     ViewerOptions out{.scene = a.scene.scene,
                       .sceneOptions = a.scene.options(a.scene.lightCount()),
-                      .camera = a.frame.camera,
                       .gbufferLayout = a.frame.gbufferLayout(),
                       .frame = {.levels = a.frame.levels(),
                                 .specular = a.frame.specularMethod(),
@@ -46,6 +45,7 @@ ViewerOptions optionsOf(const ViewArguments& a)
                       .overlay = !a.noOverlay,
                       .frames = unsignedOption("--frames", a.frames, 0, 1'000'000),
                       .screenshot = a.screenshot};
+    out.sceneOptions.imageAspect = a.frame.imageAspect();
     if (!out.screenshot.empty()) {
         if (!out.frames)
             throw UsageError("--screenshot: needs --frames N, and shows the last of these frames");
@@ -65,8 +65,9 @@ int view(const ViewArguments& a)
         system; // created before the scene is loaded, because there may be no display
     Scene scene = loadScene(options.scene, options.sceneOptions);
     logWarnings(scene);
-    const Camera camera = selectCamera(scene, options.camera);
-    options.size = a.frame.pixelSize(scene, camera);
+    requireSomethingToDraw(scene, options.scene);
+    options.camera = a.frame.chosenCamera(scene);
+    options.size = a.frame.pixelSize(scene, options.camera);
     Viewer viewer(options, a.device.contextOptions(Presentation::Window), system, std::move(scene));
     spdlog::info("on {}; F2 lists keys and mouse", viewer.context().info().name);
     viewer.run();
@@ -81,6 +82,7 @@ void addViewCommand(CLI::App& app, Run& run)
     const auto a = std::make_shared<ViewArguments>();
     a->scene.addTo(*command, "hall");
     a->scene.addLightsTo(*command);
+    a->scene.addDefaultLightTo(*command);
     command->add_option("--frames", a->frames, "stop after N frames, 1/60 s apart; 0: do not stop")
         ->type_name("N")
         ->capture_default_str();
@@ -90,6 +92,7 @@ void addViewCommand(CLI::App& app, Run& run)
         ->type_name("FILE");
     command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
     a->frame.addTo(*command);
+    a->frame.addFitTo(*command);
     a->frame.addCullingTo(*command);
     a->frame.addInfluenceTo(*command);
     a->frame.addDebugTo(*command);

@@ -175,15 +175,42 @@ void addSphereLights(Scene& scene, const std::vector<LightSite>& sites, const Sc
         scene.lights.push_back(makeLight(sites[i], reaches[i], scale, scene.lightOrigin));
 }
 
-void addRandomLights(Scene& scene, const SceneOptions& options)
+namespace
+{
+
+// Tells whether a light would fill more than a few percent of a camera's picture, wherever that
+// camera turns.
+bool standsInFront(const Scene& scene, const LightSite& site)
+{
+    constexpr double leastDistance = 30; // radii: an angle of 4 degrees
+    return std::any_of(scene.cameras.begin(), scene.cameras.end(), [&](const Camera& camera) {
+        const double distance = glm::length(site.position - camera.position);
+        return !camera.orthographic && distance < leastDistance * double{site.radius};
+    });
+}
+
+// Makes bounds that are thinner than `least` along some axis thicker by that much, along y only
+// upwards.
+void thicken(Bounds& bounds, double least)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if (bounds.max[axis] - bounds.min[axis] >= least)
+            continue;
+        bounds.max[axis] += least;
+        bounds.min[axis] -= axis == 1 ? 0 : least;
+    }
+}
+
+} // namespace
+
+void addRandomLights(Scene& scene, const SceneOptions& options, float edgeIlluminance)
 {
     const uint32_t count = options.lights.value_or(0);
     checkLightOptions(scene.name, count, options);
     if (count == 0)
         return;
-    const Bounds bounds = sceneBounds(scene);
-    const glm::dvec3 size = bounds.max - bounds.min;
-    const double diagonal = glm::length(size);
+    Bounds bounds = sceneBounds(scene);
+    const double diagonal = glm::length(bounds.max - bounds.min);
     // Below a micrometre, squares of the lights' sizes leave the range of floats.
     if (!std::isfinite(diagonal) || diagonal < 1e-6) {
         throw SceneError(scene.name +
@@ -191,15 +218,23 @@ void addRandomLights(Scene& scene, const SceneOptions& options)
                          "a micrometre, these span " +
                          number(diagonal) + " m");
     }
+    thicken(bounds, 0.1 * diagonal);
+    const glm::dvec3 size = bounds.max - bounds.min;
     if (scene.lights.empty())
         scene.lightOrigin = 0.5 * (bounds.min + bounds.max);
     Random random(options.seed, 1), motionRandom(options.seed, 2);
     std::vector<LightSite> sites(count);
     for (LightSite& site : sites) {
-        site.position = bounds.min + glm::dvec3(random.uniform3()) * size;
-        // Mostly small: 0.05% to 0.6% of the diagonal, the square favours the small ones.
-        const float share = random.uniform();
-        site.radius = static_cast<float>(diagonal) * (0.0005f + 0.0055f * share * share);
+        constexpr int tries = 8;
+        for (int i = 0; i < tries; ++i) {
+            site.position = bounds.min + glm::dvec3(random.uniform3()) * size;
+            // Mostly small: 0.05% to 0.6% of the diagonal, the square favours the small ones.
+            const float share = random.uniform();
+            site.radius = static_cast<float>(diagonal) * (0.0005f + 0.0055f * share * share);
+            if (!standsInFront(scene, site))
+                break;
+        }
+        site.edgeIlluminance = edgeIlluminance;
         site.reach = random.uniform(0.7f, 1.5f);
         if (random.chance(0.4f)) {
             site.colour = blackbodyColour(random.uniform(2000, 7000));

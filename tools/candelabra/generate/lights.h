@@ -66,7 +66,11 @@ void checkLightOptions(const std::string& name, uint32_t count, const SceneOptio
 void addSphereLights(Scene& scene, const std::vector<LightSite>& sites,
                      const SceneOptions& options);
 
-// Adds options.lights random sphere lights inside the scene's bounds.
-void addRandomLights(Scene& scene, const SceneOptions& options);
+// Adds options.lights random sphere lights inside the scene's bounds; those of a flat scene are
+// thickened, upwards or to both sides, because lights in its plane would not light it. Lights are
+// so small and so far from every camera that none covers much of its picture. At the edge of its
+// influence each gives `edgeIlluminance` lx.
+void addRandomLights(Scene& scene, const SceneOptions& options,
+                     float edgeIlluminance = LightSite{}.edgeIlluminance);
 
 } // namespace candelabra::app

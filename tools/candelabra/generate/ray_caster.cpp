@@ -201,6 +201,9 @@ void RayCaster::hitInstance(uint32_t item, const Ray& ray, RayHit& best)
         if (hit.distance >= nearest)
             return;
         nearest = hit.distance;
+        const glm::dvec3 face = glm::cross(glm::dvec3(b.position) - glm::dvec3(a.position),
+                                           glm::dvec3(c.position) - glm::dvec3(a.position));
+        best.front = glm::dot(face, local.direction) < 0; // transforms do not mirror
         const glm::dvec3 normal = (1 - hit.u - hit.v) * glm::dvec3(a.normal) +
                                   hit.u * glm::dvec3(b.normal) + hit.v * glm::dvec3(c.normal);
         best.normal = glm::normalize(glm::transpose(glm::dmat3(objectFromWorld)) * normal);
@@ -227,6 +230,7 @@ void RayCaster::hitAnalytic(const AnalyticObject& object, const Ray& ray, RayHit
         best.normal = object.type == AnalyticObject::Type::Plane
                           ? object.normal
                           : (distance * ray.direction - toObject) / object.radius;
+        best.front = true;
         best.material = object.material;
     }
 }

@@ -23,6 +23,7 @@ struct RayHit {
     double distance = 0;
     glm::dvec3 position{0};
     glm::dvec3 normal{0, 1, 0}; // unit, interpolated, on the side from which the ray comes
+    bool front = true;          // the ray meets the front of the surface
     uint32_t material = 0;
 };
 

@@ -190,33 +190,35 @@ void SceneBuilder::addCamera(const GltfPlacedNode& placed)
     scene_.cameras.push_back(camera);
 }
 
-// A camera that looks at the middle of the scene, slightly from above, from a distance at which it
-// sees the whole scene.
-Camera framingCamera(const Scene& scene)
-{
-    const Bounds bounds = sceneBounds(scene);
-    const glm::dvec3 centre = 0.5 * (bounds.min + bounds.max);
-    const double radius = std::max(0.5 * glm::length(bounds.max - bounds.min), 1e-3);
-    Camera camera;
-    camera.name = "default";
-    const double distance = 1.1 * radius / std::sin(0.5 * camera.verticalFov);
-    camera.forward = -glm::normalize(glm::dvec3(0.45, 0.3, 1));
-    camera.position = centre - distance * camera.forward;
-    const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, glm::dvec3(0, 1, 0)));
-    camera.up = glm::cross(right, camera.forward);
-    camera.nearPlane = std::min(camera.nearPlane, 0.01 * distance);
-    return camera;
-}
-
 void SceneBuilder::finish()
 {
     emissive_.warn(document_);
     scene_.lights = std::move(lights_.lights);
     placeLights(scene_, lights_.positions);
-    if (scene_.lights.empty() && !options_.lights)
+    if (scene_.lights.empty() && !options_.lights && !options_.defaultLight)
         document_.warn("", "has no lights; --lights N adds some");
-    if (scene_.cameras.empty())
-        scene_.cameras.push_back(framingCamera(scene_));
+}
+
+// Sets scene.nodes, given how many instances there were before each placed node was added. Nodes
+// come before those below them, so the instances of a node and of all below it are one run.
+void setNodes(const GltfDocument& document, const std::vector<GltfPlacedNode>& placed,
+              const std::vector<size_t>& firstInstances, Scene& scene)
+{
+    std::vector<size_t> open; // indices into `placed` of a node and those above it
+    std::vector<InstanceRange> ranges(placed.size());
+    const auto closeDownTo = [&](size_t depth, size_t end) {
+        for (; open.size() > depth; open.pop_back())
+            ranges[open.back()] = {firstInstances[open.back()], end - firstInstances[open.back()]};
+    };
+    for (size_t i = 0; i < placed.size(); ++i) {
+        closeDownTo(placed[i].depth, firstInstances[i]);
+        open.push_back(i);
+    }
+    closeDownTo(0, scene.instances.size());
+    for (size_t i = 0; i < placed.size(); ++i)
+        if (ranges[i].count > 0)
+            scene.nodes.push_back({document.model.nodes[placed[i].node].name,
+                                   static_cast<uint32_t>(placed[i].node), ranges[i]});
 }
 
 // Returns true if the content of a file is glTF: binary glTF begins with "glTF", and the JSON of
@@ -256,9 +258,14 @@ Scene loadGltf(const std::string& path, const SceneOptions& options)
     Scene scene;
     scene.name = std::filesystem::path(path).stem().string();
     SceneBuilder builder(document, options, scene);
-    for (const GltfPlacedNode& placed : placeGltfNodes(document))
+    const std::vector<GltfPlacedNode> nodes = placeGltfNodes(document);
+    std::vector<size_t> firstInstances;
+    for (const GltfPlacedNode& placed : nodes) {
+        firstInstances.push_back(scene.instances.size());
         builder.add(placed);
+    }
     builder.finish();
+    setNodes(document, nodes, firstInstances, scene);
     if (scene.instances.empty() && !document.missingExtensions.empty())
         document.fail("", "has nothing that can be drawn without the extensions that it requires "
                           "and that are not supported: " +

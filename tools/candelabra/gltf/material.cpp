@@ -130,10 +130,6 @@ Texture GltfTextures::decode(size_t image)
     return texture;
 }
 
-// The luminance of white in unlit materials, cd/m^2. Their colours are meant for a screen, and this
-// is how bright screens are.
-constexpr float unlitLuminance = 100;
-
 // Clamps a factor to [0, 1]. Rounding by exporters may have moved it out by up to 1e-4; larger
 // errors were refused when the file was opened.
 float unit(double x)

@@ -143,7 +143,8 @@ std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
         placed.push_back(current);
         const std::vector<int>& children = document.model.nodes[current.node].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child)
-            open.push_back({static_cast<size_t>(*child), current.worldFromNode, current.node});
+            open.push_back({static_cast<size_t>(*child), current.worldFromNode, current.node,
+                            current.depth + 1});
     }
     return placed;
 }

@@ -17,6 +17,7 @@ struct GltfPlacedNode {
     size_t node = 0;
     glm::dmat4 worldFromNode{1};
     std::optional<size_t> parent;
+    uint32_t depth = 0; // number of nodes above it
 };
 
 struct GltfTransform {

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "load/load.h"
 
+#include <algorithm>
 #include <filesystem>
+
+#include <fmt/format.h>
 
 #include "generate/generators.h"
 #include "generate/lights.h"
 #include "gltf/gltf.h"
 #include "io/suggestion.h"
+#include "load/auto_cameras.h"
+#include "load/brightness.h"
+#include "load/studio.h"
 #include "scene/file_kind.h"
 #include "scene/scene_error.h"
 #include "scene/scene_file.h"
@@ -17,6 +23,13 @@ namespace candelabra::app
 
 namespace
 {
+
+// Three digits, without an exponent where people do not expect one.
+std::string rounded(double value)
+{
+    return value >= 1000 && value < 1e9 ? fmt::format("{:.0f}", value)
+                                        : fmt::format("{:.3g}", value);
+}
 
 bool fileExists(const std::string& path)
 {
@@ -37,26 +50,93 @@ Scene loadFile(const std::string& scene, const SceneOptions& options)
         didYouMean(scene, {"hall", "field", "fence", "showcase"}));
 }
 
-Scene loadWithoutEnvironment(const std::string& scene, const SceneOptions& options)
+// Adds random lights that are together about as bright as what lights a glTF file already. Scene
+// descriptions say what is measured, so there the brightness of added lights does not depend on
+// others.
+void addLights(Scene& scene, bool gltf, const SceneOptions& options)
 {
-    if (isBuiltIn(scene))
-        return generateScene(scene, options);
-    Scene loaded = loadFile(scene, options);
+    const bool matches = gltf && options.lights.value_or(0) && isLit(scene);
+    const double present = matches ? typicalIlluminance(scene) : 0;
+    if (!(present > 0))
+        return addRandomLights(scene, options);
+    // The mean illuminance within the reach of a light is 3 times that at its edge, and a surface
+    // is within the reach of so many lights.
+    const double lights =
+        options.overlaps.value_or(std::min(defaultOverlaps, 0.5 * options.lights.value_or(0)));
+    addRandomLights(scene, options, float(present / (3 * lights)));
+}
+
+Scene loadWithLights(const std::string& scene, std::optional<SceneEnvironment> environment,
+                     const SceneOptions& options)
+{
+    if (isBuiltIn(scene)) {
+        Scene made = generateScene(scene, options);
+        if (environment)
+            made.exposureCompensation = 0; // under a sky it is not night
+        made.environment = std::move(environment);
+        return made;
+    }
+    Scene loaded = loadFile(scene, options); // first, because it says what is wrong with the path
+    const bool gltf = isGltf(scene);
+    loaded.environment = std::move(environment);
+    if (gltf) // scene descriptions have a camera of their own
+        addAutomaticCameras(loaded, options.imageAspect);
     if (options.lights)
-        addRandomLights(loaded, options);
+        addLights(loaded, gltf, options);
     return loaded;
 }
 
 SceneEnvironment loadEnvironment(const SceneOptions& options)
 {
+    SceneEnvironment out;
+    out.file = options.environment;
+    out.rotation = options.environmentRotation;
     try {
-        return {.file = options.environment,
-                .radiance = loadImageByExtension(options.environment),
-                .rotation = options.environmentRotation,
-                .scale = options.environmentScale};
+        out.radiance = loadImageByExtension(options.environment);
     } catch (const ImageError& error) {
         throw SceneError(std::string("--environment: ") + error.what());
     }
+    if (!options.environmentIlluminance) {
+        out.scale = options.environmentScale;
+        return out;
+    }
+    const double illuminance = groundIlluminance(out);
+    if (!(illuminance > 0))
+        throw SceneError("--environment-illuminance: " + options.environment +
+                         " is black above the horizon, so no factor makes it light level ground");
+    out.scale = *options.environmentIlluminance / illuminance;
+    return out;
+}
+
+// Says how bright the environment is, and warns if it and the suns of the scene are so different
+// that one of them cannot be seen.
+void describeEnvironment(Scene& scene)
+{
+    constexpr double different = 100;
+    const SceneEnvironment& environment = *scene.environment;
+    const double illuminance = groundIlluminance(environment);
+    std::string note = fmt::format("environment {}: {} lx on level ground", environment.file,
+                                   rounded(illuminance));
+    if (environment.scale != 1)
+        note += fmt::format(", its image times {}", rounded(environment.scale));
+    scene.notes.push_back(note);
+    const double sun = sunIlluminance(scene);
+    if (sun > 0 && illuminance > 0 && std::max(sun / illuminance, illuminance / sun) > different)
+        scene.warnings.push_back(fmt::format(
+            "the environment gives level ground {} lx and the suns of the scene give {} lx, so {} "
+            "will hardly be seen; --environment-illuminance LX scales the environment",
+            rounded(illuminance), rounded(sun), sun > illuminance ? "the environment" : "they"));
+}
+
+// Tells whether a surface emits so much light that it would be white with studioEv100().
+bool outshinesStudio(const Scene& scene, float white)
+{
+    const float most = 4 * white; // cd/m^2
+    return std::any_of(scene.instances.begin(), scene.instances.end(),
+                       [&](const Instance& instance) {
+                           const glm::vec3& e = scene.materials[instance.material].emission;
+                           return std::max({e.r, e.g, e.b}) > most;
+                       });
 }
 
 } // namespace
@@ -68,11 +148,31 @@ Scene loadScene(const std::string& scene, const SceneOptions& options)
     std::optional<SceneEnvironment> environment;
     if (!options.environment.empty())
         environment = loadEnvironment(options);
-    Scene out = loadWithoutEnvironment(scene, options);
-    out.environment = std::move(environment);
+    Scene out = loadWithLights(scene, std::move(environment), options);
+    if (options.defaultLight && !isLit(out)) {
+        const float white = studioWhite(out);
+        out.environment = studioEnvironment(out.cameras.front(), white);
+        out.exposureCompensation = 0;
+        if (!outshinesStudio(out, white))
+            out.knownEv100 = studioEv100(white);
+        out.notes.push_back(out.name + " has no light, so a studio lights it (" +
+                            rounded(groundIlluminance(*out.environment)) +
+                            " lx on level ground); --default-light off turns it off");
+    } else if (out.environment) {
+        describeEnvironment(out);
+    }
     out.lobes = options.lobes.value_or(out.lobes);
     out.energyCompensation = options.energyCompensation;
     return out;
+}
+
+void requireSomethingToDraw(const Scene& scene, const std::string& name)
+{
+    const auto isEmitter = [](const CndLight& light) { return !cndIsPunctual(light.type); };
+    if (scene.instances.empty() && scene.analyticObjects.empty() &&
+        std::none_of(scene.lights.begin(), scene.lights.end(), isEmitter))
+        throw SceneError(name + ": nothing to draw: there is no surface in it that the program can "
+                                "draw, and no light that can be seen");
 }
 
 } // namespace candelabra::app

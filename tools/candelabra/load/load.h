@@ -14,4 +14,7 @@ namespace candelabra::app
 // Throws SceneError.
 Scene loadScene(const std::string& scene, const SceneOptions& options);
 
+// Throws SceneError if the scene, which the user named `name`, has nothing that could be seen.
+void requireSomethingToDraw(const Scene& scene, const std::string& name);
+
 } // namespace candelabra::app

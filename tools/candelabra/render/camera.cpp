@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -151,6 +152,31 @@ Camera selectCamera(const Scene& scene, const std::string& wanted)
         names += (names.empty() ? "" : ", ") + (camera.name.empty() ? "(unnamed)" : camera.name);
     throw UsageError("--camera " + wanted + ": give a camera of the scene by name (" + names +
                      ") or index, or position and target as px,py,pz,tx,ty,tz[,fov]");
+}
+
+InstanceRange selectNode(const Scene& scene, const std::string& wanted)
+{
+    if (scene.nodes.empty())
+        throw UsageError("--fit " + wanted + ": " + scene.name +
+                         " has no nodes with a mesh; only glTF files have nodes");
+    for (const SceneNode& node : scene.nodes)
+        if (node.name == wanted)
+            return node.instances;
+    if (const auto index = parseUnsigned(wanted))
+        for (const SceneNode& node : scene.nodes)
+            if (node.fileIndex == *index)
+                return node.instances;
+    constexpr size_t shown = 10;
+    std::string names;
+    for (size_t i = 0; i < std::min(shown, scene.nodes.size()); ++i) {
+        const SceneNode& node = scene.nodes[i];
+        names += (i ? ", " : "") +
+                 (node.name.empty() ? std::to_string(node.fileIndex) : '"' + node.name + '"');
+    }
+    throw UsageError(fmt::format("--fit {}: no node with a mesh has this name or number; {} {}{}",
+                                 wanted,
+                                 scene.nodes.size() > shown ? "some of them are" : "there are",
+                                 names, scene.nodes.size() > shown ? " ..." : ""));
 }
 
 } // namespace candelabra::app

@@ -26,4 +26,8 @@ CndCamera makeCamera(const Camera& camera, double imageAspect);
 // metres, and the vertical field of view in degrees. Throws UsageError.
 Camera selectCamera(const Scene& scene, const std::string& wanted);
 
+// Returns the instances of the node of a glTF file that `wanted` names, with those of all nodes
+// below it, or of the node with that number in the file. Throws UsageError.
+InstanceRange selectNode(const Scene& scene, const std::string& wanted);
+
 } // namespace candelabra::app

@@ -56,6 +56,14 @@ void place(std::span<PassTime> passes, double start)
 
 } // namespace
 
+void useKnownExposure(const Scene& scene, CndExposureSettings& settings)
+{
+    if (settings.manual || !scene.knownEv100)
+        return;
+    settings.manual = VK_TRUE;
+    settings.manualEv100 = *scene.knownEv100;
+}
+
 struct Renderer::State {
     const VulkanContext& context;
     const Scene& scene;

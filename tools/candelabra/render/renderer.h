@@ -78,6 +78,9 @@ struct FrameStats {
     CndExposureStats exposure{};
 };
 
+// Replaces automatic exposure by Scene::knownEv100, if the scene has one.
+void useKnownExposure(const Scene& scene, CndExposureSettings& settings);
+
 class Renderer
 {
 public:

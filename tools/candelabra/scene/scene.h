@@ -47,6 +47,10 @@ struct TextureRef {
     glm::vec3 uRow{1, 0, 0}, vRow{0, 1, 0};
 };
 
+// The luminance of white in unlit materials, cd/m^2. Their colours are meant for a screen, and this
+// is how bright screens are.
+constexpr float unlitLuminance = 100;
+
 // Where a surface is: everywhere, where its coverage is at least a cutoff, or on that share of the
 // light's way to the viewer that its coverage says, as a fine screen would be.
 enum class AlphaMode { Opaque, Mask, Blend };
@@ -79,6 +83,20 @@ struct Instance {
     uint32_t mesh = 0;
     uint32_t material = 0;
     glm::dmat4 worldFromObject{1};
+};
+
+// A run of Scene::instances.
+struct InstanceRange {
+    size_t first = 0, count = 0;
+
+    bool operator==(const InstanceRange&) const = default;
+};
+
+// A node of a glTF file.
+struct SceneNode {
+    std::string name;        // may be empty
+    uint32_t fileIndex = 0;  // its number in the file
+    InstanceRange instances; // its own and those of the nodes below it
 };
 
 // A plane or a ball, exact and ray-cast per pixel. A plane is visible only from the side to which
@@ -119,7 +137,7 @@ struct LightMotion {
 // An equirectangular image around the scene: its top row is straight up, its middle is the
 // direction -z, and +x is to the right of that.
 struct SceneEnvironment {
-    std::string file;    // the file that it was loaded from
+    std::string file;    // the file that it was loaded from; "studio" if none, see load/studio.h
     Image radiance;      // cd/m^2
     double rotation = 0; // radians about the y axis, counter-clockwise seen from above
     double scale = 1;    // factor that multiplies the radiance
@@ -131,6 +149,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Instance> instances;
+    std::vector<SceneNode> nodes; // of glTF files: those with a mesh, or with one below them
     std::vector<AnalyticObject> analyticObjects;
     glm::dvec3 lightOrigin{0}; // light positions are relative to this point
     std::vector<CndLight> lights;
@@ -138,14 +157,21 @@ struct Scene {
     std::vector<std::shared_ptr<const CndPolygon>> polygons;
     std::vector<LightMotion> lightMotions; // empty, or one per light
     std::vector<Camera> cameras;           // at least one after loading; [0] is the default
+    bool interior = false;                 // an automatic camera found that it is a room
     glm::vec3 background{0};               // luminance of pixels without a surface, cd/m^2
     std::optional<SceneEnvironment> environment;
+    // With automatic exposure: the EV100 to use instead, because the light of the scene is known.
+    std::optional<float> knownEv100;
+    // EV, added to the compensation of every frame. Scenes at night have a negative one, as in
+    // photography: metered to middle grey, a night would look like a day.
+    float exposureCompensation = 0;
     CndLobeJoining lobes = CND_LOBES_CONSERVING;
     bool energyCompensation = false;      // add the light that bounces between microfacets
     std::optional<glm::uvec2> resolution; // default image size
     bool lightsVisible = true;            // draw area lights as emitters
-    // What the file contains but the program does not use, one sentence each.
+    // What the file contains but the program does not use, and what looks wrong, one sentence each.
     std::vector<std::string> warnings;
+    std::vector<std::string> notes; // what the program has chosen or found, one sentence each
 };
 
 struct Bounds {
@@ -156,9 +182,6 @@ Bounds sceneBounds(const Scene& scene);
 
 // The mask of CndMaterialClass for all materials in use: which of the two lobes some surface may
 // lack.
-    // EV, added to the compensation of every frame. Scenes at night have a negative one, as in
-    // photography: metered to middle grey, a night would look like a day.
-    float exposureCompensation = 0;
 uint32_t materialClasses(const Scene& scene);
 
 // Sets `out` to the scene's lights, the moving ones at the places where they are at `time` seconds.

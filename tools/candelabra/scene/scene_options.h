@@ -31,11 +31,15 @@ struct SceneOptions {
     std::optional<double> sunRadius;
     // Flat rectangles with an emissive material become area lights.
     bool emissiveLights = false;
-    std::string environment;             // an .hdr, .exr or .pfm file; empty: no environment
-    double environmentRotation = 0;      // as SceneEnvironment::rotation
-    double environmentScale = 1;         // as SceneEnvironment::scale
+    std::string environment;        // an .hdr, .exr or .pfm file; empty: no environment
+    double environmentRotation = 0; // as SceneEnvironment::rotation
+    double environmentScale = 1;    // as SceneEnvironment::scale
+    // lx on level ground, which the environment is scaled to; used instead of environmentScale
+    std::optional<double> environmentIlluminance;
     std::optional<CndLobeJoining> lobes; // default: sum for .json files, else conserving
     bool energyCompensation = false;
+    bool defaultLight = false; // a scene without any light gets the environment of load/studio.h
+    double imageAspect = 16.0 / 9; // width / height of pictures, for automatic cameras
 };
 
 } // namespace candelabra::app

@@ -172,12 +172,15 @@ bool shapeWidgets(CndLight& light)
 
 } // namespace
 
-void addLight(Scene& scene, LightEditor& editor, const glm::dvec3& position)
+void addLight(Scene& scene, LightEditor& editor, const glm::dvec3& position, const NewLight& made)
 {
-    CndLight light{.type = CND_LIGHT_SPHERE, .radius = 0.1f, .influenceRadius = 12};
+    CndLight light{.type = CND_LIGHT_SPHERE,
+                   .radius = std::clamp(made.radius, smallestRadius, largestRadius),
+                   .influenceRadius = made.influenceRadius};
     assign(light.position, glm::vec3(position - scene.lightOrigin));
     light.direction[1] = -1;
-    assign(light.emission, glm::vec3(cndSphereLuminanceFromPower(1500, light.radius))); // lm
+    assign(light.emission, glm::vec3(cndSphereLuminanceFromPower(made.power, light.radius)));
+    widenInfluence(light);
     scene.lights.push_back(light);
     if (!scene.lightMotions.empty())
         scene.lightMotions.emplace_back();

@@ -15,9 +15,16 @@ struct LightEditor {
     bool changed = false; // set by every edit; the viewer resets it when it has told its renderers
 };
 
-// Adds a sphere light of 1500 lm, enough for a room, at `position` (metres, world space) and
-// selects it.
-void addLight(Scene& scene, LightEditor& editor, const glm::dvec3& position);
+// The size and the strength of a new sphere light. The default is enough for a room.
+struct NewLight {
+    float radius = 0.1f;        // metres
+    float power = 1500;         // lm
+    float influenceRadius = 12; // metres
+};
+
+// Adds a sphere light at `position` (metres, world space) and selects it.
+void addLight(Scene& scene, LightEditor& editor, const glm::dvec3& position,
+              const NewLight& light = {});
 void removeLight(Scene& scene, LightEditor& editor);
 // Moves the selection by `step` lights; after the last light comes the first.
 void selectLight(const Scene& scene, LightEditor& editor, int step);

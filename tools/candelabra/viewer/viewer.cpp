@@ -83,7 +83,7 @@ Viewer::Viewer(const ViewerOptions& options, const ContextOptions& contextOption
       swapchain_(context_, window_, slotCount),
       overlay_(context_, window_, swapchain_),
       ring_(context_, slotCount),
-      camera_(selectCamera(scene_, options.camera), cruisingSpeed(scene_)),
+      camera_(options.camera, cruisingSpeed(scene_)),
       panel_{.frame = options.frame, .visible = options.overlay}
 {
     takeScene();
@@ -99,6 +99,9 @@ bool Viewer::open(const std::string& scene, const SceneOptions& options)
 {
     try {
         Scene loaded = loadScene(scene, options);
+        requireSomethingToDraw(loaded, scene);
+        for (const std::string& note : loaded.notes)
+            spdlog::info("{}", note);
         source_ = sceneSource(scene, options.seed);
         ring_.wait();
         renderer_.reset(); // both renderers refer to the scene
@@ -123,6 +126,11 @@ void Viewer::takeScene()
     materials_ = scene_.materials;
     ownLights_ = scene_.lights.size() - options_.sceneOptions.lights.value_or(0);
     panel_.frame.lightsVisible = options_.lightsVisible.value_or(scene_.lightsVisible);
+    CndExposureSettings& exposure = panel_.frame.exposure;
+    if (std::exchange(knownExposure_, false))
+        exposure.manual = VK_FALSE;
+    knownExposure_ = !exposure.manual && scene_.knownEv100;
+    useKnownExposure(scene_, exposure);
     panel_.wantedLights = uint32_t(scene_.lights.size());
     panel_.editor = {};
     figures_.picked.reset();

@@ -23,8 +23,8 @@ namespace candelabra::app
 struct ViewerOptions {
     std::string scene; // as loadScene takes it
     SceneOptions sceneOptions;
-    std::string camera; // as selectCamera takes it
-    PixelSize size;     // of the window when it opens
+    Camera camera;  // where the user starts
+    PixelSize size; // of the window when it opens
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     FrameOptions frame;
     std::optional<bool> lightsVisible; // empty: as the scene says
@@ -53,6 +53,8 @@ private:
     void onKey(int key);
     bool onLightKey(int key);
     void toggleOrbit();
+    void fitScene();
+    void addLightInView();
     void onDrop(const std::string& path);
     std::string freeName(const char* extension);
     void save(const char* extension, const std::function<void(const std::string&)>& write);
@@ -111,7 +113,8 @@ private:
     double time_ = 0;              // seconds, for moving lights
     double lastX_ = 0, lastY_ = 0; // place of the mouse in the previous frame
     bool looking_ = false;         // a drag that began on the scene goes on
-    std::string dropped_;          // path of a dropped file, to be opened before the next frame
+    bool knownExposure_ = false; // the exposure is Scene::knownEv100, which the user has not chosen
+    std::string dropped_;        // path of a dropped file, to be opened before the next frame
     uint32_t savedFiles_ = 0;
     // Requests that doRequests() fulfils after this frame: the extension of an image to save,
     // saving the scene, the pixel whose lights are to be listed.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -12,9 +13,11 @@
 #include "io/report.h"
 #include "io/table.h"
 #include "measure/frame/pick.h"
+#include "measure/frame/surfaces.h"
 #include "render/camera.h"
 #include "render/readback.h"
 #include "render/setting_names.h"
+#include "scene/fit_camera.h"
 #include "scene/scene_options.h"
 #include "viewer/viewer.h"
 #include "json/save.h"
@@ -24,9 +27,8 @@ namespace candelabra::app
 namespace
 {
 
-constexpr double lightDistance = 2.5; // metres from the camera to a new light
-constexpr float lightStep = 0.1f;     // metres by which a key moves a light
-constexpr float radiusStep = 1.1f;    // factor by which a key changes a light's radius
+constexpr float lightStep = 0.1f;  // metres by which a key moves a light
+constexpr float radiusStep = 1.1f; // factor by which a key changes a light's radius
 
 } // namespace
 
@@ -59,6 +61,9 @@ void Viewer::onKey(int key)
         break;
     case GLFW_KEY_O:
         toggleOrbit();
+        break;
+    case GLFW_KEY_F:
+        fitScene();
         break;
     case GLFW_KEY_M:
         frame.specular = nextSpecular(frame.specular);
@@ -118,7 +123,7 @@ bool Viewer::onLightKey(int key)
     const glm::vec3 right{-ahead.z, 0, ahead.x};
     switch (key) {
     case GLFW_KEY_N:
-        addLight(scene_, editor, camera.position + lightDistance * camera.forward);
+        addLightInView();
         return true;
     case GLFW_KEY_TAB:
         selectLight(scene_, editor, window_.shiftPressed() ? -1 : 1);
@@ -167,6 +172,48 @@ void Viewer::toggleOrbit()
         glm::dot(0.5 * (bounds.min + bounds.max) - camera.position, camera.forward);
     const double third = glm::length(bounds.max - bounds.min) / 3;
     camera_.orbit(middle > 0 ? middle : std::max(third, 1.0));
+}
+
+// Moves the camera back until it sees all of the scene; inside a room, to where it saw most of it.
+void Viewer::fitScene()
+{
+    if (scene_.interior) {
+        camera_ = FlyCamera(selectCamera(scene_, "inside"), camera_.speed());
+        return;
+    }
+    const PixelSize size = renderer_->size();
+    const Camera fitted = fitCamera(scene_, {0, scene_.instances.size()}, camera_.camera(),
+                                    double(size.width) / size.height);
+    camera_ = FlyCamera(fitted, camera_.speed());
+}
+
+// Adds a light where it lights what is in the middle of the view without hiding it: nearer to the
+// camera, and higher. Its size goes with the distance. What it lights gets about the illuminance
+// with which a grey card would have the luminance that the exposure is for now.
+void Viewer::addLightInView()
+{
+    const Camera camera = camera_.camera();
+    const PixelSize size = renderer_->size();
+    std::optional<double> seen;
+    if (recorded_ != decltype(recorded_){}) {
+        ring_.wait();
+        const Surfaces surfaces(context_, *renderer_, panel_.frame);
+        if (const auto point = surfaces.pointAt(size.width / 2, size.height / 2))
+            seen = glm::length(point->position - camera.position);
+    }
+    const Bounds bounds = sceneBounds(scene_);
+    const double diagonal = glm::length(bounds.max - bounds.min);
+    const double distance = seen.value_or(std::max(diagonal / 3, 1.0));
+    const double higher = 0.6 * std::tan(0.5 * camera.verticalFov) * 0.7 * distance;
+    const glm::dvec3 position =
+        camera.position + 0.7 * distance * camera.forward + glm::dvec3(0, higher, 0);
+    const double fromLight = glm::length(glm::dvec2(0.3 * distance, higher));
+    const double luminance = std::exp2(double(figures_.exposure.adaptedEv100)) / 8; // cd/m^2
+    const double illuminance = luminance * std::numbers::pi / 0.18;
+    addLight(scene_, panel_.editor, position,
+             {.radius = float(0.02 * distance),
+              .power = float(4 * std::numbers::pi * illuminance * fromLight * fromLight),
+              .influenceRadius = float(8 * fromLight)});
 }
 
 void Viewer::onDrop(const std::string& path)

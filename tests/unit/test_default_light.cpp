@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests the light of scenes that have none, how bright environments are, and added lights.
+#include <cmath>
+#include <numbers>
+
+#include "load/brightness.h"
+#include "load/studio.h"
+#include "unit/gltf_fixture.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+using namespace candelabra::app;
+using std::numbers::pi;
+
+class DefaultLight : public GltfTest
+{
+protected:
+    // Writes a uniform environment of this luminance and returns its path.
+    std::string sky(float luminance)
+    {
+        Image image{.width = 64, .height = 32, .channels = 3, .pixels = {}};
+        image.pixels.assign(64 * 32 * 3, luminance);
+        const std::string path = folder_.path("sky.pfm");
+        savePfm(path, image);
+        return path;
+    }
+    static bool notes(const Scene& scene, const std::string& text)
+    {
+        return std::any_of(scene.notes.begin(), scene.notes.end(), [&](const std::string& note) {
+            return note.find(text) != std::string::npos;
+        });
+    }
+};
+
+// A triangle with one light of KHR_lights_punctual.
+GltfBuilder lit(const Json& light, const Json& node = Json::object())
+{
+    GltfBuilder builder = triangleScene();
+    builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+    Json placed = node;
+    placed["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    builder.rootNode(placed);
+    return builder;
+}
+
+TEST_F(DefaultLight, ScenesWithoutLightGetAStudioIfAskedFor)
+{
+    const Scene studio = load(triangleScene(), {.defaultLight = true});
+    ASSERT_TRUE(studio.environment);
+    EXPECT_EQ(studio.environment->file, "studio");
+    EXPECT_NEAR(groundIlluminance(*studio.environment), pi, 1e-9);
+    EXPECT_TRUE(notes(studio, "--default-light off"));
+    EXPECT_TRUE(studio.warnings.empty());
+    // A grey card on level ground: 0.18 of pi lx, divided by pi.
+    EXPECT_NEAR(*studio.knownEv100, std::log2(0.18 * 100 / 12.5), 1e-3);
+    // Unlit colours are meant for a screen, so white in the studio is as bright as theirs.
+    GltfBuilder unlit = triangleScene();
+    unlit.json["extensionsUsed"] = {"KHR_materials_unlit"};
+    unlit.json["materials"] = Json::parse(R"([{"extensions": {"KHR_materials_unlit": {}}}])");
+    unlit.json["meshes"][0]["primitives"][0]["material"] = 0;
+    const Scene beside = load(unlit, {.defaultLight = true});
+    EXPECT_NEAR(groundIlluminance(*beside.environment), pi * double(unlitLuminance), 1e-6);
+    EXPECT_NEAR(*beside.knownEv100, std::log2(0.18 * double(unlitLuminance) * 8), 1e-3);
+    GltfBuilder bright = triangleScene();
+    bright.json["materials"] = Json::parse(R"([{"emissiveFactor": [1, 1, 1],
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 500}}}])");
+    bright.json["meshes"][0]["primitives"][0]["material"] = 0;
+    EXPECT_FALSE(load(bright, {.defaultLight = true}).knownEv100); // it would be white
+    const Scene off = load(triangleScene());
+    EXPECT_FALSE(off.environment);
+    EXPECT_TRUE(warns(off, "has no lights"));
+}
+
+TEST_F(DefaultLight, AnyLightOfTheSceneKeepsTheStudioAway)
+{
+    const SceneOptions options{.defaultLight = true};
+    EXPECT_FALSE(load(lit({{"type", "point"}}), options).environment);
+    // A light that is turned off is none.
+    EXPECT_TRUE(load(lit({{"type", "point"}, {"intensity", 0}}), options).environment);
+    SceneOptions more = options;
+    more.lights = 3;
+    EXPECT_FALSE(load(triangleScene(), more).environment);
+    SceneOptions outside = options;
+    outside.environment = sky(5);
+    EXPECT_EQ(load(triangleScene(), outside).environment->file, outside.environment);
+}
+
+// The key light is above to the left of the camera, wherever the camera looks.
+TEST_F(DefaultLight, TheKeyLightStandsBesideTheCamera)
+{
+    for (const glm::dvec3& forward :
+         {glm::dvec3(0, 0, -1), glm::dvec3(1, -0.3, 0), glm::dvec3(-0.5, 0.2, 0.8)}) {
+        const Camera camera{.forward = glm::normalize(forward)};
+        const SceneEnvironment studio = studioEnvironment(camera, 1);
+        glm::dvec3 brightest(0);
+        float most = 0;
+        for (uint32_t y = 0; y < studio.radiance.height; ++y)
+            for (uint32_t x = 0; x < studio.radiance.width; ++x) {
+                const float luminance =
+                    studio.radiance.pixels[3 * (size_t(y) * studio.radiance.width + x)];
+                if (luminance > most) {
+                    most = luminance;
+                    brightest = equirectangularDirection(studio.radiance, x, y);
+                }
+            }
+        // Counter-clockwise seen from above, as SceneEnvironment::rotation.
+        const double c = std::cos(studio.rotation), s = std::sin(studio.rotation);
+        const glm::dvec3 key(c * brightest.x + s * brightest.z, brightest.y,
+                             -s * brightest.x + c * brightest.z);
+        const glm::dvec3 level = glm::normalize(glm::dvec3(forward.x, 0, forward.z));
+        const glm::dvec3 right = glm::cross(level, glm::dvec3(0, 1, 0));
+        EXPECT_GT(key.y, 0.5);
+        EXPECT_LT(glm::dot(key, right), -0.3);
+        EXPECT_LT(glm::dot(key, level), -0.3); // it shines from behind the camera
+    }
+}
+
+TEST_F(DefaultLight, EnvironmentsAreMeasuredAndScaled)
+{
+    SceneOptions options{.environment = sky(20)};
+    options.environmentScale = 3;
+    const Scene scaled = load(triangleScene(), options);
+    // Uniform surroundings of luminance L give any plane pi L.
+    EXPECT_NEAR(groundIlluminance(*scaled.environment), 60 * pi, 1e-3);
+    EXPECT_TRUE(notes(scaled, "188 lx on level ground"));
+    options.environmentIlluminance = 15'000;
+    const Scene wanted = load(triangleScene(), options);
+    EXPECT_NEAR(groundIlluminance(*wanted.environment), 15'000, 0.01);
+    EXPECT_TRUE(notes(wanted, "15000 lx on level ground"));
+    options.environment = sky(0);
+    EXPECT_NE(error(triangleScene(), options).find("black above the horizon"), std::string::npos);
+}
+
+TEST_F(DefaultLight, AnEnvironmentThatDoesNotFitTheSunIsAWarning)
+{
+    const auto warned = [&](double sun, float luminance) {
+        const Scene scene = load(lit({{"type", "directional"}, {"intensity", sun}}),
+                                 {.environment = sky(luminance)});
+        return warns(scene, "--environment-illuminance");
+    };
+    EXPECT_FALSE(warned(100'000, 5'000)); // 15,700 lx
+    EXPECT_FALSE(warned(100'000, 400));
+    EXPECT_TRUE(warned(100'000, 1));
+    EXPECT_TRUE(warned(0.1, 100));
+    EXPECT_FALSE(warned(0, 100)); // no sun
+}
+
+// Lights that are added to a file together give about what its own light gives.
+TEST_F(DefaultLight, AddedLightsAreAsBrightAsThoseOfTheFile)
+{
+    for (const double sun : {0.5, 50.0, 100'000.0}) {
+        const Json light{{"type", "directional"}, {"intensity", sun}};
+        const GltfBuilder builder = lit(light);
+        const double own = typicalIlluminance(load(builder));
+        EXPECT_GT(own, 0.1 * sun);
+        EXPECT_LE(own, sun);
+        Scene more = load(builder, {.lights = 60});
+        std::erase_if(more.lights, [](const CndLight& l) { return cndIsDistant(l.type); });
+        ASSERT_EQ(more.lights.size(), 60u);
+        const double added = typicalIlluminance(more);
+        EXPECT_GT(added, 0.2 * own) << sun;
+        EXPECT_LT(added, 5 * own) << sun;
+    }
+}
+
+TEST_F(DefaultLight, AddedLightsDoNotStandInFrontOfACamera)
+{
+    GltfBuilder builder = triangleScene();
+    builder.json["nodes"][0]["scale"] = {30, 30, 30};
+    builder.json["cameras"] =
+        Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.01}}])");
+    builder.rootNode({{"camera", 0}, {"translation", {10, 10, 0}}}); // among the lights
+    const Scene scene = load(builder, {.lights = 3000});
+    double widest = 0;
+    for (const CndLight& light : scene.lights) {
+        const glm::dvec3 at(light.position[0], light.position[1], light.position[2]);
+        widest = std::max(widest, double(light.radius) /
+                                      glm::length(scene.lightOrigin + at - glm::dvec3(10, 10, 0)));
+    }
+    EXPECT_LE(widest, 1.0 / 29);
+    EXPECT_GT(widest, 1.0 / 300); // the bound is not met because all lights are tiny
+}
+
+TEST_F(DefaultLight, ScenesWithoutAnythingToSeeAreRefused)
+{
+    EXPECT_NO_THROW(requireSomethingToDraw(load(triangleScene()), "a"));
+    GltfBuilder empty;
+    empty.rootNode({{"name", "nothing"}});
+    const Scene scene = load(empty, {.defaultLight = true});
+    try {
+        requireSomethingToDraw(scene, "void.glb");
+        ADD_FAILURE();
+    } catch (const SceneError& nothing) {
+        EXPECT_NE(std::string(nothing.what()).find("void.glb: nothing to draw"), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace candelabra::test

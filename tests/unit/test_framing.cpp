@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests automatic cameras, and cameras that are fitted to objects.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/error.h"
+#include "load/auto_cameras.h"
+#include "render/camera.h"
+#include "scene/fit_camera.h"
+#include "unit/gltf_fixture.h"
+
+namespace candelabra::test
+{
+namespace
+{
+
+using namespace candelabra::app;
+
+using Framing = GltfTest;
+
+// Adds a box of the given size as a mesh, with fronts outside or inside, and returns its index.
+int addBox(GltfBuilder& builder, const glm::vec3& size, bool inward)
+{
+    std::vector<float> positions;
+    for (int corner = 0; corner < 8; ++corner)
+        for (int axis = 0; axis < 3; ++axis)
+            positions.push_back((corner >> axis & 1 ? 0.5f : -0.5f) * size[axis]);
+    // Counter-clockwise seen from outside.
+    std::vector<uint16_t> indices{1, 3, 7, 1, 7, 5, 0, 4, 6, 0, 6, 2, 2, 6, 7, 2, 7, 3,
+                                  0, 1, 5, 0, 5, 4, 4, 5, 7, 4, 7, 6, 0, 2, 3, 0, 3, 1};
+    if (inward)
+        for (size_t i = 0; i < indices.size(); i += 3)
+            std::swap(indices[i], indices[i + 1]);
+    const int position = builder.floats(positions, "VEC3"), index = builder.indices(indices);
+    return builder.mesh({{"attributes", {{"POSITION", position}}}, {"indices", index}});
+}
+
+Scene boxScene(const glm::vec3& size, const glm::dvec3& at = {})
+{
+    Scene scene;
+    Mesh mesh;
+    for (int corner = 0; corner < 8; ++corner)
+        mesh.vertices.push_back(
+            {.position = size * (glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1) - 0.5f)});
+    // A vertex that no triangle uses.
+    mesh.vertices.push_back({.position = glm::vec3(1e6f)});
+    mesh.indices = {1, 3, 7, 1, 7, 5, 0, 4, 6, 0, 6, 2, 2, 6, 7, 2, 7, 3,
+                    0, 1, 5, 0, 5, 4, 4, 5, 7, 4, 7, 6, 0, 2, 3, 0, 3, 1};
+    scene.meshes.push_back(mesh);
+    scene.materials.emplace_back();
+    Instance instance;
+    instance.worldFromObject[3] = glm::dvec4(at, 1);
+    scene.instances.push_back(instance);
+    return scene;
+}
+
+struct Extent {
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    double bottom = left, top = -left, nearest = left;
+};
+
+// Returns what a camera sees of the instances, where -1..1 is the picture.
+Extent seenBy(const Camera& camera, const Scene& scene, const InstanceRange& range, double aspect)
+{
+    Extent out;
+    const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
+    visitVertices(scene, range, [&](const glm::dvec3& p) {
+        const glm::dvec3 d = p - camera.position;
+        const double depth = glm::dot(d, camera.forward);
+        const double half = camera.orthographic ? 0.5 * camera.orthographicHeight
+                                                : depth * std::tan(0.5 * camera.verticalFov);
+        const double x = glm::dot(d, right) / (half * aspect), y = glm::dot(d, camera.up) / half;
+        out.left = std::min(out.left, x);
+        out.right = std::max(out.right, x);
+        out.bottom = std::min(out.bottom, y);
+        out.top = std::max(out.top, y);
+        out.nearest = std::min(out.nearest, depth);
+    });
+    return out;
+}
+
+void expectFilled(const Camera& camera, const Scene& scene, const InstanceRange& range,
+                  double aspect)
+{
+    const Extent e = seenBy(camera, scene, range, aspect);
+    EXPECT_GT(e.nearest, camera.nearPlane) << camera.name;
+    EXPECT_GE(std::min(e.left, e.bottom), -fitShare - 1e-9) << camera.name;
+    EXPECT_LE(std::max(e.right, e.top), fitShare + 1e-9) << camera.name;
+    const double width = 0.5 * (e.right - e.left), height = 0.5 * (e.top - e.bottom);
+    EXPECT_NEAR(std::max(width, height), fitShare, 1e-6) << camera.name << " " << aspect;
+}
+
+TEST_F(Framing, EveryAutomaticCameraFillsItsPicture)
+{
+    for (const glm::vec3& size :
+         {glm::vec3(1, 2, 3), glm::vec3(100, 0.01f, 40), glm::vec3(1e-3f, 1e-3f, 5e-3f)})
+        for (const double aspect : {16.0 / 9, 1.0, 0.4}) {
+            Scene scene = boxScene(size, {500, -20, 7});
+            addAutomaticCameras(scene, aspect);
+            ASSERT_EQ(scene.cameras.size(), 6u);
+            EXPECT_FALSE(scene.interior);
+            const char* names[] = {"three-quarter", "front", "right", "back", "left", "above"};
+            for (size_t i = 0; i < 6; ++i) {
+                EXPECT_EQ(scene.cameras[i].name, names[i]);
+                expectFilled(scene.cameras[i], scene, {0, 1}, aspect);
+            }
+            // From the right of the front, and from above.
+            const glm::dvec3& forward = scene.cameras[0].forward;
+            EXPECT_LT(forward.x, -0.2);
+            EXPECT_LT(forward.y, -0.2);
+            EXPECT_LT(forward.z, -0.4);
+            EXPECT_EQ(scene.cameras[5].forward, glm::dvec3(0, -1, 0));
+        }
+}
+
+TEST_F(Framing, FittingKeepsTheDirectionOfAnyCamera)
+{
+    const Scene scene = boxScene({2, 1, 4}, {0, 3, 0});
+    for (const bool orthographic : {false, true}) {
+        Camera camera;
+        camera.forward = glm::normalize(glm::dvec3(0.3, -0.5, 1));
+        camera.up = glm::normalize(glm::cross(
+            glm::normalize(glm::cross(camera.forward, glm::dvec3(0.4, 1, 0))), camera.forward));
+        camera.orthographic = orthographic;
+        camera.farPlane = orthographic ? 10 : 0;
+        const Camera fitted = fitCamera(scene, {0, 1}, camera, 1.5);
+        EXPECT_EQ(fitted.forward, camera.forward);
+        EXPECT_EQ(fitted.up, camera.up);
+        expectFilled(fitted, scene, {0, 1}, 1.5);
+        EXPECT_NO_THROW(makeCamera(fitted, 1.5));
+        // The camera's own aspect counts more than the picture's.
+        camera.aspect = 0.5;
+        expectFilled(fitCamera(scene, {0, 1}, camera, 1.5), scene, {0, 1}, 0.5);
+    }
+    const Camera still = fitCamera(scene, {0, 0}, Camera{}, 1);
+    EXPECT_EQ(still, Camera{});
+}
+
+// A plane with one side that faces away from the usual camera, or down, is seen from its front.
+TEST_F(Framing, PlanesAreSeenFromTheirFront)
+{
+    for (const Json& rotation : {Json{0, 0, 0, 1}, Json{0, 1, 0, 0}, Json{0, 0.7071, 0, 0.7071},
+                                 Json{0.7071, 0, 0, 0.7071}, Json{-0.7071, 0, 0, 0.7071}}) {
+        GltfBuilder builder = triangleScene();
+        builder.json["nodes"][0]["rotation"] = rotation;
+        const Scene scene = load(builder);
+        const glm::dvec3 normal = glm::normalize(worldAreaNormal(scene, scene.instances[0], 0));
+        EXPECT_LT(glm::dot(normal, scene.cameras[0].forward), -0.1) << rotation;
+    }
+}
+
+TEST_F(Framing, RoomsAreSeenFromInside)
+{
+    GltfBuilder room;
+    room.rootNode({{"mesh", addBox(room, {8, 3, 5}, true)}, {"translation", {100, 1.5, 0}}});
+    // A piece of furniture in the middle.
+    room.rootNode({{"mesh", addBox(room, {1, 1, 1}, false)}, {"translation", {100, 0.5, 0}}});
+    const Scene scene = load(room);
+    EXPECT_TRUE(scene.interior);
+    ASSERT_EQ(scene.cameras.size(), 8u);
+    EXPECT_EQ(scene.cameras[0].name, "inside");
+    EXPECT_EQ(scene.cameras[1].name, "inside-2");
+    EXPECT_EQ(scene.cameras[2].name, "three-quarter");
+    for (size_t i = 0; i < 2; ++i) {
+        const Camera& camera = scene.cameras[i];
+        const glm::dvec3 p = camera.position - glm::dvec3(100, 0, 0);
+        EXPECT_LT(std::abs(p.x), 3.9);
+        EXPECT_LT(std::abs(p.z), 2.4);
+        EXPECT_NEAR(p.y, 1.6, 1e-6); // the height of eyes above the floor
+        EXPECT_FALSE(std::abs(p.x) < 0.5 && std::abs(p.z) < 0.5);
+        // It looks across the room, not at the wall beside it.
+        EXPECT_LT(glm::dot(glm::dvec3(p.x, 0, p.z), camera.forward), -1);
+    }
+    EXPECT_LE(glm::dot(scene.cameras[0].forward, scene.cameras[1].forward), 0.1);
+}
+
+// A closed box is an object, and so is a house whose walls have two sides.
+TEST_F(Framing, HousesAreSeenFromOutside)
+{
+    GltfBuilder house;
+    house.rootNode({{"mesh", addBox(house, {8, 3, 5}, false)}});
+    EXPECT_FALSE(load(house).interior);
+    house.rootNode({{"mesh", addBox(house, {7.8f, 2.8f, 4.8f}, true)}});
+    const Scene scene = load(house);
+    EXPECT_FALSE(scene.interior);
+    EXPECT_EQ(scene.cameras[0].name, "three-quarter");
+}
+
+TEST_F(Framing, FilesWithACameraHaveTheOthersToo)
+{
+    GltfBuilder builder = triangleScene();
+    builder.json["cameras"] = Json::parse(
+        R"([{"type": "perspective", "name": "mine", "perspective": {"yfov": 1, "znear": 0.1}}])");
+    builder.rootNode({{"camera", 0}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.cameras[0].name, "mine");
+    EXPECT_EQ(selectCamera(scene, "three-quarter").name, "three-quarter");
+}
+
+TEST_F(Framing, NodesAreFoundWithAllBelowThem)
+{
+    // 0 "car": 1 "wheels" (2 and 3 "wheel"), 4 "body"; 5 "lamp" without a mesh; 6 a second root.
+    GltfBuilder builder = triangleScene();
+    builder.json["nodes"] = Json::parse(R"([
+        {"name": "car", "children": [1, 4, 5]},
+        {"name": "wheels", "children": [2, 3], "translation": [0, 0, 5]},
+        {"name": "wheel", "mesh": 0}, {"name": "wheel", "mesh": 0, "translation": [2, 0, 0]},
+        {"name": "body", "mesh": 0}, {"name": "lamp"}, {"mesh": 0, "translation": [0, 9, 0]}])");
+    builder.json["scenes"][0]["nodes"] = {0, 6};
+    const Scene scene = load(builder);
+    ASSERT_EQ(scene.instances.size(), 4u);
+    EXPECT_EQ(selectNode(scene, "car"), (InstanceRange{0, 3}));
+    EXPECT_EQ(selectNode(scene, "wheels"), (InstanceRange{0, 2}));
+    EXPECT_EQ(selectNode(scene, "wheel"), (InstanceRange{0, 1})); // the first of that name
+    EXPECT_EQ(selectNode(scene, "3"), (InstanceRange{1, 1}));
+    EXPECT_EQ(selectNode(scene, "body"), (InstanceRange{2, 1}));
+    EXPECT_EQ(selectNode(scene, "6"), (InstanceRange{3, 1}));
+    for (const char* unknown : {"lamp", "5", "7", "Car", "-1"})
+        try {
+            selectNode(scene, unknown);
+            ADD_FAILURE() << unknown;
+        } catch (const UsageError& error) {
+            EXPECT_NE(std::string(error.what()).find("\"wheels\""), std::string::npos);
+        }
+    const Camera fitted = fitCamera(scene, selectNode(scene, "wheels"), scene.cameras[0], 1.5);
+    expectFilled(fitted, scene, {0, 2}, 1.5);
+}
+
+} // namespace
+} // namespace candelabra::test

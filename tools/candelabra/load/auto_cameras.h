@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras for scenes that have none, or that a user wants to see from other sides.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+// Appends cameras that show all instances in pictures of the given width / height.
+//
+// Of an object: "three-quarter" from the front and slightly above, then "front", "right", "back",
+// "left" and "above". Each fills fitShare of the picture. The front is the side towards +z, as glTF
+// has it. "three-quarter" looks from another side if little of the front would be drawn, for
+// instance of a plane that shows its back there.
+//
+// Of a room, which shows mostly backs of its surfaces from outside and mostly fronts from inside:
+// "inside" and "inside-2", at the height of eyes, with the widest views that were found; then the
+// cameras above. Scene::interior becomes true.
+//
+// Of lights alone, which may be visible as emitters: "three-quarter". Without those too, a camera
+// at the origin.
+void addAutomaticCameras(Scene& scene, double aspect);
+
+} // namespace candelabra::app

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// How bright the light of a scene is. No surface casts a shadow here, as in the engine.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+// Returns the direction of the middle of a pixel of an equirectangular image.
+glm::dvec3 equirectangularDirection(const Image& image, uint32_t x, uint32_t y);
+
+// Returns the illuminance in lx that an environment gives level ground, its scale included.
+double groundIlluminance(const SceneEnvironment& environment);
+
+// Returns the illuminance in lx that the directional lights and distant spheres of a scene give
+// surfaces that face them, summed.
+double sunIlluminance(const Scene& scene);
+
+// Estimates the illuminance in lx of what the default camera sees: the mean over its surfaces of
+// all lights and the environment. Area lights are taken for points, and surfaces get the light of
+// an environment that level ground gets, so a factor of 2 is nothing unusual.
+double typicalIlluminance(const Scene& scene);
+
+} // namespace candelabra::app

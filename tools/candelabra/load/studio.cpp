@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "load/studio.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "load/brightness.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+using std::numbers::pi;
+
+// A round light with a soft edge, in the space of the environment, where the camera looks along -z.
+struct SoftLight {
+    double azimuth, elevation; // radians; azimuth to the right of the direction towards the camera
+    double halfAngle;          // radians; from there on it gives nothing
+    double luminance;          // of its middle, relative
+};
+
+constexpr SoftLight softLights[] = {
+    {-0.75, 0.6, 0.6, 9.0}, // key: left of the camera and above
+    {1.1, 0.3, 0.7, 0.7},   // fill: right of the camera
+    {2.6, 0.7, 0.35, 6.0},  // from behind, for an edge of light
+};
+
+double smooth(double from, double to, double x)
+{
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+double skyLuminance(const glm::dvec3& direction)
+{
+    const double up = direction.y;
+    // The floor is darkest straight below, and the ceiling a little brighter than the walls.
+    double out = 0.2 + 0.22 * smooth(-0.7, 0.05, up) + 0.08 * smooth(0.0, 0.9, up);
+    for (const SoftLight& light : softLights) {
+        const glm::dvec3 at(std::sin(light.azimuth) * std::cos(light.elevation),
+                            std::sin(light.elevation),
+                            std::cos(light.azimuth) * std::cos(light.elevation));
+        const double angle = std::acos(std::clamp(glm::dot(at, direction), -1.0, 1.0));
+        out += light.luminance * (1 - smooth(0.35 * light.halfAngle, light.halfAngle, angle));
+    }
+    return out;
+}
+
+} // namespace
+
+bool isLit(const Scene& scene)
+{
+    const auto emits = [](const CndLight& light) {
+        return std::any_of(std::begin(light.emission), std::end(light.emission),
+                           [](float e) { return e > 0; });
+    };
+    return scene.environment || std::any_of(scene.lights.begin(), scene.lights.end(), emits);
+}
+
+float studioWhite(const Scene& scene)
+{
+    const bool unlit =
+        std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
+            return scene.materials[instance.material].unlit;
+        });
+    return unlit ? unlitLuminance : 1;
+}
+
+float studioEv100(float white)
+{
+    return std::log2(0.18f * white * 100 / 12.5f);
+}
+
+SceneEnvironment studioEnvironment(const Camera& defaultCamera, float white)
+{
+    SceneEnvironment out;
+    out.file = "studio";
+    Image& image = out.radiance;
+    image = {.width = 512, .height = 256, .channels = 3, .pixels = {}};
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x) {
+            const float luminance = float(skyLuminance(equirectangularDirection(image, x, y)));
+            image.pixels.insert(image.pixels.end(), {luminance, luminance, luminance});
+        }
+    out.scale = pi * double{white} / groundIlluminance(out);
+    const glm::dvec3& forward = defaultCamera.forward;
+    out.rotation = std::atan2(-forward.x, -forward.z);
+    return out;
+}
+
+} // namespace candelabra::app

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light of scenes that have none.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+// Tells whether anything lights the scene: a light with an emission, or an environment.
+bool isLit(const Scene& scene);
+
+// Returns a neutral photographic studio as an environment: a soft grey sky, a wide key light above
+// to the left of the default camera, a weaker fill to its right, and a narrow light from behind.
+// A white surface on level ground has the luminance `white`.
+SceneEnvironment studioEnvironment(const Camera& defaultCamera, float white);
+
+// Returns the luminance in cd/m^2 that white surfaces in the studio have, so that the scene's own
+// emission looks right beside them: that of white in unlit materials, if there are any, else 1, the
+// luminance of an emissive factor of 1 in glTF.
+float studioWhite(const Scene& scene);
+
+// Returns the EV100 that a grey card on level ground in the studio has. With it, black things look
+// black and white ones white, while automatic exposure makes both grey.
+float studioEv100(float white);
+
+} // namespace candelabra::app

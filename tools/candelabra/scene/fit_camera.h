@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moves a camera so that objects fill its picture.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+// How much of the width or of the height of a picture an object fills to which a camera is fitted:
+// of the one that it reaches first.
+constexpr double fitShare = 0.85;
+
+// Calls visit(position) for every vertex of these instances that a triangle uses, in world space.
+// If there are very many, the corners of the bounds of meshes are visited instead.
+void visitVertices(const Scene& scene, const InstanceRange& range,
+                   const std::function<void(const glm::dvec3&)>& visit);
+
+// Returns the camera moved, but not turned, to where the points lie in the middle of the picture
+// and fill fitShare of its width or height. `aspect` is the picture's width / height, for cameras
+// without an aspect of their own. The near plane is moved nearer if it would cut the points away,
+// and the far plane farther. Returns the camera as it is if there are no points.
+Camera fitCamera(std::vector<glm::dvec3> points, Camera camera, double aspect);
+
+// The same for the vertices of these instances.
+Camera fitCamera(const Scene& scene, const InstanceRange& range, const Camera& camera,
+                 double aspect);
+
+} // namespace candelabra::app
