@@ -66,6 +66,8 @@ TEST_F(InfluenceTest, LampsByDayEndWhereTheDisplayDoesNotTell)
     FrameOptions options{.camera = selectCamera(scene, ""),
                          .influence = {.rule = CND_INFLUENCE_BY_ERROR, .maxError = 2.0f / 255}};
     cndDefaultExposureSettings(&options.exposure);
+    // A darker picture than the default, in which the display shows less of the lamps.
+    options.exposure.middleGrey = 0.0852f;
     const auto entries = [&](CndInfluenceRule rule) {
         options.influence.rule = rule;
         for (int i = 0; i < 2; ++i)
