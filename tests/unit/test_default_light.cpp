@@ -181,7 +181,7 @@ TEST_F(DefaultLight, AddedLightsDoNotStandInFrontOfACamera)
         widest = std::max(widest, double(light.radius) /
                                       glm::length(scene.lightOrigin + at - glm::dvec3(10, 10, 0)));
     }
-    EXPECT_LE(widest, 1.0 / 29);
+    EXPECT_LE(widest, 1.0 / 59);
     EXPECT_GT(widest, 1.0 / 300); // the bound is not met because all lights are tiny
 }
 
