@@ -112,6 +112,8 @@ BAD = {
     "--punctual-radius": [*NUMBERS, "0"], "--sun-radius": [*NUMBERS, "0", "2"],
     "--environment": ["no_such.hdr", "sky.png", "folder.hdr", "empty.exr", "noise.pfm"],
     "--environment-rotation": [*NUMBERS, "361"], "--environment-scale": [*NUMBERS, "-1"],
+    "--environment-illuminance": [*NUMBERS, "-1", "0"], "--default-light": NAMES, "--fit": NAMES,
+    "--middle-grey": [*NUMBERS, "0", "1.1"],
     "--device": ["99", "no such device"], "--json": PLACES, "--csv": PLACES, "--trace": PLACES,
     "--html": PLACES, "--out": ["file.txt", "/dev/null/x", "file.txt/x"],
     "--pick": ["4", "8,0", "0,8", "a,b", "-1,0", "1,2,3"],
