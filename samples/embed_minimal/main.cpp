@@ -84,7 +84,9 @@ static float wallLuminance(int channel)
 }
 
 // The display value of a channel: the PBR Neutral tone map (Khronos 2024), below the point where it
-// starts to compress highlights, then the sRGB curve.
+// starts to compress highlights, then the sRGB curve. The exposed values have been multiplied by
+// TONE_MAP_SCALE, with which this tone map shows 0.18 as 0.18.
+constexpr float TONE_MAP_SCALE = 0.22f / 0.18f;
 static float displayed(float exposed, float darkest)
 {
     const float offset = darkest < 0.08f ? darkest - 6.25f * darkest * darkest : 0.04f;
@@ -96,7 +98,7 @@ static float displayed(float exposed, float darkest)
 int main()
 {
     Host host = createHost(65, 65); // odd, so that one pixel is the middle
-    const float exposure = drawFrame(host).exposure;
+    const float exposure = TONE_MAP_SCALE * drawFrame(host).exposure;
     float radiance[4];
     unsigned char display[4];
     readCentre(&host, &host.radiance, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, radiance,

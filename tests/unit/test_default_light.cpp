@@ -40,7 +40,7 @@ GltfBuilder lit(const Json& light, const Json& node = Json::object())
 {
     GltfBuilder builder = triangleScene();
     builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
-    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
     Json placed = node;
     placed["extensions"]["KHR_lights_punctual"]["light"] = 0;
     builder.rootNode(placed);
