@@ -287,7 +287,7 @@ TEST(ReferenceExposure, clampCompensationAndManualFollowTheContract)
     const Adaptation manual = adapt(average({1}), settings, 9, 0.1, false);
     EXPECT_EQ(manual.targetEv100, -3);
     EXPECT_EQ(manual.adaptedEv100, -3);
-    EXPECT_DOUBLE_EQ(manual.exposure, 128 * double(0.18f)); // 2^(3 + 1) / 0.125
+    EXPECT_DOUBLE_EQ(manual.exposure, 128 * double(0.18f));                   // 2^(3 + 1) / 0.125
     EXPECT_EQ(adapt(average({1}), automatic(), 9, 0, false).adaptedEv100, 9); // no time has passed
 }
 
