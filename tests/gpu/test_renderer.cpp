@@ -118,9 +118,10 @@ TEST_F(RendererTest, TwoRenderersGiveTheSameBits)
     EXPECT_EQ(readDisplay(context(), first), readDisplay(context(), second));
 }
 
-// A rectangle's upper edge runs through a row of pixels; each sample sees the pixel in it or not.
-// The mean of the radiance is the share of the rectangle in the row's filter. The mean of the
-// display is that share of the display's white, although the rectangle is a hundred times brighter.
+// The upper edge of a rectangle runs through a row of pixels, its right edge through a column, so
+// that each sample of a pixel shows the rectangle or nothing. The mean of the radiance is the
+// rectangle's share of the pixel's filter. The mean of the display is that share of the display's
+// white, although the rectangle is more than a hundred times brighter than white.
 TEST_F(RendererTest, SamplesAreTheMeanOfWhatTheyShow)
 {
     constexpr double luminance = 100, height = 8; // the view is 8 m high, a pixel 1 m
@@ -131,6 +132,7 @@ TEST_F(RendererTest, SamplesAreTheMeanOfWhatTheyShow)
                    .axisU = {100, 0, 0},
                    .axisV = {0, 100, 0},
                    .twoSided = 1};
+    light.position[0] = 0.4f - 100;  // its right edge is 0.4 pixels to the right of the middle
     light.position[1] = 0.75f - 100; // its upper edge is 3/4 of a pixel above the middle
     scene.lights = {light};
     FrameOptions frame{.camera = {.position = {0, 0, 5},
@@ -140,26 +142,74 @@ TEST_F(RendererTest, SamplesAreTheMeanOfWhatTheyShow)
                        .lightsVisible = true};
     cndDefaultExposureSettings(&frame.exposure);
     frame.exposure.manual = VK_TRUE;
-    frame.exposure.manualEv100 = 0; // white is 1.2 cd/m^2
+    frame.exposure.manualEv100 = 0; // white is 0.125 / 0.18 = 0.69 cd/m^2
     frame.exposure.toneMap = CND_TONEMAP_NONE;
     Renderer renderer(context(), scene, optionsOf({16, 8}));
     constexpr uint32_t samples = 64;
     renderFrames(context(), renderer, frame, {.samples = samples}, false, [] {});
     const Image radiance = readRadiance(context(), renderer);
     const std::vector<uint8_t> display = readDisplay(context(), renderer);
-    for (uint32_t y = 0; y < 8; ++y) {
-        // How far the centre of the row is below the edge, and the filter's share above that.
-        const double d = std::clamp(double(y) + 0.5 - 4 + 0.75, -1.5, 1.5);
-        const double share = d < -0.5  ? std::pow(1.5 + d, 3) / 6
-                             : d < 0.5 ? 0.5 + 0.75 * d - d * d * d / 3
-                                       : 1 - std::pow(1.5 - d, 3) / 6;
-        const double encoded =
-            share <= 0.0031308 ? 12.92 * share : 1.055 * std::pow(share, 1 / 2.4) - 0.055;
-        for (const uint32_t x : {0u, 7u, 15u}) {
-            EXPECT_NEAR(radiance.pixels[3 * (y * 16 + x)], share * luminance, luminance / 64) << y;
-            EXPECT_NEAR(display[3 * (y * 16 + x)], 255 * encoded, 5) << y;
+    // The share, along one axis, of the filter of a pixel whose centre is `d` pixels inside an
+    // edge.
+    const auto shareInside = [](double d) {
+        d = std::clamp(d, -1.5, 1.5);
+        return d < -0.5  ? std::pow(1.5 + d, 3) / 6
+               : d < 0.5 ? 0.5 + 0.75 * d - d * d * d / 3
+                         : 1 - std::pow(1.5 - d, 3) / 6;
+    };
+    for (uint32_t y = 0; y < 8; ++y)
+        for (uint32_t x = 0; x < 16; ++x) {
+            const double share = shareInside(8.4 - (x + 0.5)) * shareInside(y + 0.5 - 3.25);
+            const double encoded =
+                share <= 0.0031308 ? 12.92 * share : 1.055 * std::pow(share, 1 / 2.4) - 0.055;
+            EXPECT_NEAR(radiance.pixels[3 * (y * 16 + x)], share * luminance, luminance / 64)
+                << x << "," << y;
+            EXPECT_NEAR(display[3 * (y * 16 + x)], 255 * encoded, 5) << x << "," << y;
         }
-    }
+}
+
+// Random samples of highlights are other ones in each sample of a frame, so their noise averages
+// out. The largest part of it that the filter alone would leave is a half.
+TEST_F(RendererTest, SamplesOfAFrameHaveNoiseOfTheirOwn)
+{
+    Scene scene;
+    scene.meshes.push_back({{{.position = {-100, -100, 0}, .normal = {0, 0, 1}},
+                             {.position = {100, -100, 0}, .normal = {0, 0, 1}},
+                             {.position = {0, 200, 0}, .normal = {0, 0, 1}}},
+                            {0, 1, 2}});
+    scene.materials.push_back({.metalness = 1, .perceptualRoughness = 0.7f});
+    scene.instances.push_back({});
+    CndLight light{.type = CND_LIGHT_SPHERE,
+                   .radius = 3,
+                   .emission = {100, 100, 100},
+                   .influenceRadius = 1000};
+    light.position[2] = 5;
+    scene.lights = {light};
+    FrameOptions frame{.camera = {.position = {0, 0, 9},
+                                  .orthographic = true,
+                                  .orthographicHeight = 4,
+                                  .farPlane = 100},
+                       .lightsVisible = false};
+    cndDefaultExposureSettings(&frame.exposure);
+    Renderer renderer(context(), scene,
+                      {.size = {32, 16},
+                       .specularMethods = 1u << CND_SPECULAR_CONIC | 1u << CND_SPECULAR_SAMPLED});
+    const auto draw = [&](CndSpecularMethod specular, uint32_t samples) {
+        frame.specular = specular;
+        frame.sampleCount = 1;
+        renderFrames(context(), renderer, frame, {.samples = samples}, false, [] {});
+        return readRadiance(context(), renderer);
+    };
+    const Image exact = draw(CND_SPECULAR_CONIC, 1);
+    const auto noise = [&](const Image& image) {
+        double sum = 0;
+        for (size_t i = 0; i < image.pixels.size(); ++i)
+            sum += std::pow(double(image.pixels[i]) / double(exact.pixels[i]) - 1, 2);
+        return std::sqrt(sum / double(image.pixels.size()));
+    };
+    const double one = noise(draw(CND_SPECULAR_SAMPLED, 1));
+    EXPECT_GT(one, 0.05);
+    EXPECT_LT(noise(draw(CND_SPECULAR_SAMPLED, 64)), 0.2 * one);
 }
 
 // In each sample a surface covers other pixels, so every pixel is covered by its share of samples.

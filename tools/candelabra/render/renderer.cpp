@@ -256,7 +256,7 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
     auto out = surfaceFrame<CndLightingFrame>(slot, frame);
     out.specularMethod = frame.specular;
     out.sampleCount = frame.sampleCount;
-    out.sampleSeed = frame.sampleSeed;
+    out.sampleSeed = frame.sampleSeed + frame.sample.index;
     out.errorBudget = frame.errorBudget;
     out.culling = frame.culling;
     out.influence = influenceOf(slot, frame);
