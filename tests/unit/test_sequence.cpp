@@ -105,8 +105,14 @@ TEST(NumberedName, HasOnePlace)
     EXPECT_EQ(numberedName("-o", "50%_%02d%", 123), "50%_123%");
     EXPECT_EQ(namedInstead("f.%04d.png", "exposure"), "f.exposure.png");
     EXPECT_EQ(sequenceRecord("a/f.%04d.png"), "a/f.exposure.txt");
-    for (const char* without : {"f.png", "100%.png", "%4d.png", "%s", "%", "%0", "%0000d"})
+    EXPECT_EQ(numberedName("-o", "%0d", 5), "5");
+    EXPECT_EQ(numberedName("-o", "%012d", 5), "000000000005");
+    for (const char* without : {"f.png", "100%.png", "%s", "%", "%0", "%04"})
         EXPECT_FALSE(isNumbered(without)) << without;
+    for (const char* wrong : {"%4d.png", "f%0000d", "f%00000000000000000004d", "%0%4d"}) {
+        EXPECT_TRUE(isNumbered(wrong)) << wrong;
+        EXPECT_THROW(numberedName("-o", wrong, 0), UsageError) << wrong;
+    }
     EXPECT_THROW(numberedName("-o", "f.png", 0), UsageError);
     EXPECT_THROW(numberedName("-o", "%d-%d.png", 0), UsageError);
 }

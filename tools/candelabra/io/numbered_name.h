@@ -8,11 +8,12 @@
 namespace candelabra::app
 {
 
-// Returns true if `name` has a place for a number: %d, or %0Nd for at least N digits.
+// Returns true if `name` has a place for a number: %d, %0Nd for at least N digits, or %Nd, which
+// numberedName() refuses, because C's printf() would fill it up with spaces.
 bool isNumbered(const std::string& name);
 
 // Returns the name with the number in its place. Throws UsageError, which names `option`, if the
-// name has several such places, or none.
+// name has several such places, or none, or one that is neither %d nor %0Nd with N up to 99.
 std::string numberedName(const std::string& option, const std::string& name, uint32_t number);
 
 // Returns the same name with `word` in place of the number.
