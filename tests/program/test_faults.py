@@ -190,6 +190,8 @@ COMBINATIONS = [
     (["render", "hall", "-o", "f.%04d.png"], "--frames"), (["render", "hall", "--frames", "2", "-o", "%d%d.png"], "two places"),
     (["render", "hall", "--frames", "2", "-o", "%d.png", "-o", "x.png"], "x.png"), (["render", "hall", "-o", "x.png", "--resume"], "--resume"),
     (["render", "hall", "-o", "x.png", "--aa", "2", "--debug", "class"], "--aa"),
+    (["render", "hall", "--frames", "2", "-o", "f.%4d.png"], "%04d"),
+    (["render", "hall", "--frames", "2", "-o", "f.%d.png", "--resume", "--influence-error", "0.5/255"], "--resume"),
     (["render", "hall", "-o", "x.png", "--aa", "2", "--influence-error", "0.5/255"], "--aa"),
     (["examples", "."], "--replace"), (["examples", "no/such"], "no/such"),
     (["compare"], "A"), (["compare", "run.json"], "B"),

@@ -142,6 +142,9 @@ RenderPlan plan(const RenderArguments& a)
     if (byError && a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
         throw UsageError("--influence-error: cannot be combined with --specular sampled, whose "
                          "noise hides the error");
+    if (byError && a.resume)
+        throw UsageError("--resume: cannot be combined with --influence-error, which looks at some "
+                         "pixels of every frame and so needs the frames that are left out");
     SceneOptions scene = a.scene.options(a.scene.lightCount());
     scene.imageAspect = a.frame.imageAspect();
     return {.scene = scene,
