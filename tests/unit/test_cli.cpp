@@ -58,6 +58,9 @@ TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)
     } cases[] = {
         {{}, "no command is given; choose from render"},
         {{"bench"}, "no command of bench is given; choose from accuracy"},
+        {{"render", "hall", "--lights"}, "--lights: its value is missing"},
+        {{"render", "hall", "--seed", "1", "--seed", "2"},
+         "--seed: is given 2 times, but may be given once"},
         {{"paint"}, "paint"},
         {{"render"}, "scene"},
         {{"render", "hall"}, "-o"},

@@ -7,6 +7,7 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -156,6 +157,21 @@ std::string optionSentence(const Named& named, int argc, const char* const* argv
     return "";
 }
 
+// Returns the parser's message, or a sentence in its place if it is about the number of values of
+// an option: "--lights: 1 required N missing" or "--seed: At Most 1 required but received 2".
+std::string parserSentence(const CLI::ParseError& error)
+{
+    const std::string said = error.what();
+    const std::string option = said.substr(0, said.find(':'));
+    constexpr std::string_view repeated = ": At Most 1 required but received ";
+    if (said.starts_with(option + std::string(repeated)))
+        return fmt::format("{}: is given {} times, but may be given once", option,
+                           said.substr(option.size() + repeated.size()));
+    if (said.starts_with(option + ": 1 required ") && said.ends_with(" missing"))
+        return option + ": its value is missing";
+    return said;
+}
+
 // Returns the error message for a command line that cannot be parsed.
 std::string parseSentence(const CLI::App& app, int argc, const char* const* argv,
                           const CLI::ParseError& error)
@@ -165,7 +181,7 @@ std::string parseSentence(const CLI::App& app, int argc, const char* const* argv
         return command;
     if (const std::string option = optionSentence(named, argc, argv, error); !option.empty())
         return option;
-    return error.what() + seeHelp(named);
+    return parserSentence(error) + seeHelp(named);
 }
 
 // Refuses "--option=" and empty values. With "--camera= -o x.png" the parser would take "-o" for
