@@ -103,7 +103,8 @@ SceneEnvironment loadEnvironment(const SceneOptions& options)
     const double illuminance = groundIlluminance(out);
     if (!(illuminance > 0))
         throw SceneError("--environment-illuminance: " + options.environment +
-                         " is black above the horizon, so no factor makes it light level ground");
+                         " gives level ground no light, so no factor makes it brighter; values "
+                         "that are negative, infinite or NaN count as black");
     out.scale = *options.environmentIlluminance / illuminance;
     return out;
 }
