@@ -163,6 +163,10 @@ TEST_F(ProgramTest, SamplesSmoothEdges)
     EXPECT_EQ(text("c.pfm"), text("d.pfm"));
     EXPECT_NE(text("a.png"), text("c.png"));
     EXPECT_NEAR(readPng(path("a.png")).mean, readPng(path("c.png")).mean, 15);
+    ASSERT_EQ(run(start + "e.png -o e.pfm --aa 1").exitCode, 0);
+    ASSERT_EQ(run(start + "f.png -o f.pfm --edge-filter").exitCode, 0); // auto: one sample
+    EXPECT_NE(text("e.png"), text("f.png"));
+    EXPECT_EQ(text("e.pfm"), text("f.pfm"));
     const auto json = nlohmann::json::parse(text("c.json"));
     EXPECT_EQ(test::schemaFaults(json, "render.schema.json"), "");
     EXPECT_EQ(json["samplesPerFrame"], 4);

@@ -193,6 +193,8 @@ COMBINATIONS = [
     (["render", "hall", "--frames", "2", "-o", "f.%4d.png"], "%04d"),
     (["render", "hall", "--frames", "2", "-o", "f.%d.png", "--resume", "--influence-error", "0.5/255"], "--resume"),
     (["render", "hall", "-o", "x.png", "--aa", "2", "--influence-error", "0.5/255"], "--aa"),
+    (["render", "hall", "-o", "x.png", "--aa", "2", "--edge-filter"], "--aa"),
+    (["render", "hall", "-o", "x.png", "--edge-filter", "--debug", "class"], "--edge-filter"),
     (["examples", "."], "--replace"), (["examples", "no/such"], "no/such"),
     (["compare"], "A"), (["compare", "run.json"], "B"),
     (["compare", "--a", "run.json"], "B"), (["compare", "--a", "no_such.json", "--b", "run.json"], "no_such.json"),

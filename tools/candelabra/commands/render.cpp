@@ -35,7 +35,7 @@ struct RenderArguments {
     SceneArguments scene;
     FrameArguments frame;
     std::string samples = "auto", frames, time = "0", fps = "60", path = "still", json, pick;
-    bool explain = false, resume = false;
+    bool explain = false, resume = false, edgeFilter = false;
     std::vector<std::string> outputs;
 };
 
@@ -116,14 +116,20 @@ std::optional<uint32_t> frameSamples(const RenderArguments& a, bool sequence)
 {
     const bool heatMap = a.frame.heatMapMode() != HeatMap::None;
     const bool byError = a.frame.influenceRule().rule == CND_INFLUENCE_BY_ERROR;
+    if (a.edgeFilter && heatMap)
+        throw UsageError("--edge-filter: cannot be combined with --debug, which shows single "
+                         "pixels");
     if (a.samples == "auto") {
         const bool timed = !a.frames.empty() && a.frames != "1" && !sequence;
         const bool still = !a.outputs.empty() && !timed;
-        return still && !heatMap && !byError ? std::nullopt : std::optional(1u);
+        return still && !heatMap && !byError && !a.edgeFilter ? std::nullopt : std::optional(1u);
     }
     const uint32_t samples = unsignedOption("--aa", a.samples, 1, maxFrameSamples);
     if (samples > 1 && heatMap)
         throw UsageError("--aa: cannot be combined with --debug, which shows single pixels");
+    if (samples > 1 && a.edgeFilter)
+        throw UsageError("--aa: cannot be combined with --edge-filter, which smooths the edges of "
+                         "frames of one sample");
     if (samples > 1 && byError)
         throw UsageError("--aa: cannot be combined with --influence-error, which follows the "
                          "exposure of the frame before");
@@ -157,6 +163,7 @@ RenderPlan plan(const RenderArguments& a)
                       .influence = influence,
                       .reuse = a.frame.reuseMode(),
                       .heatMap = a.frame.heatMapMode(),
+                      .edgeFilter = a.edgeFilter,
                       .exposure = a.frame.exposureSettings()},
             .gbufferLayout = a.frame.gbufferLayout(),
             // After three frames both slots have an exposure, and the frame before has cut lights.
@@ -238,7 +245,7 @@ void announce(const Scene& scene, PixelSize size, const VulkanContext& context, 
                  context.info().name);
     if (onCpu)
         spdlog::info("edges are not smooth: the device is a CPU, where --aa {} takes {} times as "
-                     "long",
+                     "long; --edge-filter is faster",
                      gpuSamples, gpuSamples);
 }
 
@@ -337,6 +344,23 @@ int render(const ProgramContext& program, const RenderArguments& a)
     return examine(program, a, p, context, scene, renderer, frames);
 }
 
+// Adds the options of how pictures are made of frames.
+void addPictureOptions(CLI::App& command, RenderArguments& a)
+{
+    command
+        .add_option("--aa", a.samples,
+                    "anti-aliasing: a frame is the mean of N samples, each lit anew and shifted "
+                    "by a part of a pixel; linear files get the mean of radiance, pictures that of "
+                    "the light on the display; auto: 16 for pictures on a GPU; "
+                    "1 on a CPU, with several --frames that are only timed, with --edge-filter, "
+                    "--debug and --influence-error")
+        ->type_name("N|auto")
+        ->capture_default_str();
+    command.add_flag("--edge-filter", a.edgeFilter,
+                     "smooth the edges of pictures of one sample per pixel, in a small part of "
+                     "the time that --aa takes; linear files keep their edges");
+}
+
 } // namespace
 
 void addRenderCommand(CLI::App& app, Run& run)
@@ -357,16 +381,7 @@ void addRenderCommand(CLI::App& app, Run& run)
                      "(1); -o with a place for their number, such as f.%04d.png, writes all of "
                      "them, any other -o the last")
         ->type_name("N");
-    command
-        ->add_option(
-            "--aa", a->samples,
-            "anti-aliasing: a frame is the mean of N samples, each lit anew and shifted "
-            "by a part of a pixel; linear files get the mean of radiance, pictures that of "
-            "the light on the display; auto: 16 for pictures on a GPU; "
-            "1 on a CPU, with several --frames that are only timed, with --debug and "
-            "with --influence-error")
-        ->type_name("N|auto")
-        ->capture_default_str();
+    addPictureOptions(*command, *a);
     command
         ->add_option("--path", a->path,
                      "path of the camera: still; turn, once around the vertical in all frames; or "

@@ -9,6 +9,7 @@
 #include "io/error.h"
 #include "render/camera.h"
 #include "render/check.h"
+#include "render/edge_filter.h"
 #include "render/frame_stamps.h"
 #include "render/image_barrier.h"
 #include "render/lit.h"
@@ -54,6 +55,15 @@ void place(std::span<PassTime> passes, double start)
     }
 }
 
+// Returns why the edge filter leaves the frame as it is, or null.
+const char* unfilteredBecause(const FrameOptions& frame)
+{
+    return !frame.edgeFilter                ? "it is off"
+           : frame.sample.count > 1         ? "samples are averaged"
+           : frame.heatMap != HeatMap::None ? "a heat map is shown"
+                                            : nullptr;
+}
+
 } // namespace
 
 void useKnownExposure(const Scene& scene, CndExposureSettings& settings)
@@ -70,6 +80,8 @@ struct Renderer::State {
     RendererOptions options;
     std::vector<bool> litSlots;     // whether the slot's last frame was lit, not reused
     std::vector<bool> exposedSlots; // whether the slot has had a frame with exposure
+    // Why the slot's last frame did without the edge filter; null: it was filtered.
+    std::vector<const char*> unfiltered;
     gbuffer::Geometry geometry;
     gbuffer::GBuffer gbuffer;
     gbuffer::Targets targets;
@@ -85,7 +97,8 @@ struct Renderer::State {
     std::optional<Lit> drawn;                 // what the images show
     std::optional<HeatMapPass> heatMaps;      // created for the first frame that shows a heat map
     std::optional<Accumulation> accumulation; // created for the first frame of several samples
-    // After surfaces and their environment, after lighting, and after exposure.
+    std::optional<EdgeFilter> edgeFilter;     // created for the first frame that it filters
+    // After surfaces and their environment, after lighting, and after exposure and edge filter.
     FrameStamps stamps;
 
     State(const VulkanContext& c, const Scene& s, const RendererOptions& o)
@@ -94,6 +107,7 @@ struct Renderer::State {
           options(o),
           litSlots(o.framesInFlight),
           exposedSlots(o.framesInFlight),
+          unfiltered(o.framesInFlight),
           geometry(uploadGeometry(c, s)),
           gbuffer(
               c.device(),
@@ -114,7 +128,7 @@ struct Renderer::State {
     Lit litBy(uint32_t slot, const FrameOptions& frame) const;
     CndInfluence influenceOf(uint32_t slot, const FrameOptions& frame) const;
     CndExposureSettings exposureOf(const FrameOptions& frame) const;
-    std::vector<CndPassPlan> plan(const FrameStats& stats) const;
+    std::vector<CndPassPlan> plan(uint32_t slot, const FrameStats& stats) const;
     void recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
     void recordEnvironment(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame) const;
     void recordDisplay(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame);
@@ -159,6 +173,7 @@ void Renderer::State::createSized()
     drawn.reset();
     heatMaps.reset();
     accumulation.reset();
+    edgeFilter.reset();
     const gpu::Device& device = context.device();
     const auto [width, height] = options.size;
     // The old images are destroyed first, so that old and new ones never take memory at the same
@@ -338,22 +353,29 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
     s.recordDisplay(cmd, slot, frame);
 }
 
-// Records what follows lighting: exposure, which draws the display image, the sums of samples, and
-// the heat map.
+// Records what follows lighting: exposure, which draws the display image, the edge filter, the sums
+// of samples, and the heat map.
 void Renderer::State::recordDisplay(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
 {
     const FrameSample& sample = frame.sample;
     const bool first = sample.index == 0; // the exposure of a frame follows from its first sample
     transition(cmd, display.image.get(), discarded, computeWrite);
-    take(exposure.record(cmd, {.frameSlot = slot,
-                               .width = options.size.width,
-                               .height = options.size.height,
-                               .radiance = targets.radiance.view.get(),
-                               .display = display.view.get(),
-                               .deltaTime = first ? frame.deltaTime : 0,
-                               .reset = first && frame.resetExposure,
-                               .ditherSeed = frame.ditherSeed + sample.index,
-                               .settings = exposureOf(frame)}));
+    unfiltered[slot] = unfilteredBecause(frame);
+    const bool filters = !unfiltered[slot];
+    if (filters && !edgeFilter)
+        edgeFilter.emplace(context.device(), options.size, options.framesInFlight);
+    take(exposure.record(cmd,
+                         {.frameSlot = slot,
+                          .width = options.size.width,
+                          .height = options.size.height,
+                          .radiance = targets.radiance.view.get(),
+                          .display = filters ? edgeFilter->recordInput(cmd) : display.view.get(),
+                          .deltaTime = first ? frame.deltaTime : 0,
+                          .reset = first && frame.resetExposure,
+                          .ditherSeed = frame.ditherSeed + sample.index,
+                          .settings = exposureOf(frame)}));
+    if (filters)
+        edgeFilter->record(cmd, slot, display.view.get());
     stamps.stamp(cmd, slot);
     exposedSlots[slot] = true;
     if (frame.heatMap != HeatMap::None)
@@ -411,7 +433,7 @@ CndLightingStats Renderer::lightingStats(uint32_t slot) const
     return finished(state_->view.stats(slot));
 }
 
-std::vector<CndPassPlan> Renderer::State::plan(const FrameStats& stats) const
+std::vector<CndPassPlan> Renderer::State::plan(uint32_t slot, const FrameStats& stats) const
 {
     const char* kept = stats.lit ? nullptr : "nothing has changed";
     const char* noMeshes = geometry.counts().instances ? nullptr : "no meshes";
@@ -428,6 +450,7 @@ std::vector<CndPassPlan> Renderer::State::plan(const FrameStats& stats) const
     else
         add(stats.lighting.passes, stats.lighting.passCount);
     add(stats.exposure.passes, stats.exposure.passCount);
+    out.push_back({"edge_filter", unfiltered[slot]});
     return out;
 }
 
@@ -441,12 +464,12 @@ FrameStats Renderer::stats(uint32_t slot) const
         append(out.passes, rows, count);
         out.stamps += count ? count + 1 : 0; // one more at the beginning of the module
     };
-    std::vector<CndKernelTime> raster(CND_MAX_KERNEL_TIMES);
+    std::vector<CndKernelTime> rows(CND_MAX_KERNEL_TIMES);
     uint32_t count = 0;
     if (out.lit) {
         out.lighting = lightingStats(slot);
-        if (state_->gbuffer.times(slot, raster.data(), count))
-            addModule(raster.data(), count);
+        if (state_->gbuffer.times(slot, rows.data(), count))
+            addModule(rows.data(), count);
         if (state_->environment.get()) {
             const CndEnvironmentStats environment = finished(state_->environment.stats(slot));
             addModule(environment.kernelTimes, environment.kernelTimeCount);
@@ -468,8 +491,11 @@ FrameStats Renderer::stats(uint32_t slot) const
     out.exposure = finished(state_->exposure.stats(slot));
     const size_t first = out.passes.size();
     addModule(out.exposure.kernelTimes, out.exposure.kernelTimeCount);
+    if (!state_->unfiltered[slot] &&
+        state_->edgeFilter->timer().read(slot, rows.data(), count) == CND_SUCCESS)
+        addModule(rows.data(), count);
     place(std::span(out.passes).subspan(first), endOf(1));
-    out.plan = state_->plan(out);
+    out.plan = state_->plan(slot, out);
     out.gpuStartMs = times.startMs;
     out.gpuMs = endOf(2);
     return out;

@@ -61,7 +61,10 @@ struct FrameOptions {
     CndInfluence influence{};
     Reuse reuse = Reuse::None;
     HeatMap heatMap = HeatMap::None; // painted over the display image; needs clustered culling
-    CndExposureSettings exposure{};  // Scene::exposureCompensation is added
+    // Smooths the edges of the display image. Has no effect on frames of several samples, whose
+    // edges are smooth, and on heat maps, which show single pixels.
+    bool edgeFilter = false;
+    CndExposureSettings exposure{}; // Scene::exposureCompensation is added
 };
 
 // Statistics of one finished frame.

@@ -226,6 +226,7 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"culling", cullingName(options.culling)},
             {"reuse", reuseName(options.reuse)},
             {"debug", heatMapName(options.heatMap)},
+            {"edgeFilter", options.edgeFilter},
             {"gbuffer", gbufferName(layout)},
             {"toneMap", toneMapName(options.exposure.toneMap)},
             {"lightsVisible", options.lightsVisible},
