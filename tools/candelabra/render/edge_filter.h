@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EdgeFilter smooths the edges of a display image that has one sample per pixel (decision 68).
+// EdgeFilter smooths the edges of a display image that has one sample per pixel (decision 64).
 #pragma once
 
 #include "gpu/kernel.h"
