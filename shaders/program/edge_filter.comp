@@ -48,7 +48,8 @@ vec3 lumasOf(ivec2 at, vec3 colour)
 
 // Follows an edge between a pixel and its neighbour `across` in steps of one pixel. It goes on while
 // the mean luma of the two sides differs from `mean` by less than `change`. Returns the number of
-// steps to the first pixel behind the end, and in `difference` by how much the mean differs there.
+// steps to the first pixel that is no longer part of the edge. `difference` receives by how much the
+// mean luma at that pixel differs from `mean`.
 int followEdge(ivec2 at, ivec2 along, ivec2 across, float mean, float change, out float difference)
 {
     int steps = 0;
@@ -70,9 +71,10 @@ float shareAcross(ivec2 at, ivec2 across, float here, float there)
     float before, after;
     const int back = followEdge(at, -along, across, mean, change, before);
     const int on = followEdge(at, along, across, mean, change, after);
-    // The edge crosses the line between the rows of pixels in the middle of its straight piece. Before,
-    // it covers a part of one row, and behind of the other. At an end where the luma turns to that of
-    // the neighbour, the neighbour is what covers a part of this row.
+    // The true edge crosses the line between this row of pixels and the neighbour's in the middle of
+    // the straight piece. In one half of the piece the neighbour's surface reaches into this row, in
+    // the other half this row's surface reaches into the neighbour's. The first half is the one at
+    // whose end the mean luma turns to that of the neighbour. Only there does the pixel get a share.
     const float end = back < on ? before : after;
     const float nearer = float(min(back, on)) - 0.5;
     const float length = float(back + on) - 1.0;
