@@ -165,17 +165,23 @@ void Environment::recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map)
                       Binding::storage(gpu::ENVIRONMENT_CUBE_MIRROR, prefiltered_.mips[0].get())});
 
     const gpu::Frame f{device_, cmd, timer_, mapSlot()};
-    device_.beginLabel(cmd, "candelabra environment map");
-    timer_.begin(cmd, f.slot);
-    f.barrier(); // waits for earlier frames, which use the same images
-    recordLayouts(f);
-    gbuffer_.record(f);
-    dfg_.recordFill(f);
+    recordMapBegin(f);
     recordCube(f, map);
     recordPrefiltering(f);
     f.barrier();
     device_.endLabel(cmd);
     mapped_ = true;
+}
+
+// Records what precedes any preparation of the cube maps, whose previous contents are discarded.
+void Environment::recordMapBegin(const gpu::Frame& f) noexcept
+{
+    device_.beginLabel(f.cmd, "candelabra environment map");
+    timer_.begin(f.cmd, f.slot);
+    f.barrier(); // waits for earlier frames, which use the same images
+    recordLayouts(f);
+    gbuffer_.record(f);
+    dfg_.recordFill(f);
 }
 
 // Moves the cube maps to layout GENERAL, in which they stay. Their previous contents are discarded.
@@ -227,7 +233,8 @@ void Environment::validate(const CndEnvironmentFrame& frame) const
         gpu::failArgument("CndEnvironmentFrame: structSize is " + std::to_string(frame.structSize) +
                           ", this library expects " + std::to_string(sizeof frame));
     if (!mapped_)
-        gpu::failArgument("cndRecordEnvironment: cndRecordEnvironmentMap must be recorded first");
+        gpu::failArgument("cndRecordEnvironment: cndRecordEnvironmentMap or "
+                          "cndRecordEnvironmentMapLoad must be recorded first");
     if (frame.frameSlot >= recorded_.size())
         gpu::failArgument("CndEnvironmentFrame: frameSlot is " + std::to_string(frame.frameSlot) +
                           ", framesInFlight is " + std::to_string(recorded_.size()));

@@ -22,18 +22,25 @@ public:
     Environment(const Environment&) = delete; // not copied or moved: members point to device_
     Environment& operator=(const Environment&) = delete;
 
-    // recordMap and record throw gpu::Failure on arguments out of range; once recording starts
-    // nothing can fail.
+    // These throw gpu::Failure on arguments out of range; once recording starts nothing can fail.
     void recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map);
+    void readMapInfo(CndEnvironmentMapInfo& info) const;
+    void recordMapSave(VkCommandBuffer cmd, const CndEnvironmentMapBuffer& to);
+    void recordMapLoad(VkCommandBuffer cmd, const CndEnvironmentMapBuffer& from);
     void record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame);
     CndResult stats(uint32_t slot, CndEnvironmentStats& stats) const noexcept;
     const gpu::Device& device() const { return device_; }
 
 private:
     void validate(const CndEnvironmentFrame& frame) const;
+    void recordMapBegin(const gpu::Frame& f) noexcept;
     void recordLayouts(const gpu::Frame& f) const noexcept;
     void recordCube(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept;
     void recordPrefiltering(const gpu::Frame& f) const noexcept;
+    void requireMapBuffer(const CndEnvironmentMapBuffer& buffer) const;
+    // Calls `copy` with each part of a prepared map, in the order of CndEnvironmentMapBuffer.
+    template <typename Copy>
+    void forEachMapPart(VkDeviceSize offset, const Copy& copy) const;
     // The timer's slot for recordMap, which follows those of the frames.
     uint32_t mapSlot() const { return uint32_t(recorded_.size()); }
 

@@ -22,6 +22,8 @@
     X(CmdBindDescriptorSets)                                                                       \
     X(CmdBindPipeline)                                                                             \
     X(CmdCopyBuffer)                                                                               \
+    X(CmdCopyBufferToImage)                                                                        \
+    X(CmdCopyImageToBuffer)                                                                        \
     X(CmdDispatch)                                                                                 \
     X(CmdDispatchIndirect)                                                                         \
     X(CmdFillBuffer)                                                                               \
@@ -65,7 +67,6 @@
     X(CmdBeginRendering)                                                                           \
     X(CmdBindIndexBuffer)                                                                          \
     X(CmdBindVertexBuffers)                                                                        \
-    X(CmdCopyBufferToImage)                                                                        \
     X(CmdDraw)                                                                                     \
     X(CmdDrawIndexedIndirect)                                                                      \
     X(CmdEndRendering)                                                                             \

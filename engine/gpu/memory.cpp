@@ -251,7 +251,9 @@ CubeImage createCubeImage(const Device& device, const std::string& name, uint32_
                                  .arrayLayers = faces,
                                  .samples = VK_SAMPLE_COUNT_1_BIT,
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
-                                 .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};
+                                 .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                          VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                          VK_IMAGE_USAGE_TRANSFER_DST_BIT};
     bindImage(device, name, info, result.image, result.memory);
     const VkImage image = result.image.get();
     result.view = createView(device, name, image, VK_IMAGE_VIEW_TYPE_CUBE, format,

@@ -92,7 +92,7 @@ Image createImage(const Device& device, const std::string& name, VkFormat format
                   uint32_t height, VkImageUsageFlags usage, VkImageAspectFlags aspect,
                   uint32_t mipLevels = 1);
 
-// An R32G32B32A32_SFLOAT cube map that can be sampled and written by compute shaders.
+// An R32G32B32A32_SFLOAT cube map that can be sampled and written by compute shaders, and copied.
 struct CubeImage {
     Memory memory;
     Handle<VkImage> image;

@@ -29,18 +29,31 @@ void EnvironmentTest::TearDown()
     LightingTest::TearDown();
 }
 
+void EnvironmentTest::createEnvironment(CndEnvironmentDesc desc)
+{
+    cndDestroyEnvironment(environment_);
+    environment_ = nullptr;
+    desc.structSize = sizeof desc;
+    desc.framesInFlight = 2;
+    desc.timestamps = VK_TRUE;
+    CndError error{};
+    EXPECT_EQ(cndCreateEnvironment(&deviceDesc(), &desc, &environment_, &error), CND_SUCCESS)
+        << error.message;
+}
+
+CndEnvironmentMapInfo EnvironmentTest::mapInfo() const
+{
+    CndEnvironmentMapInfo info{.structSize = sizeof info};
+    CndError error{};
+    EXPECT_EQ(cndGetEnvironmentMapInfo(environment_, &info, &error), CND_SUCCESS) << error.message;
+    return info;
+}
+
 void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize,
                                const CndGBufferDesc* gbuffer, const CndHostKernels* custom,
                                CndGBufferLayout customLayout)
 {
-    cndDestroyEnvironment(environment_);
-    environment_ = nullptr;
-    CndError error{};
-    CndEnvironmentDesc desc{.structSize = sizeof desc,
-                            .framesInFlight = 2,
-                            .gbufferLayout = CND_GBUFFER_FULL,
-                            .cubeSize = cubeSize,
-                            .timestamps = VK_TRUE};
+    CndEnvironmentDesc desc{.cubeSize = cubeSize};
     if (gbuffer) {
         desc.gbufferLayout = CND_GBUFFER_HOST;
         desc.gbuffer = *gbuffer;
@@ -49,8 +62,9 @@ void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize
         desc.gbufferLayout = customLayout;
         desc.hostKernels = *custom;
     }
-    ASSERT_EQ(cndCreateEnvironment(&deviceDesc(), &desc, &environment_, &error), CND_SUCCESS)
-        << error.message;
+    createEnvironment(desc);
+    ASSERT_TRUE(environment_);
+    CndError error{};
     const gpu::Image image = gpu::createImage(
         device(), "sky", VK_FORMAT_R32G32B32A32_SFLOAT, source.width, source.height,
         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT);

@@ -42,6 +42,10 @@ protected:
     void setImage(const EnvironmentImage& image, uint32_t cubeSize = 0,
                   const CndGBufferDesc* gbuffer = nullptr, const CndHostKernels* custom = nullptr,
                   CndGBufferLayout customLayout = CND_GBUFFER_CUSTOM);
+    // Replaces the object by one that has prepared nothing. Size, frames in flight and timestamps
+    // are filled in.
+    void createEnvironment(CndEnvironmentDesc desc);
+    CndEnvironmentMapInfo mapInfo() const;
     std::vector<glm::vec4> shade(const CpuGBuffer& g, const EnvironmentOptions& options = {});
     CndEnvironmentFrame environmentFrame(const CpuGBuffer& g, const Images& images,
                                          const EnvironmentOptions& options) const;

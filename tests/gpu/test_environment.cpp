@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the environment as a light: white furnace, prefiltered and diffuse light against
 // double-precision integration, directions, background, refused arguments.
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -263,6 +264,96 @@ TEST_F(EnvironmentTest, BrokenPixelsStayFinite)
     for (const glm::vec4& r : shade(g, {.background = true}))
         for (int c = 0; c < 3; ++c)
             EXPECT_TRUE(std::isfinite(r[c]) && r[c] >= 0) << r[c];
+}
+
+// Another object that loads what one saved shades the same bits, as if it had prepared the image.
+TEST_F(EnvironmentTest, SavedMapsShadeTheSameBits)
+{
+    CpuGBuffer g = orthographic(16, 16);
+    for (int i = 0; i < 256; ++i)
+        addPixel(g, {i % 3 ? surfaceDepth : 0.0f,
+                     {std::sin(i), std::cos(i), 0.1},
+                     (i % 16) / 15.0,
+                     glm::vec3(0.5f),
+                     {0.5f, 0.04f, 1, 1}});
+    for (const uint32_t cubeSize : {64u, 128u}) {
+        setImage(imageOf(cloudySky, 512), cubeSize);
+        const auto prepared = shade(g, {.background = true});
+        const CndEnvironmentMapInfo info = mapInfo();
+        EXPECT_EQ(info.size % 16, 0u);
+        EXPECT_LT(info.size, 160 * cubeSize * cubeSize + 98304u);
+        const gpu::Buffer saved =
+            gpu::createBuffer(device(), "saved map", info.size + 32,
+                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                              gpu::MemoryUse::Readback);
+        const std::span<uint8_t> bytes = saved.as<uint8_t>();
+        std::ranges::fill(bytes, uint8_t(0xab));
+        const CndEnvironmentMapBuffer range{
+            .structSize = sizeof range, .buffer = saved.get(), .offset = 16, .size = info.size};
+        CndError error{};
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            EXPECT_EQ(cndRecordEnvironmentMapSave(environment_, cmd, &range, &error), CND_SUCCESS)
+                << error.message;
+        });
+        for (size_t i = 0; i < 16; ++i) // what lies around the range stays as it was
+            EXPECT_TRUE(bytes[i] == 0xab && bytes[bytes.size() - 1 - i] == 0xab) << i;
+        const auto texels = saved.as<glm::vec4>().subspan(1, info.size / 16);
+        for (const glm::vec4& texel : texels)
+            ASSERT_EQ(texel.a, 1);
+        setImage(imageOf([](const glm::dvec3&) { return 7; }, 64), cubeSize);
+        EXPECT_NE(shade(g, {.background = true}), prepared);
+        EXPECT_EQ(mapInfo().version, info.version);
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            EXPECT_EQ(cndRecordEnvironmentMapLoad(environment_, cmd, &range, &error), CND_SUCCESS)
+                << error.message;
+        });
+        EXPECT_EQ(shade(g, {.background = true}), prepared) << cubeSize;
+        createEnvironment({.cubeSize = cubeSize}); // which has prepared nothing before
+        context().submitAndWait([&](VkCommandBuffer cmd) {
+            EXPECT_EQ(cndRecordEnvironmentMapLoad(environment_, cmd, &range, &error), CND_SUCCESS)
+                << error.message;
+        });
+        EXPECT_EQ(shade(g, {.background = true}), prepared) << cubeSize;
+        createEnvironment({.cubeSize = 2 * cubeSize});
+        EXPECT_NE(mapInfo().version, info.version);
+    }
+}
+
+TEST_F(EnvironmentTest, SavedMapsOfOtherSizesAreRefused)
+{
+    createEnvironment({.cubeSize = 64});
+    const CndEnvironmentMapInfo info = mapInfo();
+    const gpu::Buffer buffer =
+        gpu::createBuffer(device(), "saved map", info.size,
+                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                          gpu::MemoryUse::Readback);
+    const CndEnvironmentMapBuffer good{
+        .structSize = sizeof good, .buffer = buffer.get(), .size = info.size};
+    const auto refused = [&](auto change, const char* part) {
+        CndEnvironmentMapBuffer bad = good;
+        change(bad);
+        for (const auto record : {cndRecordEnvironmentMapSave, cndRecordEnvironmentMapLoad}) {
+            CndError error{};
+            context().submitAndWait([&](VkCommandBuffer cmd) {
+                EXPECT_EQ(record(environment_, cmd, &bad, &error), CND_ERROR_INVALID_ARGUMENT);
+            });
+            EXPECT_NE(std::string(error.message).find(part), std::string::npos) << error.message;
+        }
+    };
+    refused([](CndEnvironmentMapBuffer& b) { b.structSize = 4; }, "structSize is 4");
+    refused([](CndEnvironmentMapBuffer& b) { b.buffer = VK_NULL_HANDLE; }, "buffer is null");
+    refused([](CndEnvironmentMapBuffer& b) { b.offset = 8; }, "multiple of 16, is 8");
+    refused([](CndEnvironmentMapBuffer& b) { b.size -= 16; }, "bytes");
+    refused([](CndEnvironmentMapBuffer& b) { b.size += 16; }, "bytes");
+    CndError error{};
+    context().submitAndWait([&](VkCommandBuffer cmd) {
+        EXPECT_EQ(cndRecordEnvironmentMapSave(environment_, cmd, &good, &error),
+                  CND_ERROR_INVALID_ARGUMENT);
+    });
+    EXPECT_NE(std::string(error.message).find("must be recorded first"), std::string::npos)
+        << error.message;
+    CndEnvironmentMapInfo wrong{.structSize = 8};
+    EXPECT_EQ(cndGetEnvironmentMapInfo(environment_, &wrong, &error), CND_ERROR_INVALID_ARGUMENT);
 }
 
 TEST_F(EnvironmentTest, TimesEveryKernel)

@@ -62,8 +62,8 @@ protected:
         if (!test::validates() && arguments.ends_with(validate))
             arguments.erase(arguments.size() - validate.size());
         const std::string command =
-            "cd '" + dir_.string() + "' && " + before + " " + test::programWord() + " " +
-            arguments +
+            "cd '" + dir_.string() + "' && XDG_CACHE_HOME='" + dir_.string() + "/cache' " + before +
+            " " + test::programWord() + " " + arguments +
             (device && arguments.rfind("devices", 0) ? " --device '" + std::string(device) + "'"
                                                      : "") +
             " >out.txt 2>err.txt";
@@ -172,6 +172,28 @@ TEST_F(ProgramTest, SamplesSmoothEdges)
     EXPECT_EQ(json["samplesPerFrame"], 4);
     EXPECT_EQ(json["gpuTime"]["frames"], 1);
     EXPECT_EQ(json["exposure"]["invalidPixels"], 0);
+}
+
+// Pictures have the same bits whether their environment was prepared now or before.
+TEST_F(ProgramTest, KeepsPreparedEnvironments)
+{
+    const std::string start = "render scene.glb --environment sky.hdr --size 48x27 -q -o ";
+    ASSERT_EQ(run("examples").exitCode, 0);
+    ASSERT_EQ(run(start + "a.png --no-cache").exitCode, 0);
+    EXPECT_FALSE(std::filesystem::exists(path("cache/candelabra/environments")));
+    for (const char* picture : {"b.png", "c.png"}) { // stores it, and finds it
+        const Outcome outcome = run(start + picture + " --validate");
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        EXPECT_EQ(text("a.png"), text(picture));
+        const std::filesystem::directory_iterator files(path("cache/candelabra/environments"));
+        EXPECT_EQ(std::distance(files, {}), 1);
+    }
+    // Where there is no place for a cache, there is none.
+    const Outcome without = run(start + "d.png", "HOME=/dev/null XDG_CACHE_HOME=/dev/null");
+    ASSERT_EQ(without.exitCode, 0) << without.err;
+    EXPECT_EQ(without.err, "");
+    EXPECT_EQ(text("a.png"), text("d.png"));
 }
 
 // A sequence that was interrupted gets the same pictures as one that was not: the exposure of each

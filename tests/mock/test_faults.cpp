@@ -150,8 +150,11 @@ TEST_P(Faults, RecordingOnlyRecords)
         if (!step.records)
             continue;
         EXPECT_EQ(allocated, 0u) << step.name;
-        const bool uploads = std::string(step.name).starts_with("upload");
-        EXPECT_TRUE(h.vulkan.called.contains(uploads ? "CmdCopyBuffer" : "CmdDispatch"))
+        const std::string_view verb(step.name, std::string_view(step.name).find(' '));
+        EXPECT_TRUE(h.vulkan.called.contains(verb == "upload" ? "CmdCopyBuffer"
+                                             : verb == "save" ? "CmdCopyImageToBuffer"
+                                             : verb == "load" ? "CmdCopyBufferToImage"
+                                                              : "CmdDispatch"))
             << step.name;
         std::set<std::string> mayCall = {"UpdateDescriptorSets"};
         if (h.raster) // buffers that a larger set of emitters replaced

@@ -26,12 +26,12 @@ full = os.environ.get("CANDELABRA_FULL_TESTS") == "1"
 device = os.environ.get("CANDELABRA_TEST_DEVICE")
 USAGE, FAILED = 2, 1
 failures, count = [], 0
-shaders = tempfile.TemporaryDirectory(prefix="candelabra_faults_")  # pipeline cache of all runs
+caches = tempfile.TemporaryDirectory(prefix="candelabra_faults_")  # of all runs
 
 
 def environment(**more):
     kept = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    return kept | {"XDG_CACHE_HOME": "cache", "MESA_SHADER_CACHE_DIR": shaders.name} | more
+    return kept | {"XDG_CACHE_HOME": caches.name, "MESA_SHADER_CACHE_DIR": caches.name} | more
 
 
 def start(arguments, folder, executable=(program,), **options):

@@ -39,6 +39,31 @@ typedef struct CndEnvironmentMap {
     VkImageView equirectangular;
 } CndEnvironmentMap;
 
+// What preparing an image amounts to, for hosts that keep it instead of preparing the same image
+// anew: the same bytes give the same pictures, bit for bit.
+typedef struct CndEnvironmentMapInfo {
+    uint32_t structSize;
+    // Bytes of a prepared map, a multiple of 16. It follows from CndEnvironmentDesc::cubeSize: less
+    // than 160 * cubeSize^2 + 98304 (10.6 MB for 256).
+    uint64_t size;
+    // Differs between versions of this library that prepare maps differently, and between sizes of
+    // cubes. Bytes may be loaded only where version, physical device and driver are those with
+    // which they were saved, because devices round differently.
+    uint64_t version;
+} CndEnvironmentMapInfo;
+
+// A range of a buffer of the host that holds, or receives, a prepared map: R32G32B32A32_SFLOAT
+// texels, row by row from the top, face by face (+x -x +y -y +z -z), of which the fourth channel is
+// 1. First come the faces of the cube with cubeSize texels a side, then those of half the side and
+// so on down to 1. Then come the levels of the prefiltered cube from cubeSize / 2 to 8 texels a
+// side, then the irradiance with 32 texels a side.
+typedef struct CndEnvironmentMapBuffer {
+    uint32_t structSize;
+    VkBuffer buffer;     // with usage TRANSFER_SRC to load it, TRANSFER_DST to save it
+    VkDeviceSize offset; // bytes, a multiple of 16
+    VkDeviceSize size;   // bytes, CndEnvironmentMapInfo::size
+} CndEnvironmentMapBuffer;
+
 // One frame of one view. The G-buffer, and the states of images on entry and on exit, are as for
 // CndLightingFrame. It may be recorded before or after the CndLightingFrame of the same view. The
 // host puts a memory barrier between the two when this one comes second; when it comes first, the
@@ -105,11 +130,27 @@ CND_API CndResult cndGetEnvironmentMemory(CndEnvironment environment, CndMemoryU
 // the push constants; must be recorded outside a render pass.
 CND_API CndResult cndRecordEnvironmentMap(CndEnvironment environment, VkCommandBuffer cmd,
                                           const CndEnvironmentMap* map, CndError* error);
-// Records the shading of one frame, which is one kernel; cndRecordEnvironmentMap must have been
-// recorded before. The specular term is a split-sum approximation: exact in surroundings of
-// constant luminance, otherwise the lobe has the shape that it has when viewed along the normal.
-// There are no shadows. Changes the same state as cndRecordEnvironmentMap (and compute descriptor
-// set 1 with host kernels); must be recorded outside a render pass.
+// Writes the size and the version of the maps that the object prepares.
+CND_API CndResult cndGetEnvironmentMapInfo(CndEnvironment environment, CndEnvironmentMapInfo* info,
+                                           CndError* error);
+// Records a copy of the prepared map to a buffer, which the host may read once it has waited for
+// the GPU. A map must have been recorded before, in this recording or in one submitted earlier to
+// the same queue. Must be recorded outside a render pass; changes no state.
+CND_API CndResult cndRecordEnvironmentMapSave(CndEnvironment environment, VkCommandBuffer cmd,
+                                              const CndEnvironmentMapBuffer* to, CndError* error);
+// Records the same as cndRecordEnvironmentMap, under the same rules, from the bytes of a map that
+// was saved before in place of the image: it copies, and computes nothing but the table. On entry
+// the bytes are visible to TRANSFER / TRANSFER_READ, as bytes are that the host has written before
+// it submits. What the bytes are is not checked: others than those that were saved give surfaces
+// any colours.
+CND_API CndResult cndRecordEnvironmentMapLoad(CndEnvironment environment, VkCommandBuffer cmd,
+                                              const CndEnvironmentMapBuffer* from, CndError* error);
+// Records the shading of one frame, which is one kernel; cndRecordEnvironmentMap or
+// cndRecordEnvironmentMapLoad must have been recorded before. The specular term is a split-sum
+// approximation: exact in surroundings of constant luminance, otherwise the lobe has the shape that
+// it has when viewed along the normal. There are no shadows. Changes the same state as
+// cndRecordEnvironmentMap (and compute descriptor set 1 with host kernels); must be recorded
+// outside a render pass.
 CND_API CndResult cndRecordEnvironment(CndEnvironment environment, VkCommandBuffer cmd,
                                        const CndEnvironmentFrame* frame, CndError* error);
 // Writes kernel times of the last frame recorded in frameSlot, and of the last map. With

@@ -17,7 +17,9 @@
            lighting.addLight(lights[0]) && lighting.updateLights({&ids[0], 1}, {&lights[0], 1}) &&
            lighting.removeLights(ids) && view.record(nullptr, {}) && view.stats(0) &&
            view.recordOverlay(nullptr, {}, {}) && environment.record(nullptr, {}) &&
-           exposure.setMask(weights, 1, 1) && exposure.record(nullptr, {}) && exposure.stats(0);
+           environment.mapInfo() && environment.recordMapSave(nullptr, {}) &&
+           environment.recordMapLoad(nullptr, {}) && exposure.setMask(weights, 1, 1) &&
+           exposure.record(nullptr, {}) && exposure.stats(0);
 }
 
 int main()

@@ -79,13 +79,18 @@ void DeviceArguments::addTo(CLI::App& command)
     command.add_flag("--validate", validate,
                      "run with the Vulkan validation layers; their messages go to stderr, and any "
                      "message makes the exit code 1");
+    command.add_flag(
+        "--no-cache", noCache,
+        "prepare environment images even if the cache (candelabra in $XDG_CACHE_HOME or "
+        "~/.cache) has what was prepared before, and do not store it there");
 }
 
 ContextOptions DeviceArguments::contextOptions(Presentation presentation) const
 {
     return {.device = device,
             .validation = validate ? Validation::On : Validation::Off,
-            .presentation = presentation};
+            .presentation = presentation,
+            .cache = !noCache};
 }
 
 void DeviceArguments::requireRoomFor(uint32_t lights) const

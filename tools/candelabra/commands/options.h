@@ -25,7 +25,7 @@ struct ProgramContext {
 
 struct DeviceArguments {
     std::string device;
-    bool validate = false;
+    bool validate = false, noCache = false;
 
     void addTo(CLI::App& command);
     ContextOptions contextOptions(Presentation presentation = Presentation::Headless) const;

@@ -107,7 +107,8 @@ VkPipelineCache createPipelineCache(VkDevice device)
 
 VulkanContext::VulkanContext(const ContextOptions& options)
     : instance_(options.validation, options.presentation),
-      info_(chooseDevice(instance_.devices(), options.device))
+      info_(chooseDevice(instance_.devices(), options.device)),
+      caches_(options.cache)
 {
     if (info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU)
         keepFreedMemory();

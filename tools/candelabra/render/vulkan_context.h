@@ -17,6 +17,8 @@ struct ContextOptions {
     std::string device; // `wanted` of chooseDevice
     Validation validation = Validation::Off;
     Presentation presentation = Presentation::Headless;
+    // What takes long to compute for the device may be kept in standardCacheFolder().
+    bool cache = false;
     // Where the engine finds Vulkan's functions.
     PFN_vkGetInstanceProcAddr engineFunctions = vkGetInstanceProcAddr;
 };
@@ -35,6 +37,7 @@ public:
     // The description from which modules are created. It is valid as long as the context.
     const CndDeviceDesc& desc() const { return desc_; }
     const gpu::Device& device() const { return *gpu_; }
+    bool caches() const { return caches_; } // ContextOptions::cache
     // The queue does graphics, compute and transfers, and presentation with Presentation::Window.
     VkQueue queue() const { return queue_; }
     uint32_t queueFamily() const { return queueFamily_; }
@@ -64,7 +67,7 @@ private:
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     uint32_t queueFamily_ = 0, timestampValidBits_ = 0;
-    bool samplerAnisotropy_ = false;
+    bool samplerAnisotropy_ = false, caches_ = false;
     const char* calibratedTimestamps_ = nullptr;
     PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps_ = nullptr;
     VkCommandPool pool_ = VK_NULL_HANDLE;
