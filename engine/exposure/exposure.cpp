@@ -131,8 +131,11 @@ void Exposure::writeBindings(const CndExposureFrame& frame) const
     using namespace gpu;
     const uint32_t slot = frame.frameSlot;
     const SampledImage radiance = SampledImage::of(frame.radiance, frame.radianceImageLayout);
+    const SampledImage metered =
+        frame.meteredRadiance ? SampledImage::of(frame.meteredRadiance, frame.radianceImageLayout)
+                              : radiance;
     if (!frame.settings.manual)
-        sets_.histogram.write(slot, {Binding::sampled(HISTOGRAM_RADIANCE, radiance),
+        sets_.histogram.write(slot, {Binding::sampled(HISTOGRAM_RADIANCE, metered),
                                      Binding::of(HISTOGRAM_MASK, mask_),
                                      Binding::of(HISTOGRAM_DATA, data_)});
     sets_.adapt.write(slot, {Binding::of(ADAPT_DATA, data_), Binding::of(ADAPT_STATE, state_)});

@@ -66,6 +66,32 @@ Picture spreadPicture(double stops)
 
 } // namespace
 
+// The picture that is metered decides the exposure, and the other one is displayed.
+TEST_F(ExposureTest, metersAnotherPictureThanItDisplays)
+{
+    const Picture shown = spreadPicture(2), metered = spreadPicture(5);
+    const CndExposureStats alone = measure(metered, plainSettings());
+    const gpu::Image shownImage = toDevice(shown), meteredImage = toDevice(metered),
+                     displayed = createDisplay(64, 64), expected = createDisplay(64, 64);
+    CndExposureFrame frame = frameOf(shownImage, plainSettings());
+    frame.reset = VK_TRUE;
+    frame.display = displayed.view.get();
+    frame.meteredRadiance = meteredImage.view.get();
+    const CndExposureStats both = run(frame);
+    EXPECT_EQ(both.exposure, alone.exposure);
+    EXPECT_TRUE(std::ranges::equal(both.histogram, alone.histogram));
+    EXPECT_NE(both.exposure, measure(shown, plainSettings()).exposure);
+    frame.meteredRadiance = VK_NULL_HANDLE;
+    frame.display = expected.view.get();
+    frame.settings.manual = VK_TRUE;
+    frame.settings.manualEv100 = both.adaptedEv100;
+    run(frame);
+    const auto texels = [&](const gpu::Image& image) {
+        return readImage(image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL, 4);
+    };
+    EXPECT_EQ(texels(displayed), texels(expected));
+}
+
 // For twenty random images and three metering modes every count, and everything computed from the
 // counts, equals the reference.
 TEST_F(ExposureTest, countsAreExact)

@@ -174,6 +174,21 @@ TEST_F(ProgramTest, SamplesSmoothEdges)
     EXPECT_EQ(json["exposure"]["invalidPixels"], 0);
 }
 
+TEST_F(ProgramTest, BloomIsOfPicturesAlone)
+{
+    const std::string start = "render hall --lights 150 --size 97x54 --aa 2 -q -o ";
+    ASSERT_EQ(run(start + "a.png -o a.pfm").exitCode, 0);
+    ASSERT_EQ(run(start + "b.png -o b.pfm --bloom 0").exitCode, 0);
+    const Outcome bloomed = run(start + "c.png -o c.pfm --bloom 0.1 --json c.json --validate");
+    ASSERT_EQ(bloomed.exitCode, 0) << bloomed.err;
+    EXPECT_EQ(text("a.png"), text("b.png"));
+    EXPECT_NE(text("a.png"), text("c.png"));
+    EXPECT_EQ(text("a.pfm"), text("c.pfm"));
+    const auto json = nlohmann::json::parse(text("c.json"));
+    EXPECT_EQ(test::schemaFaults(json, "render.schema.json"), "");
+    EXPECT_NEAR(json["settings"]["bloom"], 0.1, 1e-6);
+}
+
 // Pictures have the same bits whether their environment was prepared now or before.
 TEST_F(ProgramTest, KeepsPreparedEnvironments)
 {

@@ -63,8 +63,8 @@ ROOMS = [
     # both of which are made to be used alone.
     ("tools/candelabra/render", ["tools/candelabra/scene", "tools/candelabra/io", PUBLIC, "engine/gpu",
                                  "engine/gbuffer", "shaders/shared/specular_methods.h",
-                                 "shaders/shared/accumulate.h", "shaders/shared/edge_filter.h",
-                                 "shaders/shared/heat_map.h",
+                                 "shaders/shared/accumulate.h", "shaders/shared/bloom.h",
+                                 "shaders/shared/edge_filter.h", "shaders/shared/heat_map.h",
                                  "candelabra_commit.h",
                                  "candelabra_program_shaders.h"]),
     # The rooms that measure compare with the double-precision truth. Some of them may use internals of

@@ -112,6 +112,10 @@ typedef struct CndExposureFrame {
     // Layout of radiance: SHADER_READ_ONLY_OPTIMAL (VK_IMAGE_LAYOUT_UNDEFINED, 0, means this),
     // READ_ONLY_OPTIMAL or GENERAL.
     VkImageLayout radianceImageLayout;
+    // What is metered, if it is not what is displayed: the radiance without glare, say, so that
+    // glare does not darken the picture. Of the same size and in the same layout as `radiance`;
+    // VK_NULL_HANDLE: `radiance` is metered.
+    VkImageView meteredRadiance;
     VkImageView display; // receives sRGB-encoded values; alpha is 1
     float deltaTime;     // seconds since the previous frame, finite and >= 0
     // VK_TRUE: jump to the converged value. For a first frame, a camera cut, a single image.

@@ -34,7 +34,8 @@ struct RenderArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string samples = "auto", frames, time = "0", fps = "60", path = "still", json, pick;
+    std::string samples = "auto", bloom = "0", frames, time = "0", fps = "60", path = "still";
+    std::string json, pick;
     bool explain = false, resume = false, edgeFilter = false;
     std::vector<std::string> outputs;
 };
@@ -136,6 +137,18 @@ std::optional<uint32_t> frameSamples(const RenderArguments& a, bool sequence)
     return samples;
 }
 
+// Returns the share of the light that --bloom spreads.
+float bloomOf(const RenderArguments& a)
+{
+    const double share = numberOption("--bloom", a.bloom, 0, 1);
+    if (share > 0 && a.frame.heatMapMode() != HeatMap::None)
+        throw UsageError("--bloom: cannot be combined with --debug, which shows single pixels");
+    if (share > 0 && a.frame.influenceRule().rule == CND_INFLUENCE_BY_ERROR)
+        throw UsageError("--bloom: cannot be combined with --influence-error, which bounds the "
+                         "error of pixels that keep their light");
+    return float(share);
+}
+
 RenderPlan plan(const RenderArguments& a)
 {
     if (a.outputs.empty() && a.json.empty() && a.pick.empty() && !a.explain)
@@ -162,6 +175,7 @@ RenderPlan plan(const RenderArguments& a)
                       .culling = a.frame.cullingMode(),
                       .influence = influence,
                       .reuse = a.frame.reuseMode(),
+                      .bloom = bloomOf(a),
                       .heatMap = a.frame.heatMapMode(),
                       .edgeFilter = a.edgeFilter,
                       .exposure = a.frame.exposureSettings()},
@@ -355,6 +369,14 @@ void addPictureOptions(CLI::App& command, RenderArguments& a)
                     "1 on a CPU, with several --frames that are only timed, with --edge-filter, "
                     "--debug and --influence-error")
         ->type_name("N|auto")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--bloom", a.bloom,
+            "share of the light, 0 to 1, that is spread over the picture as an eye scatters "
+            "it, so that lamps look bright; 0.04 to 0.2 look natural; linear files have "
+            "none of it, and exposure is metered without it")
+        ->type_name("SHARE")
         ->capture_default_str();
     command.add_flag("--edge-filter", a.edgeFilter,
                      "smooth the edges of pictures of one sample per pixel, in a small part of "

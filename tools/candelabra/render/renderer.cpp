@@ -7,6 +7,7 @@
 
 #include "gbuffer/gbuffer.h"
 #include "io/error.h"
+#include "render/bloom.h"
 #include "render/camera.h"
 #include "render/check.h"
 #include "render/edge_filter.h"
@@ -55,6 +56,14 @@ void place(std::span<PassTime> passes, double start)
     }
 }
 
+// Returns why there is no bloom in the frame, or null.
+const char* unbloomedBecause(const FrameOptions& frame)
+{
+    return frame.bloom == 0                 ? "it is off"
+           : frame.heatMap != HeatMap::None ? "a heat map is shown"
+                                            : nullptr;
+}
+
 // Returns why the edge filter leaves the frame as it is, or null.
 const char* unfilteredBecause(const FrameOptions& frame)
 {
@@ -80,8 +89,8 @@ struct Renderer::State {
     RendererOptions options;
     std::vector<bool> litSlots;     // whether the slot's last frame was lit, not reused
     std::vector<bool> exposedSlots; // whether the slot has had a frame with exposure
-    // Why the slot's last frame did without the edge filter; null: it was filtered.
-    std::vector<const char*> unfiltered;
+    // Why the slot's last frame did without bloom and without the edge filter; null: it had them.
+    std::vector<const char*> unbloomed, unfiltered;
     gbuffer::Geometry geometry;
     gbuffer::GBuffer gbuffer;
     gbuffer::Targets targets;
@@ -97,6 +106,7 @@ struct Renderer::State {
     std::optional<Lit> drawn;                 // what the images show
     std::optional<HeatMapPass> heatMaps;      // created for the first frame that shows a heat map
     std::optional<Accumulation> accumulation; // created for the first frame of several samples
+    std::optional<Bloom> bloom;               // created for the first frame that has it
     std::optional<EdgeFilter> edgeFilter;     // created for the first frame that it filters
     // After surfaces and their environment, after lighting, and after exposure and edge filter.
     FrameStamps stamps;
@@ -107,6 +117,7 @@ struct Renderer::State {
           options(o),
           litSlots(o.framesInFlight),
           exposedSlots(o.framesInFlight),
+          unbloomed(o.framesInFlight),
           unfiltered(o.framesInFlight),
           geometry(uploadGeometry(c, s)),
           gbuffer(
@@ -173,6 +184,7 @@ void Renderer::State::createSized()
     drawn.reset();
     heatMaps.reset();
     accumulation.reset();
+    bloom.reset();
     edgeFilter.reset();
     const gpu::Device& device = context.device();
     const auto [width, height] = options.size;
@@ -356,27 +368,33 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& fr
     s.recordDisplay(cmd, slot, frame);
 }
 
-// Records what follows lighting: exposure, which draws the display image, the edge filter, the sums
-// of samples, and the heat map.
+// Records what follows lighting: bloom, exposure, which draws the display image, the edge filter,
+// the sums of samples, and the heat map.
 void Renderer::State::recordDisplay(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
 {
     const FrameSample& sample = frame.sample;
     const bool first = sample.index == 0; // the exposure of a frame follows from its first sample
     transition(cmd, display.image.get(), discarded, computeWrite);
+    unbloomed[slot] = unbloomedBecause(frame);
     unfiltered[slot] = unfilteredBecause(frame);
     const bool filters = !unfiltered[slot];
     if (filters && !edgeFilter)
         edgeFilter.emplace(context.device(), options.size, options.framesInFlight);
-    take(exposure.record(cmd,
-                         {.frameSlot = slot,
-                          .width = options.size.width,
-                          .height = options.size.height,
-                          .radiance = targets.radiance.view.get(),
-                          .display = filters ? edgeFilter->recordInput(cmd) : display.view.get(),
-                          .deltaTime = first ? frame.deltaTime : 0,
-                          .reset = first && frame.resetExposure,
-                          .ditherSeed = frame.ditherSeed + sample.index,
-                          .settings = exposureOf(frame)}));
+    const VkImageView radiance = targets.radiance.view.get();
+    if (!unbloomed[slot] && !bloom)
+        bloom.emplace(context.device(), options.size, options.framesInFlight);
+    take(exposure.record(
+        cmd,
+        {.frameSlot = slot,
+         .width = options.size.width,
+         .height = options.size.height,
+         .radiance = unbloomed[slot] ? radiance : bloom->record(cmd, slot, radiance, frame.bloom),
+         .meteredRadiance = radiance,
+         .display = filters ? edgeFilter->recordInput(cmd) : display.view.get(),
+         .deltaTime = first ? frame.deltaTime : 0,
+         .reset = first && frame.resetExposure,
+         .ditherSeed = frame.ditherSeed + sample.index,
+         .settings = exposureOf(frame)}));
     if (filters)
         edgeFilter->record(cmd, slot, display.view.get());
     stamps.stamp(cmd, slot);
@@ -452,6 +470,8 @@ std::vector<CndPassPlan> Renderer::State::plan(uint32_t slot, const FrameStats& 
         out.push_back({"lighting", kept});
     else
         add(stats.lighting.passes, stats.lighting.passCount);
+    out.push_back({"bloom_down", unbloomed[slot]});
+    out.push_back({"bloom_up", unbloomed[slot]});
     add(stats.exposure.passes, stats.exposure.passCount);
     out.push_back({"edge_filter", unfiltered[slot]});
     return out;
@@ -493,6 +513,9 @@ FrameStats Renderer::stats(uint32_t slot) const
     }
     out.exposure = finished(state_->exposure.stats(slot));
     const size_t first = out.passes.size();
+    if (!state_->unbloomed[slot] &&
+        state_->bloom->timer().read(slot, rows.data(), count) == CND_SUCCESS)
+        addModule(rows.data(), count);
     addModule(out.exposure.kernelTimes, out.exposure.kernelTimeCount);
     if (!state_->unfiltered[slot] &&
         state_->edgeFilter->timer().read(slot, rows.data(), count) == CND_SUCCESS)

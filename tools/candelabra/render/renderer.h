@@ -60,6 +60,10 @@ struct FrameOptions {
     // of the previous frame in the same slot; in a slot's first frame no light is cut.
     CndInfluence influence{};
     Reuse reuse = Reuse::None;
+    // The share of the light of every pixel that is spread over the display image, as an eye
+    // scatters it: 0..1; 0: none. Neither the radiance nor the metering of exposure knows of it.
+    // Heat maps have none.
+    float bloom = 0;
     HeatMap heatMap = HeatMap::None; // painted over the display image; needs clustered culling
     // Smooths the edges of the display image. Has no effect on frames of several samples, whose
     // edges are smooth, and on heat maps, which show single pixels.

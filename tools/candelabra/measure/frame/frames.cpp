@@ -226,6 +226,7 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"culling", cullingName(options.culling)},
             {"reuse", reuseName(options.reuse)},
             {"debug", heatMapName(options.heatMap)},
+            {"bloom", options.bloom},
             {"edgeFilter", options.edgeFilter},
             {"gbuffer", gbufferName(layout)},
             {"toneMap", toneMapName(options.exposure.toneMap)},
