@@ -281,7 +281,13 @@ TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
     app::Image sky{.width = 32, .height = 16, .channels = 3};
     sky.pixels.assign(32 * 16 * 3, 50.0f);
     app::saveHdr(path("sky.hdr"), sky);
-    const std::string start = "render field --lights 0 --size 64x36 --default-light off -q -o ";
+    std::ofstream(path("floor.json"))
+        << R"({"camera": {"position": [0, 1, 0], "look_at": [0, 1, -1], "up": [0, 1, 0],
+               "vertical_fov_degrees": 40},
+               "object": {"type": "plane", "point": [0, 0, 0], "normal": [0, 1, 0]},
+               "material": {"albedo": [0.5, 0.5, 0.5], "perceptual_roughness": 0.5},
+               "lights": []})";
+    const std::string start = "render floor.json --size 64x36 --default-light off -q -o ";
     ASSERT_EQ(run(start + "dark.pfm").exitCode, 0);
     const Outcome lit = run(start + "lit.pfm --environment sky.hdr --environment-scale 2 "
                                     "--environment-rotation 30 --lobes sum "
