@@ -3,7 +3,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <random>
+#include <regex>
+#include <set>
 #include <sstream>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <stb_image.h>
@@ -12,6 +17,7 @@
 
 #include "harness/paths.h"
 #include "load/load.h"
+#include "viewer/keys.h"
 
 namespace
 {
@@ -47,22 +53,41 @@ std::string textOf(const std::filesystem::path& path)
     return content.str();
 }
 
-TEST(Viewer, IsDrivenByKeysAndMouse)
+void requireTools()
 {
-    using namespace candelabra::test;
     for (const char* tool : {"xvfb-run", "xdotool"})
         ASSERT_EQ(std::system((std::string("command -v ") + tool + " >/dev/null").c_str()), 0)
             << tool << " is not installed (tools/setup installs it)";
+}
+
+std::filesystem::path emptyFolder(const char* name)
+{
     const std::filesystem::path dir =
-        std::filesystem::temp_directory_path() / ("candelabra_viewer_" + std::to_string(getpid()));
+        std::filesystem::temp_directory_path() / (name + std::to_string(getpid()));
     std::filesystem::create_directories(dir);
+    return dir;
+}
+
+// Runs a script of tests/data in `dir` and returns its exit code. A validation message, also one
+// about leaked objects, makes it 1.
+int runSession(const char* script, const std::filesystem::path& dir)
+{
+    using namespace candelabra::test;
     const std::string command = "cd '" + dir.string() + "' && PROGRAM=" + programWord() +
-                                " xvfb-run -a bash " + shellWord(dataPath("viewer_session.sh")) +
+                                " xvfb-run -a bash " + shellWord(dataPath(script)) +
                                 " >out.txt 2>err.txt";
     const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(Viewer, IsDrivenByKeysAndMouse)
+{
+    using namespace candelabra::test;
+    ASSERT_NO_FATAL_FAILURE(requireTools());
+    const std::filesystem::path dir = emptyFolder("candelabra_viewer_");
+    const int status = runSession("viewer_session.sh", dir);
     const std::string err = textOf(dir / "err.txt");
-    // A validation message, also one about leaked objects, makes the exit code 1.
-    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0) << err;
+    EXPECT_EQ(status, 0) << err;
 
     Shot shots[9];
     for (int i = 1; i <= 8; ++i)
@@ -96,6 +121,193 @@ TEST(Viewer, IsDrivenByKeysAndMouse)
     EXPECT_EQ(scene.lights.size(), hall.lights.size());
     EXPECT_EQ(scene.instances.size(), hall.instances.size());
     EXPECT_NE(scene.cameras[0].position, hall.cameras[0].position);
+    if (!HasFailure())
+        std::filesystem::remove_all(dir);
+}
+
+using candelabra::app::KeyAction;
+using candelabra::app::KeyBinding;
+
+// The xdotool command that presses a key of the viewer's table.
+std::string pressed(const KeyBinding& binding)
+{
+    const std::map<int, std::string> names = {
+        {GLFW_KEY_TAB, "Tab"},       {GLFW_KEY_DELETE, "Delete"},
+        {GLFW_KEY_UP, "Up"},         {GLFW_KEY_DOWN, "Down"},
+        {GLFW_KEY_LEFT, "Left"},     {GLFW_KEY_RIGHT, "Right"},
+        {GLFW_KEY_PAGE_UP, "Prior"}, {GLFW_KEY_PAGE_DOWN, "Next"},
+        {GLFW_KEY_COMMA, "comma"},   {GLFW_KEY_PERIOD, "period"},
+        {GLFW_KEY_MINUS, "minus"},   {GLFW_KEY_EQUAL, "equal"},
+        {GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_LEFT_BRACKET, "bracketleft"},
+        {GLFW_KEY_F1, "F1"},         {GLFW_KEY_RIGHT_BRACKET, "bracketright"},
+        {GLFW_KEY_F2, "F2"},         {GLFW_KEY_F5, "F5"}};
+    std::string out = "key ";
+    if (binding.modifiers & GLFW_MOD_CONTROL)
+        out += "ctrl+";
+    if (binding.modifiers & GLFW_MOD_SHIFT)
+        out += "shift+";
+    if (binding.key >= GLFW_KEY_A && binding.key <= GLFW_KEY_Z)
+        return out + char('a' + binding.key - GLFW_KEY_A);
+    return out + names.at(binding.key);
+}
+
+std::vector<KeyBinding> allBindings()
+{
+    std::vector<KeyBinding> out;
+    for (const auto& help : candelabra::app::keyHelp)
+        for (const KeyBinding& binding : help.bindings)
+            if (binding.action != KeyAction::None)
+                out.push_back(binding);
+    return out;
+}
+
+// 500 random inputs: keys of the table, clicks, drags and turns of the wheel, clicks with Ctrl (a
+// field of the panel is typed into then) and keys that matter in a field. What would end the
+// session is left out, and so is most of what takes long.
+std::string randomInputs(uint32_t seed)
+{
+    std::mt19937 random(seed);
+    const auto below = [&](uint32_t n) { return uint32_t(random() % n); };
+    const std::vector<KeyBinding> bindings = allBindings();
+    const char* const typed[] = {"5", "7", "BackSpace", "Return", "Home", "ctrl+a"};
+    // How often keys were pressed that take long: two of these do.
+    std::map<KeyAction, int> slow{{KeyAction::FewerLights, 0},  {KeyAction::MoreLights, 0},
+                                  {KeyAction::SaveRadiance, 0}, {KeyAction::SaveScene, 0},
+                                  {KeyAction::ListLights, 0},   {KeyAction::Compare, 0},
+                                  {KeyAction::NextSpecular, 0}};
+    std::string out;
+    for (int i = 0; i < 500;) {
+        const std::string place = std::to_string(below(240)) + " " + std::to_string(below(160));
+        ++i;
+        switch (below(9)) {
+        case 0:
+            out += "mousemove " + place + " click 1\n";
+            break;
+        case 1:
+            out += "keydown ctrl mousemove " + place + " click 1 keyup ctrl\n";
+            break;
+        case 2:
+            out += "mousedown 1 mousemove " + place + " mouseup 1\n";
+            break;
+        case 3:
+            out += std::string("key ") + typed[below(std::size(typed))] + "\n";
+            break;
+        case 4:
+            out += "click " + std::to_string(3 + below(3)) + "\n";
+            break;
+        case 5: // opens and closes the panel, which is collapsed in a small window
+            out += "mousemove 16 16 click 1\n";
+            break;
+        default: {
+            const KeyBinding& binding = bindings[below(uint32_t(bindings.size()))];
+            if (binding.action == KeyAction::Quit || binding.action == KeyAction::SaveImage ||
+                (slow.contains(binding.action) && ++slow.at(binding.action) > 2))
+                --i; // another one in its place
+            else
+                out += pressed(binding) + "\n";
+        }
+        }
+    }
+    return out;
+}
+
+struct KeyCheck {
+    KeyAction action;
+    const char* expected; // a regular expression for a line that the viewer prints then
+    int tries = 1;        // how often the key is pressed until then
+    const char* before = "";
+};
+
+// In an order in which every key can have its effect.
+constexpr KeyCheck keyChecks[] = {
+    {KeyAction::NextLight, "^light [0-9]+ selected: "},
+    {KeyAction::PreviousLight, "^light [0-9]+ selected: "},
+    {KeyAction::FrameScene, "^the whole scene is in view$"},
+    {KeyAction::AddLight, "^light [0-9]+ added: sphere at "},
+    {KeyAction::DuplicateLight, "^light [0-9]+ added: sphere at "},
+    {KeyAction::LightAhead, "^light [0-9]+ moved: sphere at "},
+    {KeyAction::LightBack, "^light [0-9]+ moved: sphere at "},
+    {KeyAction::LightLeft, "^light [0-9]+ moved: sphere at "},
+    {KeyAction::LightRight, "^light [0-9]+ moved: sphere at "},
+    {KeyAction::LightUp, "^light [0-9]+ moved: sphere at "},
+    {KeyAction::LightDown, "^light [0-9]+ moved: sphere at "},
+    {KeyAction::GrowLight, "^light [0-9]+ resized: sphere at .*, radius "},
+    {KeyAction::ShrinkLight, "^light [0-9]+ resized: sphere at .*, radius "},
+    {KeyAction::Undo, "^undone: light [0-9]+ has another size$"},
+    {KeyAction::Undo, "^undone: light [0-9]+ has another size$"},
+    {KeyAction::Redo, "^redone: light [0-9]+ has another size$"},
+    {KeyAction::Frame, "^light [0-9]+ fills the view$"},
+    {KeyAction::RemoveLight, "^light [0-9]+ removed$"},
+    {KeyAction::Orbit, "^the camera orbits the point ahead$", 2},
+    {KeyAction::Orbit, "^the camera flies$"},
+    {KeyAction::Forward, "^--camera "},
+    {KeyAction::Left, "^--camera "},
+    {KeyAction::Back, "^--camera "},
+    {KeyAction::Right, "^--camera "},
+    {KeyAction::Up, "^--camera "},
+    {KeyAction::Down, "^--camera "},
+    {KeyAction::Darker, "^exposure compensation "},
+    {KeyAction::Brighter, "^exposure compensation "},
+    {KeyAction::Culling, "^light culling: brute$", 2},
+    {KeyAction::Culling, "^light culling: clustered$"},
+    {KeyAction::HeatMap, "^heat map: lights-per-pixel$", 5},
+    {KeyAction::HeatMap, "^heat map: evaluated$"},
+    {KeyAction::HeatMap, "^heat map: none$", 5},
+    {KeyAction::Compare, "^two ways of shading are compared$", 2},
+    {KeyAction::Compare, "^one way of shading is shown$"},
+    {KeyAction::NextSpecular, "^specular highlights: conic$", 10},
+    {KeyAction::Help, "^the help is shown$", 2},
+    {KeyAction::Help, "^the help is hidden$"},
+    {KeyAction::Panel, "^the panel is shown$", 2},
+    {KeyAction::Panel, "^the panel is hidden$"},
+    {KeyAction::ListLights, "^pixel 120,120", 1, "mousemove 120 120 "},
+    {KeyAction::SaveImage, "^wrote candelabra-[0-9]+[.]png$"},
+    {KeyAction::SaveRadiance, "^wrote candelabra-[0-9]+[.]exr$"},
+    {KeyAction::SaveScene, "^wrote candelabra-[0-9]+[.]json$"},
+    {KeyAction::MoreLights, "^building hall with "},
+    {KeyAction::FewerLights, "^building hall with "},
+    {KeyAction::Quit, "^the viewer is closed$"}};
+
+// Values of the last lines of a log that begin with `start`.
+std::vector<std::string> linesWith(const std::string& log, const std::string& start)
+{
+    std::vector<std::string> out;
+    std::stringstream lines(log.substr(log.find("the checks begin")));
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with(start))
+            out.push_back(line);
+    return out;
+}
+
+TEST(Viewer, EveryKeyWorksAfter500RandomInputs)
+{
+    ASSERT_NO_FATAL_FAILURE(requireTools());
+    const std::filesystem::path dir = emptyFolder("candelabra_keys_");
+    std::ofstream(dir / "inputs.txt") << randomInputs(17);
+    std::ofstream checks(dir / "checks.txt");
+    std::set<KeyAction> checked;
+    for (const KeyCheck& check : keyChecks) {
+        checked.insert(check.action);
+        for (const KeyBinding& binding : allBindings())
+            if (binding.action == check.action)
+                checks << check.tries << '\t' << check.before << pressed(binding) << '\t'
+                       << check.expected << '\n';
+    }
+    checks.close();
+    for (const KeyBinding& binding : allBindings())
+        EXPECT_TRUE(checked.contains(binding.action)) << pressed(binding) << " is not checked";
+
+    EXPECT_EQ(runSession("viewer_keys.sh", dir), 0)
+        << textOf(dir / "err.txt") << textOf(dir / "log.txt");
+    const std::string log = textOf(dir / "log.txt");
+    ASSERT_NE(log.find("the checks begin"), std::string::npos);
+    // The lines say what the viewer holds: each of these keys has changed it.
+    for (const char* start : {"--camera ", "exposure compensation "}) {
+        const std::vector<std::string> lines = linesWith(log, start);
+        ASSERT_GE(lines.size(), 2u) << start;
+        for (size_t i = 1; i < lines.size(); ++i)
+            EXPECT_NE(lines[i], lines[i - 1]) << log;
+    }
     if (!HasFailure())
         std::filesystem::remove_all(dir);
 }

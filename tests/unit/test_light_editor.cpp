@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests what the viewer's editor does to lights: they stay valid and keep their power.
 #include <cmath>
+#include <cstring>
 
 #include <gtest/gtest.h>
 
@@ -125,6 +126,106 @@ TEST(LightEditor, DistantSphereKeepsItsIlluminance)
     const float before = light.emission[0] * light.radius * light.radius;
     changeRadius(light, 0.1f);
     EXPECT_NEAR(light.emission[0] * light.radius * light.radius, before, 1e-5f * before);
+}
+
+bool sameLight(const CndLight& a, const CndLight& b)
+{
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+TEST(LightHistory, UndoesAndRedoesEveryKindOfEdit)
+{
+    LightEditor editor;
+    Scene scene;
+    scene.lightMotions = {};
+    std::vector<std::vector<CndLight>> states{scene.lights};
+    const auto step = [&](auto&& edit) {
+        editor.history.beginStep();
+        edit();
+        states.push_back(scene.lights);
+    };
+    step([&] { addLight(scene, editor, {1, 2, 3}); });
+    step([&] { addLight(scene, editor, {4, 5, 6}); });
+    step([&] { moveLight(scene, editor, {1, 0, 0}); });
+    step([&] { scaleLightRadius(scene, editor, 2); });
+    step([&] { duplicateLight(scene, editor); });
+    step([&] { selectLight(scene, editor, 1), removeLight(scene, editor); });
+    ASSERT_EQ(scene.lights.size(), 2u);
+    const auto expect = [&](const std::vector<CndLight>& wanted) {
+        ASSERT_EQ(scene.lights.size(), wanted.size());
+        for (size_t i = 0; i < wanted.size(); ++i)
+            EXPECT_TRUE(sameLight(scene.lights[i], wanted[i])) << i;
+    };
+    for (size_t i = states.size() - 1; i > 0; --i) {
+        EXPECT_EQ(undoEdit(scene, editor).substr(0, 8), "undone: ");
+        expect(states[i - 1]);
+    }
+    EXPECT_EQ(undoEdit(scene, editor), "there is no edit to undo");
+    for (size_t i = 1; i < states.size(); ++i) {
+        EXPECT_EQ(redoEdit(scene, editor).substr(0, 8), "redone: ");
+        expect(states[i]);
+    }
+    EXPECT_EQ(redoEdit(scene, editor), "there is no edit to redo");
+    // An edit after an undo takes the place of what was undone.
+    undoEdit(scene, editor);
+    step([&] { addLight(scene, editor, {7, 8, 9}); });
+    EXPECT_FALSE(editor.history.canRedo());
+}
+
+TEST(LightHistory, KeepsTheMotionOfRemovedLights)
+{
+    LightEditor editor;
+    Scene scene = sceneWithALight(editor);
+    scene.lightMotions = {{.angularSpeed = 3}};
+    removeLight(scene, editor);
+    EXPECT_TRUE(scene.lightMotions.empty());
+    scene.lightMotions = {};
+    addLight(scene, editor, {0, 0, 0}); // a scene without moving lights
+    EXPECT_TRUE(scene.lightMotions.empty());
+    scene.lightMotions = {{.angularSpeed = 5}};
+    removeLight(scene, editor);
+    addLight(scene, editor, {0, 0, 0});
+    scene.lightMotions = {{.angularSpeed = 7}};
+    duplicateLight(scene, editor);
+    ASSERT_EQ(scene.lightMotions.size(), 2u);
+    EXPECT_EQ(scene.lightMotions[1].angularSpeed, 7);
+    removeLight(scene, editor);
+    undoEdit(scene, editor);
+    ASSERT_EQ(scene.lightMotions.size(), 2u);
+    EXPECT_EQ(scene.lightMotions[1].angularSpeed, 7);
+}
+
+TEST(LightHistory, ADragIsOneStep)
+{
+    LightEditor editor;
+    Scene scene = sceneWithALight(editor);
+    const CndLight before = scene.lights[0];
+    editor.history.beginStep();
+    for (int i = 0; i < 20; ++i)
+        moveLight(scene, editor, {0.1f, 0, 0});
+    undoEdit(scene, editor);
+    EXPECT_TRUE(sameLight(scene.lights[0], before));
+    editor.history.beginStep();
+    moveLight(scene, editor, {0.5f, 0, 0});
+    moveLight(scene, editor, {-0.5f, 0, 0}); // back where it was: no step
+    EXPECT_EQ(undoEdit(scene, editor), "undone: light 0 added");
+}
+
+TEST(LightHistory, HasALimit)
+{
+    LightEditor editor;
+    Scene scene = sceneWithALight(editor);
+    for (size_t i = 0; i < LightHistory::mostSteps + 10; ++i) {
+        editor.history.beginStep();
+        moveLight(scene, editor, {1, 0, 0});
+    }
+    size_t steps = 0;
+    while (editor.history.canUndo()) {
+        undoEdit(scene, editor);
+        ++steps;
+    }
+    EXPECT_EQ(steps, LightHistory::mostSteps);
+    EXPECT_EQ(scene.lights[0].position[0], 11); // 1 at first; ten moves cannot be undone
 }
 
 } // namespace

@@ -24,7 +24,7 @@ struct ViewArguments {
     SceneArguments scene;
     FrameArguments frame;
     std::string frames = "0", screenshot;
-    bool noOverlay = false;
+    bool noOverlay = false, verbose = false;
 };
 
 ViewerOptions optionsOf(const ViewArguments& a)
@@ -58,6 +58,8 @@ ViewerOptions optionsOf(const ViewArguments& a)
 
 int view(const ViewArguments& a)
 {
+    if (a.verbose)
+        spdlog::set_level(spdlog::level::debug);
     ViewerOptions options = optionsOf(a);
     a.scene.warnOfIdleOptions(options.sceneOptions.lights);
     a.device.requireRoomFor(options.sceneOptions.lights.value_or(0));
@@ -91,6 +93,8 @@ void addViewCommand(CLI::App& app, Run& run)
                      "PNG file for a picture of the window with the last of --frames")
         ->type_name("FILE");
     command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
+    command->add_flag("--verbose", a->verbose,
+                      "print on stderr what each key and click does, and where the camera stops");
     a->frame.addTo(*command);
     a->frame.addFitTo(*command);
     a->frame.addCullingTo(*command);

@@ -157,8 +157,8 @@ std::optional<RayHit> RayCaster::cast(const Ray& ray)
     best.distance = far;
     instances_.traverse(ray, best.distance,
                         [&](uint32_t item, double&) { hitInstance(item, ray, best); });
-    for (const AnalyticObject& object : scene_.analyticObjects)
-        hitAnalytic(object, ray, best);
+    for (uint32_t i = 0; i < scene_.analyticObjects.size(); ++i)
+        hitAnalytic(i, ray, best);
     if (best.distance == far)
         return std::nullopt;
     best.position = ray.origin + best.distance * ray.direction;
@@ -208,11 +208,14 @@ void RayCaster::hitInstance(uint32_t item, const Ray& ray, RayHit& best)
                                   hit.u * glm::dvec3(b.normal) + hit.v * glm::dvec3(c.normal);
         best.normal = glm::normalize(glm::transpose(glm::dmat3(objectFromWorld)) * normal);
         best.material = instance.material;
+        best.object = instanceIds_[item];
+        best.analytic = false;
     });
 }
 
-void RayCaster::hitAnalytic(const AnalyticObject& object, const Ray& ray, RayHit& best) const
+void RayCaster::hitAnalytic(uint32_t index, const Ray& ray, RayHit& best) const
 {
+    const AnalyticObject& object = scene_.analyticObjects[index];
     const glm::dvec3 toObject = object.point - ray.origin;
     double distance = far;
     if (object.type == AnalyticObject::Type::Plane) {
@@ -232,6 +235,8 @@ void RayCaster::hitAnalytic(const AnalyticObject& object, const Ray& ray, RayHit
                           : (distance * ray.direction - toObject) / object.radius;
         best.front = true;
         best.material = object.material;
+        best.object = index;
+        best.analytic = true;
     }
 }
 

@@ -25,6 +25,9 @@ struct RayHit {
     glm::dvec3 normal{0, 1, 0}; // unit, interpolated, on the side from which the ray comes
     bool front = true;          // the ray meets the front of the surface
     uint32_t material = 0;
+    // What was hit: an index of Scene::instances or of Scene::analyticObjects.
+    uint32_t object = 0;
+    bool analytic = false;
 };
 
 // A binary tree of boxes, which may hold anything.
@@ -64,7 +67,7 @@ public:
 
 private:
     void hitInstance(uint32_t instance, const Ray& ray, RayHit& best);
-    void hitAnalytic(const AnalyticObject& object, const Ray& ray, RayHit& best) const;
+    void hitAnalytic(uint32_t index, const Ray& ray, RayHit& best) const;
     const BoxTree& meshTree(uint32_t mesh);
 
     const Scene& scene_;

@@ -8,8 +8,8 @@
 
 #include "candelabra/candelabra.h"
 #include "candelabra_program_shaders.h"
+#include "render/heat_map_legend.h"
 #include "render/image_barrier.h"
-#include "render/legend.h"
 
 namespace candelabra::app
 {
@@ -33,8 +33,11 @@ Legend logarithmicLegend(const char* title, uint32_t scale)
     return barLegend(title, marks, scale);
 }
 
-Legend legendOf(HeatMap which, uint32_t scale)
+} // namespace
+
+Legend heatMapLegend(HeatMap which, PixelSize size)
 {
+    const uint32_t scale = std::max(1u, size.height / 360);
     switch (which) {
     case HeatMap::LightsPerPixel:
         return logarithmicLegend("lights in the list of the pixel", scale);
@@ -50,8 +53,6 @@ Legend legendOf(HeatMap which, uint32_t scale)
     }
 }
 
-} // namespace
-
 HeatMapPass::HeatMapPass(const gpu::Device& device, PixelSize size, uint32_t framesInFlight)
     : device_(&device),
       size_(size),
@@ -63,9 +64,8 @@ HeatMapPass::HeatMapPass(const gpu::Device& device, PixelSize size, uint32_t fra
                                   VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                               VK_IMAGE_ASPECT_COLOR_BIT))
 {
-    const uint32_t scale = std::max(1u, size.height / 360);
     for (uint32_t i = 1; i < heatMapCount; ++i) {
-        const Legend legend = legendOf(HeatMap(i), scale);
+        const Legend legend = heatMapLegend(HeatMap(i), size);
         std::vector<uint32_t> all;
         for (uint32_t step = 0; step < gpu::HEAT_MAP_STEPS; ++step)
             all.push_back(packed(viridis(float(step) / float(gpu::HEAT_MAP_STEPS - 1))));

@@ -184,6 +184,9 @@ Bounds sceneBounds(const Scene& scene);
 // lack.
 uint32_t materialClasses(const Scene& scene);
 
+// Returns a light of the scene at the place where it is at `time` seconds.
+CndLight lightAtTime(const Scene& scene, size_t light, double time);
+
 // Sets `out` to the scene's lights, the moving ones at the places where they are at `time` seconds.
 void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include <imgui.h>
 
@@ -73,13 +74,63 @@ CndLight* selectedLight(Scene& scene, const LightEditor& editor)
                : nullptr;
 }
 
+// Tells everyone that the selected light was changed.
+void changed(LightEditor& editor, const CndLight& before, const CndLight& after)
+{
+    editor.history.add({.light = *editor.selected, .before = before, .after = after});
+    editor.changed = true;
+}
+
+void append(Scene& scene, LightEditor& editor, const CndLight& light, const LightMotion& motion)
+{
+    scene.lights.push_back(light);
+    if (!scene.lightMotions.empty())
+        scene.lightMotions.push_back(motion);
+    editor.selected = uint32_t(scene.lights.size()) - 1;
+    editor.history.beginStep();
+    editor.history.add({.light = *editor.selected, .after = light, .motion = motion});
+    editor.changed = true;
+}
+
+// Returns what an edit did to its light.
+std::string described(const LightEdit& edit)
+{
+    const std::string light = "light " + std::to_string(edit.light);
+    if (!edit.before)
+        return light + " added";
+    if (!edit.after)
+        return light + " removed";
+    const CndLight &a = *edit.before, &b = *edit.after;
+    const auto differ = [](const auto& x, const auto& y) {
+        return std::memcmp(&x, &y, sizeof x) != 0;
+    };
+    return light + (a.type != b.type                         ? " has another type"
+                    : differ(a.position, b.position)         ? " moved"
+                    : a.radius != b.radius                   ? " has another size"
+                    : a.influenceRadius != b.influenceRadius ? " reaches another distance"
+                    : differ(a.emission, b.emission)         ? " has another brightness or colour"
+                                                             : " has another shape");
+}
+
+// Selects the light of an edit that has been made, if it is still there.
+void follow(LightEditor& editor, const LightEdit& edit)
+{
+    editor.selected.reset();
+    if (edit.after)
+        editor.selected = edit.light;
+    editor.changed = true;
+}
+
 // Edits the direction as two angles, so that it stays a unit vector.
 bool directionWidget(CndLight& light)
 {
     const glm::vec3 d = glm::normalize(toVec3(light.direction));
     float angles[2] = {glm::degrees(std::atan2(d.x, d.z)),
                        glm::degrees(std::asin(std::clamp(d.y, -1.0f, 1.0f)))};
-    if (!ImGui::DragFloat2("azimuth, elevation", angles, 0.5f, -180, 180, "%.1f deg"))
+    const bool edited = ImGui::DragFloat2("direction", angles, 0.5f, -180, 180, "%.1f deg");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("azimuth from +z towards +x, and elevation");
+    if (!edited)
         return false;
     const float azimuth = glm::radians(angles[0]);
     const float elevation = glm::radians(std::clamp(angles[1], -89.9f, 89.9f));
@@ -101,7 +152,31 @@ bool coneWidgets(CndLight& light)
     return true;
 }
 
-bool emissionWidgets(CndLight& light)
+// Edits the luminous power, which is `lumens` now, in lm or in W.
+bool powerWidget(CndLight& light, float lumens, bool& watts)
+{
+    const float perUnit = watts ? cndLuminousPowerFromWatts(1) : 1;
+    const float widget = ImGui::CalcItemWidth(), unit = 4 * ImGui::GetFontSize();
+    float value = lumens / perUnit;
+    ImGui::SetNextItemWidth(widget - unit - ImGui::GetStyle().ItemInnerSpacing.x);
+    const bool edited = ImGui::DragFloat("##power", &value, std::max(value * 0.01f, 1e-3f), 1e-5f,
+                                         1e9f, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+    if (edited)
+        assign(light.emission,
+               toVec3(light.emission) * (value * perUnit / std::max(lumens, 1e-6f)));
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::SetNextItemWidth(unit);
+    if (ImGui::BeginCombo("power", watts ? "W" : "lm")) {
+        if (ImGui::Selectable("lm", !watts))
+            watts = false;
+        if (ImGui::Selectable("W, as light of 555 nm (683 lm/W)", watts))
+            watts = true;
+        ImGui::EndCombo();
+    }
+    return edited;
+}
+
+bool emissionWidgets(CndLight& light, bool& watts)
 {
     const glm::vec3 emission = toVec3(light.emission);
     const float largest = std::max({emission.x, emission.y, emission.z, 1e-6f});
@@ -112,20 +187,17 @@ bool emissionWidgets(CndLight& light)
         assign(light.emission, glm::max(colour, 0.0f) / peak * largest);
         edited = true;
     }
-    if (const std::optional<glm::vec3> power = powerOf(light)) {
-        float lumens = std::max({power->x, power->y, power->z});
-        if (ImGui::DragFloat("power", &lumens, std::max(lumens * 0.01f, 0.1f), 0.01f, 1e9f,
-                             "%.4g lm", ImGuiSliderFlags_AlwaysClamp)) {
-            assign(light.emission, toVec3(light.emission) *
-                                       (lumens / std::max({power->x, power->y, power->z, 1e-6f})));
-            edited = true;
-        }
-        return edited;
-    }
+    if (const std::optional<glm::vec3> power = powerOf(light))
+        edited |= powerWidget(light, std::max({power->x, power->y, power->z}), watts);
     float value = largest;
-    const bool sun = isSun(light);
-    if (ImGui::DragFloat(sun ? "luminance" : "illuminance", &value, value * 0.01f, 1e-3f, 1e12f,
-                         sun ? "%.4g cd/m^2" : "%.4g lx", ImGuiSliderFlags_AlwaysClamp)) {
+    const char* unit =
+        cndIsPunctual(light.type) ? cndIsDistant(light.type) ? "lx" : "cd" : "cd/m^2";
+    const char* name = cndIsPunctual(light.type)
+                           ? cndIsDistant(light.type) ? "illuminance" : "intensity"
+                           : "luminance";
+    const std::string format = std::string("%.4g ") + unit;
+    if (ImGui::DragFloat(name, &value, std::max(value * 0.01f, 1e-3f), 1e-3f, 1e12f, format.c_str(),
+                         ImGuiSliderFlags_AlwaysClamp)) {
         assign(light.emission, toVec3(light.emission) * (value / largest));
         edited = true;
     }
@@ -138,7 +210,7 @@ bool shapeWidgets(CndLight& light)
     if (has(light, CND_LIGHT_FIELD_RADIUS_BIT)) {
         const bool sun = isSun(light);
         float radius = light.radius;
-        if (ImGui::DragFloat(sun ? "sine of angular radius" : "radius", &radius,
+        if (ImGui::DragFloat(sun ? "sine of radius" : "radius", &radius,
                              std::max(radius * 0.01f, smallestRadius), smallestRadius,
                              sun ? 1.0f : largestRadius, sun ? "%.5f" : "%.4f m",
                              ImGuiSliderFlags_AlwaysClamp)) {
@@ -181,11 +253,19 @@ void addLight(Scene& scene, LightEditor& editor, const glm::dvec3& position, con
     light.direction[1] = -1;
     assign(light.emission, glm::vec3(cndSphereLuminanceFromPower(made.power, light.radius)));
     widenInfluence(light);
-    scene.lights.push_back(light);
-    if (!scene.lightMotions.empty())
-        scene.lightMotions.emplace_back();
-    editor.selected = uint32_t(scene.lights.size()) - 1;
-    editor.changed = true;
+    append(scene, editor, light, {});
+}
+
+void duplicateLight(Scene& scene, LightEditor& editor)
+{
+    const CndLight* light = selectedLight(scene, editor);
+    if (!light)
+        return;
+    CndLight copy = *light;
+    if (!cndIsDistant(copy.type)) // far enough to see two, near enough to see both
+        copy.position[0] += std::max(3 * cndEmitterBoundingRadius(&copy), 0.3f);
+    append(scene, editor, copy,
+           scene.lightMotions.empty() ? LightMotion{} : scene.lightMotions[*editor.selected]);
 }
 
 void removeLight(Scene& scene, LightEditor& editor)
@@ -193,6 +273,11 @@ void removeLight(Scene& scene, LightEditor& editor)
     if (!selectedLight(scene, editor))
         return;
     const auto at = std::ptrdiff_t(*editor.selected);
+    const LightMotion motion =
+        scene.lightMotions.empty() ? LightMotion{} : scene.lightMotions[*editor.selected];
+    editor.history.beginStep();
+    editor.history.add(
+        {.light = *editor.selected, .before = scene.lights[*editor.selected], .motion = motion});
     scene.lights.erase(scene.lights.begin() + at);
     if (!scene.lightMotions.empty())
         scene.lightMotions.erase(scene.lightMotions.begin() + at);
@@ -214,8 +299,9 @@ void moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres)
     CndLight* light = selectedLight(scene, editor);
     if (!light || cndIsDistant(light->type))
         return;
+    const CndLight before = *light;
     assign(light->position, toVec3(light->position) + metres);
-    editor.changed = true;
+    changed(editor, before, *light);
 }
 
 void scaleLightRadius(Scene& scene, LightEditor& editor, float factor)
@@ -223,8 +309,28 @@ void scaleLightRadius(Scene& scene, LightEditor& editor, float factor)
     CndLight* light = selectedLight(scene, editor);
     if (!light || !has(*light, CND_LIGHT_FIELD_RADIUS_BIT))
         return;
+    const CndLight before = *light;
     changeRadius(*light, light->radius * factor);
-    editor.changed = true;
+    changed(editor, before, *light);
+}
+
+std::string undoEdit(Scene& scene, LightEditor& editor)
+{
+    if (!editor.history.canUndo())
+        return "there is no edit to undo";
+    LightEdit edit = editor.history.undo(scene);
+    follow(editor, edit);
+    std::swap(edit.before, edit.after); // what was undone, not what was made of it
+    return "undone: " + described(edit);
+}
+
+std::string redoEdit(Scene& scene, LightEditor& editor)
+{
+    if (!editor.history.canRedo())
+        return "there is no edit to redo";
+    const LightEdit edit = editor.history.redo(scene);
+    follow(editor, edit);
+    return "redone: " + described(edit);
 }
 
 void changeRadius(CndLight& light, float radius)
@@ -272,44 +378,82 @@ void changeType(CndLight& light, CndLightType type)
     widenInfluence(light);
 }
 
-void drawLightEditor(Scene& scene, LightEditor& editor)
+namespace
 {
-    if (ImGui::SmallButton("<"))
+
+bool button(const char* label, bool possible)
+{
+    ImGui::BeginDisabled(!possible);
+    const bool pressed = ImGui::SmallButton(label);
+    ImGui::EndDisabled();
+    return pressed && possible;
+}
+
+void editorButtons(Scene& scene, LightEditor& editor)
+{
+    if (button("add", true))
+        editor.wantsNew = true;
+    ImGui::SameLine();
+    const bool some = selectedLight(scene, editor) != nullptr;
+    if (button("duplicate", some))
+        duplicateLight(scene, editor);
+    ImGui::SameLine();
+    if (button("remove", some))
+        removeLight(scene, editor);
+    ImGui::SameLine();
+    if (button("undo", editor.history.canUndo()))
+        undoEdit(scene, editor);
+    ImGui::SameLine();
+    if (button("redo", editor.history.canRedo()))
+        redoEdit(scene, editor);
+    if (button("<", !scene.lights.empty()))
         selectLight(scene, editor, -1);
     ImGui::SameLine();
-    if (ImGui::SmallButton(">"))
+    if (button(">", !scene.lights.empty()))
         selectLight(scene, editor, 1);
     ImGui::SameLine();
-    CndLight* light = selectedLight(scene, editor);
-    if (!light) {
-        ImGui::TextUnformatted("no light selected: Tab selects, N adds one");
-        return;
-    }
-    ImGui::Text("light %u", *editor.selected);
-    ImGui::SameLine();
-    if (ImGui::SmallButton("remove")) {
-        removeLight(scene, editor);
-        return;
-    }
+}
+
+bool lightWidgets(CndLight& light, bool& watts)
+{
     bool edited = false;
-    if (ImGui::BeginCombo("type", lightTypeLabel(light->type).c_str())) {
+    if (ImGui::BeginCombo("type", lightTypeLabel(light.type).c_str())) {
         for (uint32_t i = 0; i < CND_LIGHT_TYPE_COUNT; ++i)
-            if (ImGui::Selectable(lightTypeLabel(i).c_str(), light->type == i)) {
-                changeType(*light, CndLightType(i));
+            if (ImGui::Selectable(lightTypeLabel(i).c_str(), light.type == i) && light.type != i) {
+                changeType(light, CndLightType(i));
                 edited = true;
             }
         ImGui::EndCombo();
     }
-    if (!cndIsDistant(light->type)) {
-        edited |= ImGui::DragFloat3("position", light->position, 0.02f, 0, 0, "%.2f m");
+    edited |= emissionWidgets(light, watts);
+    if (!cndIsDistant(light.type))
+        edited |= ImGui::DragFloat3("position", light.position, 0.02f, -1e7f, 1e7f, "%.2f m",
+                                    ImGuiSliderFlags_AlwaysClamp);
+    edited |= shapeWidgets(light);
+    if (!cndIsDistant(light.type))
         edited |=
-            ImGui::DragFloat("influence", &light->influenceRadius, 0.05f,
-                             std::max(cndEmitterBoundingRadius(light) * influenceMargin, 0.01f),
+            ImGui::DragFloat("reaches", &light.influenceRadius, 0.05f,
+                             std::max(cndEmitterBoundingRadius(&light) * influenceMargin, 0.01f),
                              1e6f, "%.2f m", ImGuiSliderFlags_AlwaysClamp);
+    return edited;
+}
+
+} // namespace
+
+void drawLightEditor(Scene& scene, LightEditor& editor)
+{
+    if (!ImGui::IsAnyItemActive()) // the user has let go of whatever was dragged
+        editor.history.beginStep();
+    editorButtons(scene, editor);
+    CndLight* light = selectedLight(scene, editor);
+    if (!light) {
+        ImGui::TextUnformatted("no light selected: click one, or Tab");
+        return;
     }
-    edited |= shapeWidgets(*light);
-    edited |= emissionWidgets(*light);
-    editor.changed |= edited;
+    ImGui::Text("light %u of %zu", *editor.selected, scene.lights.size());
+    const CndLight before = *light;
+    if (lightWidgets(*light, editor.watts))
+        changed(editor, before, *light);
 }
 
 } // namespace candelabra::app

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "scene/scene.h"
+#include "viewer/light_history.h"
 
 namespace candelabra::app
 {
@@ -13,6 +15,9 @@ namespace candelabra::app
 struct LightEditor {
     std::optional<uint32_t> selected; // index of a light of the scene
     bool changed = false; // set by every edit; the viewer resets it when it has told its renderers
+    LightHistory history;
+    bool wantsNew = false; // the user asks for a new light, which the viewer adds
+    bool watts = false;    // the power is shown in W at 555 nm, not in lm
 };
 
 // The size and the strength of a new sphere light. The default is enough for a room.
@@ -25,12 +30,19 @@ struct NewLight {
 // Adds a sphere light at `position` (metres, world space) and selects it.
 void addLight(Scene& scene, LightEditor& editor, const glm::dvec3& position,
               const NewLight& light = {});
+// Adds a copy of the selected light beside it and selects the copy.
+void duplicateLight(Scene& scene, LightEditor& editor);
 void removeLight(Scene& scene, LightEditor& editor);
 // Moves the selection by `step` lights; after the last light comes the first.
 void selectLight(const Scene& scene, LightEditor& editor, int step);
 void moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres);
 // Multiplies the radius of the selected light by `factor`, if that light has a radius.
 void scaleLightRadius(Scene& scene, LightEditor& editor, float factor);
+
+// Undo or redo the last step, if there is one, and select the light that it was about. They return
+// what was done in a few words, such as "undone: light 3 moved", or that there is nothing to do.
+std::string undoEdit(Scene& scene, LightEditor& editor);
+std::string redoEdit(Scene& scene, LightEditor& editor);
 
 // Change one light's type or its radius. The luminous power stays the same where the light has one
 // before and after; a distant sphere keeps its illuminance when its radius changes.

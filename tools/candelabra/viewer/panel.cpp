@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "io/table.h"
 #include "reference/exposure.h"
+#include "render/heat_map_legend.h"
 #include "render/setting_names.h"
 #include "scene/light_types.h"
 #include "scene/scene_options.h"
@@ -47,7 +49,7 @@ void drawTimeLine(const PanelFigures& figures)
     const float most = *std::max_element(totals.begin(), totals.end());
     const std::string label = "GPU, 0 to " + threeDigits(double(most)) + " ms";
     ImGui::PlotLines("##times", totals.data(), int(totals.size()), 0, label.c_str(), 0, most,
-                     {ImGui::GetContentRegionAvail().x, 40});
+                     {ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize()});
 }
 
 void drawTimes(const PanelFigures& figures)
@@ -98,7 +100,7 @@ void drawWipe(PanelState& state)
 }
 
 // Draws the line of the wipe and, at its foot, the names of the two ways of shading.
-void drawWipeLine(const PanelState& state)
+void drawWipeLine(const PanelState& state, float bottom)
 {
     const auto name = [](CndSpecularMethod specular, float budget, CndCulling culling) {
         std::string out = specularName(specular);
@@ -111,7 +113,7 @@ void drawWipeLine(const PanelState& state)
         name(state.frame.specular, state.frame.errorBudget, state.frame.culling);
     const std::string right = name(wipe.specular, wipe.errorBudget, wipe.culling);
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float x = wipe.at * size.x, y = size.y - 24;
+    const float x = wipe.at * size.x, y = bottom - 1.5f * ImGui::GetFontSize();
     constexpr ImU32 white = IM_COL32(255, 255, 255, 200);
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     list->AddLine({x, 0}, {x, size.y}, white);
@@ -133,26 +135,74 @@ void drawMaterials(PanelState& state)
     state.materialsChosen |= ImGui::IsItemDeactivatedAfterEdit();
 }
 
-void drawHelp(PanelState& state)
+// A part of the window, in window units.
+struct Area {
+    ImVec2 from, to;
+
+    float width() const { return to.x - from.x; }
+    float height() const { return to.y - from.y; }
+};
+
+float padding()
 {
-    if (!state.help)
-        return;
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    return ImGui::GetStyle().WindowPadding.x;
+}
+
+// The width of the help without a scroll bar.
+float helpWidth()
+{
+    float keys = 0, what = 0;
+    for (const KeyHelp& help : keyHelp) {
+        keys = std::max(keys, ImGui::CalcTextSize(help.keys).x);
+        what = std::max(what, ImGui::CalcTextSize(help.what).x);
+    }
+    what = std::max(what, ImGui::CalcTextSize(fieldHelp).x - keys);
+    return keys + what + 4 * ImGui::GetStyle().CellPadding.x + 2 * padding();
+}
+
+void drawHelp(PanelState& state, const Area& area)
+{
+    ImGui::SetNextWindowPos({0.5f * (area.from.x + area.to.x), area.from.y}, ImGuiCond_Always,
+                            {0.5f, 0});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {area.width(), area.height()});
     constexpr ImGuiWindowFlags flags =
-        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove;
-    if (ImGui::Begin("keys and mouse", &state.help, flags) &&
-        ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
-        for (const KeyHelp& help : keyHelp) {
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(help.keys);
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(help.what);
+        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+        ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoSavedSettings;
+    if (ImGui::Begin("keys and mouse", &state.help, flags)) {
+        if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+            for (const KeyHelp& help : keyHelp) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(help.keys);
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(help.what);
+            }
+            ImGui::EndTable();
         }
-        ImGui::EndTable();
+        ImGui::TextUnformatted(fieldHelp);
     }
     ImGui::End();
+}
+
+// Shows the result of the user's last request for a while, in a corner where nothing else is.
+void drawNote(PanelState& state, const PanelFigures& figures, const Area& area)
+{
+    constexpr double shown = 4; // seconds
+    const double now = ImGui::GetTime();
+    if (state.shownNote != figures.note) {
+        state.shownNote = figures.note;
+        state.noteTime = now;
+    }
+    if (figures.note.empty() || now - state.noteTime > shown)
+        return;
+    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    const float wrap = area.width() - 2 * padding();
+    const ImVec2 size = ImGui::CalcTextSize(figures.note.c_str(), nullptr, false, wrap);
+    const ImVec2 at{area.to.x - padding() - size.x, area.to.y - padding() - size.y};
+    list->AddRectFilled({at.x - padding(), at.y - padding()}, area.to, IM_COL32(20, 20, 20, 200),
+                        ImGui::GetStyle().WindowRounding);
+    list->AddText(nullptr, 0, at, IM_COL32(255, 255, 255, 255), figures.note.c_str(), nullptr,
+                  wrap);
 }
 
 void drawLights(PanelState& state, const PanelFigures& figures)
@@ -189,7 +239,7 @@ void drawHistogram(const CndExposureStats& stats)
         heights[i] = std::sqrt(float(stats.histogram[i])); // keeps small counts visible
     const float width = ImGui::GetContentRegionAvail().x;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float height = 80;
+    const float height = 6 * ImGui::GetFontSize();
     ImGui::PlotHistogram("##histogram", heights.data(), int(heights.size()), 0, nullptr, 0, FLT_MAX,
                          {width, height});
     const auto mark = [&](float ev, ImU32 colour) {
@@ -203,8 +253,8 @@ void drawHistogram(const CndExposureStats& stats)
     mark(stats.adaptedEv100, IM_COL32(255, 160, 60, 255));
     ImGui::Text("luminance, EV100 %.0f to %.0f", double(firstBinEv),
                 double(firstBinEv + evPerBin * CND_HISTOGRAM_BINS));
-    ImGui::Text("EV100: target %.2f (blue), in use %.2f (orange)", double(stats.targetEv100),
-                double(stats.adaptedEv100));
+    ImGui::TextWrapped("EV100: target %.2f (blue), in use %.2f (orange)", double(stats.targetEv100),
+                       double(stats.adaptedEv100));
 }
 
 // Draws the weights of centre-weighted metering as a grey image with the aspect ratio of `picture`.
@@ -303,42 +353,95 @@ void drawExposure(PanelState& state, const PanelFigures& figures)
 
 } // namespace
 
+namespace
+{
+
+// The size of the panel, in heights of a line of text.
+constexpr float panelWidth = 24.6f, leastHeight = 49;
+
+// The height of the legend of the heat map in the lower left corner, or 0.
+float legendHeight(const PanelState& state, const PanelFigures& figures)
+{
+    if (state.frame.heatMap == HeatMap::None || !figures.size.height)
+        return 0;
+    const Legend legend = heatMapLegend(state.frame.heatMap, figures.size);
+    return float(legend.height) * ImGui::GetIO().DisplaySize.y / float(figures.size.height);
+}
+
+// Draws what is in the panel. `room` is how high it may be, in heights of a line of text: sections
+// that are tall begin open only if they fit.
+void drawSections(PanelState& state, const PanelFigures& figures, Scene& scene, float room)
+{
+    constexpr ImGuiTreeNodeFlags open = ImGuiTreeNodeFlags_DefaultOpen;
+    if (!figures.note.empty())
+        ImGui::TextWrapped("%s", figures.note.c_str());
+    ImGui::PushItemWidth(-9.7f * ImGui::GetFontSize()); // leaves room for the longest name
+    if (ImGui::CollapsingHeader("Light editor", open))
+        drawLightEditor(scene, state.editor);
+    if (figures.picked && ImGui::CollapsingHeader("Pixel", open))
+        drawPick(state, *figures.picked, scene);
+    if (ImGui::CollapsingHeader("Lights", open))
+        drawLights(state, figures);
+    if (ImGui::CollapsingHeader("Exposure", room > 62 ? open : ImGuiTreeNodeFlags_None))
+        drawExposure(state, figures);
+    if (ImGui::CollapsingHeader("A/B"))
+        drawWipe(state);
+    if (ImGui::CollapsingHeader("Materials"))
+        drawMaterials(state);
+    if (ImGui::CollapsingHeader("Times", room > 84 ? open : ImGuiTreeNodeFlags_None))
+        drawTimes(figures);
+    ImGui::PopItemWidth();
+    ImGui::TextWrapped("%s, %ux%u, %s", figures.scene.c_str(), figures.size.width,
+                       figures.size.height, figures.device.c_str());
+    ImGui::Text("%.1f ms between frames, camera %.1f m/s", figures.wallMs, figures.speed);
+    ImGui::TextUnformatted("F2: keys and mouse");
+}
+
+// Draws the panel at the left of `area` and returns the rest of that.
+Area drawMainWindow(PanelState& state, const PanelFigures& figures, Scene& scene, Area area)
+{
+    const float em = ImGui::GetFontSize(), width = std::min(panelWidth * em, area.width());
+    const float gap = area.from.x;
+    const bool tight = state.help && area.width() - width - gap < helpWidth();
+    const bool small = 3 * width > area.width() + 2 * gap || area.to.y < leastHeight * em - gap;
+    // The user may open a panel that begins collapsed, unless it would cover the help.
+    if (tight || state.collapsed != (tight || small))
+        ImGui::SetNextWindowCollapsed(tight || small);
+    state.collapsed = tight || small;
+    ImGui::SetNextWindowPos(area.from);
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, area.height()});
+    ImGui::SetNextWindowBgAlpha(0.85f);
+    // What is seen of a collapsed panel. The text after ### is its name for Dear ImGui.
+    const std::string title =
+        fmt::format("{}, {}, {} ms, F2: keys###candelabra", figures.scene,
+                    counted(figures.lights, "light"), threeDigits(figures.wallMs));
+    const bool open = ImGui::Begin(title.c_str(), nullptr,
+                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
+    if (open)
+        drawSections(state, figures, scene, area.height() / em);
+    ImGui::End();
+    if (open)
+        area.from.x += width + gap;
+    else
+        area.from.y += 2 * em + gap;
+    return area;
+}
+
+} // namespace
+
 void drawPanel(PanelState& state, const PanelFigures& figures, Scene& scene)
 {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const float gap = padding(), legend = legendHeight(state, figures);
+    Area area{{gap, gap}, {window.x - gap, window.y - gap - (legend > 0 ? legend + gap : 0)}};
     if (state.wipe.on)
-        drawWipeLine(state);
-    drawHelp(state);
-    if (!state.visible)
-        return;
-    ImGui::SetNextWindowPos({12, 12}, ImGuiCond_FirstUseEver);
-    constexpr float width = 360;
-    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, ImGui::GetIO().DisplaySize.y - 24});
-    ImGui::SetNextWindowBgAlpha(0.85f);
-    if (ImGui::Begin("candelabra", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
-        ImGui::TextWrapped("%s, %ux%u, %s", figures.scene.c_str(), figures.size.width,
-                           figures.size.height, figures.device.c_str());
-        ImGui::Text("%.1f ms between frames, camera %.1f m/s", figures.wallMs, figures.speed);
-        if (!figures.note.empty())
-            ImGui::TextWrapped("%s", figures.note.c_str());
-        drawTimes(figures);
-        if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen))
-            drawLights(state, figures);
-        if (ImGui::CollapsingHeader("Light editor", state.editor.selected
-                                                        ? ImGuiTreeNodeFlags_DefaultOpen
-                                                        : ImGuiTreeNodeFlags_None))
-            drawLightEditor(scene, state.editor);
-        if (figures.picked && ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen))
-            drawPick(state, *figures.picked, scene);
-        if (ImGui::CollapsingHeader("A/B"))
-            drawWipe(state);
-        if (ImGui::CollapsingHeader("Materials"))
-            drawMaterials(state);
-        if (ImGui::CollapsingHeader("Exposure", ImGuiTreeNodeFlags_DefaultOpen))
-            drawExposure(state, figures);
-        ImGui::Separator();
-        ImGui::TextUnformatted("F2: keys and mouse");
-    }
-    ImGui::End();
+        drawWipeLine(state, area.to.y);
+    if (state.visible)
+        area = drawMainWindow(state, figures, scene, area);
+    if (state.help)
+        drawHelp(state, area);
+    else
+        drawNote(state, figures, area);
 }
 
 } // namespace candelabra::app

@@ -24,13 +24,23 @@ struct Wipe {
     float errorBudget = 0;
 };
 
+// What the user has clicked that is not a light.
+struct SelectedObject {
+    std::string name;
+    Bounds bounds; // world space
+};
+
 // The settings that the user changes, with the panel or with keys.
 struct PanelState {
     FrameOptions frame; // the viewer fills in camera, time and deltaTime
     bool visible = true;
-    bool help = false; // the window with keys and mouse is open
+    bool help = false;      // the window with keys and mouse is open
+    bool collapsed = false; // the panel was last collapsed because the window is small
+    std::string shownNote;  // the last PanelFigures::note, and when it came
+    double noteTime = 0;
     Wipe wipe;
     LightEditor editor;
+    std::optional<SelectedObject> object; // nothing if a light is selected
     MaterialOverride materials;
     bool materialsChosen = false; // `materials` was changed and must be applied to the scene
     bool animate = true;          // moving lights move

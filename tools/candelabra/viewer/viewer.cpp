@@ -89,7 +89,6 @@ Viewer::Viewer(const ViewerOptions& options, const ContextOptions& contextOption
     takeScene();
     figures_.device = context_.info().name;
     time_ = options.frame.time;
-    connectInput();
     if (!options.screenshot.empty() && !swapchain_.readable())
         throw RunError("--screenshot: the window's images cannot be copied from on " +
                        context_.info().name);
@@ -133,6 +132,8 @@ void Viewer::takeScene()
     useKnownExposure(scene_, exposure);
     panel_.wantedLights = uint32_t(scene_.lights.size());
     panel_.editor = {};
+    panel_.object.reset();
+    rays_.reset();
     figures_.picked.reset();
     panel_.materialsChosen = panel_.materials.on;
 }
@@ -301,7 +302,7 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     options.resetExposure = std::exchange(resetExposure_, false);
     ++options.ditherSeed; // dither noise that changes every frame is less visible
     overlay_.begin();
-    drawPanel(panel_, figures_, scene_);
+    drawOverlay();
     renderer_->record(frame.cmd, frame.slot, options);
     if (other_)
         other_->record(frame.cmd, frame.slot, optionsAt(wipeColumn()));

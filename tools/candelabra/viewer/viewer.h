@@ -6,12 +6,16 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
+#include "generate/ray_caster.h"
 #include "render/frame_ring.h"
 #include "render/renderer.h"
 #include "scene/scene_options.h"
 #include "viewer/fly_camera.h"
+#include "viewer/keys.h"
+#include "viewer/light_shape.h"
 #include "viewer/overlay.h"
 #include "viewer/panel.h"
 #include "viewer/swapchain.h"
@@ -48,20 +52,36 @@ private:
     static constexpr uint32_t slotCount = 2; // frames in flight
 
     // Input, defined in viewer_input.cpp.
-    void connectInput();
-    void moveCamera(double seconds);
-    void onKey(int key);
-    bool onLightKey(int key);
+    void moveCamera(double seconds); // also handles what the user has done since the last call
+    bool handle(const InputEvent& event);
+    bool onKeyEvent(const InputEvent& event);
+    bool onKeyPressed(const InputEvent& event);
+    bool onButton(const InputEvent& event);
+    bool onMove(double x, double y);
+    bool isHeld(KeyAction action) const;
+    void onAction(KeyAction action);
+    bool onFrameAction(KeyAction action);
+    bool onLightAction(KeyAction action);
+    void escape();
+    void say(const std::string& note);
+    void sayLight(const char* what);
     void toggleOrbit();
-    void fitScene();
+    void frameSelection();
+    void frameScene();
+    Projection projection() const;
+    std::optional<CndLight> selectedNow() const;
+    std::optional<RayHit> surfaceAt(glm::dvec2 place);
+    void selectAt(glm::dvec2 place);
     void addLightInView();
     void onDrop(const std::string& path);
     std::string freeName(const char* extension);
     void save(const char* extension, const std::function<void(const std::string&)>& write);
     void saveImage(const char* extension);
     void saveScene();
+    glm::dvec2 mouseInPicture() const; // pixels, of which a window unit may have several
     std::optional<PixelPosition> pixelUnderMouse() const;
     void pick(PixelPosition pixel);
+    void drawOverlay(); // the panel, and the outline of what is selected
 
     // Loads and shows another scene, or the same with other options. Returns false and keeps the
     // present scene if loading fails.
@@ -108,11 +128,19 @@ private:
     // Slots in which the present renderer has recorded a frame at its present size: their
     // statistics can be read.
     std::array<bool, slotCount> recorded_{};
-    bool staleWindow_ = false;     // the swapchain must be recreated
-    bool resetExposure_ = true;    // the next frame jumps to the converged exposure
-    double time_ = 0;              // seconds, for moving lights
-    double lastX_ = 0, lastY_ = 0; // place of the mouse in the previous frame
-    bool looking_ = false;         // a drag that began on the scene goes on
+    bool staleWindow_ = false;       // the swapchain must be recreated
+    bool resetExposure_ = true;      // the next frame jumps to the converged exposure
+    double time_ = 0;                // seconds, for moving lights
+    double mouseX_ = 0, mouseY_ = 0; // window coordinates
+    std::set<int> heldKeys_;         // keys of the scene, not of a field of the panel
+    std::set<int> freshKeys_;        // those that were pressed since the last frame
+    // A drag that began on the scene goes on: the button, how far the mouse went in all, and since
+    // the last frame, in window coordinates.
+    std::optional<int> dragButton_;
+    double dragged_ = 0;
+    glm::dvec2 look_{0};
+    bool moved_ = false;            // the camera moved in the last frame
+    std::optional<RayCaster> rays_; // for the present scene; made when first needed
     bool knownExposure_ = false; // the exposure is Scene::knownEv100, which the user has not chosen
     std::string dropped_;        // path of a dropped file, to be opened before the next frame
     uint32_t savedFiles_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 
 #define GLFW_INCLUDE_NONE
@@ -13,12 +14,14 @@
 #include "io/report.h"
 #include "io/table.h"
 #include "measure/frame/pick.h"
-#include "measure/frame/surfaces.h"
 #include "render/camera.h"
 #include "render/readback.h"
 #include "render/setting_names.h"
 #include "scene/fit_camera.h"
+#include "scene/light_types.h"
+#include "scene/mesh_bounds.h"
 #include "scene/scene_options.h"
+#include "viewer/selection.h"
 #include "viewer/viewer.h"
 #include "json/save.h"
 
@@ -29,132 +32,366 @@ namespace
 
 constexpr float lightStep = 0.1f;  // metres by which a key moves a light
 constexpr float radiusStep = 1.1f; // factor by which a key changes a light's radius
+// Window units: a click may move the mouse so far, and miss a light by so much.
+constexpr double clickLength = 4, clickSlack = 6;
+
+// Returns the object that a ray hit, with all that belongs to the same node of a glTF file: to the
+// smallest one that has a name.
+std::optional<SelectedObject> objectOf(const Scene& scene, const RayHit& hit)
+{
+    if (hit.analytic) {
+        const AnalyticObject& object = scene.analyticObjects[hit.object];
+        if (object.type == AnalyticObject::Type::Plane) // has no end
+            return {};
+        return SelectedObject{fmt::format("ball {}", hit.object),
+                              {object.point - object.radius, object.point + object.radius}};
+    }
+    InstanceRange range{hit.object, 1};
+    std::string name = fmt::format("object {}", hit.object);
+    size_t smallest = scene.instances.size() + 1;
+    for (const SceneNode& node : scene.nodes) {
+        const InstanceRange& r = node.instances;
+        if (hit.object < r.first || hit.object >= r.first + r.count || node.name.empty() ||
+            r.count >= smallest)
+            continue;
+        smallest = r.count;
+        range = r;
+        name = node.name;
+    }
+    Bounds bounds{glm::dvec3(std::numeric_limits<double>::infinity()),
+                  glm::dvec3(-std::numeric_limits<double>::infinity())};
+    for (size_t i = range.first; i < range.first + range.count; ++i) {
+        const Instance& instance = scene.instances[i];
+        const Bounds part =
+            transformBounds(meshBounds(scene.meshes[instance.mesh]), instance.worldFromObject);
+        bounds.min = glm::min(bounds.min, part.min);
+        bounds.max = glm::max(bounds.max, part.max);
+    }
+    return SelectedObject{name, bounds};
+}
 
 } // namespace
 
-void Viewer::connectInput()
+// Handles an event, or returns false if that has to wait for the next frame.
+bool Viewer::handle(const InputEvent& event)
 {
-    window_.onKey = [this](int key) {
-        if (!overlay_.takesKeyboard() && !onLightKey(key))
-            onKey(key);
-    };
-    window_.onWheel = [this](double notches) {
-        if (!overlay_.takesMouse())
-            camera_.wheel(notches);
-    };
-    window_.onDrop = [this](const std::string& path) { dropped_ = path; };
+    using Kind = InputEvent::Kind;
+    switch (event.kind) {
+    case Kind::Key:
+        return onKeyEvent(event);
+    case Kind::Character:
+        return !overlay_.edits() || overlay_.pressKey(event);
+    case Kind::Button:
+        return onButton(event);
+    case Kind::Move:
+        return onMove(event.x, event.y);
+    case Kind::Leave:
+        return dragButton_ || overlay_.moveMouse(Overlay::nowhere, Overlay::nowhere);
+    case Kind::Wheel: {
+        const std::optional<bool> taken = overlay_.takesMouse();
+        if (!taken)
+            return false;
+        if (*taken)
+            return overlay_.turnWheel(event.y);
+        camera_.wheel(event.y);
+        say(camera_.orbits() ? "the distance in orbit has changed"
+                             : fmt::format("camera speed {} m/s", threeDigits(camera_.speed())));
+        return true;
+    }
+    case Kind::LoseFocus: // what is released from here on is released unseen
+        heldKeys_.clear();
+        dragButton_.reset();
+        overlay_.releaseAll();
+        return true;
+    case Kind::Drop:
+        dropped_ = event.text;
+        return true;
+    }
+    return true;
 }
 
-void Viewer::onKey(int key)
+bool Viewer::onKeyEvent(const InputEvent& event)
 {
-    const uint32_t lights = uint32_t(scene_.lights.size());
-    FrameOptions& frame = panel_.frame;
-    switch (key) {
-    case GLFW_KEY_ESCAPE:
-        window_.close();
-        break;
-    case GLFW_KEY_F1:
-        panel_.visible = !panel_.visible;
-        break;
-    case GLFW_KEY_F2:
-        panel_.help = !panel_.help;
-        break;
-    case GLFW_KEY_O:
+    if (event.down)
+        return onKeyPressed(event);
+    // A key that is pressed for less than a frame counts in one.
+    if (freshKeys_.contains(event.code) || !overlay_.releaseKey(event))
+        return false;
+    heldKeys_.erase(event.code);
+    return true;
+}
+
+bool Viewer::onKeyPressed(const InputEvent& event)
+{
+    const int key = event.code;
+    const bool function = key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25;
+    const bool modifier = key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
+    if (modifier) {
+        heldKeys_.insert(key);
+        return overlay_.pressKey(event);
+    }
+    // The next frame tells whether a field was clicked, or left.
+    if (!function && (overlay_.awaitsFrame() ||
+                      (key == GLFW_KEY_TAB && overlay_.edits() && !overlay_.endEditing())))
+        return false;
+    if (overlay_.edits() && !function) {
+        heldKeys_.clear();
+        return overlay_.pressKey(event);
+    }
+    const KeyBinding* binding = findBinding(key, event.modifiers);
+    if (!binding || (event.repeat && !binding->repeats))
+        return true;
+    if (!event.repeat) {
+        panel_.editor.history.beginStep();
+        heldKeys_.insert(key);
+        freshKeys_.insert(key);
+    }
+    onAction(binding->action);
+    return true;
+}
+
+bool Viewer::onButton(const InputEvent& event)
+{
+    const glm::dvec2 place = mouseInPicture();
+    if (!event.down && dragButton_ == event.code) {
+        dragButton_.reset();
+        const bool click = dragged_ < clickLength * double(window_.contentScale());
+        if (click && event.code == GLFW_MOUSE_BUTTON_LEFT)
+            selectAt(place);
+        return overlay_.moveMouse(mouseX_, mouseY_);
+    }
+    if (!event.down)
+        return overlay_.releaseButton(event.code);
+    if (dragButton_)
+        return true;
+    const std::optional<bool> taken = overlay_.takesMouse();
+    if (!taken)
+        return false;
+    if (*taken)
+        return overlay_.pressButton(event.code);
+    if (overlay_.edits() && !overlay_.endEditing())
+        return false;
+    if (event.code == GLFW_MOUSE_BUTTON_LEFT || event.code == GLFW_MOUSE_BUTTON_RIGHT) {
+        dragButton_ = event.code;
+        dragged_ = 0;
+    }
+    return true;
+}
+
+bool Viewer::onMove(double x, double y)
+{
+    // A drag that began on the scene keeps turning the camera, even over a widget, which does not
+    // see the mouse then.
+    if (!dragButton_ && !overlay_.moveMouse(x, y))
+        return false;
+    const glm::dvec2 way{x - mouseX_, y - mouseY_};
+    mouseX_ = x;
+    mouseY_ = y;
+    if (dragButton_) {
+        look_ += way;
+        dragged_ += std::abs(way.x) + std::abs(way.y);
+    }
+    return true;
+}
+
+bool Viewer::isHeld(KeyAction action) const
+{
+    for (const int key : heldKeys_) {
+        const KeyBinding* binding = findBinding(key, 0);
+        if (binding && binding->action == action)
+            return true;
+    }
+    return false;
+}
+
+// Shows in the panel what was done, and prints it with --verbose.
+void Viewer::say(const std::string& note)
+{
+    figures_.note = note;
+    spdlog::debug("{}", note);
+}
+
+void Viewer::onAction(KeyAction action)
+{
+    if (onFrameAction(action) || onLightAction(action))
+        return;
+    switch (action) {
+    case KeyAction::Orbit:
         toggleOrbit();
         break;
-    case GLFW_KEY_F:
-        fitScene();
+    case KeyAction::Frame:
+        frameSelection();
         break;
-    case GLFW_KEY_M:
-        frame.specular = nextSpecular(frame.specular);
+    case KeyAction::FrameScene:
+        frameScene();
         break;
-    case GLFW_KEY_C:
-        frame.culling =
-            frame.culling == CND_CULLING_CLUSTERED ? CND_CULLING_BRUTE : CND_CULLING_CLUSTERED;
-        if (frame.culling == CND_CULLING_BRUTE)
-            frame.heatMap = HeatMap::None;
-        break;
-    case GLFW_KEY_H:
-        if (frame.culling == CND_CULLING_CLUSTERED)
-            frame.heatMap = HeatMap((uint32_t(frame.heatMap) + 1) % heatMapCount);
-        break;
-    case GLFW_KEY_B:
-        panel_.wipe.on = !panel_.wipe.on;
-        break;
-    case GLFW_KEY_K:
+    case KeyAction::ListLights:
         pick_ = pixelUnderMouse();
+        if (!pick_)
+            say("no pixel picked: the mouse is not over the picture");
         break;
-    case GLFW_KEY_F5:
+    case KeyAction::SaveScene:
         saveScene_ = true;
         break;
-    case GLFW_KEY_P:
+    case KeyAction::SaveImage:
         saveAs_ = ".png";
         break;
-    case GLFW_KEY_X:
+    case KeyAction::SaveRadiance:
         saveAs_ = ".exr";
         break;
-    case GLFW_KEY_LEFT_BRACKET:
-        panel_.wantedLights = std::max(lights / 2, 1u);
+    case KeyAction::Panel:
+        panel_.visible = !panel_.visible;
+        say(panel_.visible ? "the panel is shown" : "the panel is hidden");
         break;
-    case GLFW_KEY_RIGHT_BRACKET:
-        panel_.wantedLights = std::min(std::max(lights, 1u) * 2, maxLights);
+    case KeyAction::Help:
+        panel_.help = !panel_.help;
+        say(panel_.help ? "the help is shown" : "the help is hidden");
         break;
-    case GLFW_KEY_MINUS:
-        frame.exposure.compensation -= 0.5f;
+    case KeyAction::Quit:
+        escape();
         break;
-    case GLFW_KEY_EQUAL:
-        frame.exposure.compensation += 0.5f;
-        break;
-    default:
+    default: // keys that are held: moveCamera()
         break;
     }
 }
 
-// Handles the keys that edit lights; returns true if `key` is one of them. Lights move along the
+void Viewer::escape()
+{
+    if (overlay_.listOpen()) {
+        overlay_.endEditing();
+        say("the list is closed");
+    } else if (panel_.help) {
+        panel_.help = false;
+        say("the help is hidden");
+    } else {
+        say("the viewer is closed");
+        window_.close();
+    }
+}
+
+// Handles the keys that change how frames are drawn; returns true if `action` is one of them.
+bool Viewer::onFrameAction(KeyAction action)
+{
+    const uint32_t lights = uint32_t(scene_.lights.size());
+    FrameOptions& frame = panel_.frame;
+    switch (action) {
+    case KeyAction::NextSpecular:
+        frame.specular = nextSpecular(frame.specular);
+        say(fmt::format("specular highlights: {}", specularName(frame.specular)));
+        return true;
+    case KeyAction::Culling:
+        frame.culling =
+            frame.culling == CND_CULLING_CLUSTERED ? CND_CULLING_BRUTE : CND_CULLING_CLUSTERED;
+        if (frame.culling == CND_CULLING_BRUTE)
+            frame.heatMap = HeatMap::None;
+        say(fmt::format("light culling: {}", cullingName(frame.culling)));
+        return true;
+    case KeyAction::HeatMap:
+        if (frame.culling == CND_CULLING_CLUSTERED)
+            frame.heatMap = HeatMap((uint32_t(frame.heatMap) + 1) % heatMapCount);
+        say(frame.culling == CND_CULLING_CLUSTERED
+                ? fmt::format("heat map: {}", nameOf(frame.heatMap, heatMapChoices))
+                : "heat maps need clustered culling (C)");
+        return true;
+    case KeyAction::Compare:
+        panel_.wipe.on = !panel_.wipe.on;
+        say(panel_.wipe.on ? "two ways of shading are compared" : "one way of shading is shown");
+        return true;
+    case KeyAction::FewerLights:
+        panel_.wantedLights = std::max(lights / 2, 1u);
+        say(fmt::format("{} wanted", counted(panel_.wantedLights, "light")));
+        return true;
+    case KeyAction::MoreLights:
+        panel_.wantedLights = std::min(std::max(lights, 1u) * 2, maxLights);
+        say(fmt::format("{} wanted", counted(panel_.wantedLights, "light")));
+        return true;
+    case KeyAction::Darker:
+    case KeyAction::Brighter:
+        frame.exposure.compensation += action == KeyAction::Darker ? -0.5f : 0.5f;
+        say(fmt::format("exposure compensation {:+.1f} EV", frame.exposure.compensation));
+        return true;
+    default:
+        return false;
+    }
+}
+
+// Says what was done with the selected light.
+void Viewer::sayLight(const char* what)
+{
+    if (!panel_.editor.selected)
+        return say("no light is selected: click one, or Tab");
+    const CndLight& light = scene_.lights[*panel_.editor.selected];
+    const std::string place = cndIsDistant(light.type)
+                                  ? "infinitely far away"
+                                  : fmt::format("at {:.2f}, {:.2f}, {:.2f} m",
+                                                scene_.lightOrigin.x + double(light.position[0]),
+                                                scene_.lightOrigin.y + double(light.position[1]),
+                                                scene_.lightOrigin.z + double(light.position[2]));
+    const bool round = cndLightFields(light.type) & CND_LIGHT_FIELD_RADIUS_BIT;
+    say(fmt::format("light {} {}: {} {}{}", *panel_.editor.selected, what,
+                    lightTypeLabel(light.type), place,
+                    round ? fmt::format(", radius {:.4g}", light.radius) : ""));
+}
+
+// Handles the keys that edit lights; returns true if `action` is one of them. Lights move along the
 // world's axes: the arrow keys use the horizontal axes nearest to the camera's forward and right.
-bool Viewer::onLightKey(int key)
+bool Viewer::onLightAction(KeyAction action)
 {
     LightEditor& editor = panel_.editor;
-    const Camera camera = camera_.camera();
-    const glm::vec3 f = camera.forward;
+    const glm::vec3 f = camera_.camera().forward;
     const bool alongX = std::abs(f.x) > std::abs(f.z);
     const glm::vec3 ahead =
         alongX ? glm::vec3(f.x < 0 ? -1 : 1, 0, 0) : glm::vec3(0, 0, f.z < 0 ? -1 : 1);
     const glm::vec3 right{-ahead.z, 0, ahead.x};
-    switch (key) {
-    case GLFW_KEY_N:
+    const auto move = [&](const glm::vec3& direction) {
+        moveLight(scene_, editor, lightStep * direction);
+        sayLight("moved");
+        return true;
+    };
+    switch (action) {
+    case KeyAction::AddLight:
         addLightInView();
+        sayLight("added");
         return true;
-    case GLFW_KEY_TAB:
-        selectLight(scene_, editor, window_.shiftPressed() ? -1 : 1);
+    case KeyAction::DuplicateLight:
+        duplicateLight(scene_, editor);
+        sayLight("added");
         return true;
-    case GLFW_KEY_DELETE:
+    case KeyAction::NextLight:
+    case KeyAction::PreviousLight:
+        selectLight(scene_, editor, action == KeyAction::NextLight ? 1 : -1);
+        panel_.object.reset();
+        sayLight("selected");
+        return true;
+    case KeyAction::RemoveLight:
+        say(editor.selected ? fmt::format("light {} removed", *editor.selected)
+                            : "no light is selected: click one, or Tab");
         removeLight(scene_, editor);
         return true;
-    case GLFW_KEY_COMMA:
-        scaleLightRadius(scene_, editor, 1 / radiusStep);
+    case KeyAction::ShrinkLight:
+    case KeyAction::GrowLight:
+        scaleLightRadius(scene_, editor,
+                         action == KeyAction::GrowLight ? radiusStep : 1 / radiusStep);
+        sayLight("resized");
         return true;
-    case GLFW_KEY_PERIOD:
-        scaleLightRadius(scene_, editor, radiusStep);
+    case KeyAction::Undo:
+        say(undoEdit(scene_, editor));
         return true;
-    case GLFW_KEY_UP:
-        moveLight(scene_, editor, lightStep * ahead);
+    case KeyAction::Redo:
+        say(redoEdit(scene_, editor));
         return true;
-    case GLFW_KEY_DOWN:
-        moveLight(scene_, editor, -lightStep * ahead);
-        return true;
-    case GLFW_KEY_RIGHT:
-        moveLight(scene_, editor, lightStep * right);
-        return true;
-    case GLFW_KEY_LEFT:
-        moveLight(scene_, editor, -lightStep * right);
-        return true;
-    case GLFW_KEY_PAGE_UP:
-        moveLight(scene_, editor, {0, lightStep, 0});
-        return true;
-    case GLFW_KEY_PAGE_DOWN:
-        moveLight(scene_, editor, {0, -lightStep, 0});
-        return true;
+    case KeyAction::LightAhead:
+        return move(ahead);
+    case KeyAction::LightBack:
+        return move(-ahead);
+    case KeyAction::LightRight:
+        return move(right);
+    case KeyAction::LightLeft:
+        return move(-right);
+    case KeyAction::LightUp:
+        return move({0, 1, 0});
+    case KeyAction::LightDown:
+        return move({0, -1, 0});
     default:
         return false;
     }
@@ -162,8 +399,10 @@ bool Viewer::onLightKey(int key)
 
 void Viewer::toggleOrbit()
 {
-    if (camera_.orbits())
-        return camera_.fly();
+    if (camera_.orbits()) {
+        camera_.fly();
+        return say("the camera flies");
+    }
     // The pivot is as far ahead as the middle of the scene. If the middle lies behind the camera,
     // it is a third of the scene's diagonal ahead, at least 1 m.
     const Bounds bounds = sceneBounds(scene_);
@@ -172,11 +411,43 @@ void Viewer::toggleOrbit()
         glm::dot(0.5 * (bounds.min + bounds.max) - camera.position, camera.forward);
     const double third = glm::length(bounds.max - bounds.min) / 3;
     camera_.orbit(middle > 0 ? middle : std::max(third, 1.0));
+    say("the camera orbits the point ahead");
+}
+
+// Moves the camera, in its direction, to where it sees what is selected, or else the whole scene.
+void Viewer::frameSelection()
+{
+    std::vector<glm::dvec3> points;
+    std::string what;
+    if (const auto light = selectedNow(); light && !cndIsDistant(light->type)) {
+        // A light is seen together with what it lights best.
+        const glm::dvec3 centre =
+            scene_.lightOrigin +
+            glm::dvec3(light->position[0], light->position[1], light->position[2]);
+        const double near =
+            std::isfinite(light->influenceRadius) ? 0.1 * light->influenceRadius : 0;
+        const double radius = std::max({3.0 * cndEmitterBoundingRadius(&*light), near, 0.25});
+        for (int corner = 0; corner < 8; ++corner)
+            points.push_back(centre + radius * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1,
+                                                          corner & 4 ? 1 : -1));
+        what = fmt::format("light {}", *panel_.editor.selected);
+    } else if (panel_.object) {
+        points = cornersOf(panel_.object->bounds);
+        what = panel_.object->name;
+    } else {
+        return frameScene();
+    }
+    const PixelSize size = renderer_->size();
+    camera_ =
+        FlyCamera(fitCamera(std::move(points), camera_.camera(), double(size.width) / size.height),
+                  camera_.speed());
+    say(what + " fills the view");
 }
 
 // Moves the camera back until it sees all of the scene; inside a room, to where it saw most of it.
-void Viewer::fitScene()
+void Viewer::frameScene()
 {
+    say("the whole scene is in view");
     if (scene_.interior) {
         camera_ = FlyCamera(selectCamera(scene_, "inside"), camera_.speed());
         return;
@@ -187,6 +458,47 @@ void Viewer::fitScene()
     camera_ = FlyCamera(fitted, camera_.speed());
 }
 
+Projection Viewer::projection() const
+{
+    return {camera_.camera(), renderer_->size()};
+}
+
+// Returns the selected light where it is now, if it moves.
+std::optional<CndLight> Viewer::selectedNow() const
+{
+    if (!panel_.editor.selected || *panel_.editor.selected >= scene_.lights.size())
+        return {};
+    return lightAtTime(scene_, *panel_.editor.selected, time_);
+}
+
+// Returns the surface that is visible at a place of the picture. Masks count as surfaces.
+std::optional<RayHit> Viewer::surfaceAt(glm::dvec2 place)
+{
+    if (!rays_)
+        rays_.emplace(scene_);
+    const Projection::Line line = projection().lineAt(place);
+    return rays_->cast({line.origin, line.direction});
+}
+
+// Selects the light at a place of the picture, else the object there, else nothing.
+void Viewer::selectAt(glm::dvec2 place)
+{
+    const std::optional<RayHit> surface = surfaceAt(place);
+    std::vector<CndLight> lights;
+    lightsAtTime(scene_, time_, lights);
+    panel_.editor.history.beginStep();
+    panel_.editor.selected =
+        lightAt(lights, scene_.lightOrigin, projection(), place,
+                clickSlack * double(window_.contentScale()),
+                surface ? surface->distance : std::numeric_limits<double>::infinity());
+    panel_.object.reset();
+    if (panel_.editor.selected)
+        return sayLight("selected");
+    if (surface)
+        panel_.object = objectOf(scene_, *surface);
+    say(panel_.object ? panel_.object->name + " selected" : "nothing is selected");
+}
+
 // Adds a light where it lights what is in the middle of the view without hiding it: nearer to the
 // camera, and higher. Its size goes with the distance. What it lights gets about the illuminance
 // with which a grey card would have the luminance that the exposure is for now.
@@ -194,16 +506,10 @@ void Viewer::addLightInView()
 {
     const Camera camera = camera_.camera();
     const PixelSize size = renderer_->size();
-    std::optional<double> seen;
-    if (recorded_ != decltype(recorded_){}) {
-        ring_.wait();
-        const Surfaces surfaces(context_, *renderer_, panel_.frame);
-        if (const auto point = surfaces.pointAt(size.width / 2, size.height / 2))
-            seen = glm::length(point->position - camera.position);
-    }
+    const auto seen = surfaceAt({0.5 * size.width, 0.5 * size.height});
     const Bounds bounds = sceneBounds(scene_);
     const double diagonal = glm::length(bounds.max - bounds.min);
-    const double distance = seen.value_or(std::max(diagonal / 3, 1.0));
+    const double distance = seen ? seen->distance : std::max(diagonal / 3, 1.0);
     const double higher = 0.6 * std::tan(0.5 * camera.verticalFov) * 0.7 * distance;
     const glm::dvec3 position =
         camera.position + 0.7 * distance * camera.forward + glm::dvec3(0, higher, 0);
@@ -274,16 +580,22 @@ void Viewer::saveScene()
     });
 }
 
+glm::dvec2 Viewer::mouseInPicture() const
+{
+    int width = 0, height = 0;
+    glfwGetWindowSize(window_.get(), &width, &height);
+    const PixelSize size = renderer_->size();
+    return {mouseX_ * size.width / std::max(width, 1), mouseY_ * size.height / std::max(height, 1)};
+}
+
 std::optional<PixelPosition> Viewer::pixelUnderMouse() const
 {
-    double x = 0, y = 0;
-    int width = 0, height = 0;
-    glfwGetCursorPos(window_.get(), &x, &y);
-    glfwGetWindowSize(window_.get(), &width, &height);
-    const PixelSize size = renderer_->size(); // pixels, of which a window unit may have several
-    if (overlay_.takesMouse() || x < 0 || y < 0 || x >= width || y >= height)
+    const PixelSize size = renderer_->size();
+    const glm::dvec2 at = mouseInPicture();
+    if (overlay_.takesMouse().value_or(false) || at.x < 0 || at.y < 0 || at.x >= size.width ||
+        at.y >= size.height)
         return std::nullopt;
-    return PixelPosition{uint32_t(x * size.width / width), uint32_t(y * size.height / height)};
+    return PixelPosition{uint32_t(at.x), uint32_t(at.y)};
 }
 
 void Viewer::pick(PixelPosition pixel)
@@ -307,28 +619,34 @@ void Viewer::pick(PixelPosition pixel)
 
 void Viewer::moveCamera(double seconds)
 {
-    GLFWwindow* w = window_.get();
-    FlyInput input;
-    if (!overlay_.takesKeyboard()) {
-        const auto axis = [&](int plus, int minus) {
-            return double(glfwGetKey(w, plus) == GLFW_PRESS) -
-                   double(glfwGetKey(w, minus) == GLFW_PRESS);
-        };
-        input.move = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
-                      axis(GLFW_KEY_W, GLFW_KEY_S)};
-        input.fast = window_.shiftPressed();
-    }
-    double x = 0, y = 0;
-    glfwGetCursorPos(w, &x, &y);
-    const bool pressed = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
-                         glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
-    // A drag that began on the scene keeps turning the camera, even over a widget.
-    if (pressed && looking_)
-        input.look = {x - lastX_, y - lastY_};
-    looking_ = pressed && (looking_ || !overlay_.takesMouse());
-    lastX_ = x;
-    lastY_ = y;
+    freshKeys_.clear();
+    while (!window_.events.empty() && handle(window_.events.front()))
+        window_.events.pop_front();
+    if (std::exchange(panel_.editor.wantsNew, false))
+        onAction(KeyAction::AddLight);
+    const auto axis = [&](KeyAction plus, KeyAction minus) {
+        return double(isHeld(plus)) - double(isHeld(minus));
+    };
+    const FlyInput input{.move = {axis(KeyAction::Right, KeyAction::Left),
+                                  axis(KeyAction::Up, KeyAction::Down),
+                                  axis(KeyAction::Forward, KeyAction::Back)},
+                         .look = std::exchange(look_, glm::dvec2(0)),
+                         .fast = heldKeys_.contains(GLFW_KEY_LEFT_SHIFT) ||
+                                 heldKeys_.contains(GLFW_KEY_RIGHT_SHIFT)};
     camera_.update(input, seconds);
+    const bool moves = input.move != glm::dvec3(0) || input.look != glm::dvec2(0);
+    if (std::exchange(moved_, moves) && !moves) {
+        const Camera camera = camera_.camera();
+        const glm::dvec3 p = camera.position, to = p + camera.forward;
+        spdlog::debug("--camera {:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4g}", p.x, p.y, p.z,
+                      to.x, to.y, to.z, glm::degrees(camera.verticalFov));
+    }
+}
+
+void Viewer::drawOverlay()
+{
+    drawSelection(panel_, projection(), selectedNow(), scene_.lightOrigin);
+    drawPanel(panel_, figures_, scene_);
 }
 
 } // namespace candelabra::app

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/window.h"
 
+#include <algorithm>
+#include <utility>
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -18,9 +21,45 @@ std::string glfwReason()
     return text ? text : "unknown reason";
 }
 
-Window& windowOf(GLFWwindow* window)
+void add(GLFWwindow* window, InputEvent event)
 {
-    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->events.push_back(std::move(event));
+}
+
+void listen(GLFWwindow* window)
+{
+    using Kind = InputEvent::Kind;
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+        add(w, {.kind = Kind::Key,
+                .code = key,
+                .down = action != GLFW_RELEASE,
+                .repeat = action == GLFW_REPEAT,
+                .modifiers = modifiers});
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+        add(w, {.kind = Kind::Character, .code = int(character)});
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+        add(w, {.kind = Kind::Button, .code = button, .down = action == GLFW_PRESS});
+    });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        add(w, {.kind = Kind::Move, .x = x, .y = y});
+    });
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+        if (!entered)
+            add(w, {.kind = Kind::Leave});
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double, double notches) {
+        add(w, {.kind = Kind::Wheel, .y = notches});
+    });
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+        if (!focused)
+            add(w, {.kind = Kind::LoseFocus});
+    });
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+        for (int i = 0; i < count; ++i)
+            add(w, {.kind = Kind::Drop, .text = paths[i]});
+    });
 }
 
 } // namespace
@@ -50,18 +89,7 @@ Window::Window(const WindowSystem&, const std::string& title, PixelSize size)
     if (!window_)
         throw RunError("cannot open a window: " + glfwReason());
     glfwSetWindowUserPointer(window_, this);
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
-        if (action != GLFW_RELEASE && windowOf(w).onKey)
-            windowOf(w).onKey(key);
-    });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
-        if (windowOf(w).onWheel)
-            windowOf(w).onWheel(y);
-    });
-    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
-        for (int i = 0; i < count && windowOf(w).onDrop; ++i)
-            windowOf(w).onDrop(paths[i]);
-    });
+    listen(window_);
 }
 
 Window::~Window()
@@ -76,10 +104,11 @@ PixelSize Window::framebufferSize() const
     return {uint32_t(width), uint32_t(height)};
 }
 
-bool Window::shiftPressed() const
+float Window::contentScale() const
 {
-    return glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
-           glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
+    float across = 1, down = 1;
+    glfwGetWindowContentScale(window_, &across, &down);
+    return std::max(across, down);
 }
 
 bool Window::wantsToClose() const

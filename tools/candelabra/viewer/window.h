@@ -2,7 +2,7 @@
 // A window and its input, by GLFW.
 #pragma once
 
-#include <functional>
+#include <deque>
 #include <string>
 
 #include <vulkan/vulkan.h>
@@ -25,6 +25,27 @@ public:
     WindowSystem& operator=(const WindowSystem&) = delete;
 };
 
+// Something that the user did with the window.
+struct InputEvent {
+    enum class Kind {
+        Key,       // code, down, repeat, modifiers
+        Character, // code: what was typed, in UTF-32
+        Button,    // of the mouse: code, down
+        Move,      // of the mouse: x, y
+        Leave,     // the mouse left the window
+        Wheel,     // y: notches, up is positive
+        LoseFocus, // keys go to another window from now on
+        Drop,      // text: path of a file that was dropped on the window
+    };
+    Kind kind = Kind::Key;
+    int code = 0;        // GLFW_KEY_* or GLFW_MOUSE_BUTTON_*
+    bool down = false;   // pressed, not released
+    bool repeat = false; // pressed for some time
+    int modifiers = 0;   // GLFW_MOD_*
+    double x = 0, y = 0; // window coordinates
+    std::string text{};
+};
+
 class Window
 {
 public:
@@ -35,18 +56,17 @@ public:
 
     GLFWwindow* get() const { return window_; }
     PixelSize framebufferSize() const; // 0x0 while minimised
-    bool shiftPressed() const;
+    // How many times larger than usual text should be on the monitor of the window.
+    float contentScale() const;
     bool wantsToClose() const;
     void close();
     void setTitle(const std::string& title);
 
-    // Callbacks, called by poll() and wait().
-    std::function<void(int key)> onKey;                  // GLFW_KEY_*, presses and repeats
-    std::function<void(double notches)> onWheel;         // up is positive
-    std::function<void(const std::string& path)> onDrop; // a file dropped on the window
+    // Adds what has happened to `events`.
     void poll();
-    // Like poll(), but waits until there is an event. Used while the window is minimised.
+    // Like poll(), but waits until something happens. Used while the window is minimised.
     void wait();
+    std::deque<InputEvent> events; // the oldest first; whoever handles an event removes it
 
 private:
     GLFWwindow* window_ = nullptr;

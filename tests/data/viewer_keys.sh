@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+# Presses random keys in `candelabra view` ($PROGRAM), then every key of its help, in an empty folder that has
+# two files (tests/gpu/test_viewer.cpp):
+#   inputs.txt  xdotool commands, one a line
+#   checks.txt  how often to try, a tabulator, xdotool commands, a tabulator, a regular expression for a line
+#               that the viewer then prints
+# It fails at the first line of checks.txt for which no such line is printed.
+fail() {
+    echo "$1" >&2
+    kill $viewer
+    exit 99
+}
+lines() { wc -l <log.txt; }
+# Waits for a line after line $1 of the log that matches $2.
+await() {
+    for i in $(seq 6000); do
+        tail -n +$(($1 + 1)) log.txt | grep -Eq -- "$2" && return 0
+        kill -0 $viewer 2>/dev/null || return 1
+        sleep 0.05
+    done
+    return 1
+}
+"$PROGRAM" view hall --lights 40 --size 240x160 --exposure 4 --samples 1 --verbose --validate \
+    ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} 2>log.txt &
+viewer=$!
+window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)
+xdotool windowfocus --sync $window
+xdotool - <inputs.txt
+xdotool key p # once the image exists, everything before it has been processed
+await 0 '^wrote candelabra-[0-9]*\.png' || fail "after random keys, P does not save the image"
+# A key that is held while the window loses the keyboard does not stay pressed.
+before=$(lines)
+xdotool keydown w sleep 0.3 windowunmap --sync $window keyup w windowmap --sync $window \
+    windowfocus --sync $window
+await $before '^--camera ' || fail "the camera does not stop after W was released in no window"
+echo "the checks begin" >>log.txt
+while IFS=$'\t' read -r tries commands expected; do
+    while :; do
+        before=$(lines)
+        xdotool $commands
+        tries=$((tries - 1))
+        # Only the last try waits for the expected line; others wait for any line.
+        if [ $tries -gt 0 ]; then
+            await $before . || fail "$commands: prints nothing"
+            tail -n +$((before + 1)) log.txt | grep -Eq -- "$expected" && break
+        else
+            await $before "$expected" && break
+            fail "$commands: has no effect, expected: $expected"
+        fi
+    done
+done <checks.txt
+wait $viewer

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// LightHistory: the edits of a scene's lights, to be undone and redone.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace candelabra::app
+{
+
+// One light before and after an edit. It was added if there is none before, and removed if there is
+// none after.
+struct LightEdit {
+    uint32_t light = 0; // index in the scene
+    std::optional<CndLight> before, after;
+    LightMotion motion{}; // of a light that was added or removed
+};
+
+class LightHistory
+{
+public:
+    // Only so many of the last steps can be undone.
+    static constexpr size_t mostSteps = 1000;
+
+    // The next edit begins a step of its own. Changes of one light without this call between them
+    // are one step: the user drags a slider, or holds a key.
+    void beginStep() { open_ = false; }
+    // Remembers an edit that has been made, and forgets what was undone.
+    void add(const LightEdit& edit);
+
+    bool canUndo() const { return next_ > 0; }
+    bool canRedo() const { return next_ < steps_.size(); }
+    // Undo or redo a step, which there must be. They return the edit that was made with `scene`.
+    LightEdit undo(Scene& scene);
+    LightEdit redo(Scene& scene);
+
+private:
+    std::vector<LightEdit> steps_;
+    size_t next_ = 0; // the steps from here on are undone
+    bool open_ = false;
+};
+
+} // namespace candelabra::app
