@@ -21,7 +21,7 @@ await() {
     return 1
 }
 "$PROGRAM" view hall --lights 40 --size 240x160 --exposure 4 --samples 1 --verbose --validate \
-    ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} 2>log.txt &
+    ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} 2>>log.txt &
 viewer=$!
 window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)
 xdotool windowfocus --sync $window

@@ -174,7 +174,7 @@ std::string randomInputs(uint32_t seed)
     std::map<KeyAction, int> slow{{KeyAction::FewerLights, 0},  {KeyAction::MoreLights, 0},
                                   {KeyAction::SaveRadiance, 0}, {KeyAction::SaveScene, 0},
                                   {KeyAction::ListLights, 0},   {KeyAction::Compare, 0},
-                                  {KeyAction::NextSpecular, 0}};
+                                  {KeyAction::NextSpecular, 0}, {KeyAction::Culling, 0}};
     std::string out;
     for (int i = 0; i < 500;) {
         const std::string place = std::to_string(below(240)) + " " + std::to_string(below(160));

@@ -71,6 +71,8 @@ private:
     Projection projection() const;
     std::optional<CndLight> selectedNow() const;
     std::optional<RayHit> surfaceAt(glm::dvec2 place);
+    std::optional<uint32_t> lightUnder(glm::dvec2 place, const std::optional<RayHit>& surface,
+                                       const std::optional<SelectedObject>& object) const;
     void selectAt(glm::dvec2 place);
     void addLightInView();
     void onDrop(const std::string& path);

@@ -35,6 +35,12 @@ constexpr float radiusStep = 1.1f; // factor by which a key changes a light's ra
 // Window units: a click may move the mouse so far, and miss a light by so much.
 constexpr double clickLength = 4, clickSlack = 6;
 
+bool contains(const Bounds& bounds, const glm::dvec3& point)
+{
+    return glm::all(glm::lessThanEqual(bounds.min, point)) &&
+           glm::all(glm::lessThanEqual(point, bounds.max));
+}
+
 // Returns the object that a ray hit, with all that belongs to the same node of a glTF file: to the
 // smallest one that has a name.
 std::optional<SelectedObject> objectOf(const Scene& scene, const RayHit& hit)
@@ -99,6 +105,8 @@ bool Viewer::handle(const InputEvent& event)
         return true;
     }
     case Kind::LoseFocus: // what is released from here on is released unseen
+        if (!freshKeys_.empty())
+            return false;
         heldKeys_.clear();
         dragButton_.reset();
         overlay_.releaseAll();
@@ -480,22 +488,45 @@ std::optional<RayHit> Viewer::surfaceAt(glm::dvec2 place)
     return rays_->cast({line.origin, line.direction});
 }
 
+// Returns the light at a place of the picture: one that no surface hides, or one inside of the
+// object there, which is a lamp then.
+std::optional<uint32_t> Viewer::lightUnder(glm::dvec2 place, const std::optional<RayHit>& surface,
+                                           const std::optional<SelectedObject>& object) const
+{
+    std::vector<CndLight> lights;
+    lightsAtTime(scene_, time_, lights);
+    const auto nearest = [&](double farthest) {
+        return lightAt(lights, scene_.lightOrigin, projection(), place,
+                       clickSlack * double(window_.contentScale()), farthest);
+    };
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
+    const std::optional<uint32_t> visible = nearest(surface ? surface->distance : unlimited);
+    // The walls of a room are around the camera as well.
+    if (visible || !object || contains(object->bounds, camera_.camera().position))
+        return visible;
+    std::vector<uint32_t> inside;
+    for (uint32_t i = 0; i < lights.size(); ++i)
+        if (contains(object->bounds,
+                     scene_.lightOrigin + glm::dvec3(lights[i].position[0], lights[i].position[1],
+                                                     lights[i].position[2]))) {
+            lights[inside.size()] = lights[i];
+            inside.push_back(i);
+        }
+    lights.resize(inside.size());
+    const std::optional<uint32_t> found = nearest(unlimited);
+    return found ? std::optional(inside[*found]) : std::nullopt;
+}
+
 // Selects the light at a place of the picture, else the object there, else nothing.
 void Viewer::selectAt(glm::dvec2 place)
 {
     const std::optional<RayHit> surface = surfaceAt(place);
-    std::vector<CndLight> lights;
-    lightsAtTime(scene_, time_, lights);
-    panel_.editor.history.beginStep();
-    panel_.editor.selected =
-        lightAt(lights, scene_.lightOrigin, projection(), place,
-                clickSlack * double(window_.contentScale()),
-                surface ? surface->distance : std::numeric_limits<double>::infinity());
-    panel_.object.reset();
-    if (panel_.editor.selected)
+    panel_.object = surface ? objectOf(scene_, *surface) : std::nullopt;
+    panel_.editor.selected = lightUnder(place, surface, panel_.object);
+    if (panel_.editor.selected) {
+        panel_.object.reset();
         return sayLight("selected");
-    if (surface)
-        panel_.object = objectOf(scene_, *surface);
+    }
     say(panel_.object ? panel_.object->name + " selected" : "nothing is selected");
 }
 
