@@ -127,7 +127,7 @@ bool directionWidget(CndLight& light)
     const glm::vec3 d = glm::normalize(toVec3(light.direction));
     float angles[2] = {glm::degrees(std::atan2(d.x, d.z)),
                        glm::degrees(std::asin(std::clamp(d.y, -1.0f, 1.0f)))};
-    const bool edited = ImGui::DragFloat2("direction", angles, 0.5f, -180, 180, "%.1f deg");
+    const bool edited = ImGui::DragFloat2("direction, deg", angles, 0.5f, -180, 180, "%.1f");
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("azimuth from +z towards +x, and elevation");
     if (!edited)
@@ -427,7 +427,7 @@ bool lightWidgets(CndLight& light, bool& watts)
     }
     edited |= emissionWidgets(light, watts);
     if (!cndIsDistant(light.type))
-        edited |= ImGui::DragFloat3("position", light.position, 0.02f, -1e7f, 1e7f, "%.2f m",
+        edited |= ImGui::DragFloat3("position, m", light.position, 0.02f, -1e7f, 1e7f, "%.2f",
                                     ImGuiSliderFlags_AlwaysClamp);
     edited |= shapeWidgets(light);
     if (!cndIsDistant(light.type))

@@ -187,7 +187,7 @@ void drawHelp(PanelState& state, const Area& area)
 // Shows the result of the user's last request for a while, in a corner where nothing else is.
 void drawNote(PanelState& state, const PanelFigures& figures, const Area& area)
 {
-    constexpr double shown = 4; // seconds
+    const double shown = std::max(4.0, double(figures.note.size()) / 12); // s, time to read it
     const double now = ImGui::GetTime();
     if (state.shownNote != figures.note) {
         state.shownNote = figures.note;
@@ -373,8 +373,6 @@ float legendHeight(const PanelState& state, const PanelFigures& figures)
 void drawSections(PanelState& state, const PanelFigures& figures, Scene& scene, float room)
 {
     constexpr ImGuiTreeNodeFlags open = ImGuiTreeNodeFlags_DefaultOpen;
-    if (!figures.note.empty())
-        ImGui::TextWrapped("%s", figures.note.c_str());
     ImGui::PushItemWidth(-9.7f * ImGui::GetFontSize()); // leaves room for the longest name
     if (ImGui::CollapsingHeader("Light editor", open))
         drawLightEditor(scene, state.editor);

@@ -77,7 +77,7 @@ std::vector<glm::dvec3> cornersOf(const Bounds& bounds)
 void drawSelection(const PanelState& state, const Projection& view,
                    const std::optional<CndLight>& light, const glm::dvec3& lightOrigin)
 {
-    constexpr ImU32 lightColour = IM_COL32(255, 200, 60, 255);
+    constexpr ImU32 lightColour = IM_COL32(90, 255, 130, 255);
     constexpr ImU32 objectColour = IM_COL32(120, 200, 255, 255);
     Lines lines(view);
     if (light) {

@@ -212,7 +212,7 @@ bool Viewer::isHeld(KeyAction action) const
     return false;
 }
 
-// Shows in the panel what was done, and prints it with --verbose.
+// Shows in a corner what was done, and prints it with --verbose.
 void Viewer::say(const std::string& note)
 {
     figures_.note = note;
@@ -580,7 +580,7 @@ std::string Viewer::freeName(const char* extension)
     return path;
 }
 
-// Calls `write` with a free name and shows the result in the panel. `write` may throw a
+// Calls `write` with a free name and shows the result. `write` may throw a
 // std::runtime_error, whose message is shown instead.
 void Viewer::save(const char* extension, const std::function<void(const std::string&)>& write)
 {
