@@ -68,6 +68,7 @@ GltfAccessor::GltfAccessor(const GltfDocument& document, int index)
     const bool isMatrix = accessor.type > TINYGLTF_TYPE_VEC4 && accessor.type <= TINYGLTF_TYPE_MAT4;
     components_ = isMatrix ? 0 : components;
     componentType_ = accessor.componentType;
+    isMatrix4_ = accessor.type == TINYGLTF_TYPE_MAT4 && isFloat();
     componentSize_ = static_cast<size_t>(
         tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType)));
     normalized_ = accessor.normalized;
@@ -161,6 +162,34 @@ uint32_t GltfAccessor::readUnsigned(size_t i) const
 {
     const uint8_t* p = find(i);
     return p ? unsignedComponent(p, componentType_) : 0;
+}
+
+glm::dmat4 GltfAccessor::readMatrix(size_t i) const
+{
+    glm::dmat4 matrix{0};
+    const uint8_t* p = find(i);
+    for (int k = 0; p && k < 16; ++k) {
+        matrix[k / 4][k % 4] = load<float>(p + static_cast<size_t>(k) * componentSize_);
+        if (!std::isfinite(matrix[k / 4][k % 4]))
+            document_.fail(element_, "element " + std::to_string(i) + " is not finite");
+    }
+    return matrix;
+}
+
+GltfAccessor gltfVertexAttribute(const GltfDocument& document, const std::string& element,
+                                 int index, int minComponents, int maxComponents,
+                                 size_t vertexCount)
+{
+    GltfAccessor accessor(document, index);
+    if (accessor.components() < minComponents || accessor.components() > maxComponents)
+        document.fail(element, accessor.element() + " has the wrong number of components");
+    if (accessor.componentType() == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+        document.fail(element,
+                      accessor.element() + " has 32-bit integers, which are not allowed here");
+    if (vertexCount != 0 && accessor.count() != vertexCount)
+        document.fail(element, accessor.element() + " has " + std::to_string(accessor.count()) +
+                                   " elements, POSITION has " + std::to_string(vertexCount));
+    return accessor;
 }
 
 } // namespace candelabra::app

@@ -32,6 +32,10 @@ public:
     glm::vec4 read(size_t i) const;
     // The first component of element i of an accessor of unsigned integers.
     uint32_t readUnsigned(size_t i) const;
+    // True if the elements are MAT4 of floats. Then readMatrix(i) is element i; it fails if a
+    // component is not finite.
+    bool isMatrix4() const { return isMatrix4_; }
+    glm::dmat4 readMatrix(size_t i) const;
 
 private:
     struct Elements {
@@ -47,6 +51,7 @@ private:
     std::string element_;
     size_t count_ = 0;
     int components_ = 0;
+    bool isMatrix4_ = false;
     int componentType_ = 0;
     size_t componentSize_ = 0;
     bool normalized_ = false;
@@ -54,5 +59,12 @@ private:
     std::vector<uint32_t> sparseIndices_; // strictly increasing
     Elements sparseValues_;
 };
+
+// Opens an accessor that holds an attribute of vertices. Fails, with a message that names
+// `element`, if it has another number of components, 32-bit integers, or not `vertexCount`
+// elements; a vertexCount of 0 is any number.
+GltfAccessor gltfVertexAttribute(const GltfDocument& document, const std::string& element,
+                                 int index, int minComponents, int maxComponents,
+                                 size_t vertexCount);
 
 } // namespace candelabra::app

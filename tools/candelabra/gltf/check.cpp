@@ -2,6 +2,7 @@
 // Checks the JSON of a glTF file before tinygltf reads it, because tinygltf ignores properties of
 // the wrong type and truncates large integers.
 #include <initializer_list>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -30,6 +31,7 @@ enum class Kind {
     Indices,    // an array of indices into `target`
     Objects,    // an array of objects with the members `fields`
     IndexMap,   // an object whose values are indices into `target`
+    IndexMaps,  // an array of such objects
     IntegerMap, // an object whose values are integers
     List        // any array
 };
@@ -82,6 +84,10 @@ constexpr Field list(std::string_view n)
 constexpr Field numbers(std::string_view n, size_t count, NumberRange r = {})
 {
     return {n, Kind::Numbers, false, r, count, count};
+}
+constexpr Field anyNumbers(std::string_view n)
+{
+    return {n, Kind::Numbers, false, {}, 0, std::numeric_limits<size_t>::max()};
 }
 constexpr Field index(std::string_view n, const char* target, Kind kind = Kind::Index)
 {
@@ -188,9 +194,12 @@ constexpr Field primitive[] = {index("attributes", "/accessors", Kind::IndexMap)
                                index("indices", "/accessors"),
                                index("material", "/materials"),
                                integer("mode", 0, 6),
-                               list("targets"),
+                               index("targets", "/accessors", Kind::IndexMaps),
                                object("extensions", primitiveExtensions)};
-constexpr Field mesh[] = {objects("primitives", primitive).need(), string("name")};
+constexpr Field mesh[] = {objects("primitives", primitive).need(), anyNumbers("weights"),
+                          string("name")};
+constexpr Field skin[] = {index("joints", "/nodes", Kind::Indices).need(),
+                          index("inverseBindMatrices", "/accessors"), string("name")};
 constexpr Field lightReference[] = {
     index("light", "/extensions/KHR_lights_punctual/lights").need()};
 constexpr Field areaReference[] = {index("light", "/extensions/KHR_lights_area/lights").need()};
@@ -206,6 +215,7 @@ constexpr Field node[] = {index("camera", "/cameras"),
                           numbers("rotation", 4, coordinate),
                           numbers("scale", 3, coordinate),
                           numbers("translation", 3, coordinate),
+                          anyNumbers("weights"),
                           string("name"),
                           object("extensions", nodeExtensions)};
 constexpr Field sceneFields[] = {index("nodes", "/nodes", Kind::Indices), string("name")};
@@ -258,7 +268,7 @@ constexpr Field root[] = {object("asset", asset).need(),
                           objects("scenes", sceneFields),
                           index("scene", "/scenes"),
                           list("animations"),
-                          list("skins")};
+                          objects("skins", skin)};
 
 } // namespace
 } // namespace schema
@@ -280,6 +290,13 @@ void checkIndex(const nlohmann::json& document, const JsonValue& value, const ch
     if (static_cast<uint64_t>(i) >= size)
         value.fail("is " + std::to_string(i) + ", but there are " + std::to_string(size) + " " +
                    pointer.back());
+}
+
+void checkIndexMap(const nlohmann::json& document, const JsonValue& value, const char* target)
+{
+    value.requireObject();
+    for (const auto& entry : value.json().items())
+        checkIndex(document, value.member(entry.key()), target);
 }
 
 void checkField(const nlohmann::json& document, const JsonValue& value, const Field& field)
@@ -304,9 +321,7 @@ void checkField(const nlohmann::json& document, const JsonValue& value, const Fi
         checkObject(document, value, field.fields);
         return;
     case Kind::IndexMap:
-        value.requireObject();
-        for (const auto& entry : value.json().items())
-            checkIndex(document, value.member(entry.key()), field.target);
+        checkIndexMap(document, value, field.target);
         return;
     case Kind::IntegerMap:
         value.requireObject();
@@ -328,6 +343,8 @@ void checkField(const nlohmann::json& document, const JsonValue& value, const Fi
             value.item(i).number(field.range);
         else if (field.kind == Kind::Indices)
             checkIndex(document, value.item(i), field.target);
+        else if (field.kind == Kind::IndexMaps)
+            checkIndexMap(document, value.item(i), field.target);
         else if (field.kind == Kind::Objects)
             checkObject(document, value.item(i), field.fields);
     }
@@ -447,10 +464,9 @@ void checkGltfJson(const std::string& file, const nlohmann::json& json, GltfWarn
     if (const auto* lights = GltfDocument::extension(json, "KHR_lights_punctual"))
         checkItems(JsonValue(file, *lights, "extensions.KHR_lights_punctual"), "lights",
                    checkLight);
-    for (const char* unused : {"animations", "skins"})
-        if (const auto items = document.find(unused); items && items->size() > 0)
-            warnings.add("",
-                         std::string(unused) + " are ignored; meshes are drawn in their rest pose");
+    if (const auto animations = document.find("animations"); animations && animations->size() > 0)
+        warnings.add("",
+                     "animations are not played; everything stands as the nodes of the file say");
 }
 
 } // namespace candelabra::app

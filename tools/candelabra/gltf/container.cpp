@@ -197,7 +197,7 @@ void parseWithTinyGltf(GltfDocument& document)
 {
     nlohmann::json reduced;
     for (const char* key : {"asset", "scene", "scenes", "nodes", "meshes", "materials", "textures",
-                            "samplers", "accessors", "bufferViews", "cameras"})
+                            "samplers", "accessors", "bufferViews", "cameras", "skins"})
         if (document.json.contains(key))
             reduced[key] = document.json[key];
     // It refuses indices without a buffer view, which are those that Draco replaces.

@@ -14,6 +14,7 @@
 #include "gltf/material.h"
 #include "gltf/mesh.h"
 #include "gltf/nodes.h"
+#include "gltf/pose.h"
 #include "scene/light_placement.h"
 #include "scene/scene_error.h"
 #include "scene/scene_file.h"
@@ -35,7 +36,8 @@ public:
         : document_(document),
           options_(options),
           scene_(scene),
-          defaultMaterial_(readGltfMaterials(document, scene))
+          defaultMaterial_(readGltfMaterials(document, scene)),
+          poses_(document)
     {
     }
 
@@ -46,11 +48,12 @@ private:
     static constexpr int64_t noMesh = -1;
 
     void addMesh(const GltfPlacedNode& placed);
-    void addInstance(const std::string& element, size_t gltfMesh, glm::dmat4 worldFromMesh);
+    void addInstance(const std::string& element, size_t gltfMesh, const GltfPose& pose,
+                     glm::dmat4 worldFromMesh);
     void addCamera(const GltfPlacedNode& placed);
-    // The index of a primitive's mesh in scene.meshes. The mesh is read when it is first asked for.
+    // The index in scene.meshes of a primitive in a pose. It is read when it is first asked for.
     // noMesh if the primitive cannot be drawn.
-    int64_t mesh(size_t gltfMesh, size_t primitive, bool mirrored);
+    int64_t mesh(size_t gltfMesh, size_t primitive, const GltfPose& pose, bool mirrored);
     uint32_t material(const tinygltf::Primitive& primitive) const
     {
         return primitive.material < 0 ? defaultMaterial_
@@ -62,7 +65,8 @@ private:
     Scene& scene_;
     uint32_t defaultMaterial_;
     GltfMeshBudget budget_;
-    std::map<std::tuple<size_t, size_t, bool>, int64_t> meshes_;
+    GltfPoses poses_;
+    std::map<std::tuple<size_t, size_t, int64_t, bool>, int64_t> meshes_;
     GltfLights lights_;
     GltfEmissiveRectangles emissive_;
 };
@@ -77,15 +81,15 @@ void SceneBuilder::add(const GltfPlacedNode& placed)
     addGltfLights(document_, placed, options_, lights_);
 }
 
-int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, bool mirrored)
+int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, const GltfPose& pose, bool mirrored)
 {
-    const auto key = std::make_tuple(gltfMesh, primitive, mirrored);
+    const auto key = std::make_tuple(gltfMesh, primitive, pose.owner, mirrored);
     if (const auto found = meshes_.find(key); found != meshes_.end())
         return found->second;
     int64_t index = noMesh;
     std::optional<Mesh> result;
     if (mirrored) {
-        const int64_t original = mesh(gltfMesh, primitive, false);
+        const int64_t original = mesh(gltfMesh, primitive, pose, false);
         if (original != noMesh) {
             const Mesh& source = scene_.meshes[static_cast<size_t>(original)];
             takeGltfBudget(document_, gltfElement("meshes", gltfMesh), source.vertices.size(),
@@ -95,7 +99,7 @@ int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, bool mirrored)
     } else {
         const auto& source = document_.model.meshes[gltfMesh].primitives[primitive];
         result = readGltfPrimitive(document_, gltfMesh, primitive,
-                                   scene_.materials[material(source)], budget_);
+                                   scene_.materials[material(source)], pose, budget_);
     }
     if (result) {
         index = static_cast<int64_t>(scene_.meshes.size());
@@ -109,16 +113,17 @@ void SceneBuilder::addMesh(const GltfPlacedNode& placed)
 {
     const std::string element = gltfElement("nodes", placed.node);
     const auto gltfMesh = static_cast<size_t>(document_.model.nodes[placed.node].mesh);
+    const GltfPose pose = poses_.of(placed);
     const size_t room = maxInstances - scene_.instances.size();
     for (const glm::dmat4& nodeFromMesh : readGltfInstancing(document_, placed.node, room)) {
         const glm::dmat4 worldFromMesh = placed.worldFromNode * nodeFromMesh;
         refuseHugeTransform(document_, element, worldFromMesh);
-        addInstance(element, gltfMesh, worldFromMesh);
+        addInstance(element, gltfMesh, pose, worldFromMesh);
     }
 }
 
 // Adds one copy of a mesh, which belongs to the node `element`.
-void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh,
+void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, const GltfPose& pose,
                                glm::dmat4 worldFromMesh)
 {
     const double determinant = glm::determinant(glm::dmat3(worldFromMesh));
@@ -134,7 +139,7 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh,
         worldFromMesh[0] = -worldFromMesh[0];
     const auto& primitives = document_.model.meshes[gltfMesh].primitives;
     for (size_t p = 0; p < primitives.size(); ++p) {
-        const int64_t index = mesh(gltfMesh, p, mirrored);
+        const int64_t index = mesh(gltfMesh, p, pose, mirrored);
         if (index == noMesh)
             continue;
         const uint32_t materialIndex = material(primitives[p]);

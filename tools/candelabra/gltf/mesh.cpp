@@ -162,8 +162,12 @@ class PrimitiveReader
 {
 public:
     PrimitiveReader(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                    std::string element, GltfMeshBudget& budget)
-        : document_(document), primitive_(primitive), element_(std::move(element)), budget_(budget)
+                    std::string element, const GltfPose& pose, GltfMeshBudget& budget)
+        : document_(document),
+          primitive_(primitive),
+          element_(std::move(element)),
+          pose_(pose),
+          budget_(budget)
     {
     }
 
@@ -192,8 +196,10 @@ private:
     const GltfDocument& document_;
     const tinygltf::Primitive& primitive_;
     std::string element_;
+    const GltfPose& pose_;
     GltfMeshBudget& budget_;
     size_t vertexCount_ = 0; // every attribute accessor must have as many elements
+    std::optional<GltfPosedVertices> posed_;
 };
 
 std::optional<GltfAccessor> PrimitiveReader::attribute(const char* name, int minComponents,
@@ -202,17 +208,8 @@ std::optional<GltfAccessor> PrimitiveReader::attribute(const char* name, int min
     const auto found = primitive_.attributes.find(name);
     if (found == primitive_.attributes.end())
         return std::nullopt;
-    GltfAccessor accessor(document_, found->second);
-    const std::string element = element_ + ".attributes." + name;
-    if (accessor.components() < minComponents || accessor.components() > maxComponents)
-        document_.fail(element, accessor.element() + " has the wrong number of components");
-    if (accessor.componentType() == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-        document_.fail(element,
-                       accessor.element() + " has 32-bit integers, which are not allowed here");
-    if (vertexCount_ != 0 && accessor.count() != vertexCount_)
-        document_.fail(element, accessor.element() + " has " + std::to_string(accessor.count()) +
-                                    " elements, POSITION has " + std::to_string(vertexCount_));
-    return accessor;
+    return gltfVertexAttribute(document_, element_ + ".attributes." + name, found->second,
+                               minComponents, maxComponents, vertexCount_);
 }
 
 std::vector<uint32_t> PrimitiveReader::readIndices(size_t vertexCount) const
@@ -298,9 +295,10 @@ void PrimitiveReader::readPositions(const std::vector<uint32_t>& used, Mesh& mes
 {
     const auto accessor = attribute("POSITION", 3, 3);
     for (size_t i = 0; i < used.size(); ++i) {
-        mesh.vertices[i].position = accessor->read(used[i]);
+        mesh.vertices[i].position = posed_->position(used[i], glm::dvec3(accessor->read(used[i])));
         const glm::vec3 p = glm::abs(mesh.vertices[i].position);
-        if (std::max({p.x, p.y, p.z}) > static_cast<float>(maxCoordinate))
+        constexpr auto limit = static_cast<float>(maxCoordinate);
+        if (!(p.x <= limit && p.y <= limit && p.z <= limit))
             document_.fail(element_ + ".attributes.POSITION", accessor->element() + " element " +
                                                                   std::to_string(used[i]) +
                                                                   " is more than 1e12 m away");
@@ -346,7 +344,7 @@ bool PrimitiveReader::readNormals(const std::vector<uint32_t>& used, Mesh& mesh)
         return false;
     for (size_t i = 0; i < used.size(); ++i) {
         // In double precision, because the square of a float may not fit into a float.
-        const glm::dvec3 n(accessor->read(used[i]));
+        const glm::dvec3 n = posed_->normal(used[i], glm::dvec3(accessor->read(used[i])));
         const double length = glm::length(n);
         mesh.vertices[i].normal = length > 1e-3 ? glm::vec3(n / length) : glm::vec3(0);
     }
@@ -366,7 +364,7 @@ bool PrimitiveReader::readTangents(const std::vector<uint32_t>& used, Mesh& mesh
     for (size_t i = 0; i < used.size(); ++i) {
         Vertex& v = mesh.vertices[i];
         const glm::vec4 value = accessor->read(used[i]);
-        const glm::dvec3 n(v.normal), t(value);
+        const glm::dvec3 n(v.normal), t = posed_->tangent(used[i], glm::dvec3(value));
         const glm::dvec3 inPlane = t - n * glm::dot(n, t);
         const double length = glm::length(inPlane);
         const bool usable = length > 1e-3 * glm::length(t) && glm::length(t) > 1e-3;
@@ -402,8 +400,6 @@ std::optional<Mesh> PrimitiveReader::read(const Material& material)
         document_.warn(element_, "has no POSITION and is left out");
         return std::nullopt;
     }
-    if (!primitive_.targets.empty())
-        document_.warn(element_, "has morph targets; the mesh is drawn in its rest pose");
     if (positions->count() >= unused)
         document_.fail(element_, "has too many vertices");
     vertexCount_ = positions->count();
@@ -413,6 +409,7 @@ std::optional<Mesh> PrimitiveReader::read(const Material& material)
         document_.warn(element_, "has no triangles and is left out");
         return std::nullopt;
     }
+    posed_.emplace(document_, primitive_, element_, pose_, vertexCount_);
     const std::vector<uint32_t> used = compact(mesh.indices);
     const bool hasNormals = primitive_.attributes.count("NORMAL") != 0;
     // With flat normals every corner needs its own vertex. Tangents split a vertex into at most
@@ -447,12 +444,13 @@ void takeGltfBudget(const GltfDocument& document, const std::string& element, ui
 }
 
 std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh, size_t primitive,
-                                      const Material& material, GltfMeshBudget& budget)
+                                      const Material& material, const GltfPose& pose,
+                                      GltfMeshBudget& budget)
 {
     const std::string element =
         gltfElement("meshes", mesh) + "." + gltfElement("primitives", primitive);
     PrimitiveReader reader(document, document.model.meshes[mesh].primitives[primitive], element,
-                           budget);
+                           pose, budget);
     return reader.read(material);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "gltf/document.h"
+#include "gltf/pose.h"
 #include "scene/scene.h"
 
 namespace candelabra::app
@@ -26,11 +27,13 @@ struct GltfMeshBudget {
 void takeGltfBudget(const GltfDocument& document, const std::string& element, uint64_t vertices,
                     uint64_t indices, GltfMeshBudget& budget);
 
-// Reads the triangles of one primitive and fills in all vertex attributes. Missing normals become
-// flat, so that triangles share no vertices; missing tangents follow the UVs of `material`'s normal
-// map. Returns nothing, with a warning, for points, lines and primitives without triangles.
+// Reads the triangles of one primitive in a pose and fills in all vertex attributes. Missing
+// normals become flat, so that triangles share no vertices; missing tangents follow the UVs of
+// `material`'s normal map. Returns nothing, with a warning, for points, lines and primitives
+// without triangles.
 std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh, size_t primitive,
-                                      const Material& material, GltfMeshBudget& budget);
+                                      const Material& material, const GltfPose& pose,
+                                      GltfMeshBudget& budget);
 
 // Returns the mesh with x negated and the winding reversed, so that front faces are
 // counter-clockwise again. Drawn with M * diag(-1, 1, 1), it looks like the original drawn with a

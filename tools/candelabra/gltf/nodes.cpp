@@ -53,17 +53,24 @@ void refuseCycles(const GltfDocument& document, const std::vector<int>& parents)
         }
 }
 
-std::vector<size_t> findRoots(const GltfDocument& document, const std::vector<int>& parents)
+std::vector<size_t> nodesWithoutParent(const std::vector<int>& parents)
 {
     std::vector<size_t> roots;
+    for (size_t i = 0; i < parents.size(); ++i)
+        if (parents[i] == noParent)
+            roots.push_back(i);
+    return roots;
+}
+
+// The roots of the scene that is drawn.
+std::vector<size_t> findRoots(const GltfDocument& document, const std::vector<int>& parents)
+{
     if (document.model.scenes.empty()) {
         if (!parents.empty())
             document.warn("", "has no scene; all its nodes are used");
-        for (size_t i = 0; i < parents.size(); ++i)
-            if (parents[i] == noParent)
-                roots.push_back(i);
-        return roots;
+        return nodesWithoutParent(parents);
     }
+    std::vector<size_t> roots;
     const auto index = static_cast<size_t>(std::max(document.model.defaultScene, 0));
     std::vector<bool> listed(parents.size(), false);
     for (const int root : document.model.scenes[index].nodes) {
@@ -98,6 +105,30 @@ glm::dmat4 localTransform(const GltfDocument& document, size_t index)
     return gltfMatrix(document, nodeName(index) + ".rotation", transform);
 }
 
+// Places these nodes and all below them, parents before children.
+std::vector<GltfPlacedNode> placeFrom(const GltfDocument& document,
+                                      const std::vector<size_t>& roots)
+{
+    std::vector<GltfPlacedNode> placed;
+    // A stack and not recursion, because chains of nodes can be long. Here worldFromNode is still
+    // the transform of the parent.
+    std::vector<GltfPlacedNode> open;
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+        open.push_back({*root, glm::dmat4(1), {}});
+    while (!open.empty()) {
+        GltfPlacedNode current = open.back();
+        open.pop_back();
+        current.worldFromNode *= localTransform(document, current.node);
+        refuseHugeTransform(document, nodeName(current.node), current.worldFromNode);
+        placed.push_back(current);
+        const std::vector<int>& children = document.model.nodes[current.node].children;
+        for (auto child = children.rbegin(); child != children.rend(); ++child)
+            open.push_back({static_cast<size_t>(*child), current.worldFromNode, current.node,
+                            current.depth + 1});
+    }
+    return placed;
+}
+
 } // namespace
 
 glm::dmat4 gltfMatrix(const GltfDocument& document, const std::string& rotation,
@@ -127,26 +158,17 @@ std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
 {
     const std::vector<int> parents = findParents(document);
     refuseCycles(document, parents);
-    const std::vector<size_t> roots = findRoots(document, parents);
+    return placeFrom(document, findRoots(document, parents));
+}
 
-    std::vector<GltfPlacedNode> placed;
-    // A stack and not recursion, because chains of nodes can be long. Here worldFromNode is still
-    // the transform of the parent.
-    std::vector<GltfPlacedNode> open;
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        open.push_back({*root, glm::dmat4(1), {}});
-    while (!open.empty()) {
-        GltfPlacedNode current = open.back();
-        open.pop_back();
-        current.worldFromNode *= localTransform(document, current.node);
-        refuseHugeTransform(document, nodeName(current.node), current.worldFromNode);
-        placed.push_back(current);
-        const std::vector<int>& children = document.model.nodes[current.node].children;
-        for (auto child = children.rbegin(); child != children.rend(); ++child)
-            open.push_back({static_cast<size_t>(*child), current.worldFromNode, current.node,
-                            current.depth + 1});
-    }
-    return placed;
+std::vector<glm::dmat4> gltfWorldTransforms(const GltfDocument& document)
+{
+    const std::vector<int> parents = findParents(document);
+    refuseCycles(document, parents);
+    std::vector<glm::dmat4> worldFromNodes(parents.size());
+    for (const GltfPlacedNode& placed : placeFrom(document, nodesWithoutParent(parents)))
+        worldFromNodes[placed.node] = placed.worldFromNode;
+    return worldFromNodes;
 }
 
 } // namespace candelabra::app

@@ -41,4 +41,8 @@ void refuseHugeTransform(const GltfDocument& document, const std::string& elemen
 // or a node that is not a root, and transforms that are not affine, not finite, or exceed 1e12 m.
 std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document);
 
+// Returns worldFromNode of all nodes of the file, also of those that are in no scene, such as
+// joints that only a skin names. Fails as placeGltfNodes does.
+std::vector<glm::dmat4> gltfWorldTransforms(const GltfDocument& document);
+
 } // namespace candelabra::app

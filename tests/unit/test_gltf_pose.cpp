@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests that meshes stand in the pose of the file: morph targets by their weights, and skins by the
+// nodes that are their joints.
+#include <cmath>
+
+#include "unit/gltf_fixture.h"
+
+namespace candelabra::test
+{
+
+namespace
+{
+
+using namespace candelabra::app;
+
+using GltfPoseTest = GltfTest;
+
+void expectNear(const glm::dvec3& actual, const glm::dvec3& expected)
+{
+    EXPECT_NEAR(glm::distance(actual, expected), 0, 1e-6)
+        << actual.x << ", " << actual.y << ", " << actual.z;
+}
+
+// The triangle with two morph targets: the first lifts its last corner, the second moves all of it
+// along z and turns its normals.
+GltfBuilder morphedTriangle()
+{
+    GltfBuilder b = triangleScene();
+    Json& primitive = b.json["meshes"][0]["primitives"][0];
+    primitive["targets"] = {{{"POSITION", b.floats({0, 0, 0, 0, 0, 0, 0, 2, 0}, "VEC3")}},
+                            {{"POSITION", b.floats({0, 0, 4, 0, 0, 4, 0, 0, 4}, "VEC3")},
+                             {"NORMAL", b.floats({2, 0, -2, 2, 0, -2, 2, 0, -2}, "VEC3")}}};
+    return b;
+}
+
+TEST_F(GltfPoseTest, MorphTargetsWithoutWeightsChangeNothing)
+{
+    const Scene scene = load(morphedTriangle());
+    expectNear(worldPosition(scene, scene.instances.at(0), 2), {0, 1, 0});
+    EXPECT_FALSE(warns(scene, "targets"));
+}
+
+TEST_F(GltfPoseTest, MorphTargetsAreAddedByTheirWeights)
+{
+    GltfBuilder b = morphedTriangle();
+    b.json["meshes"][0]["weights"] = {1, 0.5};
+    const Scene scene = load(b);
+    expectNear(worldPosition(scene, scene.instances.at(0), 0), {0, 0, 2});
+    expectNear(worldPosition(scene, scene.instances.at(0), 2), {0, 3, 2});
+    expectNear(worldNormal(scene, scene.instances.at(0), 0), {1, 0, 0});
+}
+
+TEST_F(GltfPoseTest, WeightsOfANodeReplaceThoseOfItsMesh)
+{
+    GltfBuilder b = morphedTriangle();
+    b.json["meshes"][0]["weights"] = {1, 0};
+    b.rootNode({{"mesh", 0}});
+    b.rootNode({{"mesh", 0}, {"weights", {0, 1}}});
+    const Scene scene = load(b);
+    ASSERT_EQ(scene.instances.size(), 3u);
+    EXPECT_EQ(scene.instances[0].mesh, scene.instances[1].mesh); // the same pose
+    expectNear(worldPosition(scene, scene.instances[1], 2), {0, 3, 0});
+    expectNear(worldPosition(scene, scene.instances[2], 2), {0, 1, 4});
+}
+
+TEST_F(GltfPoseTest, BrokenMorphTargetsAreNamed)
+{
+    GltfBuilder b = morphedTriangle();
+    Json& primitive = b.json["meshes"][0]["primitives"][0];
+    b.json["meshes"][0]["weights"] = {1};
+    primitive["targets"][0]["POSITION"] = b.floats({0, 0, 0}, "VEC3");
+    EXPECT_NE(error(b).find("meshes[0].primitives[0].targets[0].POSITION: accessors["),
+              std::string::npos)
+        << error(b);
+    primitive["targets"][0]["POSITION"] = 99;
+    EXPECT_NE(error(b).find("meshes[0].primitives[0].targets[0].POSITION: is 99"),
+              std::string::npos)
+        << error(b);
+}
+
+// The triangle with a skin of two joints. The first corner follows joint 0, the second joint 1, and
+// the third both, with weights that add up to 2. Joint 1 is turned by 90 degrees about z, and bound
+// at (1, 0, 0).
+GltfBuilder skinnedTriangle()
+{
+    GltfBuilder b = triangleScene();
+    Json& attributes = b.json["meshes"][0]["primitives"][0]["attributes"];
+    const std::vector<uint8_t> joints = {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0};
+    attributes["JOINTS_0"] = b.accessor(b.view(joints), componentUnsignedByte, "VEC4", 3);
+    attributes["WEIGHTS_0"] = b.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0}, "VEC4");
+    const std::vector<float> inverse = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,
+                                        1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1};
+    const int bind = b.accessor(b.view(inverse), componentFloat, "MAT4", 2);
+    const double s = std::sqrt(0.5);
+    const int first = b.rootNode({{"translation", {0, 0, 5}}});
+    const int second = b.rootNode({{"translation", {0, 0, 7}}, {"rotation", {0, 0, s, s}}});
+    b.json["skins"] = {{{"joints", {first, second}}, {"inverseBindMatrices", bind}}};
+    b.json["nodes"][0]["skin"] = 0;
+    return b;
+}
+
+TEST_F(GltfPoseTest, VerticesFollowTheirJoints)
+{
+    const Scene scene = load(skinnedTriangle());
+    ASSERT_EQ(scene.instances.size(), 1u);
+    const Instance& instance = scene.instances[0];
+    expectNear(worldPosition(scene, instance, 0), {0, 0, 5});
+    expectNear(worldPosition(scene, instance, 1), {0, 0, 7});
+    // (0, 1, 5) by joint 0; by joint 1 (-1, 1, 0) is turned to (-1, -1, 7).
+    expectNear(worldPosition(scene, instance, 2), {-0.5, 0, 6});
+    EXPECT_FALSE(warns(scene, "skin"));
+}
+
+TEST_F(GltfPoseTest, TheNodeOfASkinnedMeshDoesNotMoveIt)
+{
+    GltfBuilder b = skinnedTriangle();
+    b.json["nodes"][0]["translation"] = {8, 0, 0};
+    b.json["nodes"][0]["scale"] = {-3, 2, 1};
+    const Scene scene = load(b);
+    const Instance& instance = scene.instances.at(0);
+    // The triangle is mirrored into the node's space, so its corners come in another order.
+    expectNear(worldPosition(scene, instance, 0), {0, 0, 5});
+    expectNear(worldPosition(scene, instance, 2), {0, 0, 7});
+    expectNear(worldPosition(scene, instance, 1), {-0.5, 0, 6});
+}
+
+TEST_F(GltfPoseTest, NormalsTurnWithTheirJoints)
+{
+    GltfBuilder b = skinnedTriangle();
+    const double s = std::sqrt(0.5);
+    b.json["nodes"][1]["rotation"] = {0, s, 0, s}; // +z to +x
+    b.json["nodes"][1]["scale"] = {1, 4, 9};
+    const Scene scene = load(b);
+    expectNear(worldNormal(scene, scene.instances.at(0), 0), {1, 0, 0});
+    expectNear(worldNormal(scene, scene.instances.at(0), 1), {0, 0, 1});
+}
+
+TEST_F(GltfPoseTest, JointsNeedNotBeInTheScene)
+{
+    GltfBuilder b = skinnedTriangle();
+    b.json["scenes"][0]["nodes"] = {0};
+    const Scene scene = load(b);
+    expectNear(worldPosition(scene, scene.instances.at(0), 1), {0, 0, 7});
+}
+
+TEST_F(GltfPoseTest, SkinsWithoutInfluencesAreReported)
+{
+    GltfBuilder b = skinnedTriangle();
+    b.json["meshes"][0]["primitives"][0]["attributes"].erase("WEIGHTS_0");
+    const Scene scene = load(b);
+    EXPECT_TRUE(warns(scene, "meshes[0].primitives[0]: has no JOINTS_0 or no WEIGHTS_0"));
+    expectNear(worldPosition(scene, scene.instances.at(0), 1), {1, 0, 0});
+}
+
+TEST_F(GltfPoseTest, BrokenSkinsAreNamed)
+{
+    GltfBuilder few = skinnedTriangle();
+    few.json["skins"][0]["joints"] = {1};
+    EXPECT_NE(error(few).find("meshes[0].primitives[0]: is moved by joint 1 of a skin of 1 joints"),
+              std::string::npos)
+        << error(few);
+    GltfBuilder none = skinnedTriangle();
+    none.json["skins"][0]["joints"] = Json::array();
+    EXPECT_NE(error(none).find("skins[0]: has no joints"), std::string::npos) << error(none);
+    GltfBuilder wrong = skinnedTriangle();
+    wrong.json["skins"][0]["inverseBindMatrices"] = 0; // positions
+    EXPECT_NE(error(wrong).find("skins[0].inverseBindMatrices: accessors[0] must have a MAT4"),
+              std::string::npos)
+        << error(wrong);
+    GltfBuilder index = skinnedTriangle();
+    index.json["skins"][0]["joints"] = {1, 77};
+    EXPECT_NE(error(index).find("skins[0].joints[1]: is 77"), std::string::npos) << error(index);
+}
+
+} // namespace
+
+} // namespace candelabra::test

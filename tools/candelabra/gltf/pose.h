@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pose in which a node draws its mesh: the weights of morph targets, and the joints of a skin
+// where the nodes of the file put them. Animations are not played. Internal to the glTF loader. All
+// functions throw SceneError.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gltf/accessor.h"
+#include "gltf/document.h"
+#include "gltf/nodes.h"
+
+namespace candelabra::app
+{
+
+struct GltfPose {
+    static constexpr int64_t ofMesh = -1;
+
+    // The node that has the pose, or ofMesh: then all nodes without a pose of their own share it.
+    int64_t owner = ofMesh;
+    std::vector<double> weights; // of the morph targets; those beyond the list are 0
+    // For each joint of the skin, the transform from the mesh as it is in the file to the space of
+    // the node. Empty without a skin.
+    std::vector<glm::dmat4> nodeFromBind;
+};
+
+class GltfPoses
+{
+public:
+    explicit GltfPoses(const GltfDocument& document);
+    // The pose of a node that has a mesh.
+    GltfPose of(const GltfPlacedNode& placed) const;
+
+private:
+    const GltfDocument& document_;
+    std::vector<glm::dmat4> worldFromNodes_; // empty if the file has no skin
+};
+
+// Poses the vertices of a primitive. The arguments `rest` are the attributes of vertex i without
+// morph targets and skin.
+class GltfPosedVertices
+{
+public:
+    GltfPosedVertices(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                      const std::string& element, const GltfPose& pose, size_t vertexCount);
+
+    glm::dvec3 position(size_t i, const glm::dvec3& rest) const;
+    // Not normalised, unless the primitive has a skin.
+    glm::dvec3 normal(size_t i, const glm::dvec3& rest) const;
+    glm::dvec3 tangent(size_t i, const glm::dvec3& rest) const;
+
+private:
+    struct Morph {
+        double weight;
+        GltfAccessor offsets;
+    };
+    struct Influences {
+        GltfAccessor joints, weights; // four of each per vertex
+    };
+
+    std::vector<Morph> morphs(const tinygltf::Primitive& primitive, const char* attribute,
+                              size_t vertexCount) const;
+    void readInfluences(const tinygltf::Primitive& primitive, size_t vertexCount);
+    glm::dmat4 nodeFromVertex(size_t i) const;
+
+    const GltfDocument& document_;
+    std::string element_;
+    const GltfPose& pose_;
+    std::vector<Morph> positions_, normals_, tangents_;
+    std::vector<Influences> influences_; // empty if the vertices have no skin
+};
+
+} // namespace candelabra::app
