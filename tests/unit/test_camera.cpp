@@ -85,12 +85,23 @@ TEST(Camera, OrthographicHeightSpansTheImage)
     EXPECT_NEAR(clip.y / clip.w, -1, 1e-6); // the top of the image
 }
 
-TEST(Camera, OwnAspectWinsOverTheImages)
+// A picture with another aspect than the camera's shows all that the camera frames, unstretched.
+TEST(Camera, PicturesWithAnotherAspectAreNeitherStretchedNorCut)
 {
-    Camera camera;
-    camera.aspect = 1.0;
-    const CndCamera matrices = makeCamera(camera, 2.0);
-    EXPECT_FLOAT_EQ(matrices.clipFromView[0], -matrices.clipFromView[5]);
+    for (const bool orthographic : {false, true})
+        for (const double own : {0.5, 1.0, 3.0}) {
+            Camera camera;
+            camera.orthographic = orthographic;
+            camera.orthographicHeight = 4;
+            camera.farPlane = 10;
+            const CndCamera without = makeCamera(camera, own);
+            camera.aspect = own;
+            const CndCamera matrices = makeCamera(camera, 1.5);
+            EXPECT_FLOAT_EQ(-matrices.clipFromView[5], 1.5f * matrices.clipFromView[0]);
+            const float across = matrices.clipFromView[0] / without.clipFromView[0];
+            const float along = matrices.clipFromView[5] / without.clipFromView[5];
+            EXPECT_FLOAT_EQ(std::max(across, along), 1); // as large as the picture allows
+        }
 }
 
 TEST(Camera, FarFromTheOriginNothingIsLost)

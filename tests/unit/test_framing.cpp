@@ -129,9 +129,9 @@ TEST_F(Framing, FittingKeepsTheDirectionOfAnyCamera)
         EXPECT_EQ(fitted.up, camera.up);
         expectFilled(fitted, scene, {0, 1}, 1.5);
         EXPECT_NO_THROW(makeCamera(fitted, 1.5));
-        // The camera's own aspect counts more than the picture's.
+        // The picture is filled, whatever the camera's own aspect.
         camera.aspect = 0.5;
-        expectFilled(fitCamera(scene, {0, 1}, camera, 1.5), scene, {0, 1}, 0.5);
+        expectFilled(fitCamera(scene, {0, 1}, camera, 1.5), scene, {0, 1}, 1.5);
     }
     const Camera still = fitCamera(scene, {0, 0}, Camera{}, 1);
     EXPECT_EQ(still, Camera{});

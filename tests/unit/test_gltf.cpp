@@ -34,6 +34,19 @@ TEST_F(Gltf, TextAndBinaryGiveTheSameMesh)
     EXPECT_EQ(fromText.materials.at(0).metalness, 1); // glTF's default material
 }
 
+// Files of version 1 may hold their version as a number.
+TEST_F(Gltf, OlderVersionsAreRefusedWithWhatConvertsThem)
+{
+    for (const Json& version : {Json("1.0"), Json("1.1"), Json(1.0), Json(1)}) {
+        GltfBuilder builder = triangleScene();
+        builder.json["asset"]["version"] = version;
+        EXPECT_NE(error(builder).find("gltf-pipeline converts it"), std::string::npos) << version;
+    }
+    GltfBuilder builder = triangleScene();
+    builder.json["asset"]["version"] = 2.0; // must be a text
+    EXPECT_NE(error(builder), "no error");
+}
+
 TEST_F(Gltf, BuffersInFilesMayBeLargerThanDeclared)
 {
     GltfBuilder builder = triangleScene();

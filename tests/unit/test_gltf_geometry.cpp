@@ -101,6 +101,15 @@ TEST_F(GltfGeometry, TopologiesAndIndexTypesGiveTheSameSquare)
         }
 }
 
+TEST_F(GltfGeometry, CornersOfAnIncompleteTriangleAreLeftOutWithAWarning)
+{
+    GltfBuilder b = triangleScene();
+    b.json["meshes"][0]["primitives"][0]["indices"] = b.indices({0, 1, 2, 0, 1});
+    const Scene scene = load(b);
+    EXPECT_EQ(scene.meshes.at(0).indices.size(), 3u);
+    EXPECT_TRUE(warns(scene, "is a triangle list of 5 corners"));
+}
+
 TEST_F(GltfGeometry, StitchedStripsLoseTheirDegenerateTriangles)
 {
     GltfBuilder b;

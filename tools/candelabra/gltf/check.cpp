@@ -440,11 +440,16 @@ void checkVersion(const JsonValue& asset)
 {
     for (const char* name : {"version", "minVersion"})
         if (const auto version = asset.find(name)) {
-            const std::string& text = version->string();
+            // Files of version 1 may have a number here.
+            const std::string text =
+                version->json().is_number() ? version->json().dump() : version->string();
             const bool isTwo = text.substr(0, 2) == "2.";
             const bool readable = name == std::string_view("version") ? isTwo : text == "2.0";
             if (!readable)
-                version->fail("is \"" + printable(text, 20) + "\"; glTF 2.0 is supported");
+                version->fail("is " + printable(text, 20) +
+                              "; glTF 2.0 is supported, to which a glTF exporter or gltf-pipeline "
+                              "converts it");
+            version->string(); // fails for numbers
         }
 }
 

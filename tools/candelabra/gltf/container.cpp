@@ -30,7 +30,9 @@ GltfContainer splitBinary(const std::string& path, const std::vector<uint8_t>& b
         failScene(path, "", "is cut off inside the header of binary glTF");
     const uint32_t version = readLittleEndian32(&bytes[4]);
     if (version != 2)
-        failScene(path, "", "is binary glTF of version " + std::to_string(version) + ", not 2");
+        failScene(path, "",
+                  "is binary glTF of version " + std::to_string(version) +
+                      ", not 2; a glTF exporter or gltf-pipeline converts it");
     const uint64_t length = readLittleEndian32(&bytes[8]);
     if (length > bytes.size())
         failScene(path, "",

@@ -32,6 +32,8 @@ struct Unread {
 constexpr Unread unreadExtensions[] = {
     {"EXT_lights_ies", "lights shine as if they had no profile"},
     {"EXT_lights_image_based", "its environment is left out; --environment FILE adds one"},
+    {"EXT_mesh_features", "the features that it numbers are not needed for a picture"},
+    {"EXT_structural_metadata", "its tables of data are not needed for a picture"},
     {"EXT_texture_avif", "AVIF textures are left out; export with PNG, JPEG or WebP textures"},
     {"KHR_animation_pointer", "nothing moves"},
     {"KHR_gaussian_splatting", "clouds of splats are left out"},
@@ -46,6 +48,9 @@ constexpr Unread unreadExtensions[] = {
     {"KHR_materials_variants", "the default variant of each material is drawn"},
     {"KHR_materials_volume", "objects neither bend nor absorb light inside"},
     {"KHR_node_visibility", "hidden nodes are drawn too"},
+    {"KHR_technique_webgl",
+     "materials with shaders of their own are drawn as plain metal; export them as "
+     "metallic-roughness"},
     {"KHR_texture_basisu", "KTX2 textures are left out; export with PNG, JPEG or WebP textures"},
     {"MSFT_lod", "the finest level of detail is drawn"},
     {"MSFT_texture_dds", "DDS textures are left out; export with PNG, JPEG or WebP textures"}};

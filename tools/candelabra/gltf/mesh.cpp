@@ -248,8 +248,9 @@ std::vector<uint32_t> PrimitiveReader::triangles(const std::vector<uint32_t>& co
     const size_t n = corners.size();
     const bool isList = primitive_.mode == TINYGLTF_MODE_TRIANGLES;
     if (isList && n % 3 != 0)
-        document_.fail(element_, "is a triangle list of " + std::to_string(n) +
-                                     " corners, not a multiple of 3");
+        document_.warn(element_, "is a triangle list of " + std::to_string(n) +
+                                     " corners, not a multiple of 3; those of the last, incomplete "
+                                     "triangle are left out");
     const size_t count = isList ? n / 3 : (n < 3 ? 0 : n - 2);
     if (!isList)
         takeBudget(0, 2 * uint64_t{count});

@@ -21,7 +21,8 @@ std::vector<std::string> GltfWarnings::sentences(const std::string& file) const
     for (const Warning& w : warnings_) {
         std::string sentence = printable(file, 4096) + ": " + w.element;
         if (w.others > 0 && !w.element.empty())
-            sentence += " (and " + std::to_string(w.others) + " others)";
+            sentence +=
+                " (and " + std::to_string(w.others) + (w.others == 1 ? " other)" : " others)");
         out.push_back(sentence + (w.element.empty() ? "" : ": ") + w.reason);
     }
     return out;

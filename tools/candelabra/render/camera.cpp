@@ -12,6 +12,7 @@
 #include "io/error.h"
 #include "io/parse.h"
 #include "io/table.h"
+#include "scene/fit_camera.h"
 
 namespace candelabra::app
 {
@@ -118,14 +119,14 @@ Camera typedCamera(const Scene& scene, const std::string& text, const std::vecto
 
 CndCamera makeCamera(const Camera& camera, double imageAspect)
 {
-    const double aspect = camera.aspect.value_or(imageAspect);
-    requireVolume(camera, aspect);
+    requireVolume(camera, camera.aspect.value_or(imageAspect));
+    const Camera whole = cameraOfPicture(camera, imageAspect);
     CndCamera out{};
-    viewFromWorld(camera, out.viewFromWorld);
-    if (camera.orthographic)
-        orthographic(camera, aspect, out.clipFromView);
+    viewFromWorld(whole, out.viewFromWorld);
+    if (whole.orthographic)
+        orthographic(whole, imageAspect, out.clipFromView);
     else
-        perspective(camera, aspect, out.clipFromView);
+        perspective(whole, imageAspect, out.clipFromView);
     return out;
 }
 

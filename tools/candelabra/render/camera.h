@@ -16,9 +16,9 @@ namespace candelabra::app
 constexpr float clearDepth = 0.0f;
 
 // Returns view and projection matrices with reversed depth, an infinite far plane if the camera's
-// farPlane is 0, and y pointing down in clip space, as in Vulkan. `imageAspect` (width / height) is
-// used for cameras without an aspect of their own. Throws UsageError, which names the camera, if
-// the camera spans no volume.
+// farPlane is 0, and y pointing down in clip space, as in Vulkan. `imageAspect` is the image's
+// width / height; cameraOfPicture says how a camera with another aspect is used. Throws UsageError,
+// which names the camera, if the camera spans no volume.
 CndCamera makeCamera(const Camera& camera, double imageAspect);
 
 // Returns the camera of the scene that `wanted` names or describes: the first for an empty text,

@@ -155,10 +155,23 @@ void visitVertices(const Scene& scene, const InstanceRange& range,
     }
 }
 
+Camera cameraOfPicture(const Camera& camera, double aspect)
+{
+    Camera out = camera;
+    out.aspect.reset();
+    const double wider = camera.aspect ? *camera.aspect / aspect : 1;
+    if (wider > 1) { // the picture is too narrow, unless it shows more above and below
+        out.orthographicHeight *= wider;
+        out.verticalFov = 2 * std::atan(wider * std::tan(camera.verticalFov / 2));
+    }
+    return out;
+}
+
 Camera fitCamera(std::vector<glm::dvec3> points, Camera camera, double aspect)
 {
     if (points.empty())
         return camera;
+    camera = cameraOfPicture(camera, aspect);
     // Far from the origin, differences of positions would lose digits.
     Bounds bounds{points.front(), points.front()};
     for (const glm::dvec3& p : points) {
@@ -169,11 +182,10 @@ Camera fitCamera(std::vector<glm::dvec3> points, Camera camera, double aspect)
     for (glm::dvec3& p : points)
         p -= middle;
     const Axes axes(camera);
-    const double ratio = camera.aspect.value_or(aspect);
     if (camera.orthographic)
-        fitOrthographic(points, axes, ratio, camera);
+        fitOrthographic(points, axes, aspect, camera);
     else
-        fitPerspective(points, axes, ratio, camera);
+        fitPerspective(points, axes, aspect, camera);
     camera.position += middle;
     return camera;
 }

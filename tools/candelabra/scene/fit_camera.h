@@ -19,9 +19,14 @@ constexpr double fitShare = 0.85;
 void visitVertices(const Scene& scene, const InstanceRange& range,
                    const std::function<void(const glm::dvec3&)>& visit);
 
+// Returns the camera for a picture whose width / height is `aspect`: without an aspect of its own,
+// and with a field of view that shows all that the camera frames, and more where the picture is
+// wider or higher. So nothing is stretched or cut off.
+Camera cameraOfPicture(const Camera& camera, double aspect);
+
 // Returns the camera moved, but not turned, to where the points lie in the middle of the picture
-// and fill fitShare of its width or height. `aspect` is the picture's width / height, for cameras
-// without an aspect of their own. The near plane is moved nearer if it would cut the points away,
+// and fill fitShare of its width or height. `aspect` is the picture's width / height, which the
+// camera gets by cameraOfPicture. The near plane is moved nearer if it would cut the points away,
 // and the far plane farther. Returns the camera as it is if there are no points.
 Camera fitCamera(std::vector<glm::dvec3> points, Camera camera, double aspect);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/hash.h"
+#include "scene/fit_camera.h"
 #include "scene/light_layers.h"
 #include "scene/scene_error.h"
 
@@ -63,8 +64,8 @@ reference::Scene toReference(const Scene& scene, const Camera& camera, double im
             scene.name + ": camera " + camera.name +
             " is orthographic; the exact image can be computed for pinhole cameras only");
     reference::Scene out;
-    out.camera = {camera.position, camera.forward, camera.up, camera.verticalFov,
-                  camera.aspect.value_or(imageAspect)};
+    const Camera whole = cameraOfPicture(camera, imageAspect);
+    out.camera = {whole.position, whole.forward, whole.up, whole.verticalFov, imageAspect};
     for (const Material& material : scene.materials)
         out.materials.push_back(toReference(material));
     for (const AnalyticObject& object : scene.analyticObjects)

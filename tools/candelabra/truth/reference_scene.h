@@ -11,8 +11,8 @@ namespace candelabra::app
 {
 
 // Converts planes, balls, lights and background of `scene`, seen from `camera`. Lights that share
-// no layer with the camera are left out. `imageAspect` (width / height) is used for cameras without
-// an aspect of their own. With `lightsVisible` the emitters of area lights are seen. Throws
+// no layer with the camera are left out. `imageAspect` is the image's width / height, as for
+// makeCamera. With `lightsVisible` the emitters of area lights are seen. Throws
 // SceneError for what the reference cannot render: meshes, an environment, orthographic cameras.
 reference::Scene toReference(const Scene& scene, const Camera& camera, double imageAspect,
                              bool lightsVisible);
