@@ -51,7 +51,7 @@ TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
     EXPECT_EQ(
         test::schemaFaults(json["points"], "bench_culling.schema.json", "#/properties/points"), "");
     EXPECT_EQ(cullingPlots(points, context().info()).size(), 3u);
-    EXPECT_NE(cullingTables(points).find("200x120"), std::string::npos);
+    EXPECT_NE(textOf(cullingTables(points)).find("200x120"), std::string::npos);
 }
 
 // More lights than one loop may test on llvmpipe; other devices need no batches.
@@ -99,7 +99,7 @@ TEST_F(BenchCulling, BruteForceOverTheLimitIsListedWithItsEstimate)
     const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
     ASSERT_EQ(points.size(), 1u); // this many overlaps are impossible
     EXPECT_GT(points[0].of(bruteName).skippedMs.value_or(0), 0);
-    EXPECT_NE(cullingTables(points).find("skipped"), std::string::npos);
+    EXPECT_NE(textOf(cullingTables(points)).find("skipped"), std::string::npos);
     const auto json = nlohmann::json::parse(cullingJson(settings, points).dump());
     EXPECT_EQ(
         test::schemaFaults(json["points"], "bench_culling.schema.json", "#/properties/points"), "");

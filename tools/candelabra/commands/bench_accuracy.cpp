@@ -99,7 +99,7 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     if (json != "-")
         writeText(
             "-",
-            kernelTables(level) + "\n" + imageTables(scenes, budgets) +
+            textOf(kernelTables(level)) + "\n" + textOf(imageTables(scenes, budgets)) +
                 fmt::format("\nLook at {} and {} (perceptual roughness 0.01: naive karis, karis, "
                             "conic)\n",
                             html, lowRoughnessPng));

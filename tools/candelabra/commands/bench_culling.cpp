@@ -72,7 +72,7 @@ int culling(const ProgramContext& program, const CullingArguments& a)
     document.update(cullingJson(settings, points));
     writeJson(json, document);
     if (json != "-")
-        writeText("-", cullingTables(points) +
+        writeText("-", textOf(cullingTables(points)) +
                            fmt::format("\nSee {}/bench_culling_*.svg (time against lights) and "
                                        "{} (all figures)\n",
                                        a.directory, json));

@@ -61,7 +61,7 @@ int skip(const ProgramContext& program, const SkipArguments& a)
     if (json != "-")
         writeText("-", fmt::format("{}, {}, {}x{}; medians\n{}\nAll figures: {}\n", settings.scene,
                                    settings.lights, settings.size.width, settings.size.height,
-                                   skipTable(rows), json));
+                                   skipTable(rows).text(), json));
     const std::vector<std::string> failures = skipFailures(rows);
     for (const std::string& failure : failures)
         spdlog::error("candelabra: {}", failure);

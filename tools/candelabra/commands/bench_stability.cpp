@@ -72,7 +72,7 @@ int stability(const ProgramContext& program, const StabilityArguments& a)
     document.update(stabilityJson(settings, result));
     writeJson(json, document);
     if (json != "-")
-        writeText("-", stabilityTables(result));
+        writeText("-", textOf(stabilityTables(result)));
     if (result.invalid())
         spdlog::error("candelabra: {} of {} responses are NaN, infinite, negative or too bright",
                       result.invalid(), result.tried());

@@ -157,8 +157,8 @@ std::vector<ComparedRow> rowsOf(const std::vector<ProfiledRun>& a,
 
 std::string comparedTable(const std::vector<ComparedRow>& rows, const Statistic& statistic)
 {
-    Table table({fmt::format("{} of", statistic.name), "A ms", "B ms", "B / A", "95% interval", "p",
-                 "B is"});
+    Table table({fmt::format("{} of", statistic.name).c_str(), "A ms", "B ms", "B / A",
+                 "95% interval", "p", "B is"});
     for (const ComparedRow& row : rows) {
         const bool both = hasRatio(row);
         table.add({row.name, threeDigits(medianOf(row.times.a)), threeDigits(medianOf(row.times.b)),

@@ -196,8 +196,8 @@ std::string text(const ProfileArguments& a, const Profile& profile, uint64_t all
         drawn += (drawn.empty() ? "" : " and ") + grouped(triangles);
     drawn = fmt::format("The first camera draws {} of {} triangles.\n", drawn, grouped(all));
     if (a.ab.empty())
-        return seriesTable(profile.series[0]) + overheadText(profile.series[0], profile.stampMs) +
-               drawn;
+        return seriesTable(profile.series[0]).text() +
+               overheadText(profile.series[0], profile.stampMs) + drawn;
     const auto shown = [](const std::string& options) {
         return options.empty() ? std::string("the options of the command line") : options;
     };
@@ -261,7 +261,7 @@ int profile(const ProgramContext& program, const ProfileArguments& a)
         const double ms = result.series[0].shadingMs();
         const LightCosts found = lightCosts(context, renderer, scene, p.settings.variants[0]);
         if (toTerminal)
-            writeText("-", "\n" + lightCostTable(found, scene, count, ms));
+            writeText("-", "\n" + lightCostTable(found, scene, count, ms).text());
         costs = lightCostJson(found, scene, count, ms);
     }
     if (!a.csv.empty())

@@ -2,11 +2,14 @@
 // candelabra report: makes every measurement in a short form, and one page of the results that
 // needs no other file.
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include "candelabra/candelabra.hpp"
 #include "commands/bench_commands.h"
@@ -22,6 +25,9 @@
 #include "measure/frame/frames.h"
 #include "measure/frame/light_costs.h"
 #include "measure/profile/profile_frames.h"
+#include "measure/report/committed.h"
+#include "measure/report/report_page.h"
+#include "measure/report/sentences.h"
 #include "measure/skip.h"
 #include "measure/stability/stability.h"
 #include "render/camera.h"
@@ -38,20 +44,43 @@ namespace
 struct ReportArguments {
     DeviceArguments device;
     std::string directory = "out/report", parts = "profile,accuracy,culling,skip,stability";
-    std::string lights = "4000", size = "1280x720", frames = "20";
+    std::string lights = "4000", size = "640x360", frames = "20";
+    std::string committed; // empty: committedDirectory, if it is there
 };
 
-// What one part of the report adds to the page, and its figures as JSON.
-struct ReportPart {
-    std::string html;
-    Json json;
-};
+constexpr const char* committedDirectory = "tools/bench/results"; // of the source tree
 
 struct ReportPlan {
     uint32_t lights, frames;
     PixelSize size;
 
     std::string sizeText() const { return fmt::format("{}x{}", size.width, size.height); }
+};
+
+struct PartTime {
+    std::string part;
+    double wallSeconds = 0, processorSeconds = 0;
+};
+
+// What the parts measured, for sentences and comparisons, and what they add to the page.
+struct Measured {
+    std::string pictures; // of the section that comes first
+    std::vector<ReportSection> sections;
+    Json document;
+    std::vector<CullingPoint> culling;
+    std::vector<SkipRow> skips;
+    KernelLevel kernels;
+    std::vector<ImageScene> scenes;
+    Stability stability;
+    std::vector<PartTime> times;
+};
+
+// One part while it is measured.
+struct Part {
+    const VulkanContext& context;
+    const ReportPlan& plan;
+    bool quiet;
+    Measured& out;
 };
 
 constexpr const char* reportScene = "hall";
@@ -70,7 +99,6 @@ DisplayImage displayed(const VulkanContext& context, const Renderer& renderer)
 // The picture of the frame and its heat maps, with a slider between two of them.
 std::string pictures(const VulkanContext& context, Renderer& renderer, const FrameOptions& frame)
 {
-    std::string figures;
     std::vector<WipeChoice> choices;
     for (const HeatMap map : {HeatMap::None, HeatMap::LightsPerPixel, HeatMap::Efficiency,
                               HeatMap::Class, HeatMap::Evaluated}) {
@@ -78,174 +106,368 @@ std::string pictures(const VulkanContext& context, Renderer& renderer, const Fra
         options.heatMap = map;
         context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
         const std::string name = map == HeatMap::None ? "picture" : heatMapName(map);
-        choices.push_back({"frame-" + name, name});
-        figures += figure(displayed(context, renderer), name, choices.back().id);
+        const std::string id = "frame-" + name;
+        choices.push_back({id, name, figure(displayed(context, renderer), name, id)});
     }
-    return wipe(choices) + figures;
+    return wipe(choices, 0, 1);
 }
 
+// A bar for every pass, as long as its share of the longest.
 std::string passBars(const FrameSeries& series)
 {
     double most = 0;
     for (const FrameSeries::Pass& pass : series.passes)
         most = std::max(most, medianOf(pass.ms));
-    std::string out = "<table><tr><th>GPU pass</th><th>median ms</th><th></th></tr>\n";
+    std::string out = "<div class=\"bars\">\n";
     for (const FrameSeries::Pass& pass : series.passes) {
         const double ms = medianOf(pass.ms);
-        out += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"bars\"><div class=\"bar\" "
-                           "style=\"width: {:.1f}%\"></div></td></tr>\n",
+        out += fmt::format("<div><span>{} {} ms</span><div class=\"bar\" style=\"width: {:.1f}%\">"
+                           "</div></div>\n",
                            escaped(pass.name), threeDigits(ms), most > 0 ? 100 * ms / most : 0);
     }
-    return out + "</table>\n";
+    return out + "</div>\n";
 }
 
-ReportPart profilePart(const VulkanContext& context, const ReportPlan& plan, bool quiet)
+void profilePart(const Part& part)
 {
+    const ReportPlan& plan = part.plan;
     const Scene scene = loadScene(reportScene, {.lights = plan.lights});
     FrameOptions frame{.camera = selectCamera(scene, ""),
                        .lightsVisible = scene.lightsVisible,
                        .exposure = defaultExposureSettings()};
-    Renderer renderer(context, scene,
+    Renderer renderer(part.context, scene,
                       {.size = plan.size, .specularMethods = 1u << frame.specular, .stamps = true});
     Profile profile;
     {
-        Progress progress(plan.frames + maxWarmUp, !quiet);
+        Progress progress(plan.frames + maxWarmUp, !part.quiet);
         progress.doing("profiling");
-        profile = profileFrames(context, renderer, {.variants = {frame}, .rounds = plan.frames},
-                                nullptr, [&] { progress.advance(1); });
+        profile =
+            profileFrames(part.context, renderer, {.variants = {frame}, .rounds = plan.frames},
+                          nullptr, [&] { progress.advance(1); });
     }
     const FrameSeries& series = profile.series[0];
-    const LightCosts costs = lightCosts(context, renderer, scene, frame);
-    const std::string options =
-        fmt::format("{} --lights {} --size {}", reportScene, plan.lights, plan.sizeText());
-    return {
-        .html = "<h2>Where the time of a frame goes</h2>\n" + pictures(context, renderer, frame) +
-                madeBy(fmt::format("candelabra render {} --debug class -o class.png", options)) +
-                passBars(series) +
-                preformatted(seriesTable(series) + overheadText(series, profile.stampMs)) +
-                "<h3>The costliest lights</h3>" +
-                preformatted(lightCostTable(costs, scene, costlyLights, series.shadingMs())) +
-                madeBy(fmt::format("candelabra profile {} --frames {} --light-costs {}", options,
-                                   plan.frames, costlyLights)),
-        .json = {{"scene", sceneJson(scene, renderer)},
-                 {"settled", profile.settled},
-                 {"time", toJson(series)},
-                 {"overhead", overheadJson(series, profile.stampMs)},
-                 {"lightCosts", lightCostJson(costs, scene, costlyLights, series.shadingMs())}}};
+    const LightCosts costs = lightCosts(part.context, renderer, scene, frame);
+    Table times = seriesTable(series);
+    times.setTitle("The passes of a frame");
+    times.note(overheadText(series, profile.stampMs));
+    Table lights = lightCostTable(costs, scene, costlyLights, series.shadingMs());
+    lights.setTitle("The costliest lights");
+    part.out.sections.push_back(
+        {.id = "profile",
+         .title = "Where the time of a frame goes",
+         .intro = fmt::format(
+             "The generated scene \"{}\" with {} lights was drawn {} times at {}. The slider "
+             "compares its picture with maps of the work per pixel: how many lights the pixel's "
+             "list has, which share of them adds light, how the pixel finds its list, and how many "
+             "lights are evaluated. The bars are the median times of the passes: gbuffer_raster "
+             "draws the surfaces, cluster_lists finds the lights of groups of pixels (clusters), "
+             "and shade_tiles evaluates them.",
+             reportScene, grouped(plan.lights), plan.frames, plan.sizeText()),
+         .html = pictures(part.context, renderer, frame) + passBars(series),
+         .tables = {times, lights},
+         .command =
+             fmt::format("candelabra profile {} --lights {} --size {} --frames {} "
+                         "--light-costs {}",
+                         reportScene, plan.lights, plan.sizeText(), plan.frames, costlyLights)});
+    part.out.document["profile"] = {
+        {"scene", sceneJson(scene, renderer)},
+        {"settled", profile.settled},
+        {"time", toJson(series)},
+        {"overhead", overheadJson(series, profile.stampMs)},
+        {"lightCosts", lightCostJson(costs, scene, costlyLights, series.shadingMs())}};
 }
 
-ReportPart accuracyPart(const VulkanContext& context, bool quiet)
+void accuracyPart(const Part& part)
 {
-    KernelLevelSettings kernels{.groups = 60};
-    kernels.timing.rounds = 5;
-    const ImageLevelSettings images{
-        .size = {144, 108}, .rounds = 3, .budgetLights = 1000, .budgetSize = {320, 180}};
-    Progress kernelProgress(kernelLevelSteps(kernels), !quiet);
-    const KernelLevel level = measureKernelLevel(context, kernels, kernelProgress);
-    Progress imageProgress(imageLevelSteps(images), !quiet);
-    const std::vector<ImageScene> scenes = measureImages(context, images, imageProgress);
-    const BudgetSweep budgets = measureBudgets(context, images, budgetScene(images), imageProgress);
-    return {.html = accuracySections(level, scenes, budgets, context.info()) +
-                    madeBy("candelabra bench accuracy --groups 60 --rounds 5 --size 144x108 "
-                           "--frames 3 --lights 1000 --budget-size 320x180"),
-            .json = {{"kernels", kernelJson(kernels, level)},
-                     {"images", imageJson(images, scenes, budgets)}}};
+    // Polygons and distant spheres are left out: they have the code of rectangles and of spheres.
+    KernelLevelSettings kernels{
+        .lightTypes = {CND_LIGHT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC},
+        .groups = 60};
+    kernels.timing.lanes = 1u << 13;
+    kernels.timing.rounds = 7;
+    const ImageLevelSettings images{.scenes = {"glossy floor cut by a light",
+                                               "large light at grazing angles",
+                                               "a row of metal under five spheres", "showcase"},
+                                    .size = {144, 108},
+                                    .rounds = 3,
+                                    .budgetLights = 1000,
+                                    .budgetSize = {320, 180}};
+    Measured& out = part.out;
+    {
+        Progress progress(kernelLevelSteps(kernels), !part.quiet);
+        out.kernels = measureKernelLevel(part.context, kernels, progress);
+    }
+    Progress progress(imageLevelSteps(images), !part.quiet);
+    out.scenes = measureImages(part.context, images, progress);
+    const BudgetSweep budgets = measureBudgets(part.context, images, budgetScene(images), progress);
+    out.pictures = accuracyPictures(out.scenes);
+    out.sections.push_back(
+        {.id = "accuracy",
+         .title = "Accuracy: how far the light is from the truth, and at what time",
+         .intro = "Single lights at single pixels come first: surfaces of every roughness and "
+                  "lights of every size, evaluated by each method and by quadrature in double "
+                  "precision. Whole images of small scenes follow. An error of 1 percent means "
+                  "that the light is wrong by 1 percent of the brightest reflection that such a "
+                  "light has on such a surface.",
+         .html = accuracyPlots(out.kernels, out.scenes, part.context.info()),
+         .tables = accuracyTables(out.kernels, out.scenes, budgets),
+         .command = "candelabra report --parts accuracy"});
+    out.document["accuracy"] = {{"kernels", kernelJson(kernels, out.kernels)},
+                                {"images", imageJson(images, out.scenes, budgets)}};
 }
 
-ReportPart cullingPart(const VulkanContext& context, bool quiet)
+void cullingPart(const Part& part)
 {
     const CullingSettings settings{.scenes = {"hall", "fence"},
-                                   .sizes = {{640, 360}},
+                                   .sizes = {{480, 270}},
                                    .lights = {1000, 4000, 16000},
                                    .overlaps = {8},
-                                   .rounds = 3,
-                                   .bruteLimit = 3};
-    Progress progress(cullingSteps(settings), !quiet);
-    const std::vector<CullingPoint> points = measureCulling(context, settings, progress);
-    std::string plots;
-    for (const CullingPlot& plot : cullingPlots(points, context.info()))
-        plots += plot.svg;
-    for (const std::string& failure : cullingFailures(points))
-        plots += "<p>" + escaped(failure) + "</p>\n";
-    return {.html = "<h2>Culling: time against lights</h2>\n" + plots +
-                    preformatted(cullingTables(points)) +
-                    madeBy("candelabra bench culling --scenes hall,fence --size 640x360 --lights "
-                           "1000,4000,16000 --overlaps 8 --rounds 3 --brute-limit 3"),
-            .json = cullingJson(settings, points)};
+                                   .rounds = 7,
+                                   .brutePatience = 2500,
+                                   .bruteLimit = 2.5};
+    Measured& out = part.out;
+    {
+        Progress progress(cullingSteps(settings), !part.quiet);
+        out.culling = measureCulling(part.context, settings, progress);
+    }
+    ReportSection section{
+        .id = "culling",
+        .title = "Culling: time against the number of lights",
+        .intro = "The same frame is lit in five ways, in turn: by Candelabra, with lists per tile "
+                 "of 16x16 pixels, with lists per froxel, by brute force, and with free culling "
+                 "(floor). Curves that stay flat cope with many lights; at 30 and more lights per "
+                 "pixel evaluating them takes most of the time, whatever the culling.",
+        .html = {},
+        .tables = cullingTables(out.culling),
+        .command = "candelabra report --parts culling"};
+    for (const CullingPlot& plot : cullingPlots(out.culling, part.context.info()))
+        section.html += plotBox(plot.svg, "time of lighting against the number of lights");
+    for (const std::string& failure : cullingFailures(out.culling))
+        section.html += "<p>" + escaped(failure) + "</p>\n";
+    out.sections.push_back(std::move(section));
+    out.document["culling"] = cullingJson(settings, out.culling);
 }
 
-ReportPart skipPart(const VulkanContext& context, bool quiet)
+void skipPart(const Part& part)
 {
-    const SkipSettings settings{.size = {640, 360}, .lights = 1000, .rounds = 5, .pointRounds = 10};
-    Progress progress(skipSteps(settings), !quiet);
-    const std::vector<SkipRow> rows = measureSkips(context, settings, progress);
-    return {.html = "<h2>What skipping unneeded work saves</h2>\n" + preformatted(skipTable(rows)) +
-                    madeBy("candelabra bench skip --size 640x360 --lights 1000 --rounds 5 "
-                           "--point-rounds 10"),
-            .json = skipJson(settings, rows)};
+    const SkipSettings settings{.size = {320, 180}, .lights = 1000, .rounds = 7, .pointRounds = 10};
+    Measured& out = part.out;
+    {
+        Progress progress(skipSteps(settings), !part.quiet);
+        out.skips = measureSkips(part.context, settings, progress);
+    }
+    out.sections.push_back(
+        {.id = "skip",
+         .title = "What skipping unneeded work saves",
+         .intro = "Each row compares two frames, drawn in turn: one in which the engine finds that "
+                  "some work is not needed and leaves it out, and one that does the work. A ratio "
+                  "near 1 means that the skip saves nothing here.",
+         .html = {},
+         .tables = {skipTable(out.skips)},
+         .command = "candelabra bench skip --size 320x180 --lights 1000 --rounds 7 "
+                    "--point-rounds 10"});
+    out.document["skip"] = skipJson(settings, out.skips);
 }
 
-ReportPart stabilityPart(const VulkanContext& context, bool quiet)
+void stabilityPart(const Part& part)
 {
     const StabilitySettings settings{
-        .configurations = 1'000'000, .quadratureSamples = 5'000, .sweeps = 20};
-    Progress progress(stabilitySteps(settings), !quiet);
-    const Stability result = measureStability(context, settings, progress);
-    return {.html = "<h2>Numerical stability</h2>\n" + preformatted(stabilityTables(result)) +
-                    madeBy("candelabra bench stability --configs 1000000 --quadrature 5000 "
-                           "--sweeps 20"),
-            .json = stabilityJson(settings, result)};
+        .configurations = 1'000'000, .quadratureSamples = 2'500, .sweeps = 10};
+    Measured& out = part.out;
+    {
+        Progress progress(stabilitySteps(settings), !part.quiet);
+        out.stability = measureStability(part.context, settings, progress);
+    }
+    out.sections.push_back(
+        {.id = "stability",
+         .title = "Stability: inputs that are hard for formulas",
+         .intro = "The engine's light formulas were fed with random inputs and with inputs that "
+                  "are hard for floating-point numbers: contact, grazing views, extreme sizes. "
+                  "Counted are responses that cannot be; then the formulas are compared with "
+                  "quadrature, and jumps are looked for while an input changes continuously.",
+         .html = {},
+         .tables = stabilityTables(out.stability),
+         .command = "candelabra bench stability --configs 1000000 --quadrature 2500 --sweeps 10"});
+    out.document["stability"] = stabilityJson(settings, out.stability);
 }
 
-std::string provenanceTable(const Json& from)
+struct PartChoice {
+    const char* name;
+    const char* what; // for the progress
+    void (*measure)(const Part&);
+};
+constexpr PartChoice partChoices[] = {{"profile", "the passes of a frame", profilePart},
+                                      {"accuracy", "errors against the truth", accuracyPart},
+                                      {"culling", "time against the number of lights", cullingPart},
+                                      {"skip", "what skipping work saves", skipPart},
+                                      {"stability", "hard inputs", stabilityPart}};
+
+double processorSeconds()
 {
-    std::string out = "<table>\n";
-    for (const auto& [name, value] : from.items())
-        out += fmt::format("<tr><td>{}</td><td style=\"text-align: left\">{}</td></tr>\n",
-                           escaped(name),
-                           escaped(value.is_string() ? value.get<std::string>() : value.dump()));
-    return out + "</table>\n";
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    const auto seconds = [](const timeval& t) {
+        return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
+    };
+    return seconds(use.ru_utime) + seconds(use.ru_stime);
+}
+
+// Measures one part, the `index`th of `count`, and says on stderr how far the report is. Returns
+// whether the validation layer found a fault.
+bool measurePart(const DeviceArguments& device, const PartChoice& choice, size_t index,
+                 size_t count, const ReportPlan& plan, bool quiet, Measured& out)
+{
+    spdlog::info("part {} of {}, {}: {}", index + 1, count, choice.name, choice.what);
+    const auto start = std::chrono::steady_clock::now();
+    const double processor = processorSeconds();
+    // Each part has a device of its own, as each command has. On a device that has rasterised,
+    // llvmpipe takes timestamps late and all at once unless something else makes it finish: a
+    // single kernel took 0 ms.
+    const VulkanContext context(device.contextOptions());
+    choice.measure({context, plan, quiet, out});
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    out.times.push_back({choice.name, wall.count(), processorSeconds() - processor});
+    spdlog::info("part {} of {}, {}: done after {:.0f} s", index + 1, count, choice.name,
+                 wall.count());
+    return printValidationMessages(context) > 0;
+}
+
+Table timeTable(const std::vector<PartTime>& times)
+{
+    Table out({{"part", "", "The part of the report."},
+               {"time", "s", "The time by the clock, which grows if other programs run."},
+               {"processor time", "s",
+                "The time of all processor cores together that the program used."}},
+              "How long the parts took");
+    for (const PartTime& t : times)
+        out.add({t.part, fmt::format("{:.0f}", t.wallSeconds),
+                 fmt::format("{:.0f}", t.processorSeconds)});
+    return out;
+}
+
+// Compares with the committed results, if there are any, and marks what contradicts them.
+void addComparison(const std::string& directory, const DeviceInfo& device, const Measured& measured,
+                   ReportPage& page)
+{
+    const std::optional<CommittedResults> committed = readCommitted(directory, device);
+    if (!committed || committed->figures.empty()) {
+        page.notes.push_back(fmt::format(
+            "The results of this run are not compared with committed ones: the folder {} {}.",
+            directory,
+            committed ? "has none of this device and driver"
+                      : "is not there (it is part of the "
+                        "source tree)"));
+        return;
+    }
+    std::vector<ReportedFigure> figures = figuresOf(measured.culling);
+    for (const auto& more : {figuresOf(measured.skips), figuresOf(measured.kernels)})
+        figures.insert(figures.end(), more.begin(), more.end());
+    Comparison comparison = compareWithCommitted(figures, *committed);
+    page.notes.push_back(fmt::format(
+        "{} of this run are also in the committed results of this device and driver ({}); {} of "
+        "them contradict those.",
+        counted(comparison.compared, "figure"), directory,
+        comparison.contradictions.empty() ? "none" : grouped(comparison.contradictions.size())));
+    page.markContradictions(comparison.contradictions);
+    if (!comparison.compared)
+        return;
+    page.sections.push_back(
+        {.id = "committed",
+         .title = "Compared with the committed results",
+         .intro = "The project keeps the results of longer runs with its sources. Ratios and "
+                  "errors of this run are compared with theirs; times in milliseconds are not, "
+                  "because they depend on the machine and on what else it does.",
+         .html = {},
+         .tables = {comparison.table},
+         .command = {}});
+}
+
+ReportPage pageOf(const Measured& measured, const DeviceInfo& device, const Json& from,
+                  const std::string& committed, const std::string& commandLine)
+{
+    RunFacts facts{.device = device,
+                   .version = from.at("candelabra"),
+                   .commit = from.at("commit"),
+                   .parts = measured.times.size()};
+    for (const PartTime& t : measured.times) {
+        facts.wallSeconds += t.wallSeconds;
+        facts.processorSeconds += t.processorSeconds;
+    }
+    ReportPage page{
+        .title = "Candelabra: how fast and how accurate",
+        .about = "Candelabra is a library that lights scenes with many lights that have a size: "
+                 "balls, tubes, rectangles, discs. It finds the few lights that matter to each "
+                 "pixel (culling) and computes their light with formulas (closed forms) in place "
+                 "of random samples. This page tells what a short measurement of it found.",
+        .sentences = {runSentence(facts), speedSentence(measured.culling),
+                      accuracySentence(measured.kernels, measured.scenes),
+                      weaknessSentence(measured.kernels, measured.scenes, measured.culling),
+                      stabilitySentence(measured.stability)},
+        .notes = {"Marks of rows in the tables: " + noisyLegend() + " " + contradictionLegend()},
+        .sections = {}};
+    if (!measured.pictures.empty())
+        page.sections.push_back(
+            {.id = "pictures",
+             .title = "Pictures: the truth and the closed form",
+             .intro = "Drag the slider, or move it with the arrow keys: left of it is the truth, "
+                      "right of it the same picture by the closed form (conic). Both sides can "
+                      "show other methods, and maps of their differences to the truth.",
+             .html = measured.pictures,
+             .tables = {},
+             .command = {}});
+    page.sections.insert(page.sections.end(), measured.sections.begin(), measured.sections.end());
+    addComparison(committed, device, measured, page);
+    page.sections.push_back({.id = "provenance",
+                             .title = "What was measured on what",
+                             .intro = {},
+                             .html = {},
+                             .tables = {provenanceTable(from), timeTable(measured.times)},
+                             .command = commandLine});
+    return page;
+}
+
+std::vector<PartChoice> chosenParts(const std::string& parts)
+{
+    std::vector<PartChoice> out;
+    for (const std::string& name : splitAtCommas(parts)) {
+        const auto* found = std::find_if(std::begin(partChoices), std::end(partChoices),
+                                         [&](const PartChoice& c) { return name == c.name; });
+        if (found == std::end(partChoices))
+            throw UsageError(
+                fmt::format("--parts \"{}\": choose from {}", parts, ReportArguments().parts));
+        if (std::any_of(out.begin(), out.end(),
+                        [&](const PartChoice& c) { return name == c.name; }))
+            throw UsageError(fmt::format("--parts \"{}\": {} is there twice", parts, name));
+        out.push_back(*found);
+    }
+    return out;
 }
 
 int report(const ProgramContext& program, const ReportArguments& a)
 {
     const auto size = parseSize(a.size);
     if (!size || size->width > maxSide || size->height > maxSide)
-        throw UsageError("--size \"" + a.size + "\": expected WIDTHxHEIGHT such as 1280x720");
+        throw UsageError("--size \"" + a.size + "\": expected WIDTHxHEIGHT such as 640x360");
     const ReportPlan plan{.lights = unsignedOption("--lights", a.lights, 1, maxLights),
                           .frames = unsignedOption("--frames", a.frames, 1, 100'000),
                           .size = *size};
-    std::vector<std::string> wanted = splitAtCommas(a.parts);
-    for (const std::string& part : wanted)
-        if (const auto all = splitAtCommas(ReportArguments().parts);
-            std::find(all.begin(), all.end(), part) == all.end())
-            throw UsageError(
-                fmt::format("--parts \"{}\": choose from {}", a.parts, ReportArguments().parts));
+    const std::vector<PartChoice> wanted = chosenParts(a.parts);
+    if (!a.committed.empty() && !std::filesystem::is_directory(a.committed))
+        throw UsageError(fmt::format("--committed \"{}\": there is no such folder", a.committed));
     const std::string html = benchOutput(a.directory, "--out", "", "index.html"),
                       json = benchOutput(a.directory, "--out", "", "report.json");
     const auto device = std::make_unique<VulkanContext>(a.device.contextOptions())->info();
     spdlog::info("report on {}", device.name);
     const Json from = provenance(device, program.commandLine);
     bool faults = false;
-    std::string page = pageHead("Candelabra: times and errors") + provenanceTable(from);
-    Json document{{"schema", "candelabra report 1"}, {"provenance", from}};
-    for (const std::string& part : wanted) {
-        spdlog::info("{}", part);
-        // Each part has a device of its own, as each command has. On a device that has rasterised,
-        // llvmpipe takes timestamps late and all at once unless something else makes it finish: a
-        // single kernel took 0 ms.
-        const VulkanContext context(a.device.contextOptions());
-        const ReportPart done = part == "profile"    ? profilePart(context, plan, program.quiet)
-                                : part == "accuracy" ? accuracyPart(context, program.quiet)
-                                : part == "culling"  ? cullingPart(context, program.quiet)
-                                : part == "skip"     ? skipPart(context, program.quiet)
-                                                     : stabilityPart(context, program.quiet);
-        page += done.html;
-        document[part] = done.json;
-        faults |= printValidationMessages(context) > 0;
-    }
-    writeText(html, page + madeBy(program.commandLine) + pageEnd());
-    writeJson(json, document);
+    Measured measured;
+    measured.document = {{"schema", "candelabra report 1"}, {"provenance", from}};
+    for (size_t i = 0; i < wanted.size(); ++i)
+        faults |= measurePart(a.device, wanted[i], i, wanted.size(), plan, program.quiet, measured);
+    writeText(html, htmlOf(pageOf(measured, device, from,
+                                  a.committed.empty() ? committedDirectory : a.committed,
+                                  program.commandLine)));
+    writeJson(json, measured.document);
     writeText("-", fmt::format("See {}; its figures are in {}\n", html, json));
     return faults ? exitFailed : exitOk;
 }
@@ -265,11 +487,17 @@ void addReportCommand(CLI::App& app, Run& run)
     add("--lights", a->lights, "number of lights of the frame that is profiled", "N");
     add("--size", a->size, "image size of that frame", "WxH");
     add("--frames", a->frames, "number of times it is drawn", "N");
+    add("--committed", a->committed,
+        "folder of results of the same device to compare with; by default tools/bench/results, if "
+        "it is there",
+        "DIR");
     a->device.addTo(*command);
-    command->footer("Under every figure is the command with which it can be made again.\n\n"
-                    "Examples:\n"
-                    "  candelabra report\n"
-                    "  candelabra report --parts profile,culling --lights 16000 --out out/culling");
+    command->footer(
+        "The page begins with the result in five sentences. Under every part is the command "
+        "with which it can be made again.\n\n"
+        "Examples:\n"
+        "  candelabra report\n"
+        "  candelabra report --parts profile,culling --lights 16000 --out out/culling");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return report(program, *a); }; });
 }

@@ -16,7 +16,10 @@ namespace candelabra::app
 std::string pageHead(const std::string& title);
 std::string pageEnd();
 
-std::string preformatted(const std::string& text);
+// A plot that scrolls sideways where it does not fit.
+std::string plotBox(const std::string& svg, const std::string& name);
+// HTML that is shown when its summary is clicked.
+std::string folded(const std::string& summary, const std::string& html);
 // A line that names the command with which a figure can be made again.
 std::string madeBy(const std::string& command);
 
@@ -25,10 +28,11 @@ std::string figure(const DisplayImage& image, const std::string& caption,
                    const std::string& id = "");
 
 struct WipeChoice {
-    std::string id, name; // of a figure on the page
+    std::string id, name, figure; // `figure` is the picture, with that id
 };
 // Two pictures of the same size on top of each other with a slider between them. Each is chosen
-// from the list; at first they are the first and the last of it.
-std::string wipe(const std::vector<WipeChoice>& choices);
+// from the list; `left` and `right` are the first choice. Without a script the two are side by
+// side.
+std::string wipe(const std::vector<WipeChoice>& choices, size_t left, size_t right);
 
 } // namespace candelabra::app

@@ -56,9 +56,32 @@ Spread spreadOf(std::vector<double> values)
     const double deviation = n > 1 ? std::sqrt(squares / (n - 1)) : 0;
     return {.min = values.front(),
             .median = middleOf(values),
+            .lowerQuartile = rank(values, 0.25),
+            .upperQuartile = rank(values, 0.75),
             .p95 = rank(values, 0.95),
             .p99 = rank(values, 0.99),
             .cv = mean > 0 ? deviation / mean : 0};
+}
+
+bool isNoisy(const std::vector<double>& values)
+{
+    if (values.size() < 2)
+        return false;
+    const Spread s = spreadOf(values);
+    return s.upperQuartile - s.lowerQuartile > noisyShare * s.median;
+}
+
+MedianInterval medianInterval(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    // For more than 1,000 values 0.5^n may underflow; the binomial distribution of the rank is then
+    // close to a normal one.
+    const size_t n = values.size();
+    const size_t k = n <= 1000 ? intervalRank(n)
+                               : size_t(double(n) / 2 - 0.98 * std::sqrt(double(n))); // 1.96 / 2
+    if (n < minPairs || !k)
+        return {middleOf(values), 0, std::numeric_limits<double>::infinity()};
+    return {middleOf(values), values[k - 1], values[n - k]};
 }
 
 PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b)
@@ -68,16 +91,8 @@ PairedRatio pairedRatio(std::span<const double> a, std::span<const double> b)
         if (a[i] > 0)
             ratios.push_back(b[i] / a[i]);
     if (ratios.empty())
-        return {1, 0, std::numeric_limits<double>::infinity()};
-    std::sort(ratios.begin(), ratios.end());
-    // For more than 1,000 pairs 0.5^n may underflow; the binomial distribution of the rank is then
-    // close to a normal one.
-    const size_t n = ratios.size();
-    const size_t k = n <= 1000 ? intervalRank(n)
-                               : size_t(double(n) / 2 - 0.98 * std::sqrt(double(n))); // 1.96 / 2
-    if (n < minPairs || !k)
-        return {middleOf(ratios), 0, std::numeric_limits<double>::infinity()};
-    return {middleOf(ratios), ratios[k - 1], ratios[n - k]};
+        return {{1, 0, std::numeric_limits<double>::infinity()}};
+    return {medianInterval(std::move(ratios))};
 }
 
 } // namespace candelabra::app

@@ -3,6 +3,7 @@
 // medians and percentiles, is not used: its licence, the GPL, would become that of the program.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace candelabra::app
 
 struct Spread {
     double min = 0, median = 0;
+    double lowerQuartile = 0, upperQuartile = 0; // by nearest rank
     // Percentiles by nearest rank: the smallest value that 95% or 99% of the values do not exceed.
     double p95 = 0, p99 = 0;
     double cv = 0; // coefficient of variation: standard deviation over mean; 0 for one value
@@ -20,17 +22,30 @@ struct Spread {
 double medianOf(std::vector<double> values);
 Spread spreadOf(std::vector<double> values);
 
-// The ratio b / a of paired measurements: its median, and an interval that holds the true median
-// with at least 95% confidence, whatever the distribution (order statistics; Conover 1999,
-// section 3.2).
-struct PairedRatio {
+// Measurements are called noisy if the middle half of them, from the lower to the upper quartile,
+// spans more than this share of their median.
+constexpr double noisyShare = 0.05;
+bool isNoisy(const std::vector<double>& values);
+
+// A median, and an interval that holds the true median with at least 95% confidence, whatever the
+// distribution (order statistics; Conover 1999, section 3.2). The interval is [0, infinity] if
+// there are fewer than minPairs values.
+struct MedianInterval {
     double median = 0, low = 0, high = 0;
+
+    bool isKnown() const { return low > 0 || high < std::numeric_limits<double>::infinity(); }
+};
+// `values` must be at least 0 and not empty.
+MedianInterval medianInterval(std::vector<double> values);
+
+// The ratio b / a of paired measurements.
+struct PairedRatio : MedianInterval {
 
     bool isFaster() const { return high < 1; }
     bool isSlower() const { return low > 1; }
 };
 
-// The least number of pairs for which there is an interval.
+// The least number of values for which there is an interval.
 constexpr size_t minPairs = 6;
 
 // `a` and `b` must have the same number of values. Pairs with an `a` of 0 are left out. With fewer

@@ -8,48 +8,178 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
+#include "io/markup.h"
+#include "io/statistics.h"
 
 namespace candelabra::app
 {
 
-Table::Table(std::vector<std::string> header)
+Column::Column(const char* title, std::string inUnit, std::string meaning)
+    : name(title), unit(std::move(inUnit)), about(std::move(meaning))
 {
-    rows_.push_back(std::move(header));
-    rule();
 }
 
-void Table::add(std::vector<std::string> cells)
+Column Column::words(const char* name, std::string about)
 {
-    if (cells.size() != rows_[0].size())
+    Column out(name, "", std::move(about));
+    out.isWords = true;
+    return out;
+}
+
+std::string Column::head() const
+{
+    return unit.empty() ? name : name + " " + unit;
+}
+
+std::string noisyLegend()
+{
+    return fmt::format("{} The repeats of this row are noisy: their middle half spans more than "
+                       "{:.0f}% of their median.",
+                       noisyMark, 100 * noisyShare);
+}
+
+std::string contradictionLegend()
+{
+    return fmt::format("{} This row contradicts the committed results of this device and driver.",
+                       contradictionMark);
+}
+
+Table::Table(std::vector<Column> columns, std::string title)
+    : title_(std::move(title)), columns_(std::move(columns))
+{
+    columns_[0].isWords = true;
+}
+
+void Table::add(std::vector<std::string> cells, RowFacts facts)
+{
+    if (cells.size() != columns_.size())
         throw RunError(
-            fmt::format("a table row has {} cells, its header {}", cells.size(), rows_[0].size()));
-    rows_.push_back(std::move(cells));
+            fmt::format("a table row has {} cells, its header {}", cells.size(), columns_.size()));
+    rows_.push_back({.cells = std::move(cells), .facts = std::move(facts)});
 }
 
 void Table::rule()
 {
-    rows_.emplace_back();
+    rows_.push_back({});
+}
+
+void Table::note(std::string text)
+{
+    notes_.push_back(std::move(text));
+}
+
+void Table::setTitle(std::string title)
+{
+    title_ = std::move(title);
+}
+
+void Table::markContradictions(std::span<const std::string> keys)
+{
+    for (Row& row : rows_)
+        row.contradicts = !row.facts.key.empty() &&
+                          std::find(keys.begin(), keys.end(), row.facts.key) != keys.end();
+}
+
+std::string Table::firstCell(const Row& row) const
+{
+    std::string out = row.cells[0];
+    if (row.facts.noisy)
+        out.append(" ").append(noisyMark);
+    if (row.contradicts)
+        out.append(" ").append(contradictionMark);
+    return out;
+}
+
+std::vector<std::string> Table::allNotes() const
+{
+    std::vector<std::string> out = notes_;
+    if (std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.facts.noisy; }))
+        out.push_back(noisyLegend());
+    if (std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.contradicts; }))
+        out.push_back(contradictionLegend());
+    return out;
 }
 
 std::string Table::text() const
 {
-    std::vector<size_t> widths(rows_[0].size());
-    for (const auto& row : rows_)
-        for (size_t i = 0; i < row.size(); ++i)
-            widths[i] = std::max(widths[i], row[i].size());
-    std::string out;
-    for (const auto& row : rows_) {
+    std::vector<std::vector<std::string>> lines(2); // the header and a rule
+    for (const Column& column : columns_)
+        lines[0].push_back(column.head());
+    for (const Row& row : rows_) {
+        lines.push_back(row.cells);
+        if (!row.cells.empty())
+            lines.back()[0] = firstCell(row);
+    }
+    std::vector<size_t> widths(columns_.size());
+    for (const auto& line : lines)
+        for (size_t i = 0; i < line.size(); ++i)
+            widths[i] = std::max(widths[i], line[i].size());
+    std::string out = title_.empty() ? "" : title_ + "\n";
+    for (const auto& line : lines) {
         for (size_t i = 0; i < widths.size(); ++i) {
             const char* gap = i ? "  " : "";
-            if (row.empty())
+            if (line.empty())
                 out.append(gap).append(widths[i], '-');
             else
-                out +=
-                    fmt::format(fmt::runtime(i ? "{}{:>{}}" : "{}{:<{}}"), gap, row[i], widths[i]);
+                out += fmt::format(fmt::runtime(columns_[i].isWords ? "{}{:<{}}" : "{}{:>{}}"), gap,
+                                   line[i], widths[i]);
         }
         out.erase(out.find_last_not_of(' ') + 1);
         out += '\n';
     }
+    for (const std::string& note : allNotes())
+        out += note + "\n";
+    return out;
+}
+
+std::string Table::htmlRow(const Row& row, bool ruled) const
+{
+    std::string out = ruled ? "<tr class=\"ruled\">" : "<tr>";
+    for (size_t i = 0; i < columns_.size(); ++i) {
+        const std::string cell = escaped(i ? row.cells[i] : firstCell(row));
+        if (i == 0)
+            out += "<th scope=\"row\">" + cell + "</th>";
+        else
+            out += (columns_[i].isWords ? "<td class=\"words\">" : "<td>") + cell + "</td>";
+    }
+    return out + "</tr>\n";
+}
+
+std::string Table::html() const
+{
+    std::string head, meanings, body;
+    for (const Column& column : columns_) {
+        head += fmt::format(
+            "<th scope=\"col\"{}>{}{}</th>", column.isWords ? " class=\"words\"" : "",
+            escaped(column.name),
+            column.unit.empty() ? "" : "<br/><small>" + escaped(column.unit) + "</small>");
+        if (!column.about.empty())
+            meanings += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(column.head()),
+                                    escaped(column.about));
+    }
+    bool ruled = false;
+    for (const Row& row : rows_) {
+        if (!row.cells.empty())
+            body += htmlRow(row, ruled);
+        ruled = row.cells.empty();
+    }
+    std::string out = fmt::format(
+        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{0}\"><table>"
+        "<caption>{0}</caption>\n<thead><tr>{1}</tr></thead>\n<tbody>\n{2}</tbody></table></div>\n",
+        escaped(title_), head, body);
+    for (const std::string& note : allNotes())
+        out += "<p class=\"note\">" + escaped(note) + "</p>\n";
+    if (!meanings.empty())
+        out += "<details><summary>What the columns mean</summary><dl>\n" + meanings +
+               "</dl></details>\n";
+    return out;
+}
+
+std::string textOf(std::span<const Table> tables)
+{
+    std::string out;
+    for (const Table& table : tables)
+        out += (out.empty() ? "" : "\n") + table.text();
     return out;
 }
 

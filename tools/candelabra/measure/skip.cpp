@@ -474,6 +474,21 @@ Scene withBlackEnvironment(Scene scene)
 
 } // namespace
 
+PairedRatio SkipRow::interval() const
+{
+    return pairedRatio(without.totals(), with.totals());
+}
+
+std::string skipKey(const std::string& name, const std::string& against)
+{
+    return fmt::format("skip: {}, against {}", name, against);
+}
+
+std::string SkipRow::key() const
+{
+    return skipKey(name, against);
+}
+
 double SkipRow::ratio() const
 {
     const double other = without.total().medianMs;
@@ -551,16 +566,33 @@ std::string costOf(const SkipRow& row)
 
 } // namespace
 
-std::string skipTable(const std::vector<SkipRow>& rows)
+Table skipTable(const std::vector<SkipRow>& rows)
 {
     Table table(
-        {"skip", "against", "passes", "ms", "without", "ratio", "bar", "in vain", "difference"});
+        {{"what is left out", "", "What the frame does not need, so that its work is skipped."},
+         Column::words("against", "The frame that it is compared with, which does that work."),
+         Column::words("passes", "The passes of the frame that are timed."),
+         {"with", "ms", "The median time of these passes with the skip."},
+         {"without", "ms", "Their median time without the skip."},
+         {"ratio", "[95%]",
+          "The time with the skip divided by the time without, and an interval that holds the true "
+          "median with 95% confidence. Below 1 the skip saves time."},
+         {"bar", "", "The largest ratio that the project allows itself, where it has set one."},
+         {"in vain", "", "What looking for the skip costs in frames that do not have it."},
+         {"difference", "of largest",
+          "The largest difference of the two images, as a share of the largest value."}},
+        "What skipping unneeded work saves");
     for (const SkipRow& row : rows)
         table.add({row.name, row.against, row.passes, threeDigits(medianMs(row.with)),
-                   threeDigits(medianMs(row.without)), fmt::format("{:.3f}", row.ratio()),
+                   threeDigits(medianMs(row.without)),
+                   row.interval().isKnown() ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", row.ratio(),
+                                                          row.interval().low, row.interval().high)
+                                            : fmt::format("{:.3f}", row.ratio()),
                    row.bar > 0 ? fmt::format("{:.2f}", row.bar) : "-", costOf(row),
-                   fmt::format("{:.0e}", row.difference)});
-    return table.text();
+                   fmt::format("{:.0e}", row.difference)},
+                  {.noisy = isNoisy(row.with.totals()) || isNoisy(row.without.totals()),
+                   .key = row.key()});
+    return table;
 }
 
 Json skipJson(const SkipSettings& settings, const std::vector<SkipRow>& rows)

@@ -10,6 +10,8 @@
 #include "io/parse.h"
 #include "io/progress.h"
 #include "io/report.h"
+#include "io/statistics.h"
+#include "io/table.h"
 #include "render/pass_times.h"
 #include "render/vulkan_context.h"
 
@@ -40,13 +42,17 @@ struct SkipRow {
     PassTimes idleWith, idleWithout;
 
     double ratio() const; // of the median times with and without the skip
+    // The ratio of the times with and without the skip in the same round, and its interval.
+    PairedRatio interval() const;
+    std::string key() const; // names the row, to compare it with earlier results
 };
 
+std::string skipKey(const std::string& name, const std::string& against);
 double skipSteps(const SkipSettings& settings);
 std::vector<SkipRow> measureSkips(const VulkanContext& context, const SkipSettings& settings,
                                   Progress& progress);
 
-std::string skipTable(const std::vector<SkipRow>& rows);
+Table skipTable(const std::vector<SkipRow>& rows);
 Json skipJson(const SkipSettings& settings, const std::vector<SkipRow>& rows);
 // Returns a sentence about each row whose images differ by more than the bound.
 std::vector<std::string> skipFailures(const std::vector<SkipRow>& rows);

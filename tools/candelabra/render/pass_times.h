@@ -39,6 +39,8 @@ public:
     std::vector<PassSummary> summary() const;
     // The statistics of each frame's sum over all passes, under the name "total".
     PassSummary total() const;
+    // The sums over all passes, one per frame.
+    const std::vector<double>& totals() const { return totals_; }
 
 private:
     struct Pass {

@@ -9,6 +9,7 @@
 #include "io/html_page.h"
 #include "io/markup.h"
 #include "io/table.h"
+#include "render/provenance.h"
 #include "scene/light_types.h"
 
 namespace candelabra::app
@@ -38,9 +39,13 @@ DisplayImage heatMap(const std::vector<float>& map, uint32_t width, uint32_t hei
     return out;
 }
 
-std::string worstPixelTable(const ImageScene& scene)
+Table worstPixelTable(const ImageScene& scene)
 {
-    Table table({"method, pixel", "value cd/m^2", "truth cd/m^2", "ratio"});
+    Table table({{"method, pixel", "", "The method, and the column and row of the pixel."},
+                 {"value", "cd/m^2", "What the method gives, in the channel that differs most."},
+                 {"truth", "cd/m^2", "What the truth is in that channel."},
+                 {"value / truth", "", "Their ratio."}},
+                scene.name + ", the worst pixels of each method");
     for (const ImagePoint& p : scene.points)
         for (size_t k = 0; k < std::min<size_t>(p.error.worst.size(), 3); ++k) {
             const WorstPixel& w = p.error.worst[k];
@@ -48,61 +53,76 @@ std::string worstPixelTable(const ImageScene& scene)
                        threeDigits(w.value), threeDigits(w.truth),
                        w.truth > 0 ? threeDigits(w.value / w.truth) : "-"});
         }
-    return table.text();
+    return table;
 }
 
-std::string sceneSection(const ImageScene& scene, size_t index)
+std::string scenePictures(const ImageScene& scene, size_t index)
 {
-    std::string figures;
     std::vector<WipeChoice> choices;
+    size_t conic = 0;
+    const auto add = [&](const std::string& what, const std::string& name,
+                         const DisplayImage& image, const std::string& caption) {
+        const std::string id = fmt::format("scene{}-{}", index, what);
+        choices.push_back({id, name, figure(image, caption, id)});
+    };
     for (const ImagePoint& p : scene.points) {
         const Displayed displayed = displayBoth(scene.truth, p.radiance);
         const std::string name = methodName(p.method);
-        const auto idOf = [&](const std::string& what) {
-            return fmt::format("scene{}-{}", index, what);
-        };
-        if (choices.empty()) {
-            choices.push_back({idOf("truth"), "truth"});
-            figures +=
-                figure(displayed.truth, "truth: double-precision quadrature", choices.back().id) +
-                "<br/>\n";
-        }
-        choices.push_back({idOf(name), name});
-        figures += figure(displayed.value,
-                          fmt::format("{}: {} ms by brute force, relMSE {:.1e}, lit mean {:.1e}, "
-                                      "FLIP {:.4f}",
-                                      name, threeDigits(p.time.bruteForceMs), p.error.relMse,
-                                      p.error.litMeanRel, p.error.flip),
-                          choices.back().id);
-        choices.push_back({idOf(name + "-flip"), name + ": difference"});
-        figures += figure(heatMap(flipMap(displayed.truth, displayed.value), displayed.truth.width,
-                                  displayed.truth.height),
-                          name + ": FLIP, 0 black to 0.5 yellow", choices.back().id);
+        if (choices.empty())
+            add("truth", "truth", displayed.truth, "truth: double-precision quadrature");
+        if (p.method == CND_SPECULAR_CONIC)
+            conic = choices.size();
+        add(name, name, displayed.value,
+            fmt::format("{}: {} ms by brute force, relMSE {:.1e}, lit mean {:.1e}, FLIP {:.4f}",
+                        name, threeDigits(p.time.bruteForceMs), p.error.relMse, p.error.litMeanRel,
+                        p.error.flip));
+        add(name + "-flip", name + ": difference",
+            heatMap(flipMap(displayed.truth, displayed.value), displayed.truth.width,
+                    displayed.truth.height),
+            name + ": FLIP, 0 black to 0.5 yellow");
     }
-    return "<h3>" + escaped(scene.name) + "</h3>\n" + wipe(choices) + figures +
-           "<h4>Worst pixels</h4>" + preformatted(worstPixelTable(scene));
+    return "<h3>" + escaped(scene.name) + "</h3>\n" +
+           wipe(choices, 0, conic ? conic : choices.size() - 1);
 }
 
-std::string worstSamples(const KernelLevel& kernels)
+Table worstSampleTable(const KernelLevel& kernels)
 {
-    std::string out;
+    Table table({{"light, method", "", "The type of the light, and the method that evaluates it."},
+                 {"error", "%", "The largest error, in percent of the highest true response."},
+                 Column::words("where", "The surface and the light that gave it.")},
+                "Worst samples, F = 1");
     for (const KernelPoint& p : kernels.points)
-        out += fmt::format("{} {}: {}% at {}\n", lightTypeName(p.lightType), methodName(p.method),
-                           threeDigits(100 * p.error.mirror.all.max), p.worst);
-    return out;
+        table.add({fmt::format("{} {}", lightTypeName(p.lightType), methodName(p.method)),
+                   threeDigits(100 * p.error.mirror.all.max), p.worst});
+    return table;
 }
 
 } // namespace
 
-std::string accuracySections(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
-                             const BudgetSweep& budgets, const DeviceInfo& device)
+std::string accuracyPictures(const std::vector<ImageScene>& scenes)
 {
-    std::string out = "<h2>Accuracy: one light at one pixel</h2>\n" + kernelPlot(kernels, device) +
-                      preformatted(kernelTables(kernels)) + "<h3>Worst samples, F = 1</h3>" +
-                      preformatted(worstSamples(kernels)) + "<h2>Accuracy: whole frames</h2>\n" +
-                      imagePlot(scenes, device) + preformatted(imageTables(scenes, budgets));
-    for (size_t i = 0; i < scenes.size(); ++i)
-        out += sceneSection(scenes[i], i);
+    std::string out;
+    for (size_t i = scenes.size(); i-- > 0;) // the last scene, the showcase, has every light type
+        out += scenePictures(scenes[i], i);
+    return out;
+}
+
+std::string accuracyPlots(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
+                          const DeviceInfo& device)
+{
+    return plotBox(kernelPlot(kernels, device), "error against time of one light at one pixel") +
+           plotBox(imagePlot(scenes, device), "error against time of whole images");
+}
+
+std::vector<Table> accuracyTables(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
+                                  const BudgetSweep& budgets)
+{
+    std::vector<Table> out = kernelTables(kernels);
+    out.push_back(worstSampleTable(kernels));
+    for (Table& table : imageTables(scenes, budgets))
+        out.push_back(std::move(table));
+    for (const ImageScene& scene : scenes)
+        out.push_back(worstPixelTable(scene));
     return out;
 }
 
@@ -110,8 +130,13 @@ std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,
                          const std::vector<ImageScene>& scenes, const BudgetSweep& budgets,
                          const DeviceInfo& device)
 {
-    return pageHead("Candelabra: error against time") + preformatted(provenance.dump(2)) +
-           accuracySections(kernels, scenes, budgets, device) + pageEnd();
+    std::string out = pageHead("Candelabra: error against time") + "<h2>Pictures</h2>\n" +
+                      accuracyPictures(scenes) + "<h2>Errors and times</h2>\n" +
+                      accuracyPlots(kernels, scenes, device);
+    for (const Table& table : accuracyTables(kernels, scenes, budgets))
+        out += table.html();
+    return out + "<h2>What was measured on what</h2>\n" + provenanceTable(provenance).html() +
+           pageEnd();
 }
 
 } // namespace candelabra::app

@@ -11,9 +11,12 @@
 namespace candelabra::app
 {
 
-// The sections with plots, tables, pictures and maps of their differences.
-std::string accuracySections(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
-                             const BudgetSweep& budgets, const DeviceInfo& device);
+// Every scene's pictures, as a slider between the truth and the closed form.
+std::string accuracyPictures(const std::vector<ImageScene>& scenes);
+std::string accuracyPlots(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
+                          const DeviceInfo& device);
+std::vector<Table> accuracyTables(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
+                                  const BudgetSweep& budgets);
 
 // The whole page of `candelabra bench accuracy`.
 std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,

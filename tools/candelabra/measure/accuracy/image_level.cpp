@@ -111,8 +111,10 @@ Variants runVariants(const VulkanContext& context, Renderer& renderer,
             ratios.push_back(out.lightingMs[0][round] > 0
                                  ? out.lightingMs[i][round] / out.lightingMs[0][round]
                                  : 0);
-        out.times.push_back({medianOf(out.lightingMs[i]), medianOf(shading[i]), medianOf(ratios),
-                             medianOf(bruteForce[i])});
+        out.times.push_back(
+            {medianOf(out.lightingMs[i]), medianOf(shading[i]), medianOf(ratios),
+             medianOf(bruteForce[i]),
+             isNoisy(medianOf(bruteForce[i]) > 0 ? bruteForce[i] : out.lightingMs[i])});
     }
     return out;
 }
@@ -172,9 +174,24 @@ std::vector<MeasuredMethod> imageMethods()
     return out;
 }
 
+namespace
+{
+
+std::vector<Scene> scenesOf(const ImageLevelSettings& s)
+{
+    std::vector<Scene> out = benchScenes();
+    if (!s.scenes.empty())
+        std::erase_if(out, [&](const Scene& scene) {
+            return std::find(s.scenes.begin(), s.scenes.end(), scene.name) == s.scenes.end();
+        });
+    return out;
+}
+
+} // namespace
+
 double imageLevelSteps(const ImageLevelSettings& s)
 {
-    return double(benchScenes().size()) * (s.size.height + stepsPerRound * (s.rounds + 1)) +
+    return double(scenesOf(s).size()) * (s.size.height + stepsPerRound * (s.rounds + 1)) +
            stepsPerRound * (s.rounds + 1);
 }
 
@@ -182,7 +199,7 @@ std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageL
                                       Progress& progress)
 {
     std::vector<ImageScene> out;
-    for (const Scene& scene : benchScenes()) {
+    for (const Scene& scene : scenesOf(s)) {
         ImageScene measured{.name = scene.name, .about = {}, .truth = {}, .points = {}};
         progress.doing("truth: " + scene.name);
         integrate(scene, s, progress, measured);
@@ -261,17 +278,29 @@ BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSetting
 namespace
 {
 
-std::string budgetTable(const BudgetSweep& sweep)
+Table budgetTable(const BudgetSweep& sweep)
 {
-    Table table({"method, budget", "lighting ms", "/ karis", "/ full", "shading ms",
-                 "mean error to full", "p99", "max / peak"});
+    Table table(
+        {{"method, budget", "",
+          "The method, and the error that lights may have so that small ones are evaluated as "
+          "points."},
+         {"lighting", "ms", "The median time of all lighting passes."},
+         {"/ karis", "", "That time divided by the time with karis."},
+         {"/ full", "", "That time divided by the time of the same method without a budget."},
+         {"shading", "ms", "The median time of the passes that evaluate lights."},
+         {"mean error to full", "", "The mean relative difference to the image without a budget."},
+         {"p99", "", "The relative difference that 99% of the values do not exceed."},
+         {"max / peak", "", "The largest difference, as a share of the largest value."}},
+        fmt::format("Error budgets: {}, {}, {}x{}", sweep.scene, counted(sweep.lights, "light"),
+                    sweep.size.width, sweep.size.height));
     for (const BudgetPoint& p : sweep.points)
         table.add({fmt::format("{} {:.2g}%", specularName(p.method), 100 * p.budget),
                    threeDigits(p.time.lightingMs), fmt::format("{:.2f}", p.time.ratio),
                    fmt::format("{:.2f}", p.ratioToFull), threeDigits(p.time.shadingMs),
                    fmt::format("{:.1e}", p.meanRel), fmt::format("{:.1e}", p.p99Rel),
-                   fmt::format("{:.1e}", p.maxOverPeak)});
-    return table.text();
+                   fmt::format("{:.1e}", p.maxOverPeak)},
+                  {.noisy = p.time.noisy});
+    return table;
 }
 
 Json toJson(const FrameTime& t)
@@ -288,12 +317,22 @@ Json timeJson(const ImagePoint& p)
 
 } // namespace
 
-std::string imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets)
+std::vector<Table> imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets)
 {
-    std::string out;
+    std::vector<Table> out;
     for (const ImageScene& scene : scenes) {
-        Table table({"method", "lighting ms", "/ karis", "brute force ms", "relMSE", "lit relMSE",
-                     "lit mean", "max / peak", "energy", "FLIP"});
+        Table table(
+            {{"method", "", "How lights are evaluated."},
+             {"lighting", "ms", "The median time of all lighting passes."},
+             {"/ karis", "", "That time divided by the time with karis."},
+             {"brute force", "ms", "The median time of evaluating every light at every pixel."},
+             {"relMSE", "", "The relative mean squared error of the image."},
+             {"lit relMSE", "", "The mean squared relative error of the lit pixels."},
+             {"lit mean", "", "The mean relative error of the lit pixels."},
+             {"max / peak", "", "The largest error, as a share of the largest true value."},
+             {"energy", "", "How much more light the image holds than the truth, as a share."},
+             {"FLIP", "", "The visible difference, from 0 (none) to 1."}},
+            scene.name + ", error to truth");
         for (const ImagePoint& p : scene.points)
             table.add({methodName(p.method),
                        p.method.rival == Rival::None ? threeDigits(p.time.lightingMs) : "-",
@@ -302,14 +341,12 @@ std::string imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep
                        fmt::format("{:.1e}", p.error.litRelMse),
                        fmt::format("{:.1e}", p.error.litMeanRel),
                        fmt::format("{:.1e}", p.error.maxOverPeak),
-                       fmt::format("{:+.1e}", p.error.energy),
-                       fmt::format("{:.4f}", p.error.flip)});
-        out += scene.name + ", error to truth\n" + table.text() + "\n";
+                       fmt::format("{:+.1e}", p.error.energy), fmt::format("{:.4f}", p.error.flip)},
+                      {.noisy = p.time.noisy});
+        out.push_back(std::move(table));
     }
-    return out +
-           fmt::format("Error budgets: {}, {}, {}x{}\n", budgets.scene,
-                       counted(budgets.lights, "light"), budgets.size.width, budgets.size.height) +
-           budgetTable(budgets);
+    out.push_back(budgetTable(budgets));
+    return out;
 }
 
 Json imageJson(const ImageLevelSettings& s, const std::vector<ImageScene>& scenes,

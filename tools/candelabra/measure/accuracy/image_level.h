@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/progress.h"
+#include "io/table.h"
 #include "measure/accuracy/image_error.h"
 #include "measure/kernels/methods.h"
 #include "render/renderer.h"
@@ -21,6 +22,7 @@ std::vector<MeasuredMethod> imageMethods();
 
 struct ImageLevelSettings {
     std::vector<MeasuredMethod> methods = imageMethods(); // times are relative to the first
+    std::vector<std::string> scenes; // names of the scenes; none: all that benchScenes() returns
     PixelSize size{192, 144};
     uint32_t rounds = 5; // frames of every variant, after one warm-up frame
     double truthTolerance = 1e-4;
@@ -38,6 +40,7 @@ struct FrameTime {
     double ratio = 0;      // of lightingMs to the first variant's
     // The passes that evaluate every light at every pixel, of another frame; error budgets: 0.
     double bruteForceMs = 0;
+    bool noisy = false; // the rounds' times of bruteForceMs or, where that is 0, of lightingMs are
 };
 
 struct ImagePoint {
@@ -84,7 +87,7 @@ Scene budgetScene(const ImageLevelSettings& settings);
 BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSettings& settings,
                            const Scene& scene, Progress& progress);
 
-std::string imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets);
+std::vector<Table> imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets);
 Json imageJson(const ImageLevelSettings& settings, const std::vector<ImageScene>& scenes,
                const BudgetSweep& budgets);
 // Plots relMSE against milliseconds by brute force, one series per method.

@@ -101,6 +101,23 @@ double scanL1(const SampleSet& set, std::span<const gpu::BenchResponse> response
     return mean;
 }
 
+std::vector<double> groupMeans(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
+{
+    const std::vector<double> peak = peaks(set, mirrorQuantity);
+    std::vector<double> sums(set.groups), counts(set.groups), out;
+    for (size_t i = 0; i < set.samples.size(); ++i) {
+        const LightSample& s = set.samples[i];
+        if (s.horizon == Horizon::Below || !isValid(responses[i]) || !(peak[s.group] > 0))
+            continue;
+        sums[s.group] += std::abs(double(responses[i].a) - s.truth.a) / peak[s.group];
+        counts[s.group] += 1;
+    }
+    for (uint32_t g = 0; g < set.groups; ++g)
+        if (counts[g] > 0)
+            out.push_back(sums[g] / counts[g]);
+    return out;
+}
+
 Json toJson(const ErrorStatistics& s)
 {
     return {{"samples", s.count},
@@ -120,6 +137,7 @@ Json toJson(const HorizonStatistics& s)
 KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
 {
     KernelError out{.mirror = compare(set, responses, mirrorQuantity),
+                    .groupMeans = groupMeans(set, responses),
                     .dielectric = compare(set, responses, dielectricQuantity),
                     .diffuse = compare(set, responses, diffuseQuantity),
                     .scanL1 = scanL1(set, responses)};

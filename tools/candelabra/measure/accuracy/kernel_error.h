@@ -26,7 +26,10 @@ struct HorizonStatistics {
 };
 
 struct KernelError {
-    HorizonStatistics mirror;     // F = 1
+    HorizonStatistics mirror; // F = 1
+    // The mean of `mirror.all` of each group that has such samples. Samples of one group are alike,
+    // so an interval of the error is one over groups.
+    std::vector<double> groupMeans;
     HorizonStatistics dielectric; // F0 = 0.04
     HorizonStatistics diffuse;    // errors of the form factor
     // The relative L1 error over the scan through the plane of incidence, averaged over the groups.

@@ -187,61 +187,121 @@ const KernelPoint::Class* classOf(const KernelPoint& p, EvaluationClass c)
     return nullptr;
 }
 
-// Where the cost of a light well above the horizon is found.
+} // namespace
+
 const KernelPoint::Class* mainClass(const KernelPoint& p)
 {
     const KernelPoint::Class* above = classOf(p, EvaluationClass::Above);
     return above ? above : classOf(p, EvaluationClass::General);
 }
 
-std::string errorTable(const KernelLevel& level)
+std::string kernelTimeKey(const std::string& light, const std::string& method)
 {
-    Table table({"light, method", "all: mean / p99 / max", "above", "crossing", "F0 0.04: all",
-                 "scan L1", "diffuse max", "leak", "invalid"});
-    uint32_t type = CND_LIGHT_TYPE_COUNT;
-    for (const KernelPoint& p : level.points) {
-        if (type != CND_LIGHT_TYPE_COUNT && type != p.lightType)
-            table.rule();
-        type = p.lightType;
-        table.add({fmt::format("{} {}", lightTypeName(p.lightType), methodName(p.method)),
-                   meanP99Max(p.error.mirror.all), meanP99Max(p.error.mirror.above),
-                   meanP99Max(p.error.mirror.crossing), meanP99Max(p.error.dielectric.all),
-                   percent(p.error.scanL1), fmt::format("{:.1e}", 100 * p.error.diffuse.all.max),
-                   percent(p.error.leak), grouped(p.error.invalid)});
-    }
-    return table.text();
+    return fmt::format("time of one evaluation: {} {}", light, method);
 }
 
-std::string timeTable(const KernelLevel& level)
+std::string kernelErrorKey(const std::string& light, const std::string& method)
 {
-    Table table({"light, method", "above ns", "specular", "/ karis", "near ns", "/ karis",
-                 "general ns", "specular", "/ karis"});
+    return fmt::format("mean error of one evaluation: {} {}", light, method);
+}
+
+namespace
+{
+
+std::string nameOf(const KernelPoint& p)
+{
+    return fmt::format("{} {}", lightTypeName(p.lightType), methodName(p.method));
+}
+
+Table errorTable(const KernelLevel& level)
+{
+    constexpr const char* meanAndMax = "% mean / p99 / max";
+    Table table(
+        {{"light, method", "", "The type of the light, and the method that evaluates it."},
+         {"all", meanAndMax,
+          "The mean error over all directions of the light, the error that 99% of them do not "
+          "exceed, and the largest error."},
+         {"above", meanAndMax,
+          "The same for lights that are wholly above the horizon of the surface."},
+         {"crossing", meanAndMax, "The same for lights that are partly below the horizon."},
+         {"F0 0.04: all", meanAndMax,
+          "The same as the first for a surface such as plastic, which mirrors 4% of the light from "
+          "straight ahead; the others are for F = 1."},
+         {"scan L1", "%",
+          "The relative error over a scan of directions through the mirror direction."},
+         {"diffuse max", "%", "The largest error of the form factor."},
+         {"leak", "%", "The largest response to a light below the horizon, which should be 0."},
+         {"invalid", "", "Responses that are no number, infinite or negative."}},
+        "Errors in percent of the highest true response over light directions");
     uint32_t type = CND_LIGHT_TYPE_COUNT;
     for (const KernelPoint& p : level.points) {
-        if (p.classes.empty())
-            return "This device has no timestamps: nothing was timed.\n";
         if (type != CND_LIGHT_TYPE_COUNT && type != p.lightType)
             table.rule();
         type = p.lightType;
-        std::vector<std::string> row{
-            fmt::format("{} {}", lightTypeName(p.lightType), methodName(p.method))};
-        for (const auto c :
-             {EvaluationClass::Above, EvaluationClass::Near, EvaluationClass::General}) {
-            const KernelPoint::Class* entry = classOf(p, c);
-            row.push_back(entry ? threeDigits(entry->both.medianNs) : "-");
-            if (c != EvaluationClass::Near)
-                row.push_back(entry ? threeDigits(entry->specularNs) : "-");
-            row.push_back(entry ? fmt::format("{:.2f}", entry->both.ratio) : "-");
-        }
-        table.add(row);
+        table.add({nameOf(p), meanP99Max(p.error.mirror.all), meanP99Max(p.error.mirror.above),
+                   meanP99Max(p.error.mirror.crossing), meanP99Max(p.error.dielectric.all),
+                   percent(p.error.scanL1), fmt::format("{:.1e}", 100 * p.error.diffuse.all.max),
+                   percent(p.error.leak), grouped(p.error.invalid)},
+                  {.key = kernelErrorKey(lightTypeName(p.lightType), methodName(p.method))});
     }
-    return table.text() +
-           fmt::format(
-               "form factor of a sphere across the horizon: {} ns; with acos and atan: {} ns\n"
-               "form factor above the horizon: none; with acos and atan: {} ns\n"
-               "sphere as a point within an error budget: {} ns\n",
-               threeDigits(level.formFactor.robustNs), threeDigits(level.formFactor.naiveNs),
-               threeDigits(level.formFactor.naiveAboveNs), threeDigits(level.pointBudgetNs));
+    table.note(fmt::format("{} samples; quadrature missed its tolerance in {}",
+                           grouped(level.samples), grouped(level.unconvergedTruths)));
+    return table;
+}
+
+void addTimeRow(Table& table, const KernelPoint& p)
+{
+    std::vector<std::string> row{nameOf(p)};
+    bool noisy = false;
+    for (const auto c : {EvaluationClass::Above, EvaluationClass::Near, EvaluationClass::General}) {
+        const KernelPoint::Class* entry = classOf(p, c);
+        noisy |= entry && entry->both.noisy;
+        row.push_back(entry ? threeDigits(entry->both.medianNs) : "-");
+        if (c != EvaluationClass::Near)
+            row.push_back(entry ? threeDigits(entry->specularNs) : "-");
+        row.push_back(entry ? fmt::format("{:.2f}", entry->both.ratio) : "-");
+    }
+    table.add(row, {.noisy = noisy,
+                    .key = kernelTimeKey(lightTypeName(p.lightType), methodName(p.method))});
+}
+
+Table timeTable(const KernelLevel& level)
+{
+    Table table(
+        {{"light, method", "", "The type of the light, and the method that evaluates it."},
+         {"above", "ns",
+          "The median time of one light at one pixel, for lights well above the horizon of the "
+          "surface."},
+         {"specular", "ns", "The part of it that the mirrored light takes."},
+         {"/ karis", "",
+          "The time divided by that of karis in the same round, the median of the rounds."},
+         {"near", "ns",
+          "The same for lights near the horizon, which the closed form of spheres treats apart."},
+         {"/ karis", "", "That time divided by that of karis."},
+         {"general", "ns", "The same for lights across the horizon."},
+         {"specular", "ns", "The part of it that the mirrored light takes."},
+         {"/ karis", "", "That time divided by that of karis."}},
+        "Time per (pixel, light), diffuse and specular, on the whole device");
+    uint32_t type = CND_LIGHT_TYPE_COUNT;
+    for (const KernelPoint& p : level.points) {
+        if (p.classes.empty()) {
+            table.note("This device has no timestamps: nothing was timed.");
+            return table;
+        }
+        if (type != CND_LIGHT_TYPE_COUNT && type != p.lightType)
+            table.rule();
+        type = p.lightType;
+        addTimeRow(table, p);
+    }
+    const FormFactorTime& form = level.formFactor;
+    table.note(
+        fmt::format("form factor of a sphere across the horizon: {} ns; with acos and atan: {} ns",
+                    threeDigits(form.robustNs), threeDigits(form.naiveNs)));
+    table.note(fmt::format("form factor above the horizon: none; with acos and atan: {} ns",
+                           threeDigits(form.naiveAboveNs)));
+    table.note(fmt::format("sphere as a point within an error budget: {} ns",
+                           threeDigits(level.pointBudgetNs)));
+    return table;
 }
 
 Json toJson(const VariantTime& t)
@@ -251,14 +311,9 @@ Json toJson(const VariantTime& t)
 
 } // namespace
 
-std::string kernelTables(const KernelLevel& level)
+std::vector<Table> kernelTables(const KernelLevel& level)
 {
-    return "Errors in percent of the highest true response over light directions\n" +
-           errorTable(level) +
-           fmt::format("{} samples; quadrature missed its tolerance in {}\n\n",
-                       grouped(level.samples), grouped(level.unconvergedTruths)) +
-           "Time per (pixel, light), diffuse and specular, on the whole device\n" +
-           timeTable(level);
+    return {errorTable(level), timeTable(level)};
 }
 
 Json kernelJson(const KernelLevelSettings& s, const KernelLevel& level)

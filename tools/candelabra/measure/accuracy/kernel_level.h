@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/progress.h"
+#include "io/table.h"
 #include "measure/accuracy/kernel_error.h"
 #include "measure/accuracy/kernel_time.h"
 #include "scene/light_types.h"
@@ -53,11 +54,17 @@ struct KernelLevel {
     size_t samples = 0;
 };
 
+// Name the row of a light type and a method, to compare its time or its error with earlier results.
+std::string kernelTimeKey(const std::string& light, const std::string& method);
+std::string kernelErrorKey(const std::string& light, const std::string& method);
+// What a light well above the horizon costs; null without timestamps.
+const KernelPoint::Class* mainClass(const KernelPoint& point);
+
 double kernelLevelSteps(const KernelLevelSettings& settings);
 KernelLevel measureKernelLevel(const VulkanContext& context, const KernelLevelSettings& settings,
                                Progress& progress);
 
-std::string kernelTables(const KernelLevel& level);
+std::vector<Table> kernelTables(const KernelLevel& level);
 Json kernelJson(const KernelLevelSettings& settings, const KernelLevel& level);
 // Mean error against nanoseconds, above the horizon; one series per light type.
 std::string kernelPlot(const KernelLevel& level, const DeviceInfo& device);

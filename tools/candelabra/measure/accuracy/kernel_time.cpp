@@ -183,12 +183,13 @@ std::vector<VariantTime> timeVariants(const VulkanContext& context,
     std::vector<VariantTime> out;
     for (size_t i = 0; i < variants.size(); ++i) {
         VariantTime t{.medianNs = medianOf(ns[i]),
-                      .minNs = *std::min_element(ns[i].begin(), ns[i].end())};
+                      .minNs = *std::min_element(ns[i].begin(), ns[i].end()),
+                      .noisy = isNoisy(ns[i])};
         if (baseline[i] >= 0) {
-            std::vector<double> ratios;
-            for (uint32_t round = 0; round < settings.rounds; ++round)
-                ratios.push_back(ns[i][round] / ns[size_t(baseline[i])][round]);
-            t.ratio = medianOf(ratios);
+            const PairedRatio r = pairedRatio(ns[size_t(baseline[i])], ns[i]);
+            t.ratio = r.median;
+            t.ratioLow = r.low;
+            t.ratioHigh = r.high;
         }
         out.push_back(t);
     }

@@ -34,6 +34,9 @@ struct VariantTime {
     double medianNs = 0, minNs = 0; // per (pixel, light), with the whole device at work
     // The median ratio to the variant's baseline in the same round; 0 without a baseline.
     double ratio = 0;
+    // An interval that holds the true median of that ratio (io/statistics.h).
+    double ratioLow = 0, ratioHigh = 0;
+    bool noisy = false; // the rounds' times are
 };
 
 struct TimingSettings {

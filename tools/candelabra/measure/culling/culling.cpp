@@ -26,8 +26,6 @@ namespace candelabra::app
 namespace
 {
 
-// Brute force that takes longer than this is drawn once, and not in every round.
-constexpr double patienceMs = 1000;
 // The (pixel, light) pairs of the strip from which the time of brute force is estimated.
 constexpr double stripPairs = 2e8;
 
@@ -199,7 +197,7 @@ CullingPoint measurePoint(const VulkanContext& context, const CullingSettings& s
     for (uint32_t round = 0; round < settings.rounds; ++round) {
         for (size_t i = 0; i < count; ++i)
             turns[(round + i) % count](); // the first place goes around
-        if (!brute.skippedMs && (round == 0 || estimate < patienceMs)) {
+        if (!brute.skippedMs && (round == 0 || estimate < settings.brutePatience)) {
             const BruteCheck check = frame.drawBrute();
             const PassTime pass{"shade_brute", check.bruteMs};
             brute.times.add({&pass, 1});
@@ -262,6 +260,15 @@ const Contender& CullingPoint::bestBaseline() const
             best = &c;
     }
     return *best;
+}
+
+PairedRatio CullingPoint::toEngine(const std::string& name) const
+{
+    const std::vector<double>& engine = of(engineName).times.totals();
+    std::vector<double> other = of(name).times.totals();
+    if (other.size() == 1)
+        other.resize(engine.size(), other[0]);
+    return pairedRatio(engine, other);
 }
 
 double cullingSteps(const CullingSettings& s)
@@ -347,20 +354,36 @@ void addRow(Table& table, const CullingPoint& p, const Contender& c)
                orDash(lists, threeDigits(double(c.listBytes) * 1e-6)),
                orDash(lists, millions(c.listedPairs)), orDash(lists, millions(c.evaluatedPairs)),
                orDash(c.contributingPairs > 0, millions(c.contributingPairs)),
-               c.difference ? fmt::format("{:.0e}", *c.difference) : "-"});
+               c.difference ? fmt::format("{:.0e}", *c.difference) : "-"},
+              {.noisy = drawn && isNoisy(c.times.totals())});
 }
 
-std::string timeTable(const std::vector<CullingPoint>& sweep)
+Table timeTable(const std::vector<CullingPoint>& sweep)
 {
-    Table table({"lights", "GPU ms", "culling", "shading", "list entries", "MB", "M pairs listed",
-                 "evaluated", "contributing", "difference"});
+    Table table(
+        {{"lights, way of culling", "",
+          "How many lights the scene has, and how each pixel finds its own."},
+         {"GPU time", "ms",
+          "The time of all lighting passes of a frame on the device, the median of the rounds."},
+         {"culling", "ms", "The part of it that finds lights."},
+         {"shading", "ms", "The part of it that evaluates lights."},
+         {"list entries", "", "The entries of all light lists."},
+         {"lists", "MB", "The size of all light lists."},
+         {"listed", "million pairs",
+          "How many lights the lists offer to pixels, summed over the pixels."},
+         {"evaluated", "million pairs", "How many of these lights are evaluated in full."},
+         {"contributing", "million pairs", "How many of these lights add light to the pixel."},
+         {"difference", "of largest",
+          "The largest difference to Candelabra's image, as a share of its largest value. The "
+          "order of sums may change the last digits."}},
+        titleOf(sweep.front()) + "; medians");
     for (const CullingPoint& p : sweep) {
         if (&p != &sweep.front())
             table.rule();
         for (const Contender& c : p.contenders)
             addRow(table, p, c);
     }
-    return table.text();
+    return table;
 }
 
 double share(double a, double b)
@@ -387,18 +410,49 @@ Ratios ratiosOf(const CullingPoint& p)
             .best = best.name};
 }
 
-std::string ratioTable(const std::vector<CullingPoint>& points)
+// A ratio with its interval, if there were enough rounds for one.
+std::string withInterval(const PairedRatio& r)
 {
-    Table table({"candelabra", "/ best other", "which", "/ floor", "culling / shading",
-                 "contributing / listed", "of that of tiles", "contributing / evaluated"});
+    return r.isKnown() ? fmt::format("{:.2f} [{:.2f}, {:.2f}]", r.median, r.low, r.high)
+                       : fmt::format("{:.2f}", r.median);
+}
+
+Table ratioTable(const std::vector<CullingPoint>& points)
+{
+    Table table(
+        {{"configuration", "",
+          "The scene, the size of the image, how many lights reach a pixel on average, and the "
+          "number of lights."},
+         {"time / best other", "",
+          "Candelabra's median time divided by that of the fastest other way that was drawn and "
+          "gives the same image. Below 1, Candelabra is faster."},
+         Column::words("which other", "The fastest other way."),
+         {"other / Candelabra", "[95%]",
+          "The median over the rounds of the other's time divided by Candelabra's, and an interval "
+          "that holds the true median with 95% confidence. Above 1, Candelabra is faster."},
+         {"time / floor", "",
+          "The median time divided by that of shading the same lights when finding them costs "
+          "nothing."},
+         {"culling / shading", "%",
+          "The time of finding lights as a share of the time of evaluating them."},
+         {"contributing / listed", "",
+          "Of the lights that lists offer to a pixel, the share that adds light to it."},
+         {"of that of tiles", "",
+          "The same share divided by that of lists per tile of 16x16 pixels."},
+         {"contributing / evaluated", "",
+          "Of the lights that are evaluated in full, the share that adds light."}},
+        "Candelabra against the others");
     for (const CullingPoint& p : points) {
         const Ratios r = ratiosOf(p);
-        table.add({fmt::format("{}, {}", titleOf(p), counted(p.lights, "light")),
-                   fmt::format("{:.2f}", r.toBest), r.best, fmt::format("{:.2f}", r.toFloor),
-                   fmt::format("{:.1f}%", 100 * r.cullingShare), fmt::format("{:.2f}", r.perListed),
-                   fmt::format("{:.1f}", r.listedGain), fmt::format("{:.2f}", r.perEvaluated)});
+        table.add({p.title(), fmt::format("{:.2f}", r.toBest), r.best,
+                   withInterval(p.toEngine(r.best)), fmt::format("{:.2f}", r.toFloor),
+                   fmt::format("{:.1f}", 100 * r.cullingShare), fmt::format("{:.2f}", r.perListed),
+                   fmt::format("{:.1f}", r.listedGain), fmt::format("{:.2f}", r.perEvaluated)},
+                  {.noisy = isNoisy(p.of(engineName).times.totals()) ||
+                            isNoisy(p.of(r.best).times.totals()),
+                   .key = cullingKey(p.scene, p.lights, p.overlaps)});
     }
-    return table.text();
+    return table;
 }
 
 Json passesJson(const PassTimes& times)
@@ -436,12 +490,23 @@ Json contenderJson(const Contender& c)
 
 } // namespace
 
-std::string cullingTables(const std::vector<CullingPoint>& points)
+std::string CullingPoint::title() const
 {
-    std::string out;
+    return fmt::format("{}, {}", titleOf(*this), counted(lights, "light"));
+}
+
+std::string cullingKey(const std::string& scene, uint64_t lights, uint64_t overlaps)
+{
+    return fmt::format("culling: {}, {} overlaps, {}", scene, overlaps, counted(lights, "light"));
+}
+
+std::vector<Table> cullingTables(const std::vector<CullingPoint>& points)
+{
+    std::vector<Table> out;
     for (const auto& sweep : sweepsOf(points))
-        out += titleOf(sweep.front()) + "; medians\n" + timeTable(sweep) + "\n";
-    return out + "Candelabra against the others\n" + ratioTable(points);
+        out.push_back(timeTable(sweep));
+    out.push_back(ratioTable(points));
+    return out;
 }
 
 Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint>& points)

@@ -10,6 +10,8 @@
 #include "io/parse.h"
 #include "io/progress.h"
 #include "io/report.h"
+#include "io/statistics.h"
+#include "io/table.h"
 #include "render/pass_times.h"
 #include "render/vulkan_context.h"
 
@@ -23,6 +25,8 @@ struct CullingSettings {
     std::vector<uint32_t> overlaps{8, 30};
     uint32_t rounds = 5;
     uint32_t seed = 1;
+    // ms; brute force that takes longer is drawn once, and not in every round.
+    double brutePatience = 1000;
     double bruteLimit = 60; // s; brute force is skipped if a frame is estimated to take longer
 };
 
@@ -61,6 +65,11 @@ struct CullingPoint {
     const Contender& of(const std::string& name) const;
     // The fastest of the other ways to cull that were drawn. One with the right image is preferred.
     const Contender& bestBaseline() const;
+    // The time of `name` divided by that of the engine in the same round. A contender that was
+    // drawn once is compared with the engine in every round.
+    PairedRatio toEngine(const std::string& name) const;
+    // Names the configuration: "hall, 640x360, 8 overlaps, 4,000 lights".
+    std::string title() const;
 };
 // The names of the contenders.
 inline constexpr const char* engineName = "candelabra";
@@ -74,7 +83,9 @@ double cullingSteps(const CullingSettings& settings);
 std::vector<CullingPoint> measureCulling(const VulkanContext& context,
                                          const CullingSettings& settings, Progress& progress);
 
-std::string cullingTables(const std::vector<CullingPoint>& points);
+// Names a configuration, whatever the size of its image, to compare it with earlier results.
+std::string cullingKey(const std::string& scene, uint64_t lights, uint64_t overlaps);
+std::vector<Table> cullingTables(const std::vector<CullingPoint>& points);
 Json cullingJson(const CullingSettings& settings, const std::vector<CullingPoint>& points);
 struct CullingPlot {
     std::string name; // of a file, without extension

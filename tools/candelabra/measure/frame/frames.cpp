@@ -128,8 +128,8 @@ CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, Fr
 std::string passTable(const PassTimes& times)
 {
     const bool one = times.frames() == 1; // then all statistics are the same
-    Table table(one ? std::vector<std::string>{"GPU pass", "ms"}
-                    : std::vector<std::string>{"GPU pass", "min ms", "median ms", "p95 ms"});
+    Table table(one ? std::vector<Column>{"GPU pass", "ms"}
+                    : std::vector<Column>{"GPU pass", "min ms", "median ms", "p95 ms"});
     const auto add = [&](const PassSummary& pass) {
         if (one)
             table.add({pass.name, threeDigits(pass.medianMs)});

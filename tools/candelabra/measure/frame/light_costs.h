@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/report.h"
+#include "io/table.h"
 #include "reference/surface.h"
 #include "render/renderer.h"
 
@@ -50,8 +51,7 @@ LightCosts lightCosts(const VulkanContext& context, Renderer& renderer, const Sc
 
 // A table of the `count` costliest lights and of what the others take, with their shares of
 // `shadingMs`.
-std::string lightCostTable(const LightCosts& costs, const Scene& scene, size_t count,
-                           double shadingMs);
+Table lightCostTable(const LightCosts& costs, const Scene& scene, size_t count, double shadingMs);
 Json lightCostJson(const LightCosts& costs, const Scene& scene, size_t count, double shadingMs);
 
 } // namespace candelabra::app

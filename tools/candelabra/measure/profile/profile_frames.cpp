@@ -268,15 +268,24 @@ const char* verdict(const PairedRatio& ratio)
 
 } // namespace
 
-std::string seriesTable(const FrameSeries& series)
+Table seriesTable(const FrameSeries& series)
 {
-    Table table({"GPU pass", "min ms", "median ms", "p95 ms", "p99 ms", "variation", "share"});
+    Table table(
+        {{"GPU pass", "",
+          "A step of the frame on the device; the rows below the line are of the whole frame."},
+         {"min", "ms", "The shortest time of all frames."},
+         {"median", "ms", "Half of the frames took no longer than this."},
+         {"p95", "ms", "95% of the frames took no longer than this."},
+         {"p99", "ms", "99% of the frames took no longer than this."},
+         {"variation", "", "The standard deviation of the frames divided by their mean."},
+         {"share", "", "The share of the median in the median of the sum of all passes."}});
     const double gpu = medianOf(series.gpuMs);
     const auto add = [&](const std::string& name, const std::vector<double>& ms, bool ofGpu) {
         const Spread s = spreadOf(ms);
         table.add({name, threeDigits(s.min), threeDigits(s.median), threeDigits(s.p95),
                    threeDigits(s.p99), percent(s.cv),
-                   ofGpu && gpu > 0 ? percent(s.median / gpu) : ""});
+                   ofGpu && gpu > 0 ? percent(s.median / gpu) : ""},
+                  {.noisy = isNoisy(ms)});
     };
     for (const FrameSeries::Pass& pass : series.passes)
         add(pass.name, pass.ms, true);
@@ -284,7 +293,7 @@ std::string seriesTable(const FrameSeries& series)
     for (const WholeTime& whole : wholeTimes)
         if (hasTime(series.*whole.ms))
             add(whole.name, series.*whole.ms, false);
-    return table.text();
+    return table;
 }
 
 std::string overheadText(const FrameSeries& series, double stampMs)

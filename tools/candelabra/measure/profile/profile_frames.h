@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/report.h"
+#include "io/table.h"
 #include "measure/profile/gpu_clock.h"
 #include "measure/profile/profile_trace.h"
 #include "render/renderer.h"
@@ -107,7 +108,7 @@ Profile profileFrames(const VulkanContext& context, Renderer& renderer,
 
 // Text for people: the times of each pass; what the timestamps cost; and for two variants the ratio
 // of the second's times to the first's.
-std::string seriesTable(const FrameSeries& series);
+Table seriesTable(const FrameSeries& series);
 std::string overheadText(const FrameSeries& series, double stampMs);
 std::string comparisonTable(const FrameSeries& a, const FrameSeries& b);
 

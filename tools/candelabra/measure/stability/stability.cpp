@@ -229,9 +229,18 @@ std::string nameOf(const Evaluation& e)
                        e.errorBudget > 0 ? fmt::format(" budget {}", e.errorBudget) : "");
 }
 
-std::string countTable(const Stability& stability)
+Table countTable(const Stability& stability)
 {
-    Table table({"inputs", "tried", "NaN", "infinite", "negative", "above the bound"});
+    Table table(
+        {{"inputs", "", "A kind of input, random or chosen because it is hard for formulas."},
+         {"tried", "",
+          "How many inputs of the kind were evaluated, over all light types and methods."},
+         {"NaN", "", "Responses that are no number."},
+         {"infinite", "", "Responses that are infinite."},
+         {"negative", "", "Responses below zero."},
+         {"above the bound", "", "Responses brighter than such a light can be."}},
+        fmt::format("Responses to {} inputs, {} of them invalid", grouped(stability.tried()),
+                    grouped(stability.invalid())));
     for (uint32_t slice = 0; slice < sweepSliceCount; ++slice) {
         SweepCount sum;
         for (const SweptSlice& s : stability.slices)
@@ -245,76 +254,93 @@ std::string countTable(const Stability& stability)
         table.add({sliceText(slice), grouped(sum.tried), grouped(sum.nan), grouped(sum.infinite),
                    grouped(sum.negative), grouped(sum.above)});
     }
-    return table.text();
+    return table;
 }
 
-std::string quadratureTable(const Stability& stability)
+Table quadratureTable(const Stability& stability)
 {
-    Table table({"light, method", "samples", "mean %", "p99 %", "max %", "bar %", "diffuse max"});
+    Table table(
+        {{"light, method", "", "The type of the light, and the method that evaluates it."},
+         {"samples", "", "How many inputs were compared with quadrature."},
+         {"mean", "%", "The mean error."},
+         {"p99", "%", "The error that 99% of the inputs do not exceed."},
+         {"max", "%", "The largest error."},
+         {"bar", "%", "The largest error that the project allows itself, where it has set one."},
+         {"diffuse max", "",
+          "The largest error of the form factor, relative to the squared ratio of the light's "
+          "radius to its distance."}},
+        "Formula against quadrature on such inputs, F = 1, relative to the response on the mirror "
+        "axis");
     for (const QuadratureCheck& q : stability.quadrature)
         table.add({nameOf(q.evaluation), grouped(q.samples), threeDigits(100 * q.mean),
                    threeDigits(100 * q.p99), threeDigits(100 * q.max),
                    q.bar > 0 ? threeDigits(100 * q.bar) : "-",
                    fmt::format("{:.1e}", q.diffuseMax)});
-    return table.text();
+    return table;
 }
 
-std::string continuityTable(const Stability& stability)
+Table continuityTable(const Stability& stability)
 {
-    Table table({"light, method", "through", "largest jump / peak"});
+    Table table(
+        {{"light, method", "", "The type of the light, and the method that evaluates it."},
+         Column::words("through", "What changes continuously while the response is watched."),
+         {"largest jump / peak", "",
+          "The largest jump of the response between neighbouring floating-point inputs, relative "
+          "to the peak response."}},
+        "Continuity");
     for (const ContinuityCheck& c : stability.continuity)
         table.add({nameOf(c.evaluation), c.through, fmt::format("{:.1e}", c.jump)});
-    return table.text();
+    return table;
 }
 
-std::string smallLightTable(const Stability& stability)
+Table smallLightTable(const Stability& stability)
 {
-    Table table({"light, method", "samples", "median", "p99", "max"});
+    Table table({{"light, method", "", "The type of the light, and the method that evaluates it."},
+                 {"samples", "", "How many lights were tried."},
+                 {"median", "", "The median relative error."},
+                 {"p99", "", "The error that 99% of the lights do not exceed."},
+                 {"max", "", "The largest error."}},
+                "Small lights against points, relative error");
     for (const SmallLightCheck& c : stability.smallLights)
         table.add({nameOf(c.evaluation), grouped(c.samples), fmt::format("{:.1e}", c.median),
                    fmt::format("{:.1e}", c.p99), fmt::format("{:.1e}", c.max)});
-    return table.text();
+    return table;
 }
 
-std::string badList(const Stability& stability)
+// A sentence about every kind of input with invalid responses.
+void noteBadResponses(const Stability& stability, Table& table)
 {
-    std::string out;
     for (const SweptSlice& s : stability.slices)
         if (s.count.invalid())
-            out += fmt::format(
-                "{}, {}: {} NaN, {} infinite, {} negative, {} above the bound of {}\n  {}\n",
+            table.note(fmt::format(
+                "Invalid responses of {}, {}: {} NaN, {} infinite, {} negative, {} above the bound "
+                "of {}{}",
                 nameOf(s.evaluation), sliceText(s.slice), s.count.nan, s.count.infinite,
                 s.count.negative, s.count.above, s.count.tried,
-                s.count.bad.empty() ? "" : describeRecord(s.count.bad[0]));
-    return out.empty() ? "" : "\nInvalid responses\n" + out;
+                s.count.bad.empty() ? "" : "; " + describeRecord(s.count.bad[0])));
 }
 
-std::string overBarList(const Stability& stability)
+void noteOverBar(const Stability& stability, Table& table)
 {
-    std::string out;
     for (const QuadratureCheck& q : stability.quadrature)
         if (q.overBar())
-            out += fmt::format("{}: {}% at {}; {} true responses above their bound\n",
-                               nameOf(q.evaluation), threeDigits(100 * q.max), q.worst,
-                               q.truthsAboveBound);
-    return out.empty() ? "" : "\nOver the bar\n" + out;
+            table.note(fmt::format(
+                "Over the bar: {}: {}% at {}; {} true responses above their bound",
+                nameOf(q.evaluation), threeDigits(100 * q.max), q.worst, q.truthsAboveBound));
 }
 
 } // namespace
 
-std::string stabilityTables(const Stability& stability)
+std::vector<Table> stabilityTables(const Stability& stability)
 {
-    return fmt::format("{} configurations, {} invalid responses\n", grouped(stability.tried()),
-                       grouped(stability.invalid())) +
-           countTable(stability) +
-           "\nFormula against quadrature on such inputs, F = 1, relative to the response on the "
-           "mirror axis\n" +
-           quadratureTable(stability) +
-           (stability.continuity.empty() ? "" : "\nContinuity\n" + continuityTable(stability)) +
-           (stability.smallLights.empty()
-                ? ""
-                : "\nSmall lights against points, relative error\n" + smallLightTable(stability)) +
-           badList(stability) + overBarList(stability);
+    std::vector<Table> out{countTable(stability), quadratureTable(stability)};
+    noteBadResponses(stability, out[0]);
+    noteOverBar(stability, out[1]);
+    if (!stability.continuity.empty())
+        out.push_back(continuityTable(stability));
+    if (!stability.smallLights.empty())
+        out.push_back(smallLightTable(stability));
+    return out;
 }
 
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability)

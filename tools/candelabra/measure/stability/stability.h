@@ -11,6 +11,7 @@
 
 #include "io/progress.h"
 #include "io/report.h"
+#include "io/table.h"
 #include "measure/stability/sweep.h"
 
 namespace candelabra::app
@@ -99,7 +100,7 @@ std::vector<ContinuityCheck> checkContinuity(const VulkanContext& context,
 SmallLightCheck checkSmallLights(const VulkanContext& context, const Evaluation& evaluation,
                                  uint32_t samples, uint64_t seed);
 
-std::string stabilityTables(const Stability& stability);
+std::vector<Table> stabilityTables(const Stability& stability);
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability);
 
 } // namespace candelabra::app

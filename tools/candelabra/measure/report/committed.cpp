@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/report/committed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "scene/light_types.h"
+
+namespace candelabra::app
+{
+namespace
+{
+
+// The mean of the groups with an interval of 95% from their scatter.
+MedianInterval meanOfGroups(const std::vector<double>& means)
+{
+    double mean = 0, squares = 0;
+    const double n = double(means.size());
+    for (const double x : means)
+        mean += x / n;
+    for (const double x : means)
+        squares += (x - mean) * (x - mean);
+    const double margin = n > 1 ? 1.96 * std::sqrt(squares / (n * (n - 1))) : mean;
+    return {mean, std::max(mean - margin, 0.0), mean + margin};
+}
+
+std::string number(double x)
+{
+    return x != 0 && std::abs(x) < 1e-3 ? fmt::format("{:.1e}", x) : threeDigits(x);
+}
+
+} // namespace
+
+std::vector<ReportedFigure> figuresOf(const std::vector<CullingPoint>& points)
+{
+    std::vector<ReportedFigure> out;
+    for (const CullingPoint& p : points) {
+        const Contender& best = p.bestBaseline();
+        std::vector<double> other = best.times.totals();
+        const std::vector<double>& engine = p.of(engineName).times.totals();
+        if (other.size() == 1)
+            other.resize(engine.size(), other[0]);
+        out.push_back({cullingKey(p.scene, p.lights, p.overlaps), pairedRatio(other, engine)});
+    }
+    return out;
+}
+
+std::vector<ReportedFigure> figuresOf(const std::vector<SkipRow>& rows)
+{
+    std::vector<ReportedFigure> out;
+    for (const SkipRow& row : rows)
+        out.push_back({row.key(), row.interval()});
+    return out;
+}
+
+std::vector<ReportedFigure> figuresOf(const KernelLevel& level)
+{
+    std::vector<ReportedFigure> out;
+    for (const KernelPoint& p : level.points) {
+        const std::string light = lightTypeName(p.lightType), method = methodName(p.method);
+        if (!p.error.groupMeans.empty())
+            out.push_back({kernelErrorKey(light, method), meanOfGroups(p.error.groupMeans), 0});
+        if (const KernelPoint::Class* time = mainClass(p))
+            out.push_back({kernelTimeKey(light, method),
+                           {time->both.ratio, time->both.ratioLow, time->both.ratioHigh}});
+    }
+    return out;
+}
+
+void addFigures(const Json& document, std::map<std::string, double>& figures)
+{
+    const std::string schema = document.value("schema", "");
+    if (schema.starts_with("candelabra bench culling"))
+        for (const Json& p : document.at("points"))
+            figures[cullingKey(p.at("scene"), p.at("lights"), p.at("overlaps"))] =
+                p.at("ratioToBestBaseline");
+    if (schema.starts_with("candelabra bench skip"))
+        for (const Json& row : document.at("skips"))
+            figures[skipKey(row.at("name"), row.at("against"))] = row.at("ratio");
+    if (!schema.starts_with("candelabra bench accuracy"))
+        return;
+    for (const Json& p : document.at("kernels").at("points")) {
+        const Json& times = p.at("time");
+        const char* main = times.contains("above") ? "above" : "general";
+        if (times.contains(main))
+            figures[kernelTimeKey(p.at("light"), p.at("method"))] =
+                times.at(main).at("ratioToKaris");
+        const double percent = p.at("error").at("fresnel1").at("all").at("meanPercent");
+        figures[kernelErrorKey(p.at("light"), p.at("method"))] = percent / 100;
+    }
+}
+
+std::optional<CommittedResults> readCommitted(const std::string& directory,
+                                              const DeviceInfo& device)
+{
+    std::error_code error;
+    if (!std::filesystem::is_directory(directory, error))
+        return std::nullopt;
+    CommittedResults out{.directory = directory, .files = {}, .figures = {}};
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(directory, error))
+        if (entry.path().extension() == ".json")
+            paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    for (const std::filesystem::path& path : paths) {
+        std::ifstream file(path);
+        const Json document = Json::parse(file, nullptr, false);
+        if (!document.is_object() || !document.contains("provenance"))
+            continue;
+        const Json& from = document["provenance"];
+        if (from.value("device", "") != device.name || from.value("driver", "") != device.driver)
+            continue;
+        const size_t before = out.figures.size();
+        try {
+            addFigures(document, out.figures);
+        } catch (const Json::exception&) {
+            continue; // another version of the format
+        }
+        if (out.figures.size() > before)
+            out.files.push_back(path.filename().string());
+    }
+    return out;
+}
+
+bool contradicts(const ReportedFigure& figure, double committed)
+{
+    const double below = figure.value.low - committed, above = committed - figure.value.high;
+    const double distance = std::max(below, above);
+    return figure.value.isKnown() &&
+           distance > std::max(contradictionShare * committed, figure.allowance);
+}
+
+Comparison compareWithCommitted(const std::vector<ReportedFigure>& figures,
+                                const CommittedResults& committed)
+{
+    Comparison out{
+        .table =
+            Table({{"figure", "",
+                    "The ratio or the error, named as in its table. Culling is the engine's time "
+                    "divided by that of the fastest other way, a skip the time with it divided by "
+                    "the time without, and an evaluation its time divided by that of karis."},
+                   {"this run", "", "The median or mean of this run."},
+                   {"interval", "95%", "The interval of the figure of this run."},
+                   {"committed", "", "The figure of the committed results."}},
+                  "Figures that the committed results have too"),
+        .contradictions = {}};
+    for (const ReportedFigure& figure : figures) {
+        const auto found = committed.figures.find(figure.key);
+        if (found == committed.figures.end())
+            continue;
+        ++out.compared;
+        const MedianInterval& v = figure.value;
+        out.table.add({figure.key, number(v.median),
+                       v.isKnown() ? fmt::format("[{}, {}]", number(v.low), number(v.high)) : "-",
+                       number(found->second)},
+                      {.key = figure.key});
+        if (contradicts(figure, found->second))
+            out.contradictions.push_back(figure.key);
+    }
+    out.table.note(fmt::format(
+        "A figure contradicts the committed one if that is farther from the interval than {:.0f}% "
+        "of itself (and {} for ratios). The committed results have larger images and more lights, "
+        "so a contradiction is a reason to look, and no proof of a fault.",
+        100 * contradictionShare, contradictionDifference));
+    out.table.markContradictions(out.contradictions);
+    return out;
+}
+
+} // namespace candelabra::app

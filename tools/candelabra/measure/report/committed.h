@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compares the ratios of a run with the results that are committed with the sources, which were
+// measured at greater length. Times in milliseconds are not compared: they depend on the machine.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/report.h"
+#include "io/statistics.h"
+#include "io/table.h"
+#include "measure/accuracy/kernel_level.h"
+#include "measure/culling/culling.h"
+#include "measure/skip.h"
+
+namespace candelabra::app
+{
+
+// A figure contradicts a committed one that is farther from its interval than this share of the
+// committed figure; for a ratio, which may be near 0, also farther than this difference.
+constexpr double contradictionShare = 0.25, contradictionDifference = 0.05;
+
+// A figure of this run, which is named like the row of the table that has it.
+struct ReportedFigure {
+    std::string key;
+    MedianInterval value;
+    double allowance = contradictionDifference; // the difference that is always allowed
+};
+std::vector<ReportedFigure> figuresOf(const std::vector<CullingPoint>& points);
+std::vector<ReportedFigure> figuresOf(const std::vector<SkipRow>& rows);
+std::vector<ReportedFigure> figuresOf(const KernelLevel& level);
+
+struct CommittedResults {
+    std::string directory;
+    std::vector<std::string> files; // those of the same device and driver
+    std::map<std::string, double> figures;
+};
+// Reads the results of this device and driver from the JSON files in a directory. Files that hold
+// something else are passed over. Returns nothing if there is no such directory.
+std::optional<CommittedResults> readCommitted(const std::string& directory,
+                                              const DeviceInfo& device);
+// Adds the figures of one document, such as the results of `candelabra bench culling`.
+void addFigures(const Json& document, std::map<std::string, double>& figures);
+
+bool contradicts(const ReportedFigure& figure, double committed);
+
+struct Comparison {
+    Table table;
+    std::vector<std::string> contradictions; // the keys
+    size_t compared = 0;
+};
+Comparison compareWithCommitted(const std::vector<ReportedFigure>& figures,
+                                const CommittedResults& committed);
+
+} // namespace candelabra::app
