@@ -28,6 +28,7 @@ uint lightAt(uint k)
     return params.tree.firstLight + leaf * TREE_WIDTH + k % TREE_WIDTH;
 }
 
+#define COUNTS_DIFFER
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;

@@ -3,8 +3,10 @@
 // one pass over the list. Then each lane shades the lights that passed; these differ little between
 // neighbours, so the loops diverge little. Each way of evaluation has its own loop and its own sum, in
 // the order of the lights, so results do not depend on where blocks begin.
-// The includer provides uint lightAt(uint k), which returns the k-th light. It may define COUNT_FOUND,
-// which then counts the tests of a block and the lights that it evaluates in each way.
+// The includer provides uint lightAt(uint k), which returns the k-th light, and defines COUNTS_DIFFER
+// if blocks of one subgroup may be of different sizes and lightAt or lightCentre reads a storage buffer
+// or shared memory. It may define COUNT_FOUND, which then counts the tests of a block and the lights
+// that it evaluates in each way.
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 
@@ -45,6 +47,17 @@ bool isUncut(Receiver r, vec3 toLight, float height, float d2, float radius2)
 }
 #endif
 
+// While some lanes of a subgroup are in a loop, SwiftShader also runs its body for those that have left
+// it, with reads of storage buffers and shared memory that give 0. What they compute replaces the value
+// with which they left, unless it is assigned under a condition that is false in them
+// (tools/bench/RESULTS.md, decision 42). So such a loop asks for its condition in its body too, if
+// lanes may leave it one by one.
+#ifdef COUNTS_DIFFER
+#define IF_COUNTS_DIFFER(condition) if (condition)
+#else
+#define IF_COUNTS_DIFFER(condition)
+#endif
+
 // Tests the lights first .. first + count - 1, where count is 1..32. Spheres are sorted by their
 // position relative to the horizon, without a division and with few comparisons, because this runs for
 // every light of a list. What is compared is computed as `precise`, so that all pipelines sort a light
@@ -61,38 +74,40 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
     uint bit = 1u;
     uint k = first;
     do {
-        const uint light = lightAt(k);
-        const vec4 centreRadius = lightCentre(light);
-        precise const vec3 toLight = towardsLight(centreRadius.xyz, r.p.position);
-        const float radius = centreRadius.w;
-        const float height = invariantDot(r.p.n, toLight);
-        const float d2 = invariantDot(toLight, toLight);
-        bool reaches = height > -radius;
-        if (testInfluence)
-            reaches = reaches && d2 < lightEmission(light).w;
-        found.reaching |= reaches ? bit : 0u;
+        IF_COUNTS_DIFFER(k < first + count) {
+            const uint light = lightAt(k);
+            const vec4 centreRadius = lightCentre(light);
+            precise const vec3 toLight = towardsLight(centreRadius.xyz, r.p.position);
+            const float radius = centreRadius.w;
+            const float height = invariantDot(r.p.n, toLight);
+            const float d2 = invariantDot(toLight, toLight);
+            bool reaches = height > -radius;
+            if (testInfluence)
+                reaches = reaches && d2 < lightEmission(light).w;
+            found.reaching |= reaches ? bit : 0u;
 #ifdef HAS_SPHERES
-        precise const float aboveFrom = r.aboveFrom * radius;
-        found.above |= height >= aboveFrom ? bit : 0u;
+            precise const float aboveFrom = r.aboveFrom * radius;
+            found.above |= height >= aboveFrom ? bit : 0u;
 #endif
 #if defined(HAS_OUTLINES) && !defined(LIGHT_FAMILY_ALL)
-        const bool easy = !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
-        found.above |= height >= radius && easy ? bit : 0u;
-        if (HAS_BUDGET) {
-            precise const float pointLimit2 = r.pointLimit * d2;
-            found.asPoint |= height >= 2.0 * radius && radius * radius < pointLimit2 ? bit : 0u;
-        }
+            const bool easy = !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
+            found.above |= height >= radius && easy ? bit : 0u;
+            if (HAS_BUDGET) {
+                precise const float pointLimit2 = r.pointLimit * d2;
+                found.asPoint |= height >= 2.0 * radius && radius * radius < pointLimit2 ? bit : 0u;
+            }
 #endif
 #ifdef LIGHT_FAMILY_CONIC
-        // For a point inside the sphere the cap is limited as in makeSphereCap. At the centre both
-        // sides of the comparisons are 0.
-        precise const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
-        precise const float height2 = height * abs(height);
-        precise const float smallCap2 = smallCap * d2, pointLimit2 = r.pointLimit * d2;
-        found.near |= height2 > radius2 || radius2 < smallCap2 ? bit : 0u;
-        if (HAS_BUDGET)
-            found.asPoint |= height >= 2.0 * radius && radius2 < pointLimit2 ? bit : 0u;
+            // For a point inside the sphere the cap is limited as in makeSphereCap. At the centre
+            // both sides of the comparisons are 0.
+            precise const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
+            precise const float height2 = height * abs(height);
+            precise const float smallCap2 = smallCap * d2, pointLimit2 = r.pointLimit * d2;
+            found.near |= height2 > radius2 || radius2 < smallCap2 ? bit : 0u;
+            if (HAS_BUDGET)
+                found.asPoint |= height >= 2.0 * radius && radius2 < pointLimit2 ? bit : 0u;
 #endif
+        }
         bit <<= 1u;
         ++k;
     } while (k < first + count);
@@ -144,8 +159,9 @@ bool none(uvec2 bits)
 // at the end, so that it runs as often as the lane with the most lights needs. With the condition at
 // the front some devices run it once more. Outlines have loops whose count differs between lanes; if
 // such a loop is within another, llvmpipe (Mesa 22.3) runs a lane that is done once more, which must
-// then add nothing.
-#ifdef HAS_OUTLINES
+// then add nothing. With a shadow term, whose id is read from a storage buffer, SwiftShader needs the
+// condition too (see IF_COUNTS_DIFFER).
+#if defined(HAS_OUTLINES) || defined(CANDELABRA_VISIBILITY)
 #define IF_ANY_LEFT(left) if (!none(left))
 #else
 #define IF_ANY_LEFT(left)
