@@ -500,13 +500,16 @@ TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
     EXPECT_EQ(test::xmlFault(path("r/index.html")), "");
     const std::string page = text("r/index.html");
     for (const char* wanted : {"prefers-color-scheme: dark", "candelabra profile hall --lights 60",
-                               "shade_tiles", "data:image/png;base64,"})
+                               "shade_tiles", "data:image/png;base64,",
+                               "The result in five sentences", "not compared with committed ones"})
         EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
     EXPECT_EQ(page.find("://"), std::string::npos);
     const auto json = nlohmann::json::parse(text("r/report.json"));
     EXPECT_EQ(test::schemaFaults(json, "report.schema.json"), "");
     EXPECT_GT(json["profile"]["time"]["gpu"]["medianMs"], 0);
     EXPECT_EQ(run("report --parts profile,colour --out r").exitCode, 2);
+    EXPECT_EQ(run("report --parts profile,profile --out r").exitCode, 2);
+    EXPECT_EQ(run("report --committed missing --out r").exitCode, 2);
 }
 
 // Whenever the program is terminated, it leaves complete files or none, and no temporary file.
