@@ -224,7 +224,7 @@ void cullingPart(const Part& part)
                                    .overlaps = {8},
                                    .rounds = 7,
                                    .brutePatience = 2500,
-                                   .bruteLimit = 2.5};
+                                   .bruteLimit = 6};
     Measured& out = part.out;
     {
         Progress progress(cullingSteps(settings), !part.quiet);
