@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bloom spreads a share of the light of every pixel over the picture, as an eye scatters it, so
-// that lamps look bright (decision 71).
+// that lamps look bright (decision 66).
 #pragma once
 
 #include <vector>

@@ -13,7 +13,7 @@ namespace candelabra::app
 struct EnvironmentOptions {
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     uint32_t framesInFlight = 1;
-    CacheFolder cache; // of prepared environments (decision 70)
+    CacheFolder cache; // of prepared environments (decision 65)
 };
 
 // Returns the environment, ready for frames: as the cache has it, or else prepared by the device
