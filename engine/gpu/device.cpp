@@ -70,6 +70,7 @@ void Device::readUsage(CndMemoryUsage& out) const
     if (out.structSize != sizeof out)
         failArgument("CndMemoryUsage: structSize is " + std::to_string(out.structSize) +
                      ", this library expects " + std::to_string(sizeof out));
+    const std::lock_guard lock(usageMutex);
     out = usage;
     out.structSize = sizeof out;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <string>
 
 #include "gpu/failure.h"
@@ -49,6 +50,7 @@ public:
     VkPhysicalDeviceMemoryProperties memory{};
     // Memory of all objects that exist on this device, kept up to date by gpu/memory.h.
     mutable CndMemoryUsage usage{};
+    mutable std::mutex usageMutex; // objects may be created and destroyed on several threads
 
     // Copies `usage` to `out`. Throws Failure if out.structSize is that of another version.
     void readUsage(CndMemoryUsage& out) const;

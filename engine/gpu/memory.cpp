@@ -153,6 +153,7 @@ Memory::Memory(const Device& device, const CndMemoryRequest& request)
       at_(device.allocator.allocate ? fromHost(device.allocator, request)
                                     : fromDevice(device, request))
 {
+    const std::lock_guard lock(device.usageMutex);
     CndMemoryUsage& usage = device.usage;
     VkDeviceSize& alignment = usage.alignment[kind_];
     uint32_t& types = usage.memoryTypeBits[kind_];
@@ -167,8 +168,11 @@ Memory::~Memory()
 {
     if (!at_.memory)
         return;
-    --device_->usage.allocations[kind_];
-    device_->usage.bytes[kind_] -= size_;
+    {
+        const std::lock_guard lock(device_->usageMutex);
+        --device_->usage.allocations[kind_];
+        device_->usage.bytes[kind_] -= size_;
+    }
     release(*device_, at_);
 }
 

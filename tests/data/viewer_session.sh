@@ -17,9 +17,19 @@ save() { # [key extension]
     done
     fail "file $shot never came"
 }
+# Waits until the viewer has written a text to its log for the COUNTth time.
+logged() { # text [count]
+    for i in $(seq 1200); do
+        [ "$(grep -c "$1" err.txt)" -ge "${2:-1}" ] && return
+        kill -0 $viewer 2>/dev/null || fail "the viewer ended before it wrote: $1"
+        sleep 0.1
+    done
+    fail "the viewer never wrote: $1"
+}
 "$PROGRAM" view hall --lights 40 --size 320x200 --exposure 4 --validate --no-overlay \
     ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} &
 viewer=$!
+logged "F2 lists keys" # the scene is there
 window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)
 xdotool windowfocus --sync $window
 save # 1
@@ -38,6 +48,7 @@ save # 5: brute force
 xdotool key c h h h h h F1 F2
 save # 6: through all heat maps, panel and help
 xdotool key b bracketright
+logged "^hall: 80 lights" # the other scene has taken the place of the first
 save # 7: comparison wipe, twice the lights
 for i in $(seq 20); do
     xdotool windowsize $window $((200 + i * 13 % 170)) $((150 + i * 29 % 110))

@@ -8,9 +8,8 @@
 #include "commands/commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
-#include "io/table.h"
-#include "load/load.h"
-#include "render/camera.h"
+#include "render/pipeline_watch.h"
+#include "viewer/first_scene.h"
 #include "viewer/keys.h"
 #include "viewer/viewer.h"
 
@@ -29,9 +28,7 @@ struct ViewArguments {
 
 ViewerOptions optionsOf(const ViewArguments& a)
 {
-    ViewerOptions out{.scene = a.scene.scene,
-                      .sceneOptions = a.scene.options(a.scene.lightCount()),
-                      .gbufferLayout = a.frame.gbufferLayout(),
+    ViewerOptions out{.gbufferLayout = a.frame.gbufferLayout(),
                       .frame = {.levels = a.frame.levels(),
                                 .specular = a.frame.specularMethod(),
                                 .sampleCount = a.frame.samples(),
@@ -45,7 +42,6 @@ ViewerOptions optionsOf(const ViewArguments& a)
                       .overlay = !a.noOverlay,
                       .frames = unsignedOption("--frames", a.frames, 0, 1'000'000),
                       .screenshot = a.screenshot};
-    out.sceneOptions.imageAspect = a.frame.imageAspect();
     if (!out.screenshot.empty()) {
         if (!out.frames)
             throw UsageError("--screenshot: needs --frames N, and shows the last of these frames");
@@ -56,24 +52,43 @@ ViewerOptions optionsOf(const ViewArguments& a)
     return out;
 }
 
+SceneRequest requestOf(const ViewArguments& a, const ViewerOptions& options)
+{
+    SceneRequest out{.scene = a.scene.scene,
+                     .options = a.scene.options(a.scene.lightCount()),
+                     .renderer = rendererOptions(options),
+                     .view = [frame = a.frame](const Scene& scene) {
+                         const Camera camera = frame.chosenCamera(scene);
+                         return SceneView{camera, frame.pixelSize(scene, camera)};
+                     }};
+    out.options.imageAspect = a.frame.imageAspect();
+    return out;
+}
+
 int view(const ViewArguments& a)
 {
     if (a.verbose)
         spdlog::set_level(spdlog::level::debug);
-    ViewerOptions options = optionsOf(a);
-    a.scene.warnOfIdleOptions(options.sceneOptions.lights);
-    a.device.requireRoomFor(options.sceneOptions.lights.value_or(0));
-    const WindowSystem
-        system; // created before the scene is loaded, because there may be no display
-    Scene scene = loadScene(options.scene, options.sceneOptions);
-    logWarnings(scene);
-    requireSomethingToDraw(scene, options.scene);
-    options.camera = a.frame.chosenCamera(scene);
-    options.size = a.frame.pixelSize(scene, options.camera);
-    Viewer viewer(options, a.device.contextOptions(Presentation::Window), system, std::move(scene));
-    spdlog::info("on {}; F2 lists keys and mouse", viewer.context().info().name);
-    viewer.run();
-    return printValidationMessages(viewer.context()) ? exitFailed : exitOk;
+    const ViewerOptions options = optionsOf(a);
+    SceneRequest request = requestOf(a, options);
+    a.scene.warnOfIdleOptions(request.options.lights);
+    a.device.requireRoomFor(request.options.lights.value_or(0));
+    const WindowSystem system;
+    ContextOptions contextOptions = a.device.contextOptions(Presentation::Window);
+    contextOptions.engineFunctions = watchedFunctions;
+    Screen screen(system, contextOptions, a.frame.givenSize());
+    {
+        SceneLoader loader(screen.context);
+        loader.start(std::move(request));
+        const bool interactive = !options.frames;
+        if (auto first = waitForFirstScene(screen, loader, interactive)) {
+            logWarnings(first->scene);
+            Viewer viewer(options, screen, loader, std::move(first));
+            spdlog::info("on {}; F2 lists keys and mouse", screen.context.info().name);
+            viewer.run();
+        }
+    }
+    return printValidationMessages(screen.context) ? exitFailed : exitOk;
 }
 
 } // namespace

@@ -20,7 +20,7 @@ FrameRing::FrameRing(const VulkanContext& context, uint32_t slots)
 
 FrameRing::~FrameRing()
 {
-    vkDeviceWaitIdle(context_.desc().device);
+    context_.waitBeforeDestruction();
     destroy();
 }
 
@@ -92,9 +92,20 @@ void FrameRing::submit(VkSemaphore wait, VkSemaphore signal)
                              .pCommandBufferInfos = &cmd,
                              .signalSemaphoreInfoCount = signal ? 1u : 0u,
                              .pSignalSemaphoreInfos = &signalInfo};
-    check(vkQueueSubmit2(context_.queue(), 1, &info, slot.done), "submitting a frame");
+    context_.submit(info, slot.done, "submitting a frame");
     slot.used = true;
     current_ = (current_ + 1) % slots();
+}
+
+bool FrameRing::waitForNext(std::chrono::nanoseconds most) const
+{
+    const Slot& slot = slots_[current_];
+    if (!slot.used)
+        return true;
+    const VkResult result =
+        vkWaitForFences(context_.desc().device, 1, &slot.done, VK_TRUE, uint64_t(most.count()));
+    check(result == VK_TIMEOUT ? VK_SUCCESS : result, "waiting for a frame");
+    return result == VK_SUCCESS;
 }
 
 void FrameRing::wait(uint32_t slot) const

@@ -2,6 +2,7 @@
 // FrameRing has one command buffer per frame in flight and knows when the GPU has finished each.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,8 @@ public:
     // Ends and submits what was recorded since begin(). Colour output and transfers wait for the
     // semaphore `wait`; `signal` is signalled when the whole frame is finished. Both may be null.
     void submit(VkSemaphore wait = VK_NULL_HANDLE, VkSemaphore signal = VK_NULL_HANDLE);
+    // Waits until begin() need not wait, but no longer than `most`. Returns whether that is so.
+    bool waitForNext(std::chrono::nanoseconds most) const;
     // Waits until the GPU has finished the frame of a slot.
     void wait(uint32_t slot) const;
     // Waits until the GPU has finished all frames.

@@ -24,6 +24,10 @@ inline constexpr ImageAccess transferRead{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
 inline constexpr ImageAccess transferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                                            VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+inline constexpr ImageAccess colorAttachment{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                             VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
+                                                 VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
+                                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
 // The state before of an image whose contents are no longer needed. The barrier waits for
 // transfers, because nothing else may still be reading the image.
 inline constexpr ImageAccess discarded{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE,

@@ -85,7 +85,7 @@ void useKnownExposure(const Scene& scene, CndExposureSettings& settings)
 
 struct Renderer::State {
     const VulkanContext& context;
-    const Scene& scene;
+    const Scene* scene;
     RendererOptions options;
     std::vector<bool> litSlots;     // whether the slot's last frame was lit, not reused
     std::vector<bool> exposedSlots; // whether the slot has had a frame with exposure
@@ -113,7 +113,7 @@ struct Renderer::State {
 
     State(const VulkanContext& c, const Scene& s, const RendererOptions& o)
         : context(c),
-          scene(s),
+          scene(&s),
           options(o),
           litSlots(o.framesInFlight),
           exposedSlots(o.framesInFlight),
@@ -158,24 +158,24 @@ struct Renderer::State {
                 .specular = targets.specular.view.get(),
                 .depth = targets.depth.view.get(),
                 .radiance = targets.radiance.view.get(),
-                .lobes = scene.lobes,
-                .energyCompensation = scene.energyCompensation};
+                .lobes = scene->lobes,
+                .energyCompensation = scene->energyCompensation};
     }
 };
 
 void Renderer::State::setLights(double time)
 {
-    lightsAtTime(scene, time, lights);
+    lightsAtTime(*scene, time, lights);
     lightTime = time;
     drawn.reset();
-    const glm::dvec3& at = scene.lightOrigin;
+    const glm::dvec3& at = scene->lightOrigin;
     take(lighting.setLights(lights, {at.x, at.y, at.z}));
     emitterLayers.reset();
 }
 
 void Renderer::State::moveLights(double time)
 {
-    if (!scene.lightMotions.empty() && time != lightTime)
+    if (!scene->lightMotions.empty() && time != lightTime)
         setLights(time);
 }
 
@@ -229,6 +229,11 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
 
 Renderer::~Renderer() = default;
 
+void Renderer::sceneMoved(const Scene& scene)
+{
+    state_->scene = &scene;
+}
+
 void Renderer::lightsChanged()
 {
     state_->setLights(state_->lightTime);
@@ -249,11 +254,11 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
 {
     drawn.reset();
     if (frame.lightsVisible && emitterLayers != frame.camera.layers) {
-        const double origin[3] = {scene.lightOrigin.x, scene.lightOrigin.y, scene.lightOrigin.z};
+        const double origin[3] = {scene->lightOrigin.x, scene->lightOrigin.y, scene->lightOrigin.z};
         gbuffer.setEmitters(lightsShown(lights, frame.camera), origin);
         emitterLayers = frame.camera.layers;
     }
-    const glm::vec3 background = environment.get() ? glm::vec3(0) : scene.background;
+    const glm::vec3 background = environment.get() ? glm::vec3(0) : scene->background;
     gbuffer.record(cmd, geometry,
                    {.slot = slot,
                     .camera = cameraOf(frame),
@@ -275,9 +280,9 @@ void Renderer::State::recordEnvironment(VkCommandBuffer cmd, uint32_t slot,
                                         const FrameOptions& frame) const
 {
     auto out = surfaceFrame<CndEnvironmentFrame>(slot, frame);
-    out.scale = float(scene.environment->scale);
+    out.scale = float(scene->environment->scale);
     out.background = VK_TRUE;
-    setEnvironmentRotation(scene.environment->rotation, out.worldFromEnvironment);
+    setEnvironmentRotation(scene->environment->rotation, out.worldFromEnvironment);
     take(environment.record(cmd, out));
 }
 
@@ -298,7 +303,7 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
 CndExposureSettings Renderer::State::exposureOf(const FrameOptions& frame) const
 {
     CndExposureSettings out = frame.exposure;
-    out.compensation += scene.exposureCompensation;
+    out.compensation += scene->exposureCompensation;
     return out;
 }
 
@@ -439,7 +444,7 @@ void Renderer::recordBlack(VkCommandBuffer cmd)
 
 void Renderer::setLights(const std::vector<CndLight>& lights)
 {
-    const glm::dvec3& at = state_->scene.lightOrigin;
+    const glm::dvec3& at = state_->scene->lightOrigin;
     state_->drawn.reset();
     take(state_->lighting.setLights(lights, {at.x, at.y, at.z}));
 }

@@ -102,6 +102,8 @@ public:
     void resize(PixelSize size);
     PixelSize size() const;
 
+    // Call it after the scene has been moved to another object, which now takes its place.
+    void sceneMoved(const Scene& scene);
     // Call it after the lights of the scene have changed: frames recorded from now on show the new
     // ones. Throws RunError for lights that the lighting module refuses.
     void lightsChanged();

@@ -124,13 +124,8 @@ VulkanContext::VulkanContext(const ContextOptions& options)
              .pipelineCache = createPipelineCache(device_),
              .allocationCallbacks = nullptr,
              .debugUtilsEnabled = instance_.debugUtils()};
-    const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                       .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                       .queueFamilyIndex = queueFamily_};
     try {
         gpu_ = std::make_unique<gpu::Device>(desc_, gpu::allModules | gpu::rasterPass);
-        check(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "creating a command pool");
-        gpu_->name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, "one-time commands");
         gpu_->name(VK_OBJECT_TYPE_QUEUE, queue_, "queue");
     } catch (...) {
         vkDestroyPipelineCache(device_, desc_.pipelineCache, nullptr);
@@ -148,8 +143,7 @@ void VulkanContext::destroyDevice()
 {
     if (!device_)
         return;
-    vkDeviceWaitIdle(device_);
-    vkDestroyCommandPool(device_, pool_, nullptr);
+    waitBeforeDestruction();
     gpu_.reset();
     vkDestroyPipelineCache(device_, desc_.pipelineCache, nullptr);
     vkDestroyDevice(device_, nullptr);
@@ -197,38 +191,81 @@ void VulkanContext::createDevice()
     }
 }
 
+void VulkanContext::submit(const VkSubmitInfo2& info, VkFence fence, const std::string& what) const
+{
+    const std::lock_guard lock(queueMutex_);
+    check(vkQueueSubmit2(queue_, 1, &info, fence), what);
+}
+
+VkResult VulkanContext::present(const VkPresentInfoKHR& info) const
+{
+    const std::lock_guard lock(queueMutex_);
+    return vkQueuePresentKHR(queue_, &info);
+}
+
+namespace
+{
+
+// What one call of submitAndWait needs. A command pool belongs to one thread at a time.
+struct OneTimeCommands {
+    VkDevice device;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer cmd = VK_NULL_HANDLE;
+    VkFence done = VK_NULL_HANDLE;
+
+    explicit OneTimeCommands(VkDevice d) : device(d) {}
+    OneTimeCommands(const OneTimeCommands&) = delete;
+    ~OneTimeCommands()
+    {
+        vkDestroyFence(device, done, nullptr);
+        vkDestroyCommandPool(device, pool, nullptr);
+    }
+};
+
+} // namespace
+
 void VulkanContext::submitAndWait(const std::function<void(VkCommandBuffer)>& record) const
 {
+    OneTimeCommands once(device_);
+    const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                       .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                       .queueFamilyIndex = queueFamily_};
+    check(vkCreateCommandPool(device_, &pool, nullptr, &once.pool), "creating a command pool");
+    gpu_->name(VK_OBJECT_TYPE_COMMAND_POOL, once.pool, "one-time commands");
     const VkCommandBufferAllocateInfo allocate{.sType =
                                                    VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                               .commandPool = pool_,
+                                               .commandPool = once.pool,
                                                .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                .commandBufferCount = 1};
-    VkCommandBuffer cmd{};
-    check(vkAllocateCommandBuffers(device_, &allocate, &cmd), "allocating a command buffer");
-    struct Free {
-        const VulkanContext& context;
-        VkCommandBuffer cmd;
-        ~Free() { vkFreeCommandBuffers(context.device_, context.pool_, 1, &cmd); }
-    } free{*this, cmd};
+    check(vkAllocateCommandBuffers(device_, &allocate, &once.cmd), "allocating a command buffer");
+    const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    check(vkCreateFence(device_, &fence, nullptr, &once.done), "creating a fence");
 
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(cmd, &begin), "beginning a command buffer");
-    record(cmd);
-    check(vkEndCommandBuffer(cmd), "ending a command buffer");
+    check(vkBeginCommandBuffer(once.cmd, &begin), "beginning a command buffer");
+    record(once.cmd);
+    check(vkEndCommandBuffer(once.cmd), "ending a command buffer");
     const VkCommandBufferSubmitInfo cmdInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-                                            .commandBuffer = cmd};
-    const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                               .commandBufferInfoCount = 1,
-                               .pCommandBufferInfos = &cmdInfo};
-    check(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "submitting to " + info_.name);
-    check(vkQueueWaitIdle(queue_), "waiting for " + info_.name);
+                                            .commandBuffer = once.cmd};
+    submit({.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+            .commandBufferInfoCount = 1,
+            .pCommandBufferInfos = &cmdInfo},
+           once.done, "submitting to " + info_.name);
+    check(vkWaitForFences(device_, 1, &once.done, VK_TRUE, UINT64_MAX),
+          "waiting for " + info_.name);
 }
 
 void VulkanContext::waitIdle() const
 {
+    const std::lock_guard lock(queueMutex_);
     check(vkDeviceWaitIdle(device_), "waiting for " + info_.name);
+}
+
+void VulkanContext::waitBeforeDestruction() const noexcept
+{
+    const std::lock_guard lock(queueMutex_);
+    vkDeviceWaitIdle(device_);
 }
 
 } // namespace candelabra::app

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "candelabra/candelabra.h"
@@ -39,6 +40,8 @@ public:
     const gpu::Device& device() const { return *gpu_; }
     bool caches() const { return caches_; } // ContextOptions::cache
     // The queue does graphics, compute and transfers, and presentation with Presentation::Window.
+    // Who uses it directly must know that no other thread uses it at the same time; the functions
+    // below see to that themselves.
     VkQueue queue() const { return queue_; }
     uint32_t queueFamily() const { return queueFamily_; }
     uint32_t timestampValidBits() const { return timestampValidBits_; } // of the queue
@@ -51,9 +54,16 @@ public:
     }
     const char* calibratedTimestampsExtension() const { return calibratedTimestamps_; }
 
-    // Lets `record` record commands, submits them, and waits until the GPU has finished.
+    // These functions use the queue. Several threads may call them at the same time.
+    //
+    // Submits to the queue. `what` is for the message if that fails.
+    void submit(const VkSubmitInfo2& info, VkFence fence, const std::string& what) const;
+    VkResult present(const VkPresentInfoKHR& info) const;
+    // Lets `record` record commands, submits them, and waits until the GPU has finished them.
     void submitAndWait(const std::function<void(VkCommandBuffer)>& record) const;
     void waitIdle() const;
+    // The same for destructors: what they destroy is gone from a lost device as well.
+    void waitBeforeDestruction() const noexcept;
 
     // Destroys everything but instance() and its messages, among which the validation layers then
     // report leaks.
@@ -66,11 +76,11 @@ private:
     DeviceInfo info_;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
+    mutable std::mutex queueMutex_; // Vulkan lets one thread at a time use a queue
     uint32_t queueFamily_ = 0, timestampValidBits_ = 0;
     bool samplerAnisotropy_ = false, caches_ = false;
     const char* calibratedTimestamps_ = nullptr;
     PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps_ = nullptr;
-    VkCommandPool pool_ = VK_NULL_HANDLE;
     CndDeviceDesc desc_{};
     std::unique_ptr<gpu::Device> gpu_;
 };

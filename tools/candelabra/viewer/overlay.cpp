@@ -95,7 +95,7 @@ Overlay::Overlay(const VulkanContext& context, const Window& window, const Swapc
 
 Overlay::~Overlay()
 {
-    vkDeviceWaitIdle(context_.desc().device);
+    context_.waitBeforeDestruction();
     ImGui_ImplVulkan_Shutdown();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();

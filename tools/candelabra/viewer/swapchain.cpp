@@ -31,7 +31,7 @@ Swapchain::Swapchain(const VulkanContext& context, const Window& window, uint32_
 
 Swapchain::~Swapchain()
 {
-    vkDeviceWaitIdle(context_.desc().device);
+    context_.waitBeforeDestruction();
     destroyAll();
 }
 
@@ -227,7 +227,7 @@ bool Swapchain::present(const Target& target)
                                 .swapchainCount = 1,
                                 .pSwapchains = &swapchain_,
                                 .pImageIndices = &target.index};
-    const VkResult result = vkQueuePresentKHR(context_.queue(), &info);
+    const VkResult result = context_.present(info);
     if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
         return false;
     check(result, "presenting a window image");

@@ -14,11 +14,9 @@
 #include "io/error.h"
 #include "io/image.h"
 #include "io/table.h"
-#include "load/load.h"
 #include "render/camera.h"
 #include "render/image_barrier.h"
 #include "render/readback.h"
-#include "scene/scene_error.h"
 
 namespace candelabra::app
 {
@@ -30,17 +28,6 @@ constexpr double fixedFrameTime = 1.0 / 60; // s between frames when their numbe
 // built, the window is dragged) does not become a leap.
 constexpr double longestStep = 0.25;
 
-Swapchain::Target checked(const std::optional<Swapchain::Target>& target)
-{
-    if (!target)
-        throw RunError("the window's size changes faster than its images can be recreated");
-    return *target;
-}
-
-constexpr ImageAccess attachment{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                                 VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
-                                     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
-                                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
 constexpr ImageAccess shown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
                             VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
 
@@ -61,32 +48,29 @@ void blitColumns(VkCommandBuffer cmd, const Renderer& renderer, VkImage to, int3
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
 }
 
-RendererOptions rendererOptions(const ViewerOptions& options, PixelSize size, uint32_t slots)
+} // namespace
+
+RendererOptions rendererOptions(const ViewerOptions& options)
 {
-    return {.size = size,
-            .gbufferLayout = options.gbufferLayout,
-            .framesInFlight = slots,
+    return {.gbufferLayout = options.gbufferLayout,
+            .framesInFlight = Screen::slotCount,
             .influenceByError = options.frame.influence.rule == CND_INFLUENCE_BY_ERROR};
 }
 
-} // namespace
-
-Viewer::Viewer(const ViewerOptions& options, const ContextOptions& contextOptions,
-               const WindowSystem& system, Scene scene)
+Viewer::Viewer(const ViewerOptions& options, Screen& screen, SceneLoader& loader,
+               std::unique_ptr<LoadedScene> first)
     : options_(options),
-      window_(system, "candelabra", options.size),
-      context_(contextOptions),
-      scene_(std::move(scene)),
-      source_(sceneSource(options.scene, options.sceneOptions.seed)),
-      renderer_(std::make_unique<Renderer>(context_, scene_,
-                                           rendererOptions(options, options.size, slotCount))),
-      swapchain_(context_, window_, slotCount),
-      overlay_(context_, window_, swapchain_),
-      ring_(context_, slotCount),
-      camera_(options.camera, cruisingSpeed(scene_)),
+      screen_(screen),
+      window_(screen.window),
+      context_(screen.context),
+      swapchain_(screen.swapchain),
+      overlay_(screen.overlay),
+      ring_(screen.ring),
+      loader_(loader),
+      camera_(first->view.camera, cruisingSpeed(first->scene)),
       panel_{.frame = options.frame, .visible = options.overlay}
 {
-    takeScene();
+    show(std::move(first));
     figures_.device = context_.info().name;
     time_ = options.frame.time;
     if (!options.screenshot.empty() && !swapchain_.readable())
@@ -94,36 +78,60 @@ Viewer::Viewer(const ViewerOptions& options, const ContextOptions& contextOption
                        context_.info().name);
 }
 
-bool Viewer::open(const std::string& scene, const SceneOptions& options)
+void Viewer::open(const std::string& scene, const SceneOptions& options, bool moveCamera)
 {
+    loadingLights_ = panel_.wantedLights;
+    loader_.start({.scene = scene,
+                   .options = options,
+                   .renderer = rendererOptions(options_),
+                   .view =
+                       [size = swapchain_.size()](const Scene& loaded) {
+                           return SceneView{selectCamera(loaded, ""), size};
+                       },
+                   .moveCamera = moveCamera});
+}
+
+void Viewer::takeLoaded()
+{
+    std::unique_ptr<LoadedScene> loaded;
     try {
-        Scene loaded = loadScene(scene, options);
-        requireSomethingToDraw(loaded, scene);
-        for (const std::string& note : loaded.notes)
-            spdlog::info("{}", note);
-        source_ = sceneSource(scene, options.seed);
-        ring_.wait();
-        renderer_.reset(); // both renderers refer to the scene
-        other_.reset();
-        scene_ = std::move(loaded);
-    } catch (const SceneError& error) {
-        spdlog::error("candelabra: {}", error.what());
-        figures_.note = error.what();
-        return false;
+        loaded = loader_.take();
+    } catch (...) {
+        figures_.note = messageOf(std::current_exception());
+        spdlog::error("candelabra: {}", figures_.note);
+        panel_.wantedLights = uint32_t(scene_.lights.size());
     }
-    options_.scene = scene;
-    options_.sceneOptions = options;
+    if (!loaded)
+        return;
+    for (const std::string& note : loaded->scene.notes)
+        spdlog::info("{}", note);
     figures_.note.clear();
+    show(std::move(loaded));
+    spdlog::info("{}: {}", scene_.name, counted(scene_.lights.size(), "light"));
+}
+
+void Viewer::show(std::unique_ptr<LoadedScene> loaded)
+{
+    ring_.wait();
+    renderer_.reset();
+    other_.reset();
+    scene_ = std::move(loaded->scene);
+    renderer_ = std::move(loaded->renderer);
+    renderer_->sceneMoved(scene_);
+    source_ = std::move(loaded->source);
+    sceneName_ = loaded->request.scene;
+    sceneOptions_ = loaded->request.options;
+    if (loaded->request.moveCamera)
+        camera_ = FlyCamera(loaded->view.camera, cruisingSpeed(scene_));
     takeScene();
-    makeRenderer();
-    return true;
+    forgetFrames();
 }
 
 // Sets everything that depends on the scene to the scene that was just loaded.
 void Viewer::takeScene()
 {
     materials_ = scene_.materials;
-    ownLights_ = scene_.lights.size() - options_.sceneOptions.lights.value_or(0);
+    ownLights_ = scene_.lights.size() - sceneOptions_.lights.value_or(0);
     panel_.frame.lightsVisible = options_.lightsVisible.value_or(scene_.lightsVisible);
     CndExposureSettings& exposure = panel_.frame.exposure;
     if (std::exchange(knownExposure_, false))
@@ -143,8 +151,19 @@ void Viewer::makeRenderer()
     ring_.wait();
     renderer_.reset();
     other_.reset();
-    renderer_ = std::make_unique<Renderer>(context_, scene_,
-                                           rendererOptions(options_, swapchain_.size(), slotCount));
+    renderer_ = std::make_unique<Renderer>(context_, scene_, rendererOptionsAt(swapchain_.size()));
+    forgetFrames();
+}
+
+RendererOptions Viewer::rendererOptionsAt(PixelSize size) const
+{
+    RendererOptions out = rendererOptions(options_);
+    out.size = size;
+    return out;
+}
+
+void Viewer::forgetFrames()
+{
     figures_.passes.clear();
     recorded_ = {};
     resetExposure_ = true;
@@ -153,14 +172,13 @@ void Viewer::makeRenderer()
 void Viewer::rebuild(uint32_t wanted)
 {
     const uint32_t lights = uint32_t(std::min<uint64_t>(wanted, maxLightsOf(context_.info())));
-    spdlog::info("building {} with {}", options_.scene, counted(lights, "light"));
-    SceneOptions sceneOptions = options_.sceneOptions;
+    spdlog::info("building {} with {}", sceneName_, counted(lights, "light"));
+    SceneOptions sceneOptions = sceneOptions_;
     // SceneOptions::lights is the number of lights of a generated scene, but for a file it is the
     // number to add to the file's own.
     const uint32_t own = uint32_t(ownLights_);
-    sceneOptions.lights = isGenerated(options_.scene) ? lights : lights > own ? lights - own : 0;
-    if (!open(options_.scene, sceneOptions))
-        panel_.wantedLights = uint32_t(scene_.lights.size());
+    sceneOptions.lights = isGenerated(sceneName_) ? lights : lights > own ? lights - own : 0;
+    open(sceneName_, sceneOptions, false);
 }
 
 void Viewer::applyMaterials()
@@ -192,19 +210,13 @@ void Viewer::fitWipe()
         other_.reset();
     }
     if (panel_.wipe.on && !other_)
-        other_ = std::make_unique<Renderer>(
-            context_, scene_, rendererOptions(options_, renderer_->size(), slotCount));
+        other_ = std::make_unique<Renderer>(context_, scene_, rendererOptionsAt(renderer_->size()));
 }
 
 // Resizes the window's images and the renderers to the window's size.
 void Viewer::fitToWindow()
 {
-    const PixelSize window = window_.framebufferSize();
-    const PixelSize now = swapchain_.size();
-    if (staleWindow_ || window.width != now.width || window.height != now.height) {
-        swapchain_.recreate();
-        staleWindow_ = false;
-    }
+    screen_.fit();
     const PixelSize wanted = swapchain_.size(), drawn = renderer_->size();
     if (wanted.width != drawn.width || wanted.height != drawn.height) {
         ring_.wait();
@@ -226,15 +238,6 @@ void Viewer::collectStats(const FrameRing::Frame& frame)
     if (stats.lit)
         figures_.lighting = stats.lighting;
     figures_.exposure = stats.exposure;
-}
-
-Swapchain::Target Viewer::acquire(uint32_t slot)
-{
-    if (const auto target = swapchain_.acquire(slot))
-        return *target;
-    staleWindow_ = true;
-    fitToWindow();
-    return checked(swapchain_.acquire(slot));
 }
 
 int32_t Viewer::wipeColumn() const
@@ -264,7 +267,7 @@ void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
     blitColumns(cmd, *renderer_, target.image, 0, split);
     if (other_)
         blitColumns(cmd, *other_, target.image, split, width);
-    transition(cmd, target.image, transferWrite, attachment);
+    transition(cmd, target.image, transferWrite, colorAttachment);
     overlay_.record(cmd, swapchain_, target);
 }
 
@@ -293,7 +296,7 @@ void Viewer::drawFrame(double seconds, bool screenshot)
 {
     const FrameRing::Frame frame = ring_.begin();
     collectStats(frame);
-    const Swapchain::Target target = acquire(frame.slot);
+    const Swapchain::Target target = screen_.acquire(frame.slot);
 
     FrameOptions& options = panel_.frame;
     options.camera = camera_.camera();
@@ -303,6 +306,8 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     ++options.ditherSeed; // dither noise that changes every frame is less visible
     overlay_.begin();
     drawOverlay();
+    if (loader_.busy())
+        drawProgress(loader_.state(), true);
     renderer_->record(frame.cmd, frame.slot, options);
     if (other_)
         other_->record(frame.cmd, frame.slot, optionsAt(wipeColumn()));
@@ -312,8 +317,7 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     if (screenshot)
         pixels = recordScreenshot(frame.cmd, target.image);
     ring_.submit(target.acquired, target.presented);
-    if (!swapchain_.present(target))
-        staleWindow_ = true;
+    screen_.present(target);
     if (screenshot) {
         ring_.wait();
         saveScreenshot(pixels);
@@ -339,6 +343,7 @@ void Viewer::run()
     for (uint32_t i = 0; !window_.wantsToClose() && (!options_.frames || i < options_.frames);
          ++i) {
         window_.poll();
+        screen_.waitForSlot();
         const PixelSize size = window_.framebufferSize();
         if (!size.width || !size.height) { // minimised
             window_.wait();
@@ -354,9 +359,11 @@ void Viewer::run()
             time_ += seconds;
         if (!dropped_.empty())
             onDrop(std::exchange(dropped_, ""));
+        takeLoaded();
         applyEdits();
-        if (panel_.wantedLights != scene_.lights.size())
-            rebuild(panel_.wantedLights);
+        const uint32_t wanted = panel_.wantedLights;
+        if (wanted != scene_.lights.size() && !(loader_.busy() && wanted == loadingLights_))
+            rebuild(wanted);
         fitToWindow();
         fitWipe();
         figures_.scene = scene_.name;
@@ -367,6 +374,7 @@ void Viewer::run()
         figures_.size = renderer_->size();
         drawFrame(seconds, !options_.screenshot.empty() && i + 1 == options_.frames);
     }
+    window_.hide(); // the GPU, or a scene that is being loaded, may take a while to come to an end
     ring_.wait();
 }
 

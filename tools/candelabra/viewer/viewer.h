@@ -10,25 +10,19 @@
 #include <string>
 
 #include "generate/ray_caster.h"
-#include "render/frame_ring.h"
 #include "render/renderer.h"
 #include "scene/scene_options.h"
 #include "viewer/fly_camera.h"
 #include "viewer/keys.h"
 #include "viewer/light_shape.h"
-#include "viewer/overlay.h"
 #include "viewer/panel.h"
-#include "viewer/swapchain.h"
-#include "viewer/window.h"
+#include "viewer/scene_loader.h"
+#include "viewer/screen.h"
 
 namespace candelabra::app
 {
 
 struct ViewerOptions {
-    std::string scene; // as loadScene takes it
-    SceneOptions sceneOptions;
-    Camera camera;  // where the user starts
-    PixelSize size; // of the window when it opens
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     FrameOptions frame;
     std::optional<bool> lightsVisible; // empty: as the scene says
@@ -39,18 +33,19 @@ struct ViewerOptions {
     std::string screenshot; // file for a PNG of the window's last frame; needs `frames`
 };
 
+// How the renderers of the viewer are made, apart from their size.
+RendererOptions rendererOptions(const ViewerOptions& options);
+
 class Viewer
 {
 public:
-    // `scene` is the scene that `options` describe, already loaded.
-    Viewer(const ViewerOptions& options, const ContextOptions& contextOptions,
-           const WindowSystem& system, Scene scene);
+    // `screen` and `loader` must outlive the viewer. The loader has nothing to do. `first` is the
+    // scene that is shown at first. Throws RunError.
+    Viewer(const ViewerOptions& options, Screen& screen, SceneLoader& loader,
+           std::unique_ptr<LoadedScene> first);
     void run();
-    const VulkanContext& context() const { return context_; }
 
 private:
-    static constexpr uint32_t slotCount = 2; // frames in flight
-
     // Input, defined in viewer_input.cpp.
     void moveCamera(double seconds); // also handles what the user has done since the last call
     bool handle(const InputEvent& event);
@@ -85,18 +80,24 @@ private:
     void pick(PixelPosition pixel);
     void drawOverlay(); // the panel, and the outline of what is selected
 
-    // Loads and shows another scene, or the same with other options. Returns false and keeps the
-    // present scene if loading fails.
-    bool open(const std::string& scene, const SceneOptions& options);
+    // Begins to load another scene, or the same with other options. The present scene stays until
+    // the other one is there, and if loading fails. `moveCamera`: the user sees it from its own
+    // camera.
+    void open(const std::string& scene, const SceneOptions& options, bool moveCamera);
+    // Shows what has been loaded since the last frame.
+    void takeLoaded();
+    void show(std::unique_ptr<LoadedScene> loaded);
     void takeScene();
     void rebuild(uint32_t wanted);
     void makeRenderer();
+    RendererOptions rendererOptionsAt(PixelSize size) const;
+    // Forgets what was measured of the frames of the renderer before.
+    void forgetFrames();
     void applyMaterials();
     void applyEdits();
     void fitWipe();
     void fitToWindow();
     void collectStats(const FrameRing::Frame& frame);
-    Swapchain::Target acquire(uint32_t slot);
     // Returns how the pixels of column `x` are shaded: left of the wipe's line with the user's
     // settings; from the line on with the wipe's specular method, culling and error budget instead,
     // and without a heat map.
@@ -110,27 +111,31 @@ private:
     void saveScreenshot(const gpu::Buffer& pixels) const;
 
     ViewerOptions options_;
-    // Members are destroyed in reverse order: everything that uses the device goes before the
-    // context.
-    Window window_;
-    VulkanContext context_;
+    Screen& screen_;
+    Window& window_;
+    const VulkanContext& context_;
+    Swapchain& swapchain_;
+    Overlay& overlay_;
+    FrameRing& ring_;
+    SceneLoader& loader_;
+    std::string sceneName_;     // as loadScene takes it
+    SceneOptions sceneOptions_; // with which the scene was loaded
     Scene scene_;
     SceneSource source_;              // where the scene's surfaces come from
     std::vector<Material> materials_; // the scene's materials before any override
     size_t ownLights_ = 0;            // number of lights in the scene's file, without added ones
+    // Both refer to the scene.
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<Renderer> other_; // draws right of the wipe's line; null without a wipe
-    Swapchain swapchain_;
-    Overlay overlay_;
-    FrameRing ring_;
 
     FlyCamera camera_;
     PanelState panel_;
     PanelFigures figures_;
     // Slots in which the present renderer has recorded a frame at its present size: their
     // statistics can be read.
-    std::array<bool, slotCount> recorded_{};
-    bool staleWindow_ = false;       // the swapchain must be recreated
+    std::array<bool, Screen::slotCount> recorded_{};
+    // PanelState::wantedLights when the scene was asked for that is loaded now.
+    uint32_t loadingLights_ = 0;
     bool resetExposure_ = true;      // the next frame jumps to the converged exposure
     double time_ = 0;                // seconds, for moving lights
     double mouseX_ = 0, mouseY_ = 0; // window coordinates

@@ -555,19 +555,14 @@ void Viewer::addLightInView()
 
 void Viewer::onDrop(const std::string& path)
 {
-    SceneOptions options = options_.sceneOptions;
+    SceneOptions options = sceneOptions_;
     const auto ends = [&](const char* extension) { return path.ends_with(extension); };
     if (ends(".hdr") || ends(".exr") || ends(".pfm")) {
         options.environment = path;
-        open(options_.scene, options);
-        return;
+        return open(sceneName_, options, false);
     }
     options.lights.reset();
-    if (!open(path, options))
-        return;
-    const Camera camera = selectCamera(scene_, "");
-    camera_ = FlyCamera(camera, cruisingSpeed(scene_));
-    spdlog::info("{}: {}", scene_.name, counted(scene_.lights.size(), "light"));
+    open(path, options, true);
 }
 
 // Returns a file name that is not taken in the current folder.

@@ -121,6 +121,22 @@ void Window::close()
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
+void Window::hide()
+{
+    glfwHideWindow(window_);
+}
+
+void Window::resize(PixelSize size)
+{
+    // Sizes of windows are in units that may each have several pixels.
+    int width = 0, height = 0;
+    glfwGetWindowSize(window_, &width, &height);
+    const PixelSize now = framebufferSize();
+    if (now.width && now.height)
+        glfwSetWindowSize(window_, int(size.width * unsigned(width) / now.width),
+                          int(size.height * unsigned(height) / now.height));
+}
+
 void Window::setTitle(const std::string& title)
 {
     glfwSetWindowTitle(window_, title.c_str());
@@ -134,6 +150,11 @@ void Window::poll()
 void Window::wait()
 {
     glfwWaitEvents();
+}
+
+void Window::wait(double seconds)
+{
+    glfwWaitEventsTimeout(seconds);
 }
 
 } // namespace candelabra::app

@@ -60,12 +60,16 @@ public:
     float contentScale() const;
     bool wantsToClose() const;
     void close();
+    void hide();
+    void resize(PixelSize size); // of the image
     void setTitle(const std::string& title);
 
     // Adds what has happened to `events`.
     void poll();
     // Like poll(), but waits until something happens. Used while the window is minimised.
     void wait();
+    // The same, but no longer than for so many seconds.
+    void wait(double seconds);
     std::deque<InputEvent> events; // the oldest first; whoever handles an event removes it
 
 private:
