@@ -27,7 +27,7 @@ void begins(Job& job, const std::string& what, double done)
 }
 
 // The parts of the bar at which the stages begin.
-constexpr double uploadAt = 0.3, pipelinesAt = 0.5, end = 1;
+constexpr double uploadAt = 0.3, pipelinesAt = 0.5, pictureAt = 1;
 
 std::string shortName(const std::string& scene)
 {
@@ -54,13 +54,13 @@ std::unique_ptr<LoadedScene> load(const VulkanContext& context, const SceneReque
     double done = pipelinesAt;
     const PipelineWatch watch([&] {
         const bool goOn = job.doing(fmt::format("Compiling shaders: {} ...", ++pipelines), done);
-        done += (end - done) / 64;
+        done += (pictureAt - done) / 64;
         return goOn;
     });
     RendererOptions options = request.renderer;
     options.size = out->view.size;
     out->renderer = std::make_unique<Renderer>(context, out->scene, options);
-    begins(job, "Drawing the first picture ...", end);
+    begins(job, "Drawing the first picture ...", pictureAt);
     return out;
 }
 

@@ -30,11 +30,11 @@ std::string anchorOf(const Term& term)
 // Explains the terms that a text uses first.
 std::string firstTerms(TermFinder& finder, const std::string& text)
 {
-    const std::vector<Term> terms = finder.firstIn(text);
-    if (terms.empty())
+    const std::vector<Term> firstHere = finder.firstIn(text);
+    if (firstHere.empty())
         return "";
     std::string out = "<div class=\"terms\"><p>Terms that appear here first</p><dl>\n";
-    for (const Term& term : terms)
+    for (const Term& term : firstHere)
         out += fmt::format("<dt id=\"{}\">{}</dt><dd>{}</dd>\n", anchorOf(term), escaped(term.name),
                            escaped(term.meaning));
     return out + "</dl></div>\n";
