@@ -60,7 +60,7 @@ void recordLayout(const gpu::Frame& f, const gpu::CubeImage& cube, VkImageLayout
     f.device.CmdPipelineBarrier(f.cmd, stages, stages, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-// FNV-1a (Fowler, Noll and Vo 1991) of 32-bit words.
+// Like FNV-1a (Fowler, Noll and Vo 1991), but of whole words and numbers in place of bytes.
 uint64_t hashOf(std::initializer_list<gpu::Spirv> kernels, std::initializer_list<uint64_t> numbers)
 {
     uint64_t hash = 0xcbf29ce484222325;

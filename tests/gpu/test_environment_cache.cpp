@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <unistd.h>
+
 #include "harness/gpu_fixture.h"
 #include "render/check.h"
 #include "render/scene_environment.h"
@@ -55,7 +57,8 @@ protected:
         return out;
     }
 
-    const std::string folder_ = testing::TempDir() + "candelabra_environment_cache_test";
+    const std::string folder_ =
+        testing::TempDir() + "candelabra_environment_cache_test_" + std::to_string(::getpid());
 };
 
 } // namespace

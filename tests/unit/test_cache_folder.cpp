@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "io/cache_folder.h"
 
@@ -18,7 +19,7 @@ using Bytes = std::vector<uint8_t>;
 class CacheFolderTest : public testing::Test
 {
 protected:
-    void TearDown() override { std::filesystem::remove_all(folder_); }
+    void TearDown() override { std::filesystem::remove_all(base_); }
 
     std::string file(const std::string& name) const { return folder_ + "/" + name; }
     Bytes read(const std::string& name) const
@@ -42,7 +43,9 @@ protected:
                                                          std::chrono::seconds(seconds));
     }
 
-    const std::string folder_ = testing::TempDir() + "candelabra_cache_folder_test/deep/er";
+    const std::string base_ =
+        testing::TempDir() + "candelabra_cache_folder_test_" + std::to_string(::getpid());
+    const std::string folder_ = base_ + "/deep/er";
 };
 
 } // namespace

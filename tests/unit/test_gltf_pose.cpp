@@ -118,10 +118,9 @@ TEST_F(GltfPoseTest, TheNodeOfASkinnedMeshDoesNotMoveIt)
     b.json["nodes"][0]["scale"] = {-3, 2, 1};
     const Scene scene = load(b);
     const Instance& instance = scene.instances.at(0);
-    // The triangle is mirrored into the node's space, so its corners come in another order.
     expectNear(worldPosition(scene, instance, 0), {0, 0, 5});
-    expectNear(worldPosition(scene, instance, 2), {0, 0, 7});
-    expectNear(worldPosition(scene, instance, 1), {-0.5, 0, 6});
+    expectNear(worldPosition(scene, instance, 1), {0, 0, 7});
+    expectNear(worldPosition(scene, instance, 2), {-0.5, 0, 6});
 }
 
 TEST_F(GltfPoseTest, NormalsTurnWithTheirJoints)
@@ -130,8 +129,11 @@ TEST_F(GltfPoseTest, NormalsTurnWithTheirJoints)
     const double s = std::sqrt(0.5);
     b.json["nodes"][1]["rotation"] = {0, s, 0, s}; // +z to +x
     b.json["nodes"][1]["scale"] = {1, 4, 9};
+    b.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+        b.floats({0, 0.6f, 0.8f, 0, 0, 1, 0, 0, 1}, "VEC3");
     const Scene scene = load(b);
-    expectNear(worldNormal(scene, scene.instances.at(0), 0), {1, 0, 0});
+    expectNear(worldNormal(scene, scene.instances.at(0), 0),
+               glm::normalize(glm::dvec3(0.8 / 9, 0.6 / 4, 0)));
     expectNear(worldNormal(scene, scene.instances.at(0), 1), {0, 0, 1});
 }
 
@@ -152,12 +154,24 @@ TEST_F(GltfPoseTest, SkinsWithoutInfluencesAreReported)
     expectNear(worldPosition(scene, scene.instances.at(0), 1), {1, 0, 0});
 }
 
+TEST_F(GltfPoseTest, VerticesWithoutWeightsFollowTheFirstJoint)
+{
+    GltfBuilder b = skinnedTriangle();
+    b.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] =
+        b.floats({1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0}, "VEC4");
+    const Scene scene = load(b);
+    expectNear(worldPosition(scene, scene.instances.at(0), 1), {1, 0, 5});
+    EXPECT_TRUE(warns(scene, "has vertices whose weights are 0"));
+}
+
 TEST_F(GltfPoseTest, BrokenSkinsAreNamed)
 {
     GltfBuilder few = skinnedTriangle();
     few.json["skins"][0]["joints"] = {1};
-    EXPECT_NE(error(few).find("meshes[0].primitives[0]: is moved by joint 1 of a skin of 1 joints"),
-              std::string::npos)
+    EXPECT_NE(
+        error(few).find("meshes[0].primitives[0]: vertex 1 follows joint 1, but skins[0] has 1 "
+                        "joint"),
+        std::string::npos)
         << error(few);
     GltfBuilder none = skinnedTriangle();
     none.json["skins"][0]["joints"] = Json::array();
@@ -167,6 +181,16 @@ TEST_F(GltfPoseTest, BrokenSkinsAreNamed)
     EXPECT_NE(error(wrong).find("skins[0].inverseBindMatrices: accessors[0] must have a MAT4"),
               std::string::npos)
         << error(wrong);
+    GltfBuilder types = skinnedTriangle();
+    Json& attributes = types.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = types.floats(std::vector<float>(12), "VEC4");
+    EXPECT_NE(error(types).find("must have unsigned bytes or shorts"), std::string::npos)
+        << error(types);
+    GltfBuilder negative = skinnedTriangle();
+    negative.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] =
+        negative.floats({1, 0, 0, 0, 1, -1, 0, 0, 1, 1, 0, 0}, "VEC4");
+    EXPECT_NE(error(negative).find("vertex 1 has a joint whose weight"), std::string::npos)
+        << error(negative);
     GltfBuilder index = skinnedTriangle();
     index.json["skins"][0]["joints"] = {1, 77};
     EXPECT_NE(error(index).find("skins[0].joints[1]: is 77"), std::string::npos) << error(index);

@@ -179,7 +179,10 @@ TEST(LightHistory, KeepsTheMotionOfRemovedLights)
     scene.lightMotions = {{.angularSpeed = 3}};
     removeLight(scene, editor);
     EXPECT_TRUE(scene.lightMotions.empty());
-    scene.lightMotions = {};
+    undoEdit(scene, editor);
+    ASSERT_EQ(scene.lightMotions.size(), 1u);
+    EXPECT_EQ(scene.lightMotions[0].angularSpeed, 3);
+    removeLight(scene, editor);
     addLight(scene, editor, {0, 0, 0}); // a scene without moving lights
     EXPECT_TRUE(scene.lightMotions.empty());
     scene.lightMotions = {{.angularSpeed = 5}};

@@ -177,6 +177,17 @@ TEST(ReportSentences, SpeedSaysFasterOnlyWhereTheIntervalDoes)
     EXPECT_TRUE(has(speedSentence({few}), "too few repeats")) << speedSentence({few});
 }
 
+TEST(ReportSentences, WhatWasDrawnOnceHasNoInterval)
+{
+    CullingPoint once = point(2);
+    once.contenders[3] = contender(bruteName, {200});
+    const PairedRatio r = once.toEngine(bruteName);
+    EXPECT_NEAR(r.median, 200 / 10.03, 1e-9);
+    EXPECT_FALSE(r.isKnown());
+    EXPECT_TRUE(has(speedSentence({once}), "too few repeats for an interval"));
+    EXPECT_TRUE(once.toEngine(froxelsName).isKnown());
+}
+
 TEST(ReportSentences, AccuracySaysWhichIsCloserToTheTruth)
 {
     const std::string closer = accuracySentence(kernels(0.01, 0.1, 0.3), {});

@@ -105,7 +105,8 @@ TubeRanges rangesAboveHorizon(TubeEnd e, float centreHeight)
     const float rise = max(sqrt(e.outward.z * e.outward.z + e.across.z * e.across.z), MIN_LENGTH2);
     const float cosine = clamp(-base / rise, -1.0, 1.0);
     const float reach = atan(sqrt(max(1.0 - cosine * cosine, 0.0)), cosine);
-    // SwiftShader's arc tangent of -0 and a negative number is 0.
+    // SwiftShader returns 0 for atan(-0.0, x) with x < 0, where pi or -pi is right. So -0 is replaced
+    // by 0.
     const float top = atan(e.across.z == 0.0 ? 0.0 : e.across.z, e.outward.z);
     // The circle is above the horizon from top - reach to top + reach. Of all turns of this range, two
     // can meet the arc.

@@ -81,8 +81,8 @@ void DeviceArguments::addTo(CLI::App& command)
                      "message makes the exit code 1");
     command.add_flag(
         "--no-cache", noCache,
-        "prepare environment images even if the cache (candelabra in $XDG_CACHE_HOME or "
-        "~/.cache) has what was prepared before, and do not store it there");
+        "prepare environment images anew, and neither read nor write the cache of prepared ones "
+        "(candelabra/environments in $XDG_CACHE_HOME or ~/.cache)");
 }
 
 ContextOptions DeviceArguments::contextOptions(Presentation presentation) const

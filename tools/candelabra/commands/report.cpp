@@ -233,10 +233,11 @@ void cullingPart(const Part& part)
     ReportSection section{
         .id = "culling",
         .title = "Culling: time against the number of lights",
-        .intro = "The same frame is lit in five ways, in turn: by Candelabra, with lists per tile "
-                 "of 16x16 pixels, with lists per froxel, by brute force, and with free culling "
-                 "(floor). Curves that stay flat cope with many lights; at 30 and more lights per "
-                 "pixel evaluating them takes most of the time, whatever the culling.",
+        .intro =
+            "The same frame is lit in five ways, in turn: by Candelabra, with lists per tile "
+            "of 16x16 pixels, with lists per froxel, by brute force, and with free culling "
+            "(floor). A way of culling whose curve stays flat copes with many lights. The floor "
+            "is the time of evaluating the lights alone, which no culling can save.",
         .html = {},
         .tables = cullingTables(out.culling),
         .command = "candelabra report --parts culling"};
@@ -364,8 +365,8 @@ void addComparison(const std::string& directory, const DeviceInfo& device, const
         figures.insert(figures.end(), more.begin(), more.end());
     Comparison comparison = compareWithCommitted(figures, *committed);
     page.notes.push_back(fmt::format(
-        "{} of this run are also in the committed results of this device and driver ({}); {} of "
-        "them contradict those.",
+        "{} of this run can be compared with the committed results of this device and driver ({}); "
+        "of these, {} contradict them.",
         counted(comparison.compared, "figure"), directory,
         comparison.contradictions.empty() ? "none" : grouped(comparison.contradictions.size())));
     page.markContradictions(comparison.contradictions);

@@ -37,6 +37,7 @@ ViewerOptions optionsOf(const ViewArguments& a)
                                 .influence = a.frame.influenceRule(),
                                 .reuse = a.frame.reuseMode(),
                                 .heatMap = a.frame.heatMapMode(),
+                                .edgeFilter = true,
                                 .exposure = a.frame.exposureSettings()},
                       .lightsVisible = a.frame.lightsVisibleOverride(),
                       .overlay = !a.noOverlay,

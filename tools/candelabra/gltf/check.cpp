@@ -446,9 +446,9 @@ void checkVersion(const JsonValue& asset)
             const bool isTwo = text.substr(0, 2) == "2.";
             const bool readable = name == std::string_view("version") ? isTwo : text == "2.0";
             if (!readable)
-                version->fail("is " + printable(text, 20) +
-                              "; glTF 2.0 is supported, to which a glTF exporter or gltf-pipeline "
-                              "converts it");
+                version->fail("is " + printable(version->json().dump(), 20) +
+                              "; only glTF 2.0 can be read" +
+                              (text.starts_with("1") ? "; gltf-pipeline converts the file" : ""));
             version->string(); // fails for numbers
         }
 }

@@ -32,7 +32,8 @@ GltfContainer splitBinary(const std::string& path, const std::vector<uint8_t>& b
     if (version != 2)
         failScene(path, "",
                   "is binary glTF of version " + std::to_string(version) +
-                      ", not 2; a glTF exporter or gltf-pipeline converts it");
+                      ", and only version 2 can be read" +
+                      (version == 1 ? "; gltf-pipeline converts the file" : ""));
     const uint64_t length = readLittleEndian32(&bytes[8]);
     if (length > bytes.size())
         failScene(path, "",

@@ -116,7 +116,7 @@ void SceneBuilder::addMesh(const GltfPlacedNode& placed)
     const GltfPose pose = poses_.of(placed);
     const size_t room = maxInstances - scene_.instances.size();
     for (const glm::dmat4& nodeFromMesh : readGltfInstancing(document_, placed.node, room)) {
-        const glm::dmat4 worldFromMesh = placed.worldFromNode * nodeFromMesh;
+        const glm::dmat4 worldFromMesh = pose.worldFromMesh * nodeFromMesh;
         refuseHugeTransform(document_, element, worldFromMesh);
         addInstance(element, gltfMesh, pose, worldFromMesh);
     }

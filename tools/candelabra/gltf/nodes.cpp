@@ -90,9 +90,7 @@ glm::dmat4 localTransform(const GltfDocument& document, size_t index)
     const tinygltf::Node& node = document.model.nodes[index];
     if (!node.matrix.empty()) {
         const glm::dmat4 m = glm::make_mat4(node.matrix.data());
-        for (int column = 0; column < 4; ++column)
-            if (!(std::abs(m[column][3] - (column == 3 ? 1 : 0)) <= 1e-6))
-                document.fail(nodeName(index) + ".matrix", "must have 0, 0, 0, 1 as its last row");
+        requireAffine(document, nodeName(index) + ".matrix", m);
         return m;
     }
     GltfTransform transform;
@@ -143,6 +141,13 @@ glm::dmat4 gltfMatrix(const GltfDocument& document, const std::string& rotation,
         m[i] *= transform.scale[i];
     m[3] = glm::dvec4(transform.translation, 1);
     return m;
+}
+
+void requireAffine(const GltfDocument& document, const std::string& element, const glm::dmat4& m)
+{
+    for (int column = 0; column < 4; ++column)
+        if (!(std::abs(m[column][3] - (column == 3 ? 1 : 0)) <= 1e-6))
+            document.fail(element, "must have 0, 0, 0, 1 as its last row");
 }
 
 void refuseHugeTransform(const GltfDocument& document, const std::string& element,

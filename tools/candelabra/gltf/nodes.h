@@ -31,6 +31,9 @@ struct GltfTransform {
 glm::dmat4 gltfMatrix(const GltfDocument& document, const std::string& rotation,
                       const GltfTransform& transform);
 
+// Fails if the last row of the matrix, which `element` names, is not 0, 0, 0, 1.
+void requireAffine(const GltfDocument& document, const std::string& element, const glm::dmat4& m);
+
 // Fails if the transform to world space of something in `element` exceeds 1e12 m.
 void refuseHugeTransform(const GltfDocument& document, const std::string& element,
                          const glm::dmat4& world);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 namespace candelabra::app
 {
 
@@ -41,6 +43,7 @@ GltfPose GltfPoses::of(const GltfPlacedNode& placed) const
     pose.weights = node.weights.empty()
                        ? document_.model.meshes[static_cast<size_t>(node.mesh)].weights
                        : node.weights;
+    pose.worldFromMesh = placed.worldFromNode;
     if (node.skin < 0)
         return pose;
     const auto index = static_cast<size_t>(node.skin);
@@ -56,12 +59,16 @@ GltfPose GltfPoses::of(const GltfPlacedNode& placed) const
                            jointFromBind->element() + " must have a MAT4 of floats for each of " +
                                std::to_string(skin.joints.size()) + " joints");
     }
-    // The transform of a node with a skin moves nothing (glTF 2.0, section 3.7.3.3).
-    const glm::dmat4 nodeFromWorld = glm::inverse(placed.worldFromNode);
+    pose.skin = element;
+    const auto firstJoint = static_cast<size_t>(skin.joints[0]);
+    pose.worldFromMesh = glm::translate(glm::dmat4(1), glm::dvec3(worldFromNodes_[firstJoint][3]));
+    const glm::dmat4 meshFromWorld = glm::inverse(pose.worldFromMesh);
+    pose.meshFromRest = meshFromWorld * placed.worldFromNode;
     for (size_t j = 0; j < skin.joints.size(); ++j) {
         const glm::dmat4& worldFromJoint = worldFromNodes_[static_cast<size_t>(skin.joints[j])];
-        pose.nodeFromBind.push_back(nodeFromWorld * worldFromJoint *
-                                    (jointFromBind ? jointFromBind->readMatrix(j) : glm::dmat4(1)));
+        const glm::dmat4 fromBind = jointFromBind ? jointFromBind->readMatrix(j) : glm::dmat4(1);
+        requireAffine(document_, element + "." + gltfElement("inverseBindMatrices", j), fromBind);
+        pose.meshFromBind.push_back(meshFromWorld * worldFromJoint * fromBind);
     }
     return pose;
 }
@@ -75,7 +82,7 @@ GltfPosedVertices::GltfPosedVertices(const GltfDocument& document,
     positions_ = morphs(primitive, "POSITION", vertexCount);
     normals_ = morphs(primitive, "NORMAL", vertexCount);
     tangents_ = morphs(primitive, "TANGENT", vertexCount);
-    if (!pose.nodeFromBind.empty())
+    if (isSkinned())
         readInfluences(primitive, vertexCount);
 }
 
@@ -110,50 +117,80 @@ void GltfPosedVertices::readInfluences(const tinygltf::Primitive& primitive, siz
         const auto weights = find("WEIGHTS_" + std::to_string(set));
         if (!joints || !weights)
             break;
+        const int type = joints->componentType();
+        if (joints->isNormalized() || (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+                                       type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT))
+            document_.fail(element_ + ".attributes.JOINTS_" + std::to_string(set),
+                           joints->element() +
+                               " must have unsigned bytes or shorts that are not normalized");
         influences_.push_back({*joints, *weights});
     }
     if (influences_.empty())
         document_.warn(element_, "has no JOINTS_0 or no WEIGHTS_0, so its skin does not move it");
+    checkWeights(vertexCount);
+}
+
+void GltfPosedVertices::checkWeights(size_t vertexCount) const
+{
+    bool free = false;
+    for (size_t i = 0; i < vertexCount && !influences_.empty(); ++i) {
+        double total = 0;
+        for (const Influences& influences : influences_) {
+            const glm::dvec4 weights(influences.weights.read(i));
+            for (int c = 0; c < 4; ++c) {
+                if (!(weights[c] >= 0))
+                    document_.fail(element_, "vertex " + std::to_string(i) +
+                                                 " has a joint whose weight is not 0 or more");
+                total += weights[c];
+            }
+        }
+        free = free || total == 0;
+    }
+    if (free)
+        document_.warn(element_, "has vertices whose weights are 0, which follow the first joint");
 }
 
 // The mean of the joints' transforms, weighted by what they contribute to vertex i.
-glm::dmat4 GltfPosedVertices::nodeFromVertex(size_t i) const
+glm::dmat4 GltfPosedVertices::meshFromVertex(size_t i) const
 {
+    if (influences_.empty())
+        return pose_.meshFromRest;
     glm::dmat4 sum{0};
     double total = 0;
     for (const Influences& influences : influences_) {
         const glm::dvec4 joints(influences.joints.read(i));
         const glm::dvec4 weights(influences.weights.read(i));
         for (int c = 0; c < 4; ++c) {
-            if (!(weights[c] > 0))
+            if (weights[c] == 0)
                 continue;
-            if (!(joints[c] >= 0 && joints[c] < static_cast<double>(pose_.nodeFromBind.size())))
-                document_.fail(element_, "is moved by joint " +
-                                             std::to_string(static_cast<int64_t>(joints[c])) +
-                                             " of a skin of " +
-                                             std::to_string(pose_.nodeFromBind.size()) + " joints");
-            sum += weights[c] * pose_.nodeFromBind[static_cast<size_t>(joints[c])];
+            const auto joint = static_cast<size_t>(joints[c]);
+            const size_t count = pose_.meshFromBind.size();
+            if (joint >= count)
+                document_.fail(element_, "vertex " + std::to_string(i) + " follows joint " +
+                                             std::to_string(joint) + ", but " + pose_.skin +
+                                             " has " + std::to_string(count) +
+                                             (count == 1 ? " joint" : " joints"));
+            sum += weights[c] * pose_.meshFromBind[joint];
             total += weights[c];
         }
     }
-    // A vertex without weights follows the first joint, which is usually the root.
-    return total > 0 ? sum / total : pose_.nodeFromBind[0];
+    return total > 0 ? sum / total : pose_.meshFromBind[0];
 }
 
 glm::dvec3 GltfPosedVertices::position(size_t i, const glm::dvec3& rest) const
 {
     const glm::dvec3 p = morphed(rest, positions_, i);
-    return influences_.empty() ? p : glm::dvec3(nodeFromVertex(i) * glm::dvec4(p, 1));
+    return isSkinned() ? glm::dvec3(meshFromVertex(i) * glm::dvec4(p, 1)) : p;
 }
 
 glm::dvec3 GltfPosedVertices::normal(size_t i, const glm::dvec3& rest) const
 {
     const glm::dvec3 n = morphed(rest, normals_, i);
-    if (influences_.empty())
+    if (!isSkinned())
         return n;
     // The matrix of cofactors is the inverse transpose times the determinant, and exists without
     // an inverse too.
-    const glm::dmat3 m(nodeFromVertex(i));
+    const glm::dmat3 m(meshFromVertex(i));
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
                                glm::cross(m[0], m[1]));
     return normalizedOrZero(cofactors * n) * (glm::determinant(m) < 0 ? -1.0 : 1.0);
@@ -162,7 +199,7 @@ glm::dvec3 GltfPosedVertices::normal(size_t i, const glm::dvec3& rest) const
 glm::dvec3 GltfPosedVertices::tangent(size_t i, const glm::dvec3& rest) const
 {
     const glm::dvec3 t = morphed(rest, tangents_, i);
-    return influences_.empty() ? t : normalizedOrZero(glm::dmat3(nodeFromVertex(i)) * t);
+    return isSkinned() ? normalizedOrZero(glm::dmat3(meshFromVertex(i)) * t) : t;
 }
 
 } // namespace candelabra::app

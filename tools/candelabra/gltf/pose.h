@@ -23,9 +23,16 @@ struct GltfPose {
     // The node that has the pose, or ofMesh: then all nodes without a pose of their own share it.
     int64_t owner = ofMesh;
     std::vector<double> weights; // of the morph targets; those beyond the list are 0
-    // For each joint of the skin, the transform from the mesh as it is in the file to the space of
-    // the node. Empty without a skin.
-    std::vector<glm::dmat4> nodeFromBind;
+    // Where the posed mesh stands: the transform of its node. That of a node with a skin moves
+    // nothing (glTF 2.0, section 3.7.3.3): there it is a translation to the skin's first joint, so
+    // that positions keep their digits far from the origin.
+    glm::dmat4 worldFromMesh{1};
+    std::string skin; // its name in messages
+    // For each joint of the skin, the transform from the mesh as it is in the file to the posed
+    // mesh. Empty without a skin.
+    std::vector<glm::dmat4> meshFromBind;
+    // With a skin, the same for primitives that no joint moves: they stand where the node is.
+    glm::dmat4 meshFromRest{1};
 };
 
 class GltfPoses
@@ -65,13 +72,15 @@ private:
     std::vector<Morph> morphs(const tinygltf::Primitive& primitive, const char* attribute,
                               size_t vertexCount) const;
     void readInfluences(const tinygltf::Primitive& primitive, size_t vertexCount);
-    glm::dmat4 nodeFromVertex(size_t i) const;
+    void checkWeights(size_t vertexCount) const;
+    glm::dmat4 meshFromVertex(size_t i) const;
+    bool isSkinned() const { return !pose_.meshFromBind.empty(); }
 
     const GltfDocument& document_;
     std::string element_;
     const GltfPose& pose_;
     std::vector<Morph> positions_, normals_, tangents_;
-    std::vector<Influences> influences_; // empty if the vertices have no skin
+    std::vector<Influences> influences_; // empty if no joint moves the vertices
 };
 
 } // namespace candelabra::app

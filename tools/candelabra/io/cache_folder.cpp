@@ -49,10 +49,13 @@ std::optional<std::vector<uint8_t>> CacheFolder::find(const std::string& name) c
     std::error_code ignored;
     if (!keeps() || !std::filesystem::exists(path, ignored))
         return std::nullopt;
+    const uintmax_t size = std::filesystem::file_size(path, ignored);
+    if (ignored || size > mostBytes_)
+        return std::nullopt;
     std::vector<uint8_t> bytes;
     try {
         bytes = readImageFile(path);
-    } catch (const ImageError& error) {
+    } catch (const std::exception& error) { // ImageError, or no memory
         spdlog::debug("cache: {}", error.what());
         return std::nullopt;
     }
@@ -71,13 +74,13 @@ std::optional<std::vector<uint8_t>> CacheFolder::find(const std::string& name) c
 
 void CacheFolder::store(const std::string& name, std::span<const uint8_t> bytes) const
 {
-    const Ending ending = endingOf(name, bytes);
-    if (!keeps() || bytes.size() + sizeof ending > mostBytes_)
+    if (!keeps() || bytes.size() + sizeof(Ending) > mostBytes_)
         return;
-    std::vector<uint8_t> file(bytes.size() + sizeof ending);
-    std::copy(bytes.begin(), bytes.end(), file.begin());
-    std::memcpy(&file[bytes.size()], &ending, sizeof ending);
     try {
+        const Ending ending = endingOf(name, bytes);
+        std::vector<uint8_t> file(bytes.size() + sizeof ending);
+        std::copy(bytes.begin(), bytes.end(), file.begin());
+        std::memcpy(&file[bytes.size()], &ending, sizeof ending);
         std::filesystem::create_directories(folder_);
         writeFileAtomically(folder_ + "/" + name, file);
         removeOldest();
@@ -110,8 +113,8 @@ void CacheFolder::removeOldest() const
     for (const File& file : files) {
         if (sum <= mostBytes_)
             return;
-        fs::remove(file.path, gone);
-        sum -= file.bytes;
+        if (fs::remove(file.path, gone))
+            sum -= file.bytes;
     }
 }
 

@@ -33,15 +33,17 @@ std::string Column::head() const
 
 std::string noisyLegend()
 {
-    return fmt::format("{} The repeats of this row are noisy: their middle half spans more than "
+    return fmt::format("{} marks a row whose repeats are noisy: their middle half spans more than "
                        "{:.0f}% of their median.",
                        noisyMark, 100 * noisyShare);
 }
 
 std::string contradictionLegend()
 {
-    return fmt::format("{} This row contradicts the committed results of this device and driver.",
-                       contradictionMark);
+    return fmt::format(
+        "{} marks a row whose figure is far from the committed one of this device and "
+        "driver, which may be of a larger picture.",
+        contradictionMark);
 }
 
 Table::Table(std::vector<Column> columns, std::string title)

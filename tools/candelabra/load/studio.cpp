@@ -37,8 +37,8 @@ double skyLuminance(const glm::dvec3& direction)
 {
     const double up = direction.y;
     // The floor is darkest straight below, and the ceiling a little brighter than the walls. All
-    // are so much darker than the lights that even a rough metal, which returns about half of its
-    // light, stands out from them.
+    // are so much darker than the lights that even a rough metal, which reflects about half of the
+    // light that it receives, stands out from them.
     double out = 0.1 + 0.11 * smooth(-0.7, 0.05, up) + 0.04 * smooth(0.0, 0.9, up);
     for (const SoftLight& light : softLights) {
         const glm::dvec3 at(std::sin(light.azimuth) * std::cos(light.elevation),

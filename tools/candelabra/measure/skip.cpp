@@ -585,9 +585,10 @@ Table skipTable(const std::vector<SkipRow>& rows)
     for (const SkipRow& row : rows)
         table.add({row.name, row.against, row.passes, threeDigits(medianMs(row.with)),
                    threeDigits(medianMs(row.without)),
-                   row.interval().isKnown() ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", row.ratio(),
-                                                          row.interval().low, row.interval().high)
-                                            : fmt::format("{:.3f}", row.ratio()),
+                   row.interval().isKnown()
+                       ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", row.interval().median,
+                                     row.interval().low, row.interval().high)
+                       : fmt::format("{:.3f}", row.ratio()),
                    row.bar > 0 ? fmt::format("{:.2f}", row.bar) : "-", costOf(row),
                    fmt::format("{:.0e}", row.difference)},
                   {.noisy = isNoisy(row.with.totals()) || isNoisy(row.without.totals()),

@@ -12,10 +12,10 @@ namespace candelabra::app
 namespace
 {
 
-// The general disability glare equation of the CIE (Vos and van den Berg 1999, CIE 135/1) for young
-// eyes is 10 / angle^3 + 5 / angle^2, with the angle in degrees. As a mixture of Gauss curves of
-// all widths it has 1.6 / width + 1 of the light per factor e of the width. It is used between
-// these two widths, in degrees. Light that is scattered less counts as not scattered.
+// The disability glare equation of the CIE for small angles (Vos and van den Berg 1999, CIE 135/1),
+// for young eyes, is 10 / angle^3 + 5 / angle^2, with the angle in degrees. As a mixture of Gauss
+// curves of all widths it has 1.6 / width + 1 of the light per factor e of the width. It is used
+// between these two widths, in degrees. Light that is scattered less counts as not scattered.
 constexpr double narrowest = 0.1, widest = 15;
 
 // A picture is taken for one whose height the eye sees at this angle, in degrees. So a picture
@@ -49,7 +49,7 @@ constexpr ImageAccess usedBefore{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
 
 std::vector<double> bloomShares(PixelSize size)
 {
-    // The coarsest level has two or three texels along the shorter side.
+    // The coarsest level has at most three texels along the shorter side.
     uint32_t count = 1;
     while (std::min(size.width, size.height) > 3u << count)
         ++count;

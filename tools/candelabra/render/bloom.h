@@ -25,8 +25,9 @@ public:
     // Makes an image in which `share` (0..1) of the light of `radiance` is spread. Both are
     // R32G32B32A32_SFLOAT in SHADER_READ_ONLY_OPTIMAL and visible to compute shaders, `radiance`
     // before and the image returned after the recording. The sum of the image is that of
-    // `radiance`. Values of `radiance` that are no light (NaN, infinity and negative ones) stay
-    // where they are.
+    // `radiance` if all its values are light. Values that are no light (NaN, infinity, negative
+    // ones) are not spread: they are only multiplied by 1 - `share`, and with a `share` of 1 they
+    // disappear.
     VkImageView record(VkCommandBuffer cmd, uint32_t slot, VkImageView radiance, float share);
 
     // What the last recording made.

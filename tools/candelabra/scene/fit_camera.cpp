@@ -160,7 +160,7 @@ Camera cameraOfPicture(const Camera& camera, double aspect)
     Camera out = camera;
     out.aspect.reset();
     const double wider = camera.aspect ? *camera.aspect / aspect : 1;
-    if (wider > 1) { // the picture is too narrow, unless it shows more above and below
+    if (wider > 1) { // rather than cutting off the sides, the picture shows more above and below
         out.orthographicHeight *= wider;
         out.verticalFov = 2 * std::atan(wider * std::tan(camera.verticalFov / 2));
     }

@@ -69,7 +69,7 @@ struct KeyHelp {
     KeyBinding bindings[6] = {}; // unused ones have no action; none at all for the mouse
 };
 
-constexpr KeyHelp keyHelp[] = {
+inline constexpr KeyHelp keyHelp[] = {
     {"W A S D, Q E",
      "fly; Q goes down, E goes up; hold Shift to go fast",
      {{KeyAction::Forward, GLFW_KEY_W},
@@ -147,12 +147,13 @@ constexpr KeyHelp keyHelp[] = {
     {"drop a file", "open a scene (.gltf .glb .json) or an environment (.hdr .exr .pfm)"},
 };
 
-// While a field of the panel is typed into, keys go to the field. Enter, Tab and a click on the
-// scene keep what was typed and end that, Esc takes it back. Function keys always do what the table
-// says.
-constexpr const char* fieldHelp = "Ctrl+click on a number of the panel to type one; then keys go "
-                                  "to that field until Enter, Tab,\n"
-                                  "Esc or a click on the scene. F1, F2 and F5 always work.";
+// While the user types into a field of the panel, keys go to that field. Enter, Tab and a click on
+// the scene leave the field and keep what was typed. Esc leaves it and restores the old value.
+// Function keys always do what the table says.
+inline constexpr const char* fieldHelp =
+    "Ctrl+click on a number of the panel to type one; then keys go "
+    "to that field until Enter, Tab,\n"
+    "Esc or a click on the scene. F1, F2 and F5 always work.";
 
 // Returns what a key does with these modifiers (GLFW_MOD_*), or null. Shift alone does not matter
 // unless the table says so, because it makes the camera fly fast.

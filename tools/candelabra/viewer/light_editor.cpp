@@ -88,7 +88,10 @@ void append(Scene& scene, LightEditor& editor, const CndLight& light, const Ligh
         scene.lightMotions.push_back(motion);
     editor.selected = uint32_t(scene.lights.size()) - 1;
     editor.history.beginStep();
-    editor.history.add({.light = *editor.selected, .after = light, .motion = motion});
+    LightEdit edit{.light = *editor.selected, .after = light};
+    if (!scene.lightMotions.empty())
+        edit.motion = motion;
+    editor.history.add(edit);
     editor.changed = true;
 }
 
@@ -108,6 +111,7 @@ std::string described(const LightEdit& edit)
                     : differ(a.position, b.position)         ? " moved"
                     : a.radius != b.radius                   ? " has another size"
                     : a.influenceRadius != b.influenceRadius ? " reaches another distance"
+                    : differ(a.direction, b.direction)       ? " turned"
                     : differ(a.emission, b.emission)         ? " has another brightness or colour"
                                                              : " has another shape");
 }
@@ -273,11 +277,11 @@ void removeLight(Scene& scene, LightEditor& editor)
     if (!selectedLight(scene, editor))
         return;
     const auto at = std::ptrdiff_t(*editor.selected);
-    const LightMotion motion =
-        scene.lightMotions.empty() ? LightMotion{} : scene.lightMotions[*editor.selected];
+    LightEdit edit{.light = *editor.selected, .before = scene.lights[*editor.selected]};
+    if (!scene.lightMotions.empty())
+        edit.motion = scene.lightMotions[*editor.selected];
     editor.history.beginStep();
-    editor.history.add(
-        {.light = *editor.selected, .before = scene.lights[*editor.selected], .motion = motion});
+    editor.history.add(edit);
     scene.lights.erase(scene.lights.begin() + at);
     if (!scene.lightMotions.empty())
         scene.lightMotions.erase(scene.lightMotions.begin() + at);
@@ -294,24 +298,26 @@ void selectLight(const Scene& scene, LightEditor& editor, int step)
     editor.selected = uint32_t(((from + step) % count + count) % count);
 }
 
-void moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres)
+bool moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres)
 {
     CndLight* light = selectedLight(scene, editor);
     if (!light || cndIsDistant(light->type))
-        return;
+        return false;
     const CndLight before = *light;
     assign(light->position, toVec3(light->position) + metres);
     changed(editor, before, *light);
+    return true;
 }
 
-void scaleLightRadius(Scene& scene, LightEditor& editor, float factor)
+bool scaleLightRadius(Scene& scene, LightEditor& editor, float factor)
 {
     CndLight* light = selectedLight(scene, editor);
     if (!light || !has(*light, CND_LIGHT_FIELD_RADIUS_BIT))
-        return;
+        return false;
     const CndLight before = *light;
     changeRadius(*light, light->radius * factor);
     changed(editor, before, *light);
+    return true;
 }
 
 std::string undoEdit(Scene& scene, LightEditor& editor)
@@ -442,8 +448,6 @@ bool lightWidgets(CndLight& light, bool& watts)
 
 void drawLightEditor(Scene& scene, LightEditor& editor)
 {
-    if (!ImGui::IsAnyItemActive()) // the user has let go of whatever was dragged
-        editor.history.beginStep();
     editorButtons(scene, editor);
     CndLight* light = selectedLight(scene, editor);
     if (!light) {

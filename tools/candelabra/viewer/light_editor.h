@@ -35,9 +35,9 @@ void duplicateLight(Scene& scene, LightEditor& editor);
 void removeLight(Scene& scene, LightEditor& editor);
 // Moves the selection by `step` lights; after the last light comes the first.
 void selectLight(const Scene& scene, LightEditor& editor, int step);
-void moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres);
+bool moveLight(Scene& scene, LightEditor& editor, const glm::vec3& metres);
 // Multiplies the radius of the selected light by `factor`, if that light has a radius.
-void scaleLightRadius(Scene& scene, LightEditor& editor, float factor);
+bool scaleLightRadius(Scene& scene, LightEditor& editor, float factor);
 
 // Undo or redo the last step, if there is one, and select the light that it was about. They return
 // what was done in a few words, such as "undone: light 3 moved", or that there is nothing to do.

@@ -21,8 +21,8 @@ void apply(Scene& scene, const LightEdit& edit)
         scene.lights[edit.light] = *edit.after;
     } else if (edit.after) {
         scene.lights.insert(scene.lights.begin() + at, *edit.after);
-        if (!scene.lightMotions.empty())
-            scene.lightMotions.insert(scene.lightMotions.begin() + at, edit.motion);
+        if (edit.motion)
+            scene.lightMotions.insert(scene.lightMotions.begin() + at, *edit.motion);
     } else {
         scene.lights.erase(scene.lights.begin() + at);
         if (!scene.lightMotions.empty())

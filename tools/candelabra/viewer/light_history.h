@@ -16,7 +16,8 @@ namespace candelabra::app
 struct LightEdit {
     uint32_t light = 0; // index in the scene
     std::optional<CndLight> before, after;
-    LightMotion motion{}; // of a light that was added or removed
+    // What a light that was added or removed has; empty if no light of the scene moved then.
+    std::optional<LightMotion> motion{};
 };
 
 class LightHistory

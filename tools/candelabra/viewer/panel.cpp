@@ -349,6 +349,8 @@ void drawExposure(PanelState& state, const PanelFigures& figures)
     bool dither = e.dither;
     ImGui::Checkbox("dither", &dither);
     e.dither = dither;
+    ImGui::Checkbox("smooth edges", &state.frame.edgeFilter);
+    ImGui::SliderFloat("bloom", &state.frame.bloom, 0, 0.2f, "%.3f", ImGuiSliderFlags_AlwaysClamp);
 }
 
 } // namespace

@@ -139,7 +139,7 @@ void Viewer::takeScene()
     knownExposure_ = !exposure.manual && scene_.knownEv100;
     useKnownExposure(scene_, exposure);
     panel_.wantedLights = uint32_t(scene_.lights.size());
-    panel_.editor = {};
+    panel_.editor = {.watts = panel_.editor.watts}; // the unit stays as the user chose it
     panel_.object.reset();
     rays_.reset();
     figures_.picked.reset();

@@ -151,7 +151,8 @@ bool Viewer::onKeyPressed(const InputEvent& event)
         return true;
     if (!event.repeat) {
         panel_.editor.history.beginStep();
-        heldKeys_.insert(key);
+        if (findBinding(key, 0) == binding) // Ctrl+D does not fly to the right, as D does
+            heldKeys_.insert(key);
         freshKeys_.insert(key);
     }
     onAction(binding->action);
@@ -175,8 +176,10 @@ bool Viewer::onButton(const InputEvent& event)
     const std::optional<bool> taken = overlay_.takesMouse();
     if (!taken)
         return false;
-    if (*taken)
+    if (*taken) {
+        panel_.editor.history.beginStep(); // what the user drags until the release is one step
         return overlay_.pressButton(event.code);
+    }
     if (overlay_.edits() && !overlay_.endEditing())
         return false;
     if (event.code == GLFW_MOUSE_BUTTON_LEFT || event.code == GLFW_MOUSE_BUTTON_RIGHT) {
@@ -216,6 +219,7 @@ bool Viewer::isHeld(KeyAction action) const
 void Viewer::say(const std::string& note)
 {
     figures_.note = note;
+    panel_.shownNote.clear(); // so that the same note is shown again
     spdlog::debug("{}", note);
 }
 
@@ -352,8 +356,10 @@ bool Viewer::onLightAction(KeyAction action)
         alongX ? glm::vec3(f.x < 0 ? -1 : 1, 0, 0) : glm::vec3(0, 0, f.z < 0 ? -1 : 1);
     const glm::vec3 right{-ahead.z, 0, ahead.x};
     const auto move = [&](const glm::vec3& direction) {
-        moveLight(scene_, editor, lightStep * direction);
-        sayLight("moved");
+        if (moveLight(scene_, editor, lightStep * direction) || !editor.selected)
+            sayLight("moved");
+        else
+            say(fmt::format("light {} has no position", *editor.selected));
         return true;
     };
     switch (action) {
@@ -378,9 +384,12 @@ bool Viewer::onLightAction(KeyAction action)
         return true;
     case KeyAction::ShrinkLight:
     case KeyAction::GrowLight:
-        scaleLightRadius(scene_, editor,
-                         action == KeyAction::GrowLight ? radiusStep : 1 / radiusStep);
-        sayLight("resized");
+        if (scaleLightRadius(scene_, editor,
+                             action == KeyAction::GrowLight ? radiusStep : 1 / radiusStep) ||
+            !editor.selected)
+            sayLight("resized");
+        else
+            say(fmt::format("light {} has no radius", *editor.selected));
         return true;
     case KeyAction::Undo:
         say(undoEdit(scene_, editor));
@@ -488,8 +497,8 @@ std::optional<RayHit> Viewer::surfaceAt(glm::dvec2 place)
     return rays_->cast({line.origin, line.direction});
 }
 
-// Returns the light at a place of the picture: one that no surface hides, or one inside of the
-// object there, which is a lamp then.
+// Returns the light at a place of the picture: one that no surface hides, or the only light inside
+// of the object there, such as the bulb of a lamp.
 std::optional<uint32_t> Viewer::lightUnder(glm::dvec2 place, const std::optional<RayHit>& surface,
                                            const std::optional<SelectedObject>& object) const
 {
@@ -512,9 +521,10 @@ std::optional<uint32_t> Viewer::lightUnder(glm::dvec2 place, const std::optional
             lights[inside.size()] = lights[i];
             inside.push_back(i);
         }
-    lights.resize(inside.size());
-    const std::optional<uint32_t> found = nearest(unlimited);
-    return found ? std::optional(inside[*found]) : std::nullopt;
+    if (inside.size() != 1) // a house, not a lamp
+        return std::nullopt;
+    lights.resize(1);
+    return nearest(unlimited) ? std::optional(inside[0]) : std::nullopt;
 }
 
 // Selects the light at a place of the picture, else the object there, else nothing.
@@ -630,7 +640,7 @@ void Viewer::pick(PixelPosition pixel)
     FrameOptions frame = optionsAt(int32_t(pixel.x));
     if (const std::string refusal = pickRefusal(frame.specular, frame.influence.rule);
         !refusal.empty()) {
-        figures_.note = "no pixel picked: " + refusal;
+        say("no pixel picked: " + refusal);
         return;
     }
     if (pixel.x >= size.width || pixel.y >= size.height) // the window has become smaller
@@ -671,6 +681,8 @@ void Viewer::moveCamera(double seconds)
 
 void Viewer::drawOverlay()
 {
+    if (panel_.editor.selected) // by a key or by the panel
+        panel_.object.reset();
     drawSelection(panel_, projection(), selectedNow(), scene_.lightOrigin);
     drawPanel(panel_, figures_, scene_);
 }

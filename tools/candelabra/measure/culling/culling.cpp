@@ -265,10 +265,12 @@ const Contender& CullingPoint::bestBaseline() const
 PairedRatio CullingPoint::toEngine(const std::string& name) const
 {
     const std::vector<double>& engine = of(engineName).times.totals();
-    std::vector<double> other = of(name).times.totals();
-    if (other.size() == 1)
-        other.resize(engine.size(), other[0]);
-    return pairedRatio(engine, other);
+    const std::vector<double>& other = of(name).times.totals();
+    if (other.size() == engine.size())
+        return pairedRatio(engine, other);
+    // What was drawn once has a ratio, but no interval.
+    const double ratio = other.empty() ? 1 : medianOf(other) / medianOf(engine);
+    return {{ratio, 0, std::numeric_limits<double>::infinity()}};
 }
 
 double cullingSteps(const CullingSettings& s)

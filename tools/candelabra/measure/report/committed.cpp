@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -24,7 +25,9 @@ MedianInterval meanOfGroups(const std::vector<double>& means)
         mean += x / n;
     for (const double x : means)
         squares += (x - mean) * (x - mean);
-    const double margin = n > 1 ? 1.96 * std::sqrt(squares / (n * (n - 1))) : mean;
+    if (means.size() < 2)
+        return {mean, 0, std::numeric_limits<double>::infinity()};
+    const double margin = 1.96 * std::sqrt(squares / (n * (n - 1)));
     return {mean, std::max(mean - margin, 0.0), mean + margin};
 }
 
@@ -39,12 +42,9 @@ std::vector<ReportedFigure> figuresOf(const std::vector<CullingPoint>& points)
 {
     std::vector<ReportedFigure> out;
     for (const CullingPoint& p : points) {
-        const Contender& best = p.bestBaseline();
-        std::vector<double> other = best.times.totals();
-        const std::vector<double>& engine = p.of(engineName).times.totals();
-        if (other.size() == 1)
-            other.resize(engine.size(), other[0]);
-        out.push_back({cullingKey(p.scene, p.lights, p.overlaps), pairedRatio(other, engine)});
+        const PairedRatio r = p.toEngine(p.bestBaseline().name);
+        const MedianInterval inverse{1 / r.median, 1 / r.high, 1 / r.low};
+        out.push_back({cullingKey(p.scene, p.lights, p.overlaps), inverse});
     }
     return out;
 }
@@ -111,17 +111,20 @@ std::optional<CommittedResults> readCommitted(const std::string& directory,
         const Json document = Json::parse(file, nullptr, false);
         if (!document.is_object() || !document.contains("provenance"))
             continue;
-        const Json& from = document["provenance"];
-        if (from.value("device", "") != device.name || from.value("driver", "") != device.driver)
-            continue;
-        const size_t before = out.figures.size();
+        std::map<std::string, double> figures;
         try {
-            addFigures(document, out.figures);
+            const Json& from = document["provenance"];
+            if (from.value("device", "") != device.name ||
+                from.value("driver", "") != device.driver)
+                continue;
+            addFigures(document, figures);
         } catch (const Json::exception&) {
-            continue; // another version of the format
+            continue; // another format
         }
-        if (out.figures.size() > before)
-            out.files.push_back(path.filename().string());
+        if (figures.empty())
+            continue;
+        out.files.push_back(path.filename().string());
+        out.figures.merge(figures); // of a figure in several files, that of the first file counts
     }
     return out;
 }
@@ -162,8 +165,10 @@ Comparison compareWithCommitted(const std::vector<ReportedFigure>& figures,
             out.contradictions.push_back(figure.key);
     }
     out.table.note(fmt::format(
-        "A figure contradicts the committed one if that is farther from the interval than {:.0f}% "
-        "of itself (and {} for ratios). The committed results have larger images and more lights, "
+        "A figure is said to contradict the committed one if the committed one lies outside the "
+        "interval by more than {:.0f}% of the committed one (and, for ratios, by more than {}). "
+        "Intervals of mean errors assume that means are normally distributed. The committed "
+        "results have larger images and more lights, "
         "so a contradiction is a reason to look, and no proof of a fault.",
         100 * contradictionShare, contradictionDifference));
     out.table.markContradictions(out.contradictions);

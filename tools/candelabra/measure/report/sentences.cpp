@@ -92,13 +92,14 @@ std::string threeMethods(const std::vector<double>& conic, const std::vector<dou
         out += fmt::format(", the representative point (karis) by {}", percentBracketed(karis));
     if (!ltc.empty())
         out += fmt::format(", LTC by {}", percentBracketed(ltc));
-    const double best = std::min(karis.empty() ? INFINITY : medianOf(karis),
-                                 ltc.empty() ? INFINITY : medianOf(ltc));
-    if (std::isfinite(best) && medianOf(conic) > 0) {
-        const double ratio = best / medianOf(conic);
-        out += fmt::format(" (conic is {} times {} than the better of the two)",
+    const bool byKaris = ltc.empty() || (!karis.empty() && medianOf(karis) <= medianOf(ltc));
+    const std::vector<double>& rival = byKaris ? karis : ltc;
+    if (!rival.empty() && medianOf(conic) > 0) {
+        const double ratio = medianOf(rival) / medianOf(conic);
+        out += fmt::format(" (conic is {} times {} than {})",
                            threeDigits(ratio >= 1 ? ratio : 1 / ratio),
-                           ratio >= 1 ? "closer to the truth" : "farther from the truth");
+                           ratio >= 1 ? "closer to the truth" : "farther from the truth",
+                           byKaris ? "karis" : "LTC");
     }
     return out;
 }
@@ -147,12 +148,13 @@ std::string largestError(const KernelLevel& level)
         if (p.method == CND_SPECULAR_CONIC &&
             (!worst || p.error.mirror.all.max > worst->error.mirror.all.max))
             worst = &p;
-    return worst ? fmt::format("its largest error in {} directions is {}% of the highest response "
-                               "({}; {})",
-                               grouped(worst->error.mirror.all.count),
-                               threeDigits(100 * worst->error.mirror.all.max),
-                               lightTypeName(worst->lightType), worst->worst)
-                 : "";
+    return worst
+               ? fmt::format("the largest error of the closed form in {} directions is {}% of the "
+                             "highest response ({}; {})",
+                             grouped(worst->error.mirror.all.count),
+                             threeDigits(100 * worst->error.mirror.all.max),
+                             lightTypeName(worst->lightType), worst->worst)
+               : "";
 }
 
 std::string weakestCulling(const std::vector<CullingPoint>& points)
@@ -167,8 +169,8 @@ std::string weakestCulling(const std::vector<CullingPoint>& points)
     if (!worst)
         return "";
     const PairedRatio r = worst->toEngine(worst->bestBaseline().name);
-    return fmt::format("at its weakest ({}) the best other way of culling ({}) takes {} times the "
-                       "time of Candelabra, which is {}",
+    return fmt::format("where Candelabra is weakest ({}), the best other way of culling ({}) takes "
+                       "{} times as long, so Candelabra is {}",
                        worst->title(), worst->bestBaseline().name, bracketed(r), verdict(r));
 }
 
@@ -196,7 +198,8 @@ std::string runSentence(const RunFacts& f)
 {
     return fmt::format("Candelabra {} (commit {}) was measured on {} ({}) with the driver {}: {} "
                        "took {:.0f} s by the clock and {:.0f} s of processor time, and square "
-                       "brackets hold 95% confidence intervals of medians over the repeats.",
+                       "brackets hold 95% confidence intervals of medians, over repeats for times "
+                       "and over combinations of surface and light for errors.",
                        f.version, f.commit, f.device.name, deviceTypeName(f.device.type),
                        f.device.driver, counted(f.parts, "part"), f.wallSeconds,
                        f.processorSeconds);
@@ -248,7 +251,7 @@ std::string accuracySentence(const KernelLevel& level, const std::vector<ImageSc
         return "Accuracy: the part \"accuracy\" was not measured in this run.";
     std::string out = "Accuracy against the double-precision truth: ";
     if (!sphere.empty())
-        out += fmt::format("for one sphere light the closed form (conic) is off by {}",
+        out += fmt::format("for one sphere light the closed form (conic) is typically off by {}",
                            threeMethods(sphere, groups(CND_SPECULAR_KARIS), groups(Rival::Ltc)));
     if (!other.empty())
         out += fmt::format("{}for area lights of other shapes by {}", sphere.empty() ? "" : "; ",
@@ -278,9 +281,9 @@ std::string weaknessSentence(const KernelLevel& level, const std::vector<ImageSc
             errors.begin(), errors.end(),
             [](const SceneFlip& a, const SceneFlip& b) { return a.flip < b.flip; });
         facts.push_back(fmt::format(
-            "its worst image is \"{}\" (FLIP {:.4f}, {} {:.4f} with karis)", worst.scene,
-            worst.flip, worst.flip < worst.karisFlip ? "better than" : "not better than",
-            worst.karisFlip));
+            "the worst image of the closed form is \"{}\" (FLIP {:.4f}, {} {:.4f} with karis)",
+            worst.scene, worst.flip,
+            worst.flip < worst.karisFlip ? "better than" : "not better than", worst.karisFlip));
     }
     facts.push_back(weakestCulling(points));
     std::erase(facts, "");
@@ -303,15 +306,16 @@ std::string stabilitySentence(const Stability& s)
         grouped(s.tried()), s.invalid() ? grouped(s.invalid()) : "none",
         threeDigits(1e6 * largestShare(s.invalid(), s.tried())));
     const QuadratureCheck* worst = nullptr;
+    const auto size = [](const QuadratureCheck& q) { return std::isnan(q.max) ? INFINITY : q.max; };
     for (const QuadratureCheck& q : s.quadrature)
-        if (q.bar > 0 && (!worst || q.max > worst->max))
+        if (q.bar > 0 && (!worst || size(q) > size(*worst)))
             worst = &q;
     if (worst)
-        out +=
-            fmt::format("; the closed forms differ from quadrature by at most {}% of the "
-                        "response on the mirror axis ({}), which {} the allowed {}%",
-                        threeDigits(100 * worst->max), lightTypeName(worst->evaluation.lightType),
-                        worst->overBar() ? "EXCEEDS" : "is within", threeDigits(100 * worst->bar));
+        out += fmt::format(
+            "; the closed forms differ from quadrature by at most {}% of the "
+            "response on the mirror axis ({}), which {} the allowed {}%",
+            threeDigits(100 * worst->max), lightTypeName(worst->evaluation.lightType),
+            worst->max <= worst->bar ? "is within" : "EXCEEDS", threeDigits(100 * worst->bar));
     double jump = 0;
     for (const ContinuityCheck& c : s.continuity)
         jump = std::max(jump, c.jump);
