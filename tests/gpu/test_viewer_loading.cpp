@@ -86,11 +86,11 @@ TEST_F(SceneLoading, GivesTheSceneThatWasWantedLast)
     EXPECT_EQ(loader.take(), nullptr);
     loader.start(request("hall", 20));
     loader.start(request("no such scene", 20));
-    loader.start(request("showcase", 30));
+    loader.start(request("fence", 30));
     const auto loaded = finish(loader);
     ASSERT_NE(loaded, nullptr);
-    EXPECT_EQ(loaded->request.scene, "showcase");
-    EXPECT_EQ(loaded->source.scene, "showcase");
+    EXPECT_EQ(loaded->request.scene, "fence");
+    EXPECT_EQ(loaded->source.scene, "fence");
     EXPECT_EQ(loaded->renderer->size().width, 64u);
     EXPECT_FALSE(loader.busy());
 }

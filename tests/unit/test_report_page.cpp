@@ -211,8 +211,8 @@ TEST(ReportSentences, WeaknessesAreTheWorstOfTheRun)
                           "(disc)"))
         << text;
     EXPECT_TRUE(has(text, "77.7%")) << text;
-    EXPECT_TRUE(has(text, "1,000 lights) the best other")) << text;
-    EXPECT_TRUE(has(text, "which is slower than it")) << text;
+    EXPECT_TRUE(has(text, "1,000 lights), the best other")) << text;
+    EXPECT_TRUE(has(text, "so Candelabra is slower than it")) << text;
     EXPECT_TRUE(has(weaknessSentence({}, {}, {}), "neither"));
 }
 
