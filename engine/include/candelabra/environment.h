@@ -134,8 +134,9 @@ CND_API CndResult cndRecordEnvironmentMap(CndEnvironment environment, VkCommandB
 CND_API CndResult cndGetEnvironmentMapInfo(CndEnvironment environment, CndEnvironmentMapInfo* info,
                                            CndError* error);
 // Records a copy of the prepared map to a buffer, which the host may read once it has waited for
-// the GPU. A map must have been recorded before, in this recording or in one submitted earlier to
-// the same queue. Must be recorded outside a render pass; changes no state.
+// the GPU. Earlier uses of that range by the GPU must have finished and be visible to transfers. A
+// map must have been recorded before, in this recording or in one submitted earlier to the same
+// queue. Must be recorded outside a render pass; changes no state.
 CND_API CndResult cndRecordEnvironmentMapSave(CndEnvironment environment, VkCommandBuffer cmd,
                                               const CndEnvironmentMapBuffer* to, CndError* error);
 // Records the same as cndRecordEnvironmentMap, under the same rules, from the bytes of a map that
