@@ -147,16 +147,16 @@ glm::dvec2 Projection::place(const glm::dvec3& point) const
 std::vector<glm::dvec2> Projection::segments(const std::vector<glm::dvec3>& polyline) const
 {
     std::vector<glm::dvec2> out;
-    const double nearest = camera_.nearPlane;
+    const double nearPlane = camera_.nearPlane;
     for (size_t i = 0; i + 1 < polyline.size(); ++i) {
         glm::dvec3 a = polyline[i], b = polyline[i + 1];
         const double da = depthOf(a), db = depthOf(b);
-        if (da < nearest && db < nearest)
+        if (da < nearPlane && db < nearPlane)
             continue;
-        const glm::dvec3 cut = a + (b - a) * ((nearest - da) / (db - da));
-        if (da < nearest)
+        const glm::dvec3 cut = a + (b - a) * ((nearPlane - da) / (db - da));
+        if (da < nearPlane)
             a = cut;
-        else if (db < nearest)
+        else if (db < nearPlane)
             b = cut;
         out.push_back(place(a));
         out.push_back(place(b));
