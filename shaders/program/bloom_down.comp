@@ -16,7 +16,8 @@ layout(push_constant, scalar) uniform Push
 layout(binding = BLOOM_DOWN_FINE) uniform texture2D fineImage;
 layout(binding = BLOOM_DOWN_COARSE, rgba32f) uniform writeonly image2D coarseImage;
 
-// What is no light is not spread: NaN, infinity and negative values, which are found by their bits.
+// Returns the light of a texel that the bloom spreads. NaN, infinity and negative values are no light:
+// this function finds them by their bits and returns 0 for them.
 vec3 lightAt(ivec2 at)
 {
     const vec3 value = texelFetch(fineImage, clamp(at, ivec2(0), ivec2(params.fineSize) - 1), 0).rgb;

@@ -103,7 +103,8 @@ TEST(LightShape, TheNearestLightWinsThenTheFirst)
     EXPECT_EQ(clickedAt(lights, {208, 100}), 1u);
     lights.erase(lights.begin() + 1, lights.begin() + 3);
     EXPECT_EQ(clickedAt(lights, {200, 100}), 0u);
-    EXPECT_FALSE(clickedAt({lights[1]}, {200, 100})); // behind the camera
+    // This light is behind the camera.
+    EXPECT_FALSE(clickedAt({lights[1]}, {200, 100}));
 }
 
 TEST(LightShape, SurfacesHideLights)

@@ -112,9 +112,9 @@ typedef struct CndExposureFrame {
     // Layout of radiance: SHADER_READ_ONLY_OPTIMAL (VK_IMAGE_LAYOUT_UNDEFINED, 0, means this),
     // READ_ONLY_OPTIMAL or GENERAL.
     VkImageLayout radianceImageLayout;
-    // What is metered, if it is not what is displayed: the radiance without glare, say, so that
-    // glare does not darken the picture. Of the same size and in the same layout as `radiance`;
-    // VK_NULL_HANDLE: `radiance` is metered.
+    // The image that the exposure is metered from, for hosts that display another one: metered
+    // from the radiance without glare, a picture is not darkened by its glare. It has the size and
+    // the layout of `radiance`. VK_NULL_HANDLE: the exposure is metered from `radiance`.
     VkImageView meteredRadiance;
     VkImageView display; // receives sRGB-encoded values; alpha is 1
     float deltaTime;     // seconds since the previous frame, finite and >= 0

@@ -26,7 +26,7 @@ struct Column {
     bool isWords = false;
 };
 
-// What is said of a row besides its cells.
+// Facts about a row that its cells do not hold. Tables mark rows by them.
 struct RowFacts {
     bool noisy = false; // its repeated measurements differ much (isNoisy)
     std::string key;    // names the row for Table::markContradictions

@@ -411,7 +411,8 @@ Area drawMainWindow(PanelState& state, const PanelFigures& figures, Scene& scene
     ImGui::SetNextWindowPos(area.from);
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, area.height()});
     ImGui::SetNextWindowBgAlpha(0.85f);
-    // What is seen of a collapsed panel. The text after ### is its name for Dear ImGui.
+    // The title is all that a collapsed panel shows. Dear ImGui takes the text after ### for the
+    // panel's name, which stays the same while the rest of the title changes.
     const std::string title =
         fmt::format("{}, {}, {} ms, F2: keys###candelabra", figures.scene,
                     counted(figures.lights, "light"), threeDigits(figures.wallMs));

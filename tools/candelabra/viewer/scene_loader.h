@@ -57,7 +57,7 @@ public:
     void start(SceneRequest request);
     // True from start() until take() has returned the scene or thrown.
     bool busy() const { return work_ != nullptr; }
-    // What is done now; only while busy.
+    // Returns the step that the loading has reached. May be called only while busy() is true.
     Job::State state() const;
     // Returns the scene, or null if it is not finished or if there is nothing to load. Throws what
     // loading has thrown.
