@@ -131,6 +131,11 @@ Bindings::Bindings(const Device& device, const char* name, std::vector<Reflected
         device.name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set, name);
 }
 
+Bindings::Bindings(const Device& device, const Spirv& kernel, uint32_t setCount)
+    : Bindings(device, kernel.name, reflect(kernel).bindings, VK_SHADER_STAGE_COMPUTE_BIT, setCount)
+{
+}
+
 void Bindings::write(uint32_t index, std::initializer_list<Binding> bindings,
                      std::span<const Binding> more) const
 {

@@ -114,7 +114,10 @@ public:
     Bindings() = default;
     Bindings(const Device& device, const char* name, std::vector<ReflectedBinding> bindings,
              VkShaderStageFlags stages, uint32_t setCount);
+    // For every kernel that has the bindings of `kernel`, and for its stage alone.
+    Bindings(const Device& device, const Spirv& kernel, uint32_t setCount);
 
+    const char* name() const { return name_; }
     VkDescriptorSetLayout layout() const { return layout_.get(); }
     VkDescriptorSet set(uint32_t index) const { return sets_[index]; }
     // Writes set `index`, which the GPU must not be using. Every binding of the layout must be

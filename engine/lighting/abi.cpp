@@ -94,6 +94,15 @@ void cndDestroyLighting(CndLighting lighting)
     delete lighting;
 }
 
+CndResult cndAddLightingPipelines(CndLighting lighting, const CndLightingPipelines* pipelines,
+                                  CndError* error)
+{
+    return gpu::guard(error, [&] {
+        gpu::requireNotNull("cndAddLightingPipelines", {lighting, pipelines});
+        lighting->impl.addPipelines(*pipelines);
+    });
+}
+
 CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error)
 {
     return gpu::guard(error, [&] {

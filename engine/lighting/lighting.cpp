@@ -13,6 +13,24 @@ namespace candelabra::lighting
 namespace
 {
 
+constexpr uint32_t allShading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT |
+                                CND_SHADING_ERROR_BUDGET_BIT | CND_SHADING_COUNT_PAIRS_BIT;
+
+// The member shading of the struct `owner`, in which 0 stands for all bits.
+uint32_t checkedShading(const char* owner, uint32_t shading)
+{
+    if (shading & ~allShading)
+        gpu::failArgument(std::string(owner) + ": shading has bits beyond CndShadingBits");
+    return shading ? shading : allShading;
+}
+
+void checkLightTypes(const char* owner, uint32_t lightTypes)
+{
+    if (lightTypes >> CND_LIGHT_TYPE_COUNT)
+        gpu::failArgument(std::string(owner) +
+                          ": lightTypes has bits beyond the last CndLightType");
+}
+
 CndLightingDesc checked(const gpu::Device& device, CndLightingDesc desc)
 {
     if (desc.structSize != sizeof desc)
@@ -28,8 +46,8 @@ CndLightingDesc checked(const gpu::Device& device, CndLightingDesc desc)
         gpu::failArgument("CndLightingDesc: materialClasses has bits beyond CndMaterialClass");
     if (!desc.specularMethods)
         desc.specularMethods = 1u << CND_SPECULAR_CONIC;
-    if (desc.lightTypes >> CND_LIGHT_TYPE_COUNT)
-        gpu::failArgument("CndLightingDesc: lightTypes has bits beyond the last CndLightType");
+    desc.shading = checkedShading("CndLightingDesc", desc.shading);
+    checkLightTypes("CndLightingDesc", desc.lightTypes);
     desc.radianceFormat = surfaces::checkedRadianceFormat(device, "CndLightingDesc: radianceFormat",
                                                           desc.radianceFormat);
     desc.overlayFormat =
@@ -52,9 +70,6 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
           [this](uint32_t capacity, const LightTypeCounts& types) { prepare(capacity, types); }),
       module_{device_, desc_, recordings_, gbuffer_, hostKernels_, kernels_, albedoTable_, lights_}
 {
-    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (desc_.lightTypes >> type & 1)
-            kernels_.shade.require(type);
     if (const uint32_t batch = lightsPerBatch(device_, 0); batch != UINT32_MAX)
         device_.say(CND_MESSAGE_INFO,
                     "cndCreateLighting: the device ends loops after %u iterations: lists of more "
@@ -66,6 +81,18 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
                     "cndCreateLighting: maxTexelBufferElements is %u: lights are read from storage "
                     "buffers, which is slower on this device",
                     device_.limits.maxTexelBufferElements);
+}
+
+void Lighting::addPipelines(const CndLightingPipelines& added)
+{
+    if (added.structSize != sizeof added)
+        gpu::failArgument("CndLightingPipelines: structSize is " +
+                          std::to_string(added.structSize) + ", this library expects " +
+                          std::to_string(sizeof added));
+    checkLightTypes("CndLightingPipelines", added.lightTypes);
+    checkSpecularMethods("CndLightingPipelines", added.specularMethods);
+    kernels_.shade.add(added.lightTypes, added.specularMethods,
+                       checkedShading("CndLightingPipelines", added.shading));
 }
 
 VkDescriptorSetLayout Lighting::forwardLayout() const

@@ -16,6 +16,8 @@ public:
 
     const gpu::Device& device() const { return device_; }
     LightSet& lights() { return lights_; }
+    // May be called while another thread uses the module.
+    void addPipelines(const CndLightingPipelines& added);
     VkDescriptorSetLayout forwardLayout() const; // throws gpu::Failure when there is none
 
     // What views need of the module. It must outlive them.

@@ -90,10 +90,10 @@ InfluenceKernels::InfluenceKernels(const gpu::Device& device, VkFormat radianceF
 {
 }
 
-Influence::Influence(const gpu::Device& device, const InfluenceKernels& kernels,
-                     const MeasureKernel& measure, uint32_t slots, glm::uvec2 maxSize)
+Influence::Influence(const gpu::Device& device, const InfluenceKernels& kernels, uint32_t slots,
+                     glm::uvec2 maxSize)
     : kernels_(kernels),
-      measure_(measure.createBindings(slots)),
+      measure_(device, *spirv::measure_influence_comp[0], slots), // the same in all families
       choose_(kernels.choose.createBindings(slots)),
       cut_(kernels.cutLights.createBindings(slots))
 {

@@ -34,10 +34,9 @@ class Influence
 {
 public:
     using MeasureKernel = gpu::Kernel<gpu::MeasureInfluenceParams>;
-    // `measure`: any of the measuring kernels of ShadeKernels, since all have the same bindings.
     // `maxSize`: largest size of a frame in pixels. `kernels` must outlive this object.
-    Influence(const gpu::Device& device, const InfluenceKernels& kernels,
-              const MeasureKernel& measure, uint32_t slots, glm::uvec2 maxSize);
+    Influence(const gpu::Device& device, const InfluenceKernels& kernels, uint32_t slots,
+              glm::uvec2 maxSize);
 
     struct Inputs {
         const surfaces::GBufferViews& gbuffer;

@@ -84,7 +84,8 @@ const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
     const auto host = std::ranges::find(kernels_, &original, &Code::builtIn);
     if (host != kernels_.end()) {
         // A kernel that uses the set needs its layout, or creating the pipeline fails.
-        needsSet_ = needsSet_ || (host->usesSet && setLayout_);
+        if (host->usesSet && setLayout_)
+            needsSet_ = true;
         return host->spirv;
     }
     const auto* const known = std::ranges::find(builtIn, &original, &BuiltIn::spirv);

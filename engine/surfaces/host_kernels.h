@@ -2,6 +2,7 @@
 // Kernels that contain functions of the host and replace built-in ones (CndHostKernels).
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ public:
 
     bool empty() const { return kernels_.empty(); }
     // Returns the host's kernel that replaces `builtIn`, or `builtIn` if there is none. Throws
-    // gpu::Failure if the host's kernel is required and was not given.
+    // gpu::Failure if the host's kernel is required and was not given. May be called on several
+    // threads at the same time.
     const gpu::Spirv& of(const gpu::Spirv& builtIn) const;
     VkDescriptorSetLayout setLayout() const { return setLayout_; }
     // Throws gpu::Failure if `set`, the host's descriptor set in a frame, is null although a kernel
@@ -38,8 +40,9 @@ private:
 
     std::vector<Code> kernels_;
     VkDescriptorSetLayout setLayout_;
-    mutable bool needsSet_ = false; // a kernel that of() has returned uses the host's set
-    bool readSurfaces_;             // CND_GBUFFER_CUSTOM: every kernel that reads it is the host's
+    mutable std::atomic<bool> needsSet_ =
+        false;          // a kernel that of() has returned uses the host's set
+    bool readSurfaces_; // CND_GBUFFER_CUSTOM: every kernel that reads it is the host's
 };
 
 } // namespace candelabra::surfaces

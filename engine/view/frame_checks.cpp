@@ -12,6 +12,23 @@ namespace
 
 constexpr uint32_t maxSampleCount = 4096;
 
+// The sentence about what the frame asks for and has no pipelines for.
+std::string missingShading(const Module& module, const CndLightingFrame& frame)
+{
+    const auto lacks = [&](CndShadingBits bit) {
+        return (shadingOf(frame) & bit) &&
+               !module.kernels.shade.allows(frame.specularMethod, uint32_t(bit));
+    };
+    const char* const what =
+        lacks(CND_SHADING_CLUSTERED_BIT)     ? "culling CLUSTERED needs CND_SHADING_CLUSTERED_BIT"
+        : lacks(CND_SHADING_BRUTE_BIT)       ? "culling BRUTE needs CND_SHADING_BRUTE_BIT"
+        : lacks(CND_SHADING_COUNT_PAIRS_BIT) ? "countPairs needs CND_SHADING_COUNT_PAIRS_BIT"
+                                             : "errorBudget needs CND_SHADING_ERROR_BUDGET_BIT";
+    return std::string("CndLightingFrame: ") + what +
+           " in CndLightingDesc::shading, or cndAddLightingPipelines for specularMethod " +
+           std::to_string(frame.specularMethod);
+}
+
 } // namespace
 
 void checkSurfaces(const Module& module, const CndLightingViewDesc& view,
@@ -49,6 +66,8 @@ void checkFrame(const Module& module, const CndLightingViewDesc& view,
                                ? "; 0, CND_SPECULAR_NONE, means light without highlights, and the "
                                  "method to begin with is CND_SPECULAR_CONIC"
                                : ""));
+    if (!module.kernels.shade.allows(frame.specularMethod, shadingOf(frame)))
+        gpu::failArgument(missingShading(module, frame));
     if (frame.sampleCount > maxSampleCount)
         gpu::failArgument("CndLightingFrame: sampleCount must be at most " +
                           std::to_string(maxSampleCount) + ", is " +

@@ -238,7 +238,7 @@ void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t typ
                     kernels.shade.dispatchIndirect(u, sets_.shadeTiles.set(set), {batch},
                                                    clusters_.tilesToShade(type), workList);
                 });
-        f.timer.stamp(f.cmd, module_.kernels.shade.anyVariant().any.shade.name());
+        f.timer.stamp(f.cmd, sets_.shadeTiles.name());
         f.barrier();
     };
     if (isDistant(type)) { // they light every surface: no lists
@@ -289,7 +289,7 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
                     .tree = p.trees[type]});
         });
     }
-    f.timer.stamp(f.cmd, kernels.anyVariant().any.unlisted.name());
+    f.timer.stamp(f.cmd, sets_.shadeUnlisted.name());
 }
 
 void View::recordCountPairs(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
@@ -303,7 +303,7 @@ void View::recordCountPairs(const gpu::Frame& f, const FramePlan& p, uint32_t ty
                 kernels.countPairs.dispatchIndirect(u, sets_.countPairs.set(set), params,
                                                     clusters_.surfaces(), workList);
             });
-    f.timer.stamp(f.cmd, module_.kernels.shade.anyVariant().any.countPairs.name());
+    f.timer.stamp(f.cmd, sets_.countPairs.name());
     f.barrier();
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "candelabra_shaders.h"
+
 namespace candelabra::lighting
 {
 namespace
@@ -63,12 +65,15 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
     const uint32_t slots = module.desc.framesInFlight;
     const uint32_t perType = slots * CND_LIGHT_TYPE_COUNT;
     const Kernels& k = module.kernels;
-    const ShadeKernels::Variant& shade = k.shade.anyVariant();
+    // The kernels of all families and of hosts have the same bindings.
+    const auto bindingsOf = [&](const auto& families, uint32_t count) {
+        return gpu::Bindings(module.device, *families[0], count);
+    };
     sets_ = {.prepareLights = k.prepareLights.createBindings(slots),
-             .shadeTiles = shade.any.shade.createBindings(perType),
-             .shadeUnlisted = shade.any.unlisted.createBindings(perType),
-             .shadeBrute = shade.brute.createBindings(slots),
-             .countPairs = shade.any.countPairs.createBindings(perType),
+             .shadeTiles = bindingsOf(spirv::shade_tiles_comp, perType),
+             .shadeUnlisted = bindingsOf(spirv::shade_unlisted_comp, perType),
+             .shadeBrute = bindingsOf(spirv::shade_brute_comp, slots),
+             .countPairs = bindingsOf(spirv::count_pairs_comp, perType),
              .surfaceOverlay = k.surfaceOverlay.createBindings(slots)};
     if (!module.gbuffer.depthIsProjected()) {
         sets_.projectDepth = k.projectDepth.createBindings(slots);
@@ -79,7 +84,7 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
     if (module.desc.forwardStages)
         forward_ = ForwardLights(module.device, module.desc.forwardStages, slots);
     if (module.desc.influenceByError)
-        influence_.emplace(module.device, k.influence, shade.measure, slots,
+        influence_.emplace(module.device, k.influence, slots,
                            glm::uvec2(desc_.maxWidth, desc_.maxHeight));
     makeRoom(module.lights.capacity(), module.lights.typeCounts());
 }

@@ -165,6 +165,20 @@ std::vector<Step> editSteps()
              frame.influence = {.rule = CND_INFLUENCE_BY_ERROR, .maxError = 0.1f, .exposure = 1};
              return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
          }},
+        {"add pipelines", false,
+         [](Host& h, CndError* error) {
+             const CndLightingPipelines added{.structSize = sizeof added,
+                                              .lightTypes = 1u << CND_LIGHT_POINT,
+                                              .specularMethods = 1u << CND_SPECULAR_KARIS};
+             return cndAddLightingPipelines(h.lighting, &added, error);
+         }},
+        {"record with the added pipelines", true,
+         [](Host& h, CndError* error) {
+             CndLightingFrame frame = surfaces<CndLightingFrame>();
+             frame.specularMethod = CND_SPECULAR_KARIS;
+             frame.countPairs = VK_TRUE;
+             return cndRecordLighting(h.view, MockVulkan::commandBuffer(), &frame, error);
+         }},
         {"record overlay", true,
          [](Host& h, CndError* error) {
              const CndLightingFrame frame = surfaces<CndLightingFrame>();

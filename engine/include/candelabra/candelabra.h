@@ -10,6 +10,7 @@
 //   never creates a device or a queue, never submits and never waits. Recording allocates nothing.
 //   Threads: different modules may be used from different threads at the same time. Calls on one
 //   module must not overlap: two views of one CndLighting must not be recorded at the same time.
+//   The one exception is cndAddLightingPipelines, which may run beside other calls on its module.
 //   Errors: every function that can fail returns a CndResult. Where it has an `error` parameter
 //   that is not NULL, it also writes one sentence there that names the offending thing. Nothing is
 //   thrown across the ABI.

@@ -291,6 +291,12 @@ public:
     {
         return detail::usage(cndGetLightingMemory, handle_);
     }
+    // May be called while another thread uses the Lighting.
+    Result<void> addPipelines(CndLightingPipelines pipelines) const noexcept
+    {
+        pipelines.structSize = sizeof pipelines;
+        return detail::call(cndAddLightingPipelines, handle_, &pipelines);
+    }
     // `origin`: the point in world space that the lights' positions are relative to.
     Result<void> setLights(Span<const CndLight> lights, const double (&origin)[3]) noexcept
     {

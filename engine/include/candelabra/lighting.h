@@ -114,6 +114,17 @@ typedef enum CndMaterialClass {
     CND_MATERIAL_CLASS_MAX_ENUM = 0x7FFFFFFF
 } CndMaterialClass;
 
+// What frames ask of pipelines besides a specular method and light types.
+typedef enum CndShadingBits {
+    CND_SHADING_CLUSTERED_BIT = 1, // CND_CULLING_CLUSTERED
+    CND_SHADING_BRUTE_BIT = 2,     // CND_CULLING_BRUTE
+    // An errorBudget above 0 with CND_SPECULAR_CONIC or CND_SPECULAR_CONIC_FULL, besides frames
+    // without one. It doubles the pipelines of these methods.
+    CND_SHADING_ERROR_BUDGET_BIT = 4,
+    CND_SHADING_COUNT_PAIRS_BIT = 8, // countPairs with CND_CULLING_CLUSTERED
+    CND_SHADING_BITS_MAX_ENUM = 0x7FFFFFFF
+} CndShadingBits;
+
 typedef struct CndLightingDesc {
     uint32_t structSize;
     uint32_t framesInFlight; // 1..8: frames that the host may have recorded or submitted and not
@@ -127,8 +138,13 @@ typedef struct CndLightingDesc {
     // Mask of 1 << CndSpecularMethod: the methods that frames may ask for; 0: CND_SPECULAR_CONIC
     // alone. Pipelines are created for these methods only. The pipelines of a light type are
     // created in cndCreateLighting for spheres and for the types in lightTypes, and for other types
-    // when a light set first contains the type.
+    // when a light set first contains the type. cndAddLightingPipelines adds methods and types
+    // later, so a module that begins with few of them is created sooner.
     uint32_t specularMethods;
+    // Mask of CndShadingBits: what frames may ask for; 0: all of it. With
+    // CND_SHADING_CLUSTERED_BIT alone, creation makes a quarter of the pipelines of
+    // CND_SPECULAR_CONIC that it makes with all bits. cndAddLightingPipelines adds the rest later.
+    uint32_t shading;
     CndGBufferDesc gbuffer;
     // Format of the frames' radiance images: R32G32B32A32_SFLOAT (VK_FORMAT_UNDEFINED, 0, means
     // this), R16G16B16A16_SFLOAT or, on devices that can read and write it as a storage image
@@ -206,8 +222,8 @@ typedef struct CndLightingFrame {
     VkImageLayout gbufferImageLayout, depthImageLayout;
     // Storage image of radianceFormat; outgoing luminance (cd/m^2) is ADDED to it.
     VkImageView radiance;
-    CndSpecularMethod specularMethod; // one of CndLightingDesc::specularMethods; 0 is
-                                      // CND_SPECULAR_NONE
+    CndSpecularMethod specularMethod; // one of CndLightingDesc::specularMethods, or added since; 0
+                                      // is CND_SPECULAR_NONE
     // With CND_SPECULAR_SAMPLED: samples per light and pixel, 1..4096; 0: 64.
     uint32_t sampleCount;
     // With CND_SPECULAR_SAMPLED: the same seed gives the same image.
@@ -345,6 +361,29 @@ CND_API void cndDestroyLighting(CndLighting lighting);
 // lights frees it.
 CND_API CndResult cndGetLightingMemory(CndLighting lighting, CndMemoryUsage* usage,
                                        CndError* error);
+
+// Pipelines that are added to those of a module.
+typedef struct CndLightingPipelines {
+    uint32_t structSize;
+    // Mask of 1 << CndLightType: types that light sets may then contain without creating pipelines.
+    uint32_t lightTypes;
+    // Mask of 1 << CndSpecularMethod: methods that frames may then ask for, with `shading`, a mask
+    // of CndShadingBits (0: all of it). Without methods, `shading` has no effect.
+    uint32_t specularMethods, shading;
+} CndLightingPipelines;
+
+// Creates the pipelines of `pipelines` that the module does not have yet, which may take seconds:
+// for its methods the pipelines of all light types that the module knows, and for its light types
+// those of all methods that frames may ask for. When the call returns, frames and light sets may
+// use them. Until then, frames go on as before.
+//
+// Alone of all calls on a module, this one may be made on a thread of its own while other threads
+// record frames of the module, set or edit its lights, or make the same call; not while the module
+// is created or destroyed. CndDeviceDesc::pipelineCache and allocationCallbacks are then used by
+// both threads. On error frames may ask for what they could ask for before; pipelines that were
+// created are kept for the next call.
+CND_API CndResult cndAddLightingPipelines(CndLighting lighting,
+                                          const CndLightingPipelines* pipelines, CndError* error);
 
 // Replaces the light set; takes effect at the next recording. The id of each light is its index;
 // ids of the previous set must not be used any more. On error the previous set stays. Allocates
