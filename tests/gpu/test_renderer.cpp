@@ -15,6 +15,7 @@
 #include "measure/frame/frames.h"
 #include "render/camera.h"
 #include "render/readback.h"
+#include "json/save.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -44,7 +45,7 @@ protected:
         return frame;
     }
     // Asks for the pipelines of one specular method alone: without a GPU, those of all methods take
-    // much longer than the frames. The viewer's tests create them all.
+    // much longer than the frames.
     static RendererOptions optionsOf(PixelSize size)
     {
         return {.size = size, .specularMethods = 1u << FrameOptions{}.specular};
@@ -124,6 +125,45 @@ TEST_F(RendererTest, TwoRenderersGiveTheSameBits)
     draw(second, frameOf(scene)); // an earlier frame at another time must leave no trace
     EXPECT_EQ(firstDifference(radiance(first, frame), radiance(second, frame)), -1);
     EXPECT_EQ(readDisplay(context(), first), readDisplay(context(), second));
+}
+
+// A renderer that begins with few pipelines, no lights and other materials, as the viewer makes it
+// while another one draws, draws the same bits as one that was made with all it needs.
+TEST_F(RendererTest, WhatIsPreparedLaterHasTheSameBits)
+{
+    Scene scene = hall(60);
+    scene.lights.push_back({.type = CND_LIGHT_POINT,
+                            .position = {0, 2, 0},
+                            .emission = {300, 200, 100},
+                            .influenceRadius = 6});
+    std::vector<Material> rough = scene.materials;
+    overrideMaterials(rough, {true, 0.7f, 0});
+    FrameOptions frame = frameOf(scene);
+    RendererOptions few = optionsOf({160, 90});
+    few.shading = shadingOf(frame);
+    few.materials = &rough;
+    few.lightTypes = 1u << CND_LIGHT_SPHERE;
+    Renderer later(context(), scene, few);
+    EXPECT_TRUE(later.canDraw(frame));
+    EXPECT_FALSE(later.canLightBy(lightTypesOf(scene)));
+    later.prepareToLightBy(lightTypesOf(scene));
+    EXPECT_TRUE(later.canLightBy(lightTypesOf(scene)));
+    later.lightsChanged();
+    FrameOptions counted = frame;
+    counted.specular = CND_SPECULAR_KARIS;
+    counted.heatMap = HeatMap::LightsPerPixel;
+    EXPECT_FALSE(later.canDraw(counted));
+    later.prepareToDraw(counted);
+    EXPECT_TRUE(later.canDraw(counted));
+
+    scene.materials = rough;
+    Renderer whole(context(), scene,
+                   {.size = {160, 90},
+                    .specularMethods = 1u << CND_SPECULAR_CONIC | 1u << CND_SPECULAR_KARIS,
+                    .shading = shadingOf(counted)});
+    EXPECT_EQ(firstDifference(radiance(later, frame), radiance(whole, frame)), -1);
+    EXPECT_EQ(firstDifference(radiance(later, counted), radiance(whole, counted)), -1);
+    EXPECT_EQ(readDisplay(context(), later), readDisplay(context(), whole));
 }
 
 // The upper edge of a rectangle runs through a row of pixels, its right edge through a column, so

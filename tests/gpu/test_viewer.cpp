@@ -266,6 +266,8 @@ constexpr KeyCheck keyChecks[] = {
     {KeyAction::SaveScene, "^wrote candelabra-[0-9]+[.]json$"},
     {KeyAction::MoreLights, "^building hall with "},
     {KeyAction::FewerLights, "^building hall with "},
+    // While the scene is built with more lights, the present ones cannot be edited.
+    {KeyAction::AddLight, "^the scene is built anew", 1, "key bracketright "},
     {KeyAction::Quit, "^the viewer is closed$"}};
 
 // Values of the last lines of a log that begin with `start`.

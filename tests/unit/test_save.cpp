@@ -183,7 +183,7 @@ TEST_F(Save, ShowcaseIsWrittenOut)
     scene.cameras[0].layers = 0b100;
     expectSameCamera(scene.cameras[0], again(scene, {"showcase"}).cameras[0]);
     expectSameLights(scene, again(scene, {"showcase"}));
-    overrideMaterials(scene, {true, 0.3f, 1});
+    overrideMaterials(scene.materials, {true, 0.3f, 1});
     const Scene metal = again(scene, {"showcase"});
     ASSERT_EQ(metal.analyticObjects.size(), scene.analyticObjects.size());
     for (size_t i = 0; i < scene.analyticObjects.size(); ++i) {

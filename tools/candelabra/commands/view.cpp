@@ -57,7 +57,7 @@ SceneRequest requestOf(const ViewArguments& a, const ViewerOptions& options)
 {
     SceneRequest out{.scene = a.scene.scene,
                      .options = a.scene.options(a.scene.lightCount()),
-                     .renderer = rendererOptions(options),
+                     .renderer = rendererOptions(options, options.frame),
                      .view = [frame = a.frame](const Scene& scene) {
                          const Camera camera = frame.chosenCamera(scene);
                          return SceneView{camera, frame.pixelSize(scene, camera)};
@@ -118,12 +118,18 @@ void addViewCommand(CLI::App& app, Run& run)
     a->frame.addDebugTo(*command);
     a->frame.addReuseTo(*command, Reuse::Lighting);
     a->device.addTo(*command);
-    command->footer("Keys and mouse:\n" + keyHelpText() +
-                    "\n"
-                    "Examples:\n"
-                    "  candelabra view hall --lights 4000 --moving\n"
-                    "  candelabra view model.glb --lights 200\n"
-                    "  xvfb-run -a candelabra view hall --frames 30 --screenshot view.png");
+    command->footer(
+        "Keys and mouse:\n" + keyHelpText() +
+        "\n"
+        "The window opens at once and shows how far loading is. Shaders are compiled for the\n"
+        "first picture alone. What you choose later appears when its shaders are compiled; the\n"
+        "picture goes on meanwhile. While a scene is loaded in place of another one, both are in\n"
+        "memory, and so are old and new surfaces while the material of everything changes.\n"
+        "\n"
+        "Examples:\n"
+        "  candelabra view hall --lights 4000 --moving\n"
+        "  candelabra view model.glb --lights 200\n"
+        "  xvfb-run -a candelabra view hall --frames 30 --screenshot view.png");
     command->callback([&run, a] { run = [a](const ProgramContext&) { return view(*a); }; });
 }
 

@@ -161,11 +161,11 @@ Json sourceJson(const SceneSource& source, const std::string& path)
 
 } // namespace
 
-void overrideMaterials(Scene& scene, const MaterialOverride& override)
+void overrideMaterials(std::vector<Material>& materials, const MaterialOverride& override)
 {
     if (!override.on)
         return;
-    for (Material& material : scene.materials) {
+    for (Material& material : materials) {
         material.perceptualRoughness = override.perceptualRoughness;
         material.metalness = override.metalness;
         material.metallicRoughnessTexture = {};

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -20,8 +21,8 @@ struct MaterialOverride {
     bool operator==(const MaterialOverride&) const = default;
 };
 
-// Gives every material of `scene` the roughness and metalness of `override`, if `override` is on.
-void overrideMaterials(Scene& scene, const MaterialOverride& override);
+// Gives all materials the roughness and metalness of `override`, if `override` is on.
+void overrideMaterials(std::vector<Material>& materials, const MaterialOverride& override);
 
 // Where the surfaces of a scene come from. A description refers to its source if it cannot hold the
 // surfaces itself, because they are meshes.

@@ -211,7 +211,7 @@ Scene loadSource(const SceneSource& source)
         options.lights = 0;
     Scene out = isBuiltIn(source.scene) ? generateScene(source.scene, options)
                                         : loadGltf(source.scene, options);
-    overrideMaterials(out, source.materials);
+    overrideMaterials(out.materials, source.materials);
     out.lights.clear();
     out.lightMotions.clear();
     out.lightOrigin = glm::dvec3(0);

@@ -2,6 +2,8 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <optional>
 #include <utility>
 
@@ -56,6 +58,11 @@ void place(std::span<PassTime> passes, double start)
     }
 }
 
+const std::vector<Material>& materialsOf(const Scene& scene, const RendererOptions& options)
+{
+    return options.materials ? *options.materials : scene.materials;
+}
+
 // Returns why there is no bloom in the frame, or null.
 const char* unbloomedBecause(const FrameOptions& frame)
 {
@@ -83,6 +90,23 @@ void useKnownExposure(const Scene& scene, CndExposureSettings& settings)
     settings.manualEv100 = *scene.knownEv100;
 }
 
+uint32_t shadingOf(const FrameOptions& options)
+{
+    const bool counts = options.countPairs || options.heatMap != HeatMap::None;
+    return (options.culling == CND_CULLING_BRUTE ? CND_SHADING_BRUTE_BIT
+                                                 : CND_SHADING_CLUSTERED_BIT) |
+           (counts ? CND_SHADING_COUNT_PAIRS_BIT : 0) |
+           (options.errorBudget > 0 ? CND_SHADING_ERROR_BUDGET_BIT : 0);
+}
+
+uint32_t lightTypesOf(const Scene& scene)
+{
+    uint32_t out = 0;
+    for (const CndLight& light : scene.lights)
+        out |= 1u << light.type;
+    return out;
+}
+
 struct Renderer::State {
     const VulkanContext& context;
     const Scene* scene;
@@ -96,6 +120,9 @@ struct Renderer::State {
     gbuffer::Targets targets;
     gpu::Image display;
     Lighting lighting; // outlives its view
+    // What there are pipelines for: a mask of CndShadingBits by method, and a mask of light types.
+    std::array<std::atomic<uint32_t>, CND_SPECULAR_METHOD_COUNT> shading{};
+    std::atomic<uint32_t> lightTypes{0};
     LightingView view;
     Exposure exposure;
     Environment environment; // empty: the scene has none
@@ -119,7 +146,7 @@ struct Renderer::State {
           exposedSlots(o.framesInFlight),
           unbloomed(o.framesInFlight),
           unfiltered(o.framesInFlight),
-          geometry(uploadGeometry(c, s)),
+          geometry(uploadGeometry(c, s, materialsOf(s, o))),
           gbuffer(
               c.device(),
               {.framesInFlight = o.framesInFlight, .layout = o.gbufferLayout, .timestamps = true})
@@ -170,6 +197,7 @@ void Renderer::State::setLights(double time)
     drawn.reset();
     const glm::dvec3& at = scene->lightOrigin;
     take(lighting.setLights(lights, {at.x, at.y, at.z}));
+    lightTypes |= lightTypesOf(*scene);
     emitterLayers.reset();
 }
 
@@ -202,15 +230,22 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
     : state_(std::make_unique<State>(context, scene, options))
 {
     State& s = *state_;
+    const uint32_t types = options.lightTypes ? *options.lightTypes : lightTypesOf(scene);
+    s.lightTypes = types;
     const uint32_t methods =
         options.specularMethods ? options.specularMethods : gpu::ALL_SPECULAR_METHODS;
-    s.lighting =
-        take(Lighting::create(context.desc(), {.framesInFlight = options.framesInFlight,
-                                               .gbufferLayout = options.gbufferLayout,
-                                               .timestamps = VK_TRUE,
-                                               .specularMethods = methods,
-                                               .materialClasses = materialClasses(scene),
-                                               .influenceByError = options.influenceByError}));
+    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
+        if (methods >> method & 1)
+            s.shading[method] = options.shading ? options.shading : ~0u;
+    s.lighting = take(Lighting::create(
+        context.desc(), {.framesInFlight = options.framesInFlight,
+                         .gbufferLayout = options.gbufferLayout,
+                         .timestamps = VK_TRUE,
+                         .specularMethods = methods,
+                         .shading = options.shading,
+                         .materialClasses = materialClasses(scene, materialsOf(scene, options)),
+                         .lightTypes = types,
+                         .influenceByError = options.influenceByError}));
     s.exposure = take(Exposure::create(
         context.desc(), {.framesInFlight = options.framesInFlight, .timestamps = VK_TRUE}));
     if (scene.environment)
@@ -223,11 +258,37 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
     if (options.stamps)
         s.stamps =
             FrameStamps(context.device(), context.timestampValidBits(), options.framesInFlight, 3);
-    s.setLights(0);
+    if (!options.lightTypes)
+        s.setLights(0);
     s.createSized();
 }
 
 Renderer::~Renderer() = default;
+
+bool Renderer::canDraw(const FrameOptions& options) const
+{
+    const uint32_t needed = shadingOf(options);
+    return (state_->shading[options.specular] & needed) == needed;
+}
+
+bool Renderer::canLightBy(uint32_t lightTypes) const
+{
+    return (state_->lightTypes & lightTypes) == lightTypes;
+}
+
+void Renderer::prepareToDraw(const FrameOptions& options)
+{
+    const uint32_t needed = shadingOf(options);
+    take(state_->lighting.addPipelines(
+        {.specularMethods = 1u << options.specular, .shading = needed}));
+    state_->shading[options.specular] |= needed;
+}
+
+void Renderer::prepareToLightBy(uint32_t lightTypes)
+{
+    take(state_->lighting.addPipelines({.lightTypes = lightTypes}));
+    state_->lightTypes |= lightTypes;
+}
 
 void Renderer::sceneMoved(const Scene& scene)
 {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,19 @@ struct RendererOptions {
     PixelSize size{1280, 720};
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     uint32_t framesInFlight = 2;
-    uint32_t specularMethods = 0;  // mask of 1 << CndSpecularMethod that frames may use; 0: all
+    // Masks of 1 << CndSpecularMethod and of CndShadingBits, for which the constructor makes
+    // pipelines; 0: all.
+    uint32_t specularMethods = 0;
+    uint32_t shading = 0;
     bool influenceByError = false; // FrameOptions::influence may be CND_INFLUENCE_BY_ERROR
     // Measures FrameStats::gpuMs, and when passes begin, with four more timestamps per frame.
     bool stamps = false;
+    // Drawn in place of Scene::materials, if it is not null. Only the constructor uses it.
+    const std::vector<Material>* materials = nullptr;
+    // If this is set, the constructor reads nothing of the scene that an edit of its lights
+    // changes: it makes pipelines for light types of this mask (1 << CndLightType), and there are
+    // no lights until lightsChanged() is called.
+    std::optional<uint32_t> lightTypes;
 };
 
 // What a frame takes over from the frame before if nothing has changed. The image is the same, but
@@ -71,6 +81,11 @@ struct FrameOptions {
     CndExposureSettings exposure{}; // Scene::exposureCompensation is added
 };
 
+// Returns what frames with these options ask of pipelines, as a mask of CndShadingBits.
+uint32_t shadingOf(const FrameOptions& options);
+// Returns the types of the lights of a scene, as a mask of 1 << CndLightType.
+uint32_t lightTypesOf(const Scene& scene);
+
 // Statistics of one finished frame.
 struct FrameStats {
     std::vector<PassTime> passes;  // in order; empty if the device has no timestamps
@@ -97,6 +112,15 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
+    // Tells whether there are pipelines for frames with these options.
+    bool canDraw(const FrameOptions& options) const;
+    // Tells whether there are pipelines for lights of these types (a mask of 1 << CndLightType).
+    bool canLightBy(uint32_t lightTypes) const;
+    // These two make the pipelines that are missing. They may be called on another thread while
+    // this one records frames. Throw RunError.
+    void prepareToDraw(const FrameOptions& options);
+    void prepareToLightBy(uint32_t lightTypes);
+
     // Changes the image size and keeps the history of exposure. The GPU must have finished all
     // frames.
     void resize(PixelSize size);
@@ -105,7 +129,8 @@ public:
     // Call it after the scene has been moved to another object, which now takes its place.
     void sceneMoved(const Scene& scene);
     // Call it after the lights of the scene have changed: frames recorded from now on show the new
-    // ones. Throws RunError for lights that the lighting module refuses.
+    // ones. Makes pipelines if canLightBy() is not true of the lights. Throws RunError for lights
+    // that the lighting module refuses.
     void lightsChanged();
     // Moves the lights of a moving scene to where they are at `time` (s). record() does so too.
     void moveLights(double time);

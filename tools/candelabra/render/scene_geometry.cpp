@@ -111,7 +111,8 @@ std::vector<Out> convertAll(const std::vector<In>& in)
     return out;
 }
 
-gbuffer::Geometry describe(const gpu::Device& device, const Scene& scene)
+gbuffer::Geometry describe(const gpu::Device& device, const Scene& scene,
+                           const std::vector<Material>& sceneMaterials)
 {
     std::vector<std::vector<gbuffer::Vertex>> vertices;
     std::vector<gbuffer::Mesh> meshes;
@@ -122,7 +123,7 @@ gbuffer::Geometry describe(const gpu::Device& device, const Scene& scene)
                         mesh.vertices.size() * sizeof(Vertex));
         meshes.push_back({vertices.back(), mesh.indices});
     }
-    const auto materials = convertAll<gbuffer::Material>(scene.materials);
+    const auto materials = convertAll<gbuffer::Material>(sceneMaterials);
     const auto textures = convertAll<gbuffer::Texture>(scene.textures);
     const auto instances = convertAll<gbuffer::Instance>(scene.instances);
     const auto analytic = convertAll<gbuffer::AnalyticObject>(scene.analyticObjects);
@@ -135,9 +136,10 @@ gbuffer::Geometry describe(const gpu::Device& device, const Scene& scene)
 
 } // namespace
 
-gbuffer::Geometry uploadGeometry(const VulkanContext& context, const Scene& scene)
+gbuffer::Geometry uploadGeometry(const VulkanContext& context, const Scene& scene,
+                                 const std::vector<Material>& materials)
 {
-    gbuffer::Geometry geometry = describe(context.device(), scene);
+    gbuffer::Geometry geometry = describe(context.device(), scene, materials);
     context.submitAndWait([&](VkCommandBuffer cmd) { geometry.recordUpload(cmd); });
     geometry.releaseStaging();
     return geometry;

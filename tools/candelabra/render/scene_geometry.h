@@ -10,8 +10,9 @@ namespace candelabra::app
 
 class VulkanContext;
 
-// Uploads the geometry of the scene to the GPU, waits, and returns it ready to draw. Throws
-// gpu::Failure.
-gbuffer::Geometry uploadGeometry(const VulkanContext& context, const Scene& scene);
+// Uploads the geometry of the scene to the GPU, waits, and returns it ready to draw. `materials`:
+// those of the scene, or as many others in their place. Throws gpu::Failure.
+gbuffer::Geometry uploadGeometry(const VulkanContext& context, const Scene& scene,
+                                 const std::vector<Material>& materials);
 
 } // namespace candelabra::app

@@ -31,16 +31,16 @@ Bounds transformBounds(const Bounds& bounds, const glm::dmat4& worldFromObject)
     return {middle - reach, middle + reach};
 }
 
-uint32_t materialClasses(const Scene& scene)
+uint32_t materialClasses(const Scene& scene, const std::vector<Material>& materials)
 {
     uint32_t out = 0;
-    std::vector<bool> used(scene.materials.size());
+    std::vector<bool> used(materials.size());
     for (const Instance& instance : scene.instances)
         used[instance.material] = true;
     for (const AnalyticObject& object : scene.analyticObjects)
         used[object.material] = true;
-    for (size_t i = 0; i < scene.materials.size(); ++i) {
-        const Material& m = scene.materials[i];
+    for (size_t i = 0; i < materials.size(); ++i) {
+        const Material& m = materials[i];
         if (!used[i] || m.unlit)
             continue;
         // Textures can only lower metalness and base colour. Some texel may leave them as they are,

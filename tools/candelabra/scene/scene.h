@@ -181,8 +181,8 @@ struct Bounds {
 Bounds sceneBounds(const Scene& scene);
 
 // The mask of CndMaterialClass for all materials in use: which of the two lobes some surface may
-// lack.
-uint32_t materialClasses(const Scene& scene);
+// lack. `materials`: those of the scene, or as many others in their place.
+uint32_t materialClasses(const Scene& scene, const std::vector<Material>& materials);
 
 // Returns a light of the scene at the place where it is at `time` seconds.
 CndLight lightAtTime(const Scene& scene, size_t light, double time);

@@ -448,16 +448,19 @@ bool lightWidgets(CndLight& light, bool& watts)
 
 void drawLightEditor(Scene& scene, LightEditor& editor)
 {
+    if (editor.locked)
+        ImGui::TextWrapped("%s", editorLocked);
+    ImGui::BeginDisabled(editor.locked);
     editorButtons(scene, editor);
-    CndLight* light = selectedLight(scene, editor);
-    if (!light) {
+    if (CndLight* light = selectedLight(scene, editor)) {
+        ImGui::Text("light %u of %zu", *editor.selected, scene.lights.size());
+        const CndLight before = *light;
+        if (lightWidgets(*light, editor.watts))
+            changed(editor, before, *light);
+    } else {
         ImGui::TextUnformatted("no light selected: click one, or Tab");
-        return;
     }
-    ImGui::Text("light %u of %zu", *editor.selected, scene.lights.size());
-    const CndLight before = *light;
-    if (lightWidgets(*light, editor.watts))
-        changed(editor, before, *light);
+    ImGui::EndDisabled();
 }
 
 } // namespace candelabra::app

@@ -18,7 +18,12 @@ struct LightEditor {
     LightHistory history;
     bool wantsNew = false; // the user asks for a new light, which the viewer adds
     bool watts = false;    // the power is shown in W at 555 nm, not in lm
+    bool locked = false;   // the user cannot edit lights now
 };
+
+// What the user is told while the editor is locked.
+constexpr const char* editorLocked =
+    "the scene is built anew with other lights, which can be edited when they are there";
 
 // The size and the strength of a new sphere light. The default is enough for a room.
 struct NewLight {

@@ -17,17 +17,8 @@ namespace candelabra::app
 namespace
 {
 
-struct Stopped {
-};
-
-void begins(Job& job, const std::string& what, double done)
-{
-    if (!job.doing(what, done))
-        throw Stopped();
-}
-
 // The parts of the bar at which the stages begin.
-constexpr double uploadAt = 0.3, pipelinesAt = 0.5, pictureAt = 1;
+constexpr double uploadAt = 0.3, pictureAt = 1;
 
 std::string shortName(const std::string& scene)
 {
@@ -38,95 +29,74 @@ std::unique_ptr<LoadedScene> load(const VulkanContext& context, const SceneReque
                                   Job& job)
 {
     const std::string name = shortName(request.scene);
-    begins(job, fmt::format("{} {} ...", isGenerated(request.scene) ? "Building" : "Loading", name),
-           0);
+    beginStep(job,
+              fmt::format("{} {} ...", isGenerated(request.scene) ? "Building" : "Loading", name),
+              0);
     auto out = std::make_unique<LoadedScene>();
     out->request = request;
     out->scene = loadScene(request.scene, request.options);
     requireSomethingToDraw(out->scene, request.scene);
     out->source = sceneSource(request.scene, request.options.seed);
     out->view = request.view(out->scene);
-    begins(job, fmt::format("Uploading {} ...", counted(out->scene.instances.size(), "object")),
-           uploadAt);
-    // The number of pipelines is not known before they are made: it depends on the types of the
-    // lights and on the materials. Each takes the same part of what is left of the bar.
-    uint32_t pipelines = 0;
-    double done = pipelinesAt;
-    const PipelineWatch watch([&] {
-        const bool goOn = job.doing(fmt::format("Compiling shaders: {} ...", ++pipelines), done);
-        done += (pictureAt - done) / 64;
-        return goOn;
-    });
     RendererOptions options = request.renderer;
     options.size = out->view.size;
-    out->renderer = std::make_unique<Renderer>(context, out->scene, options);
-    begins(job, "Drawing the first picture ...", pictureAt);
+    out->renderer = makeRenderer(context, out->scene, options, uploadAt, job);
+    beginStep(job, "Drawing the first picture ...", pictureAt);
     return out;
 }
 
 } // namespace
 
-std::string messageOf(const std::exception_ptr& failure)
+void compileShaders(Job& job, double from, const std::function<void()>& make)
 {
-    try {
-        std::rethrow_exception(failure);
-    } catch (const gpu::Failure& error) {
-        return error.message;
-    } catch (const std::bad_alloc&) {
-        return "out of memory";
-    } catch (const std::exception& error) {
-        return error.what();
-    }
+    // The number of pipelines is not known before they are made: it depends on the types of the
+    // lights and on the materials. Each takes the same part of what is left of the bar.
+    uint32_t pipelines = 0;
+    double done = from;
+    const PipelineWatch watch([&] {
+        const bool goOn = job.doing(fmt::format("Compiling shaders: {} ...", ++pipelines), done);
+        done += (pictureAt - done) / 64;
+        return goOn;
+    });
+    make();
 }
 
-SceneLoader::~SceneLoader()
+std::unique_ptr<Renderer> makeRenderer(const VulkanContext& context, const Scene& scene,
+                                       const RendererOptions& options, double from, Job& job)
 {
-    if (!work_)
-        return;
-    work_->job.stop();
-    work_->thread.join();
+    beginStep(job, fmt::format("Uploading {} ...", counted(scene.instances.size(), "object")),
+              from);
+    std::unique_ptr<Renderer> out;
+    compileShaders(job, from + 0.3 * (pictureAt - from),
+                   [&] { out = std::make_unique<Renderer>(context, scene, options); });
+    return out;
 }
 
 void SceneLoader::start(SceneRequest request)
 {
-    if (!work_)
+    if (!work_.busy())
         return begin(std::move(request));
-    work_->job.stop();
+    work_.stop();
     next_ = std::move(request);
 }
 
 void SceneLoader::begin(SceneRequest request)
 {
-    work_ = std::make_unique<Work>();
-    work_->request = std::move(request);
-    work_->thread = std::thread([&work = *work_, &context = context_] {
-        try {
-            work.loaded = load(context, work.request, work.job);
-        } catch (...) {
-            work.failure = std::current_exception();
-        }
-        work.ended = true;
-    });
-}
-
-Job::State SceneLoader::state() const
-{
-    return work_->job.state();
+    work_.start(
+        [this, request = std::move(request)](Job& job) { loaded_ = load(context_, request, job); });
 }
 
 std::unique_ptr<LoadedScene> SceneLoader::take()
 {
-    if (!work_ || !work_->ended)
+    if (!work_.busy() || !work_.ended())
         return nullptr;
-    const std::unique_ptr<Work> work = std::move(work_);
-    work->thread.join();
-    if (work->job.stopped()) { // whatever became of it, it is not wanted any more
-        begin(*std::exchange(next_, std::nullopt));
-        return nullptr;
-    }
-    if (work->failure)
-        std::rethrow_exception(work->failure);
-    return std::move(work->loaded);
+    const bool unwanted = work_.stopped(); // whatever became of it, it is not wanted any more
+    work_.finish();
+    std::unique_ptr<LoadedScene> loaded = std::move(loaded_);
+    if (!unwanted)
+        return loaded;
+    begin(*std::exchange(next_, std::nullopt));
+    return nullptr;
 }
 
 } // namespace candelabra::app

@@ -50,10 +50,12 @@ void blitColumns(VkCommandBuffer cmd, const Renderer& renderer, VkImage to, int3
 
 } // namespace
 
-RendererOptions rendererOptions(const ViewerOptions& options)
+RendererOptions rendererOptions(const ViewerOptions& options, const FrameOptions& frame)
 {
     return {.gbufferLayout = options.gbufferLayout,
             .framesInFlight = Screen::slotCount,
+            .specularMethods = 1u << frame.specular,
+            .shading = shadingOf(frame),
             .influenceByError = options.frame.influence.rule == CND_INFLUENCE_BY_ERROR};
 }
 
@@ -68,7 +70,8 @@ Viewer::Viewer(const ViewerOptions& options, Screen& screen, SceneLoader& loader
       ring_(screen.ring),
       loader_(loader),
       camera_(first->view.camera, cruisingSpeed(first->scene)),
-      panel_{.frame = options.frame, .visible = options.overlay}
+      panel_{.frame = options.frame, .visible = options.overlay},
+      loadingShading_(Shading::of(options.frame))
 {
     show(std::move(first));
     figures_.device = context_.info().name;
@@ -78,21 +81,30 @@ Viewer::Viewer(const ViewerOptions& options, Screen& screen, SceneLoader& loader
                        context_.info().name);
 }
 
-void Viewer::open(const std::string& scene, const SceneOptions& options, bool moveCamera)
+void Viewer::open(const std::string& scene, const SceneOptions& options, Kept kept)
 {
     loadingLights_ = panel_.wantedLights;
+    loadingShading_ = Shading::of(panel_.frame);
+    loadingKept_ = kept;
     loader_.start({.scene = scene,
                    .options = options,
-                   .renderer = rendererOptions(options_),
+                   .renderer = rendererOptions(options_, panel_.frame),
                    .view =
                        [size = swapchain_.size()](const Scene& loaded) {
                            return SceneView{selectCamera(loaded, ""), size};
                        },
-                   .moveCamera = moveCamera});
+                   .kept = kept});
 }
 
 void Viewer::takeLoaded()
 {
+    if (work_.busy()) { // it is for the present scene
+        if (loader_.busy() && loader_.ended())
+            work_.stop();
+        return;
+    }
+    if (options_.frames && loader_.busy())
+        await([&] { return loader_.ended(); });
     std::unique_ptr<LoadedScene> loaded;
     try {
         loaded = loader_.take();
@@ -115,23 +127,33 @@ void Viewer::show(std::unique_ptr<LoadedScene> loaded)
     ring_.wait();
     renderer_.reset();
     other_.reset();
+    const Kept kept = loaded->request.kept;
+    if (kept == Kept::CameraAndLights) {
+        std::swap(scene_.lights, loaded->scene.lights);
+        std::swap(scene_.lightMotions, loaded->scene.lightMotions);
+    }
     scene_ = std::move(loaded->scene);
     renderer_ = std::move(loaded->renderer);
     renderer_->sceneMoved(scene_);
     source_ = std::move(loaded->source);
     sceneName_ = loaded->request.scene;
     sceneOptions_ = loaded->request.options;
-    if (loaded->request.moveCamera)
+    if (kept == Kept::Nothing)
         camera_ = FlyCamera(loaded->view.camera, cruisingSpeed(scene_));
-    takeScene();
+    shownLeft_ = loadingShading_;
+    lightsEdited_ = kept == Kept::CameraAndLights;
+    takeScene(kept);
     forgetFrames();
 }
 
 // Sets everything that depends on the scene to the scene that was just loaded.
-void Viewer::takeScene()
+void Viewer::takeScene(Kept kept)
 {
     materials_ = scene_.materials;
-    ownLights_ = scene_.lights.size() - sceneOptions_.lights.value_or(0);
+    if (kept != Kept::CameraAndLights) {
+        ownLights_ = scene_.lights.size() - sceneOptions_.lights.value_or(0);
+        panel_.editor = {.watts = panel_.editor.watts}; // the unit stays as the user chose it
+    }
     panel_.frame.lightsVisible = options_.lightsVisible.value_or(scene_.lightsVisible);
     CndExposureSettings& exposure = panel_.frame.exposure;
     if (std::exchange(knownExposure_, false))
@@ -139,27 +161,10 @@ void Viewer::takeScene()
     knownExposure_ = !exposure.manual && scene_.knownEv100;
     useKnownExposure(scene_, exposure);
     panel_.wantedLights = uint32_t(scene_.lights.size());
-    panel_.editor = {.watts = panel_.editor.watts}; // the unit stays as the user chose it
     panel_.object.reset();
     rays_.reset();
     figures_.picked.reset();
     panel_.materialsChosen = panel_.materials.on;
-}
-
-void Viewer::makeRenderer()
-{
-    ring_.wait();
-    renderer_.reset();
-    other_.reset();
-    renderer_ = std::make_unique<Renderer>(context_, scene_, rendererOptionsAt(swapchain_.size()));
-    forgetFrames();
-}
-
-RendererOptions Viewer::rendererOptionsAt(PixelSize size) const
-{
-    RendererOptions out = rendererOptions(options_);
-    out.size = size;
-    return out;
 }
 
 void Viewer::forgetFrames()
@@ -178,39 +183,23 @@ void Viewer::rebuild(uint32_t wanted)
     // number to add to the file's own.
     const uint32_t own = uint32_t(ownLights_);
     sceneOptions.lights = isGenerated(sceneName_) ? lights : lights > own ? lights - own : 0;
-    open(sceneName_, sceneOptions, false);
+    open(sceneName_, sceneOptions, Kept::Camera);
 }
 
-void Viewer::applyMaterials()
+bool Viewer::rebuilds() const
 {
-    scene_.materials = materials_;
-    overrideMaterials(scene_, panel_.materials);
-    panel_.materialsChosen = false;
-    makeRenderer();
+    const bool wanted = !panel_.editor.changed && panel_.wantedLights != scene_.lights.size();
+    return wanted || (loader_.busy() && loadingKept_ == Kept::Camera);
 }
 
-void Viewer::applyEdits()
+void Viewer::noteEdits()
 {
-    if (panel_.materialsChosen)
-        applyMaterials();
     if (!std::exchange(panel_.editor.changed, false))
         return;
     if (panel_.wantedLights != scene_.lights.size())
         figures_.picked.reset(); // the indices of the picked lights are no longer valid
     panel_.wantedLights = uint32_t(scene_.lights.size());
-    renderer_->lightsChanged();
-    if (other_)
-        other_->lightsChanged();
-}
-
-void Viewer::fitWipe()
-{
-    if (!panel_.wipe.on && other_) {
-        ring_.wait();
-        other_.reset();
-    }
-    if (panel_.wipe.on && !other_)
-        other_ = std::make_unique<Renderer>(context_, scene_, rendererOptionsAt(renderer_->size()));
+    lightsEdited_ = true;
 }
 
 // Resizes the window's images and the renderers to the window's size.
@@ -244,18 +233,6 @@ int32_t Viewer::wipeColumn() const
 {
     const int32_t width = int32_t(swapchain_.size().width);
     return other_ ? int32_t(std::lround(panel_.wipe.at * float(width))) : width;
-}
-
-FrameOptions Viewer::optionsAt(int32_t x) const
-{
-    FrameOptions out = panel_.frame;
-    if (x < wipeColumn())
-        return out;
-    out.specular = panel_.wipe.specular;
-    out.culling = panel_.wipe.culling;
-    out.errorBudget = panel_.wipe.errorBudget;
-    out.heatMap = HeatMap::None;
-    return out;
 }
 
 void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
@@ -308,9 +285,9 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     drawOverlay();
     if (loader_.busy())
         drawProgress(loader_.state(), true);
-    renderer_->record(frame.cmd, frame.slot, options);
+    renderer_->record(frame.cmd, frame.slot, shownLeft_.in(options));
     if (other_)
-        other_->record(frame.cmd, frame.slot, optionsAt(wipeColumn()));
+        other_->record(frame.cmd, frame.slot, shownRight_.in(options));
     recorded_[frame.slot] = true;
     recordWindow(frame.cmd, target);
     gpu::Buffer pixels;
@@ -328,10 +305,12 @@ void Viewer::drawFrame(double seconds, bool screenshot)
 // Fulfils requests of keys that take longer than a frame.
 void Viewer::doRequests()
 {
-    if (const char* extension = std::exchange(saveAs_, nullptr))
-        saveImage(extension);
     if (std::exchange(saveScene_, false))
         saveScene();
+    if (!prepared_) // what is drawn now is not what the user wants to be saved or picked
+        return;
+    if (const char* extension = std::exchange(saveAs_, nullptr))
+        saveImage(extension);
     if (const auto pixel = std::exchange(pick_, std::nullopt))
         pick(*pixel);
 }
@@ -355,17 +334,17 @@ void Viewer::run()
         last = now;
         const double seconds = options_.frames ? fixedFrameTime : std::min(wall, longestStep);
         moveCamera(seconds);
-        if (panel_.animate)
+        if (panel_.animate && !lightsEdited_) // lights that move are set again
             time_ += seconds;
         if (!dropped_.empty())
             onDrop(std::exchange(dropped_, ""));
         takeLoaded();
-        applyEdits();
+        noteEdits();
         const uint32_t wanted = panel_.wantedLights;
         if (wanted != scene_.lights.size() && !(loader_.busy() && wanted == loadingLights_))
             rebuild(wanted);
         fitToWindow();
-        fitWipe();
+        prepare();
         figures_.scene = scene_.name;
         figures_.lights = uint32_t(scene_.lights.size());
         figures_.moving = !scene_.lightMotions.empty();

@@ -33,8 +33,21 @@ struct ViewerOptions {
     std::string screenshot; // file for a PNG of the window's last frame; needs `frames`
 };
 
-// How the renderers of the viewer are made, apart from their size.
-RendererOptions rendererOptions(const ViewerOptions& options);
+// How renderers of the viewer are made that draw frames like `frame` at first, apart from their
+// size.
+RendererOptions rendererOptions(const ViewerOptions& options, const FrameOptions& frame);
+
+// What a frame asks of pipelines.
+struct Shading {
+    CndSpecularMethod specular = CND_SPECULAR_CONIC;
+    CndCulling culling = CND_CULLING_CLUSTERED;
+    float errorBudget = 0;
+    HeatMap heatMap = HeatMap::None;
+
+    static Shading of(const FrameOptions& frame);
+    FrameOptions in(FrameOptions frame) const; // `frame`, shaded like this
+    bool operator==(const Shading&) const = default;
+};
 
 class Viewer
 {
@@ -81,27 +94,37 @@ private:
     void drawOverlay(); // the panel, and the outline of what is selected
 
     // Begins to load another scene, or the same with other options. The present scene stays until
-    // the other one is there, and if loading fails. `moveCamera`: the user sees it from its own
-    // camera.
-    void open(const std::string& scene, const SceneOptions& options, bool moveCamera);
+    // the other one is there, and if loading fails.
+    void open(const std::string& scene, const SceneOptions& options, Kept kept);
     // Shows what has been loaded since the last frame.
     void takeLoaded();
     void show(std::unique_ptr<LoadedScene> loaded);
-    void takeScene();
+    void takeScene(Kept kept);
     void rebuild(uint32_t wanted);
-    void makeRenderer();
-    RendererOptions rendererOptionsAt(PixelSize size) const;
     // Forgets what was measured of the frames of the renderer before.
     void forgetFrames();
-    void applyMaterials();
-    void applyEdits();
-    void fitWipe();
+    // Tells whether the scene is being built with another number of lights. Its lights cannot be
+    // edited meanwhile, because the edits would be lost.
+    bool rebuilds() const;
+    void noteEdits();
     void fitToWindow();
     void collectStats(const FrameRing::Frame& frame);
-    // Returns how the pixels of column `x` are shaded: left of the wipe's line with the user's
-    // settings; from the line on with the wipe's specular method, culling and error budget instead,
-    // and without a heat map.
+
+    // Work of another thread, defined in viewer_work.cpp.
+    enum class Side { Left, Right };
+    void prepare();
+    void await(const std::function<bool()>& ended);
+    void useWhatIsThere();
+    void startWork();
+    void prepareLights(Renderer& renderer);
+    void makeRenderer(Side side);
+    void takeWork();
+    // How the user wants the pixels right of the wipe's line to be shaded: with the wipe's specular
+    // method, culling and error budget, and without a heat map.
+    Shading wantedRight() const;
+    // Returns how the pixels of column `x` are shaded.
     FrameOptions optionsAt(int32_t x) const;
+
     // The first column right of the wipe's line; the image's width if there is no wipe.
     int32_t wipeColumn() const;
     void drawFrame(double seconds, bool screenshot);
@@ -134,10 +157,18 @@ private:
     // Slots in which the present renderer has recorded a frame at its present size: their
     // statistics can be read.
     std::array<bool, Screen::slotCount> recorded_{};
-    // PanelState::wantedLights when the scene was asked for that is loaded now.
+    // About the scene that is loaded now: PanelState::wantedLights when it was asked for, what
+    // stays of the present one, and how its renderer can shade.
     uint32_t loadingLights_ = 0;
-    bool resetExposure_ = true;      // the next frame jumps to the converged exposure
-    double time_ = 0;                // seconds, for moving lights
+    Kept loadingKept_ = Kept::Nothing;
+    Shading loadingShading_;
+    // How the two sides of the wipe's line are shaded. If the user wants another way, its pipelines
+    // are being made.
+    Shading shownLeft_, shownRight_;
+    bool lightsEdited_ = false; // the renderers do not know yet how the user has edited the lights
+    bool prepared_ = false;     // the frame is as the user wants it
+    bool resetExposure_ = true; // the next frame jumps to the converged exposure
+    double time_ = 0;           // seconds, for moving lights
     double mouseX_ = 0, mouseY_ = 0; // window coordinates
     std::set<int> heldKeys_;         // keys of the scene, not of a field of the panel
     std::set<int> freshKeys_;        // those that were pressed since the last frame
@@ -151,11 +182,20 @@ private:
     bool knownExposure_ = false; // the exposure is Scene::knownEv100, which the user has not chosen
     std::string dropped_;        // path of a dropped file, to be opened before the next frame
     uint32_t savedFiles_ = 0;
-    // Requests that doRequests() fulfils after this frame: the extension of an image to save,
+    // Requests that doRequests() fulfils after this frame, or after the first one that is as the
+    // user wants it: the extension of an image to save,
     // saving the scene, the pixel whose lights are to be listed.
     const char* saveAs_ = nullptr;
     bool saveScene_ = false;
     std::optional<PixelPosition> pick_;
+
+    // A renderer that the other thread makes, for which side (empty: it makes none), and how it can
+    // shade.
+    std::unique_ptr<Renderer> made_;
+    std::optional<Side> madeSide_;
+    Shading madeShading_;
+    std::vector<Material> newMaterials_; // with the override that the renderer is made for
+    Background work_;                    // ends before the members that it uses
 };
 
 } // namespace candelabra::app

@@ -76,6 +76,28 @@ std::optional<SelectedObject> objectOf(const Scene& scene, const RayHit& hit)
     return SelectedObject{name, bounds};
 }
 
+bool editsLights(KeyAction action)
+{
+    switch (action) {
+    case KeyAction::AddLight:
+    case KeyAction::DuplicateLight:
+    case KeyAction::RemoveLight:
+    case KeyAction::ShrinkLight:
+    case KeyAction::GrowLight:
+    case KeyAction::Undo:
+    case KeyAction::Redo:
+    case KeyAction::LightAhead:
+    case KeyAction::LightBack:
+    case KeyAction::LightRight:
+    case KeyAction::LightLeft:
+    case KeyAction::LightUp:
+    case KeyAction::LightDown:
+        return true;
+    default:
+        return false;
+    }
+}
+
 } // namespace
 
 // Handles an event, or returns false if that has to wait for the next frame.
@@ -286,6 +308,7 @@ bool Viewer::onFrameAction(KeyAction action)
 {
     const uint32_t lights = uint32_t(scene_.lights.size());
     FrameOptions& frame = panel_.frame;
+    noteEdits(); // what is wanted from now on is another number of lights than there are now
     switch (action) {
     case KeyAction::NextSpecular:
         frame.specular = nextSpecular(frame.specular);
@@ -345,11 +368,15 @@ void Viewer::sayLight(const char* what)
                     round ? fmt::format(", radius {:.4g}", light.radius) : ""));
 }
 
-// Handles the keys that edit lights; returns true if `action` is one of them. Lights move along the
+// Handles the keys of lights; returns true if `action` is one of them. Lights move along the
 // world's axes: the arrow keys use the horizontal axes nearest to the camera's forward and right.
 bool Viewer::onLightAction(KeyAction action)
 {
     LightEditor& editor = panel_.editor;
+    if (rebuilds() && editsLights(action)) {
+        say(editorLocked);
+        return true;
+    }
     const glm::vec3 f = camera_.camera().forward;
     const bool alongX = std::abs(f.x) > std::abs(f.z);
     const glm::vec3 ahead =
@@ -569,10 +596,10 @@ void Viewer::onDrop(const std::string& path)
     const auto ends = [&](const char* extension) { return path.ends_with(extension); };
     if (ends(".hdr") || ends(".exr") || ends(".pfm")) {
         options.environment = path;
-        return open(sceneName_, options, false);
+        return open(sceneName_, options, Kept::CameraAndLights);
     }
     options.lights.reset();
-    open(path, options, true);
+    open(path, options, Kept::Nothing);
 }
 
 // Returns a file name that is not taken in the current folder.
@@ -683,8 +710,12 @@ void Viewer::drawOverlay()
 {
     if (panel_.editor.selected) // by a key or by the panel
         panel_.object.reset();
+    panel_.editor.locked = rebuilds();
     drawSelection(panel_, projection(), selectedNow(), scene_.lightOrigin);
     drawPanel(panel_, figures_, scene_);
+    constexpr double unseen = 0.1; // s; what takes less time is not worth a bar
+    if (!loader_.busy() && work_.busy() && work_.seconds() > unseen)
+        drawProgress(work_.state(), true);
 }
 
 } // namespace candelabra::app
