@@ -293,7 +293,7 @@ TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
     ASSERT_EQ(run(start + "dark.pfm").exitCode, 0);
     const Outcome lit = run(start + "lit.pfm --environment sky.hdr --environment-scale 2 "
                                     "--environment-rotation 30 --lobes sum "
-                                    "--energy-compensation --json lit.json --validate");
+                                    "--energy-compensation on --json lit.json --validate");
     ASSERT_EQ(lit.exitCode, 0) << lit.err;
     const auto dark = app::loadPfm(path("dark.pfm")).pixels,
                bright = app::loadPfm(path("lit.pfm")).pixels;

@@ -106,7 +106,7 @@ BAD = {
     "--size": SIZES, "--camera": ["nowhere", "99", "1,2", "0,0,0,0,0,0", "0,0,0,0,0,-1,200", "0,0,0,0,nan,1"],
     "--lights-visible": NAMES, "--exposure": ["bright", "41", "nan"], "--compensation": [*NUMBERS, "21"],
     "--metering": NAMES, "--tonemap": NAMES, "--specular": NAMES, "--gbuffer": NAMES,
-    "--culling": NAMES, "--reuse": NAMES, "--debug": NAMES, "--lobes": NAMES,
+    "--culling": NAMES, "--reuse": NAMES, "--debug": NAMES, "--lobes": NAMES, "--energy-compensation": NAMES,
     "--error-budget": [*NUMBERS, "-0.1", "1.1"], "--influence": NAMES,
     "--influence-error": [*NUMBERS, "0", "1.1", "1/0"], "--time": NUMBERS,
     "--punctual-radius": [*NUMBERS, "0"], "--sun-radius": [*NUMBERS, "0", "2"],

@@ -198,6 +198,54 @@ TEST_F(Framing, FilesWithACameraHaveTheOthersToo)
     EXPECT_EQ(selectCamera(scene, "three-quarter").name, "three-quarter");
 }
 
+// The camera of the file is the default only if it shows the triangle, whose height is 1 m, at
+// least half as high as the picture, which is 2 tan(0.5) = 1.09 times the distance.
+TEST_F(Framing, CamerasOfTheFileThatShowLittleAreNotTheDefault)
+{
+    struct Case {
+        const char* translation;
+        const char* rotation;
+        const char* used;
+    };
+    const char *ahead = "[0, 0, 0, 1]", *back = "[0, 1, 0, 0]";
+    for (const Case& c : {Case{"[0.5, 0.5, 1.7]", ahead, "mine"}, // the triangle is 0.54 high
+                          Case{"[0.5, 0.5, 2.0]", ahead, "three-quarter"}, // and here 0.46
+                          Case{"[0.5, 0.5, 1.7]", back, "three-quarter"},
+                          Case{"[9.5, 0.5, 1.7]", ahead, "three-quarter"},
+                          Case{"[0.5, 1.0, 2.0]", ahead, "three-quarter"},
+                          Case{"[0.5, 1.1, 1.7]", ahead, "mine"},     // it is cut off
+                          Case{"[0.3, 0.3, 0.01]", ahead, "mine"}}) { // it fills the picture
+        SCOPED_TRACE(std::string(c.translation) + c.rotation);
+        GltfBuilder builder = triangleScene();
+        builder.json["cameras"] = Json::parse(
+            R"([{"type": "perspective", "name": "mine",
+                 "perspective": {"yfov": 1, "znear": 0.1}}])");
+        builder.rootNode({{"camera", 0},
+                          {"translation", Json::parse(c.translation)},
+                          {"rotation", Json::parse(c.rotation)}});
+        const Scene scene = load(builder);
+        EXPECT_EQ(scene.cameras[scene.defaultCamera].name, c.used);
+        EXPECT_EQ(selectCamera(scene, "").name, c.used);
+        EXPECT_EQ(selectCamera(scene, "0").name, "mine");
+        EXPECT_EQ(scene.notes.size(), c.used == std::string("mine") ? 0u : 1u);
+    }
+}
+
+TEST_F(Framing, TheFirstCameraOfTheFileThatShowsTheSceneIsTheDefault)
+{
+    GltfBuilder builder = triangleScene();
+    builder.json["cameras"] = Json::parse(R"([
+        {"type": "orthographic", "name": "far",
+         "orthographic": {"xmag": 9, "ymag": 9, "znear": 0.1, "zfar": 99}},
+        {"type": "orthographic", "name": "near",
+         "orthographic": {"xmag": 0.9, "ymag": 0.9, "znear": 0.1, "zfar": 99}}])");
+    for (const int camera : {0, 1})
+        builder.rootNode({{"camera", camera}, {"translation", {0.5, 0.5, 5}}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(selectCamera(scene, "").name, "near");
+    EXPECT_TRUE(scene.notes.empty());
+}
+
 TEST_F(Framing, NodesAreFoundWithAllBelowThem)
 {
     // 0 "car": 1 "wheels" (2 and 3 "wheel"), 4 "body"; 5 "lamp" without a mesh; 6 a second root.

@@ -303,7 +303,8 @@ TEST_F(TruthCommand, LobesShareTheLight)
     EXPECT_EQ(pixel({"--lobes", "sum"}), sum);
     EXPECT_LT(conserving, sum);
     EXPECT_GT(conserving, 0.5f * sum);
-    EXPECT_GT(pixel({"--energy-compensation"}), sum);
+    EXPECT_GT(pixel({"--energy-compensation", "on"}), sum);
+    EXPECT_EQ(pixel({"--energy-compensation", "off"}), sum);
     EXPECT_EQ(runScene("x.pfm", {"1x1", "--lobes", "both"}), 2);
 }
 
@@ -336,7 +337,7 @@ TEST_F(TruthCommand, MergeTakesNoOtherOptions)
                                                  {"--lobes", "sum"},
                                                  {"--shard", "1/1"},
                                                  {"--cache", "x"},
-                                                 {"--energy-compensation"}}) {
+                                                 {"--energy-compensation", "on"}}) {
         std::vector<std::string> arguments = more;
         arguments.insert(arguments.end(), {"-o", path("x.pfm"), "--merge", path("part")});
         EXPECT_EQ(run(arguments), 2) << more[0];

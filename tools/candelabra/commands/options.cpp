@@ -112,16 +112,19 @@ void LobeArguments::addTo(CLI::App& command)
         command, "--lobes", lobes, lobeChoices,
         "how the diffuse and the specular lobe of a material share the light (default: sum for "
         "scene .json files, else conserving)");
-    command.add_flag(
-        "--energy-compensation", energyCompensation,
-        "add the light that bounces between microfacets, which the specular lobe loses");
+    addChoice(
+        command, "--energy-compensation", energyCompensation, onOffChoices,
+        "add the light that bounces between microfacets, which the specular lobe loses: rough "
+        "metal is dark without it (default: on for glTF files, else off)");
 }
 
 void LobeArguments::applyTo(SceneOptions& options) const
 {
     if (!lobes.empty())
         options.lobes = choose("--lobes", lobes, lobeChoices);
-    options.energyCompensation = energyCompensation;
+    if (!energyCompensation.empty())
+        options.energyCompensation =
+            choose("--energy-compensation", energyCompensation, onOffChoices);
 }
 
 void SceneArguments::addTo(CLI::App& command, const std::string& fallback)
@@ -285,7 +288,8 @@ void FrameArguments::addViewTo(CLI::App& command)
             "path, above; showcase: front, above; glTF files: their own, then three-quarter, "
             "front, right, back, left and above, in rooms inside and inside-2) or by index, or a "
             "new one: position and target in metres, and vertical field of view in degrees; "
-            "default: the scene's first")
+            "default: the scene's first, but the first automatic one if the file's own show the "
+            "scene less than half as wide and as high as the picture")
         ->type_name("NAME|INDEX|px,py,pz,tx,ty,tz[,fov]");
     addChoice(command, "--lights-visible", lightsVisible, onOffChoices,
               "show area lights as emitters (default: as the scene says)");

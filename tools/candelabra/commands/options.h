@@ -37,7 +37,7 @@ struct DeviceArguments {
 // How the diffuse and the specular lobe of a material share the light.
 struct LobeArguments {
     std::string lobes;
-    bool energyCompensation = false;
+    std::string energyCompensation;
 
     void addTo(CLI::App& command);
     void applyTo(SceneOptions& options) const; // throws UsageError

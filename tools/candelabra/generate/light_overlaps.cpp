@@ -169,10 +169,10 @@ std::vector<SurfaceSample> visibleSamples(const Scene& scene)
     std::vector<SurfaceSample> samples;
     if (!scene.cameras.empty()) {
         RayCaster caster(scene);
+        const Camera& camera = scene.cameras[scene.defaultCamera];
         for (uint32_t y = 0; y < sampleRows; ++y) {
             for (uint32_t x = 0; x < sampleColumns; ++x) {
-                const auto hit =
-                    caster.cast(cameraRay(scene.cameras.front(), x, y, sampleColumns, sampleRows));
+                const auto hit = caster.cast(cameraRay(camera, x, y, sampleColumns, sampleRows));
                 if (hit)
                     samples.push_back({hit->position, hit->normal});
             }

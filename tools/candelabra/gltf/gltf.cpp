@@ -262,6 +262,8 @@ Scene loadGltf(const std::string& path, const SceneOptions& options)
     const GltfDocument document = openGltf(path);
     Scene scene;
     scene.name = std::filesystem::path(path).stem().string();
+    // White metal that is rough, such as the default material, looks white in other programs.
+    scene.energyCompensation = true;
     SceneBuilder builder(document, options, scene);
     const std::vector<GltfPlacedNode> nodes = placeGltfNodes(document);
     std::vector<size_t> firstInstances;

@@ -217,6 +217,31 @@ void addRoomCameras(Scene& scene)
         scene.cameras.push_back(roomCamera("inside-2", second));
 }
 
+// --- cameras of files
+
+// Makes the first automatic camera the default if none of the `own` cameras of the file shows the
+// scene large enough. Many files have cameras that nobody looked through.
+void chooseDefaultCamera(Scene& scene, size_t own, double aspect)
+{
+    constexpr double least = 0.5; // of the width or of the height
+    const char* fault = "the scene is less than half as wide and as high as the picture of";
+    for (size_t i = 0; i < own; ++i) {
+        const PictureShare share = pictureShare(scene, scene.cameras[i], aspect);
+        if (!share.isEmpty && std::max(share.width, share.height) >= least) {
+            scene.defaultCamera = i;
+            return;
+        }
+        if (i == 0 && share.isEmpty)
+            fault = "nothing of the scene is in the picture of";
+    }
+    if (own == 0)
+        return;
+    scene.defaultCamera = own;
+    scene.notes.push_back(std::string(fault) +
+                          (own == 1 ? " the file's camera" : " its first camera") + ", so " +
+                          scene.cameras[own].name + " is used; --camera 0 chooses the file's own");
+}
+
 // --- lights alone
 
 // Returns the corners of boxes around all emitters that have a place.
@@ -241,6 +266,7 @@ std::vector<glm::dvec3> emitterCorners(const Scene& scene)
 void addAutomaticCameras(Scene& scene, double aspect)
 {
     const Bounds bounds = sceneBounds(scene);
+    const size_t own = scene.cameras.size();
     if (scene.instances.empty() || bounds.min == bounds.max) {
         scene.cameras.push_back(fitCamera(
             emitterCorners(scene),
@@ -249,6 +275,7 @@ void addAutomaticCameras(Scene& scene, double aspect)
     }
     addRoomCameras(scene);
     addObjectCameras(scene, aspect);
+    chooseDefaultCamera(scene, own, aspect);
 }
 
 } // namespace candelabra::app

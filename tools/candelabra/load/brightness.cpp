@@ -19,6 +19,17 @@ double luminanceOf(const float (&rgb)[3])
     return 0.2126 * double{rgb[0]} + 0.7152 * double{rgb[1]} + 0.0722 * double{rgb[2]};
 }
 
+// Returns the luminance of a pixel in cd/m^2. Files may hold any number; those that are negative or
+// not finite are black, as the engine takes them.
+double luminanceOf(const Image& image, uint32_t x, uint32_t y)
+{
+    const float* pixel = &image.pixels[(size_t(y) * image.width + x) * size_t(image.channels)];
+    const float rgb[3] = {pixel[0], pixel[image.channels == 1 ? 0 : 1],
+                          pixel[image.channels == 1 ? 0 : 2]};
+    const double luminance = luminanceOf(rgb);
+    return std::isfinite(luminance) && luminance > 0 ? luminance : 0;
+}
+
 // Returns the luminous intensity in cd that a point of the same power has, into all directions or,
 // of lights with one side, into half of them.
 double candelasOf(const CndLight& light)
@@ -80,14 +91,23 @@ double groundIlluminance(const SceneEnvironment& environment)
             return sine * sine;
         };
         const double weight = pi / image.width * (squaredSine(y + 1.0) - squaredSine(y));
-        for (uint32_t x = 0; weight > 0 && x < image.width; ++x) {
-            const float* pixel =
-                &image.pixels[(size_t(y) * image.width + x) * size_t(image.channels)];
-            const float rgb[3] = {pixel[0], pixel[image.channels == 1 ? 0 : 1],
-                                  pixel[image.channels == 1 ? 0 : 2]};
-            // Files may hold any number; the engine takes these for black, too.
-            const double luminance = luminanceOf(rgb);
-            sum += std::isfinite(luminance) && luminance > 0 ? weight * luminance : 0;
+        for (uint32_t x = 0; weight > 0 && x < image.width; ++x)
+            sum += weight * luminanceOf(image, x, y);
+    }
+    return environment.scale * sum;
+}
+
+double planeIlluminance(const SceneEnvironment& environment, const glm::dvec3& normal)
+{
+    const Image& image = environment.radiance;
+    double sum = 0;
+    for (uint32_t y = 0; y < image.height; ++y) {
+        const double solidAngle =
+            2 * pi / image.width *
+            (std::cos(pi * y / image.height) - std::cos(pi * (y + 1.0) / image.height));
+        for (uint32_t x = 0; x < image.width; ++x) {
+            const double cosine = glm::dot(normal, equirectangularDirection(image, x, y));
+            sum += cosine > 0 ? solidAngle * cosine * luminanceOf(image, x, y) : 0;
         }
     }
     return environment.scale * sum;

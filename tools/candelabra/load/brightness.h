@@ -13,6 +13,10 @@ glm::dvec3 equirectangularDirection(const Image& image, uint32_t x, uint32_t y);
 // Returns the illuminance in lx that an environment gives level ground, its scale included.
 double groundIlluminance(const SceneEnvironment& environment);
 
+// Returns the illuminance in lx that an environment gives a surface with a unit normal, which is
+// relative to the image, before its rotation.
+double planeIlluminance(const SceneEnvironment& environment, const glm::dvec3& normal);
+
 // Returns the illuminance in lx that the directional lights and distant spheres of a scene give
 // surfaces that face them, summed.
 double sunIlluminance(const Scene& scene);

@@ -152,7 +152,7 @@ Scene loadScene(const std::string& scene, const SceneOptions& options)
     Scene out = loadWithLights(scene, std::move(environment), options);
     if (options.defaultLight && !isLit(out)) {
         const float white = studioWhite(out);
-        out.environment = studioEnvironment(out.cameras.front(), white);
+        out.environment = studioEnvironment(out.cameras[out.defaultCamera], white);
         out.exposureCompensation = 0;
         if (!outshinesStudio(out, white))
             out.knownEv100 = studioEv100(white);
@@ -163,7 +163,7 @@ Scene loadScene(const std::string& scene, const SceneOptions& options)
         describeEnvironment(out);
     }
     out.lobes = options.lobes.value_or(out.lobes);
-    out.energyCompensation = options.energyCompensation;
+    out.energyCompensation = options.energyCompensation.value_or(out.energyCompensation);
     return out;
 }
 

@@ -21,11 +21,18 @@ struct SoftLight {
     double luminance;          // of its middle, relative
 };
 
+constexpr SoftLight key = {-0.75, 0.6, 0.6, 9.0}; // left of the camera and above
 constexpr SoftLight softLights[] = {
-    {-0.75, 0.6, 0.6, 9.0}, // key: left of the camera and above
-    {1.1, 0.3, 0.7, 0.7},   // fill: right of the camera
-    {2.6, 0.7, 0.35, 6.0},  // from behind, for an edge of light
+    key,
+    {1.1, 0.3, 0.7, 0.7},  // fill: right of the camera
+    {2.6, 0.7, 0.35, 6.0}, // from behind, for an edge of light
 };
+
+glm::dvec3 directionOf(const SoftLight& light)
+{
+    return {std::sin(light.azimuth) * std::cos(light.elevation), std::sin(light.elevation),
+            std::cos(light.azimuth) * std::cos(light.elevation)};
+}
 
 double smooth(double from, double to, double x)
 {
@@ -37,14 +44,11 @@ double skyLuminance(const glm::dvec3& direction)
 {
     const double up = direction.y;
     // The floor is darkest straight below, and the ceiling a little brighter than the walls. All
-    // are so much darker than the lights that even a rough metal, which reflects about half of the
-    // light that it receives, stands out from them.
-    double out = 0.1 + 0.11 * smooth(-0.7, 0.05, up) + 0.04 * smooth(0.0, 0.9, up);
+    // are grey, so that both white and black objects stand out from them.
+    double out = 0.13 + 0.14 * smooth(-0.7, 0.05, up) + 0.05 * smooth(0.0, 0.9, up);
     for (const SoftLight& light : softLights) {
-        const glm::dvec3 at(std::sin(light.azimuth) * std::cos(light.elevation),
-                            std::sin(light.elevation),
-                            std::cos(light.azimuth) * std::cos(light.elevation));
-        const double angle = std::acos(std::clamp(glm::dot(at, direction), -1.0, 1.0));
+        const double angle =
+            std::acos(std::clamp(glm::dot(directionOf(light), direction), -1.0, 1.0));
         out += light.luminance * (1 - smooth(0.35 * light.halfAngle, light.halfAngle, angle));
     }
     return out;
@@ -86,7 +90,7 @@ SceneEnvironment studioEnvironment(const Camera& defaultCamera, float white)
             const float luminance = float(skyLuminance(equirectangularDirection(image, x, y)));
             image.pixels.insert(image.pixels.end(), {luminance, luminance, luminance});
         }
-    out.scale = pi * double{white} / groundIlluminance(out);
+    out.scale = pi * double{white} / planeIlluminance(out, directionOf(key));
     const glm::dvec3& forward = defaultCamera.forward;
     out.rotation = std::atan2(-forward.x, -forward.z);
     return out;

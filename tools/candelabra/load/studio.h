@@ -12,7 +12,7 @@ bool isLit(const Scene& scene);
 
 // Returns a neutral photographic studio as an environment: a soft grey sky, a wide key light above
 // to the left of the default camera, a weaker fill to its right, and a narrow light from behind.
-// A white surface on level ground has the luminance `white`.
+// A white surface that faces the key light, and so gets most light, has the luminance `white`.
 SceneEnvironment studioEnvironment(const Camera& defaultCamera, float white);
 
 // Returns the luminance in cd/m^2 that white surfaces in the studio have, so that the scene's own
@@ -20,8 +20,9 @@ SceneEnvironment studioEnvironment(const Camera& defaultCamera, float white);
 // luminance of an emissive factor of 1 in glTF.
 float studioWhite(const Scene& scene);
 
-// Returns the EV100 that a grey card on level ground in the studio has. With it, black things look
-// black and white ones white, while automatic exposure makes both grey.
+// Returns the EV100 that a grey card has in the studio where it gets most light, facing the key
+// light. With it, black things look black and white ones white, while automatic exposure makes both
+// grey; and white things keep their shape, because only highlights are brighter than white.
 float studioEv100(float white);
 
 } // namespace candelabra::app

@@ -86,8 +86,8 @@ Camera typedCamera(const Scene& scene, const std::string& text, const std::vecto
 {
     Camera camera;
     camera.name = text;
-    camera.nearPlane =
-        scene.cameras[0].orthographic ? Camera{}.nearPlane : scene.cameras[0].nearPlane;
+    const Camera& like = scene.cameras[scene.defaultCamera];
+    camera.nearPlane = like.orthographic ? camera.nearPlane : like.nearPlane;
     // In metres. This is beyond any scene; much farther away, squares of distances would leave the
     // range of float.
     constexpr double farthest = 1e9;
@@ -135,7 +135,7 @@ Camera selectCamera(const Scene& scene, const std::string& wanted)
     if (scene.cameras.empty())
         throw UsageError("the scene has no camera; give one with --camera px,py,pz,tx,ty,tz");
     if (wanted.empty())
-        return scene.cameras[0];
+        return scene.cameras[scene.defaultCamera];
     for (const Camera& camera : scene.cameras)
         if (camera.name == wanted)
             return camera;

@@ -167,6 +167,40 @@ Camera cameraOfPicture(const Camera& camera, double aspect)
     return out;
 }
 
+PictureShare pictureShare(const Scene& scene, const Camera& camera, double aspect)
+{
+    const Camera whole = cameraOfPicture(camera, aspect);
+    const Axes axes(whole);
+    const double slope = std::tan(0.5 * whole.verticalFov);
+    Range across, along; // in half widths and half heights of the picture
+    size_t behind = 0, count = 0, left = 0, right = 0, below = 0, above = 0;
+    visitVertices(scene, {0, scene.instances.size()}, [&](const glm::dvec3& p) {
+        const glm::dvec3 d = p - whole.position;
+        const double z = glm::dot(d, axes.forward);
+        const double half = whole.orthographic ? 0.5 * whole.orthographicHeight : slope * z;
+        const double x = glm::dot(d, axes.right), y = glm::dot(d, axes.up);
+        const double edge = half * aspect;
+        ++count;
+        behind += z <= 0;
+        left += x < -edge;
+        right += x > edge;
+        below += y < -half;
+        above += y > half;
+        if (z > 0) {
+            across.add(x / edge);
+            along.add(y / half);
+        }
+    });
+    const bool outside = left + right + below + above > 0;
+    PictureShare out;
+    out.isEmpty = std::max({behind, left, right, below, above}) == count;
+    if (!out.isEmpty && !outside && behind == 0) {
+        out.width = 0.5 * across.length();
+        out.height = 0.5 * along.length();
+    }
+    return out;
+}
+
 Camera fitCamera(std::vector<glm::dvec3> points, Camera camera, double aspect)
 {
     if (points.empty())

@@ -24,6 +24,16 @@ void visitVertices(const Scene& scene, const InstanceRange& range,
 // wider or higher. So nothing is stretched or cut off.
 Camera cameraOfPicture(const Camera& camera, double aspect);
 
+// How much of a picture the vertices of a scene fill.
+struct PictureShare {
+    bool isEmpty = false; // all vertices are behind the camera, or beyond the same side
+    // Shares of the width and the height between the outermost vertices; 1 if one is outside.
+    double width = 1, height = 1;
+};
+
+// `aspect` is the picture's width / height, which the camera gets by cameraOfPicture.
+PictureShare pictureShare(const Scene& scene, const Camera& camera, double aspect);
+
 // Returns the camera moved, but not turned, to where the points lie in the middle of the picture
 // and fill fitShare of its width or height. `aspect` is the picture's width / height, which the
 // camera gets by cameraOfPicture. The near plane is moved nearer if it would cut the points away,

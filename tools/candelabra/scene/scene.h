@@ -156,7 +156,8 @@ struct Scene {
     // Corners to which CndLight::polygon points. Copies of the scene share them: they never change.
     std::vector<std::shared_ptr<const CndPolygon>> polygons;
     std::vector<LightMotion> lightMotions; // empty, or one per light
-    std::vector<Camera> cameras;           // at least one after loading; [0] is the default
+    std::vector<Camera> cameras;           // at least one after loading
+    size_t defaultCamera = 0;              // index of the camera that is used without a choice
     bool interior = false;                 // an automatic camera found that it is a room
     glm::vec3 background{0};               // luminance of pixels without a surface, cd/m^2
     std::optional<SceneEnvironment> environment;
