@@ -219,6 +219,9 @@ std::vector<BrokenCase> brokenGltfCases()
     cases.push_back(
         {"image name too long", "scene.gltf", bytesOf(b.text()), "images[0].uri: \"xxx"});
     addDataCases(cases);
+    for (BrokenCase& broken : cases)
+        broken.isImage =
+            broken.element.starts_with("images[0]") && broken.element != "images[0].bufferView";
     return cases;
 }
 

@@ -33,14 +33,20 @@ std::string unfitMessage(const std::string& message, const std::string& file,
     return "";
 }
 
+// Images alone are no reason to refuse a file.
 void expectRefused(const TemporaryFolder& folder, const BrokenCase& broken)
 {
     const std::string file = folder.write(broken.file, broken.bytes);
     try {
-        loadScene(file, {});
-        ADD_FAILURE() << broken.name << " (" << broken.file << "): was loaded";
+        const Scene scene = loadScene(file, {});
+        EXPECT_EQ(brokenInvariant(scene), "") << broken.name;
+        ASSERT_TRUE(broken.isImage) << broken.name << " (" << broken.file << "): was loaded";
+        ASSERT_EQ(scene.warnings.size(), 1u) << broken.name;
+        EXPECT_EQ(unfitMessage(scene.warnings[0], file, broken.element), "") << broken.name;
+        EXPECT_TRUE(scene.warnings[0].ends_with("the texture is left out")) << scene.warnings[0];
     } catch (const SceneError& e) {
         EXPECT_EQ(unfitMessage(e.what(), file, broken.element), "") << broken.name;
+        EXPECT_FALSE(broken.isImage) << e.what();
     } catch (const std::exception& e) {
         ADD_FAILURE() << broken.name << " (" << broken.file << "): " << e.what();
     }

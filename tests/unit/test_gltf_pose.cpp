@@ -50,6 +50,40 @@ TEST_F(GltfPoseTest, MorphTargetsAreAddedByTheirWeights)
     expectNear(worldNormal(scene, scene.instances.at(0), 0), {1, 0, 0});
 }
 
+// The weight of the first target is 0.5, and that of the second 0.
+TEST_F(GltfPoseTest, MorphTargetsChangeColoursAndTextureCoordinates)
+{
+    GltfBuilder b = triangleScene();
+    Json& primitive = b.json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["COLOR_0"] = b.floats({1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC3");
+    primitive["attributes"]["TEXCOORD_0"] = b.floats({0, 0, 1, 0, 0, 1}, "VEC2");
+    primitive["attributes"]["TEXCOORD_1"] = b.floats({5, 5, 5, 5, 5, 5}, "VEC2");
+    const std::vector<int8_t> colors = {-127, 127, 0, 0, 0, 0, 0, 0, 0, 0, 127, 0};
+    const int colorOffsets =
+        b.accessor(b.view(colors, 4), componentByte, "VEC3", 3, {{"normalized", true}});
+    const int uvOffsets = b.floats({0.5f, 1, 0, 0, 0, 0}, "VEC2");
+    const int far = b.floats({9, 9, 9, 9, 9, 9}, "VEC2");
+    primitive["targets"] = {
+        {{"COLOR_0", colorOffsets}, {"TEXCOORD_0", uvOffsets}, {"TEXCOORD_1", far}},
+        {{"TEXCOORD_0", far}}};
+    b.json["meshes"][0]["weights"] = {0.5, 0};
+    const Scene scene = load(b);
+    const std::vector<Vertex>& v = scene.meshes.at(0).vertices;
+    EXPECT_EQ(v[0].color, glm::vec4(0.5f, 0.5f, 0, 1));
+    EXPECT_EQ(v[1].color, glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(v[2].color, glm::vec4(1, 0, 0.5f, 1));
+    EXPECT_EQ(v[0].uv[0], glm::vec2(0.25f, 0.5f));
+    EXPECT_EQ(v[1].uv[0], glm::vec2(1, 0));
+    EXPECT_EQ(v[2].uv[1], glm::vec2(9.5f, 9.5f));
+    b.json["meshes"][0]["weights"] = {-4, 0}; // colours are clamped
+    EXPECT_EQ(load(b).meshes.at(0).vertices[0].color, glm::vec4(1, 0, 0, 1));
+    b.json["meshes"][0]["weights"] = {1e12, 0};
+    primitive["targets"][0]["TEXCOORD_0"] = b.floats({1e30f, 0, 0, 0, 0, 0}, "VEC2");
+    EXPECT_NE(error(b).find("is not finite with its morph targets"), std::string::npos) << error(b);
+    primitive["targets"][0]["COLOR_0"] = uvOffsets;
+    EXPECT_NE(error(b).find("targets[0].COLOR_0: accessors["), std::string::npos) << error(b);
+}
+
 TEST_F(GltfPoseTest, WeightsOfANodeReplaceThoseOfItsMesh)
 {
     GltfBuilder b = morphedTriangle();
@@ -72,6 +106,9 @@ TEST_F(GltfPoseTest, BrokenMorphTargetsAreNamed)
     EXPECT_NE(error(b).find("meshes[0].primitives[0].targets[0].POSITION: accessors["),
               std::string::npos)
         << error(b);
+    b.json["meshes"][0]["weights"] = {1e13};
+    EXPECT_NE(error(b).find("meshes[0].weights[0]"), std::string::npos) << error(b);
+    b.json["meshes"][0]["weights"] = {1};
     primitive["targets"][0]["POSITION"] = 99;
     EXPECT_NE(error(b).find("meshes[0].primitives[0].targets[0].POSITION: is 99"),
               std::string::npos)

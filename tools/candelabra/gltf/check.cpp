@@ -85,9 +85,9 @@ constexpr Field numbers(std::string_view n, size_t count, NumberRange r = {})
 {
     return {n, Kind::Numbers, false, r, count, count};
 }
-constexpr Field anyNumbers(std::string_view n)
+constexpr Field anyNumbers(std::string_view n, NumberRange r)
 {
-    return {n, Kind::Numbers, false, {}, 0, std::numeric_limits<size_t>::max()};
+    return {n, Kind::Numbers, false, r, 0, std::numeric_limits<size_t>::max()};
 }
 constexpr Field index(std::string_view n, const char* target, Kind kind = Kind::Index)
 {
@@ -166,14 +166,21 @@ constexpr Field ior[] = {number("ior", notNegative)};
 constexpr Field specular[] = {
     number("specularFactor", unitInterval), numbers("specularColorFactor", 3, notNegative),
     object("specularTexture", textureInfo), object("specularColorTexture", textureInfo)};
+constexpr Field transmission[] = {number("transmissionFactor", unitInterval),
+                                  object("transmissionTexture", textureInfo)};
+constexpr Field volume[] = {number("thicknessFactor", notNegative)};
 constexpr Field unlit[] = {string("name")};
 constexpr Field specularGlossiness[] = {
     numbers("diffuseFactor", 4, unitInterval), object("diffuseTexture", textureInfo),
     numbers("specularFactor", 3, unitInterval), number("glossinessFactor", unitInterval),
     object("specularGlossinessTexture", textureInfo)};
 constexpr Field materialExtensions[] = {
-    object("KHR_materials_emissive_strength", emissiveStrength), object("KHR_materials_ior", ior),
-    object("KHR_materials_specular", specular), object("KHR_materials_unlit", unlit),
+    object("KHR_materials_emissive_strength", emissiveStrength),
+    object("KHR_materials_ior", ior),
+    object("KHR_materials_specular", specular),
+    object("KHR_materials_transmission", transmission),
+    object("KHR_materials_volume", volume),
+    object("KHR_materials_unlit", unlit),
     object("KHR_materials_pbrSpecularGlossiness", specularGlossiness)};
 constexpr Field material[] = {string("name"),
                               object("pbrMetallicRoughness", metallicRoughness),
@@ -196,8 +203,8 @@ constexpr Field primitive[] = {index("attributes", "/accessors", Kind::IndexMap)
                                integer("mode", 0, 6),
                                index("targets", "/accessors", Kind::IndexMaps),
                                object("extensions", primitiveExtensions)};
-constexpr Field mesh[] = {objects("primitives", primitive).need(), anyNumbers("weights"),
-                          string("name")};
+constexpr Field mesh[] = {objects("primitives", primitive).need(),
+                          anyNumbers("weights", coordinate), string("name")};
 constexpr Field skin[] = {index("joints", "/nodes", Kind::Indices).need(),
                           index("inverseBindMatrices", "/accessors"), string("name")};
 constexpr Field lightReference[] = {
@@ -215,7 +222,7 @@ constexpr Field node[] = {index("camera", "/cameras"),
                           numbers("rotation", 4, coordinate),
                           numbers("scale", 3, coordinate),
                           numbers("translation", 3, coordinate),
-                          anyNumbers("weights"),
+                          anyNumbers("weights", coordinate),
                           string("name"),
                           object("extensions", nodeExtensions)};
 constexpr Field sceneFields[] = {index("nodes", "/nodes", Kind::Indices), string("name")};

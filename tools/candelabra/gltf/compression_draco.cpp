@@ -244,8 +244,7 @@ void decompressDraco(GltfDocument& document)
             const auto* extension = GltfDocument::extension(json, "KHR_draco_mesh_compression");
             if (extension)
                 decompressPrimitive(document, json, *extension,
-                                    gltfElement("meshes", m) + "." + gltfElement("primitives", p) +
-                                        ".extensions.KHR_draco_mesh_compression",
+                                    gltfPrimitive(m, p) + ".extensions.KHR_draco_mesh_compression",
                                     document.model.meshes[m].primitives[p], budget);
         }
 }

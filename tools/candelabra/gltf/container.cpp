@@ -238,6 +238,12 @@ void GltfDocument::fail(const std::string& element, const std::string& reason) c
     failScene(file, element, reason);
 }
 
+std::string GltfDocument::withoutFile(const std::string& message) const
+{
+    const std::string start = printable(file, 4096) + ": ";
+    return message.starts_with(start) ? message.substr(start.size()) : message;
+}
+
 std::span<const uint8_t> GltfDocument::bufferView(int index, const std::string& element) const
 {
     const tinygltf::BufferView& view = model.bufferViews[static_cast<size_t>(index)];

@@ -39,6 +39,8 @@ struct GltfDocument {
     std::string missingExtensions; // those that the file requires and the loader does not read
     mutable GltfWarnings warnings;
 
+    // The message of a failure of this document without the name of the file at its beginning.
+    std::string withoutFile(const std::string& message) const;
     [[noreturn]] void fail(const std::string& element, const std::string& reason) const;
     void warn(const std::string& element, const std::string& reason) const
     {

@@ -44,9 +44,9 @@ constexpr Unread unreadExtensions[] = {
     {"KHR_materials_iridescence", "thin films are left out"},
     {"KHR_materials_sheen", "sheen is left out"},
     {"KHR_materials_transmission",
-     "surfaces let no light through; for glass export alpha blending instead"},
+     "glass is drawn as a thin veil, which neither bends nor colours what is behind it"},
     {"KHR_materials_variants", "the default variant of each material is drawn"},
-    {"KHR_materials_volume", "objects neither bend nor absorb light inside"},
+    {"KHR_materials_volume", "bodies of glass are drawn opaque"},
     {"KHR_node_visibility", "hidden nodes are drawn too"},
     {"KHR_technique_webgl",
      "materials with shaders of their own are drawn as plain metal; export them as "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Converts a glTF 2.0 file to a Scene. This file walks the nodes and adds their instances and
 // cameras; the other files of the folder read meshes, materials and lights.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -15,6 +16,7 @@
 #include "gltf/mesh.h"
 #include "gltf/nodes.h"
 #include "gltf/pose.h"
+#include "gltf/wires.h"
 #include "scene/light_placement.h"
 #include "scene/scene_error.h"
 #include "scene/scene_file.h"
@@ -37,7 +39,8 @@ public:
           options_(options),
           scene_(scene),
           defaultMaterial_(readGltfMaterials(document, scene)),
-          poses_(document)
+          poses_(document),
+          wires_(document, scene, budget_)
     {
     }
 
@@ -50,7 +53,10 @@ private:
     void addMesh(const GltfPlacedNode& placed);
     void addInstance(const std::string& element, size_t gltfMesh, const GltfPose& pose,
                      glm::dmat4 worldFromMesh);
+    void addWire(size_t gltfMesh, size_t primitive, const GltfPose& pose,
+                 const glm::dmat4& worldFromMesh);
     void addCamera(const GltfPlacedNode& placed);
+    void requireRoom(const std::string& element) const;
     // The index in scene.meshes of a primitive in a pose. It is read when it is first asked for.
     // noMesh if the primitive cannot be drawn.
     int64_t mesh(size_t gltfMesh, size_t primitive, const GltfPose& pose, bool mirrored);
@@ -67,6 +73,9 @@ private:
     GltfMeshBudget budget_;
     GltfPoses poses_;
     std::map<std::tuple<size_t, size_t, int64_t, bool>, int64_t> meshes_;
+    // Points and lines by mesh, primitive and owner of the pose; nothing if they cannot be drawn.
+    std::map<std::tuple<size_t, size_t, int64_t>, std::optional<GltfWire>> readWires_;
+    GltfWires wires_;
     GltfLights lights_;
     GltfEmissiveRectangles emissive_;
 };
@@ -126,6 +135,14 @@ void SceneBuilder::addMesh(const GltfPlacedNode& placed)
 void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, const GltfPose& pose,
                                glm::dmat4 worldFromMesh)
 {
+    const auto& primitives = document_.model.meshes[gltfMesh].primitives;
+    for (size_t p = 0; p < primitives.size(); ++p)
+        if (isGltfWire(primitives[p])) {
+            requireRoom(element);
+            addWire(gltfMesh, p, pose, worldFromMesh);
+        }
+    if (std::all_of(primitives.begin(), primitives.end(), isGltfWire))
+        return;
     const double determinant = glm::determinant(glm::dmat3(worldFromMesh));
     if (determinant == 0 || !std::isfinite(1 / determinant)) {
         document_.warn(element, "has a transform that flattens its mesh; the mesh is left out");
@@ -137,8 +154,9 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, cons
     const bool mirrored = determinant < 0;
     if (mirrored)
         worldFromMesh[0] = -worldFromMesh[0];
-    const auto& primitives = document_.model.meshes[gltfMesh].primitives;
     for (size_t p = 0; p < primitives.size(); ++p) {
+        if (isGltfWire(primitives[p]))
+            continue;
         const int64_t index = mesh(gltfMesh, p, pose, mirrored);
         if (index == noMesh)
             continue;
@@ -147,11 +165,28 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, cons
             emissive_.replace(scene_.meshes[static_cast<size_t>(index)],
                               scene_.materials[materialIndex], worldFromMesh, lights_))
             continue;
-        if (scene_.instances.size() >= maxInstances)
-            document_.fail(element, "brings the scene above " + std::to_string(maxInstances) +
-                                        " mesh instances");
+        requireRoom(element);
         scene_.instances.push_back({static_cast<uint32_t>(index), materialIndex, worldFromMesh});
     }
+}
+
+void SceneBuilder::requireRoom(const std::string& element) const
+{
+    if (scene_.instances.size() >= maxInstances)
+        document_.fail(element, "brings the scene above " + std::to_string(maxInstances) +
+                                    " mesh instances");
+}
+
+void SceneBuilder::addWire(size_t gltfMesh, size_t primitive, const GltfPose& pose,
+                           const glm::dmat4& worldFromMesh)
+{
+    const auto [found, isNew] =
+        readWires_.try_emplace(std::make_tuple(gltfMesh, primitive, pose.owner));
+    if (isNew)
+        found->second = readGltfWire(document_, gltfMesh, primitive, pose, budget_);
+    if (found->second)
+        wires_.add(gltfPrimitive(gltfMesh, primitive), *found->second, worldFromMesh,
+                   material(document_.model.meshes[gltfMesh].primitives[primitive]));
 }
 
 // Adds the camera of a node. glTF cameras look along the node's -z axis, and +y is up; the node's
@@ -197,6 +232,7 @@ void SceneBuilder::addCamera(const GltfPlacedNode& placed)
 
 void SceneBuilder::finish()
 {
+    wires_.finish();
     emissive_.warn(document_);
     scene_.lights = std::move(lights_.lights);
     placeLights(scene_, lights_.positions);

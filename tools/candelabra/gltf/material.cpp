@@ -11,6 +11,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "gltf/image.h"
+#include "scene/scene_error.h"
 #include "scene/scene_file.h"
 
 namespace candelabra::app
@@ -20,7 +21,7 @@ namespace
 {
 
 // Finds the index in scene.textures for a glTF texture and a colour space. Each image is decoded
-// once per colour space and sampler. Throws SceneError that names the image.
+// once per colour space and sampler.
 class GltfTextures
 {
 public:
@@ -35,7 +36,10 @@ public:
     int32_t roughnessOfGlossiness(int32_t texture, float factor);
 
 private:
+    // Throws SceneError that names the image.
     Texture decode(size_t image);
+    // Decodes the image as scene_.textures.back(). Returns its index, or -1 with a warning.
+    int32_t add(int gltfImage, int gltfSampler, bool srgb);
 
     const GltfDocument& document_;
     Scene& scene_;
@@ -68,14 +72,25 @@ int32_t GltfTextures::find(int gltfTexture, bool srgb)
     const auto key = std::make_tuple(image, source.sampler, srgb);
     if (const auto found = known_.find(key); found != known_.end())
         return found->second;
-    Texture texture = decode(static_cast<size_t>(image));
-    texture.srgb = srgb;
-    if (source.sampler >= 0)
-        applySampler(document_.model.samplers[static_cast<size_t>(source.sampler)], texture);
-    scene_.textures.push_back(std::move(texture));
-    const auto result = static_cast<int32_t>(scene_.textures.size() - 1);
+    const int32_t result = add(image, source.sampler, srgb);
     known_.emplace(key, result);
     return result;
+}
+
+int32_t GltfTextures::add(int gltfImage, int gltfSampler, bool srgb)
+{
+    try {
+        scene_.textures.push_back(decode(static_cast<size_t>(gltfImage)));
+    } catch (const SceneError& error) {
+        // The scene is worth seeing without the texture.
+        document_.warn("", document_.withoutFile(error.what()) + "; the texture is left out");
+        return -1;
+    }
+    Texture& texture = scene_.textures.back();
+    texture.srgb = srgb;
+    if (gltfSampler >= 0)
+        applySampler(document_.model.samplers[static_cast<size_t>(gltfSampler)], texture);
+    return static_cast<int32_t>(scene_.textures.size() - 1);
 }
 
 glm::vec3 GltfTextures::meanColor(int32_t texture) const
@@ -173,8 +188,8 @@ private:
     void readEmission(const tinygltf::Material& source, const nlohmann::json& json,
                       Material& material);
     void readDielectric(const nlohmann::json& json, Material& material);
+    void readTransmission(const nlohmann::json& json, Material& material);
     void readSpecularGlossiness(const nlohmann::json& extension, Material& material);
-    void makeUnlit(Material& material);
 
     const GltfDocument& document_;
     GltfTextures textures_;
@@ -244,6 +259,9 @@ void MaterialReader::readEmission(const tinygltf::Material& source, const nlohma
         document_.warn(element_, "has an emissiveFactor above 1, which is used as it is");
     material.emission = glm::vec3(factor * strength);
     material.emissiveTexture = textureRef(json, "emissiveTexture", true);
+    // The texture says where the surface glows. Without it, all of it would.
+    if (json.contains("emissiveTexture") && material.emissiveTexture.texture < 0)
+        material.emission = glm::vec3(0);
 }
 
 // Reads F0 and F90 of the dielectric part. KHR_materials_ior: F0 = ((n-1)/(n+1))^2, where n = 0
@@ -280,6 +298,28 @@ void MaterialReader::readDielectric(const nlohmann::json& json, Material& materi
                        "specularFactor is weighted by metallicFactor alone, without its texture");
 }
 
+// Reads KHR_materials_transmission. Surfaces that let light through cover less: as clear as glass
+// may be, a veil of it remains, or nobody would see that it is there. Bodies stay opaque: what is
+// behind them would not be seen as it is.
+void MaterialReader::readTransmission(const nlohmann::json& json, Material& material)
+{
+    constexpr float veil = 0.25f;
+    const auto* extension = GltfDocument::extension(json, "KHR_materials_transmission");
+    const double factor = extension ? numberOr(*extension, "transmissionFactor", 0) : 0;
+    const auto* volume = GltfDocument::extension(json, "KHR_materials_volume");
+    const bool isBody = volume && numberOr(*volume, "thicknessFactor", 0) > 0;
+    if (factor <= 0 || isBody || material.alphaMode == AlphaMode::Mask)
+        return;
+    if (extension->contains("transmissionTexture")) {
+        document_.warn(element_, "has a texture of its transmission, and lets no light through");
+        return;
+    }
+    const float opaque = material.alphaMode == AlphaMode::Opaque ? 1 : material.alpha;
+    material.alpha = opaque * (1 - (1 - veil) * unit(factor) * (1 - material.metalness));
+    if (material.alpha < 1)
+        material.alphaMode = AlphaMode::Blend;
+}
+
 // Reads KHR_materials_pbrSpecularGlossiness, whose diffuse colour, F0 and glossiness replace those
 // of the metallic-roughness model. F0 has no texture here: its mean stands for that.
 void MaterialReader::readSpecularGlossiness(const nlohmann::json& extension, Material& material)
@@ -309,20 +349,6 @@ void MaterialReader::readSpecularGlossiness(const nlohmann::json& extension, Mat
     material.diffuseWeight = 1 - std::max({F0.x, F0.y, F0.z});
 }
 
-// Turns the base colour into light that the surface emits. Lights add nothing to it.
-void MaterialReader::makeUnlit(Material& material)
-{
-    material.unlit = true;
-    material.emission = material.baseColor * unlitLuminance;
-    material.baseColor = glm::vec3(0);
-    material.dielectricF0 = glm::vec3(0);
-    material.specularWeight = 0;
-    material.metalness = 0;
-    material.metallicRoughnessTexture = TextureRef{};
-    material.normalTexture = TextureRef{};
-    material.emissiveTexture = TextureRef{};
-}
-
 Material MaterialReader::read(size_t index)
 {
     element_ = gltfElement("materials", index);
@@ -337,8 +363,9 @@ Material MaterialReader::read(size_t index)
         readSpecularGlossiness(*extension, material);
     else
         readDielectric(json, material);
+    readTransmission(json, material);
     if (GltfDocument::extension(json, "KHR_materials_unlit"))
-        makeUnlit(material);
+        makeUnlit(material, material.baseColor);
     const float largest = std::numeric_limits<float>::max();
     for (int i = 0; i < 3; ++i)
         if (!(material.emission[i] <= largest))
@@ -347,6 +374,19 @@ Material MaterialReader::read(size_t index)
 }
 
 } // namespace
+
+void makeUnlit(Material& material, const glm::vec3& color)
+{
+    material.unlit = true;
+    material.emission = color * unlitLuminance;
+    material.baseColor = glm::vec3(0);
+    material.dielectricF0 = glm::vec3(0);
+    material.specularWeight = 0;
+    material.metalness = 0;
+    material.metallicRoughnessTexture = TextureRef{};
+    material.normalTexture = TextureRef{};
+    material.emissiveTexture = TextureRef{};
+}
 
 uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene)
 {

@@ -11,7 +11,11 @@ namespace candelabra::app
 
 // Appends every material of the document to the scene, in order, and the textures that they use. If
 // a primitive has no material, appends the default material of glTF 2.0 as well and returns its
-// index, else returns 0. Images must be PNG or JPEG of at most 16384 pixels a side.
+// index, else returns 0. Textures whose image cannot be read are left out, with a warning.
 uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene);
+
+// Turns the surface into one that emits light of a colour, where 1 is white, and that lights add
+// nothing to. Its texture of the base colour remains.
+void makeUnlit(Material& material, const glm::vec3& color);
 
 } // namespace candelabra::app

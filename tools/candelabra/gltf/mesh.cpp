@@ -60,17 +60,6 @@ UvGradient uvGradient(const Mesh& mesh, size_t triangle, const TextureRef& ref)
     return gradient;
 }
 
-// Returns some unit tangent that is perpendicular to the unit normal.
-glm::vec4 anyTangent(const glm::vec3& normal)
-{
-    // With the axis that is least aligned with the normal, the cross product is far from zero.
-    const glm::vec3 a = glm::abs(normal);
-    const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
-                           : a.y <= a.z             ? glm::vec3(0, 1, 0)
-                                                    : glm::vec3(0, 0, 1);
-    return glm::vec4(glm::normalize(glm::cross(axis, normal)), 1);
-}
-
 // Gives every corner its own vertex with the normal of its triangle.
 void makeFlatNormals(Mesh& mesh)
 {
@@ -172,12 +161,16 @@ public:
     }
 
     std::optional<Mesh> read(const Material& material);
+    std::optional<GltfWire> readWire();
 
 private:
+    // Finds out how many vertices there are. Returns false, with a warning, if there are none.
+    bool countVertices();
     std::optional<GltfAccessor> attribute(const char* name, int minComponents,
                                           int maxComponents) const;
     std::vector<uint32_t> readIndices(size_t vertexCount) const;
     std::vector<uint32_t> triangles(const std::vector<uint32_t>& corners) const;
+    std::vector<uint32_t> lineEnds(const std::vector<uint32_t>& corners) const;
     void takeBudget(uint64_t vertices, uint64_t indices) const
     {
         takeGltfBudget(document_, element_, vertices, indices, budget_);
@@ -189,6 +182,7 @@ private:
     void readPositions(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readUvs(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readColors(const std::vector<uint32_t>& used, Mesh& mesh) const;
+    // Normals of zero length stay as they are.
     bool readNormals(const std::vector<uint32_t>& used, Mesh& mesh) const;
     bool readTangents(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void fillTangents(const Material& material, Mesh& mesh) const;
@@ -274,6 +268,30 @@ std::vector<uint32_t> PrimitiveReader::triangles(const std::vector<uint32_t>& co
     return out;
 }
 
+// Converts points, lists of lines, loops and strips to pairs of ends. Lines that use a vertex twice
+// have no length and are dropped.
+std::vector<uint32_t> PrimitiveReader::lineEnds(const std::vector<uint32_t>& corners) const
+{
+    const size_t n = corners.size();
+    const bool isPoints = primitive_.mode == TINYGLTF_MODE_POINTS;
+    const bool isList = primitive_.mode == TINYGLTF_MODE_LINE;
+    if (isList && n % 2 != 0)
+        document_.warn(element_, "is a list of lines with " + std::to_string(n) +
+                                     " ends, not a multiple of 2; the last is left out");
+    takeBudget(0, 2 * uint64_t{n});
+    std::vector<uint32_t> out;
+    out.reserve(2 * n);
+    for (size_t i = 0; i < n; i += isList ? 2 : 1) {
+        const bool isLast = i + 1 == n;
+        if (isLast && !isPoints && primitive_.mode != TINYGLTF_MODE_LINE_LOOP)
+            break;
+        const uint32_t a = corners[i], b = isPoints ? a : corners[isLast ? 0 : i + 1];
+        if (a != b || isPoints)
+            out.insert(out.end(), {a, b});
+    }
+    return out;
+}
+
 std::vector<uint32_t> PrimitiveReader::compact(std::vector<uint32_t>& indices) const
 {
     const auto [low, high] = std::minmax_element(indices.begin(), indices.end());
@@ -309,10 +327,17 @@ void PrimitiveReader::readPositions(const std::vector<uint32_t>& used, Mesh& mes
 void PrimitiveReader::readUvs(const std::vector<uint32_t>& used, Mesh& mesh) const
 {
     const char* names[] = {"TEXCOORD_0", "TEXCOORD_1"};
-    for (size_t set = 0; set < 2; ++set)
-        if (const auto accessor = attribute(names[set], 2, 2))
-            for (size_t i = 0; i < used.size(); ++i)
-                mesh.vertices[i].uv[set] = accessor->read(used[i]);
+    for (size_t set = 0; set < 2; ++set) {
+        const auto accessor = attribute(names[set], 2, 2);
+        for (size_t i = 0; accessor && i < used.size(); ++i) {
+            glm::vec2& uv = mesh.vertices[i].uv[set];
+            uv = posed_->uv(used[i], set, glm::vec2(accessor->read(used[i])));
+            if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+                document_.fail(element_ + ".attributes." + names[set],
+                               accessor->element() + " element " + std::to_string(used[i]) +
+                                   " is not finite with its morph targets");
+        }
+    }
 }
 
 void PrimitiveReader::readColors(const std::vector<uint32_t>& used, Mesh& mesh) const
@@ -331,7 +356,8 @@ void PrimitiveReader::readColors(const std::vector<uint32_t>& used, Mesh& mesh) 
         // Colours multiply a reflectance, so they have the range of reflectances.
         outside += glm::any(glm::lessThan(color, glm::vec4(-1e-4f))) ||
                    glm::any(glm::greaterThan(color, glm::vec4(1.0001f)));
-        mesh.vertices[i].color = glm::clamp(color, glm::vec4(0), glm::vec4(1));
+        mesh.vertices[i].color =
+            glm::clamp(posed_->color(used[i], color), glm::vec4(0), glm::vec4(1));
     }
     if (outside)
         document_.warn(element_, std::to_string(outside) +
@@ -349,10 +375,6 @@ bool PrimitiveReader::readNormals(const std::vector<uint32_t>& used, Mesh& mesh)
         const double length = glm::length(n);
         mesh.vertices[i].normal = length > 1e-3 ? glm::vec3(n / length) : glm::vec3(0);
     }
-    if (const size_t broken = repairNormals(mesh))
-        document_.warn(element_,
-                       std::to_string(broken) +
-                           " normals have zero length and are computed from the triangles");
     return true;
 }
 
@@ -390,20 +412,23 @@ void PrimitiveReader::fillTangents(const Material& material, Mesh& mesh) const
         v.tangent = anyTangent(v.normal);
 }
 
-std::optional<Mesh> PrimitiveReader::read(const Material& material)
+bool PrimitiveReader::countVertices()
 {
-    if (primitive_.mode < TINYGLTF_MODE_TRIANGLES) {
-        document_.warn(element_, "consists of points or lines and is left out");
-        return std::nullopt;
-    }
     const auto positions = attribute("POSITION", 3, 3);
     if (!positions) {
         document_.warn(element_, "has no POSITION and is left out");
-        return std::nullopt;
+        return false;
     }
     if (positions->count() >= unused)
         document_.fail(element_, "has too many vertices");
     vertexCount_ = positions->count();
+    return true;
+}
+
+std::optional<Mesh> PrimitiveReader::read(const Material& material)
+{
+    if (!countVertices())
+        return std::nullopt;
     Mesh mesh;
     mesh.indices = triangles(readIndices(vertexCount_));
     if (mesh.indices.empty()) {
@@ -423,13 +448,59 @@ std::optional<Mesh> PrimitiveReader::read(const Material& material)
     if (!readNormals(used, mesh)) {
         makeFlatNormals(mesh);
         fillTangents(material, mesh); // without normals, glTF 2.0 has tangents ignored
-    } else if (!readTangents(used, mesh)) {
-        fillTangents(material, mesh);
+        return mesh;
     }
+    if (const size_t broken = repairNormals(mesh))
+        document_.warn(element_,
+                       std::to_string(broken) +
+                           " normals have zero length and are computed from the triangles");
+    if (!readTangents(used, mesh))
+        fillTangents(material, mesh);
     return mesh;
 }
 
+std::optional<GltfWire> PrimitiveReader::readWire()
+{
+    if (!countVertices())
+        return std::nullopt;
+    GltfWire wire;
+    wire.isPoints = primitive_.mode == TINYGLTF_MODE_POINTS;
+    wire.ends = lineEnds(readIndices(vertexCount_));
+    if (wire.ends.empty()) {
+        document_.warn(element_, "has no lines and is left out");
+        return std::nullopt;
+    }
+    posed_.emplace(document_, primitive_, element_, pose_, vertexCount_);
+    const std::vector<uint32_t> used = compact(wire.ends);
+    takeBudget(used.size(), 0);
+    Mesh mesh;
+    mesh.vertices.resize(used.size());
+    readPositions(used, mesh);
+    readUvs(used, mesh);
+    readColors(used, mesh);
+    wire.hasNormals = readNormals(used, mesh);
+    for (const Vertex& v : mesh.vertices)
+        wire.hasNormals = wire.hasNormals && v.normal != glm::vec3(0);
+    wire.vertices = std::move(mesh.vertices);
+    return wire;
+}
+
 } // namespace
+
+std::string gltfPrimitive(size_t mesh, size_t primitive)
+{
+    return gltfElement("meshes", mesh) + "." + gltfElement("primitives", primitive);
+}
+
+glm::vec4 anyTangent(const glm::vec3& normal)
+{
+    // With the axis that is least aligned with the normal, the cross product is far from zero.
+    const glm::vec3 a = glm::abs(normal);
+    const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
+                           : a.y <= a.z             ? glm::vec3(0, 1, 0)
+                                                    : glm::vec3(0, 0, 1);
+    return glm::vec4(glm::normalize(glm::cross(axis, normal)), 1);
+}
 
 void takeGltfBudget(const GltfDocument& document, const std::string& element, uint64_t vertices,
                     uint64_t indices, GltfMeshBudget& budget)
@@ -448,11 +519,22 @@ std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh,
                                       const Material& material, const GltfPose& pose,
                                       GltfMeshBudget& budget)
 {
-    const std::string element =
-        gltfElement("meshes", mesh) + "." + gltfElement("primitives", primitive);
-    PrimitiveReader reader(document, document.model.meshes[mesh].primitives[primitive], element,
-                           pose, budget);
+    PrimitiveReader reader(document, document.model.meshes[mesh].primitives[primitive],
+                           gltfPrimitive(mesh, primitive), pose, budget);
     return reader.read(material);
+}
+
+bool isGltfWire(const tinygltf::Primitive& primitive)
+{
+    return primitive.mode < TINYGLTF_MODE_TRIANGLES;
+}
+
+std::optional<GltfWire> readGltfWire(const GltfDocument& document, size_t mesh, size_t primitive,
+                                     const GltfPose& pose, GltfMeshBudget& budget)
+{
+    PrimitiveReader reader(document, document.model.meshes[mesh].primitives[primitive],
+                           gltfPrimitive(mesh, primitive), pose, budget);
+    return reader.readWire();
 }
 
 Mesh mirroredMesh(const Mesh& mesh)

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads glTF primitives as triangle meshes. Internal to the glTF loader. Throws SceneError.
+// Reads glTF primitives as triangle meshes, or as points and lines. Internal to the glTF loader.
+// Throws SceneError.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "gltf/document.h"
 #include "gltf/pose.h"
@@ -11,6 +14,9 @@
 
 namespace candelabra::app
 {
+
+// The name of a primitive in messages, such as "meshes[3].primitives[0]".
+std::string gltfPrimitive(size_t mesh, size_t primitive);
 
 // The largest sizes of a scene, 2.4 GB of vertices and 1.1 GB of indices, so that a small file with
 // shared accessors cannot fill the memory.
@@ -29,11 +35,29 @@ void takeGltfBudget(const GltfDocument& document, const std::string& element, ui
 
 // Reads the triangles of one primitive in a pose and fills in all vertex attributes. Missing
 // normals become flat, so that triangles share no vertices; missing tangents follow the UVs of
-// `material`'s normal map. Returns nothing, with a warning, for points, lines and primitives
-// without triangles.
+// `material`'s normal map. Returns nothing, with a warning, for primitives without triangles.
 std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh, size_t primitive,
                                       const Material& material, const GltfPose& pose,
                                       GltfMeshBudget& budget);
+
+// Points, or lines between two ends.
+struct GltfWire {
+    std::vector<Vertex> vertices; // without tangents
+    std::vector<uint32_t> ends;   // two of each line; both ends of a point are the same
+    bool isPoints = false;
+    bool hasNormals = false;
+};
+
+// Returns true if the primitive consists of points or lines, and not of triangles.
+bool isGltfWire(const tinygltf::Primitive& primitive);
+
+// Reads the points or lines of such a primitive in a pose. Returns nothing, with a warning, if
+// there are none.
+std::optional<GltfWire> readGltfWire(const GltfDocument& document, size_t mesh, size_t primitive,
+                                     const GltfPose& pose, GltfMeshBudget& budget);
+
+// Returns some unit tangent that is perpendicular to the unit normal.
+glm::vec4 anyTangent(const glm::vec3& normal);
 
 // Returns the mesh with x negated and the winding reversed, so that front faces are
 // counter-clockwise again. Drawn with M * diag(-1, 1, 1), it looks like the original drawn with a

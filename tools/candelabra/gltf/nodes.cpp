@@ -21,6 +21,25 @@ std::string nodeName(size_t i)
     return gltfElement("nodes", i);
 }
 
+std::string quotedName(const GltfDocument& document, size_t i)
+{
+    const std::string& name = document.model.nodes[i].name;
+    return nodeName(i) + (name.empty() ? "" : " \"" + printable(name, 60) + "\"");
+}
+
+[[noreturn]] void refuseSecondParent(const GltfDocument& document, size_t node, size_t first,
+                                     size_t second)
+{
+    if (first == second)
+        document.fail(nodeName(node), "is listed twice among the children of " +
+                                          quotedName(document, first) +
+                                          "; list it once, or copy the node");
+    document.fail(nodeName(node), "has two parents, " + quotedName(document, first) + " and " +
+                                      quotedName(document, second) +
+                                      ", but glTF allows one: give each of them a copy of " +
+                                      quotedName(document, node) + " and export again");
+}
+
 std::vector<int> findParents(const GltfDocument& document)
 {
     const auto& nodes = document.model.nodes;
@@ -29,9 +48,8 @@ std::vector<int> findParents(const GltfDocument& document)
         for (const int child : nodes[i].children) {
             int& parent = parents[static_cast<size_t>(child)];
             if (parent != noParent)
-                document.fail(nodeName(static_cast<size_t>(child)),
-                              "has two parents, " + nodeName(static_cast<size_t>(parent)) +
-                                  " and " + nodeName(i));
+                refuseSecondParent(document, static_cast<size_t>(child),
+                                   static_cast<size_t>(parent), i);
             parent = static_cast<int>(i);
         }
     return parents;
@@ -72,6 +90,9 @@ std::vector<size_t> findRoots(const GltfDocument& document, const std::vector<in
     }
     std::vector<size_t> roots;
     const auto index = static_cast<size_t>(std::max(document.model.defaultScene, 0));
+    if (const size_t others = document.model.scenes.size() - 1; others > 0)
+        document.warn("", "has " + std::to_string(others + 1) + " scenes, of which only " +
+                              gltfElement("scenes", index) + " is drawn");
     std::vector<bool> listed(parents.size(), false);
     for (const int root : document.model.scenes[index].nodes) {
         const auto i = static_cast<size_t>(root);

@@ -13,10 +13,11 @@ namespace candelabra::app
 namespace
 {
 
-glm::dvec3 morphed(glm::dvec3 value, const auto& morphs, size_t i)
+template <typename V>
+V morphed(V value, const auto& morphs, size_t i)
 {
     for (const auto& morph : morphs)
-        value += morph.weight * glm::dvec3(morph.offsets.read(i));
+        value += morph.weight * V(morph.offsets.read(i));
     return value;
 }
 
@@ -79,16 +80,19 @@ GltfPosedVertices::GltfPosedVertices(const GltfDocument& document,
                                      size_t vertexCount)
     : document_(document), element_(element), pose_(pose)
 {
-    positions_ = morphs(primitive, "POSITION", vertexCount);
-    normals_ = morphs(primitive, "NORMAL", vertexCount);
-    tangents_ = morphs(primitive, "TANGENT", vertexCount);
+    positions_ = morphs(primitive, "POSITION", 3, 3, vertexCount);
+    normals_ = morphs(primitive, "NORMAL", 3, 3, vertexCount);
+    tangents_ = morphs(primitive, "TANGENT", 3, 3, vertexCount);
+    uvs_[0] = morphs(primitive, "TEXCOORD_0", 2, 2, vertexCount);
+    uvs_[1] = morphs(primitive, "TEXCOORD_1", 2, 2, vertexCount);
+    colors_ = morphs(primitive, "COLOR_0", 3, 4, vertexCount);
     if (isSkinned())
         readInfluences(primitive, vertexCount);
 }
 
 std::vector<GltfPosedVertices::Morph>
 GltfPosedVertices::morphs(const tinygltf::Primitive& primitive, const char* attribute,
-                          size_t vertexCount) const
+                          int minComponents, int maxComponents, size_t vertexCount) const
 {
     std::vector<Morph> out;
     const size_t count = std::min(primitive.targets.size(), pose_.weights.size());
@@ -97,8 +101,9 @@ GltfPosedVertices::morphs(const tinygltf::Primitive& primitive, const char* attr
         if (pose_.weights[t] == 0 || found == primitive.targets[t].end())
             continue;
         const std::string element = element_ + "." + gltfElement("targets", t) + "." + attribute;
-        out.push_back({pose_.weights[t],
-                       gltfVertexAttribute(document_, element, found->second, 3, 3, vertexCount)});
+        out.push_back(
+            {pose_.weights[t], gltfVertexAttribute(document_, element, found->second, minComponents,
+                                                   maxComponents, vertexCount)});
     }
     return out;
 }
@@ -200,6 +205,16 @@ glm::dvec3 GltfPosedVertices::tangent(size_t i, const glm::dvec3& rest) const
 {
     const glm::dvec3 t = morphed(rest, tangents_, i);
     return isSkinned() ? normalizedOrZero(glm::dmat3(meshFromVertex(i)) * t) : t;
+}
+
+glm::vec2 GltfPosedVertices::uv(size_t i, size_t set, const glm::vec2& rest) const
+{
+    return glm::vec2(morphed(glm::dvec2(rest), uvs_[set], i));
+}
+
+glm::vec4 GltfPosedVertices::color(size_t i, const glm::vec4& rest) const
+{
+    return glm::vec4(morphed(glm::dvec4(rest), colors_, i));
 }
 
 } // namespace candelabra::app

@@ -48,7 +48,7 @@ private:
 };
 
 // Poses the vertices of a primitive. The arguments `rest` are the attributes of vertex i without
-// morph targets and skin.
+// morph targets and skin. A skin changes neither texture coordinates nor colours.
 class GltfPosedVertices
 {
 public:
@@ -59,6 +59,8 @@ public:
     // Not normalised, unless the primitive has a skin.
     glm::dvec3 normal(size_t i, const glm::dvec3& rest) const;
     glm::dvec3 tangent(size_t i, const glm::dvec3& rest) const;
+    glm::vec2 uv(size_t i, size_t set, const glm::vec2& rest) const; // set: 0 or 1
+    glm::vec4 color(size_t i, const glm::vec4& rest) const;          // may leave 0..1
 
 private:
     struct Morph {
@@ -69,8 +71,9 @@ private:
         GltfAccessor joints, weights; // four of each per vertex
     };
 
+    // The targets of an attribute whose offsets have one of these numbers of components.
     std::vector<Morph> morphs(const tinygltf::Primitive& primitive, const char* attribute,
-                              size_t vertexCount) const;
+                              int minComponents, int maxComponents, size_t vertexCount) const;
     void readInfluences(const tinygltf::Primitive& primitive, size_t vertexCount);
     void checkWeights(size_t vertexCount) const;
     glm::dmat4 meshFromVertex(size_t i) const;
@@ -79,7 +82,7 @@ private:
     const GltfDocument& document_;
     std::string element_;
     const GltfPose& pose_;
-    std::vector<Morph> positions_, normals_, tangents_;
+    std::vector<Morph> positions_, normals_, tangents_, uvs_[2], colors_;
     std::vector<Influences> influences_; // empty if no joint moves the vertices
 };
 
