@@ -96,6 +96,7 @@ protected:
         const CndLightingDesc desc{.structSize = sizeof desc,
                                    .framesInFlight = 1,
                                    .specularMethods = 1u << RunOptions{}.specular,
+                                   .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT,
                                    .influenceByError = VK_TRUE};
         ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting_, &error), CND_SUCCESS)
             << error.message;

@@ -363,7 +363,8 @@ std::pair<CndLighting, CndLightingView> LightingTest::createLighting(const CpuGB
                                                                      uint32_t framesInFlight)
 {
     return createLighting(g, CndLightingDesc{.framesInFlight = framesInFlight,
-                                             .specularMethods = 1u << RunOptions{}.specular});
+                                             .specularMethods = 1u << RunOptions{}.specular,
+                                             .shading = CND_SHADING_CLUSTERED_BIT});
 }
 
 void LightingTest::setLights(CndLighting lighting, const std::vector<CndLight>& lights)
@@ -377,6 +378,16 @@ void LightingTest::setLights(CndLighting lighting, const std::vector<CndLight>& 
 // The number of frame slots that run() draws with in turn.
 constexpr uint32_t runFramesInFlight = 2;
 
+// Without a GPU, making pipelines takes longer than drawing with them, so tests begin with those of
+// their first frame, and get others when a frame needs them.
+uint32_t shadingOf(const CndLightingFrame& frame)
+{
+    return (frame.culling == CND_CULLING_BRUTE ? CND_SHADING_BRUTE_BIT
+                                               : CND_SHADING_CLUSTERED_BIT) |
+           (frame.countPairs ? CND_SHADING_COUNT_PAIRS_BIT : 0) |
+           (frame.errorBudget > 0 ? CND_SHADING_ERROR_BUDGET_BIT : 0);
+}
+
 CndLighting LightingTest::lightingFor(const RunOptions& options)
 {
     const CndLightingDesc desc{.structSize = sizeof desc,
@@ -384,6 +395,7 @@ CndLighting LightingTest::lightingFor(const RunOptions& options)
                                .gbufferLayout = options.layout,
                                .timestamps = true,
                                .specularMethods = 1u << options.specular,
+                               .shading = CND_SHADING_CLUSTERED_BIT,
                                .gbuffer = options.gbuffer,
                                .materialClasses = options.materialClasses,
                                .hostKernels = options.hostKernels,
@@ -431,6 +443,10 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
 
     CndLightingFrame frame = frameOf(g, images, options);
     options.withFrame(frame);
+    const CndLightingPipelines needed{.structSize = sizeof needed,
+                                      .specularMethods = 1u << frame.specularMethod,
+                                      .shading = shadingOf(frame)};
+    EXPECT_EQ(cndAddLightingPipelines(lighting, &needed, &error), CND_SUCCESS) << error.message;
     LightingResult result;
     result.stats.structSize = sizeof result.stats;
     for (int i = 0; i < options.frames; ++i) {

@@ -25,11 +25,12 @@ class ForwardTest : public LightingTest
 protected:
     void create(const CpuGBuffer& g, const std::vector<CndLight>& lights, bool byError = false)
     {
-        std::tie(lighting_, view_) =
-            createLighting(g, CndLightingDesc{.framesInFlight = 2,
-                                              .specularMethods = 1u << CND_SPECULAR_CONIC,
-                                              .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT,
-                                              .influenceByError = byError});
+        std::tie(lighting_, view_) = createLighting(
+            g, CndLightingDesc{.framesInFlight = 2,
+                               .specularMethods = 1u << CND_SPECULAR_CONIC,
+                               .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT,
+                               .forwardStages = VK_SHADER_STAGE_COMPUTE_BIT,
+                               .influenceByError = byError});
         ASSERT_TRUE(lighting_ && view_);
         setLights(lighting_, lights);
         createPipeline();

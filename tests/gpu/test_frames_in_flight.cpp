@@ -115,7 +115,8 @@ TEST_F(FramesInFlight, ViewsAndGrowingSetsStayRight)
     CndError error{};
     const CndLightingDesc desc{.structSize = sizeof desc,
                                .framesInFlight = slotCount,
-                               .specularMethods = 1u << RunOptions{}.specular};
+                               .specularMethods = 1u << RunOptions{}.specular,
+                               .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT};
     CndLighting lighting{};
     ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS);
     CndLightingView views[2]{};
@@ -195,7 +196,8 @@ protected:
         }
         const CndLightingDesc desc{.structSize = sizeof desc,
                                    .framesInFlight = slotCount,
-                                   .specularMethods = 1u << RunOptions{}.specular};
+                                   .specularMethods = 1u << RunOptions{}.specular,
+                                   .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT};
         ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting_, &error_), CND_SUCCESS);
     }
 

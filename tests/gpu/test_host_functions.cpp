@@ -95,6 +95,9 @@ protected:
         return createLighting(g_, CndLightingDesc{.framesInFlight = 1,
                                                   .gbufferLayout = options.layout,
                                                   .specularMethods = 1u << options.specular,
+                                                  .shading = CND_SHADING_CLUSTERED_BIT |
+                                                             CND_SHADING_BRUTE_BIT |
+                                                             CND_SHADING_COUNT_PAIRS_BIT,
                                                   .gbuffer = options.gbuffer,
                                                   .hostKernels = options.hostKernels});
     }

@@ -192,10 +192,12 @@ protected:
     {
         const Images images = uploadImages(pixels.asFull);
         const HostImages host = uploadHost(pixels);
-        auto lighting = Lighting::create(deviceDesc(), {.framesInFlight = 1,
-                                                        .gbufferLayout = CND_GBUFFER_HOST,
-                                                        .specularMethods = 1u << GetParam().method,
-                                                        .gbuffer = pixels.desc});
+        auto lighting = Lighting::create(
+            deviceDesc(), {.framesInFlight = 1,
+                           .gbufferLayout = CND_GBUFFER_HOST,
+                           .specularMethods = 1u << GetParam().method,
+                           .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT,
+                           .gbuffer = pixels.desc});
         EXPECT_TRUE(lighting) << lighting.error().message;
         auto view = lighting.value().createView({.maxWidth = imageWidth, .maxHeight = imageHeight});
         EXPECT_TRUE(view) << view.error().message;
@@ -334,6 +336,7 @@ private:
         auto lighting = Lighting::create(deviceDesc(), {.framesInFlight = 1,
                                                         .gbufferLayout = layout,
                                                         .specularMethods = 1u << CND_SPECULAR_NONE,
+                                                        .shading = CND_SHADING_CLUSTERED_BIT,
                                                         .gbuffer = gbuffer});
         auto view =
             lighting.value().createView({.maxWidth = frame.width, .maxHeight = frame.height});

@@ -72,6 +72,7 @@ protected:
                                    .gbufferLayout =
                                        host.native ? CND_GBUFFER_FULL : CND_GBUFFER_HOST,
                                    .specularMethods = 1u << sceneMethod,
+                                   .shading = CND_SHADING_CLUSTERED_BIT,
                                    .gbuffer = gbufferOf(host),
                                    .radianceFormat = radiance};
         CndLighting lighting{};

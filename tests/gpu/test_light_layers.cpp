@@ -53,7 +53,10 @@ protected:
 TEST_F(LightLayers, LeaveTheSameBitsAsASetWithoutTheOthers)
 {
     CndError error{};
-    const CndLightingDesc desc{.structSize = sizeof desc, .framesInFlight = 1};
+    const CndLightingDesc desc{.structSize = sizeof desc,
+                               .framesInFlight = 1,
+                               .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT |
+                                          CND_SHADING_COUNT_PAIRS_BIT};
     CndLighting lighting{};
     ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS);
     CndLightingView views[2]{}; // the second has no room for lists

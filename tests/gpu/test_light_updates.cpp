@@ -71,7 +71,8 @@ protected:
         CndError error{};
         const CndLightingDesc desc{.structSize = sizeof desc,
                                    .framesInFlight = 2,
-                                   .specularMethods = 1u << RunOptions{}.specular};
+                                   .specularMethods = 1u << RunOptions{}.specular,
+                                   .shading = CND_SHADING_CLUSTERED_BIT};
         ASSERT_EQ(cndCreateLighting(&host, &desc, &lighting_, &error), CND_SUCCESS)
             << error.message;
         const CndLightingViewDesc viewDesc{sizeof viewDesc, g_.width, g_.height, 0};

@@ -3,12 +3,14 @@
 // double-precision reference, lists without room, growth, invalid input.
 #include "gpu/lighting_harness.h"
 #include "harness/constants.h"
+#include "harness/full_tests.h"
 
 #include <cmath>
 #include <numbers>
 #include <tuple>
 
 #include "reference/light.h"
+#include "shared/specular_methods.h"
 
 namespace candelabra::test
 {
@@ -251,6 +253,25 @@ TEST_F(LightingTest, LightSetGrowsAndShrinksAcrossFrames)
             << count;
     }
     cndDestroyLightingView(view);
+    cndDestroyLighting(lighting);
+}
+
+// Frames make only the pipelines that they need, so no other test makes all of them.
+TEST_F(LightingTest, EveryPipelineIsMadeWithoutValidationMessages)
+{
+    const uint32_t allTypes = (1u << CND_LIGHT_TYPE_COUNT) - 1;
+    const CndLightingDesc desc{
+        .structSize = sizeof desc,
+        .framesInFlight = 1,
+        .specularMethods = fullTests() ? gpu::ALL_SPECULAR_METHODS : 1u << CND_SPECULAR_CONIC,
+        .shading = 0, // all of it
+        .materialClasses = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY,
+        .lightTypes = fullTests() ? allTypes : 1u << CND_LIGHT_SPHERE | 1u << CND_LIGHT_TUBE,
+        .influenceByError = VK_TRUE};
+    CndLighting lighting{};
+    CndError error{};
+    EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
+        << error.message;
     cndDestroyLighting(lighting);
 }
 

@@ -139,8 +139,11 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
         types.insert(types.end(), {CND_LIGHT_RECTANGLE, CND_LIGHT_DISC, CND_LIGHT_POINT,
                                    CND_LIGHT_SPOT, CND_LIGHT_DISTANT_SPHERE});
     const auto create = [&](uint32_t classes) {
-        const CndLightingDesc desc{
-            .structSize = sizeof desc, .framesInFlight = 2, .materialClasses = classes};
+        const CndLightingDesc desc{.structSize = sizeof desc,
+                                   .framesInFlight = 2,
+                                   .shading =
+                                       CND_SHADING_CLUSTERED_BIT | CND_SHADING_COUNT_PAIRS_BIT,
+                                   .materialClasses = classes};
         CndLighting lighting{};
         CndError error{};
         EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)

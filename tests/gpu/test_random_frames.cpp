@@ -70,7 +70,8 @@ TEST_F(LightingTest, RandomFramesEqualBrute)
     CndError error{};
     const CndLightingDesc desc{.structSize = sizeof desc,
                                .framesInFlight = 2,
-                               .specularMethods = 1u << RunOptions{}.specular};
+                               .specularMethods = 1u << RunOptions{}.specular,
+                               .shading = CND_SHADING_CLUSTERED_BIT};
     CndLighting lighting{};
     ASSERT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
         << error.message;

@@ -342,14 +342,11 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
     p.counts.samples = p.samples.value_or(isGpu ? gpuSamples : 1);
     announce(scene, size, context, p.counts.samples, !p.samples && !isGpu);
-    // What examine() does needs other pipelines too: it counts pairs or lights by brute force.
-    const bool looksCloser =
-        p.pick || !a.json.empty() || p.frame.influence.rule == CND_INFLUENCE_BY_ERROR;
     Renderer renderer(context, scene,
                       {.size = size,
                        .gbufferLayout = p.gbufferLayout,
                        .specularMethods = 1u << p.frame.specular,
-                       .shading = looksCloser ? 0 : shadingOf(p.frame),
+                       .shading = shadingOf(p.frame),
                        .influenceByError = p.frame.influence.rule == CND_INFLUENCE_BY_ERROR});
     const bool moving = !scene.lightMotions.empty() || path.moves();
     const MeasuredFrames frames = drawFrames(program, a, p, path, moving, context, renderer);

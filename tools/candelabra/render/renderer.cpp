@@ -232,16 +232,14 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
     State& s = *state_;
     const uint32_t types = options.lightTypes ? *options.lightTypes : lightTypesOf(scene);
     s.lightTypes = types;
-    const uint32_t methods =
-        options.specularMethods ? options.specularMethods : gpu::ALL_SPECULAR_METHODS;
     for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
-        if (methods >> method & 1)
-            s.shading[method] = options.shading ? options.shading : ~0u;
+        if (options.specularMethods >> method & 1)
+            s.shading[method] = options.shading;
     s.lighting = take(Lighting::create(
         context.desc(), {.framesInFlight = options.framesInFlight,
                          .gbufferLayout = options.gbufferLayout,
                          .timestamps = VK_TRUE,
-                         .specularMethods = methods,
+                         .specularMethods = options.specularMethods,
                          .shading = options.shading,
                          .materialClasses = materialClasses(scene, materialsOf(scene, options)),
                          .lightTypes = types,
@@ -278,6 +276,8 @@ bool Renderer::canLightBy(uint32_t lightTypes) const
 
 void Renderer::prepareToDraw(const FrameOptions& options)
 {
+    if (canDraw(options))
+        return;
     const uint32_t needed = shadingOf(options);
     take(state_->lighting.addPipelines(
         {.specularMethods = 1u << options.specular, .shading = needed}));
@@ -399,6 +399,7 @@ void Renderer::moveLights(double time)
 
 void Renderer::record(VkCommandBuffer cmd, uint32_t slot, const FrameOptions& frame)
 {
+    prepareToDraw(frame);
     State& s = *state_;
     s.moveLights(frame.time);
     const Lit lit = s.litBy(slot, frame);
@@ -486,10 +487,13 @@ void Renderer::recordUnlit(VkCommandBuffer cmd, const FrameOptions& frame)
 
 void Renderer::recordBruteRect(VkCommandBuffer cmd, const FrameOptions& frame, const VkRect2D& rect)
 {
-    CndLightingFrame lighting = state_->lightingFrame(0, frame);
-    lighting.culling = CND_CULLING_BRUTE;
+    FrameOptions brute = frame;
+    brute.culling = CND_CULLING_BRUTE;
+    brute.countPairs = false;
+    brute.heatMap = HeatMap::None;
+    prepareToDraw(brute);
+    CndLightingFrame lighting = state_->lightingFrame(0, brute);
     lighting.bruteRect = rect;
-    lighting.countPairs = VK_FALSE;
     take(state_->view.record(cmd, lighting));
 }
 

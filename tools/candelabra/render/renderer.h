@@ -26,9 +26,10 @@ struct RendererOptions {
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     uint32_t framesInFlight = 2;
     // Masks of 1 << CndSpecularMethod and of CndShadingBits, for which the constructor makes
-    // pipelines; 0: all.
-    uint32_t specularMethods = 0;
-    uint32_t shading = 0;
+    // pipelines. Frames may ask for others: what is missing is made by prepareToDraw(), or else by
+    // the first frame that needs it, which then takes longer to record.
+    uint32_t specularMethods = 1u << CND_SPECULAR_CONIC;
+    uint32_t shading = CND_SHADING_CLUSTERED_BIT;
     bool influenceByError = false; // FrameOptions::influence may be CND_INFLUENCE_BY_ERROR
     // Measures FrameStats::gpuMs, and when passes begin, with four more timestamps per frame.
     bool stamps = false;
