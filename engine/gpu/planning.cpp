@@ -17,7 +17,8 @@ namespace
 // State of the current Planning, thread-local because Vulkan functions carry no user pointer.
 struct Context {
     Planning* planning = nullptr;
-    uint64_t handles = 0; // number of handles given out
+    uint64_t handles = 0;   // number of handles given out
+    uint32_t pipelines = 0; // of these, number of pipelines
 };
 thread_local Context context;
 
@@ -54,6 +55,7 @@ struct Nothing<VkResult(VKAPI_PTR*)(VkDevice, VkPipelineCache, uint32_t, const I
     {
         for (uint32_t i = 0; i < count; ++i)
             out[i] = newHandle<VkPipeline>();
+        context.pipelines += count;
         return VK_SUCCESS;
     }
 };
@@ -105,6 +107,11 @@ Planning::~Planning()
     context = {};
 }
 
+uint32_t Planning::pipelineCount() const
+{
+    return context.pipelines;
+}
+
 PFN_vkVoidFunction Planning::instanceFunction(VkInstance instance, const char* name)
 {
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
@@ -121,6 +128,7 @@ PFN_vkVoidFunction Planning::deviceFunction(VkDevice device, const char* name)
     if (std::strcmp(name, "vk" #f) == 0)                                                           \
         return reinterpret_cast<PFN_vkVoidFunction>(PFN_vk##f(Nothing<PFN_vk##f>::call));
     CND_DEVICE_FUNCTIONS(X)
+    CND_RASTER_FUNCTIONS(X)
 #undef X
     return nullptr;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Planning finds out how much memory a module will take without creating it. The module's own code
+// Planning finds out how much memory and how many pipelines a module will take without creating it,
+// and likewise for the raster pass. The module's own code
 // runs with Vulkan functions that create buffers and images without memory, and nothing else, so
 // there is no separate list of buffers to keep up to date.
 #pragma once
@@ -22,6 +23,8 @@ public:
 
     // The device description to create from. Only its limits and memory requirements are real.
     const CndDeviceDesc& desc() const { return desc_; }
+    // The number of pipelines that objects created from desc() have asked for.
+    uint32_t pipelineCount() const;
 
 private:
     static PFN_vkVoidFunction VKAPI_CALL instanceFunction(VkInstance, const char* name);

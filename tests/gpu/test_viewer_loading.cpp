@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests how the viewer loads scenes while its window is open.
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include "harness/gpu_fixture.h"
 #include "harness/paths.h"
 #include "io/error.h"
+#include "load/load.h"
 #include "render/pipeline_watch.h"
 #include "scene/scene_error.h"
 #include "viewer/scene_loader.h"
@@ -68,6 +70,15 @@ protected:
                     return app::SceneView{loaded.cameras.front(), {64, 48}};
                 }};
     }
+    // A device on which the engine's pipelines can be watched.
+    static app::VulkanContext watchedContext()
+    {
+        const char* wanted = std::getenv("CANDELABRA_TEST_DEVICE");
+        return app::VulkanContext(
+            {.device = wanted ? wanted : "",
+             .validation = test::validates() ? app::Validation::On : app::Validation::Off,
+             .engineFunctions = app::watchedFunctions});
+    }
     // Waits for the scene, and throws what loading has thrown.
     static std::unique_ptr<app::LoadedScene> finish(app::SceneLoader& loader)
     {
@@ -111,14 +122,32 @@ TEST_F(SceneLoading, ReportsAFailureAndCanGoOn)
     EXPECT_EQ(loaded->scene.lights.size(), 20u);
 }
 
+// The number of pipelines is known before the first one is made.
+TEST_F(SceneLoading, SaysHowManyShadersThereAre)
+{
+    app::VulkanContext own = watchedContext();
+    for (const char* name : {"hall", "fence"}) {
+        app::Scene scene = app::loadScene(name, {.lights = 5});
+        scene.environment.emplace().radiance = {
+            .width = 2, .height = 1, .channels = 1, .pixels = {1, 2}};
+        app::Job job;
+        app::makeRenderer(own, scene,
+                          {.size = {64, 48}, .specularMethods = 1u << CND_SPECULAR_CONIC}, 0, job);
+        unsigned made = 0, all = 0;
+        EXPECT_EQ(
+            std::sscanf(job.state().doing.c_str(), "Compiling shaders: %u of %u", &made, &all), 2)
+            << job.state().doing;
+        EXPECT_GT(all, 10u);
+        EXPECT_EQ(made, all) << name;
+    }
+    own.destroyDevice();
+    EXPECT_TRUE(own.instance().messages().take().empty());
+}
+
 // The window is closed while a scene is loaded: no object of Vulkan is left.
 TEST_F(SceneLoading, EndsInTheMiddle)
 {
-    const char* wanted = std::getenv("CANDELABRA_TEST_DEVICE");
-    app::VulkanContext own(
-        {.device = wanted ? wanted : "",
-         .validation = test::validates() ? app::Validation::On : app::Validation::Off,
-         .engineFunctions = app::watchedFunctions});
+    app::VulkanContext own = watchedContext();
     {
         app::SceneLoader loader(own);
         loader.start(request("hall", 20));

@@ -9,11 +9,12 @@ namespace candelabra::app
 namespace
 {
 
-thread_local std::function<bool()> beforePipeline; // empty: this thread watches nothing
+thread_local std::function<bool(uint32_t)> beforePipeline; // empty: this thread watches nothing
+thread_local uint32_t announced = 0;
 
 bool isWanted()
 {
-    return !beforePipeline || beforePipeline();
+    return !beforePipeline || beforePipeline(announced);
 }
 
 VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
@@ -50,14 +51,25 @@ PFN_vkVoidFunction VKAPI_CALL watchedFunctions(VkInstance instance, const char* 
     return vkGetInstanceProcAddr(instance, name);
 }
 
-PipelineWatch::PipelineWatch(std::function<bool()> before)
+PipelineWatch::PipelineWatch(std::function<bool(uint32_t)> before)
 {
     beforePipeline = std::move(before);
+    announced = 0;
 }
 
 PipelineWatch::~PipelineWatch()
 {
     beforePipeline = nullptr;
+}
+
+bool PipelineWatch::watches()
+{
+    return bool(beforePipeline);
+}
+
+void PipelineWatch::announce(uint32_t pipelines)
+{
+    announced += pipelines;
 }
 
 } // namespace candelabra::app

@@ -18,11 +18,17 @@ class PipelineWatch
 {
 public:
     // While this object exists, `before` is called before each pipeline that the engine creates on
-    // this thread. If it returns false, the pipeline is not created, and the engine fails.
-    explicit PipelineWatch(std::function<bool()> before);
+    // this thread, with the number of all that have been announced; 0: none have. If it returns
+    // false, the pipeline is not created, and the engine fails.
+    explicit PipelineWatch(std::function<bool(uint32_t announced)> before);
     ~PipelineWatch();
     PipelineWatch(const PipelineWatch&) = delete;
     PipelineWatch& operator=(const PipelineWatch&) = delete;
+
+    // Tells whether there is an object of this class on this thread.
+    static bool watches();
+    // To be called before pipelines are created, if watches() is true.
+    static void announce(uint32_t pipelines);
 };
 
 } // namespace candelabra::app

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gbuffer/gbuffer.h"
+#include "gpu/planning.h"
 #include "io/error.h"
 #include "render/bloom.h"
 #include "render/camera.h"
@@ -16,6 +17,7 @@
 #include "render/frame_stamps.h"
 #include "render/image_barrier.h"
 #include "render/lit.h"
+#include "render/pipeline_watch.h"
 #include "render/scene_environment.h"
 #include "render/scene_geometry.h"
 #include "scene/light_layers.h"
@@ -61,6 +63,45 @@ void place(std::span<PassTime> passes, double start)
 const std::vector<Material>& materialsOf(const Scene& scene, const RendererOptions& options)
 {
     return options.materials ? *options.materials : scene.materials;
+}
+
+gbuffer::GBufferDesc gbufferDesc(const RendererOptions& o)
+{
+    return {.framesInFlight = o.framesInFlight, .layout = o.gbufferLayout, .timestamps = true};
+}
+
+CndLightingDesc lightingDesc(const Scene& scene, const RendererOptions& o)
+{
+    return {.framesInFlight = o.framesInFlight,
+            .gbufferLayout = o.gbufferLayout,
+            .timestamps = VK_TRUE,
+            .specularMethods = o.specularMethods,
+            .shading = o.shading,
+            .materialClasses = materialClasses(scene, materialsOf(scene, o)),
+            .lightTypes = o.lightTypes ? *o.lightTypes : lightTypesOf(scene),
+            .influenceByError = o.influenceByError};
+}
+
+CndExposureDesc exposureDesc(const RendererOptions& o)
+{
+    return {.framesInFlight = o.framesInFlight, .timestamps = VK_TRUE};
+}
+
+// Returns the number of pipelines that a renderer makes before its first frame.
+uint32_t countPipelines(const VulkanContext& context, const Scene& scene, const RendererOptions& o,
+                        const gbuffer::Geometry& geometry)
+{
+    const gpu::Planning planning(context.desc());
+    {
+        const gpu::Device raster(planning.desc(), gpu::rasterPass);
+        gbuffer::GBuffer(raster, gbufferDesc(o)).prepare(geometry);
+    }
+    take(Lighting::create(planning.desc(), lightingDesc(scene, o)));
+    take(Exposure::create(planning.desc(), exposureDesc(o)));
+    if (scene.environment)
+        take(Environment::create(planning.desc(), {.framesInFlight = o.framesInFlight,
+                                                   .gbufferLayout = o.gbufferLayout}));
+    return planning.pipelineCount();
 }
 
 // Returns why there is no bloom in the frame, or null.
@@ -138,7 +179,7 @@ struct Renderer::State {
     // After surfaces and their environment, after lighting, and after exposure and edge filter.
     FrameStamps stamps;
 
-    State(const VulkanContext& c, const Scene& s, const RendererOptions& o)
+    State(const VulkanContext& c, const Scene& s, const RendererOptions& o, gbuffer::Geometry&& g)
         : context(c),
           scene(&s),
           options(o),
@@ -146,10 +187,8 @@ struct Renderer::State {
           exposedSlots(o.framesInFlight),
           unbloomed(o.framesInFlight),
           unfiltered(o.framesInFlight),
-          geometry(uploadGeometry(c, s, materialsOf(s, o))),
-          gbuffer(
-              c.device(),
-              {.framesInFlight = o.framesInFlight, .layout = o.gbufferLayout, .timestamps = true})
+          geometry(std::move(g)),
+          gbuffer(c.device(), gbufferDesc(o))
     {
         gbuffer.prepare(geometry);
     }
@@ -227,25 +266,19 @@ void Renderer::State::createSized()
 }
 
 Renderer::Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options)
-    : state_(std::make_unique<State>(context, scene, options))
 {
+    gbuffer::Geometry geometry = uploadGeometry(context, scene, materialsOf(scene, options));
+    if (PipelineWatch::watches())
+        PipelineWatch::announce(countPipelines(context, scene, options, geometry));
+    state_ = std::make_unique<State>(context, scene, options, std::move(geometry));
     State& s = *state_;
-    const uint32_t types = options.lightTypes ? *options.lightTypes : lightTypesOf(scene);
-    s.lightTypes = types;
+    const CndLightingDesc lighting = lightingDesc(scene, options);
+    s.lightTypes = lighting.lightTypes;
     for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
-        if (options.specularMethods >> method & 1)
+        if (lighting.specularMethods >> method & 1)
             s.shading[method] = options.shading;
-    s.lighting = take(Lighting::create(
-        context.desc(), {.framesInFlight = options.framesInFlight,
-                         .gbufferLayout = options.gbufferLayout,
-                         .timestamps = VK_TRUE,
-                         .specularMethods = options.specularMethods,
-                         .shading = options.shading,
-                         .materialClasses = materialClasses(scene, materialsOf(scene, options)),
-                         .lightTypes = types,
-                         .influenceByError = options.influenceByError}));
-    s.exposure = take(Exposure::create(
-        context.desc(), {.framesInFlight = options.framesInFlight, .timestamps = VK_TRUE}));
+    s.lighting = take(Lighting::create(context.desc(), lighting));
+    s.exposure = take(Exposure::create(context.desc(), exposureDesc(options)));
     if (scene.environment)
         s.environment = uploadEnvironment(
             context, *scene.environment,

@@ -49,13 +49,17 @@ std::unique_ptr<LoadedScene> load(const VulkanContext& context, const SceneReque
 
 void compileShaders(Job& job, double from, const std::function<void()>& make)
 {
-    // The number of pipelines is not known before they are made: it depends on the types of the
-    // lights and on the materials. Each takes the same part of what is left of the bar.
+    // The number of pipelines that are added to a renderer is not known: each of these takes the
+    // same part of what is left of the bar.
     uint32_t pipelines = 0;
     double done = from;
-    const PipelineWatch watch([&] {
-        const bool goOn = job.doing(fmt::format("Compiling shaders: {} ...", ++pipelines), done);
-        done += (pictureAt - done) / 64;
+    const PipelineWatch watch([&](uint32_t announced) {
+        ++pipelines;
+        const bool goOn = job.doing(
+            announced ? fmt::format("Compiling shaders: {} of {} ...", pipelines, announced)
+                      : fmt::format("Compiling shaders: {} ...", pipelines),
+            done);
+        done += announced ? (pictureAt - from) / announced : (pictureAt - done) / 64;
         return goOn;
     });
     make();
