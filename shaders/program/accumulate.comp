@@ -12,14 +12,15 @@ layout(push_constant, scalar) uniform Push
     AccumulateParams params;
 };
 layout(binding = ACCUMULATE_RADIANCE, rgba32f) uniform image2D radianceImage;
-layout(binding = ACCUMULATE_DISPLAY, rgba8) uniform image2D displayImage;
+layout(binding = ACCUMULATE_SAMPLE, rgba8) uniform readonly image2D sampleImage;
 layout(binding = ACCUMULATE_RADIANCE_SUM, rgba32f) uniform image2D radianceSum;
 layout(binding = ACCUMULATE_DISPLAY_SUM, rgba32f) uniform image2D displaySum;
+layout(binding = ACCUMULATE_DISPLAY, rgba8) uniform writeonly image2D displayImage;
 
-// Returns the display image as linear light.
-vec3 loadDisplay(ivec2 at)
+// Returns the display image of the frame as linear light.
+vec3 loadSample(ivec2 at)
 {
-    return decodeSrgb(imageLoad(displayImage, at).rgb);
+    return decodeSrgb(imageLoad(sampleImage, at).rgb);
 }
 
 // Adds what the frame's nine nearest samples see around the centre of the pixel. Their weights are
@@ -38,7 +39,7 @@ void addFrame(ivec2 at)
             const ivec2 near = clamp(at + ivec2(x - 1, y - 1), ivec2(0), ivec2(params.size) - 1);
             const float weight = weights[x].x * weights[y].y;
             radiance += weight * imageLoad(radianceImage, near);
-            display += weight * loadDisplay(near);
+            display += weight * loadSample(near);
         }
     if (params.index > 0u) {
         radiance += imageLoad(radianceSum, at);

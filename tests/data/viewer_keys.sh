@@ -4,17 +4,19 @@
 #   inputs.txt  xdotool commands, one a line
 #   checks.txt  how often to try, a tabulator, xdotool commands, a tabulator, a regular expression for a line
 #               that the viewer then prints
-# It fails at the first line of checks.txt for which no such line is printed.
+# It fails at the first line of checks.txt for which no such line is printed. Lines about the picture itself
+# ("picture: ") come at any time and do not count.
 fail() {
     echo "$1" >&2
     kill $viewer
     exit 99
 }
-lines() { wc -l <log.txt; }
+said() { grep -v '^picture: ' log.txt; }
+lines() { said | wc -l; }
 # Waits for a line after line $1 of the log that matches $2.
 await() {
     for i in $(seq 6000); do
-        tail -n +$(($1 + 1)) log.txt | grep -Eq -- "$2" && return 0
+        said | tail -n +$(($1 + 1)) | grep -Eq -- "$2" && return 0
         kill -0 $viewer 2>/dev/null || return 1
         sleep 0.05
     done
@@ -42,7 +44,7 @@ while IFS=$'\t' read -r tries commands expected; do
         # Only the last try waits for the expected line; others wait for any line.
         if [ $tries -gt 0 ]; then
             await $before . || fail "$commands: prints nothing"
-            tail -n +$((before + 1)) log.txt | grep -Eq -- "$expected" && break
+            said | tail -n +$((before + 1)) | grep -Eq -- "$expected" && break
         else
             await $before "$expected" && break
             fail "$commands: has no effect, expected: $expected"

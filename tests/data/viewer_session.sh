@@ -26,16 +26,30 @@ logged() { # text [count]
     done
     fail "the viewer never wrote: $1"
 }
-"$PROGRAM" view hall --lights 40 --size 320x200 --exposure 4 --validate --no-overlay \
+# Waits until the picture is complete after the last line of the log that matches a text, which tells of a
+# change. Pictures that are compared must have their samples summed, or must all be without.
+complete() { # text
+    logged "$1"
+    for i in $(seq 1200); do
+        sed -n "/$1/h; /$1/!H; \${x; p}" err.txt | grep -q "^picture: complete" && return
+        kill -0 $viewer 2>/dev/null || fail "the viewer ended before the picture was complete: $1"
+        sleep 0.1
+    done
+    fail "the picture was never complete after: $1"
+}
+"$PROGRAM" view hall --lights 40 --size 320x200 --exposure 4 --validate --no-overlay --verbose \
     ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} &
 viewer=$!
 logged "F2 lists keys" # the scene is there
 window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)
 xdotool windowfocus --sync $window
+complete "F2 lists keys"
 save # 1
 xdotool key n period period period Up
+complete "^light 40 moved"
 save # 2: a light in front of the camera
 xdotool key Delete
+complete "^light 40 removed"
 save # 3: the light removed again
 xdotool keydown w
 sleep 0.5
@@ -44,8 +58,10 @@ save # 4: after moving the camera
 xdotool key o mousemove 200 100 mousedown 1 mousemove 230 110 mouseup 1 key o
 for method in 1 2 3 4 5 6 7 8; do xdotool key m; done # through all methods, back to the first
 xdotool key c
+complete "^light culling: brute"
 save # 5: brute force
 xdotool key c h h h h h F1 F2
+complete "^heat map: none"
 save # 6: through all heat maps, panel and help
 xdotool key b bracketright
 logged "^hall: 80 lights" # the other scene has taken the place of the first

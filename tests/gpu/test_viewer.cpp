@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the viewer under Xvfb, with keys and mouse driven by xdotool.
+// Tests the viewer under Xvfb, with keys and mouse driven by xdotool, and that it shows what
+// `candelabra render` draws.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <random>
 #include <regex>
@@ -16,6 +18,7 @@
 #include <unistd.h>
 
 #include "harness/paths.h"
+#include "io/image.h"
 #include "load/load.h"
 #include "viewer/keys.h"
 
@@ -310,6 +313,97 @@ TEST(Viewer, EveryKeyWorksAfter500RandomInputs)
         for (size_t i = 1; i < lines.size(); ++i)
             EXPECT_NE(lines[i], lines[i - 1]) << log;
     }
+    if (!HasFailure())
+        std::filesystem::remove_all(dir);
+}
+
+// Values of an image, from 0 to 1 in a .png file, and radiance in an .exr file.
+std::vector<float> valuesOf(const std::filesystem::path& path)
+{
+    if (path.extension() == ".exr")
+        return candelabra::app::loadImageByExtension(path).pixels;
+    int width = 0, height = 0, channels = 0;
+    unsigned char* bytes = stbi_load(path.c_str(), &width, &height, &channels, 3);
+    if (!bytes)
+        return {};
+    std::vector<float> out(bytes, bytes + size_t(width) * height * 3);
+    stbi_image_free(bytes);
+    for (float& value : out)
+        value /= 255;
+    return out;
+}
+
+// Mean of (a - b)^2 / (b^2 + 0.01).
+double relativeError(const std::filesystem::path& a, const std::filesystem::path& b)
+{
+    const std::vector<float> x = valuesOf(a), y = valuesOf(b);
+    EXPECT_EQ(x.size(), 200u * 150 * 3) << a;
+    EXPECT_EQ(y.size(), x.size()) << b;
+    double sum = 0;
+    for (size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+        sum += double(x[i] - y[i]) * double(x[i] - y[i]) / (double(y[i]) * double(y[i]) + 0.01);
+    return sum / double(std::max<size_t>(x.size(), 1));
+}
+
+// The numbers of the last match of an expression with groups.
+std::vector<int> lastNumbers(const std::string& text, const char* expression)
+{
+    std::vector<int> out;
+    const std::regex pattern(expression);
+    for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i) {
+        out.clear();
+        for (size_t group = 1; group < i->size(); ++group)
+            out.push_back(std::stoi((*i)[group]));
+    }
+    return out;
+}
+
+constexpr const char* completeLine = "picture: complete after ([0-9]+) frames";
+constexpr const char* endLine = "picture: ([0-9]+) frames? drawn, and ([0-9]+) for the panel alone";
+
+TEST(Viewer, ShowsThePictureOfRenderAndDrawsNoMore)
+{
+    ASSERT_NO_FATAL_FAILURE(requireTools());
+    const std::filesystem::path dir = emptyFolder("candelabra_still_");
+    // The picture has the aspect 4 / 3, so that the frame of the camera does not fill it.
+    std::ofstream(dir / "wide.json") << R"({"source": {"scene": "hall"},
+        "camera": {"position": [-3, 2, 4], "look_at": [1, 1.5, -6], "up": [0, 1, 0],
+                   "vertical_fov_degrees": 35, "aspect": 2},
+        "lights": [{"type": "sphere", "position": [0, 3, -1], "radius": 0.1,
+                    "luminous_power": [3000, 3000, 3000]}]})";
+    ASSERT_EQ(runSession("viewer_still.sh", dir), 0)
+        << textOf(dir / "err.txt") << textOf(dir / "session.txt");
+
+    // 16 samples are summed once the statistics of the first frame are there. The rest of the 40
+    // frames draw the panel alone.
+    const std::string still = textOf(dir / "40.txt");
+    EXPECT_EQ(lastNumbers(still, completeLine), (std::vector{18})) << still;
+    EXPECT_EQ(lastNumbers(still, endLine), (std::vector{18, 22})) << still;
+    const double summed = relativeError(dir / "40.png", dir / "wide.png");
+    const double single = relativeError(dir / "2.png", dir / "wide.png");
+    std::cout << "error of the summed picture " << summed << ", of a single frame " << single
+              << "\n";
+    EXPECT_LT(summed, 1e-4);
+    EXPECT_GT(single, 10 * summed + 1e-3);
+    // Moving lights never stand still.
+    const std::string lights = textOf(dir / "lights.txt");
+    EXPECT_EQ(lastNumbers(lights, endLine), (std::vector{40, 0})) << lights;
+    EXPECT_EQ(lights.find("complete"), std::string::npos);
+
+    // While the camera moves, the picture is half as large; what is saved and picked is not.
+    const std::string session = textOf(dir / "session.txt");
+    EXPECT_GT(relativeError(dir / "candelabra-001.png", dir / "wide.png"), 1e-3);
+    EXPECT_NE(session.find("pixel 100,120 at "), std::string::npos) << session;
+    // After the move the picture is that of the camera that was printed.
+    EXPECT_LT(relativeError(dir / "candelabra-002.png", dir / "moved.png"), 3e-4);
+    EXPECT_LT(relativeError(dir / "candelabra-003.exr", dir / "moved.exr"), 3e-2);
+    // Since then, keys and the mouse have changed the panel alone.
+    const std::vector<int> complete = lastNumbers(session, completeLine),
+                           end = lastNumbers(session, endLine);
+    ASSERT_EQ(complete.size(), 1u) << session;
+    ASSERT_EQ(end.size(), 2u) << session;
+    EXPECT_EQ(end[0], complete[0]) << session;
+    EXPECT_GE(end[1], 4) << session;
     if (!HasFailure())
         std::filesystem::remove_all(dir);
 }

@@ -126,7 +126,7 @@ BAD = {
     "--scenes": ["village", "hall,village", ","], "--tolerance": [*NUMBERS, "-1"],
     "--lod": NAMES, "--warm-up": [*NUMBERS, "-1"], "--frames-in-flight": [*COUNTS, "0"],
     "--threads": [*COUNTS, "0"], "--shard": ["3/2", "0/2", "2", "1/0", "a/b", "1/2/3"],
-    "--screenshot": ["x.jpg", "no/such/x.png"],
+    "--screenshot": ["x.jpg", "no/such/x.png"], "--while-moving": NAMES,
     "--merge": ["no_such.truth", "empty.truth", "noise.truth", "folder.truth"],
     "--scene": ["village", "no_such.glb", "empty.json", "folder.json"],
     "--types": NAMES, "--light-types": NAMES, "--methods": NAMES,

@@ -38,7 +38,7 @@ TEST(FlyCamera, StartsWhereTheSceneCameraIs)
         expectNear(now.position, start.position);
         expectNear(now.forward, start.forward);
         EXPECT_EQ(now.verticalFov, start.verticalFov);
-        EXPECT_FALSE(now.aspect.has_value()); // the window's aspect ratio applies
+        EXPECT_EQ(now.aspect, start.aspect); // the window shows all that the camera frames
     }
 }
 

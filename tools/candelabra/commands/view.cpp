@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "commands/choice_option.h"
 #include "commands/commands.h"
 #include "commands/messages.h"
 #include "io/error.h"
@@ -22,7 +23,7 @@ struct ViewArguments {
     DeviceArguments device;
     SceneArguments scene;
     FrameArguments frame;
-    std::string frames = "0", screenshot;
+    std::string frames = "0", whileMoving = "auto", screenshot;
     bool noOverlay = false, verbose = false;
 };
 
@@ -42,7 +43,11 @@ ViewerOptions optionsOf(const ViewArguments& a)
                       .lightsVisible = a.frame.lightsVisibleOverride(),
                       .overlay = !a.noOverlay,
                       .frames = unsignedOption("--frames", a.frames, 0, 1'000'000),
+                      .whileMoving = choose("--while-moving", a.whileMoving, whileMovingChoices),
                       .screenshot = a.screenshot};
+    // Sizes that follow from times would not be the same in every run.
+    if (out.frames && out.whileMoving == WhileMoving::Auto)
+        out.whileMoving = WhileMoving::Full;
     if (!out.screenshot.empty()) {
         if (!out.frames)
             throw UsageError("--screenshot: needs --frames N, and shows the last of these frames");
@@ -104,13 +109,17 @@ void addViewCommand(CLI::App& app, Run& run)
     command->add_option("--frames", a->frames, "stop after N frames, 1/60 s apart; 0: do not stop")
         ->type_name("N")
         ->capture_default_str();
+    addChoice(*command, "--while-moving", a->whileMoving, whileMovingChoices,
+              "size of the picture while the camera moves or a light is dragged; auto is half "
+              "width and height if frames take longer than 1/15 s, but full with --frames");
     command
         ->add_option("--screenshot", a->screenshot,
                      "PNG file for a picture of the window with the last of --frames")
         ->type_name("FILE");
     command->add_flag("--no-overlay", a->noOverlay, "start without the panel (F1 shows it)");
     command->add_flag("--verbose", a->verbose,
-                      "print on stderr what each key and click does, and where the camera stops");
+                      "print on stderr what each key and click does, where the camera stops, and "
+                      "when the picture is complete");
     a->frame.addTo(*command);
     a->frame.addFitTo(*command);
     a->frame.addCullingTo(*command);

@@ -21,6 +21,8 @@ std::optional<std::vector<double>> parseNumbers(std::string_view text);
 std::vector<std::string> splitAtCommas(const std::string& text);
 struct PixelSize {
     uint32_t width = 0, height = 0;
+
+    bool operator==(const PixelSize&) const = default;
 };
 // A size such as "1280x720"; both numbers must be at least 1.
 std::optional<PixelSize> parseSize(std::string_view text);

@@ -18,10 +18,19 @@ double radicalInverse(uint32_t index)
     return out;
 }
 
+constexpr ImageAccess overwritten{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                  VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
+
+gpu::Image createStorage(const gpu::Device& device, const char* name, VkFormat format,
+                         PixelSize size)
+{
+    return gpu::createImage(device, name, format, size.width, size.height,
+                            VK_IMAGE_USAGE_STORAGE_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+}
+
 gpu::Image createSum(const gpu::Device& device, const char* name, PixelSize size)
 {
-    return gpu::createImage(device, name, VK_FORMAT_R32G32B32A32_SFLOAT, size.width, size.height,
-                            VK_IMAGE_USAGE_STORAGE_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+    return createStorage(device, name, VK_FORMAT_R32G32B32A32_SFLOAT, size);
 }
 
 } // namespace
@@ -56,26 +65,32 @@ Accumulation::Accumulation(const gpu::Device& device, PixelSize size, uint32_t f
       size_(size),
       kernel_(device, spirv::accumulate_comp),
       sets_(kernel_.createBindings(framesInFlight)),
+      sample_(createStorage(device, "display of a sample", VK_FORMAT_R8G8B8A8_UNORM, size)),
       radianceSum_(createSum(device, "sum of radiance", size)),
       displaySum_(createSum(device, "sum of display", size))
 {
+}
+
+VkImageView Accumulation::recordInput(VkCommandBuffer cmd) const
+{
+    transition(cmd, sample_.image.get(), overwritten, computeWrite);
+    return sample_.view.get();
 }
 
 void Accumulation::record(VkCommandBuffer cmd, uint32_t slot, const FrameSample& sample,
                           VkImageView radiance, VkImageView display, bool dither)
 {
     using gpu::Binding;
+    // All bindings need an image in GENERAL, also in a dispatch that leaves one alone.
+    const VkImageView mean = sample.isLast() ? display : sample_.view.get();
     if (sample.index == 0)
-        for (const gpu::Image* sum : {&radianceSum_, &displaySum_}) {
-            constexpr ImageAccess overwritten{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                              VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                                              VK_IMAGE_LAYOUT_UNDEFINED};
+        for (const gpu::Image* sum : {&radianceSum_, &displaySum_})
             transition(cmd, sum->image.get(), overwritten, computeWrite);
-        }
     sets_.write(slot, {Binding::storage(gpu::ACCUMULATE_RADIANCE, radiance),
-                       Binding::storage(gpu::ACCUMULATE_DISPLAY, display),
+                       Binding::storage(gpu::ACCUMULATE_SAMPLE, sample_.view.get()),
                        Binding::storage(gpu::ACCUMULATE_RADIANCE_SUM, radianceSum_.view.get()),
-                       Binding::storage(gpu::ACCUMULATE_DISPLAY_SUM, displaySum_.view.get())});
+                       Binding::storage(gpu::ACCUMULATE_DISPLAY_SUM, displaySum_.view.get()),
+                       Binding::storage(gpu::ACCUMULATE_DISPLAY, mean)});
     gpu::Timer untimed;
     const gpu::Frame f{*device_, cmd, untimed, slot};
     const auto dispatch = [&](uint32_t count) {

@@ -37,10 +37,15 @@ public:
     // `device` must outlive the pass.
     Accumulation(const gpu::Device& device, PixelSize size, uint32_t framesInFlight);
 
-    // Adds radiance and display image, which are in GENERAL, to the sums of the samples before.
-    // The last sample replaces them by the means: of radiance, and of the light of the display.
-    // `dither`: the display image is dithered. The recording begins with a barrier that waits for
-    // what compute shaders wrote.
+    // Discards what the image holds that receives the display image of a sample, and makes it
+    // ready for the compute shader that writes it. Returns its view, which is R8G8B8A8_UNORM in
+    // GENERAL.
+    VkImageView recordInput(VkCommandBuffer cmd) const;
+    // Adds radiance, which is in GENERAL, and that image to the sums of the samples before. The
+    // last sample replaces radiance and display image by the means: of radiance, and of the light
+    // of the samples' display images. Only then must `display` be in GENERAL; the samples before
+    // leave it alone. `dither`: the display images are dithered. The recording begins with a
+    // barrier that waits for what compute shaders wrote.
     void record(VkCommandBuffer cmd, uint32_t slot, const FrameSample& sample, VkImageView radiance,
                 VkImageView display, bool dither);
 
@@ -49,7 +54,7 @@ private:
     PixelSize size_;
     gpu::Kernel<gpu::AccumulateParams> kernel_;
     gpu::Bindings sets_;
-    gpu::Image radianceSum_, displaySum_;
+    gpu::Image sample_, radianceSum_, displaySum_;
 };
 
 } // namespace candelabra::app

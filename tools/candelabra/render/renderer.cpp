@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -122,6 +123,16 @@ const char* unfilteredBecause(const FrameOptions& frame)
 }
 
 } // namespace
+
+bool operator==(const CndInfluence& a, const CndInfluence& b)
+{
+    return std::memcmp(&a, &b, sizeof a) == 0; // without padding: all members have four bytes
+}
+
+bool operator==(const CndExposureSettings& a, const CndExposureSettings& b)
+{
+    return std::memcmp(&a, &b, sizeof a) == 0; // without padding: all members have four bytes
+}
 
 void useKnownExposure(const Scene& scene, CndExposureSettings& settings)
 {
@@ -474,7 +485,10 @@ void Renderer::State::recordDisplay(VkCommandBuffer cmd, uint32_t slot, const Fr
 {
     const FrameSample& sample = frame.sample;
     const bool first = sample.index == 0; // the exposure of a frame follows from its first sample
-    transition(cmd, display.image.get(), discarded, computeWrite);
+    const bool sums = sample.count > 1, last = sample.isLast();
+    if (last)
+        transition(cmd, display.image.get(), discarded, computeWrite);
+    const VkImageView drawnOn = sums ? accumulation->recordInput(cmd) : display.view.get();
     unbloomed[slot] = unbloomedBecause(frame);
     unfiltered[slot] = unfilteredBecause(frame);
     const bool filters = !unfiltered[slot];
@@ -490,26 +504,27 @@ void Renderer::State::recordDisplay(VkCommandBuffer cmd, uint32_t slot, const Fr
          .height = options.size.height,
          .radiance = unbloomed[slot] ? radiance : bloom->record(cmd, slot, radiance, frame.bloom),
          .meteredRadiance = radiance,
-         .display = filters ? edgeFilter->recordInput(cmd) : display.view.get(),
+         .display = filters ? edgeFilter->recordInput(cmd) : drawnOn,
          .deltaTime = first ? frame.deltaTime : 0,
          .reset = first && frame.resetExposure,
          .ditherSeed = frame.ditherSeed + sample.index,
          .settings = exposureOf(frame)}));
     if (filters)
-        edgeFilter->record(cmd, slot, display.view.get());
+        edgeFilter->record(cmd, slot, drawnOn);
     stamps.stamp(cmd, slot);
     exposedSlots[slot] = true;
     if (frame.heatMap != HeatMap::None)
-        heatMaps->record(cmd, slot, frame.heatMap, display.view.get());
+        heatMaps->record(cmd, slot, frame.heatMap, drawnOn);
     ImageAccess radianceUse = computeRead;
-    if (sample.count > 1) {
+    if (sums) {
         transition(cmd, targets.radiance.image.get(), computeRead, computeWrite);
         accumulation->record(cmd, slot, sample, targets.radiance.view.get(), display.view.get(),
                              frame.exposure.dither);
         radianceUse = computeWrite;
     }
     transition(cmd, targets.radiance.image.get(), radianceUse, transferRead);
-    transition(cmd, display.image.get(), computeWrite, transferRead);
+    if (last)
+        transition(cmd, display.image.get(), computeWrite, transferRead);
 }
 
 void Renderer::recordUnlit(VkCommandBuffer cmd, const FrameOptions& frame)

@@ -49,11 +49,15 @@ enum class Reuse {
     Lighting // the lit image as well, if nothing that decides it has changed
 };
 
+// Compare bits, so that settings which are not numbers equal themselves.
+bool operator==(const CndInfluence& a, const CndInfluence& b);
+bool operator==(const CndExposureSettings& a, const CndExposureSettings& b);
+
 struct FrameOptions {
     Camera camera;
     // The samples of a frame are recorded one after the other. Each is lit anew: with several,
-    // Reuse::Lighting reuses nothing. After the last one, the radiance and the display image are
-    // the means of all.
+    // Reuse::Lighting reuses nothing. The display image stays as it was before until the last one,
+    // after which it and the radiance are the means of all.
     FrameSample sample;
     double time = 0;           // s; decides where moving lights are
     float deltaTime = 0;       // s since the previous frame, for the adaptation of exposure
@@ -80,6 +84,8 @@ struct FrameOptions {
     // edges are smooth, and on heat maps, which show single pixels.
     bool edgeFilter = false;
     CndExposureSettings exposure{}; // Scene::exposureCompensation is added
+
+    bool operator==(const FrameOptions&) const = default;
 };
 
 // Returns what frames with these options ask of pipelines, as a mask of CndShadingBits.

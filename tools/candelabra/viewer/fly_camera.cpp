@@ -32,7 +32,6 @@ FlyCamera::FlyCamera(const Camera& camera, double speed)
     // the top of the image, gives the yaw.
     const glm::dvec3 level = std::abs(f.y) < 0.9999 ? f : camera.up * (f.y > 0 ? -1.0 : 1.0);
     yaw_ = std::atan2(-level.x, -level.z);
-    lens_.aspect.reset(); // the window's aspect ratio is used
 }
 
 void FlyCamera::update(const FlyInput& input, double seconds)

@@ -35,7 +35,7 @@ public:
     double speed() const { return speed_; }
 
 private:
-    Camera lens_;            // its projection is used; position and directions are below
+    Camera lens_; // its projection and aspect are used; position and directions are below
     glm::dvec3 position_{0}; // metres
     double yaw_ = 0;         // radians; at 0 the camera looks along -z, positive is to the left
     double pitch_ = 0;       // radians; positive is up

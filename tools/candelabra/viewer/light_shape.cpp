@@ -7,6 +7,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "scene/fit_camera.h"
+
 namespace candelabra::app
 {
 namespace
@@ -107,14 +109,15 @@ Approach approachLight(const Projection::Line& line, const CndLight& light,
 } // namespace
 
 Projection::Projection(const Camera& camera, PixelSize size)
-    : camera_(camera), size_(size.width, size.height)
+    : camera_(cameraOfPicture(camera, double(size.width) / size.height)),
+      size_(size.width, size.height)
 {
     forward_ = glm::normalize(camera.forward);
     right_ = glm::normalize(glm::cross(forward_, camera.up));
     up_ = glm::cross(right_, forward_);
-    const double half =
-        camera.orthographic ? 0.5 * camera.orthographicHeight : std::tan(0.5 * camera.verticalFov);
-    slope_ = {half * camera.aspect.value_or(size_.x / size_.y), half};
+    const double half = camera_.orthographic ? 0.5 * camera_.orthographicHeight
+                                             : std::tan(0.5 * camera_.verticalFov);
+    slope_ = {half * size_.x / size_.y, half};
 }
 
 Projection::Line Projection::lineAt(glm::dvec2 place) const

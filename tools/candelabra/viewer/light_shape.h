@@ -13,7 +13,8 @@
 namespace candelabra::app
 {
 
-// How a camera projects the world to a picture of `size` pixels.
+// How a camera projects the world to a picture of `size` pixels. All that the camera frames is in
+// the picture, whatever its aspect (cameraOfPicture).
 class Projection
 {
 public:

@@ -218,6 +218,11 @@ bool Overlay::listOpen() const
     return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
 }
 
+bool Overlay::isActive() const
+{
+    return ImGui::IsAnyItemActive();
+}
+
 bool Overlay::endEditing()
 {
     if (passed_.text || passed_.control)

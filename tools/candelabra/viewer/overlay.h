@@ -42,6 +42,8 @@ public:
     // True if a field is being typed into, or a list is open.
     bool edits() const;
     bool listOpen() const;
+    // True while a widget is held or typed into: it may change without any event.
+    bool isActive() const;
     // True if the next frame will tell whether a field is typed into: a widget was clicked, or a
     // key that ends typing was passed on.
     bool awaitsFrame() const { return passed_.button || passed_.end; }

@@ -15,6 +15,7 @@
 #include "scene/light_types.h"
 #include "scene/scene_options.h"
 #include "viewer/keys.h"
+#include "viewer/still_picture.h"
 
 namespace candelabra::app
 {
@@ -59,7 +60,11 @@ void drawTimes(const PanelFigures& figures)
         times.add(frame);
     if (times.frames())
         drawTimeLine(figures);
-    if (!times.frames() || !ImGui::BeginTable("times", 3, ImGuiTableFlags_RowBg))
+    if (!times.frames())
+        return;
+    ImGui::Text("of the last %zu frames drawn, %ux%u", times.frames(), figures.drawnSize.width,
+                figures.drawnSize.height);
+    if (!ImGui::BeginTable("times", 3, ImGuiTableFlags_RowBg))
         return;
     ImGui::TableSetupColumn("GPU pass", ImGuiTableColumnFlags_WidthStretch, 2);
     ImGui::TableSetupColumn("median ms");
@@ -193,7 +198,8 @@ void drawNote(PanelState& state, const PanelFigures& figures, const Area& area)
         state.shownNote = figures.note;
         state.noteTime = now;
     }
-    if (figures.note.empty() || now - state.noteTime > shown)
+    state.noteLeft = figures.note.empty() ? 0 : state.noteTime + shown - now;
+    if (state.noteLeft <= 0)
         return;
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     const float wrap = area.width() - 2 * padding();
@@ -349,7 +355,8 @@ void drawExposure(PanelState& state, const PanelFigures& figures)
     bool dither = e.dither;
     ImGui::Checkbox("dither", &dither);
     e.dither = dither;
-    ImGui::Checkbox("smooth edges", &state.frame.edgeFilter);
+    ImGui::Checkbox("smooth edges while moving", &state.frame.edgeFilter);
+    combo("size while moving", state.whileMoving, whileMovingChoices);
     ImGui::SliderFloat("bloom", &state.frame.bloom, 0, 0.2f, "%.3f", ImGuiSliderFlags_AlwaysClamp);
 }
 
@@ -370,6 +377,22 @@ float legendHeight(const PanelState& state, const PanelFigures& figures)
     return float(legend.height) * ImGui::GetIO().DisplaySize.y / float(figures.size.height);
 }
 
+std::string stateOfPicture(const PanelFigures& figures)
+{
+    if (figures.complete)
+        return figures.summed ? fmt::format("still: {} samples per pixel; nothing is drawn until "
+                                            "something changes",
+                                            figures.summed)
+                              : "still: nothing is drawn until something changes";
+    if (figures.summed)
+        return fmt::format("still: {} of {} samples are summed", figures.summed,
+                           StillPicture::samples);
+    if (figures.drawnSize == figures.size)
+        return "drawn frame by frame";
+    return fmt::format("drawn frame by frame with {}x{} pixels", figures.drawnSize.width,
+                       figures.drawnSize.height);
+}
+
 // Draws what is in the panel. `room` is how high it may be, in heights of a line of text: sections
 // that are tall begin open only if they fit.
 void drawSections(PanelState& state, const PanelFigures& figures, Scene& scene, float room)
@@ -382,18 +405,21 @@ void drawSections(PanelState& state, const PanelFigures& figures, Scene& scene, 
         drawPick(state, *figures.picked, scene);
     if (ImGui::CollapsingHeader("Lights", open))
         drawLights(state, figures);
-    if (ImGui::CollapsingHeader("Exposure", room > 62 ? open : ImGuiTreeNodeFlags_None))
+    if (ImGui::CollapsingHeader("Exposure", room > 100 ? open : ImGuiTreeNodeFlags_None))
         drawExposure(state, figures);
     if (ImGui::CollapsingHeader("A/B"))
         drawWipe(state);
     if (ImGui::CollapsingHeader("Materials"))
         drawMaterials(state);
-    if (ImGui::CollapsingHeader("Times", room > 84 ? open : ImGuiTreeNodeFlags_None))
+    if (ImGui::CollapsingHeader("Times", room > 138 ? open : ImGuiTreeNodeFlags_None))
         drawTimes(figures);
     ImGui::PopItemWidth();
     ImGui::TextWrapped("%s, %ux%u, %s", figures.scene.c_str(), figures.size.width,
                        figures.size.height, figures.device.c_str());
-    ImGui::Text("%.1f ms between frames, camera %.1f m/s", figures.wallMs, figures.speed);
+    ImGui::TextWrapped("%s", stateOfPicture(figures).c_str());
+    ImGui::Text("%s drawn, the last two %s ms apart", counted(figures.frames, "frame").c_str(),
+                threeDigits(figures.wallMs).c_str());
+    ImGui::Text("camera %.1f m/s", figures.speed);
     ImGui::TextUnformatted("F2: keys and mouse");
 }
 
@@ -413,9 +439,9 @@ Area drawMainWindow(PanelState& state, const PanelFigures& figures, Scene& scene
     ImGui::SetNextWindowBgAlpha(0.85f);
     // The title is all that a collapsed panel shows. Dear ImGui takes the text after ### for the
     // panel's name, which stays the same while the rest of the title changes.
-    const std::string title =
-        fmt::format("{}, {}, {} ms, F2: keys###candelabra", figures.scene,
-                    counted(figures.lights, "light"), threeDigits(figures.wallMs));
+    const std::string title = fmt::format(
+        "{}, {}, {}, F2: keys###candelabra", figures.scene, counted(figures.lights, "light"),
+        figures.complete ? "still" : threeDigits(figures.wallMs) + " ms");
     const bool open = ImGui::Begin(title.c_str(), nullptr,
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
     if (open)
@@ -434,6 +460,7 @@ void drawPanel(PanelState& state, const PanelFigures& figures, Scene& scene)
 {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     const float gap = padding(), legend = legendHeight(state, figures);
+    state.noteLeft = 0;
     Area area{{gap, gap}, {window.x - gap, window.y - gap - (legend > 0 ? legend + gap : 0)}};
     if (state.wipe.on)
         drawWipeLine(state, area.to.y);

@@ -9,6 +9,7 @@
 #include "measure/frame/pick.h"
 #include "render/renderer.h"
 #include "viewer/light_editor.h"
+#include "viewer/moving_size.h"
 #include "json/save.h"
 
 namespace candelabra::app
@@ -38,13 +39,15 @@ struct PanelState {
     bool collapsed = false; // the panel was last collapsed because the window is small
     std::string shownNote;  // the last PanelFigures::note, and when it came
     double noteTime = 0;
+    double noteLeft = 0; // seconds for which the note will still be shown
     Wipe wipe;
     LightEditor editor;
     std::optional<SelectedObject> object; // nothing if a light is selected
     MaterialOverride materials;
     bool materialsChosen = false; // `materials` was changed and must be applied to the scene
     bool animate = true;          // moving lights move
-    uint32_t wantedLights = 0;    // the scene is rebuilt if it has another number of lights
+    WhileMoving whileMoving = WhileMoving::Auto;
+    uint32_t wantedLights = 0; // the scene is rebuilt if it has another number of lights
 };
 
 // The figures that the panel shows.
@@ -54,9 +57,12 @@ struct PanelFigures {
     std::optional<Pick> picked; // the pixel that was picked last
     uint32_t lights = 0;
     bool moving = false;                      // the scene has moving lights
-    double wallMs = 0;                        // time between the starts of two frames
+    double wallMs = 0;                        // time between the starts of the last two frames
     double speed = 0;                         // of the camera, m/s
-    PixelSize size;                           // of the rendered image
+    PixelSize size, drawnSize;                // of the window; of the picture, which may be smaller
+    uint64_t frames = 0;                      // how many have drawn the picture
+    uint32_t summed = 0;                      // samples in the sum of a still picture
+    bool complete = false;                    // no more frames are drawn until something changes
     std::deque<std::vector<PassTime>> passes; // one entry per frame, the newest last
     CndLightingStats lighting{};
     CndExposureStats exposure{};

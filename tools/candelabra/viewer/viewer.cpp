@@ -31,21 +31,39 @@ constexpr double longestStep = 0.25;
 constexpr ImageAccess shown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
                             VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
 
-// Blits the columns first .. end - 1 of the display image into the window's image, which has the
-// same size. A copy would not do, because the window's format may have another order of channels.
-void blitColumns(VkCommandBuffer cmd, const Renderer& renderer, VkImage to, int32_t first,
-                 int32_t end)
+// After an event, so many frames show the panel as it remains.
+constexpr uint32_t panelSettles = 3;
+// Longest time in s between two frames while another thread works, and while a widget is held or a
+// cursor blinks in a field.
+constexpr double widgetTime = 0.05;
+
+// Blits the columns first .. end - 1 of the window's image, which has the size `window`, from the
+// display image, which is scaled up if it is smaller. A copy would not do, because the window's
+// format may have another order of channels.
+void blitColumns(VkCommandBuffer cmd, const Renderer& renderer, VkImage to, PixelSize window,
+                 int32_t first, int32_t end)
 {
-    if (first == end)
+    const PixelSize drawn = renderer.size();
+    const auto column = [&](int32_t x) {
+        return int32_t(std::lround(double(x) * drawn.width / window.width));
+    };
+    if (column(first) == column(end))
         return;
-    const int32_t height = int32_t(renderer.size().height);
     const VkImageSubresourceLayers layers{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    const VkImageBlit region{.srcSubresource = layers,
-                             .srcOffsets = {{first, 0, 0}, {end, height, 1}},
-                             .dstSubresource = layers,
-                             .dstOffsets = {{first, 0, 0}, {end, height, 1}}};
+    const VkImageBlit region{
+        .srcSubresource = layers,
+        .srcOffsets = {{column(first), 0, 0}, {column(end), int32_t(drawn.height), 1}},
+        .dstSubresource = layers,
+        .dstOffsets = {{first, 0, 0}, {end, int32_t(window.height), 1}}};
     vkCmdBlitImage(cmd, renderer.display().image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                   drawn != window ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+}
+
+// By how much the eye has still to adapt.
+float evLeft(const CndExposureStats& exposure)
+{
+    return exposure.targetEv100 - exposure.adaptedEv100;
 }
 
 } // namespace
@@ -70,7 +88,8 @@ Viewer::Viewer(const ViewerOptions& options, Screen& screen, SceneLoader& loader
       ring_(screen.ring),
       loader_(loader),
       camera_(first->view.camera, cruisingSpeed(first->scene)),
-      panel_{.frame = options.frame, .visible = options.overlay},
+      panel_{
+          .frame = options.frame, .visible = options.overlay, .whileMoving = options.whileMoving},
       loadingShading_(Shading::of(options.frame))
 {
     show(std::move(first));
@@ -140,6 +159,7 @@ void Viewer::show(std::unique_ptr<LoadedScene> loaded)
     sceneOptions_ = loaded->request.options;
     if (kept == Kept::Nothing)
         camera_ = FlyCamera(loaded->view.camera, cruisingSpeed(scene_));
+    seenFrom_ = camera_.camera();
     shownLeft_ = loadingShading_;
     lightsEdited_ = kept == Kept::CameraAndLights;
     takeScene(kept);
@@ -171,6 +191,7 @@ void Viewer::forgetFrames()
 {
     figures_.passes.clear();
     recorded_ = {};
+    still_.change();
     resetExposure_ = true;
 }
 
@@ -202,17 +223,28 @@ void Viewer::noteEdits()
     lightsEdited_ = true;
 }
 
-// Resizes the window's images and the renderers to the window's size.
+// Heat maps show single pixels, and what is saved or picked has the window's pixels.
+PixelSize Viewer::drawnSize() const
+{
+    const bool half =
+        movingSize_.isHalf() && shownLeft_.heatMap == HeatMap::None && !saveAs_ && !pick_;
+    return half ? halfOf(swapchain_.size()) : swapchain_.size();
+}
+
+// Resizes the window's images to the window's size, and the renderers.
 void Viewer::fitToWindow()
 {
     screen_.fit();
-    const PixelSize wanted = swapchain_.size(), drawn = renderer_->size();
-    if (wanted.width != drawn.width || wanted.height != drawn.height) {
+    const PixelSize wanted = drawnSize();
+    if (wanted != renderer_->size()) {
         ring_.wait();
         renderer_->resize(wanted);
         if (other_)
             other_->resize(wanted);
         recorded_ = {};
+        figures_.passes.clear();
+        still_.change();
+        spdlog::debug("picture: {}x{} pixels", wanted.width, wanted.height);
     }
 }
 
@@ -227,6 +259,10 @@ void Viewer::collectStats(const FrameRing::Frame& frame)
     if (stats.lit)
         figures_.lighting = stats.lighting;
     figures_.exposure = stats.exposure;
+    float ev = evLeft(stats.exposure);
+    if (other_ && still_.hasTwoSides(frame.slot))
+        ev = std::max(std::abs(ev), std::abs(evLeft(other_->stats(frame.slot).exposure)));
+    still_.measured(frame.slot, ev);
 }
 
 int32_t Viewer::wipeColumn() const
@@ -240,10 +276,11 @@ void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
     // This transition waits for the semaphore Target::acquired: both have the transfer stage in
     // common (FrameRing::submit).
     transition(cmd, target.image, discarded, transferWrite);
-    const int32_t width = int32_t(swapchain_.size().width), split = wipeColumn();
-    blitColumns(cmd, *renderer_, target.image, 0, split);
+    const PixelSize size = swapchain_.size();
+    const int32_t split = wipeColumn();
+    blitColumns(cmd, *renderer_, target.image, size, 0, split);
     if (other_)
-        blitColumns(cmd, *other_, target.image, split, width);
+        blitColumns(cmd, *other_, target.image, size, split, int32_t(size.width));
     transition(cmd, target.image, transferWrite, colorAttachment);
     overlay_.record(cmd, swapchain_, target);
 }
@@ -269,26 +306,73 @@ void Viewer::saveScreenshot(const gpu::Buffer& pixels) const
     spdlog::info("wrote {}", options_.screenshot);
 }
 
+PictureSettings Viewer::pictureSettings() const
+{
+    const auto settings = [&](FrameOptions frame) {
+        if (scene_.lightMotions.empty())
+            frame.time = 0;
+        frame.sample = {};
+        frame.deltaTime = 0;
+        frame.resetExposure = false;
+        frame.ditherSeed = 0;
+        return frame;
+    };
+    PictureSettings out{.left = settings(shownLeft_.in(panel_.frame))};
+    if (other_)
+        out.right = settings(shownRight_.in(panel_.frame));
+    return out;
+}
+
+void Viewer::recordPicture(const FrameRing::Frame& frame, double seconds, FrameSample sample)
+{
+    const bool sums = sample.count > 1;
+    const auto record = [&](Renderer& renderer, FrameOptions options) {
+        options.deltaTime = float(seconds);
+        if (sums && isSummed(options)) { // the same picture as that of `render --aa`
+            options.sample = sample;
+            options.resetExposure = true;
+            options.ditherSeed = 0;
+        }
+        renderer.record(frame.cmd, frame.slot, options);
+    };
+    FrameOptions& options = panel_.frame;
+    options.resetExposure = std::exchange(resetExposure_, false);
+    ++options.ditherSeed; // dither noise that changes every frame is less visible
+    record(*renderer_, shownLeft_.in(options));
+    if (other_)
+        record(*other_, shownRight_.in(options));
+    recorded_[frame.slot] = true;
+    movingSize_.drew(drawnSize() == swapchain_.size() && (sums || still_.isFresh()));
+    still_.drawn(frame.slot);
+    settling_ = panelSettles;
+    ++figures_.frames;
+}
+
 void Viewer::drawFrame(double seconds, bool screenshot)
 {
     const FrameRing::Frame frame = ring_.begin();
     collectStats(frame);
     const Swapchain::Target target = screen_.acquire(frame.slot);
 
-    FrameOptions& options = panel_.frame;
-    options.camera = camera_.camera();
-    options.time = time_;
-    options.deltaTime = float(seconds);
-    options.resetExposure = std::exchange(resetExposure_, false);
-    ++options.ditherSeed; // dither noise that changes every frame is less visible
+    panel_.frame.camera = camera_.camera();
+    panel_.frame.time = time_;
     overlay_.begin();
     drawOverlay();
     if (loader_.busy())
         drawProgress(loader_.state(), true);
-    renderer_->record(frame.cmd, frame.slot, shownLeft_.in(options));
-    if (other_)
-        other_->record(frame.cmd, frame.slot, shownRight_.in(options));
-    recorded_[frame.slot] = true;
+    still_.show(pictureSettings());
+    const std::optional<FrameSample> sample = still_.next();
+    if (std::exchange(pictured_, sample.has_value()) && !sample)
+        spdlog::debug("picture: complete after {}", counted(figures_.frames, "frame"));
+    if (sample) {
+        recordPicture(frame, seconds, *sample);
+    } else {
+        recorded_[frame.slot] = false;
+        still_.forget(frame.slot);
+        movingSize_.drew(false);
+        ++panelOnly_;
+        settling_ -= std::min(settling_, 1u);
+    }
     recordWindow(frame.cmd, target);
     gpu::Buffer pixels;
     if (screenshot)
@@ -309,10 +393,60 @@ void Viewer::doRequests()
         saveScene();
     if (!prepared_) // what is drawn now is not what the user wants to be saved or picked
         return;
-    if (const char* extension = std::exchange(saveAs_, nullptr))
-        saveImage(extension);
+    // While samples are summed, the radiance image is that of the last one.
+    const bool sums = still_.summed() && !still_.isComplete();
+    if (saveAs_ && !(sums && std::string_view(saveAs_) == ".exr"))
+        saveImage(std::exchange(saveAs_, nullptr));
     if (const auto pixel = std::exchange(pick_, std::nullopt))
         pick(*pixel);
+}
+
+bool Viewer::awaitEvents()
+{
+    window_.poll();
+    if (!window_.events.empty())
+        settling_ = panelSettles;
+    if (options_.frames || settling_ || !still_.isComplete())
+        return false;
+    if (loader_.busy() || work_.busy() || overlay_.isActive())
+        window_.wait(widgetTime);
+    else if (panel_.noteLeft > 0)
+        window_.wait(panel_.noteLeft);
+    else
+        window_.wait();
+    settling_ = window_.events.empty() ? 1 : panelSettles;
+    return true;
+}
+
+void Viewer::advance(double seconds, double wall)
+{
+    moveCamera(seconds);
+    if (panel_.animate && !lightsEdited_) // lights that move are set again
+        time_ += seconds;
+    if (!dropped_.empty())
+        onDrop(std::exchange(dropped_, ""));
+    takeLoaded();
+    // A single edit, such as that of a key, is not a movement.
+    const bool editedBefore = std::exchange(edited_, panel_.editor.changed);
+    const Camera camera = camera_.camera();
+    const bool moves = std::exchange(seenFrom_, camera) != camera || (edited_ && editedBefore);
+    movingSize_.advance(wall, moves, panel_.whileMoving);
+    noteEdits();
+    const uint32_t wanted = panel_.wantedLights;
+    if (wanted != scene_.lights.size() && !(loader_.busy() && wanted == loadingLights_))
+        rebuild(wanted);
+    fitToWindow();
+    prepare();
+    figures_.scene = scene_.name;
+    figures_.lights = uint32_t(scene_.lights.size());
+    figures_.moving = !scene_.lightMotions.empty();
+    if (pictured_)
+        figures_.wallMs = wall * 1e3;
+    figures_.speed = camera_.speed();
+    figures_.size = swapchain_.size();
+    figures_.drawnSize = renderer_->size();
+    figures_.summed = still_.summed();
+    figures_.complete = still_.isComplete();
 }
 
 void Viewer::run()
@@ -321,7 +455,7 @@ void Viewer::run()
     Clock::time_point last = Clock::now();
     for (uint32_t i = 0; !window_.wantsToClose() && (!options_.frames || i < options_.frames);
          ++i) {
-        window_.poll();
+        const bool waited = awaitEvents();
         screen_.waitForSlot();
         const PixelSize size = window_.framebufferSize();
         if (!size.width || !size.height) { // minimised
@@ -332,27 +466,14 @@ void Viewer::run()
         const Clock::time_point now = Clock::now();
         const double wall = std::chrono::duration<double>(now - last).count();
         last = now;
-        const double seconds = options_.frames ? fixedFrameTime : std::min(wall, longestStep);
-        moveCamera(seconds);
-        if (panel_.animate && !lightsEdited_) // lights that move are set again
-            time_ += seconds;
-        if (!dropped_.empty())
-            onDrop(std::exchange(dropped_, ""));
-        takeLoaded();
-        noteEdits();
-        const uint32_t wanted = panel_.wantedLights;
-        if (wanted != scene_.lights.size() && !(loader_.busy() && wanted == loadingLights_))
-            rebuild(wanted);
-        fitToWindow();
-        prepare();
-        figures_.scene = scene_.name;
-        figures_.lights = uint32_t(scene_.lights.size());
-        figures_.moving = !scene_.lightMotions.empty();
-        figures_.wallMs = wall * 1e3;
-        figures_.speed = camera_.speed();
-        figures_.size = renderer_->size();
+        // Nothing moves while the viewer waits for events.
+        const double seconds =
+            options_.frames || waited ? fixedFrameTime : std::min(wall, longestStep);
+        advance(seconds, wall);
         drawFrame(seconds, !options_.screenshot.empty() && i + 1 == options_.frames);
     }
+    spdlog::debug("picture: {} drawn, and {} for the panel alone",
+                  counted(figures_.frames, "frame"), panelOnly_);
     window_.hide(); // the GPU, or a scene that is being loaded, may take a while to come to an end
     ring_.wait();
 }

@@ -15,9 +15,11 @@
 #include "viewer/fly_camera.h"
 #include "viewer/keys.h"
 #include "viewer/light_shape.h"
+#include "viewer/moving_size.h"
 #include "viewer/panel.h"
 #include "viewer/scene_loader.h"
 #include "viewer/screen.h"
+#include "viewer/still_picture.h"
 
 namespace candelabra::app
 {
@@ -30,6 +32,7 @@ struct ViewerOptions {
     // Number of frames after which the viewer stops. Their scene times are 1/60 s apart, whatever
     // the clock says. 0: it runs until the window is closed.
     uint32_t frames = 0;
+    WhileMoving whileMoving = WhileMoving::Auto;
     std::string screenshot; // file for a PNG of the window's last frame; needs `frames`
 };
 
@@ -76,6 +79,7 @@ private:
     void toggleOrbit();
     void frameSelection();
     void frameScene();
+    Camera cameraOfWindow() const;
     Projection projection() const;
     std::optional<CndLight> selectedNow() const;
     std::optional<RayHit> surfaceAt(glm::dvec2 place);
@@ -108,6 +112,8 @@ private:
     bool rebuilds() const;
     void noteEdits();
     void fitToWindow();
+    // The size of the renderers: that of the window, or half of it while the user moves.
+    PixelSize drawnSize() const;
     void collectStats(const FrameRing::Frame& frame);
 
     // Work of another thread, defined in viewer_work.cpp.
@@ -127,7 +133,15 @@ private:
 
     // The first column right of the wipe's line; the image's width if there is no wipe.
     int32_t wipeColumn() const;
+    // What the next frame shows, as StillPicture takes it.
+    PictureSettings pictureSettings() const;
+    // Waits for events if there is nothing to draw. Returns whether it has waited.
+    bool awaitEvents();
+    // Brings everything up to date with what the user has done, before a frame. `wall`: seconds
+    // since the last call.
+    void advance(double seconds, double wall);
     void drawFrame(double seconds, bool screenshot);
+    void recordPicture(const FrameRing::Frame& frame, double seconds, FrameSample sample);
     void doRequests();
     void recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target);
     gpu::Buffer recordScreenshot(VkCommandBuffer cmd, VkImage image) const;
@@ -154,6 +168,15 @@ private:
     FlyCamera camera_;
     PanelState panel_;
     PanelFigures figures_;
+    StillPicture still_{Screen::slotCount};
+    MovingSize movingSize_;
+    Camera seenFrom_;       // the camera of the frame before
+    bool edited_ = false;   // lights were edited before that frame
+    bool pictured_ = false; // that frame drew the picture, and not the panel alone
+    // So many more frames are drawn, if only for the panel: what an event changes in it may show,
+    // or change the scene, in the frames after that of the event.
+    uint32_t settling_ = 0;
+    uint64_t panelOnly_ = 0; // number of frames that drew the panel alone
     // Slots in which the present renderer has recorded a frame at its present size: their
     // statistics can be read.
     std::array<bool, Screen::slotCount> recorded_{};

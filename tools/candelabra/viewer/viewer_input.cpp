@@ -481,7 +481,7 @@ void Viewer::frameSelection()
     } else {
         return frameScene();
     }
-    const PixelSize size = renderer_->size();
+    const PixelSize size = swapchain_.size();
     camera_ =
         FlyCamera(fitCamera(std::move(points), camera_.camera(), double(size.width) / size.height),
                   camera_.speed());
@@ -496,15 +496,22 @@ void Viewer::frameScene()
         camera_ = FlyCamera(selectCamera(scene_, "inside"), camera_.speed());
         return;
     }
-    const PixelSize size = renderer_->size();
+    const PixelSize size = swapchain_.size();
     const Camera fitted = fitCamera(scene_, {0, scene_.instances.size()}, camera_.camera(),
                                     double(size.width) / size.height);
     camera_ = FlyCamera(fitted, camera_.speed());
 }
 
+// Returns the camera as a picture of the window's size shows it.
+Camera Viewer::cameraOfWindow() const
+{
+    const PixelSize size = swapchain_.size();
+    return cameraOfPicture(camera_.camera(), double(size.width) / size.height);
+}
+
 Projection Viewer::projection() const
 {
-    return {camera_.camera(), renderer_->size()};
+    return {camera_.camera(), swapchain_.size()};
 }
 
 // Returns the selected light where it is now, if it moves.
@@ -572,8 +579,8 @@ void Viewer::selectAt(glm::dvec2 place)
 // with which a grey card would have the luminance that the exposure is for now.
 void Viewer::addLightInView()
 {
-    const Camera camera = camera_.camera();
-    const PixelSize size = renderer_->size();
+    const PixelSize size = swapchain_.size();
+    const Camera camera = cameraOfWindow();
     const auto seen = surfaceAt({0.5 * size.width, 0.5 * size.height});
     const Bounds bounds = sceneBounds(scene_);
     const double diagonal = glm::length(bounds.max - bounds.min);
@@ -647,13 +654,13 @@ glm::dvec2 Viewer::mouseInPicture() const
 {
     int width = 0, height = 0;
     glfwGetWindowSize(window_.get(), &width, &height);
-    const PixelSize size = renderer_->size();
+    const PixelSize size = swapchain_.size();
     return {mouseX_ * size.width / std::max(width, 1), mouseY_ * size.height / std::max(height, 1)};
 }
 
 std::optional<PixelPosition> Viewer::pixelUnderMouse() const
 {
-    const PixelSize size = renderer_->size();
+    const PixelSize size = swapchain_.size();
     const glm::dvec2 at = mouseInPicture();
     if (overlay_.takesMouse().value_or(false) || at.x < 0 || at.y < 0 || at.x >= size.width ||
         at.y >= size.height)
@@ -663,7 +670,7 @@ std::optional<PixelPosition> Viewer::pixelUnderMouse() const
 
 void Viewer::pick(PixelPosition pixel)
 {
-    const PixelSize size = renderer_->size();
+    const PixelSize size = swapchain_.size();
     FrameOptions frame = optionsAt(int32_t(pixel.x));
     if (const std::string refusal = pickRefusal(frame.specular, frame.influence.rule);
         !refusal.empty()) {
@@ -677,6 +684,7 @@ void Viewer::pick(PixelPosition pixel)
     figures_.picked = pickPixel(context_, *renderer_, scene_, frame, pixel);
     renderer_->lightsChanged(); // pickPixel has drawn the lights one at a time
     recorded_ = {};
+    still_.change();
     spdlog::info("{}", pickText(*figures_.picked, scene_));
 }
 
@@ -699,7 +707,7 @@ void Viewer::moveCamera(double seconds)
     camera_.update(input, seconds);
     const bool moves = input.move != glm::dvec3(0) || input.look != glm::dvec2(0);
     if (std::exchange(moved_, moves) && !moves) {
-        const Camera camera = camera_.camera();
+        const Camera camera = cameraOfWindow();
         const glm::dvec3 p = camera.position, to = p + camera.forward;
         spdlog::debug("--camera {:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4g}", p.x, p.y, p.z,
                       to.x, to.y, to.z, glm::degrees(camera.verticalFov));

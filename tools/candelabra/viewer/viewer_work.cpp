@@ -85,6 +85,7 @@ void Viewer::useWhatIsThere()
     renderer_->lightsChanged();
     if (other_)
         other_->lightsChanged();
+    still_.change();
 }
 
 // Begins to make the first thing that is missing, if there is one.
