@@ -364,7 +364,9 @@ std::pair<CndLighting, CndLightingView> LightingTest::createLighting(const CpuGB
 {
     return createLighting(g, CndLightingDesc{.framesInFlight = framesInFlight,
                                              .specularMethods = 1u << RunOptions{}.specular,
-                                             .shading = CND_SHADING_CLUSTERED_BIT});
+                                             .shading = CND_SHADING_CLUSTERED_BIT |
+                                                        CND_SHADING_BRUTE_BIT |
+                                                        CND_SHADING_COUNT_PAIRS_BIT});
 }
 
 void LightingTest::setLights(CndLighting lighting, const std::vector<CndLight>& lights)
