@@ -170,6 +170,8 @@ def fetched():
     get, folder = work / "get.cmake", work / "fetched"
     get.write_text(commands.replace("https://ADDRESS/candelabra.git", f"file://{repository}"), encoding="utf-8")
     options = [f"-DGET={get}", "-DCPP=ON", "-DCMAKE_BUILD_TYPE=Release"]
+    if os.environ.get("CANDELABRA_FULL_TESTS") != "1":  # compiling the shaders again takes a minute
+        options.append(f"-DCANDELABRA_COMPILED_SHADERS={build}/shaders")
     consume(folder, [*options, f"-DSAMPLE={source}/samples/embed_minimal"], *CPP)
     run_sample(folder / "sample/embed_minimal")
 

@@ -91,11 +91,14 @@ Drawing SkipStage::lighting(const Lights& lights, const LightingWay& way)
         LightingView view;
         bool drawn = false;
     };
+    FrameOptions options = options_;
+    way.edit(options);
     const auto own = std::make_shared<Own>();
     own->lighting = take(Lighting::create(
         context_.desc(), {.framesInFlight = 1,
                           .timestamps = VK_TRUE,
                           .specularMethods = skipMethods,
+                          .shading = shadingOf(options),
                           .materialClasses = way.materialClasses,
                           .influenceByError = way.influence.rule == CND_INFLUENCE_BY_ERROR}));
     const auto [width, height] = renderer_.size();
@@ -103,8 +106,6 @@ Drawing SkipStage::lighting(const Lights& lights, const LightingWay& way)
     const glm::dvec3& o = scene_.lightOrigin;
     for (const Lights* set : {&way.before, &lights})
         take(own->lighting.setLights(*set, {o.x, o.y, o.z}));
-    FrameOptions options = options_;
-    way.edit(options);
     const auto draw = [this, own, options, influence = way.influence,
                        promise = way.surfacesUnchanged] {
         CndLightingFrame frame = renderer_.lightingFrame(0, options);
