@@ -23,6 +23,10 @@ uint lightAt(uint k)
     return params.batch.first + min(k * LANES + lane, params.batch.count - 1u);
 }
 
+// The lanes of a pixel have one receiver.
+#define KEPT_RECEIVERS SAMPLES_OF_GROUP
+#define KEPT_RECEIVER (gl_LocalInvocationIndex / LANES)
+#define KEPT_LANES MEASURE_INFLUENCE_GROUP
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = MEASURE_INFLUENCE_GROUP) in;
@@ -64,23 +68,22 @@ void addToLane(uint slot, vec3 luminance)
         uvec2 left = found;                                                                        \
         do {                                                                                       \
             const uint light = lightAt((first) + lowest(left));                                    \
-            const vec3 luminance = evaluate(r, light);                                             \
-            addToLane(slotOf(r, light), none(left) ? vec3(0.0) : luminance);                       \
+            const vec3 luminance = evaluate(readAgain(r), light);                                  \
+            const uint slot = slotOf(readAgain(r), lightAgain(light));                             \
+            addToLane(slot, none(left) ? vec3(0.0) : luminance);                                   \
             left = withoutLowest(left);                                                            \
         } while (!none(left));                                                                     \
     }
 
 // Sums this lane's share of the lights at the pixel.
-void measure(uvec2 pixel, float depth)
+void measure(Receiver r)
 {
     for (uint row = 0u; row < ROWS; ++row)
         laneSums[row * MEASURE_INFLUENCE_GROUP + gl_LocalInvocationIndex] = 0.0;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), 0.0, frameParams.sampleCount,
-                                    pixelSeed(pixel));
     const uint lane = gl_LocalInvocationIndex % LANES;
     const uint count = (params.batch.count + LANES - 1u - lane) / LANES;
     for (uint first = 0u; first < count; first += WALK_BLOCK) {
-        const Found found = findLights(r, first, min(WALK_BLOCK, count - first), false);
+        const Found found = findLights(readAgain(r), first, min(WALK_BLOCK, count - first), false);
 #ifdef LIGHT_FAMILY_CONIC
         MEASURE_FOUND(r, first, found.near, evaluateNear)
 #endif
@@ -101,8 +104,16 @@ void main()
     const bool inside = exists && all(lessThan(pixel, frameParams.size));
     const float depth =
         inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
+    Receiver r;
+    if (depth != frameParams.clearDepth) {
+        r = makeReceiver(readShadingPoint(pixel, depth), 0.0, frameParams.sampleCount,
+                         pixelSeed(pixel));
+        if (gl_LocalInvocationIndex % LANES == 0u)
+            keep(r);
+    }
+    barrier(); // before the other lanes of a pixel read what the first one keeps
     if (depth != frameParams.clearDepth)
-        measure(pixel, depth);
+        measure(r);
     barrier();
     if (depth == frameParams.clearDepth)
         return;

@@ -17,6 +17,9 @@ uint lightAt(uint k)
     return params.batch.first + k;
 }
 
+#define KEPT_RECEIVERS (TILE_SIZE * TILE_SIZE)
+#define KEPT_RECEIVER gl_LocalInvocationIndex
+#define KEPT_LANES KEPT_RECEIVERS
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
@@ -34,6 +37,7 @@ void main()
         return;
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
                                     frameParams.sampleCount, pixelSeed(pixel));
+    keep(r);
     Sums sums = noLight();
     for (uint first = 0u; first < params.batch.count; first += WALK_BLOCK)
         shadeBlock(sums, r, first, min(WALK_BLOCK, params.batch.count - first), false);

@@ -13,6 +13,9 @@ layout(push_constant, scalar) uniform Push
 
 #include "kernels/common/count_lanes.glsl"
 #include "kernels/common/tile_walk.glsl"
+#define KEPT_RECEIVERS (TILE_SIZE * TILE_SIZE)
+#define KEPT_RECEIVER gl_LocalInvocationIndex
+#define KEPT_LANES KEPT_RECEIVERS
 #include "shading/light_walk.glsl"
 
 #define RADIANCE_IMAGE SHADE_RADIANCE
@@ -31,18 +34,21 @@ void shadeAlone(uint tile, uvec2 pixel, float depth)
     if (block.count == 0u)
         return;
     const Receiver r = receiverAt(pixel, depth);
+    const uint packedPixel = pixel.y << 16 | pixel.x; // in one register instead of two
+    keep(r);
     Sums sums = noLight();
     do { // a lane that is done may run once more (Mesa 22.3); its block is then empty
         shadeBlock(sums, r, block.first, block.count, true);
         block = nextBlock(block);
     } while (block.count != 0u);
-    addRadiance(ivec2(pixel), total(sums));
+    addRadiance(ivec2(packedPixel & 0xFFFFu, packedPixel >> 16), total(sums));
 }
 
 // LANES_ALONE leaves out what is for GPUs only, because llvmpipe takes three times as long to compile a
 // kernel that contains it, even if a constant says that it is not run.
 #if defined(LIGHT_FAMILY_CONIC) && !defined(LANES_ALONE)
 layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = false;
+const bool SHARES_PAIRS = lanesTogether;
 #include "kernels/common/pair_queues.glsl"
 
 // Returns the receiver of a pixel of the group's tile.
@@ -103,7 +109,7 @@ void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
         addRadiance(ivec2(pixel), total(sums));
 }
 #else
-const bool lanesTogether = false;
+const bool SHARES_PAIRS = false;
 void shadeTogether(uint tile, uvec2 pixel, float depth, bool surface)
 {
 }
@@ -118,7 +124,7 @@ void main()
     const float depth =
         isInImage(pixel) ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
     const bool surface = depth != frameParams.clearDepth;
-    if (lanesTogether)
+    if (SHARES_PAIRS)
         shadeTogether(tile, pixel, depth, surface);
     else if (surface)
         shadeAlone(tile, pixel, depth);

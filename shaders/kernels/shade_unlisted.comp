@@ -29,6 +29,9 @@ uint lightAt(uint k)
 }
 
 #define COUNTS_DIFFER
+#define KEPT_RECEIVERS (TILE_SIZE * TILE_SIZE)
+#define KEPT_RECEIVER gl_LocalInvocationIndex
+#define KEPT_LANES KEPT_RECEIVERS
 #include "shading/light_walk.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
@@ -49,6 +52,7 @@ void main()
     const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
                                     frameParams.sampleCount, pixelSeed(pixel));
     const uint packedPixel = pixel.y << 16 | pixel.x; // in one register instead of two
+    keep(r);
     Sums sums = noLight();
     leaves[0][gl_LocalInvocationIndex] = 0u; // may be read even if no leaf is found
     TreeWalk walk = beginTreeWalk(params.tree, params.topLevel);
@@ -59,7 +63,9 @@ void main()
     while (!walk.done) {
         uint found = 0u, count = 0u;
         while (!walk.done && found < FOUND_LEAVES) {
-            const bool inside = boxHolds(treeNode(walk), r.p.position);
+            // The condition of the loop is asked for again because of SwiftShader (light_walk.glsl).
+            const bool walks = !walk.done && found < FOUND_LEAVES;
+            const bool inside = walks && boxHolds(treeNode(walk), readAgain(r).p.position);
             if (inside && walk.level == 1u) {
                 leaves[found][gl_LocalInvocationIndex] = walk.index;
                 ++found;

@@ -22,17 +22,23 @@ struct ShadingPoint {
     vec3 F90;      // 0: no specular lobe; a value per channel, because joinLobes may scale it
 };
 
+// Sets what follows from the directions and the width of the lobe.
+void deriveTerms(inout ShadingPoint p)
+{
+    p.NoV = max(dot(p.n, p.v), MIN_NOV);
+    p.mirror = 2.0 * p.NoV * p.n - p.v;
+    const float a2 = p.alpha * p.alpha;
+    p.smithV = sqrt(a2 + (1.0 - a2) * p.NoV * p.NoV);
+}
+
 ShadingPoint makeShadingPoint(Surface surface, vec3 position, vec3 towardsEye)
 {
     ShadingPoint p;
     p.position = position;
     p.n = surface.normal;
     p.v = normalize(towardsEye);
-    p.NoV = max(dot(p.n, p.v), MIN_NOV);
-    p.mirror = 2.0 * p.NoV * p.n - p.v;
     p.alpha = max(surface.perceptualRoughness * surface.perceptualRoughness, MIN_ALPHA);
-    const float a2 = p.alpha * p.alpha;
-    p.smithV = sqrt(a2 + (1.0 - a2) * p.NoV * p.NoV);
+    deriveTerms(p);
     p.albedo = surface.albedo;
     p.F0 = surface.F0;
     p.F90 = vec3(surface.specularWeight);

@@ -42,9 +42,9 @@ AreaProbeInput atUnitDistance(AreaProbeInput light)
     return light;
 }
 
-OutlineResponse byOutline(ConicPoint p, AreaProbeInput light, bool lobe)
+WalkedOutline walked(ConicPoint p, AreaProbeInput light, bool lobe)
 {
-    const OutlineNeeds needs = OutlineNeeds(true, lobe, lobe);
+    const OutlineNeeds needs = OutlineNeeds(true, lobe, lobe, false);
     const OutlineFrame f = makeOutlineFrame(p);
     const bool twoSided = light.twoSided != 0u;
     if (light.type == LIGHT_TUBE)
@@ -52,6 +52,11 @@ OutlineResponse byOutline(ConicPoint p, AreaProbeInput light, bool lobe)
     if (light.type == LIGHT_RECTANGLE)
         return rectangleOutline(p, f, light.toCentre, light.axisU, light.axisV, twoSided, needs);
     return discOutline(p, f, light.toCentre, light.axisU, light.radius, twoSided, needs);
+}
+
+OutlineResponse byOutline(ConicPoint p, AreaProbeInput light, bool lobe)
+{
+    return outlineResponse(p, walked(p, light, lobe));
 }
 
 void main()

@@ -3,13 +3,14 @@
 #ifndef CND_SHADING_BY_OUTLINE
 #define CND_SHADING_BY_OUTLINE
 
+#include "shading/kept_receiver.glsl"
 #include "shading/light.glsl"
 
 // Any light; lights above the horizon whose arcs are not cut; and small lights well above the horizon,
 // if an error budget allows to evaluate their specular response at one point.
-#define OUTLINE_GENERAL OutlineNeeds(true, BY_OUTLINE, BY_OUTLINE)
-#define OUTLINE_ABOVE OutlineNeeds(false, BY_OUTLINE, false)
-#define OUTLINE_AS_POINT OutlineNeeds(false, false, false)
+#define OUTLINE_GENERAL OutlineNeeds(true, BY_OUTLINE, BY_OUTLINE, KEEPS_RECEIVERS)
+#define OUTLINE_ABOVE OutlineNeeds(false, BY_OUTLINE, false, KEEPS_RECEIVERS)
+#define OUTLINE_AS_POINT OutlineNeeds(false, false, false, KEEPS_RECEIVERS)
 
 // Returns the response of the specular lobe to a light with this outline. As a point, the light has the
 // same irradiance and comes from the direction of its centre.

@@ -8,8 +8,10 @@
 OutlineResponse discByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
 {
     const LightShape shape = lightShapes[light.index];
-    return discOutline(r.conic, r.frame, light.toLight, shape.axisU, scale * shape.radius,
-                       isTwoSided(shape), needs);
+    const WalkedOutline walked =
+        discOutline(r.conic, r.frame, light.toLight, shape.axisU, scale * shape.radius,
+                    isTwoSided(shape), needs);
+    return outlineResponse(readAgain(r).conic, walked);
 }
 
 // Returns the response of the specular lobe by any method except the closed form.
@@ -32,6 +34,7 @@ vec3 discWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     float scale;
     const Light light = atUnitDistance(given, scale);
     const OutlineResponse o = discByOutline(r, light, scale, needs);
+    r = readAgain(r);
     const vec2 specular =
         BY_OUTLINE ? outlineSpecular(r, light, o, needs) : cheapDiscSpecular(r, light, scale);
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);

@@ -25,7 +25,7 @@ vec3 cornerOf(Polygon polygon, uint i)
 }
 
 // Returns the response by the polygon's outline.
-OutlineResponse polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
+WalkedOutline polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
 {
     const vec3 normal = cross(polygon.axisU, polygon.axisV);
     const vec3 centre = toFrame(r.frame, polygon.toCentre);
@@ -53,8 +53,7 @@ OutlineResponse polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
     } while (i < polygon.count);
     if (needs.across && k.crosses)
         addHorizon(k);
-    const OutlineResponse o = outlineResponse(r.conic, k, extent);
-    return OutlineResponse(seen ? o.formFactor : 0.0, seen ? o.specular : vec2(0.0));
+    return WalkedOutline(k, extent, seen, 1.0);
 }
 
 // Returns the response at the polygon's point nearest to where the mirror ray meets its plane. As for a
@@ -139,7 +138,9 @@ vec3 polygonWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     const Polygon polygon =
         Polygon(light.toLight, scale * shape.axisU, scale * shape.axisV, scale, light.boundingRadius,
                 firstCornerShape(shape), cornerCount(shape), isTwoSided(shape));
-    const OutlineResponse o = polygonOutline(r, polygon, needs);
+    const WalkedOutline walked = polygonOutline(r, polygon, needs);
+    const OutlineResponse o = outlineResponse(readAgain(r).conic, walked);
+    r = readAgain(r);
     vec2 specular = vec2(0.0);
     if (BY_OUTLINE)
         specular = outlineSpecular(r, light, o, needs);

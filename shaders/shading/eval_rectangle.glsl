@@ -8,8 +8,10 @@
 OutlineResponse rectangleByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
 {
     const LightShape shape = lightShapes[light.index];
-    return rectangleOutline(r.conic, r.frame, light.toLight, scale * shape.axisU,
-                            scale * shape.axisV, isTwoSided(shape), needs);
+    const WalkedOutline walked =
+        rectangleOutline(r.conic, r.frame, light.toLight, scale * shape.axisU,
+                         scale * shape.axisV, isTwoSided(shape), needs);
+    return outlineResponse(readAgain(r).conic, walked);
 }
 
 // Returns the response of the specular lobe by any method except the closed form.
@@ -33,6 +35,7 @@ vec3 rectangleWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     float scale;
     const Light light = atUnitDistance(given, scale);
     const OutlineResponse o = rectangleByOutline(r, light, scale, needs);
+    r = readAgain(r);
     const vec2 specular =
         BY_OUTLINE ? outlineSpecular(r, light, o, needs) : cheapRectangleSpecular(r, light, scale);
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);

@@ -8,8 +8,10 @@
 OutlineResponse tubeByOutline(Receiver r, Light light, float scale, OutlineNeeds needs)
 {
     const LightShape shape = lightShapes[light.index];
-    return tubeOutline(r.conic, r.frame, light.toLight, scale * shape.axisU, scale * shape.radius,
-                       needs);
+    const WalkedOutline walked =
+        tubeOutline(r.conic, r.frame, light.toLight, scale * shape.axisU, scale * shape.radius,
+                    needs);
+    return outlineResponse(readAgain(r).conic, walked);
 }
 
 // Returns the response of the specular lobe by any method except the closed form.
@@ -32,6 +34,7 @@ vec3 tubeWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     float scale;
     const Light light = atUnitDistance(given, scale);
     const OutlineResponse o = tubeByOutline(r, light, scale, needs);
+    r = readAgain(r);
     const vec2 specular =
         BY_OUTLINE ? outlineSpecular(r, light, o, needs) : cheapTubeSpecular(r, light, scale);
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);

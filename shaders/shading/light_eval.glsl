@@ -44,10 +44,9 @@
 #define EVALUATION(name, response)                                                                 \
     vec3 name(Receiver r, uint index)                                                              \
     {                                                                                              \
-        const Light light = readLight(r, index);                                                   \
-        const float d2 = length2(light.toLight);                                                   \
-        const vec3 toUnitEmission = response(r, light);                                            \
-        return emissionTowards(r, light, d2) * toUnitEmission;                                     \
+        keepLight(index);                                                                          \
+        const vec3 toUnitEmission = response(r, readLight(r, index));                              \
+        return emissionTowards(readAgain(r), lightAgain(index)) * toUnitEmission;                  \
     }
 
 #ifdef LIGHT_FAMILY_CONIC

@@ -10,6 +10,7 @@
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 
+#include "shading/kept_receiver.glsl"
 #include "shading/light_eval.glsl"
 
 #ifndef COUNT_FOUND
@@ -166,15 +167,21 @@ bool none(uvec2 bits)
 #else
 #define IF_ANY_LEFT(left)
 #endif
-#define SHADE_FOUND(sum, r, first, found, evaluate)                                                \
+#define SHADE_FOUND(sum, which, r, first, found, evaluate)                                         \
     if (!none(found)) {                                                                            \
         uvec2 left = found;                                                                        \
         do {                                                                                       \
             IF_ANY_LEFT(left)                                                                      \
-            sum += evaluate(r, lightAt((first) + lowest(left)));                                   \
+            addLight(sum, which, evaluate(readAgain(r), lightAt((first) + lowest(left))));         \
             left = withoutLowest(left);                                                            \
         } while (!none(left));                                                                     \
     }
+
+// Adds light to one of the sums of a lane.
+void addLight(inout vec3 sum, uint which, vec3 light)
+{
+    setSum(sum, which, readSum(sum, which) + light);
+}
 
 #define IF(condition, bits) ((condition) ? (bits) : uvec2(0u))
 
@@ -185,11 +192,20 @@ struct Sums {
 
 Sums noLight()
 {
-    return Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    setSum(sums.above, SUM_ABOVE, vec3(0.0));
+    setSum(sums.general, SUM_GENERAL, vec3(0.0));
+    if (HAS_BUDGET)
+        setSum(sums.asPoint, SUM_AS_POINT, vec3(0.0));
+    return sums;
 }
 
 vec3 total(Sums sums)
 {
+    sums.above = readSum(sums.above, SUM_ABOVE);
+    sums.general = readSum(sums.general, SUM_GENERAL);
+    if (HAS_BUDGET)
+        sums.asPoint = readSum(sums.asPoint, SUM_AS_POINT);
     return (sums.asPoint + sums.above) + (sums.near + sums.general);
 }
 
@@ -198,34 +214,34 @@ void shadeInPlace(inout Sums sums, Receiver r, uint first, Found found)
 {
 #ifdef HAS_AS_POINT
     if (HAS_BUDGET) {
-        SHADE_FOUND(sums.asPoint, r, first, found.asPoint, evaluateAsPoint)
+        SHADE_FOUND(sums.asPoint, SUM_AS_POINT, r, first, found.asPoint, evaluateAsPoint)
     }
 #endif
 #ifdef HAS_ABOVE
-    SHADE_FOUND(sums.above, r, first, found.above, evaluateAbove)
+    SHADE_FOUND(sums.above, SUM_ABOVE, r, first, found.above, evaluateAbove)
 #endif
 }
 
 // Adds the light of a block to the sums. The parameters are those of findLights.
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
-    const Found found = findLights(r, first, count, testInfluence);
+    const Found found = findLights(readAgain(r), first, count, testInfluence);
     COUNT_FOUND(count, found)
     shadeInPlace(sums, r, first, found);
 #ifdef LIGHT_FAMILY_CONIC
-    SHADE_FOUND(sums.near, r, first, found.near, evaluateNear)
+    SHADE_FOUND(sums.near, SUM_GENERAL, r, first, found.near, evaluateNear)
 #endif
 #ifdef LIGHT_FAMILY_ALL
     // All lights of the block are of one type. Each family has its own loop, so that a device that pays
     // for branches that no lane takes pays for them only once per block.
     const uint family = FAMILY_OF_TYPE[lightType];
 #define X(FAMILY, response)                                                                        \
-    SHADE_FOUND(sums.general, r, first, IF(family == FAMILY_##FAMILY, found.general),              \
-                evaluate_##FAMILY)
+    SHADE_FOUND(sums.general, SUM_GENERAL, r, first,                                               \
+                IF(family == FAMILY_##FAMILY, found.general), evaluate_##FAMILY)
     GENERAL_RESPONSES(X)
 #undef X
 #else
-    SHADE_FOUND(sums.general, r, first, found.general, evaluateGeneral)
+    SHADE_FOUND(sums.general, SUM_GENERAL, r, first, found.general, evaluateGeneral)
 #endif
 }
 

@@ -51,9 +51,10 @@ LtcResponse rectangleByCosines(LtcReceiver r, Light light, vec3 u, vec3 v, bool 
 
 LtcResponse discByCosines(LtcReceiver r, Light light, vec3 normal, float radius, bool twoSided)
 {
-    const OutlineNeeds diffuse = OutlineNeeds(true, false, false);
-    const float f = discOutline(r.base.conic, r.base.frame, light.toLight, normal, radius, twoSided,
-                                diffuse).formFactor;
+    const OutlineNeeds diffuse = OutlineNeeds(true, false, false, false);
+    const WalkedOutline walked = discOutline(r.base.conic, r.base.frame, light.toLight, normal, radius,
+                                             twoSided, diffuse);
+    const float f = outlineResponse(r.base.conic, walked).formFactor;
     return LtcResponse(f, ltcDisc(r.ltc, light.toLight, normal, radius, twoSided));
 }
 
@@ -110,7 +111,7 @@ vec3 evaluateByCosines(LtcReceiver r, uint index, bool above)
 {
     const Light light = readLight(r.base, index);
     const LtcResponse response = responseByCosines(r, light, above);
-    return emissionTowards(r.base, light, length2(light.toLight)) *
+    return emissionTowards(r.base, index) *
         (diffuseResponse(r.base.p, response.formFactor) + schlick(r.base.p, response.specular));
 }
 

@@ -8,7 +8,7 @@
 
 // Returns the response to a disc. `toCentre`: from the receiver to its centre; `facing`: unit vector in
 // the direction that the disc faces.
-OutlineResponse discOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 facing, float radius,
+WalkedOutline discOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 facing, float radius,
                             bool twoSided, OutlineNeeds needs)
 {
     const vec3 centre = toFrame(f, toCentre), normal = toFrame(f, facing);
@@ -32,8 +32,7 @@ OutlineResponse discOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 fa
         k.leaves = differenceTo(k, last);
         addHorizon(k);
     }
-    const OutlineResponse o = outlineResponse(p, k, extentOf(k, d.u, d.v, 0.0));
-    return OutlineResponse(seen ? o.formFactor : 0.0, seen ? o.specular : vec2(0.0));
+    return WalkedOutline(k, extentOf(k, d.u, d.v, 0.0), seen, 1.0);
 }
 
 #endif

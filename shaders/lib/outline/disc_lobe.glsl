@@ -83,7 +83,8 @@ RimPoints makeRimPoints(Outline k, DiscView d)
     const vec3 tangent = next.x * d.v - next.y * d.u;
     const float rate = (0.5 * (1.0 + next.x) * (r.stretch * r.stretch - 1.0) + 1.0) / r.stretch;
     const vec3 turn = (rate * distance.inverse) * (tangent - dot(tangent, l) * l);
-    r.width = passingWidth(k.wc + k.invD * stretched(k.alpha, dl), k.invD * stretched(k.alpha, turn));
+    r.width = passingWidth(stretchedPoint(k, k.invD * stretched(k.alpha, dl)),
+                           k.invD * stretched(k.alpha, turn));
     return r;
 }
 

@@ -55,26 +55,27 @@ ArcControl controlOf(Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle
 void addPiece(inout Outline k, OutlinePoint a, OutlinePoint b, ArcControl control, float weight)
 {
     const vec3 dwA = stretchedOffset(k, a), dwB = stretchedOffset(k, b);
-    const vec3 pA = stretchedDirection(k, a), pB = stretchedDirection(k, b);
-    const vec3 sum = pA + pB;
+    const vec3 sum = stretchedDirection(k, a) + stretchedDirection(k, b);
+    const float ii = a.i * b.i;
+    const float root = sqrt(ii);
+    // What needs the control point comes first, so that it occupies no registers later.
+    const float weight2 = root * dot(control.scale * k.wc + control.dw, sum); // times 2 q2
+    const float height = root * ii *
+        dot(stretchedPoint(k, dwA), cross(control.dw - control.scale * dwA, dwB - dwA));
+
     const float q2 = max(0.25 * length2(sum), 1e-8); // squared cosine of half the chord's angle
     const float q = sqrt(q2);
     const float invQ2 = 1.0 / q2;
     const float H = segmentShare(q) / q;
     const vec3 area = cross(dwA, dwB);
     const vec3 axb = cross(k.wc, dwB - dwA) + area;
-    const float ii = a.i * b.i;
-    const float root = sqrt(ii);
-    // Squared sine of half the chord's angle. The difference of pA and pB would have no digits if the
-    // light is small.
+    // Squared sine of half the chord's angle. The difference of both unit vectors would have no digits
+    // if the light is small.
     const float quarter = 0.25 * min(length2(ii * axb) * invQ2, 4.0);
     const float longer = a.e + b.e + a.e * b.e; // |w0|^2 |w1|^2 - 1
     const float perSine1 = quarter / (1.0 + q) * H; // angle / sine of the chord, minus 1
     const float excess = perSine1 * ii - longer * ii * ii / (1.0 + ii);
 
-    const float weight2 = root * dot(control.scale * k.wc + control.dw, sum); // times 2 q2
-    const float height = root * ii *
-        dot(k.wc + dwA, cross(control.dw - control.scale * dwA, dwB - dwA));
     // The second limit keeps the lens below 45 degrees. It is reached only by arcs far from the lobe.
     const float invQuarter = 1.0 / max(quarter, 1e-20);
     const float scale = max(2.0 * q2 + weight2, abs(height) * sqrt(invQuarter) + 1e-12);
@@ -152,7 +153,7 @@ ArcCuts makeArcCuts(Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
     o.next = dot(next, middle) < t.cosine ? nearerEnd : next;
     const vec2 rest = vec2(dot(end, o.next), end.y * o.next.x - end.x * o.next.y); // to the arc's end
     const vec3 P = o.next.x * X + o.next.y * Y, Q = o.next.x * Y - o.next.y * X;
-    o.width = passingWidth(k.wc + k.invD * stretched(k.alpha, circle.centre + P),
+    o.width = passingWidth(stretchedPoint(k, k.invD * stretched(k.alpha, circle.centre + P)),
                            k.invD * stretched(k.alpha, Q));
     o.begin = passingAngle(o.width, vec2(1.0 + o.next.x, -o.next.y));
     const vec2 last = passingAngle(o.width, vec2(1.0 + rest.x, rest.y));
@@ -189,7 +190,9 @@ void addLobe(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
     const ArcControl control = controlOf(k, a, b, circle);
     if (k.needs.cuts) {
         const float cosine = turnOf(k, a, b, control);
-        const ArcCuts cuts = makeArcCuts(k, a, b, circle);
+        ArcCuts cuts;
+        if (!k.needs.lateCuts)
+            cuts = makeArcCuts(k, a, b, circle);
         const float halves = smoothstep(0.0, CUT_ONCE_RANGE, CUT_ONCE - cosine);
         const float middle = smoothstep(0.0, CUT_TWICE_RANGE, CUT_TWICE - cosine) / 6.0;
         // The whole arc and then both halves, with weights; or one, two or three pieces.
@@ -201,8 +204,11 @@ void addLobe(inout Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle)
             const bool isWhole = blends && piece == 1u;
             const bool isFirst = piece == (blends ? 2u : 1u);
             OutlinePoint to = b;
-            if (piece < pieces && !isWhole)
+            if (piece < pieces && !isWhole) {
+                if (k.needs.lateCuts)
+                    cuts = makeArcCuts(k, a, b, circle);
                 to = cutPoint(k, a, circle, cuts, isFirst ? 0.5 - middle : 0.5 + middle);
+            }
             addPiece(k, from, to, controlOf(k, from, to, circle),
                      isWhole ? 1.0 - halves : blends ? halves : 1.0);
             from = to;

@@ -51,6 +51,9 @@ struct OutlineNeeds {
     bool across; // it may cross the horizon
     bool lobe;   // the specular response is wanted as well
     bool cuts;   // its arcs may need to be cut, or pieces of its rim halved (lens.glsl, disc_lobe.glsl)
+    // What an arc's cuts are computed from is computed at each cut, which saves registers. Otherwise it
+    // is computed once for the arc, which saves time on devices that run branches that no lane takes.
+    bool lateCuts;
 };
 
 struct Outline {
@@ -107,10 +110,18 @@ vec3 stretchedOffset(Outline k, OutlinePoint o)
     return k.invD * stretched(k.alpha, o.dl);
 }
 
+// Returns w of a point from its A dl. Compilers would otherwise take the factor invD out of the sum and
+// keep A (v + lc) in registers besides wc.
+vec3 stretchedPoint(Outline k, vec3 dw)
+{
+    precise const vec3 w = k.wc + dw;
+    return w;
+}
+
 // Returns w / |w| of a point.
 vec3 stretchedDirection(Outline k, OutlinePoint o)
 {
-    return o.i * (k.wc + stretchedOffset(k, o));
+    return o.i * stretchedPoint(k, stretchedOffset(k, o));
 }
 
 OutlinePoint pointInDirection(Outline k, vec3 dl)
@@ -119,7 +130,7 @@ OutlinePoint pointInDirection(Outline k, vec3 dl)
     const vec3 dw = stretchedOffset(k, o);
     const float e = 2.0 * dot(k.wc, dw) + length2(dw) - k.spread2;
     // Near the middle of a narrow lobe the sum cancels, but there |w|^2 can be computed as it is.
-    o.e = e < -0.5 ? max(length2(k.wc + dw), 1e-14) - 1.0 : e;
+    o.e = e < -0.5 ? max(length2(stretchedPoint(k, dw)), 1e-14) - 1.0 : e;
     o.i = inversesqrt(1.0 + o.e);
     return o;
 }

@@ -32,7 +32,7 @@ void addEdgeTo(inout Outline k, inout vec3 from, inout OutlinePoint last, vec3 t
 
 // Returns the response to a rectangle that faces axisU x axisV. `toCentre`: from the receiver to the
 // centre; axisU and axisV go from there to the middles of two edges.
-OutlineResponse rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 axisU, vec3 axisV,
+WalkedOutline rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 axisU, vec3 axisV,
                                  bool twoSided, OutlineNeeds needs)
 {
     const vec3 centre = toFrame(f, toCentre), u = toFrame(f, axisU), v = toFrame(f, axisV);
@@ -42,11 +42,12 @@ OutlineResponse rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, ve
     const float size2 = max(length2(u), length2(v));
     const float stretched2 = length2(stretched(p.alpha, u)) + length2(stretched(p.alpha, v));
     Outline k = beginOutline(p, f, toCentre, centre, stretched2, needs);
-    const OutlineExtent extent = extentOf(k, u, v, 0.0);
     const bool seen = seesFlatLight(centre, normal, sqrt(size2), twoSided);
     vec2 corner = vec2(-1.0, -1.0);
     vec3 from = -u - w;
-    OutlinePoint last = pointAt(k, from);
+    OutlinePoint last;
+    if (!needs.across)
+        last = pointAt(k, from);
     uint edge = 0u;
     do {
         corner = vec2(corner.y, -corner.x);
@@ -55,8 +56,7 @@ OutlineResponse rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, ve
     } while (edge < 4u);
     if (needs.across && k.crosses)
         addHorizon(k);
-    const OutlineResponse o = outlineResponse(p, k, extent);
-    return OutlineResponse(seen ? o.formFactor : 0.0, seen ? o.specular : vec2(0.0));
+    return WalkedOutline(k, extentOf(k, u, w, 0.0), seen, 1.0);
 }
 
 #endif

@@ -92,9 +92,20 @@ LightHeights outlineLightHeights(ConicPoint p, Outline k, OutlineExtent extent, 
                         squaredReach(v, nodes.high, highAside));
 }
 
-// Returns the response to an outline that is complete, of a light with the given extent.
-OutlineResponse outlineResponse(ConicPoint p, Outline k, OutlineExtent extent)
+// An outline that is complete. It and the response are two steps, because what the second one reads of
+// the receiver need not occupy registers during the first one.
+struct WalkedOutline {
+    Outline k;
+    OutlineExtent extent;
+    bool seen;  // the receiver sees a side that emits
+    float most; // upper bound of the form factor
+};
+
+// Returns the response to an outline.
+OutlineResponse outlineResponse(ConicPoint p, WalkedOutline walked)
 {
+    const Outline k = walked.k;
+    const OutlineExtent extent = walked.extent;
     OutlineResponse o;
     const vec3 f = (0.5 * INV_PI) * k.diffuse;
     o.formFactor = saturate(f.z);
@@ -121,7 +132,12 @@ OutlineResponse outlineResponse(ConicPoint p, Outline k, OutlineExtent extent)
         const float elongation = extent.elongation * max(1.0 - sqrt(length2(f)), 0.0);
         o.specular = shadeTwoNodes(p, region, asSeen, elongation);
     }
-    return o;
+    if (walked.most < 1.0) {
+        const float limit = min(walked.most / max(o.formFactor, MIN_LENGTH2), 1.0);
+        o.formFactor *= limit;
+        o.specular *= limit;
+    }
+    return OutlineResponse(walked.seen ? o.formFactor : 0.0, walked.seen ? o.specular : vec2(0.0));
 }
 
 #endif

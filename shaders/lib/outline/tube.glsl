@@ -14,8 +14,7 @@ const float TUBE_ARC_COSINE = -0.32;
 // The tube as the receiver sees it. Offsets are relative to the middle of its axis.
 struct TubeView {
     vec3 along;         // unit vector of the axis
-    vec3 across, away;  // unit vectors perpendicular to the axis, away: from the receiver to the axis
-    vec3 perpendicular; // from the receiver to the axis' line
+    vec3 across;        // unit vector across the axis and perpendicular to the line of sight
     float axisLength, height; // of half the axis; of the centre along the axis
     float h2, r2;       // squared distance of the axis' line; squared radius
     float sine2;        // r2 / h2
@@ -34,13 +33,12 @@ TubeView viewTube(vec3 centre, vec3 axis, float radius)
     k.height = dot(centre, k.along);
     // Close to the axis the difference is mostly rounding, which is not perpendicular to the axis.
     const vec3 aside = centre - k.height * k.along;
-    k.perpendicular = aside - dot(aside, k.along) * k.along;
-    k.h2 = length2(k.perpendicular);
+    const vec3 perpendicular = aside - dot(aside, k.along) * k.along;
+    k.h2 = length2(perpendicular);
     // For a receiver on the line of the axis, any direction across the line will do.
     const bool beside = k.h2 > 1e-12 * length2(centre);
-    k.across = beside ? cross(k.along, k.perpendicular) * inversesqrt(max(k.h2, MIN_LENGTH2))
+    k.across = beside ? cross(k.along, perpendicular) * inversesqrt(max(k.h2, MIN_LENGTH2))
                       : anyPerpendicular(k.along);
-    k.away = cross(k.across, k.along);
     const vec3 nearest = centre - clamp(k.height, -k.axisLength, k.axisLength) * k.along;
     k.r2 = min(radius * radius, 0.9998 * length2(nearest));
     k.endOn = k.h2 <= k.r2;
@@ -49,22 +47,41 @@ TubeView viewTube(vec3 centre, vec3 axis, float radius)
     return k;
 }
 
-// One end: the points of the circle that its arc is part of are circle + cos(angle) outward +
-// sin(angle) across, and the arc reaches equally far to both sides of angle 0.
-struct TubeEnd {
-    vec3 circle, outward, across;
-    ArcCircle seen;
-    vec2 half1; // cosine and sine of half the arc's angle
-    vec3 side;  // offset of the arc's end from `tangent`, and of its begin in the other direction
-    vec3 tangent;
+// Returns the unit vector across the axis that points away from the receiver.
+vec3 awayFromReceiver(TubeView k)
+{
+    return cross(k.across, k.along);
+}
+
+// Where the planes through the receiver touch the cylinder at one end: at the offsets tangent + side
+// and tangent - side. The former is the end of the arc there, and the latter its begin.
+struct TubeTangents {
+    vec3 tangent, side;
 };
 
 // `outwards`: 1 for the end that the axis points to, -1 for the other one.
-TubeEnd makeTubeEnd(Outline outline, TubeView k, vec3 centre, float outwards)
+TubeTangents tubeTangents(TubeView k, float outwards)
+{
+    TubeTangents t;
+    t.side = (-sqrt(k.r2) * k.cosine * outwards) * k.across;
+    t.tangent = (outwards * k.axisLength) * k.along - (k.sine2 * sqrt(k.h2)) * awayFromReceiver(k);
+    return t;
+}
+
+// One end: the points of the circle that its arc is part of are circle + cos(angle) outward +
+// sin(angle) acrossLength across, and the arc reaches equally far to both sides of angle 0.
+struct TubeEnd {
+    vec3 circle, outward, across;
+    float acrossLength;
+    ArcCircle seen;
+    vec2 half1; // cosine and sine of half the arc's angle
+};
+
+TubeEnd makeTubeEnd(Outline outline, TubeView k, float outwards)
 {
     TubeEnd e;
     const vec3 offset = (outwards * k.axisLength) * k.along;
-    const vec3 end = centre + offset;
+    const vec3 end = outline.distance * outline.lc + offset;
     const float d2 = max(length2(end), MIN_LENGTH2);
     const float invD = inversesqrt(d2);
     const float s2 = min(k.r2 / d2, 0.9999);
@@ -75,10 +92,10 @@ TubeEnd makeTubeEnd(Outline outline, TubeView k, vec3 centre, float outwards)
     const vec3 axis = invD * end;
     e.seen = ArcCircle(axis, kappa, s2, differenceTo(outline, offset) - s2 / (1.0 + kappa) * axis);
     e.circle = offset - s2 * end;
-    e.outward = (rho * invD) * (sqrt(k.h2) * outwards * k.along - forward * k.away);
-    e.across = (-rho * outwards) * k.across;
-    e.side = (-r * k.cosine * outwards) * k.across;
-    e.tangent = offset - k.sine2 * k.perpendicular;
+    e.outward =
+        (rho * invD) * (sqrt(k.h2) * outwards * k.along - forward * awayFromReceiver(k));
+    e.across = k.across;
+    e.acrossLength = -rho * outwards;
     const float invKappa = 1.0 / kappa;
     e.half1 = vec2(forward * invD * sqrt(k.sine2) * invKappa, k.cosine * invKappa);
     if (k.endOn)
@@ -88,7 +105,7 @@ TubeEnd makeTubeEnd(Outline outline, TubeView k, vec3 centre, float outwards)
 
 vec3 onTubeEnd(TubeEnd e, vec2 at)
 {
-    return e.circle + at.x * e.outward + at.y * e.across;
+    return e.circle + at.x * e.outward + (at.y * e.acrossLength) * e.across;
 }
 
 // The parts of an end's arc above the horizon, as up to two ranges of its angle.
@@ -102,12 +119,13 @@ TubeRanges rangesAboveHorizon(TubeEnd e, float centreHeight)
     const float limit = atan(e.half1.y, e.half1.x);
     // The height of a point is base + rise cos(angle - top).
     const float base = centreHeight + e.circle.z;
-    const float rise = max(sqrt(e.outward.z * e.outward.z + e.across.z * e.across.z), MIN_LENGTH2);
+    const float acrossZ = e.acrossLength * e.across.z;
+    const float rise = max(sqrt(e.outward.z * e.outward.z + acrossZ * acrossZ), MIN_LENGTH2);
     const float cosine = clamp(-base / rise, -1.0, 1.0);
     const float reach = atan(sqrt(max(1.0 - cosine * cosine, 0.0)), cosine);
     // SwiftShader returns 0 for atan(-0.0, x) with x < 0, where pi or -pi is right. So -0 is replaced
     // by 0.
-    const float top = atan(e.across.z == 0.0 ? 0.0 : e.across.z, e.outward.z);
+    const float top = atan(acrossZ == 0.0 ? 0.0 : acrossZ, e.outward.z);
     // The circle is above the horizon from top - reach to top + reach. Of all turns of this range, two
     // can meet the arc.
     const float lower = top > 0.0 ? top - 2.0 * PI : top, upper = lower + 2.0 * PI;
@@ -125,23 +143,23 @@ void addTubeArcs(inout Outline k, TubeEnd e, vec2 range)
     const float limit = atan(e.half1.y, e.half1.x);
     // The points that divide the whole arc, as in addTubeHalf, also divide the part of it above the
     // horizon, so that nothing jumps when the tube touches the horizon.
-    const float parts = e.half1.x < TUBE_ARC_COSINE ? 4.0 : 2.0;
+    const uint parts = e.half1.x < TUBE_ARC_COSINE ? 4u : 2u;
     float angle = range.x;
     OutlinePoint a = pointAt(k, onTubeEnd(e, vec2(cos(range.x), sin(range.x))));
     if (range.x > -limit) {
         k.crosses = true;
         k.enters = a.dl;
     }
-    float part = 1.0;
+    uint part = 1u;
     do { // a lane that is done may run once more (lens.glsl)
-        const float next = min((2.0 * part / parts - 1.0) * limit, range.y);
+        const float next = min((2.0 * float(part) / float(parts) - 1.0) * limit, range.y);
         if (next > angle && part <= parts) {
             const OutlinePoint b = pointAt(k, onTubeEnd(e, vec2(cos(next), sin(next))));
             addArc(k, a, b, e.seen, true);
             a = b;
             angle = next;
         }
-        part += 1.0;
+        ++part;
     } while (part <= parts);
     if (range.y < limit) {
         k.crosses = true;
@@ -151,8 +169,10 @@ void addTubeArcs(inout Outline k, TubeEnd e, vec2 range)
 
 // Adds one side and the end after it of a tube that is wholly above the horizon. `last` is the
 // outline's last point.
-void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last)
+void addTubeHalf(inout Outline k, TubeView t, float outwards, inout OutlinePoint last)
 {
+    const TubeTangents sides = tubeTangents(t, outwards);
+    const TubeEnd e = makeTubeEnd(k, t, outwards);
     const bool divided = e.half1.x < TUBE_ARC_COSINE;
     // Cosine and sine of half the arc's angle or, if its halves are divided again, of a quarter of it.
     const float cosQuarter = sqrt(max(0.5 + 0.5 * e.half1.x, 0.0));
@@ -165,7 +185,7 @@ void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last
         const bool isSide = part == 0u;
         at = isSide ? at : complexProduct(at, turn);
         // The ends of the arc are computed as the ends of the sides are.
-        const vec3 begin = e.tangent - e.side, end = e.tangent + e.side;
+        const vec3 begin = sides.tangent - sides.side, end = sides.tangent + sides.side;
         const bool isOnCircle = t.endOn || (!isSide && part < arcs);
         const OutlinePoint next =
             pointAt(k, isOnCircle ? onTubeEnd(e, at) : isSide ? begin : end);
@@ -182,12 +202,14 @@ void addTubeHalf(inout Outline k, TubeView t, TubeEnd e, inout OutlinePoint last
 }
 
 // Adds the visible part of one side and of the end after it.
-void addClippedTubeHalf(inout Outline k, TubeView t, TubeEnd e)
+void addClippedTubeHalf(inout Outline k, TubeView t, float outwards)
 {
     if (!t.endOn) {
-        const vec3 other = e.tangent - (2.0 * dot(e.tangent, t.along)) * t.along; // of the other end
-        addClippedEdge(k, other - e.side, e.tangent - e.side);
+        const TubeTangents s = tubeTangents(t, outwards);
+        const vec3 other = s.tangent - (2.0 * dot(s.tangent, t.along)) * t.along; // of the other end
+        addClippedEdge(k, other - s.side, s.tangent - s.side);
     }
+    const TubeEnd e = makeTubeEnd(k, t, outwards);
     const TubeRanges ranges = rangesAboveHorizon(e, k.distance * k.lc.z);
     uint range = 0u;
     do { // twice in every lane, so no lane runs it once more (lens.glsl)
@@ -199,37 +221,37 @@ void addClippedTubeHalf(inout Outline k, TubeView t, TubeEnd e)
 
 // Returns the response to a tube. `toCentre`: from the receiver to the centre; `toEnd`: from there to
 // one end of the tube's segment.
-OutlineResponse tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 toEnd, float radius,
+WalkedOutline tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 toEnd, float radius,
                             OutlineNeeds needs)
 {
     const vec3 centre = toFrame(f, toCentre), axis = toFrame(f, toEnd);
+    const bool below = centre.z + abs(axis.z) + radius <= 0.0;
     const TubeView t = viewTube(centre, axis, radius);
     const float stretched2 = length2(stretched(p.alpha, axis)) + t.r2;
     Outline k = beginOutline(p, f, toCentre, centre, stretched2, needs);
-    const float r = sqrt(t.r2);
-    const vec3 side = (r * t.cosine) * t.across;
-    OutlinePoint last = pointAt(k, side - axis - t.sine2 * t.perpendicular);
+    OutlinePoint last;
+    if (!needs.across) {
+        const TubeTangents sides = tubeTangents(t, -1.0);
+        last = pointAt(k, sides.tangent + sides.side);
+    }
     uint end = 0u;
     do {
-        const TubeEnd e = makeTubeEnd(k, t, centre, end == 0u ? 1.0 : -1.0);
+        const float outwards = end == 0u ? 1.0 : -1.0;
         if (needs.across)
-            addClippedTubeHalf(k, t, e);
+            addClippedTubeHalf(k, t, outwards);
         else
-            addTubeHalf(k, t, e, last);
+            addTubeHalf(k, t, outwards, last);
         ++end;
     } while (end < 2u);
     if (needs.across && k.crosses)
         addHorizon(k);
     // The half axis across the tube is the radius, and the one along it is half the length with both
     // ends.
-    const vec3 longer = sqrt(t.axisLength * (t.axisLength + 2.0 * r)) * t.along;
-    const OutlineResponse o = outlineResponse(p, k, extentOf(k, longer, vec3(0.0), t.r2));
+    const vec3 longer = sqrt(t.axisLength * (t.axisLength + 2.0 * sqrt(t.r2))) * t.along;
     // The vector irradiance of a tube of any length is at most that of an endless one. Rounding
     // exceeds it if the receiver almost touches the axis of a thin tube.
     const float most = t.endOn ? 1.0 : sqrt(t.sine2);
-    const float limit = min(most / max(o.formFactor, MIN_LENGTH2), 1.0);
-    const bool below = centre.z + abs(axis.z) + radius <= 0.0;
-    return OutlineResponse(below ? 0.0 : limit * o.formFactor, below ? vec2(0.0) : limit * o.specular);
+    return WalkedOutline(k, extentOf(k, longer, vec3(0.0), t.r2), !below, most);
 }
 
 #endif
