@@ -116,7 +116,7 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
       hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
       shade_(device_,
              surfaces::addingTo(desc_.radianceFormat,
-                                hostKernels_.of(spirv::shade_environment_comp),
+                                hostKernels_.used(spirv::shade_environment_comp),
                                 gpu::SHADE_ENVIRONMENT_RADIANCE),
              {{gpu::SPEC_GBUFFER, gbuffer_.code()}}, hostKernels_.setLayout()),
       sampler_(createSampler(device_)),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Planning finds out how much memory and how many pipelines a module will take without creating it,
-// and likewise for the raster pass. The module's own code
-// runs with Vulkan functions that create buffers and images without memory, and nothing else, so
-// there is no separate list of buffers to keep up to date.
+// and likewise for the raster pass. The module's own code runs with Vulkan functions that create
+// buffers and images without memory, and nothing else, so there is no separate list of buffers to
+// keep up to date.
 #pragma once
 
 #include "candelabra/candelabra.h"

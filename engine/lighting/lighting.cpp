@@ -47,6 +47,9 @@ CndLightingDesc checked(const gpu::Device& device, CndLightingDesc desc)
     if (!desc.specularMethods)
         desc.specularMethods = 1u << CND_SPECULAR_CONIC;
     desc.shading = checkedShading("CndLightingDesc", desc.shading);
+    if (!(desc.shading & (CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT)))
+        gpu::failArgument("CndLightingDesc: shading needs CND_SHADING_CLUSTERED_BIT or "
+                          "CND_SHADING_BRUTE_BIT, or no frame could be drawn");
     checkLightTypes("CndLightingDesc", desc.lightTypes);
     desc.radianceFormat = surfaces::checkedRadianceFormat(device, "CndLightingDesc: radianceFormat",
                                                           desc.radianceFormat);
@@ -106,8 +109,12 @@ VkDescriptorSetLayout Lighting::forwardLayout() const
 // (LightSet::Prepare).
 void Lighting::prepare(uint32_t lightCapacity, const LightTypeCounts& types)
 {
+    uint32_t present = 0;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (types[type] && kernels_.shade.require(type))
+        present |= uint32_t(types[type] != 0) << type;
+    const uint32_t created = kernels_.shade.add(present, 0, 0);
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (created >> type & 1)
             device_.say(CND_MESSAGE_INFO,
                         "lights of CndLightType %u are new: their pipelines were made now, while "
                         "the lights were set; CndLightingDesc::lightTypes makes them at creation",

@@ -52,50 +52,91 @@ ShadeKernels::ShadeKernels(const gpu::Device& device, const surfaces::HostKernel
     add(desc.lightTypes | 1u << CND_LIGHT_SPHERE, desc.specularMethods, desc.shading);
 }
 
-bool ShadeKernels::add(uint32_t lightTypes, uint32_t methods, uint32_t shading)
+// A call of add() that has not ended. Of two calls on different threads, such as one for a light
+// type and one for a method, the later one makes what only both together need.
+class ShadeKernels::Running
 {
-    bool created = false;
-    for (const Job& job : jobsOf(lightTypes, methods, shading))
-        created |= run(job);
-    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
-        if (methods >> method & 1)
-            allowed_[method].fetch_or(shading);
+public:
+    Running(ShadeKernels& kernels, const Request& request) : kernels_(kernels)
+    {
+        const std::lock_guard lock(kernels.mutex_);
+        jobs = kernels.jobsOf(request);
+        at_ = kernels.running_.insert(kernels.running_.end(), request);
+    }
+    ~Running()
+    {
+        const std::lock_guard lock(kernels_.mutex_);
+        kernels_.running_.erase(at_);
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+    std::vector<Job> jobs;
+
+private:
+    ShadeKernels& kernels_;
+    std::list<Request>::const_iterator at_;
+};
+
+uint32_t ShadeKernels::add(uint32_t lightTypes, uint32_t methods, uint32_t shading)
+{
+    if (!methods && !(lightTypes & ~knownTypes_.load()))
+        return 0;
+    const Request request{lightTypes, methods, shading};
+    const Running running(*this, request);
+    uint32_t created = 0;
+    for (const Job& job : running.jobs)
+        if (run(job))
+            created |= 1u << job.lightType;
+    keep(request, running.jobs);
     return created;
 }
 
-// Notes what is wanted, also for calls on other threads that have not finished, and returns what is
-// missing of it for these light types and for these methods.
-std::vector<ShadeKernels::Job> ShadeKernels::jobsOf(uint32_t lightTypes, uint32_t methods,
-                                                    uint32_t shading)
+// Returns the jobs whose pipelines the request needs, together with what is there and what other
+// threads are making. Some of them may have been done.
+std::vector<ShadeKernels::Job> ShadeKernels::jobsOf(const Request& request) const
 {
-    const std::lock_guard lock(mutex_);
+    uint32_t types = knownTypes_.load() | request.lightTypes;
+    for (const Request& other : running_)
+        types |= other.lightTypes;
     std::vector<Job> out;
-    wantedTypes_ |= lightTypes;
     for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method) {
-        const bool asked = methods >> method & 1;
-        if (asked)
-            wanted_[method] |= shading;
+        const bool asked = request.methods >> method & 1;
+        uint32_t shading = allowed_[method].load() | (asked ? request.shading : 0);
+        for (const Request& other : running_)
+            if (other.methods >> method & 1)
+                shading |= other.shading;
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-            if (asked ? wantedTypes_ >> type & 1 : lightTypes >> type & 1)
-                addJobs(out, type, CndSpecularMethod(method), wanted_[method]);
+            if ((asked ? types : request.lightTypes) >> type & 1)
+                addJobs(out, type, CndSpecularMethod(method), shading);
     }
     return out;
 }
 
-// Adds the jobs of what is missing for a type, a method and a mask of CndShadingBits.
+// Lets frames and later requests know of a request all of whose jobs have been done.
+void ShadeKernels::keep(const Request& request, const std::vector<Job>& jobs)
+{
+    const std::lock_guard lock(mutex_);
+    for (const Job& job : jobs)
+        for (const gpu::Spirv* kernel : kernelsOf(job))
+            if (kernel)
+                host_->used(*kernel);
+    knownTypes_.fetch_or(request.lightTypes);
+    for (uint32_t method = 0; method < CND_SPECULAR_METHOD_COUNT; ++method)
+        if (request.methods >> method & 1)
+            allowed_[method].fetch_or(request.shading);
+}
+
+// Adds the jobs for a type, a method and a mask of CndShadingBits.
 void ShadeKernels::addJobs(std::vector<Job>& jobs, uint32_t lightType, CndSpecularMethod asked,
                            uint32_t shading) const
 {
-    const auto add = [&](const Job& job) {
-        const Slot& slot = slots_[job.lightType][job.method][job.withBudget];
-        if (!(slot.made.load() & job.bit()))
-            jobs.push_back(job);
-    };
+    const auto want = [&](const Job& job) { jobs.push_back(job); };
     const auto addTiles = [&](CndSpecularMethod method, bool withBudget, uint32_t tileClass) {
         if (shading & CND_SHADING_CLUSTERED_BIT)
-            add({lightType, method, withBudget, Lists, tileClass});
+            want({lightType, method, withBudget, Lists, tileClass});
         if (shading & CND_SHADING_COUNT_PAIRS_BIT)
-            add({lightType, method, withBudget, Counts, tileClass});
+            want({lightType, method, withBudget, Counts, tileClass});
     };
     const CndSpecularMethod method = canonicalMethod(lightType, asked);
     const bool budget = shading & CND_SHADING_ERROR_BUDGET_BIT && takesBudget(lightType, method);
@@ -106,9 +147,9 @@ void ShadeKernels::addJobs(std::vector<Job>& jobs, uint32_t lightType, CndSpecul
             if (tellsApart(tileClass))
                 addTiles(method, withBudget, tileClass);
         if (shading & CND_SHADING_BRUTE_BIT)
-            add({lightType, method, withBudget, Brute});
+            want({lightType, method, withBudget, Brute});
         if (measures_ && !withBudget && shading & CND_SHADING_CLUSTERED_BIT)
-            add({lightType, method, withBudget, Measure});
+            want({lightType, method, withBudget, Measure});
     }
     if (tellsApart(gpu::CLASS_DIFFUSE))
         addTiles(CND_SPECULAR_NONE, false, gpu::CLASS_DIFFUSE);
@@ -144,33 +185,51 @@ bool ShadeKernels::run(const Job& job)
     return true;
 }
 
+// Returns the built-in kernels of a job: shade and unlisted of Lists, and one kernel and null of
+// other parts.
+std::array<const gpu::Spirv*, 2> ShadeKernels::kernelsOf(const Job& job)
+{
+    const uint32_t family = familyOf(job.lightType, job.method);
+    switch (job.part) {
+    case Lists:
+        return {spirv::shade_tiles_comp[family], spirv::shade_unlisted_comp[family]};
+    case Counts:
+        return {spirv::count_pairs_comp[family], nullptr};
+    case Brute:
+        return {spirv::shade_brute_comp[family], nullptr};
+    case Measure:
+        break;
+    }
+    return {spirv::measure_influence_comp[family], nullptr};
+}
+
 ShadeKernels::Variant ShadeKernels::make(const Job& job) const
 {
+    const auto kernels = kernelsOf(job);
     Variant out;
     Tiles& tiles = out.tiles[job.tileClass];
     switch (job.part) {
     case Lists:
-        tiles.shade = makeKernel<gpu::ShadeTilesParams>(spirv::shade_tiles_comp, job);
-        tiles.unlisted = makeKernel<gpu::ShadeUnlistedParams>(spirv::shade_unlisted_comp, job);
+        tiles.shade = makeKernel<gpu::ShadeTilesParams>(*kernels[0], job);
+        tiles.unlisted = makeKernel<gpu::ShadeUnlistedParams>(*kernels[1], job);
         break;
     case Counts:
-        tiles.countPairs = makeKernel<gpu::CountPairsParams>(spirv::count_pairs_comp, job);
+        tiles.countPairs = makeKernel<gpu::CountPairsParams>(*kernels[0], job);
         break;
     case Brute:
-        out.brute = makeKernel<gpu::ShadeBruteParams>(spirv::shade_brute_comp, job);
+        out.brute = makeKernel<gpu::ShadeBruteParams>(*kernels[0], job);
         break;
     case Measure:
-        out.measure = makeKernel<gpu::MeasureInfluenceParams>(spirv::measure_influence_comp, job);
+        out.measure = makeKernel<gpu::MeasureInfluenceParams>(*kernels[0], job);
         break;
     }
     return out;
 }
 
 template <typename Params>
-gpu::Kernel<Params> ShadeKernels::makeKernel(std::span<const gpu::Spirv* const> families,
-                                             const Job& job) const
+gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Job& job) const
 {
-    const gpu::Spirv* kernel = &host_->of(*families[familyOf(job.lightType, job.method)]);
+    const gpu::Spirv* kernel = &host_->of(builtIn);
     if (device_->lanesAreCpuVector && kernel == spirv::shade_tiles_comp[gpu::FAMILY_CONIC])
         kernel = &spirv::shade_tiles_comp_lanes_alone_conic;
     const gpu::FormattedSpirv code =

@@ -2,9 +2,10 @@
 // The pipelines that shade: one set for each light type and specular method in use.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <list>
 #include <mutex>
-#include <span>
 #include <vector>
 
 #include "candelabra/candelabra.h"
@@ -24,9 +25,10 @@ uint32_t tileClassesOf(const CndLightingDesc& desc);
 // Returns what a frame asks of pipelines, as a mask of CndShadingBits.
 uint32_t shadingOf(const CndLightingFrame& frame);
 
-// The kernels that are specialised for a light type and a specular method. Pipelines are created
-// only for light types that have been present and for what frames may ask for. They are never
-// destroyed before this object, and a thread may create some while another one records frames.
+// The kernels that are specialised for a light type and a specular method. Pipelines are made for
+// the light types and frames that CndLightingDesc or add() names, and for light types that light
+// sets contain. They live as long as this object, and one thread may make some while another
+// records frames.
 class ShadeKernels
 {
 public:
@@ -34,15 +36,13 @@ public:
     // `host` must outlive this object.
     ShadeKernels(const gpu::Device& device, const surfaces::HostKernels& host, uint32_t gbuffer,
                  const CndLightingDesc& desc);
-    // These two may be called on several threads at the same time, and beside all other functions.
-    // What is missing after a gpu::Failure is created by the next call that needs it.
-    //
-    // Creates the pipelines of a light type that are missing. Returns true if any was created.
-    bool require(uint32_t lightType) { return add(1u << lightType, 0, 0); }
     // Creates the pipelines that are missing for these light types (a mask of 1 << CndLightType)
     // and for frames that ask for these methods (1 << CndSpecularMethod) and this shading
-    // (CndShadingBits). Returns true if any was created.
-    bool add(uint32_t lightTypes, uint32_t methods, uint32_t shading);
+    // (CndShadingBits). Returns the light types for which it has created any, as such a mask. May
+    // be called on several threads at the same time, and beside all other functions. After a
+    // gpu::Failure neither frames nor later calls know of what this one asked for, but pipelines
+    // that were created stay.
+    uint32_t add(uint32_t lightTypes, uint32_t methods, uint32_t shading);
 
     // Tells whether frames may ask for a method, and for a method with this shading.
     bool allows(CndSpecularMethod method) const { return allowed_[method].load() != 0; }
@@ -71,11 +71,12 @@ public:
     bool tellsApart(uint32_t tileClass) const { return tileClasses_ >> tileClass & 1; }
 
 private:
-    // Pipelines that are created together, and the bits that say that they are there.
+    // Pipelines that are made together. The value is their bit in Slot::made for CLASS_ANY; Lists
+    // and Counts of another class have the bit shifted left by the class.
     enum Part : uint32_t {
         Lists = 1,                           // shade and unlisted, of CLASS_ANY
         Counts = Lists << gpu::TILE_CLASSES, // countPairs, of CLASS_ANY
-        Brute = Counts << gpu::TILE_CLASSES, // Lists and Counts of other classes: << the class
+        Brute = Counts << gpu::TILE_CLASSES,
         Measure = Brute << 1,
     };
     struct Job {
@@ -87,17 +88,24 @@ private:
         uint32_t bit() const { return uint32_t(part) << tileClass; }
     };
     struct Slot {
-        Variant kernels;               // does not change where `made` says that it is there
-        std::atomic<uint32_t> made{0}; // mask of Part
+        // A kernel is written once, before the bit of its part is set in `made`, and is only read
+        // afterwards.
+        Variant kernels;
+        std::atomic<uint32_t> made{0}; // mask of Job::bit
     };
+    struct Request { // the arguments of add()
+        uint32_t lightTypes, methods, shading;
+    };
+    class Running;
     void addJobs(std::vector<Job>& jobs, uint32_t lightType, CndSpecularMethod method,
                  uint32_t shading) const;
-    std::vector<Job> jobsOf(uint32_t lightTypes, uint32_t methods, uint32_t shading);
+    std::vector<Job> jobsOf(const Request& request) const;
+    void keep(const Request& request, const std::vector<Job>& jobs);
     bool run(const Job& job);
+    static std::array<const gpu::Spirv*, 2> kernelsOf(const Job& job);
     Variant make(const Job& job) const;
     template <typename Params>
-    gpu::Kernel<Params> makeKernel(std::span<const gpu::Spirv* const> families,
-                                   const Job& job) const;
+    gpu::Kernel<Params> makeKernel(const gpu::Spirv& builtIn, const Job& job) const;
 
     const gpu::Device* device_;
     const surfaces::HostKernels* host_;
@@ -105,10 +113,11 @@ private:
     VkFormat radianceFormat_;
     uint32_t tileClasses_;
     bool measures_;
-    std::mutex mutex_; // guards the next two, and changes of slots
-    uint32_t wantedTypes_ = 0;
-    uint32_t wanted_[CND_SPECULAR_METHOD_COUNT] = {}; // CndShadingBits by method
-    // The same, with all pipelines created.
+    std::mutex mutex_; // guards the list, and changes of the members after it
+    std::list<Request> running_;
+    // Light types that have pipelines for all that frames may ask for.
+    std::atomic<uint32_t> knownTypes_{0};
+    // What frames may ask for, as CndShadingBits by method: all pipelines for it have been made.
     std::atomic<uint32_t> allowed_[CND_SPECULAR_METHOD_COUNT] = {};
     Slot slots_[CND_LIGHT_TYPE_COUNT][CND_SPECULAR_METHOD_COUNT][2]; // [1]: with an error budget
 };

@@ -82,18 +82,23 @@ HostKernels::HostKernels(const CndHostKernels& given, CndGBufferLayout layout)
 const gpu::Spirv& HostKernels::of(const gpu::Spirv& original) const
 {
     const auto host = std::ranges::find(kernels_, &original, &Code::builtIn);
-    if (host != kernels_.end()) {
-        // A kernel that uses the set needs its layout, or creating the pipeline fails.
-        if (host->usesSet && setLayout_)
-            needsSet_ = true;
+    if (host != kernels_.end())
         return host->spirv;
-    }
     const auto* const known = std::ranges::find(builtIn, &original, &BuiltIn::spirv);
     if (known != std::end(builtIn) && (readSurfaces_ || (!kernels_.empty() && known->evaluates)))
         failKernels(std::string("kernel ") + known->name +
                     " is missing: name its light type and method in CndCompileDesc" +
                     (readSurfaces_ ? ", and CND_HOST_READ_SURFACE_BIT" : ""));
     return original;
+}
+
+const gpu::Spirv& HostKernels::used(const gpu::Spirv& original) const
+{
+    const auto host = std::ranges::find(kernels_, &original, &Code::builtIn);
+    // A kernel that uses the set needs its layout, or creating the pipeline fails.
+    if (host != kernels_.end() && host->usesSet && setLayout_)
+        needsSet_ = true;
+    return of(original);
 }
 
 void HostKernels::requireSet(const char* frame, VkDescriptorSet set) const

@@ -21,13 +21,16 @@ public:
     HostKernels(const CndHostKernels& given, CndGBufferLayout layout);
 
     bool empty() const { return kernels_.empty(); }
-    // Returns the host's kernel that replaces `builtIn`, or `builtIn` if there is none. Throws
-    // gpu::Failure if the host's kernel is required and was not given. May be called on several
-    // threads at the same time.
+    // These two may be called on several threads at the same time. They throw gpu::Failure if the
+    // host's kernel is required and was not given.
+    //
+    // Returns the host's kernel that replaces `builtIn`, or `builtIn` if there is none.
     const gpu::Spirv& of(const gpu::Spirv& builtIn) const;
+    // The same for a kernel that frames may use from now on: they need a set if it uses the host's.
+    const gpu::Spirv& used(const gpu::Spirv& builtIn) const;
     VkDescriptorSetLayout setLayout() const { return setLayout_; }
     // Throws gpu::Failure if `set`, the host's descriptor set in a frame, is null although a kernel
-    // that of() returned uses it. `frame`: name of the frame's type, for the message.
+    // that used() returned uses it. `frame`: name of the frame's type, for the message.
     void requireSet(const char* frame, VkDescriptorSet set) const;
 
 private:
@@ -40,8 +43,7 @@ private:
 
     std::vector<Code> kernels_;
     VkDescriptorSetLayout setLayout_;
-    mutable std::atomic<bool> needsSet_ =
-        false;          // a kernel that of() has returned uses the host's set
+    mutable std::atomic<bool> needsSet_{false}; // a kernel of used() uses the host's set
     bool readSurfaces_; // CND_GBUFFER_CUSTOM: every kernel that reads it is the host's
 };
 

@@ -15,7 +15,7 @@ Kernels::Kernels(const gpu::Device& device, const surfaces::HostKernels& host,
       influence(desc.influenceByError ? InfluenceKernels(device, desc.radianceFormat)
                                       : InfluenceKernels()),
       surfaceOverlay(device,
-                     gpu::FormattedSpirv(host.of(spirv::surface_overlay_comp),
+                     gpu::FormattedSpirv(host.used(spirv::surface_overlay_comp),
                                          gpu::SURFACE_OVERLAY_IMAGE, desc.overlayFormat,
                                          gpu::StorageUse::Write),
                      {{gpu::SPEC_GBUFFER, gbuffer}}, host.setLayout())

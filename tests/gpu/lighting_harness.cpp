@@ -381,12 +381,13 @@ void LightingTest::setLights(CndLighting lighting, const std::vector<CndLight>& 
 constexpr uint32_t runFramesInFlight = 2;
 
 // Without a GPU, making pipelines takes longer than drawing with them, so tests begin with those of
-// their first frame, and get others when a frame needs them.
-uint32_t shadingOf(const CndLightingFrame& frame)
+// their first frame, and get others when a frame needs them. What a frame needs is what shadingOf
+// of engine/shading/shade_kernels.h returns.
+static uint32_t shadingOf(const CndLightingFrame& frame)
 {
-    return (frame.culling == CND_CULLING_BRUTE ? CND_SHADING_BRUTE_BIT
-                                               : CND_SHADING_CLUSTERED_BIT) |
-           (frame.countPairs ? CND_SHADING_COUNT_PAIRS_BIT : 0) |
+    const bool brute = frame.culling == CND_CULLING_BRUTE;
+    return (brute ? CND_SHADING_BRUTE_BIT : CND_SHADING_CLUSTERED_BIT) |
+           (frame.countPairs && !brute ? CND_SHADING_COUNT_PAIRS_BIT : 0) |
            (frame.errorBudget > 0 ? CND_SHADING_ERROR_BUDGET_BIT : 0);
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that a module gets further pipelines while it is in use (cndAddLightingPipelines).
 #include <atomic>
+#include <span>
+#include <string_view>
 #include <thread>
 
-#include "candelabra/candelabra.hpp"
+#include "candelabra/compiler.hpp"
+#include "gpu/kernel.h"
 #include "gpu/lighting_harness.h"
 
 namespace candelabra::test
@@ -12,6 +15,17 @@ namespace
 {
 
 constexpr uint32_t conic = 1u << CND_SPECULAR_CONIC;
+
+// Returns the kernels whose names do not begin with `without`.
+std::vector<CndKernelCode> kernelsOf(const CompiledKernels& compiled, std::string_view without)
+{
+    const CndHostKernels all = compiled.hostKernels();
+    std::vector<CndKernelCode> out;
+    for (const CndKernelCode& code : std::span(all.kernels, all.count))
+        if (!std::string_view(code.name).starts_with(without))
+            out.push_back(code);
+    return out;
+}
 
 class AddedPipelines : public LightingTest
 {
@@ -24,12 +38,13 @@ protected:
         LightingTest::TearDown();
     }
     // Creates a lighting for conic frames with light lists alone, which lives until the test ends.
-    void create(uint32_t materialClasses = 0)
+    void create(uint32_t materialClasses = 0, const CndHostKernels& hostKernels = {})
     {
         auto created = Lighting::create(deviceDesc(), {.framesInFlight = 2,
                                                        .specularMethods = conic,
                                                        .shading = CND_SHADING_CLUSTERED_BIT,
-                                                       .materialClasses = materialClasses});
+                                                       .materialClasses = materialClasses,
+                                                       .hostKernels = hostKernels});
         ASSERT_TRUE(created) << created.error().message;
         lighting_ = std::move(created.value());
         auto view = lighting_.createView({.maxWidth = g_.width, .maxHeight = g_.height});
@@ -129,7 +144,8 @@ TEST_F(AddedPipelines, WhileFramesAreRecorded)
     ASSERT_TRUE(lighting_.setLights(spheres_, {0, 0, 0}));
     std::atomic<bool> ended = false;
     std::string failure;
-    std::thread maker([&] {
+    std::vector<CndLight> lights = spheres_;
+    std::jthread maker([&] {
         for (const CndSpecularMethod method : {CND_SPECULAR_KARIS, CND_SPECULAR_NONE})
             if (const auto added = lighting_.addPipelines(
                     {.lightTypes = 1u << CND_LIGHT_POINT, .specularMethods = 1u << method});
@@ -137,13 +153,12 @@ TEST_F(AddedPipelines, WhileFramesAreRecorded)
                 failure = added.error().message;
         ended = true;
     });
-    std::vector<CndLight> lights = spheres_;
     uint32_t frames = 0;
     for (; !ended || frames < 2; ++frames) {
         EXPECT_EQ(refusal({.specular = CND_SPECULAR_CONIC}), "");
         if (frames == 0) {
             lights.push_back(lightsOf(CND_LIGHT_SPOT, g_, 1, 9).front());
-            ASSERT_TRUE(lighting_.setLights(lights, {0, 0, 0}));
+            EXPECT_TRUE(lighting_.setLights(lights, {0, 0, 0}));
         }
     }
     maker.join();
@@ -153,6 +168,117 @@ TEST_F(AddedPipelines, WhileFramesAreRecorded)
     for (const CndSpecularMethod method :
          {CND_SPECULAR_CONIC, CND_SPECULAR_KARIS, CND_SPECULAR_NONE})
         expectTheBitsOfANewModule(lights, {.specular = method});
+}
+
+TEST_F(AddedPipelines, WrongArgumentsAreRefused)
+{
+    create();
+    ASSERT_TRUE(lighting_.setLights(spheres_, {0, 0, 0}));
+    constexpr uint32_t size = sizeof(CndLightingPipelines);
+    const CndLightingPipelines good{.structSize = size, .specularMethods = conic};
+    const struct {
+        CndLighting lighting;
+        CndLightingPipelines pipelines;
+        const char* sentence;
+    } cases[] = {
+        {lighting_.get(), {.structSize = size - 4}, "CndLightingPipelines: structSize is "},
+        {lighting_.get(),
+         {.structSize = size, .lightTypes = 1u << CND_LIGHT_TYPE_COUNT},
+         "CndLightingPipelines: lightTypes has bits beyond the last CndLightType"},
+        {lighting_.get(),
+         {.structSize = size, .specularMethods = 1u << CND_SPECULAR_METHOD_COUNT},
+         "CndLightingPipelines: specularMethods"},
+        {lighting_.get(),
+         {.structSize = size, .shading = CND_SHADING_COUNT_PAIRS_BIT << 1},
+         "CndLightingPipelines: shading has bits beyond CndShadingBits"},
+        {nullptr, good, "cndAddLightingPipelines"}};
+    CndError error{};
+    for (const auto& c : cases) {
+        EXPECT_EQ(cndAddLightingPipelines(c.lighting, &c.pipelines, &error),
+                  CND_ERROR_INVALID_ARGUMENT);
+        EXPECT_NE(std::string(error.message).find(c.sentence), std::string::npos) << error.message;
+    }
+    EXPECT_EQ(cndAddLightingPipelines(lighting_.get(), nullptr, &error),
+              CND_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(refusal({.specular = CND_SPECULAR_CONIC}), "");
+}
+
+TEST_F(AddedPipelines, AModuleThatCouldDrawNothingIsRefused)
+{
+    const auto created = Lighting::create(
+        deviceDesc(), {.framesInFlight = 2, .shading = CND_SHADING_ERROR_BUDGET_BIT});
+    ASSERT_FALSE(created);
+    EXPECT_STREQ(created.error().message,
+                 "CndLightingDesc: shading needs CND_SHADING_CLUSTERED_BIT or "
+                 "CND_SHADING_BRUTE_BIT, or no frame could be drawn");
+}
+
+// The host has compiled no kernels of brute force, and none of rectangles.
+TEST_F(AddedPipelines, ARefusedCallLeavesNoTraceForOthers)
+{
+    auto compiled = CompiledKernels::create(
+        {.functions = CND_HOST_VISIBILITY_BIT,
+         .source = "float candelabraVisibility(CndShadowQuery q) { return 1.0; }",
+         .lightTypes = 1u << CND_LIGHT_SPHERE | 1u << CND_LIGHT_TUBE,
+         .specularMethods = conic | 1u << CND_SPECULAR_KARIS});
+    ASSERT_TRUE(compiled) << compiled.error().message;
+    const std::vector<CndKernelCode> kernels = kernelsOf(compiled.value(), "shade_brute");
+    create(0, {uint32_t(kernels.size()), kernels.data(), VK_NULL_HANDLE});
+
+    const auto brute = lighting_.addPipelines({.lightTypes = 1u << CND_LIGHT_TUBE,
+                                               .specularMethods = conic,
+                                               .shading = CND_SHADING_BRUTE_BIT});
+    ASSERT_FALSE(brute);
+    EXPECT_NE(std::string(brute.error().message).find("kernel shade_brute:"), std::string::npos)
+        << brute.error().message;
+    std::vector<CndLight> lights = spheres_;
+    lights.push_back(lightsOf(CND_LIGHT_TUBE, g_, 1, 2).front());
+    const auto set = lighting_.setLights(lights, {0, 0, 0});
+    EXPECT_TRUE(set) << set.error().message;
+
+    std::vector<CndLight> more = lights;
+    for (const CndLightType type : {CND_LIGHT_POINT, CND_LIGHT_RECTANGLE})
+        more.push_back(lightsOf(type, g_, 1, 3).front());
+    EXPECT_FALSE(lighting_.setLights(more, {0, 0, 0}));
+    const auto karis = lighting_.addPipelines(
+        {.specularMethods = 1u << CND_SPECULAR_KARIS, .shading = CND_SHADING_CLUSTERED_BIT});
+    EXPECT_TRUE(karis) << karis.error().message;
+    for (const CndSpecularMethod method : {CND_SPECULAR_CONIC, CND_SPECULAR_KARIS})
+        EXPECT_EQ(refusal({.specular = method}), "");
+}
+
+// Only the kernels of karis spheres use the host's descriptor set.
+TEST_F(AddedPipelines, FramesNeedTheHostsSetOnceTheCallHasSucceeded)
+{
+    constexpr uint32_t karis = 1u << CND_SPECULAR_KARIS;
+    const auto compiled = [](uint32_t method, const char* source) {
+        return CompiledKernels::create({.functions = CND_HOST_VISIBILITY_BIT,
+                                        .source = source,
+                                        .lightTypes = 1u << CND_LIGHT_SPHERE,
+                                        .specularMethods = method});
+    };
+    auto plain = compiled(conic, "float candelabraVisibility(CndShadowQuery q) { return 1.0; }");
+    auto bound = compiled(karis, R"(
+layout(scalar, set = 1, binding = 0) readonly buffer Shadows { float shadows[]; };
+float candelabraVisibility(CndShadowQuery q) { return shadows[0]; }
+)");
+    ASSERT_TRUE(plain && bound);
+    std::vector<CndKernelCode> kernels = kernelsOf(plain.value(), "shade_brute");
+    for (const CndKernelCode& code : kernelsOf(bound.value(), "shade_brute"))
+        kernels.push_back(code);
+    const gpu::Bindings set(device(), "shadows", {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}},
+                            VK_SHADER_STAGE_COMPUTE_BIT, 1);
+    create(0, {uint32_t(kernels.size()), kernels.data(), set.layout()});
+    ASSERT_TRUE(lighting_.setLights(spheres_, {0, 0, 0}));
+    const RunOptions plainFrame{.specular = CND_SPECULAR_CONIC};
+    EXPECT_EQ(refusal(plainFrame), "");
+    // The pipelines of light lists are made before those of brute force, which there are none of.
+    EXPECT_FALSE(lighting_.addPipelines(
+        {.specularMethods = karis, .shading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT}));
+    EXPECT_EQ(refusal(plainFrame), "");
+    ASSERT_TRUE(
+        lighting_.addPipelines({.specularMethods = karis, .shading = CND_SHADING_CLUSTERED_BIT}));
+    EXPECT_NE(refusal(plainFrame).find("hostSet is null"), std::string::npos);
 }
 
 } // namespace candelabra::test

@@ -291,7 +291,8 @@ public:
     {
         return detail::usage(cndGetLightingMemory, handle_);
     }
-    // May be called while another thread uses the Lighting.
+    // As cndAddLightingPipelines: may run on another thread while this object is used, but not
+    // while it is moved or destroyed.
     Result<void> addPipelines(CndLightingPipelines pipelines) const noexcept
     {
         pipelines.structSize = sizeof pipelines;

@@ -114,7 +114,8 @@ typedef enum CndMaterialClass {
     CND_MATERIAL_CLASS_MAX_ENUM = 0x7FFFFFFF
 } CndMaterialClass;
 
-// What frames ask of pipelines besides a specular method and light types.
+// What frames ask of pipelines besides a specular method and light types. Every frame asks for one
+// of the first two bits, to which the others add.
 typedef enum CndShadingBits {
     CND_SHADING_CLUSTERED_BIT = 1, // CND_CULLING_CLUSTERED
     CND_SHADING_BRUTE_BIT = 2,     // CND_CULLING_BRUTE
@@ -372,16 +373,21 @@ typedef struct CndLightingPipelines {
     uint32_t specularMethods, shading;
 } CndLightingPipelines;
 
-// Creates the pipelines of `pipelines` that the module does not have yet, which may take seconds:
-// for its methods the pipelines of all light types that the module knows, and for its light types
-// those of all methods that frames may ask for. When the call returns, frames and light sets may
-// use them. Until then, frames go on as before.
+// Creates the pipelines of `pipelines` that the module does not have yet, which may take seconds.
+// For the methods it creates the pipelines of all light types that are in
+// CndLightingDesc::lightTypes, were added, or have been in a light set. For the light types it
+// creates those of all methods and shading that frames may ask for. When the call returns, frames
+// and light sets may use them. Until then, frames go on as before.
 //
-// Alone of all calls on a module, this one may be made on a thread of its own while other threads
-// record frames of the module, set or edit its lights, or make the same call; not while the module
-// is created or destroyed. CndDeviceDesc::pipelineCache and allocationCallbacks are then used by
-// both threads. On error frames may ask for what they could ask for before; pipelines that were
-// created are kept for the next call.
+// This is the only call on a module that may run while other calls on the same module run: those
+// that record, read statistics, set or edit lights, create or destroy views, and this call itself.
+// It must not run while cndCreateLighting or cndDestroyLighting does. Both threads then use
+// CndDeviceDesc::pipelineCache, which must not have been created with
+// VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT, and allocationCallbacks, which must be safe
+// to call from both.
+//
+// On error frames and light sets may use what they could use before, and later calls are not bound
+// to what this one asked for. Pipelines that were created are kept for the next call.
 CND_API CndResult cndAddLightingPipelines(CndLighting lighting,
                                           const CndLightingPipelines* pipelines, CndError* error);
 
