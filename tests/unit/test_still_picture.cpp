@@ -48,7 +48,7 @@ struct StillViewer {
     {
         uint32_t samples = 1;
         while (const auto sample = frame()) {
-            EXPECT_EQ(*sample, (FrameSample{samples, StillPicture::samples}));
+            EXPECT_EQ(*sample, (FrameSample{samples, pictureSamples}));
             ++samples;
         }
         return samples;
@@ -61,11 +61,11 @@ TEST(StillPicture, IsSummedAndThenNoLongerDrawn)
     EXPECT_FALSE(viewer.picture.isComplete());
     // The statistics of the first frame are there when its slot is used again.
     EXPECT_EQ(viewer.framesUntilSum(), 2u);
-    EXPECT_EQ(viewer.restOfSum(), StillPicture::samples);
+    EXPECT_EQ(viewer.restOfSum(), pictureSamples);
     for (int i = 0; i < 5; ++i)
         EXPECT_FALSE(viewer.frame());
     EXPECT_TRUE(viewer.picture.isComplete());
-    EXPECT_EQ(viewer.picture.summed(), StillPicture::samples);
+    EXPECT_EQ(viewer.picture.summed(), pictureSamples);
 }
 
 TEST(StillPicture, BeginsAnewAfterAnyChange)
@@ -125,7 +125,7 @@ TEST(StillPicture, WaitsUntilTheEyeHasAdapted)
     EXPECT_EQ(viewer.framesUntilSum(), 2u);
     // Samples see other pixels and so other targets: the sum goes on.
     viewer.evLeft = 1;
-    EXPECT_EQ(viewer.restOfSum(), StillPicture::samples);
+    EXPECT_EQ(viewer.restOfSum(), pictureSamples);
 }
 
 TEST(StillPicture, IsNotSummedWhereSinglePixelsCount)
@@ -138,7 +138,7 @@ TEST(StillPicture, IsNotSummedWhereSinglePixelsCount)
     // The other side of a wipe has no heat map.
     viewer.settings.right = FrameOptions{};
     EXPECT_EQ(viewer.framesUntilSum(), 2u);
-    EXPECT_EQ(viewer.restOfSum(), StillPicture::samples);
+    EXPECT_EQ(viewer.restOfSum(), pictureSamples);
     EXPECT_FALSE(isSummed({.influence = {.rule = CND_INFLUENCE_BY_ERROR}}));
 }
 

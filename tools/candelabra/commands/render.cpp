@@ -52,9 +52,6 @@ struct RenderPlan {
     std::optional<PixelPosition> pick;
 };
 
-// Samples of a frame that is written to a picture on a GPU, unless --aa says otherwise.
-constexpr uint32_t gpuSamples = 16;
-
 // Returns the same path for the same file, however its path is spelled.
 std::filesystem::path identity(const std::string& path)
 {
@@ -260,7 +257,7 @@ void announce(const Scene& scene, PixelSize size, const VulkanContext& context, 
     if (onCpu)
         spdlog::info("edges are not smooth: the device is a CPU, where --aa {} takes {} times as "
                      "long; --edge-filter is faster",
-                     gpuSamples, gpuSamples);
+                     pictureSamples, pictureSamples);
 }
 
 // Draws all frames, and writes pictures of the last one or, of a sequence, of each.
@@ -340,7 +337,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
 
     const VulkanContext context(a.device.contextOptions());
     const bool isGpu = context.info().type != VK_PHYSICAL_DEVICE_TYPE_CPU;
-    p.counts.samples = p.samples.value_or(isGpu ? gpuSamples : 1);
+    p.counts.samples = p.samples.value_or(isGpu ? pictureSamples : 1);
     announce(scene, size, context, p.counts.samples, !p.samples && !isGpu);
     Renderer renderer(context, scene,
                       {.size = size,

@@ -22,6 +22,9 @@ struct FrameSample {
 
 // The largest number of samples of a frame.
 constexpr uint32_t maxFrameSamples = 4096;
+// The number of samples of a smooth picture, unless the user wants another: of the viewer's, and of
+// a frame that `render` writes on a GPU.
+constexpr uint32_t pictureSamples = 16;
 
 // Returns where in its pixels a sample sees the scene, in pixels from their centres: a point of the
 // Hammersley set (Hammersley 1960; Niederreiter 1992, p. 31). Any power of two of its points has

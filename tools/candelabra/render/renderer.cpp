@@ -126,12 +126,19 @@ const char* unfilteredBecause(const FrameOptions& frame)
 
 bool operator==(const CndInfluence& a, const CndInfluence& b)
 {
-    return std::memcmp(&a, &b, sizeof a) == 0; // without padding: all members have four bytes
+    static_assert(sizeof a == sizeof a.rule + sizeof a.maxError + sizeof a.exposure +
+                                  sizeof a.toneMap); // there is no padding
+    return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 bool operator==(const CndExposureSettings& a, const CndExposureSettings& b)
 {
-    return std::memcmp(&a, &b, sizeof a) == 0; // without padding: all members have four bytes
+    static_assert(sizeof a == sizeof a.manual + sizeof a.manualEv100 + sizeof a.compensation +
+                                  sizeof a.middleGrey + sizeof a.minEv100 + sizeof a.maxEv100 +
+                                  sizeof a.lowPercentile + sizeof a.highPercentile +
+                                  sizeof a.speedUp + sizeof a.speedDown + sizeof a.metering +
+                                  sizeof a.toneMap + sizeof a.dither); // there is no padding
+    return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 void useKnownExposure(const Scene& scene, CndExposureSettings& settings)
@@ -142,12 +149,14 @@ void useKnownExposure(const Scene& scene, CndExposureSettings& settings)
     settings.manualEv100 = *scene.knownEv100;
 }
 
+// For its lighting frames, as shadingOf of engine/shading/shade_kernels.h. It asks for an error
+// budget with every method, because methods that ignore it get no pipelines for it.
 uint32_t shadingOf(const FrameOptions& options)
 {
+    const bool brute = options.culling == CND_CULLING_BRUTE;
     const bool counts = options.countPairs || options.heatMap != HeatMap::None;
-    return (options.culling == CND_CULLING_BRUTE ? CND_SHADING_BRUTE_BIT
-                                                 : CND_SHADING_CLUSTERED_BIT) |
-           (counts ? CND_SHADING_COUNT_PAIRS_BIT : 0) |
+    return (brute ? CND_SHADING_BRUTE_BIT : CND_SHADING_CLUSTERED_BIT) |
+           (counts && !brute ? CND_SHADING_COUNT_PAIRS_BIT : 0) |
            (options.errorBudget > 0 ? CND_SHADING_ERROR_BUDGET_BIT : 0);
 }
 

@@ -124,7 +124,8 @@ public:
     // Tells whether there are pipelines for lights of these types (a mask of 1 << CndLightType).
     bool canLightBy(uint32_t lightTypes) const;
     // These two make the pipelines that are missing. They may be called on another thread while
-    // this one records frames. Throw RunError.
+    // this one calls the functions below, such as record(), resize() and lightsChanged(), for the
+    // reasons that cndAddLightingPipelines gives. Throw RunError.
     void prepareToDraw(const FrameOptions& options);
     void prepareToLightBy(uint32_t lightTypes);
 

@@ -11,7 +11,7 @@ namespace candelabra::app
 namespace
 {
 
-struct Stopped {
+struct Stopped : std::exception {
 };
 
 } // namespace
@@ -45,8 +45,8 @@ Background::~Background()
 
 void Background::start(std::function<void(Job&)> work)
 {
-    work_ = std::make_unique<Work>();
-    work_->thread = std::thread([&own = *work_, work = std::move(work)] {
+    auto begun = std::make_unique<Work>();
+    begun->thread = std::thread([&own = *begun, work = std::move(work)] {
         try {
             work(own.job);
         } catch (...) {
@@ -54,6 +54,7 @@ void Background::start(std::function<void(Job&)> work)
         }
         own.ended = true;
     });
+    work_ = std::move(begun);
 }
 
 double Background::seconds() const

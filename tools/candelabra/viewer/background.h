@@ -37,7 +37,8 @@ public:
     // The rest may be called only while busy() is true.
     double seconds() const; // since start()
     Job::State state() const { return work_->job.state(); }
-    // The work will not be wanted: it ends when it next says what it does.
+    // Asks the work to end. It does so when it next calls beginStep() or makes a pipeline, and
+    // finish() then throws nothing.
     void stop() { work_->job.stop(); }
     bool stopped() const { return work_->job.stopped(); }
     bool ended() const { return work_->ended; }

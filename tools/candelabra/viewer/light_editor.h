@@ -18,7 +18,8 @@ struct LightEditor {
     LightHistory history;
     bool wantsNew = false; // the user asks for a new light, which the viewer adds
     bool watts = false;    // the power is shown in W at 555 nm, not in lm
-    bool locked = false;   // the user cannot edit lights now
+    // The lights cannot be edited while the scene is rebuilt with another number of them.
+    bool locked = false;
 };
 
 // What the user is told while the editor is locked.

@@ -385,8 +385,7 @@ std::string stateOfPicture(const PanelFigures& figures)
                                             figures.summed)
                               : "still: nothing is drawn until something changes";
     if (figures.summed)
-        return fmt::format("still: {} of {} samples are summed", figures.summed,
-                           StillPicture::samples);
+        return fmt::format("still: {} of {} samples are summed", figures.summed, pictureSamples);
     if (figures.drawnSize == figures.size)
         return "drawn frame by frame";
     return fmt::format("drawn frame by frame with {}x{} pixels", figures.drawnSize.width,

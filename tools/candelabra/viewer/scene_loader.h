@@ -45,10 +45,12 @@ struct LoadedScene {
     std::unique_ptr<Renderer> renderer; // refers to `scene`
 };
 
-// For work that is shown by `job`, from the part `from` of its bar on:
-// Calls `make`, which makes pipelines. Says how many it has made.
+// Both show their progress in `job`, from the part `from` (0..1) of its bar to its end.
+//
+// Calls `make`, which makes pipelines on this thread, and says in `job` how many have been made.
+// The engine fails if the job is to stop.
 void compileShaders(Job& job, double from, const std::function<void()>& make);
-// Makes a renderer.
+// Makes a renderer. Throws as Renderer does, or to end the work if the job is to stop.
 std::unique_ptr<Renderer> makeRenderer(const VulkanContext& context, const Scene& scene,
                                        const RendererOptions& options, double from, Job& job);
 

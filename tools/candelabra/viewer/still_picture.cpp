@@ -39,9 +39,9 @@ std::optional<FrameSample> StillPicture::next() const
         return FrameSample{};
     const bool sums =
         isSummed(settings_->left) || (settings_->right && isSummed(*settings_->right));
-    if (!sums || summed_ == samples)
+    if (!sums || summed_ == pictureSamples)
         return std::nullopt;
-    return FrameSample{summed_, samples};
+    return FrameSample{summed_, pictureSamples};
 }
 
 void StillPicture::drawn(uint32_t slot)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// StillPicture decides what the viewer draws next. While something changes, it is frames of one
-// sample. Once nothing changes and the eye has adapted, it is the samples of one smooth picture, as
-// of `render --aa`, and after them nothing. It needs no window.
+// StillPicture decides what the next frame of the viewer draws. While something changes, each frame
+// has one sample. When nothing changes any more and the exposure has adapted, the next frames are
+// the samples of one smooth picture, as of `render --aa`. After these nothing is drawn.
 #pragma once
 
 #include <optional>
@@ -28,9 +28,8 @@ bool isSummed(const FrameOptions& frame);
 class StillPicture
 {
 public:
-    static constexpr uint32_t samples = 16; // as many as `render` takes on a GPU
-    // How much the exposure in use may differ from its target when the sum begins, which is made
-    // with the target. An 8-bit value changes by at most one.
+    // The sum is made with the target exposure. It begins when the exposure in use differs from the
+    // target by at most so many EV, which changes 8-bit values by at most one.
     static constexpr float mostEvLeft = 0.01f;
 
     // `slots`: frames in flight.
@@ -42,8 +41,8 @@ public:
     void show(const PictureSettings& settings);
     // Begins anew, because lights, surfaces or the size have changed.
     void change();
-    // Tells what the eye needs in the last frame of a slot, which has finished: the difference
-    // between the exposure in use and its target, the larger one of both sides of a wipe.
+    // Tells by how many EV the exposure of the last frame of a slot, which has finished, differs
+    // from its target: the larger difference of both sides of a wipe.
     void measured(uint32_t slot, float evLeft);
 
     // Returns the sample to draw, or nothing if the picture is complete.

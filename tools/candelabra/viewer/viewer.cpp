@@ -31,8 +31,6 @@ constexpr double longestStep = 0.25;
 constexpr ImageAccess shown{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
                             VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
 
-// After an event, so many frames show the panel as it remains.
-constexpr uint32_t panelSettles = 3;
 // Longest time in s between two frames while another thread works, and while a widget is held or a
 // cursor blinks in a field.
 constexpr double widgetTime = 0.05;
@@ -47,14 +45,16 @@ void blitColumns(VkCommandBuffer cmd, const Renderer& renderer, VkImage to, Pixe
     const auto column = [&](int32_t x) {
         return int32_t(std::lround(double(x) * drawn.width / window.width));
     };
-    if (column(first) == column(end))
+    if (first == end)
         return;
+    // Any columns of the window show at least one of the display image, which may be smaller.
+    const int32_t from = std::min(column(first), int32_t(drawn.width) - 1);
+    const int32_t until = std::max(column(end), from + 1);
     const VkImageSubresourceLayers layers{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    const VkImageBlit region{
-        .srcSubresource = layers,
-        .srcOffsets = {{column(first), 0, 0}, {column(end), int32_t(drawn.height), 1}},
-        .dstSubresource = layers,
-        .dstOffsets = {{first, 0, 0}, {end, int32_t(window.height), 1}}};
+    const VkImageBlit region{.srcSubresource = layers,
+                             .srcOffsets = {{from, 0, 0}, {until, int32_t(drawn.height), 1}},
+                             .dstSubresource = layers,
+                             .dstOffsets = {{first, 0, 0}, {end, int32_t(window.height), 1}}};
     vkCmdBlitImage(cmd, renderer.display().image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
                    drawn != window ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
@@ -100,9 +100,18 @@ Viewer::Viewer(const ViewerOptions& options, Screen& screen, SceneLoader& loader
                        context_.info().name);
 }
 
+Viewer::~Viewer()
+{
+    // After an exception the GPU may still use the renderers.
+    context_.waitBeforeDestruction();
+}
+
 void Viewer::open(const std::string& scene, const SceneOptions& options, Kept kept)
 {
-    loadingLights_ = panel_.wantedLights;
+    if (kept == Kept::Nothing) // the number of lights was wanted of the scene before
+        panel_.wantedLights = uint32_t(scene_.lights.size());
+    wantedScene_ = scene;
+    wantedOptions_ = options;
     loadingShading_ = Shading::of(panel_.frame);
     loadingKept_ = kept;
     loader_.start({.scene = scene,
@@ -128,9 +137,10 @@ void Viewer::takeLoaded()
     try {
         loaded = loader_.take();
     } catch (...) {
-        figures_.note = messageOf(std::current_exception());
-        spdlog::error("candelabra: {}", figures_.note);
+        fail(messageOf(std::current_exception()));
         panel_.wantedLights = uint32_t(scene_.lights.size());
+        wantedScene_ = sceneName_;
+        wantedOptions_ = sceneOptions_;
     }
     if (!loaded)
         return;
@@ -157,6 +167,8 @@ void Viewer::show(std::unique_ptr<LoadedScene> loaded)
     source_ = std::move(loaded->source);
     sceneName_ = loaded->request.scene;
     sceneOptions_ = loaded->request.options;
+    wantedScene_ = sceneName_;
+    wantedOptions_ = sceneOptions_;
     if (kept == Kept::Nothing)
         camera_ = FlyCamera(loaded->view.camera, cruisingSpeed(scene_));
     seenFrom_ = camera_.camera();
@@ -184,6 +196,7 @@ void Viewer::takeScene(Kept kept)
     panel_.object.reset();
     rays_.reset();
     figures_.picked.reset();
+    shownOverride_ = {};
     panel_.materialsChosen = panel_.materials.on;
 }
 
@@ -197,9 +210,14 @@ void Viewer::forgetFrames()
 
 void Viewer::rebuild(uint32_t wanted)
 {
+    if (loader_.busy() && loadingKept_ == Kept::Nothing) {
+        panel_.wantedLights = uint32_t(scene_.lights.size());
+        return say("the number of lights stays, because another scene is being loaded");
+    }
     const uint32_t lights = uint32_t(std::min<uint64_t>(wanted, maxLightsOf(context_.info())));
+    loadingLights_ = wanted;
     spdlog::info("building {} with {}", sceneName_, counted(lights, "light"));
-    SceneOptions sceneOptions = sceneOptions_;
+    SceneOptions sceneOptions = wantedOptions_; // an environment may be being loaded
     // SceneOptions::lights is the number of lights of a generated scene, but for a file it is the
     // number to add to the file's own.
     const uint32_t own = uint32_t(ownLights_);
@@ -260,15 +278,15 @@ void Viewer::collectStats(const FrameRing::Frame& frame)
         figures_.lighting = stats.lighting;
     figures_.exposure = stats.exposure;
     float ev = evLeft(stats.exposure);
-    if (other_ && still_.hasTwoSides(frame.slot))
-        ev = std::max(std::abs(ev), std::abs(evLeft(other_->stats(frame.slot).exposure)));
+    if (right() && still_.hasTwoSides(frame.slot))
+        ev = std::max(std::abs(ev), std::abs(evLeft(right()->stats(frame.slot).exposure)));
     still_.measured(frame.slot, ev);
 }
 
 int32_t Viewer::wipeColumn() const
 {
     const int32_t width = int32_t(swapchain_.size().width);
-    return other_ ? int32_t(std::lround(panel_.wipe.at * float(width))) : width;
+    return right() ? int32_t(std::lround(panel_.wipe.at * float(width))) : width;
 }
 
 void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
@@ -279,8 +297,8 @@ void Viewer::recordWindow(VkCommandBuffer cmd, const Swapchain::Target& target)
     const PixelSize size = swapchain_.size();
     const int32_t split = wipeColumn();
     blitColumns(cmd, *renderer_, target.image, size, 0, split);
-    if (other_)
-        blitColumns(cmd, *other_, target.image, size, split, int32_t(size.width));
+    if (right())
+        blitColumns(cmd, *right(), target.image, size, split, int32_t(size.width));
     transition(cmd, target.image, transferWrite, colorAttachment);
     overlay_.record(cmd, swapchain_, target);
 }
@@ -318,7 +336,7 @@ PictureSettings Viewer::pictureSettings() const
         return frame;
     };
     PictureSettings out{.left = settings(shownLeft_.in(panel_.frame))};
-    if (other_)
+    if (right())
         out.right = settings(shownRight_.in(panel_.frame));
     return out;
 }
@@ -339,8 +357,8 @@ void Viewer::recordPicture(const FrameRing::Frame& frame, double seconds, FrameS
     options.resetExposure = std::exchange(resetExposure_, false);
     ++options.ditherSeed; // dither noise that changes every frame is less visible
     record(*renderer_, shownLeft_.in(options));
-    if (other_)
-        record(*other_, shownRight_.in(options));
+    if (right())
+        record(*right(), shownRight_.in(options));
     recorded_[frame.slot] = true;
     movingSize_.drew(drawnSize() == swapchain_.size() && (sums || still_.isFresh()));
     still_.drawn(frame.slot);
@@ -355,9 +373,11 @@ void Viewer::drawFrame(double seconds, bool screenshot)
     const Swapchain::Target target = screen_.acquire(frame.slot);
 
     panel_.frame.camera = camera_.camera();
-    panel_.frame.time = time_;
     overlay_.begin();
     drawOverlay();
+    // To move lights sets them anew, and with them edits, whose pipelines may not have been made.
+    if (!lightsEdited_ && !panel_.editor.changed)
+        panel_.frame.time = time_;
     if (loader_.busy())
         drawProgress(loader_.state(), true);
     still_.show(pictureSettings());
@@ -404,9 +424,7 @@ void Viewer::doRequests()
 bool Viewer::awaitEvents()
 {
     window_.poll();
-    if (!window_.events.empty())
-        settling_ = panelSettles;
-    if (options_.frames || settling_ || !still_.isComplete())
+    if (options_.frames || settling_ || !still_.isComplete() || !window_.events.empty())
         return false;
     if (loader_.busy() || work_.busy() || overlay_.isActive())
         window_.wait(widgetTime);
@@ -414,14 +432,14 @@ bool Viewer::awaitEvents()
         window_.wait(panel_.noteLeft);
     else
         window_.wait();
-    settling_ = window_.events.empty() ? 1 : panelSettles;
+    settling_ = 1;
     return true;
 }
 
 void Viewer::advance(double seconds, double wall)
 {
     moveCamera(seconds);
-    if (panel_.animate && !lightsEdited_) // lights that move are set again
+    if (panel_.animate && !lightsEdited_ && !panel_.editor.changed) // as in drawFrame()
         time_ += seconds;
     if (!dropped_.empty())
         onDrop(std::exchange(dropped_, ""));
@@ -433,7 +451,8 @@ void Viewer::advance(double seconds, double wall)
     movingSize_.advance(wall, moves, panel_.whileMoving);
     noteEdits();
     const uint32_t wanted = panel_.wantedLights;
-    if (wanted != scene_.lights.size() && !(loader_.busy() && wanted == loadingLights_))
+    const bool builds = loader_.busy() && loadingKept_ == Kept::Camera && wanted == loadingLights_;
+    if (wanted != scene_.lights.size() && !builds)
         rebuild(wanted);
     fitToWindow();
     prepare();

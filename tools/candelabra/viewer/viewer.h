@@ -59,9 +59,16 @@ public:
     // scene that is shown at first. Throws RunError.
     Viewer(const ViewerOptions& options, Screen& screen, SceneLoader& loader,
            std::unique_ptr<LoadedScene> first);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
     void run();
 
 private:
+    // After an event, so many frames are drawn, because the panel shows some effects of it only in
+    // later frames.
+    static constexpr uint32_t panelSettles = 3;
+
     // Input, defined in viewer_input.cpp.
     void moveCamera(double seconds); // also handles what the user has done since the last call
     bool handle(const InputEvent& event);
@@ -75,6 +82,7 @@ private:
     bool onLightAction(KeyAction action);
     void escape();
     void say(const std::string& note);
+    void fail(const std::string& note);
     void sayLight(const char* what);
     void toggleOrbit();
     void frameSelection();
@@ -125,12 +133,17 @@ private:
     void prepareLights(Renderer& renderer);
     void makeRenderer(Side side);
     void takeWork();
+    void useMade();
+    void takeBackLights();
+    bool canLight() const;
     // How the user wants the pixels right of the wipe's line to be shaded: with the wipe's specular
     // method, culling and error budget, and without a heat map.
     Shading wantedRight() const;
     // Returns how the pixels of column `x` are shaded.
     FrameOptions optionsAt(int32_t x) const;
 
+    // The renderer that draws right of the wipe's line, or null if there is no wipe now.
+    Renderer* right() const { return panel_.wipe.on ? other_.get() : nullptr; }
     // The first column right of the wipe's line; the image's width if there is no wipe.
     int32_t wipeColumn() const;
     // What the next frame shows, as StillPicture takes it.
@@ -157,13 +170,18 @@ private:
     SceneLoader& loader_;
     std::string sceneName_;     // as loadScene takes it
     SceneOptions sceneOptions_; // with which the scene was loaded
+    // The last request to load a scene that has not failed, on which the next one is based.
+    std::string wantedScene_;
+    SceneOptions wantedOptions_;
     Scene scene_;
     SceneSource source_;              // where the scene's surfaces come from
     std::vector<Material> materials_; // the scene's materials before any override
     size_t ownLights_ = 0;            // number of lights in the scene's file, without added ones
     // Both refer to the scene.
     std::unique_ptr<Renderer> renderer_;
-    std::unique_ptr<Renderer> other_; // draws right of the wipe's line; null without a wipe
+    // Draws right of the wipe's line. Null without a wipe, and after new materials until it has
+    // been made for them. It stays for a while after the wipe has been switched off.
+    std::unique_ptr<Renderer> other_;
 
     FlyCamera camera_;
     PanelState panel_;
@@ -173,25 +191,27 @@ private:
     Camera seenFrom_;       // the camera of the frame before
     bool edited_ = false;   // lights were edited before that frame
     bool pictured_ = false; // that frame drew the picture, and not the panel alone
-    // So many more frames are drawn, if only for the panel: what an event changes in it may show,
-    // or change the scene, in the frames after that of the event.
+    // How many frames are still drawn before the viewer waits for events. An event may change the
+    // panel, or through it the scene, only one or two frames after the frame that handled it.
     uint32_t settling_ = 0;
     uint64_t panelOnly_ = 0; // number of frames that drew the panel alone
     // Slots in which the present renderer has recorded a frame at its present size: their
     // statistics can be read.
     std::array<bool, Screen::slotCount> recorded_{};
-    // About the scene that is loaded now: PanelState::wantedLights when it was asked for, what
-    // stays of the present one, and how its renderer can shade.
+    // About the scene that is loaded now: PanelState::wantedLights if it is rebuilt with so many
+    // (Kept::Camera), what stays of the present one, and how its renderer can shade.
     uint32_t loadingLights_ = 0;
     Kept loadingKept_ = Kept::Nothing;
     Shading loadingShading_;
-    // How the two sides of the wipe's line are shaded. If the user wants another way, its pipelines
-    // are being made.
+    // How the two sides are shaded now. This differs from what the user wants while pipelines for
+    // that are being made.
     Shading shownLeft_, shownRight_;
     bool lightsEdited_ = false; // the renderers do not know yet how the user has edited the lights
-    bool prepared_ = false;     // the frame is as the user wants it
-    bool resetExposure_ = true; // the next frame jumps to the converged exposure
-    double time_ = 0;           // seconds, for moving lights
+    // Nothing that the user has asked for is still being made, so the frame is as the user wants
+    // it.
+    bool prepared_ = false;
+    bool resetExposure_ = true;      // the next frame jumps to the converged exposure
+    double time_ = 0;                // seconds, for moving lights
     double mouseX_ = 0, mouseY_ = 0; // window coordinates
     std::set<int> heldKeys_;         // keys of the scene, not of a field of the panel
     std::set<int> freshKeys_;        // those that were pressed since the last frame
@@ -206,8 +226,8 @@ private:
     std::string dropped_;        // path of a dropped file, to be opened before the next frame
     uint32_t savedFiles_ = 0;
     // Requests that doRequests() fulfils after this frame, or after the first one that is as the
-    // user wants it: the extension of an image to save,
-    // saving the scene, the pixel whose lights are to be listed.
+    // user wants it: the extension of an image to save, saving the scene, the pixel whose lights
+    // are to be listed.
     const char* saveAs_ = nullptr;
     bool saveScene_ = false;
     std::optional<PixelPosition> pick_;
@@ -218,7 +238,11 @@ private:
     std::optional<Side> madeSide_;
     Shading madeShading_;
     std::vector<Material> newMaterials_; // with the override that the renderer is made for
-    Background work_;                    // ends before the members that it uses
+    MaterialOverride newOverride_, shownOverride_; // that one, and the one that is shown
+    // Takes back what the user has asked for and the work is to make, so that work which fails does
+    // not begin again in every frame.
+    std::function<void()> takeBack_;
+    Background work_; // ends before the members that it uses
 };
 
 } // namespace candelabra::app

@@ -242,7 +242,17 @@ void Viewer::say(const std::string& note)
 {
     figures_.note = note;
     panel_.shownNote.clear(); // so that the same note is shown again
+    settling_ = panelSettles;
     spdlog::debug("{}", note);
+}
+
+// Shows in a corner what has failed, and prints it.
+void Viewer::fail(const std::string& note)
+{
+    figures_.note = note;
+    panel_.shownNote.clear();
+    settling_ = panelSettles;
+    spdlog::error("candelabra: {}", note);
 }
 
 void Viewer::onAction(KeyAction action)
@@ -599,11 +609,12 @@ void Viewer::addLightInView()
 
 void Viewer::onDrop(const std::string& path)
 {
-    SceneOptions options = sceneOptions_;
+    SceneOptions options = wantedOptions_;
     const auto ends = [&](const char* extension) { return path.ends_with(extension); };
     if (ends(".hdr") || ends(".exr") || ends(".pfm")) {
         options.environment = path;
-        return open(sceneName_, options, Kept::CameraAndLights);
+        // If a scene is being loaded, it gets the environment, and is loaded anew.
+        return open(wantedScene_, options, loader_.busy() ? loadingKept_ : Kept::CameraAndLights);
     }
     options.lights.reset();
     open(path, options, Kept::Nothing);
@@ -628,10 +639,10 @@ void Viewer::save(const char* extension, const std::function<void(const std::str
     try {
         write(path);
         figures_.note = "wrote " + path;
+        settling_ = panelSettles;
         spdlog::info("{}", figures_.note);
     } catch (const std::runtime_error& error) {
-        figures_.note = error.what();
-        spdlog::error("candelabra: {}", error.what());
+        fail(error.what());
     }
 }
 
@@ -691,8 +702,10 @@ void Viewer::pick(PixelPosition pixel)
 void Viewer::moveCamera(double seconds)
 {
     freshKeys_.clear();
-    while (!window_.events.empty() && handle(window_.events.front()))
+    while (!window_.events.empty() && handle(window_.events.front())) {
         window_.events.pop_front();
+        settling_ = panelSettles;
+    }
     if (std::exchange(panel_.editor.wantsNew, false))
         onAction(KeyAction::AddLight);
     const auto axis = [&](KeyAction plus, KeyAction minus) {

@@ -76,10 +76,7 @@ void Viewer::useWhatIsThere()
         ring_.wait();
         other_.reset();
     }
-    if (!lightsEdited_)
-        return;
-    const uint32_t types = lightTypesOf(scene_);
-    if (!renderer_->canLightBy(types) || (other_ && !other_->canLightBy(types)))
+    if (!lightsEdited_ || !canLight())
         return;
     lightsEdited_ = false;
     renderer_->lightsChanged();
@@ -88,40 +85,65 @@ void Viewer::useWhatIsThere()
     still_.change();
 }
 
+// Tells whether the renderers have pipelines for all lights of the scene.
+bool Viewer::canLight() const
+{
+    const uint32_t types = lightTypesOf(scene_);
+    return renderer_->canLightBy(types) && (!other_ || other_->canLightBy(types));
+}
+
 // Begins to make the first thing that is missing, if there is one.
 void Viewer::startWork()
 {
     if (panel_.materialsChosen) {
         panel_.materialsChosen = false;
         newMaterials_ = materials_;
-        overrideMaterials(newMaterials_, panel_.materials);
+        newOverride_ = panel_.materials;
+        overrideMaterials(newMaterials_, newOverride_);
+        takeBack_ = [this] {
+            panel_.materials = shownOverride_;
+            panel_.materialsChosen = false;
+        };
         return makeRenderer(Side::Left);
     }
-    if (panel_.wipe.on && !other_)
+    if (panel_.wipe.on && !other_) {
+        takeBack_ = [this] { panel_.wipe.on = false; };
         return makeRenderer(Side::Right);
+    }
     const auto compile = [&](Renderer* renderer, const FrameOptions& frame) {
         work_.start([renderer, frame](Job& job) {
             compileShaders(job, 0, [&] { renderer->prepareToDraw(frame); });
         });
     };
     const FrameOptions left = Shading::of(panel_.frame).in(panel_.frame);
-    if (!renderer_->canDraw(left))
+    if (!renderer_->canDraw(left)) {
+        takeBack_ = [this] { panel_.frame = shownLeft_.in(panel_.frame); };
         return compile(renderer_.get(), left);
-    if (const FrameOptions right = wantedRight().in(panel_.frame);
-        other_ && !other_->canDraw(right))
-        return compile(other_.get(), right);
+    }
+    if (const FrameOptions wanted = wantedRight().in(panel_.frame);
+        other_ && !other_->canDraw(wanted)) {
+        takeBack_ = [this] {
+            panel_.wipe.specular = shownRight_.specular;
+            panel_.wipe.culling = shownRight_.culling;
+            panel_.wipe.errorBudget = shownRight_.errorBudget;
+        };
+        return compile(other_.get(), wanted);
+    }
     if (pick_) { // pickPixel draws with the left renderer, also by brute force
         const FrameOptions frame = optionsAt(int32_t(pick_->x));
         FrameOptions brute = frame;
         brute.culling = CND_CULLING_BRUTE;
         brute.heatMap = HeatMap::None;
         const bool draws = pickRefusal(frame.specular, frame.influence.rule).empty();
+        takeBack_ = [this] { pick_.reset(); };
         for (const FrameOptions& needed : {frame, brute})
             if (draws && !renderer_->canDraw(needed))
                 return compile(renderer_.get(), needed);
     }
-    if (lightsEdited_)
-        prepareLights(renderer_->canLightBy(lightTypesOf(scene_)) ? *other_ : *renderer_);
+    if (!lightsEdited_)
+        return;
+    takeBack_ = [this] { takeBackLights(); };
+    prepareLights(renderer_->canLightBy(lightTypesOf(scene_)) ? *other_ : *renderer_);
 }
 
 // Lets the other thread make the pipelines of the scene's light types.
@@ -148,30 +170,51 @@ void Viewer::makeRenderer(Side side)
     });
 }
 
+// Uses what the other thread has made. If it has failed, the viewer says so and goes on without.
 void Viewer::takeWork()
 {
     const bool unwanted = work_.stopped();
-    work_.finish();
+    try {
+        work_.finish();
+        if (!unwanted)
+            return useMade();
+        if (madeSide_ == Side::Left)
+            panel_.materialsChosen = true; // still
+    } catch (...) {
+        takeBack_();
+        fail(messageOf(std::current_exception()));
+    }
+    made_.reset();
+    madeSide_.reset();
+}
+
+// Undoes the last edits of lights, back to those for which there are pipelines.
+void Viewer::takeBackLights()
+{
+    while (!canLight() && panel_.editor.history.canUndo())
+        undoEdit(scene_, panel_.editor);
+    lightsEdited_ = false; // what was undone is an edit as well, which the next frame notes
+}
+
+// Lets a renderer that was made take its place, or lets the other thread go on with it.
+void Viewer::useMade()
+{
     std::unique_ptr<Renderer> made = std::move(made_);
-    if (unwanted && madeSide_ == Side::Left)
-        panel_.materialsChosen = true; // still
-    if (unwanted)
-        madeSide_.reset();
-    if (unwanted || !made)
+    if (!made)
         return;
     if (!made->canLightBy(lightTypesOf(scene_))) { // there is a new type since
         made_ = std::move(made);
         return prepareLights(*made_);
     }
     made->lightsChanged();
-    const PixelSize size = renderer_->size();
-    if (made->size().width != size.width || made->size().height != size.height)
-        made->resize(size);
+    if (made->size() != renderer_->size())
+        made->resize(renderer_->size());
     if (std::exchange(madeSide_, std::nullopt) == Side::Left) {
         ring_.wait();
         other_.reset();
         renderer_ = std::move(made);
         scene_.materials = std::move(newMaterials_);
+        shownOverride_ = newOverride_;
         shownLeft_ = madeShading_;
         forgetFrames();
     } else if (panel_.wipe.on) {
