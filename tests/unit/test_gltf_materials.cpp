@@ -95,6 +95,46 @@ TEST_F(GltfMaterials, TransmissionLeavesAVeil)
     EXPECT_TRUE(warns(textured, "materials[0]: has a texture of its transmission"));
 }
 
+// The alpha of an opaque material has no meaning, nor has that of its texture. A texture of the
+// metalness says what is metal, and its factor, 1 by default, does not.
+TEST_F(GltfMaterials, TexturesOfGlassDoNotHideIt)
+{
+    GltfBuilder b = withMaterial(R"({"pbrMetallicRoughness": {
+        "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}},
+        "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}})",
+                                 2);
+    b.json["images"][0] = {{"bufferView", b.view(smallWebP())}, {"mimeType", "image/webp"}};
+    const Scene scene = load(b);
+    const Material& glass = scene.materials.at(0);
+    EXPECT_EQ(glass.alphaMode, AlphaMode::Blend);
+    EXPECT_FLOAT_EQ(glass.alpha, 0.25f);
+    const auto alphaIsOne = [&](int32_t texture) {
+        const std::vector<uint8_t>& rgba = scene.textures.at(size_t(texture)).rgba;
+        for (size_t i = 3; i < rgba.size(); i += 4)
+            if (rgba[i] != 255)
+                return false;
+        return true;
+    };
+    EXPECT_TRUE(alphaIsOne(glass.baseColorTexture.texture));
+    EXPECT_FALSE(alphaIsOne(0)); // the image itself has another alpha
+}
+
+TEST_F(GltfMaterials, WithoutItsTextureASurfaceIsNoMetalAndNoMirror)
+{
+    GltfBuilder b =
+        withMaterial(R"({"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}}})", 1);
+    EXPECT_EQ(load(b).materials.at(0).metalness, 1);
+    b.json["images"][0]["uri"] = "missing.png";
+    EXPECT_EQ(load(b).materials.at(0).metalness, 0);
+    b = withMaterial(R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "specularGlossinessTexture": {"index": 0}}}})",
+                     1);
+    b.json["images"][0]["uri"] = "missing.png";
+    const Material plaster = load(b).materials.at(0);
+    EXPECT_EQ(plaster.dielectricF0, glm::vec3(0.04f));
+    EXPECT_EQ(plaster.perceptualRoughness, 1);
+}
+
 TEST_F(GltfMaterials, IorAndSpecularSetTheDielectric)
 {
     const Material glass = load(withMaterial(R"({"pbrMetallicRoughness": {"metallicFactor": 0},

@@ -54,7 +54,8 @@ TEST_F(GltfWireTest, PointsAreCubes)
     expectNear(second.min, {99, -1, -1});
     expectNear(second.max, {101, 1, 1});
     ASSERT_EQ(scene.notes.size(), 1u);
-    EXPECT_EQ(scene.notes[0], "4 points of the file have no width, so they are drawn 2 m wide");
+    EXPECT_EQ(scene.notes[0],
+              "the scene has 4 points, which have no width in the file and are drawn 2 m wide");
 }
 
 TEST_F(GltfWireTest, LinesLoopsAndStripsJoinTheirVertices)
@@ -99,7 +100,7 @@ TEST_F(GltfWireTest, BoxesAreClosed)
     }
 }
 
-// glTF 2.0, section 3.9.6: without normals, points and lines have their colour whatever the light.
+// glTF 2.0, section 3.9.7: without normals, points and lines have their colour whatever the light.
 TEST_F(GltfWireTest, WithoutNormalsLightChangesNothing)
 {
     GltfBuilder b = wires(3);
@@ -111,6 +112,14 @@ TEST_F(GltfWireTest, WithoutNormalsLightChangesNothing)
     EXPECT_TRUE(material.unlit);
     EXPECT_EQ(material.emission, unlitLuminance * glm::vec3(1, 0.5f, 0.25f));
     EXPECT_FALSE(unlit.materials[0].unlit); // triangles may have it too
+    b.json["materials"][0]["emissiveTexture"] = {{"index", 0}};
+    b.json["textures"] = Json::parse(R"([{"source": 0}])");
+    b.json["images"] = Json::parse(
+        R"([{"uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAA)"
+        R"(DUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="}])");
+    const Scene textured = load(b); // the factor says nothing without the texture
+    EXPECT_EQ(textured.materials.at(textured.instances.at(0).material).emission,
+              unlitLuminance * glm::vec3(1, 0, 0.25f));
     b.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
         b.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
     b.json["nodes"][0]["rotation"] = {0, std::sqrt(0.5), 0, std::sqrt(0.5)}; // +z to +x

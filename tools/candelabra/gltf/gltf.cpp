@@ -145,7 +145,8 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, cons
         return;
     const double determinant = glm::determinant(glm::dmat3(worldFromMesh));
     if (determinant == 0 || !std::isfinite(1 / determinant)) {
-        document_.warn(element, "has a transform that flattens its mesh; the mesh is left out");
+        document_.warn(element,
+                       "has a transform that flattens its mesh; its triangles are left out");
         return;
     }
     // The transform of an instance must not mirror, so that front faces stay counter-clockwise. A

@@ -34,8 +34,11 @@ public:
     // Adds a texture whose green is the roughness of a texture that has the glossiness, divided by
     // `factor`, in its alpha. Returns its index.
     int32_t roughnessOfGlossiness(int32_t texture, float factor);
+    // Returns a texture with the colours of another one and an alpha of 1.
+    int32_t withoutAlpha(int32_t texture);
 
 private:
+    int32_t addCopy(Texture copy);
     // Throws SceneError that names the image.
     Texture decode(size_t image);
     // Decodes the image as scene_.textures.back(). Returns its index, or -1 with a warning.
@@ -111,14 +114,27 @@ glm::vec3 GltfTextures::meanColor(int32_t texture) const
 int32_t GltfTextures::roughnessOfGlossiness(int32_t texture, float factor)
 {
     Texture roughness = scene_.textures[static_cast<size_t>(texture)];
-    texels_ += roughness.rgba.size() / 4;
-    if (texels_ > maxGltfTexels)
-        document_.fail("", "has more than the 2 GiB of pixels that a scene's textures may have");
     for (size_t i = 0; i < roughness.rgba.size(); i += 4) {
         const float glossiness = factor * static_cast<float>(roughness.rgba[i + 3]);
         roughness.rgba[i + 1] = static_cast<uint8_t>(255.5f - glossiness);
     }
-    scene_.textures.push_back(std::move(roughness));
+    return addCopy(std::move(roughness));
+}
+
+int32_t GltfTextures::withoutAlpha(int32_t texture)
+{
+    Texture copy = scene_.textures[static_cast<size_t>(texture)];
+    for (size_t i = 3; i < copy.rgba.size(); i += 4)
+        copy.rgba[i] = 255;
+    return addCopy(std::move(copy));
+}
+
+int32_t GltfTextures::addCopy(Texture copy)
+{
+    texels_ += copy.rgba.size() / 4;
+    if (texels_ > maxGltfTexels)
+        document_.fail("", "has more than the 2 GiB of pixels that a scene's textures may have");
+    scene_.textures.push_back(std::move(copy));
     return static_cast<int32_t>(scene_.textures.size() - 1);
 }
 
@@ -236,6 +252,10 @@ void MaterialReader::readSurface(const tinygltf::Material& source, const nlohman
     if (const auto found = json.find("pbrMetallicRoughness"); found != json.end()) {
         material.baseColorTexture = textureRef(*found, "baseColorTexture", true);
         material.metallicRoughnessTexture = textureRef(*found, "metallicRoughnessTexture", false);
+        // The texture says which parts are metal. Without it, all would be.
+        if (found->contains("metallicRoughnessTexture") &&
+            material.metallicRoughnessTexture.texture < 0)
+            material.metalness = 0;
     }
     material.normalTexture = textureRef(json, "normalTexture", false);
     material.normalScale = static_cast<float>(source.normalTexture.scale);
@@ -298,9 +318,9 @@ void MaterialReader::readDielectric(const nlohmann::json& json, Material& materi
                        "specularFactor is weighted by metallicFactor alone, without its texture");
 }
 
-// Reads KHR_materials_transmission. Surfaces that let light through cover less: as clear as glass
-// may be, a veil of it remains, or nobody would see that it is there. Bodies stay opaque: what is
-// behind them would not be seen as it is.
+// Reads KHR_materials_transmission as coverage: a surface that lets all light through is drawn at
+// 25% of its pixels, so that it can still be seen. Bodies of glass (KHR_materials_volume) stay
+// opaque, because they would bend what is behind them, and nothing here does that.
 void MaterialReader::readTransmission(const nlohmann::json& json, Material& material)
 {
     constexpr float veil = 0.25f;
@@ -314,10 +334,17 @@ void MaterialReader::readTransmission(const nlohmann::json& json, Material& mate
         document_.warn(element_, "has a texture of its transmission, and lets no light through");
         return;
     }
-    const float opaque = material.alphaMode == AlphaMode::Opaque ? 1 : material.alpha;
-    material.alpha = opaque * (1 - (1 - veil) * unit(factor) * (1 - material.metalness));
-    if (material.alpha < 1)
-        material.alphaMode = AlphaMode::Blend;
+    const bool isOpaque = material.alphaMode == AlphaMode::Opaque;
+    // With a texture of metalness, the factor alone (1 by default) does not say what is metal.
+    const float metal = material.metallicRoughnessTexture.texture < 0 ? material.metalness : 0;
+    material.alpha =
+        (isOpaque ? 1 : material.alpha) * (1 - (1 - veil) * unit(factor) * (1 - metal));
+    if (material.alpha == 1)
+        return;
+    material.alphaMode = AlphaMode::Blend;
+    // The alpha of an opaque material's texture has no meaning (glTF 2.0, section 3.9.4).
+    if (int32_t& texture = material.baseColorTexture.texture; isOpaque && texture >= 0)
+        texture = textures_.withoutAlpha(texture);
 }
 
 // Reads KHR_materials_pbrSpecularGlossiness, whose diffuse colour, F0 and glossiness replace those
@@ -343,6 +370,9 @@ void MaterialReader::readSpecularGlossiness(const nlohmann::json& extension, Mat
         document_.warn(element_, "has a specular texture; its mean colour is used everywhere");
         F0 *= textures_.meanColor(texture);
         texture = textures_.roughnessOfGlossiness(texture, glossiness);
+        material.perceptualRoughness = 1;
+    } else if (extension.contains("specularGlossinessTexture")) {
+        F0 = glm::vec3(0.04f); // the texture cannot be read: plaster instead of a mirror
         material.perceptualRoughness = 1;
     }
     material.dielectricF0 = F0;

@@ -16,11 +16,17 @@ namespace candelabra::app
 namespace
 {
 
-// Widths, as shares of the diagonal of the scene's bounds: two pixels and five of a picture 720
-// pixels high in which the scene fills the height. Of many points each is smaller, so that a
-// surface which they cover looks closed and its shape remains.
+// Widths as shares of the diagonal of the scene's bounds. In a picture 720 pixels high that shows
+// the diagonal at full height, a line is 2.4 pixels wide and a point 4.8. The more points there
+// are, the smaller each is, down to 0.7 pixels, so that points on a surface cover it and its shape
+// remains.
 constexpr double lineWidth = 1.0 / 300, mostPointWidth = 1.0 / 150, leastPointWidth = 1.0 / 1000;
-constexpr double pointSpacings = 1.5; // the width of a point, in distances to its neighbours
+// The width of a point, in distances to its neighbours if all points lay evenly on a square as wide
+// as the diagonal.
+constexpr double pointSpacings = 1.5;
+// What a mesh costs besides its vertices and indices, in vertices: instances of a mesh of one point
+// are a mesh each.
+constexpr uint64_t meshCost = 64;
 
 double pointWidth(size_t count)
 {
@@ -53,7 +59,8 @@ BoxAxes axesAlong(const glm::dvec3& direction)
     return axes;
 }
 
-// Transforms normals. It exists for transforms that flatten too, which leave lines as they are.
+// Returns the matrix that transforms normals. Unlike the inverse transpose it exists for transforms
+// that flatten too, under which lines can still be drawn.
 glm::dmat3 normalTransform(const glm::dmat4& worldFromMesh)
 {
     const glm::dmat3 m(worldFromMesh);
@@ -70,8 +77,10 @@ uint32_t GltfWires::unlitMaterial(uint32_t material)
         unlit_.try_emplace(material, static_cast<uint32_t>(scene_.materials.size()));
     if (isNew) {
         Material copy = scene_.materials[material];
+        // A texture of the emission is left out, and then the factor without it says nothing.
+        const bool glows = copy.emissiveTexture.texture < 0;
         if (!copy.unlit)
-            makeUnlit(copy, copy.baseColor + copy.emission);
+            makeUnlit(copy, copy.baseColor + (glows ? copy.emission : glm::vec3(0)));
         for (int i = 0; i < 3; ++i)
             if (!std::isfinite(copy.emission[i]))
                 document_.fail(gltfElement("materials", material),
@@ -108,7 +117,7 @@ void GltfWires::add(const std::string& element, const GltfWire& wire,
                     const glm::dmat4& worldFromMesh, uint32_t material)
 {
     const size_t segments = wire.ends.size() / 2;
-    takeGltfBudget(document_, element, boxCorners * uint64_t{segments},
+    takeGltfBudget(document_, element, meshCost + boxCorners * uint64_t{segments},
                    boxTriangles.size() * uint64_t{segments}, budget_);
     Placement placement{worldFromMesh, normalTransform(worldFromMesh)};
     // Positions keep their digits if they are relative to the first of them.
@@ -142,11 +151,12 @@ void GltfWires::finish()
     const auto note = [&](const char* what, size_t count, double width) {
         if (count)
             scene_.notes.push_back(
-                fmt::format("{} {} of the file have no width, so they are drawn {:.2g} m wide",
-                            count, what, width));
+                fmt::format("the scene has {} {}{}, which have no width in the file and are drawn "
+                            "{:.3g} m wide",
+                            count, what, count == 1 ? "" : "s", width));
     };
-    note("points", points_, ofPoints);
-    note("lines", lines_, ofLines);
+    note("point", points_, ofPoints);
+    note("line", lines_, ofLines);
 }
 
 } // namespace candelabra::app

@@ -52,7 +52,7 @@ private:
     };
 
     // The index of the material that points and lines without normals have instead of `material`:
-    // light changes nothing of them (glTF 2.0, section 3.9.6).
+    // light changes nothing of them (glTF 2.0, section 3.9.7).
     uint32_t unlitMaterial(uint32_t material);
     void addBox(const GltfWire& wire, size_t segment, const Placement& placement, Thin& thin);
 
