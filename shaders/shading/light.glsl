@@ -37,18 +37,18 @@ Light readLight(Receiver r, uint index)
     return Light(index, towardsLight(centreRadius.xyz, r.p.position), centreRadius.w);
 }
 
-// Returns the light's emission, times the influence window and the shadow term. Callers ask for it
-// after they have computed the response, so that it occupies no registers until then.
-vec3 emissionTowards(Receiver r, uint index)
+// Returns the light's emission, times the influence window and the shadow term. `d2`: squared length of
+// light.toLight. Callers ask for it after they have computed the response, so that the emission
+// occupies no registers until then.
+vec3 emissionTowards(Receiver r, Light light, float d2)
 {
-    const Light light = readLight(r, index);
-    const vec4 emissionInfluence = lightEmission(index);
+    const vec4 emissionInfluence = lightEmission(light.index);
     vec3 emission = emissionInfluence.xyz;
     if (!IS_DISTANT)
-        emission *= influenceWindow(length2(light.toLight), emissionInfluence.w);
+        emission *= influenceWindow(d2, emissionInfluence.w);
 #ifdef CANDELABRA_VISIBILITY
     emission *= candelabraVisibility(
-        ShadowQuery(lightIds[index], lightType, r.p.position, r.p.n, light.toLight));
+        ShadowQuery(lightIds[light.index], lightType, r.p.position, r.p.n, light.toLight));
 #endif
     return emission;
 }

@@ -45,8 +45,15 @@
     vec3 name(Receiver r, uint index)                                                              \
     {                                                                                              \
         keepLight(index);                                                                          \
-        const vec3 toUnitEmission = response(r, readLight(r, index));                              \
-        return emissionTowards(readAgain(r), lightAgain(index)) * toUnitEmission;                  \
+        Light light = readLight(r, index);                                                         \
+        float d2 = length2(light.toLight);                                                         \
+        const vec3 toUnitEmission = response(r, light);                                            \
+        if (KEEPS_RECEIVERS) {                                                                     \
+            r = readAgain(r);                                                                      \
+            light = readLight(r, lightAgain(index));                                               \
+            d2 = length2(light.toLight);                                                           \
+        }                                                                                          \
+        return emissionTowards(r, light, d2) * toUnitEmission;                                     \
     }
 
 #ifdef LIGHT_FAMILY_CONIC

@@ -111,7 +111,7 @@ vec3 evaluateByCosines(LtcReceiver r, uint index, bool above)
 {
     const Light light = readLight(r.base, index);
     const LtcResponse response = responseByCosines(r, light, above);
-    return emissionTowards(r.base, index) *
+    return emissionTowards(r.base, light, length2(light.toLight)) *
         (diffuseResponse(r.base.p, response.formFactor) + schlick(r.base.p, response.specular));
 }
 
