@@ -22,7 +22,7 @@ struct ShadingPoint {
     vec3 F90;      // 0: no specular lobe; a value per channel, because joinLobes may scale it
 };
 
-// Sets what follows from the directions and the width of the lobe.
+// Sets NoV, mirror and smithV, which follow from n, v and alpha.
 void deriveTerms(inout ShadingPoint p)
 {
     p.NoV = max(dot(p.n, p.v), MIN_NOV);

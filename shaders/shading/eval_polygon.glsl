@@ -24,7 +24,7 @@ vec3 cornerOf(Polygon polygon, uint i)
     return polygon.scale * ((i & 1u) == 0u ? pair.axisU : pair.axisV);
 }
 
-// Returns the response by the polygon's outline.
+// Returns the outline of the polygon.
 WalkedOutline polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
 {
     const vec3 normal = cross(polygon.axisU, polygon.axisV);

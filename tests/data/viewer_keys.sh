@@ -6,12 +6,9 @@
 #               that the viewer then prints
 # It fails at the first line of checks.txt for which no such line is printed. Lines about the picture itself
 # ("picture: ") come at any time and do not count.
-fail() {
-    echo "$1" >&2
-    kill $viewer
-    exit 99
-}
-said() { grep -v '^picture: ' log.txt; }
+. "$(dirname "$0")/viewer_log.sh"
+log=log.txt
+said() { grep -v '^picture: ' $log; }
 lines() { said | wc -l; }
 # Waits for a line after line $1 of the log that matches $2.
 await() {
@@ -23,7 +20,7 @@ await() {
     return 1
 }
 "$PROGRAM" view hall --lights 40 --size 240x160 --exposure 4 --samples 1 --verbose --validate \
-    ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} 2>>log.txt &
+    ${CANDELABRA_TEST_DEVICE:+--device "$CANDELABRA_TEST_DEVICE"} 2>>$log &
 viewer=$!
 window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)
 xdotool windowfocus --sync $window
@@ -35,7 +32,7 @@ before=$(lines)
 xdotool keydown w sleep 0.3 windowunmap --sync $window keyup w windowmap --sync $window \
     windowfocus --sync $window
 await $before '^--camera ' || fail "the camera does not stop after W was released in no window"
-echo "the checks begin" >>log.txt
+echo "the checks begin" >>$log
 while IFS=$'\t' read -r tries commands expected; do
     while :; do
         before=$(lines)

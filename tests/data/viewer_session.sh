@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Drives `candelabra view` ($PROGRAM) with keys and mouse, in an empty folder (tests/gpu/test_viewer.cpp).
 # It waits for every image that it saves: once the image exists, all earlier keys have been processed.
-fail() {
-    echo "$1" >&2
-    kill $viewer
-    exit 99
-}
+. "$(dirname "$0")/viewer_log.sh"
+log=err.txt
 shot=0
 save() { # [key extension]
     shot=$((shot + 1))
@@ -17,21 +14,12 @@ save() { # [key extension]
     done
     fail "file $shot never came"
 }
-# Waits until the viewer has written a text to its log for the COUNTth time.
-logged() { # text [count]
-    for i in $(seq 1200); do
-        [ "$(grep -c "$1" err.txt)" -ge "${2:-1}" ] && return
-        kill -0 $viewer 2>/dev/null || fail "the viewer ended before it wrote: $1"
-        sleep 0.1
-    done
-    fail "the viewer never wrote: $1"
-}
 # Waits until the picture is complete after the last line of the log that matches a text, which tells of a
 # change. Pictures that are compared must have their samples summed, or must all be without.
 complete() { # text
     logged "$1"
     for i in $(seq 1200); do
-        sed -n "/$1/h; /$1/!H; \${x; p}" err.txt | grep -q "^picture: complete" && return
+        sed -n "/$1/h; /$1/!H; \${x; p}" $log | grep -q "^picture: complete" && return
         kill -0 $viewer 2>/dev/null || fail "the viewer ended before the picture was complete: $1"
         sleep 0.1
     done

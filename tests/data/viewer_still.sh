@@ -13,22 +13,10 @@ done
 "$PROGRAM" view hall --lights 40 --moving $size --frames 40 --verbose --validate $device 2>lights.txt
 
 set +e
-fail() {
-    echo "$1" >&2
-    kill $viewer
-    exit 99
-}
-# Waits until the viewer has written a text to its log for the COUNTth time.
-logged() { # text [count]
-    for i in $(seq 1200); do
-        [ "$(grep -c -- "$1" session.txt)" -ge "${2:-1}" ] && return
-        kill -0 $viewer 2>/dev/null || fail "the viewer ended before it wrote: $1"
-        sleep 0.1
-    done
-    fail "the viewer never wrote: $1"
-}
+. "$(dirname "$0")/viewer_log.sh"
+log=session.txt
 "$PROGRAM" view wide.json $size --no-overlay --while-moving half --verbose --validate $device \
-    2>session.txt &
+    2>$log &
 viewer=$!
 logged "^picture: complete"
 window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)
@@ -46,7 +34,7 @@ xdotool key p
 logged "^wrote candelabra-002.png"
 xdotool key x
 logged "^wrote candelabra-003.exr"
-camera=$(grep -o -- "^--camera .*" session.txt | tail -n 1)
+camera=$(grep -o -- "^--camera .*" $log | tail -n 1)
 # Only the panel is drawn.
 xdotool key F1
 logged "^the panel is shown"

@@ -6,10 +6,10 @@
 #include "lib/outline/disc_lobe.glsl"
 #include "lib/outline/rectangle.glsl"
 
-// Returns the response to a disc. `toCentre`: from the receiver to its centre; `facing`: unit vector in
+// Returns the outline of a disc. `toCentre`: from the receiver to its centre; `facing`: unit vector in
 // the direction that the disc faces.
 WalkedOutline discOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 facing, float radius,
-                            bool twoSided, OutlineNeeds needs)
+                          bool twoSided, OutlineNeeds needs)
 {
     const vec3 centre = toFrame(f, toCentre), normal = toFrame(f, facing);
     const vec3 towards = dot(normal, centre) < 0.0 ? normal : -normal;

@@ -30,10 +30,10 @@ void addEdgeTo(inout Outline k, inout vec3 from, inout OutlinePoint last, vec3 t
     }
 }
 
-// Returns the response to a rectangle that faces axisU x axisV. `toCentre`: from the receiver to the
+// Returns the outline of a rectangle that faces axisU x axisV. `toCentre`: from the receiver to the
 // centre; axisU and axisV go from there to the middles of two edges.
 WalkedOutline rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 axisU, vec3 axisV,
-                                 bool twoSided, OutlineNeeds needs)
+                               bool twoSided, OutlineNeeds needs)
 {
     const vec3 centre = toFrame(f, toCentre), u = toFrame(f, axisU), v = toFrame(f, axisV);
     const vec3 normal = cross(u, v);

@@ -219,10 +219,10 @@ void addClippedTubeHalf(inout Outline k, TubeView t, float outwards)
     } while (range < 2u);
 }
 
-// Returns the response to a tube. `toCentre`: from the receiver to the centre; `toEnd`: from there to
+// Returns the outline of a tube. `toCentre`: from the receiver to the centre; `toEnd`: from there to
 // one end of the tube's segment.
 WalkedOutline tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 toEnd, float radius,
-                            OutlineNeeds needs)
+                          OutlineNeeds needs)
 {
     const vec3 centre = toFrame(f, toCentre), axis = toFrame(f, toEnd);
     const bool below = centre.z + abs(axis.z) + radius <= 0.0;

@@ -34,7 +34,7 @@ public:
     // Adds a texture whose green is the roughness of a texture that has the glossiness, divided by
     // `factor`, in its alpha. Returns its index.
     int32_t roughnessOfGlossiness(int32_t texture, float factor);
-    // Returns a texture with the colours of another one and an alpha of 1.
+    // Returns a texture with the colours of another one and an alpha of 1. Materials share it.
     int32_t withoutAlpha(int32_t texture);
 
 private:
@@ -47,6 +47,7 @@ private:
     const GltfDocument& document_;
     Scene& scene_;
     std::map<std::tuple<int, int, bool>, int32_t> known_; // (image, sampler, srgb) -> texture
+    std::map<int32_t, int32_t> withoutAlpha_;             // texture -> its copy without alpha
     uint64_t texels_ = 0;                                 // decoded so far
 };
 
@@ -123,10 +124,12 @@ int32_t GltfTextures::roughnessOfGlossiness(int32_t texture, float factor)
 
 int32_t GltfTextures::withoutAlpha(int32_t texture)
 {
+    if (const auto found = withoutAlpha_.find(texture); found != withoutAlpha_.end())
+        return found->second;
     Texture copy = scene_.textures[static_cast<size_t>(texture)];
     for (size_t i = 3; i < copy.rgba.size(); i += 4)
         copy.rgba[i] = 255;
-    return addCopy(std::move(copy));
+    return withoutAlpha_[texture] = addCopy(std::move(copy));
 }
 
 int32_t GltfTextures::addCopy(Texture copy)
@@ -320,7 +323,7 @@ void MaterialReader::readDielectric(const nlohmann::json& json, Material& materi
 
 // Reads KHR_materials_transmission as coverage: a surface that lets all light through is drawn at
 // 25% of its pixels, so that it can still be seen. Bodies of glass (KHR_materials_volume) stay
-// opaque, because they would bend what is behind them, and nothing here does that.
+// opaque, because the program does not compute how a body bends the light of what is behind it.
 void MaterialReader::readTransmission(const nlohmann::json& json, Material& material)
 {
     constexpr float veil = 0.25f;
@@ -372,7 +375,8 @@ void MaterialReader::readSpecularGlossiness(const nlohmann::json& extension, Mat
         texture = textures_.roughnessOfGlossiness(texture, glossiness);
         material.perceptualRoughness = 1;
     } else if (extension.contains("specularGlossinessTexture")) {
-        F0 = glm::vec3(0.04f); // the texture cannot be read: plaster instead of a mirror
+        // Without its texture the surface would be a mirror. It gets the F0 of common dielectrics.
+        F0 = glm::vec3(0.04f);
         material.perceptualRoughness = 1;
     }
     material.dielectricF0 = F0;

@@ -179,6 +179,8 @@ private:
     // many primitives share one large vertex buffer. Returns the numbers of these vertices in the
     // file, in increasing order.
     std::vector<uint32_t> compact(std::vector<uint32_t>& indices) const;
+    // Makes the vertices, with all that needs no triangles: positions, UVs and colours.
+    void readVertices(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readPositions(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readUvs(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readColors(const std::vector<uint32_t>& used, Mesh& mesh) const;
@@ -308,6 +310,14 @@ std::vector<uint32_t> PrimitiveReader::compact(std::vector<uint32_t>& indices) c
     for (uint32_t& i : indices)
         i = newNumber[i - first];
     return used;
+}
+
+void PrimitiveReader::readVertices(const std::vector<uint32_t>& used, Mesh& mesh) const
+{
+    mesh.vertices.resize(used.size());
+    readPositions(used, mesh);
+    readUvs(used, mesh);
+    readColors(used, mesh);
 }
 
 void PrimitiveReader::readPositions(const std::vector<uint32_t>& used, Mesh& mesh) const
@@ -441,10 +451,7 @@ std::optional<Mesh> PrimitiveReader::read(const Material& material)
     // With flat normals every corner needs its own vertex. Tangents split a vertex into at most
     // two.
     takeBudget(hasNormals ? used.size() : mesh.indices.size(), 0);
-    mesh.vertices.resize(used.size());
-    readPositions(used, mesh);
-    readUvs(used, mesh);
-    readColors(used, mesh);
+    readVertices(used, mesh);
     if (!readNormals(used, mesh)) {
         makeFlatNormals(mesh);
         fillTangents(material, mesh); // without normals, glTF 2.0 has tangents ignored
@@ -474,10 +481,7 @@ std::optional<GltfWire> PrimitiveReader::readWire()
     const std::vector<uint32_t> used = compact(wire.ends);
     takeBudget(used.size(), 0);
     Mesh mesh;
-    mesh.vertices.resize(used.size());
-    readPositions(used, mesh);
-    readUvs(used, mesh);
-    readColors(used, mesh);
+    readVertices(used, mesh);
     wire.hasNormals = readNormals(used, mesh);
     for (const Vertex& v : mesh.vertices)
         wire.hasNormals = wire.hasNormals && v.normal != glm::vec3(0);

@@ -90,8 +90,8 @@ std::vector<size_t> findRoots(const GltfDocument& document, const std::vector<in
     }
     std::vector<size_t> roots;
     const auto index = static_cast<size_t>(std::max(document.model.defaultScene, 0));
-    if (const size_t others = document.model.scenes.size() - 1; others > 0)
-        document.warn("", "has " + std::to_string(others + 1) + " scenes, of which only " +
+    if (const size_t scenes = document.model.scenes.size(); scenes > 1)
+        document.warn("", "has " + std::to_string(scenes) + " scenes, of which only " +
                               gltfElement("scenes", index) + " is drawn");
     std::vector<bool> listed(parents.size(), false);
     for (const int root : document.model.scenes[index].nodes) {

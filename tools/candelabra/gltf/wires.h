@@ -43,8 +43,8 @@ private:
             return glm::dvec3(fromMesh * glm::dvec4(wire.vertices[vertex].position, 1));
         }
     };
-    // A mesh of boxes whose corners are still in the middle of their ends, and where the corners
-    // have to go, in half widths.
+    // A mesh of boxes that have no width yet: all corners of an end lie in its middle. `offsets`
+    // says by how many half widths finish() moves each.
     struct Thin {
         uint32_t mesh = 0;
         bool isPoints = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras for scenes that have none, or that a user wants to see from other sides.
+// Cameras for scenes that have none, whose own show little, or that a user wants to see from other
+// sides.
 #pragma once
 
 #include "scene/scene.h"
@@ -20,6 +21,9 @@ namespace candelabra::app
 //
 // Of lights alone, which may be visible as emitters: "three-quarter". Without those too, a camera
 // at the origin.
+//
+// Scene::defaultCamera becomes the first camera of the file that shows the scene at least half as
+// wide or as high as the picture, or else the first automatic one, with a note.
 void addAutomaticCameras(Scene& scene, double aspect);
 
 } // namespace candelabra::app

@@ -26,12 +26,17 @@ Camera cameraOfPicture(const Camera& camera, double aspect);
 
 // How much of a picture the vertices of a scene fill.
 struct PictureShare {
-    bool isEmpty = false; // all vertices are behind the camera, or beyond the same side
-    // Shares of the width and the height between the outermost vertices; 1 if one is outside.
+    // The picture shows nothing of the scene: all of its vertices are behind the camera, or all are
+    // beyond the same edge of the picture.
+    bool isEmpty = false;
+    // The distance between the outermost vertices, as a share of the picture's width and of its
+    // height. Both are 1 if a vertex is outside the picture.
     double width = 1, height = 1;
 };
 
-// `aspect` is the picture's width / height, which the camera gets by cameraOfPicture.
+// Returns how much of the picture of a camera the scene fills. The near and the far plane are left
+// out of account. `aspect` is the picture's width / height, which the camera gets by
+// cameraOfPicture.
 PictureShare pictureShare(const Scene& scene, const Camera& camera, double aspect);
 
 // Returns the camera moved, but not turned, to where the points lie in the middle of the picture
