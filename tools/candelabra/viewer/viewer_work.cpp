@@ -66,9 +66,9 @@ void Viewer::await(const std::function<bool()>& ended)
 // Draws as the user wants it from now on, as far as there are pipelines for it.
 void Viewer::useWhatIsThere()
 {
-    const auto use = [&](const Renderer* renderer, const Shading& wanted, Shading& shown) {
+    const auto use = [&](const Renderer* renderer, const Shading& wanted, Shading& now) {
         if (renderer && renderer->canDraw(wanted.in(panel_.frame)))
-            shown = wanted;
+            now = wanted;
     };
     use(renderer_.get(), Shading::of(panel_.frame), shownLeft_);
     use(other_.get(), wantedRight(), shownRight_);
