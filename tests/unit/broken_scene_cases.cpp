@@ -78,12 +78,13 @@ void putLittleEndian(Bytes& bytes, size_t at, uint32_t value)
 // Adds cases with wrong binary data: floats that are not numbers, indices beyond the vertices.
 void addDataCases(std::vector<BrokenCase>& cases)
 {
-    const auto add = [&](const char* name, int view, const auto& values, const char* element) {
+    const auto add = [&](const char* name, int view, const auto& values, const char* element,
+                         bool isImage = false) {
         GltfBuilder b = completeGltf();
         const size_t at = b.json["bufferViews"][static_cast<size_t>(view)]["byteOffset"];
         std::memcpy(b.binary.data() + at, values.data(), sizeof values[0] * values.size());
-        cases.push_back({name, "scene.gltf", bytesOf(b.text()), element});
-        cases.push_back({name, "scene.glb", b.glb(), element});
+        cases.push_back({name, "scene.gltf", bytesOf(b.text()), element, isImage});
+        cases.push_back({name, "scene.glb", b.glb(), element, isImage});
     };
     const float nan = std::numeric_limits<float>::quiet_NaN();
     add("position is not a number", 0, std::vector<float>{0, nan}, "accessors[0]: element 0");
@@ -96,7 +97,8 @@ void addDataCases(std::vector<BrokenCase>& cases)
     add("primitive restart", 3, std::vector<uint16_t>{65535}, "accessors[3] element 0 is 65535");
     add("sparse index beyond", 5, std::vector<uint16_t>{4}, "sparse index 4 is beyond");
     add("sparse value is not a number", 6, std::vector<float>{nan}, "accessors[0]: element 3");
-    add("image header is garbage", 7, std::vector<uint8_t>{1, 2, 3, 4}, "images[0]");
+    add("image header is garbage", 7, std::vector<uint8_t>{1, 2, 3, 4}, "images[0]",
+        unreadableImage);
     // IHDR width, big-endian at byte 16: 2^24 pixels
     add(
         "image is too wide", 7,
@@ -105,7 +107,7 @@ void addDataCases(std::vector<BrokenCase>& cases)
             png[17] = 1;
             return png;
         }(),
-        "images[0]: ");
+        "images[0]: ", unreadableImage);
     add(
         "image data is garbage", 7,
         [&] {
@@ -114,7 +116,7 @@ void addDataCases(std::vector<BrokenCase>& cases)
                 png[i] = 0xaa;
             return png;
         }(),
-        "images[0]: cannot be decoded");
+        "images[0]: cannot be decoded", unreadableImage);
 }
 
 } // namespace
@@ -204,9 +206,9 @@ std::vector<BrokenCase> brokenGltfCases()
         b.json = edited(valid.json, edit);
         const bool isObject = b.json.is_object();
         const std::string text = isObject ? b.text() : b.json.dump();
-        cases.push_back({edit.name, "scene.gltf", bytesOf(text), edit.element});
-        cases.push_back(
-            {edit.name, "scene.glb", isObject ? b.glb() : makeGlb(text, b.binary), edit.element});
+        cases.push_back({edit.name, "scene.gltf", bytesOf(text), edit.element, edit.isImage});
+        cases.push_back({edit.name, "scene.glb", isObject ? b.glb() : makeGlb(text, b.binary),
+                         edit.element, edit.isImage});
     }
     const Json withBuffers = Json::parse(valid.text());
     for (const Edit& edit : bufferEdits)
@@ -216,12 +218,9 @@ std::vector<BrokenCase> brokenGltfCases()
     longName["images"][0] = {{"uri", std::string(5000, 'x') + ".png"}};
     GltfBuilder b = valid;
     b.json = longName;
-    cases.push_back(
-        {"image name too long", "scene.gltf", bytesOf(b.text()), "images[0].uri: \"xxx"});
+    cases.push_back({"image name too long", "scene.gltf", bytesOf(b.text()), "images[0].uri: \"xxx",
+                     unreadableImage});
     addDataCases(cases);
-    for (BrokenCase& broken : cases)
-        broken.isImage =
-            broken.element.starts_with("images[0]") && broken.element != "images[0].bufferView";
     return cases;
 }
 

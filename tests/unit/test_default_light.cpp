@@ -86,6 +86,32 @@ TEST_F(DefaultLight, ScenesWithoutLightGetAStudioIfAskedFor)
     EXPECT_TRUE(warns(off, "has no lights"));
 }
 
+// What is white follows the larger surfaces where unlit and glowing ones meet.
+TEST_F(DefaultLight, OneUnlitLineDoesNotSayWhatIsWhite)
+{
+    GltfBuilder b = triangleScene();
+    b.json["materials"] = Json::parse(R"([{"emissiveFactor": [1, 1, 1]}])");
+    b.json["meshes"][0]["primitives"][0]["material"] = 0;
+    const Json line = {{"mode", 1},
+                       {"attributes", {{"POSITION", b.floats({0, 0, 0, 1, 0, 0}, "VEC3")}}}};
+    b.json["meshes"][0]["primitives"].push_back(line);
+    const Scene glowing = load(b, {.defaultLight = true});
+    ASSERT_TRUE(glowing.materials.at(glowing.instances.at(0).material).unlit ||
+                glowing.materials.at(glowing.instances.at(1).material).unlit);
+    EXPECT_EQ(studioWhite(glowing), 1);
+    ASSERT_TRUE(glowing.knownEv100);
+    EXPECT_NEAR(*glowing.knownEv100, studioEv100(1), 1e-6);
+    b.json["materials"][0]["emissiveFactor"] = {0, 0, 0}; // only the line says something
+    EXPECT_EQ(studioWhite(load(b)), unlitLuminance);
+    b.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
+    b.json["extensionsUsed"] = {"KHR_materials_unlit"};
+    b.json["materials"].push_back(Json::parse(R"({"extensions": {"KHR_materials_unlit": {}}})"));
+    const int shown = b.mesh(b.json["meshes"][0]["primitives"][0]);
+    b.json["meshes"][static_cast<size_t>(shown)]["primitives"][0]["material"] = 1;
+    b.rootNode({{"mesh", shown}, {"scale", {2, 2, 2}}});
+    EXPECT_EQ(studioWhite(load(b)), unlitLuminance);
+}
+
 TEST_F(DefaultLight, AnyLightOfTheSceneKeepsTheStudioAway)
 {
     const SceneOptions options{.defaultLight = true};

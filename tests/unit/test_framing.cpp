@@ -206,12 +206,13 @@ TEST_F(Framing, CamerasOfTheFileThatShowLittleAreNotTheDefault)
         const char* translation;
         const char* rotation;
         const char* used;
+        bool isEmpty = false;
     };
     const char *ahead = "[0, 0, 0, 1]", *back = "[0, 1, 0, 0]";
     for (const Case& c : {Case{"[0.5, 0.5, 1.7]", ahead, "mine"}, // the triangle is 0.54 high
                           Case{"[0.5, 0.5, 2.0]", ahead, "three-quarter"}, // and here 0.46
-                          Case{"[0.5, 0.5, 1.7]", back, "three-quarter"},
-                          Case{"[9.5, 0.5, 1.7]", ahead, "three-quarter"},
+                          Case{"[0.5, 0.5, 1.7]", back, "three-quarter", true},
+                          Case{"[9.5, 0.5, 1.7]", ahead, "three-quarter", true},
                           Case{"[0.5, 1.0, 2.0]", ahead, "three-quarter"},
                           Case{"[0.5, 1.1, 1.7]", ahead, "mine"},     // it is cut off
                           Case{"[0.3, 0.3, 0.01]", ahead, "mine"}}) { // it fills the picture
@@ -227,7 +228,17 @@ TEST_F(Framing, CamerasOfTheFileThatShowLittleAreNotTheDefault)
         EXPECT_EQ(scene.cameras[scene.defaultCamera].name, c.used);
         EXPECT_EQ(selectCamera(scene, "").name, c.used);
         EXPECT_EQ(selectCamera(scene, "0").name, "mine");
-        EXPECT_EQ(scene.notes.size(), c.used == std::string("mine") ? 0u : 1u);
+        if (c.used == std::string("mine")) {
+            EXPECT_TRUE(scene.notes.empty());
+            continue;
+        }
+        ASSERT_EQ(scene.notes.size(), 1u);
+        EXPECT_EQ(scene.notes[0],
+                  std::string("the file's camera shows ") +
+                      (c.isEmpty ? "nothing of the scene"
+                                 : "the scene less than half as wide and as high as the picture") +
+                      ", so the automatic camera three-quarter is used; --camera 0 chooses the "
+                      "file's");
     }
 }
 
@@ -244,6 +255,32 @@ TEST_F(Framing, TheFirstCameraOfTheFileThatShowsTheSceneIsTheDefault)
     const Scene scene = load(builder);
     EXPECT_EQ(selectCamera(scene, "").name, "near");
     EXPECT_TRUE(scene.notes.empty());
+}
+
+// A file may have thousands of cameras and millions of vertices.
+TEST_F(Framing, OfVeryManyCamerasTheFirstAreTried)
+{
+    Scene scene = boxScene(glm::vec3(1));
+    Mesh& mesh = scene.meshes[0];
+    for (uint32_t i = 0; i < 20'000; ++i) {
+        mesh.indices.insert(mesh.indices.end(), 3, static_cast<uint32_t>(mesh.vertices.size()));
+        mesh.vertices.push_back({.position = glm::vec3(0)});
+    }
+    Camera camera; // looks at the scene, or away from it
+    camera.position = {0, 0, 2};
+    Camera away = camera;
+    away.forward = {0, 0, 1};
+    for (const size_t good : {size_t{1'000}, size_t{1'999}}) {
+        scene.notes.clear();
+        scene.cameras.assign(2'000, away);
+        scene.cameras[good] = camera;
+        addAutomaticCameras(scene, 1.5);
+        EXPECT_EQ(scene.defaultCamera,
+                  good == 1'000 ? good : size_t{2'000}); // 2^25 / 20,008 are tried
+    }
+    EXPECT_EQ(scene.notes.at(0),
+              "the file's first camera shows nothing of the scene, so the automatic camera "
+              "three-quarter is used; --camera 0 chooses the file's");
 }
 
 TEST_F(Framing, NodesAreFoundWithAllBelowThem)

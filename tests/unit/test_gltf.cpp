@@ -185,6 +185,20 @@ TEST_F(Gltf, MissingExtensionsAreNamedWithAHint)
         << error(b);
 }
 
+TEST_F(Gltf, ExtensionsThatAreReadInPartAreNotCalledMissing)
+{
+    GltfBuilder b = triangleScene();
+    b.json["extensionsUsed"] = {"KHR_materials_transmission", "KHR_materials_volume"};
+    b.json["extensionsRequired"] = b.json["extensionsUsed"];
+    const Scene scene = load(b);
+    EXPECT_TRUE(warns(scene, "\"KHR_materials_transmission\" is read in part: by its factor"));
+    EXPECT_TRUE(warns(scene, "\"KHR_materials_volume\" is read in part: glass with a thickness is "
+                             "drawn opaque"));
+    EXPECT_FALSE(warns(scene, "is not supported"));
+    b.json["nodes"][0].erase("mesh");
+    EXPECT_EQ(error(b), "no error"); // what is missing is not an extension
+}
+
 TEST_F(Gltf, WarningsOfTheSameReasonAreOneSentence)
 {
     GltfBuilder b = triangleScene();

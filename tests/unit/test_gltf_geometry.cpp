@@ -192,6 +192,8 @@ TEST_F(GltfGeometry, VertexColoursOfEveryType)
                                {51, 102, 153, 204, 51, 102, 153, 204, 51, 102, 153, 204}}}) {
         GltfBuilder b = triangleScene();
         const Json extra = {{"normalized", c.componentType != componentFloat}};
+        b.json["materials"] = Json::parse(R"([{"alphaMode": "BLEND"}])");
+        b.json["meshes"][0]["primitives"][0]["material"] = 0;
         b.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
             b.accessor(b.view(c.data), c.componentType, c.type, 3, extra);
         const glm::vec4 color = load(b).meshes.at(0).vertices[2].color;

@@ -86,9 +86,10 @@ TEST_F(GltfMaterials, TransmissionLeavesAVeil)
     for (const Material& opaque : {read("", "{}").materials.at(0), read("", body).materials.at(0),
                                    read("", R"({"transmissionFactor": 1})", "1").materials.at(0)})
         EXPECT_EQ(opaque.alphaMode, AlphaMode::Opaque);
-    EXPECT_EQ(
-        read(R"("alphaMode": "MASK", )", R"({"transmissionFactor": 1})").materials[0].alphaMode,
-        AlphaMode::Mask);
+    const Scene masked = read(R"("alphaMode": "MASK", )", R"({"transmissionFactor": 1})");
+    EXPECT_EQ(masked.materials.at(0).alphaMode, AlphaMode::Mask);
+    EXPECT_TRUE(warns(masked, "materials[0]: has alphaMode MASK, so its transmission is left out"));
+    EXPECT_FALSE(warns(read(R"("alphaMode": "MASK", )", "{}"), "transmission"));
     const Scene textured =
         read("", R"({"transmissionFactor": 1, "transmissionTexture": {"index": 0}})");
     EXPECT_EQ(textured.materials.at(0).alphaMode, AlphaMode::Opaque);
@@ -117,6 +118,31 @@ TEST_F(GltfMaterials, TexturesOfGlassDoNotHideIt)
     };
     EXPECT_TRUE(alphaIsOne(glass.baseColorTexture.texture));
     EXPECT_FALSE(alphaIsOne(0)); // the image itself has another alpha
+}
+
+// The alpha of vertex colours counts where that of the material does.
+TEST_F(GltfMaterials, VertexColoursDoNotHideGlass)
+{
+    GltfBuilder b = withMaterial(
+        R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}},
+            "pbrMetallicRoughness": {"metallicFactor": 0}})");
+    Json& primitive = b.json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["COLOR_0"] = b.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    primitive["targets"] = {
+        {{"COLOR_0", b.floats({0, 1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1}, "VEC4")}}};
+    b.json["meshes"][0]["weights"] = {1};
+    const Scene glass = load(b);
+    EXPECT_EQ(glass.materials.at(0).alphaMode, AlphaMode::Blend);
+    for (const Vertex& v : glass.meshes.at(0).vertices)
+        EXPECT_EQ(v.color, glm::vec4(1, 1, 0, 1));
+    b.json["materials"][0]["alphaMode"] = "BLEND";
+    const Scene blended = load(b);
+    for (const Vertex& v : blended.meshes.at(0).vertices)
+        EXPECT_EQ(v.color, glm::vec4(1, 1, 0, 0));
+    primitive.erase("material"); // the default material is opaque
+    const Scene plain = load(b);
+    for (const Vertex& v : plain.meshes.at(0).vertices)
+        EXPECT_EQ(v.color, glm::vec4(1, 1, 0, 1));
 }
 
 TEST_F(GltfMaterials, WithoutItsTextureASurfaceIsNoMetalAndNoMirror)
@@ -315,6 +341,25 @@ TEST_F(GltfMaterials, WithoutItsTextureASurfaceDoesNotGlow)
     EXPECT_EQ(scene.materials.at(0).emission, glm::vec3(0));
     EXPECT_TRUE(warns(scene, "images[0].uri: \"missing.png\": cannot be opened: No such file or "
                              "directory; the texture is left out"));
+}
+
+TEST_F(GltfMaterials, ImagesThatCannotBeReadAreOneWarning)
+{
+    GltfBuilder b = withMaterial(R"({"pbrMetallicRoughness": {
+        "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}},
+        "normalTexture": {"index": 2}, "emissiveTexture": {"index": 3}})",
+                                 4);
+    // Texture 1 has the image of texture 0, in another colour space.
+    for (const int image : {1, 2})
+        b.json["textures"][static_cast<size_t>(image + 1)]["source"] = image;
+    b.json["images"][0]["uri"] = "stone.png";
+    b.json["images"].push_back({{"uri", "wood.png"}});
+    b.json["images"].push_back({{"uri", "lamp.png"}});
+    const Scene scene = load(b);
+    EXPECT_EQ(scene.warnings.size(), 2u); // and it has no lights
+    EXPECT_TRUE(warns(scene, "scene.gltf: images[0].uri: \"stone.png\": cannot be opened: No such "
+                             "file or directory; the texture is left out, and so are those of 2 "
+                             "other images that cannot be read"));
 }
 
 // Two triangles form a square in z = 0 with the image upright (v down), two more form a square

@@ -82,6 +82,15 @@ TEST_F(GltfPoseTest, MorphTargetsChangeColoursAndTextureCoordinates)
     EXPECT_NE(error(b).find("is not finite with its morph targets"), std::string::npos) << error(b);
     primitive["targets"][0]["COLOR_0"] = uvOffsets;
     EXPECT_NE(error(b).find("targets[0].COLOR_0: accessors["), std::string::npos) << error(b);
+    primitive["targets"][0]["COLOR_0"] = b.accessor(b.view(colors, 4), componentByte, "VEC3", 3);
+    EXPECT_NE(
+        error(b).find("targets[0].COLOR_0: accessors[10] has integers that are not normalized"),
+        std::string::npos)
+        << error(b);
+    primitive["targets"][0]["COLOR_0"] = b.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC4");
+    EXPECT_NE(error(b).find("targets[0].COLOR_0: accessors[11] has the wrong number of components"),
+              std::string::npos)
+        << error(b);
 }
 
 TEST_F(GltfPoseTest, WeightsOfANodeReplaceThoseOfItsMesh)

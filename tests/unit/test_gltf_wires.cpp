@@ -14,6 +14,10 @@ namespace
 
 using namespace candelabra::app;
 
+constexpr const char* onePixel =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAA"
+    "DUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+
 class GltfWireTest : public GltfTest
 {
 protected:
@@ -114,9 +118,7 @@ TEST_F(GltfWireTest, WithoutNormalsLightChangesNothing)
     EXPECT_FALSE(unlit.materials[0].unlit); // triangles may have it too
     b.json["materials"][0]["emissiveTexture"] = {{"index", 0}};
     b.json["textures"] = Json::parse(R"([{"source": 0}])");
-    b.json["images"] = Json::parse(
-        R"([{"uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAA)"
-        R"(DUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="}])");
+    b.json["images"] = Json::array({{{"uri", onePixel}}});
     const Scene textured = load(b);          // the factor says nothing without the texture
     ASSERT_EQ(textured.textures.size(), 1u); // the image was read
     EXPECT_EQ(textured.materials.at(textured.instances.at(0).material).emission,
@@ -127,6 +129,52 @@ TEST_F(GltfWireTest, WithoutNormalsLightChangesNothing)
     const Scene lit = load(b);
     EXPECT_FALSE(lit.materials.at(lit.instances.at(0).material).unlit);
     expectNear(worldNormal(lit, lit.instances[0], 0), {1, 0, 0});
+}
+
+TEST_F(GltfWireTest, OneZeroNormalMakesLinesUnlitWithAWarning)
+{
+    GltfBuilder b = wires(3);
+    b.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+        b.floats({0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 1}, "VEC3");
+    const Scene scene = load(b);
+    EXPECT_TRUE(scene.materials.at(scene.instances.at(0).material).unlit);
+    EXPECT_TRUE(warns(scene, "meshes[0].primitives[0]: 1 normals have zero length, so light "
+                             "changes nothing of its lines"));
+}
+
+// Points and lines have no tangents, along which a normal map lies.
+TEST_F(GltfWireTest, NormalMapsAreLeftOut)
+{
+    GltfBuilder b = wires(3);
+    b.json["materials"] = Json::parse(R"([{"normalTexture": {"index": 0}}])");
+    b.json["textures"] = Json::parse(R"([{"source": 0}])");
+    b.json["images"] = Json::array({{{"uri", onePixel}}});
+    Json& primitive = b.json["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["attributes"]["NORMAL"] = b.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    b.json["nodes"].push_back(b.json["nodes"][0]);
+    b.json["scenes"][0]["nodes"].push_back(1);
+    const Scene scene = load(b);
+    ASSERT_EQ(scene.instances.size(), 2u);
+    ASSERT_EQ(scene.materials.size(), 2u); // one copy for both
+    for (const Instance& instance : scene.instances) {
+        EXPECT_FALSE(scene.materials.at(instance.material).unlit);
+        EXPECT_EQ(scene.materials.at(instance.material).normalTexture.texture, -1);
+    }
+    EXPECT_EQ(scene.materials[0].normalTexture.texture, 0); // triangles may have it too
+    EXPECT_TRUE(warns(scene, "materials[0]: has a normal map, which points and lines are drawn "
+                             "without"));
+}
+
+TEST_F(GltfWireTest, UnlitMaterialsAreNotCopied)
+{
+    GltfBuilder b = wires(3);
+    b.json["extensionsUsed"] = {"KHR_materials_unlit"};
+    b.json["materials"] = Json::parse(R"([{"extensions": {"KHR_materials_unlit": {}}}])");
+    b.json["meshes"][0]["primitives"][0]["material"] = 0;
+    const Scene scene = load(b);
+    EXPECT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.instances.at(0).material, 0u);
 }
 
 TEST_F(GltfWireTest, ColoursRunAlongLines)
@@ -183,6 +231,67 @@ TEST_F(GltfWireTest, LinesWithoutALengthAreDropped)
     EXPECT_TRUE(warns(scene, "is a list of lines with 5 ends"));
     primitive["indices"] = b.indices({0, 0});
     EXPECT_TRUE(warns(load(b), "meshes[0].primitives[0]: has no lines and is left out"));
+}
+
+TEST_F(GltfWireTest, LoopsOfOneAndTwoVertices)
+{
+    GltfBuilder b = wires(2);
+    Json& primitive = b.json["meshes"][0]["primitives"][0];
+    primitive["indices"] = b.indices({2});
+    EXPECT_TRUE(warns(load(b), "meshes[0].primitives[0]: has no lines and is left out"));
+    primitive["indices"] = b.indices({0, 1}); // there and back
+    const Scene scene = load(b);
+    ASSERT_EQ(boxes(scene), 2u);
+    for (size_t box = 0; box < 2; ++box) {
+        const Bounds bounds = boxBounds(scene, box);
+        EXPECT_NEAR(bounds.max.x - bounds.min.x, 100 + 100.0 / 300, 1e-3);
+    }
+}
+
+TEST_F(GltfWireTest, BrokenAndTooManyPointsAndLinesAreRefused)
+{
+    GltfBuilder b = wires(1);
+    Json& primitive = b.json["meshes"][0]["primitives"][0];
+    primitive["indices"] = b.indices({0, 4});
+    EXPECT_NE(error(b).find("meshes[0].primitives[0].indices: accessors[1] element 1 is 4, but "
+                            "there are 4 vertices"),
+              std::string::npos)
+        << error(b);
+    primitive["mode"] = 0;
+    const std::vector<uint8_t> zeros(4'200'000); // the same point again and again
+    primitive["indices"] = b.accessor(b.view(zeros), componentUnsignedByte, "SCALAR", zeros.size());
+    EXPECT_NE(error(b).find("meshes[0].primitives[0]: has 4200000 points, but the scene has room "
+                            "for 4194295 more; keep fewer of them in the file, such as every "
+                            "second one"),
+              std::string::npos)
+        << error(b);
+}
+
+TEST_F(GltfWireTest, InstancesOfOneLine)
+{
+    GltfBuilder b = wires(1);
+    b.json["meshes"][0]["primitives"][0]["indices"] = b.indices({0, 1});
+    b.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", b.floats({0, 0, 0, 0, 7, 0}, "VEC3")},
+        {"SCALE", b.floats({1, 1, 1, 3, 1, 1}, "VEC3")}};
+    const Scene scene = load(b);
+    ASSERT_EQ(scene.instances.size(), 2u);
+    double width = 0;
+    for (size_t i = 0; i < 2; ++i) {
+        glm::dvec3 low(1e9), high(-1e9);
+        for (size_t corner = 0; corner < 36; ++corner) {
+            low = glm::min(low, worldPosition(scene, scene.instances[i], corner));
+            high = glm::max(high, worldPosition(scene, scene.instances[i], corner));
+        }
+        if (i == 0)
+            width = high.y - low.y;
+        expectNear(0.5 * (low + high), i == 0 ? glm::dvec3(50, 0, 0) : glm::dvec3(150, 7, 0));
+        // Its scale makes an instance longer, and not wider.
+        expectNear(high - low, glm::dvec3(i == 0 ? 100 : 300, 0, 0) + width);
+    }
+    ASSERT_EQ(scene.notes.size(), 1u);
+    EXPECT_EQ(scene.notes[0],
+              "the scene has 2 lines, which have no width in the file and are drawn 1 m wide");
 }
 
 // Points and lines stand beside the triangles of their mesh, also where a transform flattens them.

@@ -245,6 +245,8 @@ TEST_F(Save, GltfFilesAreReferredToFromTheFolderOfTheDescription)
     EXPECT_EQ(brokenInvariant(saved), "");
     expectSameLights(scene, saved);
     EXPECT_EQ(saved.instances.size(), scene.instances.size());
+    EXPECT_TRUE(saved.energyCompensation); // as in the file itself
+    EXPECT_EQ(saved.lobes, CND_LOBES_CONSERVING);
 }
 
 // A description that was saved, opened and saved again still refers to the file below its

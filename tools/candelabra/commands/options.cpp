@@ -111,11 +111,12 @@ void LobeArguments::addTo(CLI::App& command)
     addChoice(
         command, "--lobes", lobes, lobeChoices,
         "how the diffuse and the specular lobe of a material share the light (default: sum for "
-        "scene .json files, else conserving)");
+        "scene .json files without a source, else conserving)");
     addChoice(
         command, "--energy-compensation", energyCompensation, onOffChoices,
         "add the light that bounces between microfacets, which the specular lobe loses: rough "
-        "metal is dark without it (default: on for glTF files, else off)");
+        "metal is dark without it (default: on for glTF files and for scene .json files whose "
+        "source is one, else off)");
 }
 
 void LobeArguments::applyTo(SceneOptions& options) const

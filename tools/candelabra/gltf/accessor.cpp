@@ -192,4 +192,14 @@ GltfAccessor gltfVertexAttribute(const GltfDocument& document, const std::string
     return accessor;
 }
 
+GltfAccessor gltfColorAttribute(const GltfDocument& document, const std::string& element, int index,
+                                int minComponents, int maxComponents, size_t vertexCount)
+{
+    GltfAccessor accessor =
+        gltfVertexAttribute(document, element, index, minComponents, maxComponents, vertexCount);
+    if (!accessor.isFloat() && !accessor.isNormalized())
+        document.fail(element, accessor.element() + " has integers that are not normalized");
+    return accessor;
+}
+
 } // namespace candelabra::app

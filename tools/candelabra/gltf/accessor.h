@@ -67,4 +67,8 @@ GltfAccessor gltfVertexAttribute(const GltfDocument& document, const std::string
                                  int index, int minComponents, int maxComponents,
                                  size_t vertexCount);
 
+// The same for an attribute of colours, whose integers must be normalised.
+GltfAccessor gltfColorAttribute(const GltfDocument& document, const std::string& element, int index,
+                                int minComponents, int maxComponents, size_t vertexCount);
+
 } // namespace candelabra::app

@@ -24,9 +24,11 @@ constexpr std::array<std::string_view, 16> supportedExtensions = {
     // These only name things or say where they come from.
     "KHR_xmp", "KHR_xmp_json_ld"};
 
+// An extension that is not read, or not all of it.
 struct Unread {
     std::string_view extension;
     std::string_view consequence; // what the picture lacks, and what helps
+    bool isReadInPart = false;
 };
 
 constexpr Unread unreadExtensions[] = {
@@ -44,9 +46,13 @@ constexpr Unread unreadExtensions[] = {
     {"KHR_materials_iridescence", "thin films are left out"},
     {"KHR_materials_sheen", "sheen is left out"},
     {"KHR_materials_transmission",
-     "glass is drawn as a thin veil, which neither bends nor colours what is behind it"},
+     "by its factor, glass is drawn as a thin veil, which neither bends nor colours what is behind "
+     "it; its texture is left out",
+     true},
     {"KHR_materials_variants", "the default variant of each material is drawn"},
-    {"KHR_materials_volume", "bodies of glass are drawn opaque"},
+    {"KHR_materials_volume",
+     "glass with a thickness is drawn opaque; what bodies of glass bend and absorb is left out",
+     true},
     {"KHR_node_visibility", "hidden nodes are drawn too"},
     {"KHR_technique_webgl",
      "materials with shaders of their own are drawn as plain metal; export them as "
@@ -80,6 +86,14 @@ std::set<std::string> unsupportedNames(const JsonValue& document, const char* ke
     return names;
 }
 
+// What is known of an extension that is not supported.
+Unread unreadExtension(const std::string& name)
+{
+    const auto known = std::find_if(std::begin(unreadExtensions), std::end(unreadExtensions),
+                                    [&](const Unread& u) { return u.extension == name; });
+    return known == std::end(unreadExtensions) ? Unread{name, "what it adds is left out"} : *known;
+}
+
 } // namespace
 
 std::string checkGltfExtensions(const std::string& file, const nlohmann::json& json,
@@ -91,16 +105,15 @@ std::string checkGltfExtensions(const std::string& file, const nlohmann::json& j
     const std::set<std::string> required = unsupportedNames(document, "extensionsRequired");
     unread.insert(required.begin(), required.end());
     for (const std::string& name : unread) {
-        const auto known = std::find_if(std::begin(unreadExtensions), std::end(unreadExtensions),
-                                        [&](const Unread& u) { return u.extension == name; });
-        warnings.add("",
-                     "extension " + quoted(name) + " is not supported: " +
-                         (known == std::end(unreadExtensions) ? "what it adds is left out"
-                                                              : std::string(known->consequence)));
+        const Unread u = unreadExtension(name);
+        warnings.add("", "extension " + quoted(name) +
+                             (u.isReadInPart ? " is read in part: " : " is not supported: ") +
+                             std::string(u.consequence));
     }
     std::string phrase;
     for (const std::string& name : required)
-        phrase += (phrase.empty() ? "" : ", ") + quoted(name);
+        if (!unreadExtension(name).isReadInPart)
+            phrase += (phrase.empty() ? "" : ", ") + quoted(name);
     return phrase;
 }
 

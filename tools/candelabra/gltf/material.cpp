@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -27,7 +27,8 @@ class GltfTextures
 public:
     GltfTextures(const GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
-    // Returns -1, with a warning, if the texture has no image that can be read.
+    // Returns -1 if the texture has no image that can be read. A warning says so, which is that of
+    // warnOfImages() if the texture has an image.
     int32_t find(int gltfTexture, bool srgb);
     // The mean of a texture of sRGB colours that was read as linear data, in linear values.
     glm::vec3 meanColor(int32_t texture) const;
@@ -36,12 +37,14 @@ public:
     int32_t roughnessOfGlossiness(int32_t texture, float factor);
     // Returns a texture with the colours of another one and an alpha of 1. Materials share it.
     int32_t withoutAlpha(int32_t texture);
+    // Warns of all images together that could not be read.
+    void warnOfImages() const;
 
 private:
     int32_t addCopy(Texture copy);
     // Throws SceneError that names the image.
     Texture decode(size_t image);
-    // Decodes the image as scene_.textures.back(). Returns its index, or -1 with a warning.
+    // Decodes the image as scene_.textures.back(). Returns its index, or -1 if it cannot be read.
     int32_t add(int gltfImage, int gltfSampler, bool srgb);
 
     const GltfDocument& document_;
@@ -49,6 +52,8 @@ private:
     std::map<std::tuple<int, int, bool>, int32_t> known_; // (image, sampler, srgb) -> texture
     std::map<int32_t, int32_t> withoutAlpha_;             // texture -> its copy without alpha
     uint64_t texels_ = 0;                                 // decoded so far
+    std::set<int> unreadImages_;
+    std::string firstFault_; // what is wrong with the first of them
 };
 
 // Sets wrapping and filtering. glTF uses the enumerants of OpenGL.
@@ -87,7 +92,9 @@ int32_t GltfTextures::add(int gltfImage, int gltfSampler, bool srgb)
         scene_.textures.push_back(decode(static_cast<size_t>(gltfImage)));
     } catch (const SceneError& error) {
         // The scene is worth seeing without the texture.
-        document_.warn("", document_.withoutFile(error.what()) + "; the texture is left out");
+        if (unreadImages_.empty())
+            firstFault_ = document_.withoutFile(error.what());
+        unreadImages_.insert(gltfImage);
         return -1;
     }
     Texture& texture = scene_.textures.back();
@@ -95,6 +102,18 @@ int32_t GltfTextures::add(int gltfImage, int gltfSampler, bool srgb)
     if (gltfSampler >= 0)
         applySampler(document_.model.samplers[static_cast<size_t>(gltfSampler)], texture);
     return static_cast<int32_t>(scene_.textures.size() - 1);
+}
+
+void GltfTextures::warnOfImages() const
+{
+    if (unreadImages_.empty())
+        return;
+    const size_t others = unreadImages_.size() - 1;
+    std::string sentence = firstFault_ + "; the texture is left out";
+    if (others > 0)
+        sentence += ", and so are those of " + std::to_string(others) + " other image" +
+                    (others == 1 ? "" : "s") + " that cannot be read";
+    document_.warn("", sentence);
 }
 
 glm::vec3 GltfTextures::meanColor(int32_t texture) const
@@ -198,6 +217,8 @@ public:
     }
 
     Material read(size_t index);
+    // Warns of what concerns several materials, after the last of them.
+    void finish() const { textures_.warnOfImages(); }
 
 private:
     // Reads owner[slot], a textureInfo. Without it the reference is empty.
@@ -331,8 +352,12 @@ void MaterialReader::readTransmission(const nlohmann::json& json, Material& mate
     const double factor = extension ? numberOr(*extension, "transmissionFactor", 0) : 0;
     const auto* volume = GltfDocument::extension(json, "KHR_materials_volume");
     const bool isBody = volume && numberOr(*volume, "thicknessFactor", 0) > 0;
-    if (factor <= 0 || isBody || material.alphaMode == AlphaMode::Mask)
+    if (factor <= 0 || isBody)
         return;
+    if (material.alphaMode == AlphaMode::Mask) {
+        document_.warn(element_, "has alphaMode MASK, so its transmission is left out");
+        return;
+    }
     if (extension->contains("transmissionTexture")) {
         document_.warn(element_, "has a texture of its transmission, and lets no light through");
         return;
@@ -345,7 +370,8 @@ void MaterialReader::readTransmission(const nlohmann::json& json, Material& mate
     if (material.alpha == 1)
         return;
     material.alphaMode = AlphaMode::Blend;
-    // The alpha of an opaque material's texture has no meaning (glTF 2.0, section 3.9.4).
+    // The alpha of an opaque material's texture has no meaning (glTF 2.0, section 3.9.4). Nor has
+    // that of vertex colours, which the reader of meshes leaves out.
     if (int32_t& texture = material.baseColorTexture.texture; isOpaque && texture >= 0)
         texture = textures_.withoutAlpha(texture);
 }
@@ -400,14 +426,19 @@ Material MaterialReader::read(size_t index)
     readTransmission(json, material);
     if (GltfDocument::extension(json, "KHR_materials_unlit"))
         makeUnlit(material, material.baseColor);
-    const float largest = std::numeric_limits<float>::max();
-    for (int i = 0; i < 3; ++i)
-        if (!(material.emission[i] <= largest))
-            document_.fail(element_, "emits more than single precision holds");
+    requireFiniteEmission(document_, index, material);
     return material;
 }
 
 } // namespace
+
+void requireFiniteEmission(const GltfDocument& document, size_t index, const Material& material)
+{
+    for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(material.emission[i]))
+            document.fail(gltfElement("materials", index),
+                          "emits more than single precision holds");
+}
 
 void makeUnlit(Material& material, const glm::vec3& color)
 {
@@ -427,6 +458,7 @@ uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene)
     MaterialReader reader(document, scene);
     for (size_t i = 0; i < document.model.materials.size(); ++i)
         scene.materials.push_back(reader.read(i));
+    reader.finish();
     bool isDefaultUsed = false;
     for (const tinygltf::Mesh& mesh : document.model.meshes)
         for (const tinygltf::Primitive& primitive : mesh.primitives)

@@ -184,6 +184,13 @@ private:
     void readPositions(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readUvs(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readColors(const std::vector<uint32_t>& used, Mesh& mesh) const;
+    // An opaque material has the alpha 1 everywhere (glTF 2.0, section 3.9.4), also if it is glass.
+    bool isAlphaUsed() const
+    {
+        return primitive_.material >= 0 &&
+               document_.model.materials[static_cast<size_t>(primitive_.material)].alphaMode !=
+                   "OPAQUE";
+    }
     // Normals of zero length stay as they are.
     bool readNormals(const std::vector<uint32_t>& used, Mesh& mesh) const;
     bool readTangents(const std::vector<uint32_t>& used, Mesh& mesh) const;
@@ -352,22 +359,24 @@ void PrimitiveReader::readUvs(const std::vector<uint32_t>& used, Mesh& mesh) con
 
 void PrimitiveReader::readColors(const std::vector<uint32_t>& used, Mesh& mesh) const
 {
-    const auto accessor = attribute("COLOR_0", 3, 4);
-    if (!accessor)
+    const auto found = primitive_.attributes.find("COLOR_0");
+    if (found == primitive_.attributes.end())
         return;
-    if (!accessor->isFloat() && !accessor->isNormalized())
-        document_.fail(element_ + ".attributes.COLOR_0",
-                       accessor->element() + " has integers that are not normalized");
+    const GltfAccessor accessor = gltfColorAttribute(document_, element_ + ".attributes.COLOR_0",
+                                                     found->second, 3, 4, vertexCount_);
+    const bool hasAlpha = accessor.components() == 4 && isAlphaUsed();
     size_t outside = 0;
     for (size_t i = 0; i < used.size(); ++i) {
-        glm::vec4 color = accessor->read(used[i]);
-        if (accessor->components() == 3)
+        glm::vec4 color = accessor.read(used[i]);
+        if (!hasAlpha)
             color.w = 1;
         // Colours multiply a reflectance, so they have the range of reflectances.
         outside += glm::any(glm::lessThan(color, glm::vec4(-1e-4f))) ||
                    glm::any(glm::greaterThan(color, glm::vec4(1.0001f)));
-        mesh.vertices[i].color =
-            glm::clamp(posed_->color(used[i], color), glm::vec4(0), glm::vec4(1));
+        glm::vec4& posed = mesh.vertices[i].color;
+        posed = glm::clamp(posed_->color(used[i], color), glm::vec4(0), glm::vec4(1));
+        if (!hasAlpha)
+            posed.w = 1;
     }
     if (outside)
         document_.warn(element_, std::to_string(outside) +
@@ -483,8 +492,14 @@ std::optional<GltfWire> PrimitiveReader::readWire()
     Mesh mesh;
     readVertices(used, mesh);
     wire.hasNormals = readNormals(used, mesh);
-    for (const Vertex& v : mesh.vertices)
-        wire.hasNormals = wire.hasNormals && v.normal != glm::vec3(0);
+    const auto broken = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
+                                      [](const Vertex& v) { return v.normal == glm::vec3(0); });
+    if (wire.hasNormals && broken > 0) {
+        document_.warn(element_, std::to_string(broken) +
+                                     " normals have zero length, so light changes nothing of its " +
+                                     (wire.isPoints ? "points" : "lines"));
+        wire.hasNormals = false;
+    }
     wire.vertices = std::move(mesh.vertices);
     return wire;
 }

@@ -80,19 +80,25 @@ GltfPosedVertices::GltfPosedVertices(const GltfDocument& document,
                                      size_t vertexCount)
     : document_(document), element_(element), pose_(pose)
 {
-    positions_ = morphs(primitive, "POSITION", 3, 3, vertexCount);
-    normals_ = morphs(primitive, "NORMAL", 3, 3, vertexCount);
-    tangents_ = morphs(primitive, "TANGENT", 3, 3, vertexCount);
-    uvs_[0] = morphs(primitive, "TEXCOORD_0", 2, 2, vertexCount);
-    uvs_[1] = morphs(primitive, "TEXCOORD_1", 2, 2, vertexCount);
-    colors_ = morphs(primitive, "COLOR_0", 3, 4, vertexCount);
+    const auto vectors = [&](const char* attribute, int components) {
+        return morphs(primitive, attribute, gltfVertexAttribute, components, vertexCount);
+    };
+    positions_ = vectors("POSITION", 3);
+    normals_ = vectors("NORMAL", 3);
+    tangents_ = vectors("TANGENT", 3);
+    uvs_[0] = vectors("TEXCOORD_0", 2);
+    uvs_[1] = vectors("TEXCOORD_1", 2);
+    if (const auto colors = primitive.attributes.find("COLOR_0");
+        colors != primitive.attributes.end())
+        colors_ = morphs(primitive, "COLOR_0", gltfColorAttribute,
+                         GltfAccessor(document, colors->second).components(), vertexCount);
     if (isSkinned())
         readInfluences(primitive, vertexCount);
 }
 
 std::vector<GltfPosedVertices::Morph>
 GltfPosedVertices::morphs(const tinygltf::Primitive& primitive, const char* attribute,
-                          int minComponents, int maxComponents, size_t vertexCount) const
+                          OpenAttribute open, int components, size_t vertexCount) const
 {
     std::vector<Morph> out;
     const size_t count = std::min(primitive.targets.size(), pose_.weights.size());
@@ -101,9 +107,8 @@ GltfPosedVertices::morphs(const tinygltf::Primitive& primitive, const char* attr
         if (pose_.weights[t] == 0 || found == primitive.targets[t].end())
             continue;
         const std::string element = element_ + "." + gltfElement("targets", t) + "." + attribute;
-        out.push_back(
-            {pose_.weights[t], gltfVertexAttribute(document_, element, found->second, minComponents,
-                                                   maxComponents, vertexCount)});
+        out.push_back({pose_.weights[t], open(document_, element, found->second, components,
+                                              components, vertexCount)});
     }
     return out;
 }

@@ -71,9 +71,11 @@ private:
         GltfAccessor joints, weights; // four of each per vertex
     };
 
-    // The targets of an attribute whose offsets have one of these numbers of components.
+    using OpenAttribute = decltype(&gltfVertexAttribute);
+
+    // The targets of an attribute, whose offsets must have as many components as the attribute.
     std::vector<Morph> morphs(const tinygltf::Primitive& primitive, const char* attribute,
-                              int minComponents, int maxComponents, size_t vertexCount) const;
+                              OpenAttribute open, int components, size_t vertexCount) const;
     void readInfluences(const tinygltf::Primitive& primitive, size_t vertexCount);
     void checkWeights(size_t vertexCount) const;
     glm::dmat4 meshFromVertex(size_t i) const;

@@ -71,23 +71,42 @@ glm::dmat3 normalTransform(const glm::dmat4& worldFromMesh)
 
 } // namespace
 
-uint32_t GltfWires::unlitMaterial(uint32_t material)
+uint32_t GltfWires::materialOf(const GltfWire& wire, uint32_t material)
 {
-    const auto [found, isNew] =
-        unlit_.try_emplace(material, static_cast<uint32_t>(scene_.materials.size()));
-    if (isNew) {
-        Material copy = scene_.materials[material];
+    const Material& source = scene_.materials[material];
+    const bool hasNormalMap = source.normalTexture.texture >= 0;
+    if (source.unlit || (wire.hasNormals && !hasNormalMap))
+        return material;
+    const auto [found, isNew] = copies_.try_emplace(std::make_pair(material, wire.hasNormals),
+                                                    static_cast<uint32_t>(scene_.materials.size()));
+    if (!isNew)
+        return found->second;
+    Material copy = source;
+    if (wire.hasNormals) {
+        copy.normalTexture = TextureRef{};
+        document_.warn(gltfElement("materials", material),
+                       "has a normal map, which points and lines are drawn without");
+    } else {
         // A texture of the emission is left out, and then the factor without it says nothing.
         const bool glows = copy.emissiveTexture.texture < 0;
-        if (!copy.unlit)
-            makeUnlit(copy, copy.baseColor + (glows ? copy.emission : glm::vec3(0)));
-        for (int i = 0; i < 3; ++i)
-            if (!std::isfinite(copy.emission[i]))
-                document_.fail(gltfElement("materials", material),
-                               "emits more than single precision holds");
-        scene_.materials.push_back(copy);
+        makeUnlit(copy, copy.baseColor + (glows ? copy.emission : glm::vec3(0)));
+        requireFiniteEmission(document_, material, copy);
     }
+    scene_.materials.push_back(copy);
     return found->second;
+}
+
+void GltfWires::takeBudget(const std::string& element, const GltfWire& wire)
+{
+    const uint64_t segments = wire.ends.size() / 2;
+    const uint64_t vertices = budget_.vertices > meshCost ? budget_.vertices - meshCost : 0;
+    const uint64_t room = std::min(vertices / boxCorners, budget_.indices / boxTriangles.size());
+    if (segments > room)
+        document_.fail(element, fmt::format("has {} {}, but the scene has room for {} more; keep "
+                                            "fewer of them in the file, such as every second one",
+                                            segments, wire.isPoints ? "points" : "lines", room));
+    takeGltfBudget(document_, element, meshCost + boxCorners * segments,
+                   boxTriangles.size() * segments, budget_);
 }
 
 void GltfWires::addBox(const GltfWire& wire, size_t segment, const Placement& placement, Thin& thin)
@@ -117,21 +136,22 @@ void GltfWires::add(const std::string& element, const GltfWire& wire,
                     const glm::dmat4& worldFromMesh, uint32_t material)
 {
     const size_t segments = wire.ends.size() / 2;
-    takeGltfBudget(document_, element, meshCost + boxCorners * uint64_t{segments},
-                   boxTriangles.size() * uint64_t{segments}, budget_);
+    takeBudget(element, wire);
     Placement placement{worldFromMesh, normalTransform(worldFromMesh)};
     // Positions keep their digits if they are relative to the first of them.
     const glm::dvec3 origin = placement.at(wire, wire.ends[0]);
     placement.fromMesh[3] -= glm::dvec4(origin, 0);
     Thin thin{static_cast<uint32_t>(scene_.meshes.size()), wire.isPoints, {}};
-    scene_.meshes.emplace_back();
+    Mesh& mesh = scene_.meshes.emplace_back();
+    mesh.vertices.reserve(boxCorners * segments);
+    mesh.indices.reserve(boxTriangles.size() * segments);
+    thin.offsets.reserve(boxCorners * segments);
     for (size_t segment = 0; segment < segments; ++segment)
         addBox(wire, segment, placement, thin);
     (wire.isPoints ? points_ : lines_) += segments;
     thin_.push_back(std::move(thin));
-    scene_.instances.push_back({thin_.back().mesh,
-                                wire.hasNormals ? material : unlitMaterial(material),
-                                glm::translate(glm::dmat4(1), origin)});
+    scene_.instances.push_back(
+        {thin_.back().mesh, materialOf(wire, material), glm::translate(glm::dmat4(1), origin)});
 }
 
 void GltfWires::finish()

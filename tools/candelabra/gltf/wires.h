@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -51,16 +52,19 @@ private:
         std::vector<glm::vec3> offsets;
     };
 
-    // The index of the material that points and lines without normals have instead of `material`:
-    // light changes nothing of them (glTF 2.0, section 3.9.7).
-    uint32_t unlitMaterial(uint32_t material);
+    // The index of the material that points and lines have instead of `material`. Without normals
+    // light changes nothing of them (glTF 2.0, section 3.9.7), and normal maps are left out.
+    uint32_t materialOf(const GltfWire& wire, uint32_t material);
+    // Subtracts the boxes of points or lines from the budget. Fails if it is too small.
+    void takeBudget(const std::string& element, const GltfWire& wire);
     void addBox(const GltfWire& wire, size_t segment, const Placement& placement, Thin& thin);
 
     const GltfDocument& document_;
     Scene& scene_;
     GltfMeshBudget& budget_;
     std::vector<Thin> thin_;
-    std::map<uint32_t, uint32_t> unlit_; // index of a material -> of its unlit copy
+    // Copies of materials for points and lines, by the original and whether there are normals.
+    std::map<std::pair<uint32_t, bool>, uint32_t> copies_;
     size_t points_ = 0, lines_ = 0;
 };
 

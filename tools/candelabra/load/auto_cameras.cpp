@@ -223,23 +223,30 @@ void addRoomCameras(Scene& scene)
 // scene large enough. Many files have cameras that nobody looked through.
 void chooseDefaultCamera(Scene& scene, size_t own, double aspect)
 {
+    if (own == 0)
+        return;
+    std::vector<glm::dvec3> points;
+    visitVertices(scene, {0, scene.instances.size()},
+                  [&](const glm::dvec3& p) { points.push_back(p); });
+    // Only the first of thousands of cameras are tried: 8 of them if there are 4 million points.
+    constexpr size_t mostTries = size_t{1} << 25; // a point in a camera each
+    const size_t tried =
+        std::min(own, std::max<size_t>(mostTries / std::max<size_t>(points.size(), 1), 1));
     constexpr double least = 0.5; // of the width or of the height
-    const char* fault = "the scene is less than half as wide and as high as the picture of";
-    for (size_t i = 0; i < own; ++i) {
-        const PictureShare share = pictureShare(scene, scene.cameras[i], aspect);
+    const char* fault = "the scene less than half as wide and as high as the picture";
+    for (size_t i = 0; i < tried; ++i) {
+        const PictureShare share = pictureShare(points, scene.cameras[i], aspect);
         if (!share.isEmpty && std::max(share.width, share.height) >= least) {
             scene.defaultCamera = i;
             return;
         }
         if (i == 0 && share.isEmpty)
-            fault = "nothing of the scene is in the picture of";
+            fault = "nothing of the scene";
     }
-    if (own == 0)
-        return;
     scene.defaultCamera = own;
-    scene.notes.push_back(std::string(fault) +
-                          (own == 1 ? " the file's camera" : " its first camera") + ", so " +
-                          scene.cameras[own].name + " is used; --camera 0 chooses the file's own");
+    scene.notes.push_back(std::string("the file's ") + (own == 1 ? "camera" : "first camera") +
+                          " shows " + fault + ", so the automatic camera " +
+                          scene.cameras[own].name + " is used; --camera 0 chooses the file's");
 }
 
 // --- lights alone

@@ -23,7 +23,8 @@ namespace candelabra::app
 // at the origin.
 //
 // Scene::defaultCamera becomes the first camera of the file that shows the scene at least half as
-// wide or as high as the picture, or else the first automatic one, with a note.
+// wide or as high as the picture, or else the first automatic one, with a note. In scenes of very
+// many vertices only the first of very many cameras are tried.
 void addAutomaticCameras(Scene& scene, double aspect);
 
 } // namespace candelabra::app

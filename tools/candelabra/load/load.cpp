@@ -129,14 +129,16 @@ void describeEnvironment(Scene& scene)
             rounded(illuminance), rounded(sun), sun > illuminance ? "the environment" : "they"));
 }
 
-// Tells whether a surface emits so much light that it would be white with studioEv100().
+// Tells whether a surface glows so brightly that it would be white with studioEv100(). Unlit
+// surfaces do not glow: what they emit is their colour, and studioWhite() has weighed them.
 bool outshinesStudio(const Scene& scene, float white)
 {
     const float most = 4 * white; // cd/m^2
     return std::any_of(scene.instances.begin(), scene.instances.end(),
                        [&](const Instance& instance) {
-                           const glm::vec3& e = scene.materials[instance.material].emission;
-                           return std::max({e.r, e.g, e.b}) > most;
+                           const Material& material = scene.materials[instance.material];
+                           const glm::vec3& e = material.emission;
+                           return !material.unlit && std::max({e.r, e.g, e.b}) > most;
                        });
 }
 

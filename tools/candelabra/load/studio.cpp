@@ -54,6 +54,21 @@ double skyLuminance(const glm::dvec3& direction)
     return out;
 }
 
+// Returns the area of an instance in m^2.
+double areaOf(const Scene& scene, const Instance& instance)
+{
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const glm::dmat3 worldFromObject(instance.worldFromObject);
+    double sum = 0;
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const auto corner = [&](size_t k) {
+            return worldFromObject * glm::dvec3(mesh.vertices[mesh.indices[i + k]].position);
+        };
+        sum += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    }
+    return sum;
+}
+
 } // namespace
 
 bool isLit(const Scene& scene)
@@ -67,11 +82,15 @@ bool isLit(const Scene& scene)
 
 float studioWhite(const Scene& scene)
 {
-    const bool unlit =
-        std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
-            return scene.materials[instance.material].unlit;
-        });
-    return unlit ? unlitLuminance : 1;
+    double unlit = 0, glowing = 0; // m^2
+    bool isAnyUnlit = false;
+    for (const Instance& instance : scene.instances) {
+        const Material& material = scene.materials[instance.material];
+        isAnyUnlit = isAnyUnlit || material.unlit;
+        if (material.unlit || material.emission != glm::vec3(0))
+            (material.unlit ? unlit : glowing) += areaOf(scene, instance);
+    }
+    return isAnyUnlit && unlit >= glowing ? unlitLuminance : 1;
 }
 
 float studioEv100(float white)

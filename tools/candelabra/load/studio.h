@@ -16,8 +16,9 @@ bool isLit(const Scene& scene);
 SceneEnvironment studioEnvironment(const Camera& defaultCamera, float white);
 
 // Returns the luminance in cd/m^2 that white surfaces in the studio have, so that the scene's own
-// emission looks right beside them: that of white in unlit materials, if there are any, else 1, the
-// luminance of an emissive factor of 1 in glTF.
+// emission looks right beside them: that of white in unlit materials if there are any and their
+// surfaces are at least as large as those that glow, else 1, the luminance of an emissive factor of
+// 1 in glTF.
 float studioWhite(const Scene& scene);
 
 // Returns the EV100 that a grey card has in the studio where it gets most light, facing the key

@@ -167,20 +167,20 @@ Camera cameraOfPicture(const Camera& camera, double aspect)
     return out;
 }
 
-PictureShare pictureShare(const Scene& scene, const Camera& camera, double aspect)
+PictureShare pictureShare(const std::vector<glm::dvec3>& points, const Camera& camera,
+                          double aspect)
 {
     const Camera whole = cameraOfPicture(camera, aspect);
     const Axes axes(whole);
     const double slope = std::tan(0.5 * whole.verticalFov);
     Range across, along; // in half widths and half heights of the picture
-    size_t behind = 0, count = 0, left = 0, right = 0, below = 0, above = 0;
-    visitVertices(scene, {0, scene.instances.size()}, [&](const glm::dvec3& p) {
+    size_t behind = 0, left = 0, right = 0, below = 0, above = 0;
+    for (const glm::dvec3& p : points) {
         const glm::dvec3 d = p - whole.position;
         const double z = glm::dot(d, axes.forward);
         const double half = whole.orthographic ? 0.5 * whole.orthographicHeight : slope * z;
         const double x = glm::dot(d, axes.right), y = glm::dot(d, axes.up);
         const double edge = half * aspect;
-        ++count;
         behind += z <= 0;
         left += x < -edge;
         right += x > edge;
@@ -190,10 +190,10 @@ PictureShare pictureShare(const Scene& scene, const Camera& camera, double aspec
             across.add(x / edge);
             along.add(y / half);
         }
-    });
+    }
     const bool outside = left + right + below + above > 0;
     PictureShare out;
-    out.isEmpty = std::max({behind, left, right, below, above}) == count;
+    out.isEmpty = std::max({behind, left, right, below, above}) == points.size();
     if (!out.isEmpty && !outside && behind == 0) {
         out.width = 0.5 * across.length();
         out.height = 0.5 * along.length();

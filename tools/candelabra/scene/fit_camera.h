@@ -24,20 +24,21 @@ void visitVertices(const Scene& scene, const InstanceRange& range,
 // wider or higher. So nothing is stretched or cut off.
 Camera cameraOfPicture(const Camera& camera, double aspect);
 
-// How much of a picture the vertices of a scene fill.
+// How much of a picture points fill.
 struct PictureShare {
-    // The picture shows nothing of the scene: all of its vertices are behind the camera, or all are
-    // beyond the same edge of the picture.
+    // The picture shows nothing of the points: all of them are behind the camera, or all are beyond
+    // the same edge of the picture.
     bool isEmpty = false;
-    // The distance between the outermost vertices, as a share of the picture's width and of its
-    // height. Both are 1 if a vertex is outside the picture.
+    // The distance between the outermost points, as a share of the picture's width and of its
+    // height. Both are 1 if a point is outside the picture.
     double width = 1, height = 1;
 };
 
-// Returns how much of the picture of a camera the scene fills. The near and the far plane are left
-// out of account. `aspect` is the picture's width / height, which the camera gets by
-// cameraOfPicture.
-PictureShare pictureShare(const Scene& scene, const Camera& camera, double aspect);
+// Returns how much of the picture of a camera the points fill, which are in world space. The near
+// and the far plane are left out of account. `aspect` is the picture's width / height, which the
+// camera gets by cameraOfPicture.
+PictureShare pictureShare(const std::vector<glm::dvec3>& points, const Camera& camera,
+                          double aspect);
 
 // Returns the camera moved, but not turned, to where the points lie in the middle of the picture
 // and fill fitShare of its width or height. `aspect` is the picture's width / height, which the

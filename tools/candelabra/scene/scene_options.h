@@ -36,8 +36,10 @@ struct SceneOptions {
     double environmentScale = 1;    // as SceneEnvironment::scale
     // lx on level ground, which the environment is scaled to; used instead of environmentScale
     std::optional<double> environmentIlluminance;
-    std::optional<CndLobeJoining> lobes;    // default: sum for .json files, else conserving
-    std::optional<bool> energyCompensation; // default: on for glTF files, else off
+    // Default: sum for scene descriptions (.json) without a source, else conserving.
+    std::optional<CndLobeJoining> lobes;
+    // Default: on for glTF files and for scene descriptions whose source is one, else off.
+    std::optional<bool> energyCompensation;
     bool defaultLight = false; // a scene without any light gets the environment of load/studio.h
     double imageAspect = 16.0 / 9; // width / height of pictures, for automatic cameras
 };
