@@ -3,7 +3,9 @@
 """Doxygen's input filter: turns the plain // comments of the headers into documentation comments.
 
 A trailing comment, with the lines that continue it, documents the declaration before it. Any other
-comment documents the declaration that follows, and the first comment of a file documents the file."""
+comment documents the declaration that follows, and the first comment of a file documents the file. Pages (.md)
+get labels, to which their links to each other are changed: Doxygen does not find a page by a path with a space."""
+import pathlib
 import re
 import sys
 
@@ -32,8 +34,11 @@ def documented(lines):
             yield line
 
 
-with open(sys.argv[1], encoding="utf-8") as header:
-    if sys.argv[1].endswith(".md"):
-        sys.stdout.write(header.read())
-    else:
-        print("\n".join(documented(header.read().splitlines())))
+def labelled(page, name):
+    page = re.sub(r"^(# .*)", rf"\1 {{#page_{name}}}", page, count=1)
+    return re.sub(r"\]\((\w+)\.md\)", r"](@ref page_\1)", page)
+
+
+path = pathlib.Path(sys.argv[1])
+text = path.read_text(encoding="utf-8")
+print(labelled(text, path.stem) if path.suffix == ".md" else "\n".join(documented(text.splitlines())))

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "generate/random.h"
+#include "harness/full_tests.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
 #include "io/image.h"
@@ -123,7 +124,7 @@ TEST_F(Bench, RepresentativePointHasNoJumps)
 TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
 {
     ImageLevelSettings settings{.methods = {CND_SPECULAR_KARIS, CND_SPECULAR_CONIC, Rival::Ltc},
-                                .size = {48, 36},
+                                .size = test::fullTests() ? PixelSize{48, 36} : PixelSize{32, 24},
                                 .rounds = 1};
     Progress progress(1, false);
     const std::vector<ImageScene> scenes = measureImages(context(), settings, progress);

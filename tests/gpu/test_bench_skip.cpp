@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks in small frames of the benchmark that no skipped pass changes the image.
+#include "harness/full_tests.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
 #include "measure/skip.h"
@@ -18,7 +19,11 @@ class BenchSkip : public test::GpuTest
 
 TEST_F(BenchSkip, ImagesAreThoseOfFramesThatSkipNothing)
 {
-    const SkipSettings settings{.size = {200, 120}, .lights = 300, .rounds = 2, .pointRounds = 1};
+    const bool full = test::fullTests();
+    const SkipSettings settings{.size = full ? PixelSize{200, 120} : PixelSize{100, 60},
+                                .lights = full ? 300u : 150u,
+                                .rounds = full ? 2u : 1u,
+                                .pointRounds = 1};
     Progress progress(1, false);
     const std::vector<SkipRow> rows = measureSkips(context(), settings, progress);
     ASSERT_EQ(rows.size(), 12u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Returns whether the slow sweeps were requested: tools/test --full.
+// What tells tests how much to do.
 #pragma once
 
 #include <cstdlib>
@@ -8,6 +8,17 @@
 namespace candelabra::test
 {
 
+// Whether this is a build with AddressSanitizer (g++ and clang tell it in different ways), in which
+// tests take ten times as long.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool sanitized = true;
+#elif defined(__has_feature)
+inline constexpr bool sanitized = __has_feature(address_sanitizer);
+#else
+inline constexpr bool sanitized = false;
+#endif
+
+// Returns whether the slow sweeps were requested: tools/test --full.
 inline bool fullTests()
 {
     const char* value = std::getenv("CANDELABRA_FULL_TESTS");

@@ -55,7 +55,10 @@ public:
     explicit Call(const char* name, bool failable = false)
     {
         mock->called.insert(name);
-        if (!failable || mock->failableCalls++ != mock->failingCall)
+        if (!failable)
+            return;
+        mock->failableCalls.push_back(name);
+        if (mock->failableCalls.size() - 1 != mock->failingCall)
             return;
         mock->failed = name;
         fails_ = true;

@@ -35,8 +35,8 @@ public:
     static VkImageView imageView();
     static VkBuffer hostBuffer();
 
-    // Number of calls since construction that return a VkResult.
-    uint64_t failableCalls = 0;
+    // Names of the calls since construction that return a VkResult.
+    std::vector<const char*> failableCalls;
     // The index of the call that fails (from 0) and its result. `failed` receives its name.
     uint64_t failingCall = UINT64_MAX;
     VkResult error = VK_ERROR_OUT_OF_HOST_MEMORY;

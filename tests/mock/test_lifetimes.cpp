@@ -247,7 +247,7 @@ TEST(Lifetimes, ListsAreNotReusedAfterAFailedLightSet)
         ASSERT_TRUE(lighting.setLights(std::span(lights).first(1), {0, 0, 0}));
         EXPECT_TRUE(preparesLights());
         EXPECT_FALSE(preparesLights()) << "nothing has changed";
-        vulkan.failingCall = vulkan.failableCalls + failing;
+        vulkan.failingCall = vulkan.failableCalls.size() + failing;
         failed = !lighting.setLights(lights, {0, 0, 0});
         EXPECT_TRUE(preparesLights()) << vulkan.failed << ", call " << failing;
     }

@@ -168,7 +168,7 @@ def fetched():
     commands, = re.findall(r"```cmake\n(include\(FetchContent\).*?)```", guide, re.DOTALL)
     require("https://ADDRESS/candelabra.git" in commands, f"no address to replace in {commands}")
     get, folder = work / "get.cmake", work / "fetched"
-    get.write_text(commands.replace("https://ADDRESS/candelabra.git", f"file://{repository}"), encoding="utf-8")
+    get.write_text(commands.replace("https://ADDRESS/candelabra.git", f'"{repository.as_uri()}"'), encoding="utf-8")
     options = [f"-DGET={get}", "-DCPP=ON", "-DCMAKE_BUILD_TYPE=Release"]
     if os.environ.get("CANDELABRA_FULL_TESTS") != "1":  # compiling the shaders again takes a minute
         options.append(f"-DCANDELABRA_COMPILED_SHADERS={build}/shaders")
@@ -176,7 +176,7 @@ def fetched():
     run_sample(folder / "sample/embed_minimal")
 
     fetched_source, fetched_build = folder / "_deps/candelabra-src", folder / "_deps/candelabra-build"
-    get.write_text(f"add_subdirectory({fetched_source} {fetched_build})\n", encoding="utf-8")
+    get.write_text(f'add_subdirectory("{fetched_source}" "{fetched_build}")\n', encoding="utf-8")
     for stale in (folder / "CMakeCache.txt", *folder.glob("with_*[a-z0-9]")):
         stale.unlink()
     run("cmake", "-G", generator, "-S", source / "tests/package/consumer", "-B", folder, *options, *WITHOUT,
