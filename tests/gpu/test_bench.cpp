@@ -126,9 +126,12 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
     ImageLevelSettings settings{.methods = {CND_SPECULAR_KARIS, CND_SPECULAR_CONIC, Rival::Ltc},
                                 .size = test::fullTests() ? PixelSize{48, 36} : PixelSize{32, 24},
                                 .rounds = 1};
+    if (!test::fullTests())
+        settings.scenes = {"glossy floor cut by a light", "large light at grazing angles",
+                           "tube, rectangle, disc and sun"};
     Progress progress(1, false);
     const std::vector<ImageScene> scenes = measureImages(context(), settings, progress);
-    ASSERT_EQ(scenes.size(), benchScenes().size());
+    ASSERT_EQ(scenes.size(), test::fullTests() ? benchScenes().size() : 3u);
     const auto json = nlohmann::json::parse(imageJson(settings, scenes, {})["scenes"].dump());
     EXPECT_EQ(
         test::schemaFaults(json, "bench_accuracy.schema.json", "#/$defs/images/properties/scenes"),
@@ -151,7 +154,8 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
         EXPECT_GT(scene.points[1].time.lightingMs, 0);
         EXPECT_GT(scene.points[1].time.bruteForceMs, 0);
         EXPECT_GT(scene.points[2].time.bruteForceMs, 0);
-        if (&scene < &scenes.back() - 1) {
+        // Those bars are of scenes that have spheres alone.
+        if (scene.name != "tube, rectangle, disc and sun" && scene.name != "showcase") {
             const bool cut = scene.name == "glossy floor cut by a light";
             const bool grazing = scene.name == "large light at grazing angles";
             EXPECT_LE(conic.litRelMse, cut ? 2.5e-4 : 1e-4) << scene.name;
