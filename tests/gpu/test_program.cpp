@@ -503,7 +503,7 @@ TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
     const std::string page = text("r/index.html");
     for (const char* wanted : {"prefers-color-scheme: dark", "candelabra profile hall --lights 60",
                                "shade_tiles", "data:image/png;base64,",
-                               "The result in five sentences", "not compared with committed ones"})
+                               "The result in five sentences", "not compared with earlier ones"})
         EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
     EXPECT_EQ(page.find("://"), std::string::npos);
     const auto json = nlohmann::json::parse(text("r/report.json"));

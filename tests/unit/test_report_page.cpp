@@ -13,6 +13,7 @@
 #include "measure/report/glossary.h"
 #include "measure/report/report_page.h"
 #include "measure/report/sentences.h"
+#include "measure/report/weak_sides.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -188,32 +189,101 @@ TEST(ReportSentences, WhatWasDrawnOnceHasNoInterval)
     EXPECT_TRUE(once.toEngine(froxelsName).isKnown());
 }
 
-TEST(ReportSentences, AccuracySaysWhichIsCloserToTheTruth)
+TEST(ReportSentences, DeviceSaysWhatACpuMeansAndRepeatsNothing)
 {
-    const std::string closer = accuracySentence(kernels(0.01, 0.1, 0.3), {});
-    EXPECT_TRUE(has(closer, "conic is 10.0 times closer to the truth")) << closer;
-    EXPECT_FALSE(has(closer, "farther"));
-    const std::string farther = accuracySentence(kernels(0.2, 0.1, 0.3), {});
-    EXPECT_TRUE(has(farther, "conic is 2.00 times farther from the truth")) << farther;
+    RunFacts facts{.device = {.name = "llvmpipe (LLVM 15.0.6, 256 bits)",
+                              .driver = "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"},
+                   .version = "1",
+                   .commit = "abc",
+                   .parts = 2,
+                   .wallSeconds = 3,
+                   .processorSeconds = 4};
+    facts.device.type = VK_PHYSICAL_DEVICE_TYPE_CPU;
+    const std::string cpu = runSentence(facts);
+    EXPECT_TRUE(has(cpu, "a CPU and no GPU, llvmpipe (LLVM 15.0.6, 256 bits) with the driver "
+                         "llvmpipe Mesa 22.3.6; "))
+        << cpu;
+    facts.device = {.name = "A card", .driver = "a driver (570.1)"};
+    facts.device.type = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+    const std::string gpu = runSentence(facts);
+    EXPECT_TRUE(has(gpu, "A card (discrete GPU) with the driver a driver (570.1); 2 parts")) << gpu;
+    EXPECT_FALSE(has(gpu, "CPU"));
+}
+
+// The sentence has the means of the table of errors, and what they are divided by each other.
+TEST(ReportSentences, AccuracyHasTheMeansOfTheTable)
+{
+    const KernelLevel level = kernels(0.01, 0.1, 0.3);
+    const std::string text = accuracySentence(level, {});
+    EXPECT_TRUE(has(text, "sphere 1.45% \u00b1 ")) << text;
+    EXPECT_TRUE(has(text, "LTC 43.5% \u00b1 ")) << text;
+    EXPECT_TRUE(has(text, "(30.0 times as much)")) << text;
+    EXPECT_TRUE(has(text, "(10.0 times as much)")) << text;
+    EXPECT_TRUE(has(text, "; disc 1.45%")) << text;
+    EXPECT_TRUE(has(textOf(kernelTables(level)), "1.45 / ")) << textOf(kernelTables(level));
     EXPECT_TRUE(has(accuracySentence({}, {}), "not measured"));
     ImageScene scene{.name = "s", .about = {}, .truth = {}, .points = {}};
     scene.points.push_back({.method = CND_SPECULAR_CONIC, .error = {.flip = 0.0125}});
-    EXPECT_TRUE(has(accuracySentence(kernels(0.01, 0.1, 0.3), {scene}), "0.0125"));
+    scene.points.push_back({.method = Rival::Ltc, .error = {.flip = 0.25}});
+    EXPECT_TRUE(has(accuracySentence(level, {scene}),
+                    "(FLIP) is 0.0125 to 0.0125, with LTC 0.2500 to 0.2500."));
 }
 
-TEST(ReportSentences, WeaknessesAreTheWorstOfTheRun)
+TEST(ReportSentences, WeakSidesAreTheWorstOfTheRun)
 {
-    KernelLevel level = kernels(0.01, 0.1, 0.3);
-    level.points[3].error.mirror.all.max = 0.777; // conic, disc
-    level.points[3].classes[0].both = {.ratio = 3.5, .ratioLow = 3.4, .ratioHigh = 3.6};
-    const std::string text = weaknessSentence(level, {}, {point(2), point(0.8, 1000)});
-    EXPECT_TRUE(has(text, "3.50 [3.40, 3.60] times as long as one with the representative point "
-                          "(disc)"))
+    WeakSideFacts facts{.kernels = kernels(0.01, 0.1, 0.3),
+                        .scenes = {},
+                        .budgets = {},
+                        .culling = {point(2), point(0.8, 1000)},
+                        .skips = {}};
+    KernelPoint& disc = facts.kernels.points[3]; // conic
+    disc.error.mirror.all.max = 0.777;
+    disc.classes.push_back({.evaluationClass = EvaluationClass::General,
+                            .both = {.ratio = 3.5, .ratioLow = 3.4, .ratioHigh = 3.6}});
+    facts.kernels.points[0].error.dielectric.all.max = 0.888;
+    const std::string text = weaknessSentence(facts);
+    EXPECT_TRUE(has(text, "up to 3.50 [3.40, 3.60] times as long as by karis (a disc across"))
         << text;
-    EXPECT_TRUE(has(text, "77.7%")) << text;
-    EXPECT_TRUE(has(text, "1,000 lights), the best other")) << text;
-    EXPECT_TRUE(has(text, "so Candelabra is slower than it")) << text;
-    EXPECT_TRUE(has(weaknessSentence({}, {}, {}), "neither"));
+    EXPECT_TRUE(has(text, "77.7% of the brightest reflection on perfect metals (F = 1, disc) and "
+                          "88.8% on plastic (F0 0.04, sphere)"))
+        << text;
+    EXPECT_TRUE(has(text, "1,000 lights Candelabra is slower than froxels")) << text;
+    EXPECT_FALSE(has(text, "4,000 lights")) << text; // Candelabra is faster there
+    EXPECT_FALSE(has(text, "budget")) << text;
+    EXPECT_TRUE(has(weaknessSentence({}), "was measured"));
+}
+
+TEST(ReportSentences, WeakSidesNameWhatGainsNothing)
+{
+    WeakSideFacts facts;
+    const auto times = [](double ms) { return contender("", std::vector<double>(7, ms)).times; };
+    facts.skips.push_back({.name = "missed",
+                           .against = "x",
+                           .passes = "lighting",
+                           .bar = 0.05,
+                           .with = times(6),
+                           .without = times(100),
+                           .idleWith = times(130),
+                           .idleWithout = times(100)});
+    facts.skips.push_back({.name = "kept",
+                           .against = "x",
+                           .passes = "lighting",
+                           .bar = 0.05,
+                           .with = times(4),
+                           .without = times(100),
+                           .idleWith = {},
+                           .idleWithout = {}});
+    facts.budgets.points.push_back(
+        {.method = CND_SPECULAR_CONIC, .budget = 0.01, .time = {}, .ratioToFull = 1.07});
+    const std::string text = weaknessSentence(facts);
+    EXPECT_TRUE(has(text, "of 2 limits that")) << text;
+    EXPECT_TRUE(has(text, "misses \"missed\" (0.060 of 0.05)")) << text;
+    EXPECT_FALSE(has(text, "kept")) << text;
+    EXPECT_TRUE(has(text, "looking for \"missed\" makes frames that have none 30% slower")) << text;
+    EXPECT_TRUE(has(text, "saves no time here: 1.07 times")) << text;
+    EXPECT_TRUE(has(skipTable(facts.skips).text(), "0.05 missed"));
+    facts.budgets.points[0].ratioToFull = 0.8;
+    EXPECT_FALSE(has(weaknessSentence(facts), "saves no time"));
 }
 
 TEST(ReportSentences, StabilityCountsAndBounds)
@@ -221,11 +291,11 @@ TEST(ReportSentences, StabilityCountsAndBounds)
     const std::string good = stabilitySentence(stability(0, 0.1));
     EXPECT_TRUE(has(good, "of 1,000,000 random and adversarial inputs none gave")) << good;
     EXPECT_TRUE(has(good, "at most 3.00 in a million")) << good;
-    EXPECT_TRUE(has(good, "is within the allowed 30.0%")) << good;
+    EXPECT_TRUE(has(good, "is within the limit of 30.0%")) << good;
     const std::string bad = stabilitySentence(stability(2, 0.5));
     EXPECT_TRUE(has(bad, "inputs 2 gave")) << bad;
     EXPECT_TRUE(has(bad, "at most 6.30 in a million")) << bad; // the tabulated Poisson bound
-    EXPECT_TRUE(has(bad, "EXCEEDS the allowed 30.0%")) << bad;
+    EXPECT_TRUE(has(bad, "EXCEEDS the limit of 30.0%")) << bad;
     EXPECT_TRUE(has(stabilitySentence({}), "not measured"));
 }
 

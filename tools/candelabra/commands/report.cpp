@@ -28,6 +28,7 @@
 #include "measure/report/committed.h"
 #include "measure/report/report_page.h"
 #include "measure/report/sentences.h"
+#include "measure/report/weak_sides.h"
 #include "measure/skip.h"
 #include "measure/stability/stability.h"
 #include "render/camera.h"
@@ -67,10 +68,7 @@ struct Measured {
     std::string pictures; // of the section that comes first
     std::vector<ReportSection> sections;
     Json document;
-    std::vector<CullingPoint> culling;
-    std::vector<SkipRow> skips;
-    KernelLevel kernels;
-    std::vector<ImageScene> scenes;
+    WeakSideFacts facts; // all results but those of stability
     Stability stability;
     std::vector<PartTime> times;
 };
@@ -195,12 +193,12 @@ void accuracyPart(const Part& part)
     Measured& out = part.out;
     {
         Progress progress(kernelLevelSteps(kernels), !part.quiet);
-        out.kernels = measureKernelLevel(part.context, kernels, progress);
+        out.facts.kernels = measureKernelLevel(part.context, kernels, progress);
     }
     Progress progress(imageLevelSteps(images), !part.quiet);
-    out.scenes = measureImages(part.context, images, progress);
-    const BudgetSweep budgets = measureBudgets(part.context, images, budgetScene(images), progress);
-    out.pictures = accuracyPictures(out.scenes);
+    out.facts.scenes = measureImages(part.context, images, progress);
+    out.facts.budgets = measureBudgets(part.context, images, budgetScene(images), progress);
+    out.pictures = accuracyPictures(out.facts.scenes);
     out.sections.push_back(
         {.id = "accuracy",
          .title = "Accuracy: how far the light is from the truth, and at what time",
@@ -209,11 +207,11 @@ void accuracyPart(const Part& part)
                   "precision. Whole images of small scenes follow. An error of 1 percent means "
                   "that the light is wrong by 1 percent of the brightest reflection that such a "
                   "light has on such a surface.",
-         .html = accuracyPlots(out.kernels, out.scenes, part.context.info()),
-         .tables = accuracyTables(out.kernels, out.scenes, budgets),
+         .html = accuracyPlots(out.facts.kernels, out.facts.scenes, part.context.info()),
+         .tables = accuracyTables(out.facts.kernels, out.facts.scenes, out.facts.budgets),
          .command = "candelabra report --parts accuracy"});
-    out.document["accuracy"] = {{"kernels", kernelJson(kernels, out.kernels)},
-                                {"images", imageJson(images, out.scenes, budgets)}};
+    out.document["accuracy"] = {{"kernels", kernelJson(kernels, out.facts.kernels)},
+                                {"images", imageJson(images, out.facts.scenes, out.facts.budgets)}};
 }
 
 void cullingPart(const Part& part)
@@ -228,7 +226,7 @@ void cullingPart(const Part& part)
     Measured& out = part.out;
     {
         Progress progress(cullingSteps(settings), !part.quiet);
-        out.culling = measureCulling(part.context, settings, progress);
+        out.facts.culling = measureCulling(part.context, settings, progress);
     }
     ReportSection section{
         .id = "culling",
@@ -239,14 +237,14 @@ void cullingPart(const Part& part)
             "(floor). A way of culling whose curve stays flat copes with many lights. The floor "
             "is the time of evaluating the lights alone, which no culling can save.",
         .html = {},
-        .tables = cullingTables(out.culling),
+        .tables = cullingTables(out.facts.culling),
         .command = "candelabra report --parts culling"};
-    for (const CullingPlot& plot : cullingPlots(out.culling, part.context.info()))
+    for (const CullingPlot& plot : cullingPlots(out.facts.culling, part.context.info()))
         section.html += plotBox(plot.svg, "time of lighting against the number of lights");
-    for (const std::string& failure : cullingFailures(out.culling))
+    for (const std::string& failure : cullingFailures(out.facts.culling))
         section.html += "<p>" + escaped(failure) + "</p>\n";
     out.sections.push_back(std::move(section));
-    out.document["culling"] = cullingJson(settings, out.culling);
+    out.document["culling"] = cullingJson(settings, out.facts.culling);
 }
 
 void skipPart(const Part& part)
@@ -255,7 +253,7 @@ void skipPart(const Part& part)
     Measured& out = part.out;
     {
         Progress progress(skipSteps(settings), !part.quiet);
-        out.skips = measureSkips(part.context, settings, progress);
+        out.facts.skips = measureSkips(part.context, settings, progress);
     }
     out.sections.push_back(
         {.id = "skip",
@@ -264,10 +262,10 @@ void skipPart(const Part& part)
                   "some work is not needed and leaves it out, and one that does the work. A ratio "
                   "near 1 means that the skip saves nothing here.",
          .html = {},
-         .tables = {skipTable(out.skips)},
+         .tables = {skipTable(out.facts.skips)},
          .command = "candelabra bench skip --size 320x180 --lights 1000 --rounds 7 "
                     "--point-rounds 10"});
-    out.document["skip"] = skipJson(settings, out.skips);
+    out.document["skip"] = skipJson(settings, out.facts.skips);
 }
 
 void stabilityPart(const Part& part)
@@ -353,15 +351,15 @@ void addComparison(const std::string& directory, const DeviceInfo& device, const
     const std::optional<CommittedResults> committed = readCommitted(directory, device);
     if (!committed || committed->figures.empty()) {
         page.notes.push_back(fmt::format(
-            "The results of this run are not compared with committed ones: the folder {} {}.",
+            "The results of this run are not compared with earlier ones: the folder {} {}.",
             directory,
             committed ? "has none of this device and driver"
-                      : "is not there (it is part of the "
-                        "source tree)"));
+                      : "is not there. Results of the project's own machine are in that folder of "
+                        "its source code, and --committed names another folder"));
         return;
     }
-    std::vector<ReportedFigure> figures = figuresOf(measured.culling);
-    for (const auto& more : {figuresOf(measured.skips), figuresOf(measured.kernels)})
+    std::vector<ReportedFigure> figures = figuresOf(measured.facts.culling);
+    for (const auto& more : {figuresOf(measured.facts.skips), figuresOf(measured.facts.kernels)})
         figures.insert(figures.end(), more.begin(), more.end());
     Comparison comparison = compareWithCommitted(figures, *committed);
     page.notes.push_back(fmt::format(
@@ -398,21 +396,23 @@ ReportPage pageOf(const Measured& measured, const DeviceInfo& device, const Json
         .title = "Candelabra: how fast and how accurate",
         .about = "Candelabra is a library that lights scenes with many lights that have a size: "
                  "balls, tubes, rectangles, discs. It finds the few lights that matter to each "
-                 "pixel (culling) and computes their light with formulas (closed forms) in place "
-                 "of random samples. This page tells what a short measurement of it found.",
-        .sentences = {runSentence(facts), speedSentence(measured.culling),
-                      accuracySentence(measured.kernels, measured.scenes),
-                      weaknessSentence(measured.kernels, measured.scenes, measured.culling),
-                      stabilitySentence(measured.stability)},
-        .notes = {"Marks of rows in the tables: " + noisyLegend() + " " + contradictionLegend()},
+                 "pixel (culling) and computes their light with a formula (conic) in place of "
+                 "random samples. This page tells what a short measurement of it found.",
+        .sentences = {runSentence(facts), speedSentence(measured.facts.culling),
+                      accuracySentence(measured.facts.kernels, measured.facts.scenes),
+                      weaknessSentence(measured.facts), stabilitySentence(measured.stability)},
+        .notes = {},
         .sections = {}};
     if (!measured.pictures.empty())
         page.sections.push_back(
             {.id = "pictures",
-             .title = "Pictures: the truth and the closed form",
-             .intro = "Drag the slider, or move it with the arrow keys: left of it is the truth, "
-                      "right of it the same picture by the closed form (conic). Both sides can "
-                      "show other methods, and maps of their differences to the truth.",
+             .title = "Pictures: the truth, Candelabra and what is common",
+             .intro = "Drag the slider, or move it with the arrow keys. Left of it is the truth at "
+                      "first, right of it the same picture by the approximation that is common in "
+                      "games (karis). Choose conic on the right to see Candelabra, which is meant "
+                      "to look like the truth. Both sides can also show the other methods, and "
+                      "maps of their differences to the truth. The pictures are small, because "
+                      "each pixel of the truth takes long.",
              .html = measured.pictures,
              .tables = {},
              .command = {}});

@@ -64,6 +64,8 @@ summary { cursor: pointer; font-size: 13px; color: var(--link); margin-bottom: 0
 .wipe .pictures { position: relative; }
 .wipe .pictures img { width: 100%; display: block; image-rendering: pixelated; }
 .wipe img.over { position: absolute; left: 0; top: 0; height: 100%; }
+.wipe .split { position: absolute; top: 0; bottom: 0; width: 2px; margin-left: -1px;
+               background: #fff; box-shadow: 0 0 0 1px #000; pointer-events: none; }
 .wipe input { width: 100%; margin: 6px 0; }
 .wipe .sides { display: flex; justify-content: space-between; gap: 8px; font-size: 13px; }
 .wipe select { max-width: 100%; }
@@ -83,6 +85,7 @@ for (const w of document.querySelectorAll('.wipe')) {
   const [left, right] = w.querySelectorAll('select');
   const slider = w.querySelector('input');
   const over = w.querySelector('.over'), under = w.querySelector('.under');
+  const split = w.querySelector('.split');
   const fill = (image, choice) => {
     image.src = document.querySelector('#' + choice.value + ' img').src;
     image.alt = choice.selectedOptions[0].textContent;
@@ -91,6 +94,7 @@ for (const w of document.querySelectorAll('.wipe')) {
     fill(over, left);
     fill(under, right);
     over.style.clipPath = 'inset(0 ' + (100 - slider.value) + '% 0 0)';
+    split.style.left = slider.value + '%';
   };
   for (const input of [left, right, slider])
     input.addEventListener('input', show);
@@ -192,7 +196,8 @@ std::string wipe(const std::vector<WipeChoice>& choices, size_t left, size_t rig
            choices[right].figure +
            "</div>\n<div class=\"live\" hidden=\"hidden\"><div class=\"pictures\">"
            "<img class=\"under\" alt=\"\" src=\"data:,\"/><img class=\"over\" alt=\"\" "
-           "src=\"data:,\"/></div><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" "
+           "src=\"data:,\"/><div class=\"split\"></div></div><input type=\"range\" min=\"0\" "
+           "max=\"100\" value=\"50\" "
            "aria-label=\"where the left picture ends and the right one begins\"/>"
            "<div class=\"sides\">" +
            list(left, "left") + list(right, "right") + "</div></div></div>\n" +

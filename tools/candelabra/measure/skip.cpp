@@ -480,6 +480,18 @@ PairedRatio SkipRow::interval() const
     return pairedRatio(without.totals(), with.totals());
 }
 
+bool SkipRow::isOverBar() const
+{
+    const PairedRatio r = interval();
+    return bar > 0 && r.isKnown() && r.low > bar;
+}
+
+double SkipRow::shareInVain() const
+{
+    const double least = idleWithout.frames() ? idleWithout.total().medianMs : 0;
+    return least > 0 ? idleWith.total().medianMs / least - 1 : 0;
+}
+
 std::string skipKey(const std::string& name, const std::string& against)
 {
     return fmt::format("skip: {}, against {}", name, against);
@@ -565,6 +577,15 @@ std::string costOf(const SkipRow& row)
                        threeDigits(medianMs(row.idleWithout)));
 }
 
+std::string limitOf(const SkipRow& row)
+{
+    if (row.bar <= 0)
+        return "-";
+    const bool above =
+        row.interval().isKnown() ? row.interval().high > row.bar : row.ratio() > row.bar;
+    return fmt::format("{:.2f}{}", row.bar, row.isOverBar() ? " missed" : above ? " open" : "");
+}
+
 } // namespace
 
 Table skipTable(const std::vector<SkipRow>& rows)
@@ -578,8 +599,12 @@ Table skipTable(const std::vector<SkipRow>& rows)
          {"ratio", "[95%]",
           "The time with the skip divided by the time without, and an interval that holds the true "
           "median with 95% confidence. Below 1 the skip saves time."},
-         {"bar", "", "The largest ratio that the project allows itself, where it has set one."},
-         {"in vain", "", "What looking for the skip costs in frames that do not have it."},
+         {"limit", "",
+          "The largest ratio that the project allows itself, where it has set one. It is missed "
+          "if the whole interval is above it, and open if only a part of it is."},
+         {"in vain", "",
+          "How much longer a frame takes that does not have what is looked for, because of the "
+          "search, and how long it takes without."},
          {"difference", "of largest",
           "The largest difference of the two images, as a share of the largest value."}},
         "What skipping unneeded work saves");
@@ -590,8 +615,7 @@ Table skipTable(const std::vector<SkipRow>& rows)
                        ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", row.interval().median,
                                      row.interval().low, row.interval().high)
                        : fmt::format("{:.3f}", row.ratio()),
-                   row.bar > 0 ? fmt::format("{:.2f}", row.bar) : "-", costOf(row),
-                   fmt::format("{:.0e}", row.difference)},
+                   limitOf(row), costOf(row), fmt::format("{:.0e}", row.difference)},
                   {.noisy = isNoisy(row.with.totals()) || isNoisy(row.without.totals()),
                    .key = row.key()});
     return table;

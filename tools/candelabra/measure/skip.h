@@ -44,6 +44,10 @@ struct SkipRow {
     double ratio() const; // of the median times with and without the skip
     // The ratio of the times with and without the skip in the same round, and its interval.
     PairedRatio interval() const;
+    // Whether the whole interval is above the bar. Without an interval, that is not known.
+    bool isOverBar() const;
+    // What looking for the skip adds to a frame that does not have it, as a share; 0 if nothing.
+    double shareInVain() const;
     std::string key() const; // names the row, to compare it with earlier results
 };
 

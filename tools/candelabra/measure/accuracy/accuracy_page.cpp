@@ -59,7 +59,7 @@ Table worstPixelTable(const ImageScene& scene)
 std::string scenePictures(const ImageScene& scene, size_t index)
 {
     std::vector<WipeChoice> choices;
-    size_t conic = 0;
+    size_t karis = 0; // whose differences show: conic looks like the truth
     const auto add = [&](const std::string& what, const std::string& name,
                          const DisplayImage& image, const std::string& caption) {
         const std::string id = fmt::format("scene{}-{}", index, what);
@@ -70,8 +70,8 @@ std::string scenePictures(const ImageScene& scene, size_t index)
         const std::string name = methodName(p.method);
         if (choices.empty())
             add("truth", "truth", displayed.truth, "truth: double-precision quadrature");
-        if (p.method == CND_SPECULAR_CONIC)
-            conic = choices.size();
+        if (p.method == CND_SPECULAR_KARIS)
+            karis = choices.size();
         add(name, name, displayed.value,
             fmt::format("{}: {} ms by brute force, relMSE {:.1e}, lit mean {:.1e}, FLIP {:.4f}",
                         name, threeDigits(p.time.bruteForceMs), p.error.relMse, p.error.litMeanRel,
@@ -82,7 +82,7 @@ std::string scenePictures(const ImageScene& scene, size_t index)
             name + ": FLIP, 0 black to 0.5 yellow");
     }
     return "<h3>" + escaped(scene.name) + "</h3>\n" +
-           wipe(choices, 0, conic ? conic : choices.size() - 1);
+           wipe(choices, 0, karis ? karis : choices.size() - 1);
 }
 
 Table worstSampleTable(const KernelLevel& kernels)

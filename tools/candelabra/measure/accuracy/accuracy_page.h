@@ -11,7 +11,7 @@
 namespace candelabra::app
 {
 
-// Every scene's pictures, as a slider between the truth and the closed form.
+// Every scene's pictures, as a slider between the truth and another method.
 std::string accuracyPictures(const std::vector<ImageScene>& scenes);
 std::string accuracyPlots(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
                           const DeviceInfo& device);

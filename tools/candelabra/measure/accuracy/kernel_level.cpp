@@ -276,7 +276,7 @@ Table timeTable(const KernelLevel& level)
          {"/ karis", "",
           "The time divided by that of karis in the same round, the median of the rounds."},
          {"near", "ns",
-          "The same for lights near the horizon, which the closed form of spheres treats apart."},
+          "The same for lights near the horizon, which conic treats apart for spheres."},
          {"/ karis", "", "That time divided by that of karis."},
          {"general", "ns", "The same for lights across the horizon."},
          {"specular", "ns", "The part of it that the mirrored light takes."},

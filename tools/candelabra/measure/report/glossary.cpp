@@ -35,14 +35,12 @@ const std::vector<Term> terms = {
     {"brute force",
      {"brute force", "Brute force"},
      "Every light is evaluated at every pixel, without looking for those that matter."},
-    {"closed form",
-     {"closed form", "closed forms", "Closed forms"},
-     "A formula that gives the light directly, without random samples."},
     {"conic",
      {"conic", "conic-full"},
-     "Candelabra's own closed form for area lights, and its default method: where a surface "
-     "mirrors which part of a light is integrated by a formula. conic-full evaluates some factors "
-     "at more directions, which takes longer."},
+     "Candelabra's own formula for area lights, and its default method. It adds up exactly how "
+     "much of the light lies within the lobe, the bundle of directions that the surface mirrors; "
+     "how its bumps hide one another, and how much more it mirrors at grazing angles, are computed "
+     "for one or two directions only. conic-full takes more of them, which takes longer."},
     {"culling",
      {"culling", "Culling"},
      "Finding, for every pixel, the few lights that can reach it, so that the others are not "
@@ -55,6 +53,11 @@ const std::vector<Term> terms = {
      {"F = 1", "F0"},
      "F is the share of light that a surface mirrors, and F0 that share seen straight ahead: 1 "
      "is a perfect metal, 0.04 is plastic."},
+    {"fence",
+     {"fence"},
+     "A scene that the program makes: rows of wooden slats and bamboo one behind the other, lit by "
+     "any number of small lamps. Nearly every part of the image shows several depths, which is "
+     "hard for culling."},
     {"FLIP",
      {"FLIP"},
      "A measure of the difference that a person sees between two pictures, from 0 (none) to 1 "
@@ -71,10 +74,16 @@ const std::vector<Term> terms = {
      {"froxels", "froxel"},
      "A common way of culling: the view is cut into boxes in width, height and depth (froxels), "
      "each with a list of lights."},
+    {"hall",
+     {"hall"},
+     "A scene that the program makes: an old hall of columns, arcades and a vault, lit by any "
+     "number of small lamps."},
     {"interval",
-     {"95%", "interval"},
+     {"95%", "interval", "intervals"},
      "A range in square brackets that holds the true median with at least 95% confidence, "
-     "whatever the distribution of the repeats (order statistics)."},
+     "whatever the distribution of the repeats (order statistics). A number after \u00b1 is the "
+     "margin of a mean, with about 95% confidence, from the scatter between kinds of surface and "
+     "light."},
     {"karis",
      {"karis"},
      "The representative point of Karis (2013) for spheres, which is common in games; for "
@@ -90,7 +99,7 @@ const std::vector<Term> terms = {
      "the wider."},
     {"LTC",
      {"LTC", "ltc", "ltc-one-lobe"},
-     "Linearly transformed cosines (Heitz et al. 2016), a published closed form for area "
+     "Linearly transformed cosines (Heitz et al. 2016), a published approximation for area "
      "lights that looks its parameters up in a table; ltc-one-lobe is as published, and ltc "
      "has two lobes for other shapes than spheres."},
     {"median",

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "render/vulkan_instance.h"
 #include "scene/light_types.h"
-#include "shading/light_family.h"
 
 namespace candelabra::app
 {
@@ -26,15 +27,6 @@ std::string bracketed(const MedianInterval& v)
     if (!v.isKnown())
         return fmt::format("{} [too few repeats for an interval]", times(v.median));
     return fmt::format("{} [{}, {}]", times(v.median), times(v.low), times(v.high));
-}
-
-std::string percentBracketed(const std::vector<double>& shares)
-{
-    const MedianInterval v = medianInterval(shares);
-    if (!v.isKnown())
-        return fmt::format("{}% [too few groups for an interval]", threeDigits(100 * v.median));
-    return fmt::format("{}% [{}, {}]", threeDigits(100 * v.median), threeDigits(100 * v.low),
-                       threeDigits(100 * v.high));
 }
 
 // How the engine compares with another way that takes `ratio` times as long.
@@ -74,104 +66,64 @@ const KernelPoint* find(const KernelLevel& level, uint32_t type, const MeasuredM
     return nullptr;
 }
 
-// The means of the groups of all light types that are no spheres.
-std::vector<double> otherGroups(const KernelLevel& level, const MeasuredMethod& method)
+// What the table of errors has: the mean over all directions, with the margin within which it lies
+// with 95% confidence if the means of groups of alike samples are normally distributed.
+std::string meanPercent(const KernelError& error)
+{
+    const std::vector<double>& means = error.groupMeans;
+    const double n = double(means.size());
+    const double mean = std::accumulate(means.begin(), means.end(), 0.0) / std::max(n, 1.0);
+    double squares = 0;
+    for (const double x : means)
+        squares += (x - mean) * (x - mean);
+    std::string out = threeDigits(100 * error.mirror.all.mean) + "%";
+    if (means.size() > 1)
+        out += fmt::format(" \u00b1 {}", threeDigits(196 * std::sqrt(squares / (n * (n - 1)))));
+    return out;
+}
+
+// "for spheres conic is off by 0.05%, LTC by 2.6% (57 times as much)". Returns nothing if conic was
+// not measured for the type.
+std::string typeAccuracy(const KernelLevel& level, uint32_t type)
+{
+    const KernelPoint* conic = find(level, type, CND_SPECULAR_CONIC);
+    if (!conic)
+        return "";
+    std::string out = fmt::format("{} {}", lightTypeName(type), meanPercent(conic->error));
+    const double own = conic->error.mirror.all.mean;
+    const std::pair<const char*, MeasuredMethod> others[] = {{"LTC", Rival::Ltc},
+                                                             {"karis", CND_SPECULAR_KARIS}};
+    for (const auto& [name, method] : others)
+        if (const KernelPoint* other = find(level, type, method))
+            out +=
+                fmt::format(", {} {}{}", name, meanPercent(other->error),
+                            own > 0 ? fmt::format(" ({} times as much)",
+                                                  threeDigits(other->error.mirror.all.mean / own))
+                                    : "");
+    return out;
+}
+
+// The FLIP of every scene that was drawn with a method, in the order of the scenes.
+std::vector<double> flipsOf(const std::vector<ImageScene>& scenes, const MeasuredMethod& method)
 {
     std::vector<double> out;
-    for (const KernelPoint& p : level.points)
-        if (!lighting::isSphere(p.lightType) && p.method == method)
-            out.insert(out.end(), p.error.groupMeans.begin(), p.error.groupMeans.end());
+    for (const ImageScene& scene : scenes)
+        for (const ImagePoint& p : scene.points)
+            if (p.method == method)
+                out.push_back(p.error.flip);
     return out;
 }
 
-std::string threeMethods(const std::vector<double>& conic, const std::vector<double>& karis,
-                         const std::vector<double>& ltc)
+// The driver without a text in brackets that the name of the device has too.
+std::string driverText(const DeviceInfo& device)
 {
-    std::string out = percentBracketed(conic) + " of the highest response";
-    if (!karis.empty())
-        out += fmt::format(", the representative point (karis) by {}", percentBracketed(karis));
-    if (!ltc.empty())
-        out += fmt::format(", LTC by {}", percentBracketed(ltc));
-    const bool byKaris = ltc.empty() || (!karis.empty() && medianOf(karis) <= medianOf(ltc));
-    const std::vector<double>& rival = byKaris ? karis : ltc;
-    if (!rival.empty() && medianOf(conic) > 0) {
-        const double ratio = medianOf(rival) / medianOf(conic);
-        out += fmt::format(" (conic is {} times {} than {})",
-                           threeDigits(ratio >= 1 ? ratio : 1 / ratio),
-                           ratio >= 1 ? "closer to the truth" : "farther from the truth",
-                           byKaris ? "karis" : "LTC");
-    }
-    return out;
-}
-
-struct SceneFlip {
-    std::string scene;
-    double flip = 0, karisFlip = 0;
-};
-
-std::vector<SceneFlip> sceneErrors(const std::vector<ImageScene>& scenes)
-{
-    std::vector<SceneFlip> out;
-    for (const ImageScene& scene : scenes) {
-        SceneFlip error{.scene = scene.name};
-        for (const ImagePoint& p : scene.points) {
-            if (p.method == CND_SPECULAR_CONIC)
-                error.flip = p.error.flip;
-            if (p.method == CND_SPECULAR_KARIS)
-                error.karisFlip = p.error.flip;
-        }
-        out.push_back(error);
-    }
-    return out;
-}
-
-std::string slowestEvaluation(const KernelLevel& level)
-{
-    const KernelPoint* worst = nullptr;
-    for (const KernelPoint& p : level.points)
-        if (p.method == CND_SPECULAR_CONIC && mainClass(p) &&
-            (!worst || mainClass(p)->both.ratio > mainClass(*worst)->both.ratio))
-            worst = &p;
-    if (!worst)
-        return "";
-    const VariantTime& t = mainClass(*worst)->both;
-    return fmt::format("one conic evaluation takes up to {} times as long as one with the "
-                       "representative point ({})",
-                       bracketed({t.ratio, t.ratioLow, t.ratioHigh}),
-                       lightTypeName(worst->lightType));
-}
-
-std::string largestError(const KernelLevel& level)
-{
-    const KernelPoint* worst = nullptr;
-    for (const KernelPoint& p : level.points)
-        if (p.method == CND_SPECULAR_CONIC &&
-            (!worst || p.error.mirror.all.max > worst->error.mirror.all.max))
-            worst = &p;
-    return worst
-               ? fmt::format("the largest error of the closed form in {} directions is {}% of the "
-                             "highest response ({}; {})",
-                             grouped(worst->error.mirror.all.count),
-                             threeDigits(100 * worst->error.mirror.all.max),
-                             lightTypeName(worst->lightType), worst->worst)
-               : "";
-}
-
-std::string weakestCulling(const std::vector<CullingPoint>& points)
-{
-    const CullingPoint* worst = nullptr;
-    const auto ratio = [](const CullingPoint& p) {
-        return p.toEngine(p.bestBaseline().name).median;
-    };
-    for (const CullingPoint& p : points)
-        if (!worst || ratio(p) < ratio(*worst))
-            worst = &p;
-    if (!worst)
-        return "";
-    const PairedRatio r = worst->toEngine(worst->bestBaseline().name);
-    return fmt::format("where Candelabra is weakest ({}), the best other way of culling ({}) takes "
-                       "{} times as long, so Candelabra is {}",
-                       worst->title(), worst->bestBaseline().name, bracketed(r), verdict(r));
+    const size_t bracket = device.driver.find(" (");
+    if (bracket == std::string::npos || !device.driver.ends_with(")"))
+        return device.driver;
+    const std::string inside =
+        device.driver.substr(bracket + 2, device.driver.size() - bracket - 3);
+    return device.name.find(inside) == std::string::npos ? device.driver
+                                                         : device.driver.substr(0, bracket);
 }
 
 } // namespace
@@ -196,13 +148,18 @@ double largestShare(uint64_t invalid, uint64_t tried)
 
 std::string runSentence(const RunFacts& f)
 {
-    return fmt::format("Candelabra {} (commit {}) was measured on {} ({}) with the driver {}: {} "
-                       "took {:.0f} s by the clock and {:.0f} s of processor time, and square "
-                       "brackets hold 95% confidence intervals of medians, over repeats for times "
-                       "and over combinations of surface and light for errors.",
-                       f.version, f.commit, f.device.name, deviceTypeName(f.device.type),
-                       f.device.driver, counted(f.parts, "part"), f.wallSeconds,
-                       f.processorSeconds);
+    const bool cpu = f.device.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    return fmt::format(
+        "Device: Candelabra {} (commit {}) was measured on {}{} with the driver {}; {}{} took "
+        "{:.0f} s by the clock and {:.0f} s of processor time, and square brackets hold 95% "
+        "confidence intervals of medians over repeats.",
+        f.version, f.commit, cpu ? "a CPU and no GPU, " : "",
+        cpu ? f.device.name : fmt::format("{} ({})", f.device.name, deviceTypeName(f.device.type)),
+        driverText(f.device),
+        cpu ? "errors are the same on any device up to rounding, ratios of times hint at what a "
+              "GPU would show, and times in milliseconds do not; "
+            : "",
+        counted(f.parts, "part"), f.wallSeconds, f.processorSeconds);
 }
 
 std::string speedSentence(const std::vector<CullingPoint>& points)
@@ -213,10 +170,11 @@ std::string speedSentence(const std::vector<CullingPoint>& points)
     if (const CullingPoint* p = brutePoint(points)) {
         const PairedRatio r = p->toEngine(bruteName);
         const Spread s = spreadOf(p->of(engineName).times.totals());
-        out += fmt::format("lighting {} takes {} ms a frame (quartiles {} to {}) and brute force "
-                           "takes {} times as long, so Candelabra is {}; ",
-                           p->title(), threeDigits(s.median), threeDigits(s.lowerQuartile),
-                           threeDigits(s.upperQuartile), bracketed(r), verdict(r));
+        out +=
+            fmt::format("to light one frame ({}) takes {} ms (half of the frames: {} to {}), and "
+                        "brute force takes {} times as long, so Candelabra is {}; ",
+                        p->title(), threeDigits(s.median), threeDigits(s.lowerQuartile),
+                        threeDigits(s.upperQuartile), bracketed(r), verdict(r));
     } else {
         out += "brute force took too long to be drawn; ";
     }
@@ -241,58 +199,30 @@ std::string speedSentence(const std::vector<CullingPoint>& points)
 
 std::string accuracySentence(const KernelLevel& level, const std::vector<ImageScene>& scenes)
 {
-    const auto groups = [&](const MeasuredMethod& method) {
-        const KernelPoint* p = find(level, CND_LIGHT_SPHERE, method);
-        return p ? p->error.groupMeans : std::vector<double>();
-    };
-    const std::vector<double> sphere = groups(CND_SPECULAR_CONIC),
-                              other = otherGroups(level, CND_SPECULAR_CONIC);
-    if (sphere.empty() && other.empty())
+    std::string types;
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        if (const std::string text = typeAccuracy(level, type); !text.empty())
+            types += (types.empty() ? "" : "; ") + text;
+    if (types.empty())
         return "Accuracy: the part \"accuracy\" was not measured in this run.";
-    std::string out = "Accuracy against the double-precision truth: ";
-    if (!sphere.empty())
-        out += fmt::format("for one sphere light the closed form (conic) is typically off by {}",
-                           threeMethods(sphere, groups(CND_SPECULAR_KARIS), groups(Rival::Ltc)));
-    if (!other.empty())
-        out += fmt::format("{}for area lights of other shapes by {}", sphere.empty() ? "" : "; ",
-                           threeMethods(other, otherGroups(level, CND_SPECULAR_KARIS),
-                                        otherGroups(level, Rival::Ltc)));
-    if (const std::vector<SceneFlip> errors = sceneErrors(scenes); !errors.empty()) {
-        std::vector<double> flips, karis;
-        for (const SceneFlip& e : errors) {
-            flips.push_back(e.flip);
-            karis.push_back(e.karisFlip);
+    std::string out = "Accuracy: the mean error of the formula (conic) against the truth, in "
+                      "percent of the brightest reflection of such a light, by the shape of the "
+                      "light: " +
+                      types;
+    const std::vector<double> conic = flipsOf(scenes, CND_SPECULAR_CONIC);
+    if (conic.empty())
+        return out + ".";
+    const auto [low, high] = std::minmax_element(conic.begin(), conic.end());
+    out += fmt::format("; in {} of whole images the visible difference to the truth (FLIP) is "
+                       "{:.4f} to {:.4f}",
+                       counted(conic.size(), "scene"), *low, *high);
+    const std::pair<const char*, MeasuredMethod> others[] = {{"LTC", Rival::Ltc},
+                                                             {"karis", CND_SPECULAR_KARIS}};
+    for (const auto& [name, method] : others)
+        if (const std::vector<double> flips = flipsOf(scenes, method); !flips.empty()) {
+            const auto [least, most] = std::minmax_element(flips.begin(), flips.end());
+            out += fmt::format(", with {} {:.4f} to {:.4f}", name, *least, *most);
         }
-        const auto [low, high] = std::minmax_element(flips.begin(), flips.end());
-        out += fmt::format("; in {} of whole images the visible difference FLIP to the truth is "
-                           "{:.4f} (median; {:.4f} to {:.4f}), with karis {:.4f}",
-                           counted(errors.size(), "scene"), medianOf(flips), *low, *high,
-                           medianOf(karis));
-    }
-    return out + ".";
-}
-
-std::string weaknessSentence(const KernelLevel& level, const std::vector<ImageScene>& scenes,
-                             const std::vector<CullingPoint>& points)
-{
-    std::vector<std::string> facts{slowestEvaluation(level), largestError(level)};
-    if (const std::vector<SceneFlip> errors = sceneErrors(scenes); !errors.empty()) {
-        const SceneFlip& worst = *std::max_element(
-            errors.begin(), errors.end(),
-            [](const SceneFlip& a, const SceneFlip& b) { return a.flip < b.flip; });
-        facts.push_back(fmt::format(
-            "the worst image of the closed form is \"{}\" (FLIP {:.4f}, {} {:.4f} with karis)",
-            worst.scene, worst.flip,
-            worst.flip < worst.karisFlip ? "better than" : "not better than", worst.karisFlip));
-    }
-    facts.push_back(weakestCulling(points));
-    std::erase(facts, "");
-    if (facts.empty())
-        return "Weak sides: neither the part \"accuracy\" nor \"culling\" was measured in this "
-               "run.";
-    std::string out = "Weak sides: ";
-    for (size_t i = 0; i < facts.size(); ++i)
-        out += (i ? "; " : "") + facts[i];
     return out + ".";
 }
 
@@ -302,7 +232,9 @@ std::string stabilitySentence(const Stability& s)
         return "Stability: the part \"stability\" was not measured in this run.";
     std::string out = fmt::format(
         "Stability: of {} random and adversarial inputs {} gave a response that is no number, "
-        "infinite, negative or impossibly bright (95% confidence: at most {} in a million)",
+        "infinite, negative or impossibly bright (if all were random, that would be at most {} in "
+        "a "
+        "million with 95% confidence)",
         grouped(s.tried()), s.invalid() ? grouped(s.invalid()) : "none",
         threeDigits(1e6 * largestShare(s.invalid(), s.tried())));
     const QuadratureCheck* worst = nullptr;
@@ -312,16 +244,17 @@ std::string stabilitySentence(const Stability& s)
             worst = &q;
     if (worst)
         out += fmt::format(
-            "; the closed forms differ from quadrature by at most {}% of the "
-            "response on the mirror axis ({}), which {} the allowed {}%",
+            "; on hard inputs the formulas differ from quadrature by at most {}% of the "
+            "response on the mirror axis ({}), which {} the limit of {}%",
             threeDigits(100 * worst->max), lightTypeName(worst->evaluation.lightType),
             worst->max <= worst->bar ? "is within" : "EXCEEDS", threeDigits(100 * worst->bar));
     double jump = 0;
     for (const ContinuityCheck& c : s.continuity)
         jump = std::max(jump, c.jump);
     if (!s.continuity.empty())
-        out += fmt::format("; the largest jump between neighbouring inputs is {:.1e} of the peak",
-                           jump);
+        out +=
+            fmt::format("; between neighbouring inputs the light jumps by at most {}% of its peak",
+                        threeDigits(100 * jump));
     return out + ".";
 }
 

@@ -26,9 +26,6 @@ struct RunFacts {
 std::string runSentence(const RunFacts& facts);
 std::string speedSentence(const std::vector<CullingPoint>& points);
 std::string accuracySentence(const KernelLevel& level, const std::vector<ImageScene>& scenes);
-// Either of these may be empty.
-std::string weaknessSentence(const KernelLevel& level, const std::vector<ImageScene>& scenes,
-                             const std::vector<CullingPoint>& points);
 std::string stabilitySentence(const Stability& stability);
 
 // The largest share of invalid responses that 95% confidence allows if `invalid` of `tried`

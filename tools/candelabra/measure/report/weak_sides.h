@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sentence of the report about what Candelabra is bad at: what it costs, where its errors are
+// largest, and which efforts gain nothing. Only what the run shows to be weak is named.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/accuracy/image_level.h"
+#include "measure/accuracy/kernel_level.h"
+#include "measure/culling/culling.h"
+#include "measure/skip.h"
+
+namespace candelabra::app
+{
+
+// What parts of the report measured. What was not measured is empty.
+struct WeakSideFacts {
+    KernelLevel kernels;
+    std::vector<ImageScene> scenes;
+    BudgetSweep budgets;
+    std::vector<CullingPoint> culling;
+    std::vector<SkipRow> skips;
+};
+
+std::string weaknessSentence(const WeakSideFacts& facts);
+
+} // namespace candelabra::app
