@@ -350,6 +350,25 @@ TEST_F(ReportPageTest, TermsAreExplainedBeforeTheSectionsAndLinked)
     EXPECT_FALSE(has(text, "term-relMSE")); // the page does not use it
 }
 
+TEST_F(ReportPageTest, LongTablesAreFoldedAndTermsExplainedOnce)
+{
+    ReportPage page{.title = {}, .about = {}, .sentences = {}, .notes = {}, .sections = {}};
+    Table shown({{"first", ""}}, "Shown"), hidden({{"relMSE", ""}}, "Hidden");
+    page.sections.push_back({.id = "one",
+                             .title = {},
+                             .intro = {},
+                             .html = {},
+                             .tables = {shown},
+                             .command = {},
+                             .details = {hidden}});
+    const std::string text = htmlOf(page);
+    EXPECT_LT(text.find("<caption>Shown"), text.find("<details>"));
+    EXPECT_LT(text.find("<details><summary>Table: Hidden"), text.find("<caption>Hidden"));
+    EXPECT_TRUE(has(text, "<a href=\"#term-relMSE\">relMSE</a>"));
+    EXPECT_EQ(text.find("The mean over all pixels"), text.rfind("The mean over all pixels"));
+    EXPECT_TRUE(has(text, "The mean over all pixels"));
+}
+
 TEST(ReportCommitted, OnlyWhatIsFarFromTheIntervalContradicts)
 {
     const auto figure = [](double low, double high) {

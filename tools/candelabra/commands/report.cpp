@@ -162,11 +162,12 @@ void profilePart(const Part& part)
              "and shade_tiles evaluates them.",
              reportScene, grouped(plan.lights), plan.frames, plan.sizeText()),
          .html = pictures(part.context, renderer, frame) + passBars(series),
-         .tables = {times, lights},
+         .tables = {times},
          .command =
              fmt::format("candelabra profile {} --lights {} --size {} --frames {} "
                          "--light-costs {}",
-                         reportScene, plan.lights, plan.sizeText(), plan.frames, costlyLights)});
+                         reportScene, plan.lights, plan.sizeText(), plan.frames, costlyLights),
+         .details = {lights}});
     part.out.document["profile"] = {
         {"scene", sceneJson(scene, renderer)},
         {"settled", profile.settled},
@@ -209,7 +210,8 @@ void accuracyPart(const Part& part)
                   "light has on such a surface.",
          .html = accuracyPlots(out.facts.kernels, out.facts.scenes, part.context.info()),
          .tables = accuracyTables(out.facts.kernels, out.facts.scenes, out.facts.budgets),
-         .command = "candelabra report --parts accuracy"});
+         .command = "candelabra report --parts accuracy",
+         .details = accuracyDetails(out.facts.kernels, out.facts.scenes)});
     out.document["accuracy"] = {{"kernels", kernelJson(kernels, out.facts.kernels)},
                                 {"images", imageJson(images, out.facts.scenes, out.facts.budgets)}};
 }
@@ -286,7 +288,8 @@ void stabilityPart(const Part& part)
                   "quadrature, and jumps are looked for while an input changes continuously.",
          .html = {},
          .tables = stabilityTables(out.stability),
-         .command = "candelabra bench stability --configs 1000000 --quadrature 2500 --sweeps 10"});
+         .command = "candelabra bench stability --configs 1000000 --quadrature 2500 --sweeps 10",
+         .details = stabilityDetails(out.stability)});
     out.document["stability"] = stabilityJson(settings, out.stability);
 }
 

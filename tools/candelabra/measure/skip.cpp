@@ -615,7 +615,7 @@ Table skipTable(const std::vector<SkipRow>& rows)
                        ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", row.interval().median,
                                      row.interval().low, row.interval().high)
                        : fmt::format("{:.3f}", row.ratio()),
-                   limitOf(row), costOf(row), fmt::format("{:.0e}", row.difference)},
+                   limitOf(row), costOf(row), threeDigits(row.difference)},
                   {.noisy = isNoisy(row.with.totals()) || isNoisy(row.without.totals()),
                    .key = row.key()});
     return table;

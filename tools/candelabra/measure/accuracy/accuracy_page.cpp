@@ -73,9 +73,9 @@ std::string scenePictures(const ImageScene& scene, size_t index)
         if (p.method == CND_SPECULAR_KARIS)
             karis = choices.size();
         add(name, name, displayed.value,
-            fmt::format("{}: {} ms by brute force, relMSE {:.1e}, lit mean {:.1e}, FLIP {:.4f}",
-                        name, threeDigits(p.time.bruteForceMs), p.error.relMse, p.error.litMeanRel,
-                        p.error.flip));
+            fmt::format("{}: {} ms by brute force, relMSE {}, lit mean {}, FLIP {:.4f}", name,
+                        threeDigits(p.time.bruteForceMs), threeDigits(p.error.relMse),
+                        threeDigits(p.error.litMeanRel), p.error.flip));
         add(name + "-flip", name + ": difference",
             heatMap(flipMap(displayed.truth, displayed.value), displayed.truth.width,
                     displayed.truth.height),
@@ -118,9 +118,15 @@ std::vector<Table> accuracyTables(const KernelLevel& kernels, const std::vector<
                                   const BudgetSweep& budgets)
 {
     std::vector<Table> out = kernelTables(kernels);
-    out.push_back(worstSampleTable(kernels));
     for (Table& table : imageTables(scenes, budgets))
         out.push_back(std::move(table));
+    return out;
+}
+
+std::vector<Table> accuracyDetails(const KernelLevel& kernels,
+                                   const std::vector<ImageScene>& scenes)
+{
+    std::vector<Table> out{worstSampleTable(kernels)};
     for (const ImageScene& scene : scenes)
         out.push_back(worstPixelTable(scene));
     return out;
@@ -135,6 +141,8 @@ std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,
                       accuracyPlots(kernels, scenes, device);
     for (const Table& table : accuracyTables(kernels, scenes, budgets))
         out += table.html();
+    for (const Table& table : accuracyDetails(kernels, scenes))
+        out += folded("Table: " + table.title(), table.html());
     return out + "<h2>What was measured on what</h2>\n" + provenanceTable(provenance).html() +
            pageEnd();
 }

@@ -17,6 +17,9 @@ std::string accuracyPlots(const KernelLevel& kernels, const std::vector<ImageSce
                           const DeviceInfo& device);
 std::vector<Table> accuracyTables(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
                                   const BudgetSweep& budgets);
+// The worst samples and pixels, in long tables.
+std::vector<Table> accuracyDetails(const KernelLevel& kernels,
+                                   const std::vector<ImageScene>& scenes);
 
 // The whole page of `candelabra bench accuracy`.
 std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,

@@ -297,8 +297,7 @@ Table budgetTable(const BudgetSweep& sweep)
         table.add({fmt::format("{} {:.2g}%", specularName(p.method), 100 * p.budget),
                    threeDigits(p.time.lightingMs), fmt::format("{:.2f}", p.time.ratio),
                    fmt::format("{:.2f}", p.ratioToFull), threeDigits(p.time.shadingMs),
-                   fmt::format("{:.1e}", p.meanRel), fmt::format("{:.1e}", p.p99Rel),
-                   fmt::format("{:.1e}", p.maxOverPeak)},
+                   threeDigits(p.meanRel), threeDigits(p.p99Rel), threeDigits(p.maxOverPeak)},
                   {.noisy = p.time.noisy});
     return table;
 }
@@ -337,11 +336,11 @@ std::vector<Table> imageTables(const std::vector<ImageScene>& scenes, const Budg
             table.add({methodName(p.method),
                        p.method.rival == Rival::None ? threeDigits(p.time.lightingMs) : "-",
                        p.method.rival == Rival::None ? fmt::format("{:.2f}", p.time.ratio) : "-",
-                       threeDigits(p.time.bruteForceMs), fmt::format("{:.1e}", p.error.relMse),
-                       fmt::format("{:.1e}", p.error.litRelMse),
-                       fmt::format("{:.1e}", p.error.litMeanRel),
-                       fmt::format("{:.1e}", p.error.maxOverPeak),
-                       fmt::format("{:+.1e}", p.error.energy), fmt::format("{:.4f}", p.error.flip)},
+                       threeDigits(p.time.bruteForceMs), threeDigits(p.error.relMse),
+                       threeDigits(p.error.litRelMse), threeDigits(p.error.litMeanRel),
+                       threeDigits(p.error.maxOverPeak),
+                       (p.error.energy > 0 ? "+" : "") + threeDigits(p.error.energy),
+                       fmt::format("{:.4f}", p.error.flip)},
                       {.noisy = p.time.noisy});
         out.push_back(std::move(table));
     }

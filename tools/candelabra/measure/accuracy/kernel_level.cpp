@@ -240,7 +240,7 @@ Table errorTable(const KernelLevel& level)
         type = p.lightType;
         table.add({nameOf(p), meanP99Max(p.error.mirror.all), meanP99Max(p.error.mirror.above),
                    meanP99Max(p.error.mirror.crossing), meanP99Max(p.error.dielectric.all),
-                   percent(p.error.scanL1), fmt::format("{:.1e}", 100 * p.error.diffuse.all.max),
+                   percent(p.error.scanL1), threeDigits(100 * p.error.diffuse.all.max),
                    percent(p.error.leak), grouped(p.error.invalid)},
                   {.key = kernelErrorKey(lightTypeName(p.lightType), methodName(p.method))});
     }

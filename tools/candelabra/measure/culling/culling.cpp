@@ -356,7 +356,7 @@ void addRow(Table& table, const CullingPoint& p, const Contender& c)
                orDash(lists, threeDigits(double(c.listBytes) * 1e-6)),
                orDash(lists, millions(c.listedPairs)), orDash(lists, millions(c.evaluatedPairs)),
                orDash(c.contributingPairs > 0, millions(c.contributingPairs)),
-               c.difference ? fmt::format("{:.0e}", *c.difference) : "-"},
+               c.difference ? threeDigits(*c.difference) : "-"},
               {.noisy = drawn && isNoisy(c.times.totals())});
 }
 

@@ -44,11 +44,12 @@ std::string firstTerms(TermFinder& finder, const std::string& text)
 std::string wordsOf(const ReportSection& section)
 {
     std::string out = section.title + "\n" + section.intro + "\n";
-    for (const Table& table : section.tables) {
-        out += table.text() + "\n";
-        for (const Column& column : table.columns())
-            out += column.about + "\n";
-    }
+    for (const auto* tables : {&section.tables, &section.details})
+        for (const Table& table : *tables) {
+            out += table.text() + "\n";
+            for (const Column& column : table.columns())
+                out += column.about + "\n";
+        }
     return out;
 }
 
@@ -58,7 +59,7 @@ std::string contents(const std::vector<ReportSection>& sections)
     for (const ReportSection& section : sections)
         out += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", escaped(section.id),
                            escaped(section.title));
-    return out + "<li><a href=\"#glossary\">Glossary</a></li></ul></nav>\n";
+    return out + "<li><a href=\"#glossary\">Where each term is explained</a></li></ul></nav>\n";
 }
 
 std::string htmlOf(const ReportSection& section, TermFinder& finder)
@@ -68,16 +69,21 @@ std::string htmlOf(const ReportSection& section, TermFinder& finder)
         paragraph(section.intro) + firstTerms(finder, wordsOf(section)) + section.html;
     for (const Table& table : section.tables)
         out += table.html();
+    for (const Table& table : section.details)
+        out += folded("Table: " + table.title(), table.html());
     return out + (section.command.empty() ? "" : madeBy(section.command));
 }
 
-std::string glossaryHtml(const TermFinder& finder)
+// Where each term of the page is explained.
+std::string termIndex(const TermFinder& finder)
 {
-    std::string out = "<h2 id=\"glossary\">Glossary</h2>\n<dl>\n";
-    for (const Term& term : finder.all())
-        out += fmt::format("<dt><a href=\"#{}\">{}</a></dt><dd>{}</dd>\n", anchorOf(term),
-                           escaped(term.name), escaped(term.meaning));
-    return out + "</dl>\n";
+    std::string out = "<h2 id=\"glossary\">Where each term is explained</h2>\n<p>";
+    const char* gap = "";
+    for (const Term& term : finder.all()) {
+        out += fmt::format("{}<a href=\"#{}\">{}</a>", gap, anchorOf(term), escaped(term.name));
+        gap = ", ";
+    }
+    return out + "</p>\n";
 }
 
 } // namespace
@@ -85,8 +91,9 @@ std::string glossaryHtml(const TermFinder& finder)
 void ReportPage::markContradictions(const std::vector<std::string>& keys)
 {
     for (ReportSection& section : sections)
-        for (Table& table : section.tables)
-            table.markContradictions(keys);
+        for (auto* tables : {&section.tables, &section.details})
+            for (Table& table : *tables)
+                table.markContradictions(keys);
 }
 
 std::string htmlOf(const ReportPage& page)
@@ -105,7 +112,7 @@ std::string htmlOf(const ReportPage& page)
     out += contents(page.sections);
     for (const ReportSection& section : page.sections)
         out += htmlOf(section, finder);
-    return out + glossaryHtml(finder) + pageEnd();
+    return out + termIndex(finder) + pageEnd();
 }
 
 } // namespace candelabra::app

@@ -16,7 +16,8 @@ struct ReportSection {
     std::string intro;     // a few sentences: what is measured, and how to read it
     std::string html;      // pictures and plots, which stand before the tables
     std::vector<Table> tables;
-    std::string command; // with which the section can be made again; may be empty
+    std::string command;             // with which the section can be made again; may be empty
+    std::vector<Table> details = {}; // long tables, which are shown on a click
 };
 
 struct ReportPage {
@@ -30,8 +31,8 @@ struct ReportPage {
     void markContradictions(const std::vector<std::string>& keys);
 };
 
-// The whole HTML page: the sentences, the contents, the sections, and a glossary. Every term of the
-// glossary is also explained where the page uses it first.
+// The whole HTML page: the sentences, the contents, the sections, and links to the explanations of
+// terms. Every term of the glossary is explained once, where the page uses it first.
 std::string htmlOf(const ReportPage& page);
 
 } // namespace candelabra::app

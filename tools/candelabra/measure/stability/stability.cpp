@@ -274,8 +274,7 @@ Table quadratureTable(const Stability& stability)
     for (const QuadratureCheck& q : stability.quadrature)
         table.add({nameOf(q.evaluation), grouped(q.samples), threeDigits(100 * q.mean),
                    threeDigits(100 * q.p99), threeDigits(100 * q.max),
-                   q.bar > 0 ? threeDigits(100 * q.bar) : "-",
-                   fmt::format("{:.1e}", q.diffuseMax)});
+                   q.bar > 0 ? threeDigits(100 * q.bar) : "-", threeDigits(q.diffuseMax)});
     return table;
 }
 
@@ -289,7 +288,7 @@ Table continuityTable(const Stability& stability)
           "to the peak response."}},
         "Continuity");
     for (const ContinuityCheck& c : stability.continuity)
-        table.add({nameOf(c.evaluation), c.through, fmt::format("{:.1e}", c.jump)});
+        table.add({nameOf(c.evaluation), c.through, threeDigits(c.jump)});
     return table;
 }
 
@@ -302,8 +301,8 @@ Table smallLightTable(const Stability& stability)
                  {"max", "", "The largest error."}},
                 "Small lights against points, relative error");
     for (const SmallLightCheck& c : stability.smallLights)
-        table.add({nameOf(c.evaluation), grouped(c.samples), fmt::format("{:.1e}", c.median),
-                   fmt::format("{:.1e}", c.p99), fmt::format("{:.1e}", c.max)});
+        table.add({nameOf(c.evaluation), grouped(c.samples), threeDigits(c.median),
+                   threeDigits(c.p99), threeDigits(c.max)});
     return table;
 }
 
@@ -336,11 +335,15 @@ std::vector<Table> stabilityTables(const Stability& stability)
     std::vector<Table> out{countTable(stability), quadratureTable(stability)};
     noteBadResponses(stability, out[0]);
     noteOverBar(stability, out[1]);
-    if (!stability.continuity.empty())
-        out.push_back(continuityTable(stability));
     if (!stability.smallLights.empty())
         out.push_back(smallLightTable(stability));
     return out;
+}
+
+std::vector<Table> stabilityDetails(const Stability& stability)
+{
+    return stability.continuity.empty() ? std::vector<Table>()
+                                        : std::vector<Table>{continuityTable(stability)};
 }
 
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability)

@@ -101,6 +101,8 @@ SmallLightCheck checkSmallLights(const VulkanContext& context, const Evaluation&
                                  uint32_t samples, uint64_t seed);
 
 std::vector<Table> stabilityTables(const Stability& stability);
+// The table of jumps, which is long; none if continuity was not checked.
+std::vector<Table> stabilityDetails(const Stability& stability);
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability);
 
 } // namespace candelabra::app
