@@ -387,10 +387,12 @@ TEST(ReportCommitted, OnlyWhatIsFarFromTheIntervalContradicts)
 TEST_F(ReportPageTest, RowsThatContradictTheCommittedResultsAreFlagged)
 {
     const DeviceInfo device{.name = "a device", .driver = "a driver"};
-    const auto document = [](const char* driver, double ratio) {
+    const auto document = [](const char* driver, double ratio, uint32_t width = 480) {
         return Json{{"schema", "candelabra bench culling 1"},
                     {"provenance", {{"device", "a device"}, {"driver", driver}}},
                     {"points", Json::array({Json{{"scene", "hall"},
+                                                 {"widthPixels", width},
+                                                 {"heightPixels", 270},
                                                  {"lights", 4000},
                                                  {"overlaps", 8},
                                                  {"ratioToBestBaseline", ratio}}})}}
@@ -408,6 +410,12 @@ TEST_F(ReportPageTest, RowsThatContradictTheCommittedResultsAreFlagged)
     write("this.json", document("a driver", 1.5));
     Comparison other = compareWithCommitted(figuresOf(points), *readCommitted(dir_, device));
     ASSERT_EQ(other.contradictions.size(), 1u);
+    EXPECT_TRUE(other.omission.empty());
+    write("this.json", document("a driver", 1.5, 1280));
+    const Comparison larger = compareWithCommitted(figuresOf(points), *readCommitted(dir_, device));
+    EXPECT_EQ(larger.compared, 0u);
+    EXPECT_TRUE(larger.contradictions.empty());
+    EXPECT_TRUE(has(larger.omission, "1280x270 there, 480x270 here")) << larger.omission;
     ReportPage page{.title = {}, .about = {}, .sentences = {}, .notes = {}, .sections = {}};
     page.sections.push_back({.id = "culling",
                              .title = {},

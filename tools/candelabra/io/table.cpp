@@ -41,8 +41,8 @@ std::string noisyLegend()
 std::string contradictionLegend()
 {
     return fmt::format(
-        "{} marks a row whose figure is far from the committed one of this device and "
-        "driver, which may be of a larger picture.",
+        "{} marks a row whose figure is far from that of the results that are committed with the "
+        "sources for this device and driver.",
         contradictionMark);
 }
 

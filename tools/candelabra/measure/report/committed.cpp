@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,30 @@ MedianInterval meanOfGroups(const std::vector<double>& means)
     return {mean, std::max(mean - margin, 0.0), mean + margin};
 }
 
+std::string cullingConditions(uint32_t width, uint32_t height)
+{
+    return fmt::format("{}x{}", width, height);
+}
+
+std::string skipConditions(const std::string& scene, uint32_t width, uint32_t height,
+                           uint32_t lights)
+{
+    return fmt::format("{}x{} of {} with {} lights", width, height, scene, grouped(lights));
+}
+
+// Says which figures are not compared because all committed ones of the same name are of pictures
+// of other conditions.
+std::string omissionText(size_t count, const std::set<std::string>& here,
+                         const std::set<std::string>& there)
+{
+    if (!count)
+        return {};
+    return fmt::format("{} of this run {} not compared, because the pictures of the committed "
+                       "results have another size or other lights: {} there, {} here.",
+                       counted(count, "figure"), count == 1 ? "is" : "are", fmt::join(there, "; "),
+                       fmt::join(here, "; "));
+}
+
 std::string number(double x)
 {
     return x != 0 && std::abs(x) < 1e-3 ? fmt::format("{:.1e}", x) : threeDigits(x);
@@ -44,16 +69,21 @@ std::vector<ReportedFigure> figuresOf(const std::vector<CullingPoint>& points)
     for (const CullingPoint& p : points) {
         const PairedRatio r = p.toEngine(p.bestBaseline().name);
         const MedianInterval inverse{1 / r.median, 1 / r.high, 1 / r.low};
-        out.push_back({cullingKey(p.scene, p.lights, p.overlaps), inverse});
+        out.push_back({.key = cullingKey(p.scene, p.lights, p.overlaps),
+                       .value = inverse,
+                       .conditions = cullingConditions(p.size.width, p.size.height)});
     }
     return out;
 }
 
-std::vector<ReportedFigure> figuresOf(const std::vector<SkipRow>& rows)
+std::vector<ReportedFigure> figuresOf(const SkipSettings& settings,
+                                      const std::vector<SkipRow>& rows)
 {
+    const std::string conditions =
+        skipConditions(settings.scene, settings.size.width, settings.size.height, settings.lights);
     std::vector<ReportedFigure> out;
     for (const SkipRow& row : rows)
-        out.push_back({row.key(), row.interval()});
+        out.push_back({.key = row.key(), .value = row.interval(), .conditions = conditions});
     return out;
 }
 
@@ -71,26 +101,30 @@ std::vector<ReportedFigure> figuresOf(const KernelLevel& level)
     return out;
 }
 
-void addFigures(const Json& document, std::map<std::string, double>& figures)
+void addFigures(const Json& document, CommittedFigures& figures)
 {
     const std::string schema = document.value("schema", "");
     if (schema.starts_with("candelabra bench culling"))
         for (const Json& p : document.at("points"))
-            figures[cullingKey(p.at("scene"), p.at("lights"), p.at("overlaps"))] =
-                p.at("ratioToBestBaseline");
+            figures[cullingKey(p.at("scene"), p.at("lights"), p.at("overlaps"))]
+                   [cullingConditions(p.at("widthPixels"), p.at("heightPixels"))] =
+                       p.at("ratioToBestBaseline");
     if (schema.starts_with("candelabra bench skip"))
         for (const Json& row : document.at("skips"))
-            figures[skipKey(row.at("name"), row.at("against"))] = row.at("ratio");
+            figures[skipKey(row.at("name"), row.at("against"))]
+                   [skipConditions(document.at("scene"), document.at("widthPixels"),
+                                   document.at("heightPixels"), document.at("lights"))] =
+                       row.at("ratio");
     if (!schema.starts_with("candelabra bench accuracy"))
         return;
     for (const Json& p : document.at("kernels").at("points")) {
         const Json& times = p.at("time");
         const char* main = times.contains("above") ? "above" : "general";
         if (times.contains(main))
-            figures[kernelTimeKey(p.at("light"), p.at("method"))] =
+            figures[kernelTimeKey(p.at("light"), p.at("method"))][{}] =
                 times.at(main).at("ratioToKaris");
         const double percent = p.at("error").at("fresnel1").at("all").at("meanPercent");
-        figures[kernelErrorKey(p.at("light"), p.at("method"))] = percent / 100;
+        figures[kernelErrorKey(p.at("light"), p.at("method"))][{}] = percent / 100;
     }
 }
 
@@ -111,7 +145,7 @@ std::optional<CommittedResults> readCommitted(const std::string& directory,
         const Json document = Json::parse(file, nullptr, false);
         if (!document.is_object() || !document.contains("provenance"))
             continue;
-        std::map<std::string, double> figures;
+        CommittedFigures figures;
         try {
             const Json& from = document["provenance"];
             if (from.value("device", "") != device.name ||
@@ -124,7 +158,8 @@ std::optional<CommittedResults> readCommitted(const std::string& directory,
         if (figures.empty())
             continue;
         out.files.push_back(path.filename().string());
-        out.figures.merge(figures); // of a figure in several files, that of the first file counts
+        for (auto& [key, values] : figures) // of several files, the figure of the first counts
+            out.figures[key].merge(values);
     }
     return out;
 }
@@ -150,11 +185,22 @@ Comparison compareWithCommitted(const std::vector<ReportedFigure>& figures,
                    {"interval", "95%", "The interval of the figure of this run."},
                    {"committed", "", "The figure of the committed results."}},
                   "Figures that the committed results have too"),
-        .contradictions = {}};
+        .contradictions = {},
+        .omission = {}};
+    size_t omitted = 0;
+    std::set<std::string> here, there;
     for (const ReportedFigure& figure : figures) {
-        const auto found = committed.figures.find(figure.key);
-        if (found == committed.figures.end())
+        const auto sameKey = committed.figures.find(figure.key);
+        if (sameKey == committed.figures.end())
             continue;
+        const auto found = sameKey->second.find(figure.conditions);
+        if (found == sameKey->second.end()) {
+            ++omitted;
+            here.insert(figure.conditions);
+            for (const auto& other : sameKey->second)
+                there.insert(other.first);
+            continue;
+        }
         ++out.compared;
         const MedianInterval& v = figure.value;
         out.table.add({figure.key, number(v.median),
@@ -167,11 +213,11 @@ Comparison compareWithCommitted(const std::vector<ReportedFigure>& figures,
     out.table.note(fmt::format(
         "A figure is said to contradict the committed one if the committed one lies outside the "
         "interval by more than {:.0f}% of the committed one (and, for ratios, by more than {}). "
-        "Intervals of mean errors assume that means are normally distributed. The committed "
-        "results have larger images and more lights, "
-        "so a contradiction is a reason to look, and no proof of a fault.",
+        "Intervals of mean errors assume that means are normally distributed. A contradiction is "
+        "a reason to look, and no proof of a fault.",
         100 * contradictionShare, contradictionDifference));
     out.table.markContradictions(out.contradictions);
+    out.omission = omissionText(omitted, here, there);
     return out;
 }
 

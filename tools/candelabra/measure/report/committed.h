@@ -22,27 +22,33 @@ namespace candelabra::app
 // committed figure; for a ratio, which may be near 0, also farther than this difference.
 constexpr double contradictionShare = 0.25, contradictionDifference = 0.05;
 
-// A figure of this run, which is named like the row of the table that has it.
+// A figure of this run, which is named like the row of the table that has it. It is compared with
+// committed figures of the same conditions only: those of other pictures differ for that reason.
 struct ReportedFigure {
     std::string key;
     MedianInterval value;
     double allowance = contradictionDifference; // the difference that is always allowed
+    std::string conditions = {}; // of the picture, such as its size; empty if there is none
 };
 std::vector<ReportedFigure> figuresOf(const std::vector<CullingPoint>& points);
-std::vector<ReportedFigure> figuresOf(const std::vector<SkipRow>& rows);
+std::vector<ReportedFigure> figuresOf(const SkipSettings& settings,
+                                      const std::vector<SkipRow>& rows);
 std::vector<ReportedFigure> figuresOf(const KernelLevel& level);
+
+// Figures by key, and those of one key by their conditions.
+using CommittedFigures = std::map<std::string, std::map<std::string, double>>;
 
 struct CommittedResults {
     std::string directory;
     std::vector<std::string> files; // those of the same device and driver
-    std::map<std::string, double> figures;
+    CommittedFigures figures;
 };
 // Reads the results of this device and driver from the JSON files in a directory. Files that hold
 // something else are passed over. Returns nothing if there is no such directory.
 std::optional<CommittedResults> readCommitted(const std::string& directory,
                                               const DeviceInfo& device);
 // Adds the figures of one document, such as the results of `candelabra bench culling`.
-void addFigures(const Json& document, std::map<std::string, double>& figures);
+void addFigures(const Json& document, CommittedFigures& figures);
 
 bool contradicts(const ReportedFigure& figure, double committed);
 
@@ -50,6 +56,7 @@ struct Comparison {
     Table table;
     std::vector<std::string> contradictions; // the keys
     size_t compared = 0;
+    std::string omission; // a sentence about figures of other conditions; empty if there are none
 };
 Comparison compareWithCommitted(const std::vector<ReportedFigure>& figures,
                                 const CommittedResults& committed);
