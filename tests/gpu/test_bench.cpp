@@ -154,7 +154,7 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
         EXPECT_GT(scene.points[1].time.lightingMs, 0);
         EXPECT_GT(scene.points[1].time.bruteForceMs, 0);
         EXPECT_GT(scene.points[2].time.bruteForceMs, 0);
-        // Those bars are of scenes that have spheres alone.
+        // The bars are of scenes that have spheres alone.
         if (scene.name != "tube, rectangle, disc and sun" && scene.name != "showcase") {
             const bool cut = scene.name == "glossy floor cut by a light";
             const bool grazing = scene.name == "large light at grazing angles";
