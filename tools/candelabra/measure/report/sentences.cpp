@@ -32,7 +32,7 @@ std::string bracketed(const MedianInterval& v)
 // How the engine compares with another way that takes `ratio` times as long.
 std::string verdict(const PairedRatio& ratio)
 {
-    if (!ratio.isKnown() || (!ratio.isFaster() && !ratio.isSlower()))
+    if (!ratio.isFaster() && !ratio.isSlower())
         return "not measurably different from it";
     return ratio.isSlower() ? "faster than it" : "slower than it";
 }
@@ -82,25 +82,23 @@ std::string meanPercent(const KernelError& error)
     return out;
 }
 
-// "for spheres conic is off by 0.05%, LTC by 2.6% (57 times as much)". Returns nothing if conic was
-// not measured for the type.
-std::string typeAccuracy(const KernelLevel& level, uint32_t type)
+// How many times as large the mean errors of a method are as those of conic, for the light types
+// for which both were measured: "24.8 to 71.2". Returns nothing if there is none.
+std::string timesTheError(const KernelLevel& level, const MeasuredMethod& method)
 {
-    const KernelPoint* conic = find(level, type, CND_SPECULAR_CONIC);
-    if (!conic)
+    double least = INFINITY, most = 0;
+    for (const KernelPoint& own : level.points) {
+        const KernelPoint* other = find(level, own.lightType, method);
+        if (own.method != CND_SPECULAR_CONIC || !other || own.error.mirror.all.mean <= 0)
+            continue;
+        const double times = other->error.mirror.all.mean / own.error.mirror.all.mean;
+        least = std::min(least, times);
+        most = std::max(most, times);
+    }
+    if (most <= 0)
         return "";
-    std::string out = fmt::format("{} {}", lightTypeName(type), meanPercent(conic->error));
-    const double own = conic->error.mirror.all.mean;
-    const std::pair<const char*, MeasuredMethod> others[] = {{"LTC", Rival::Ltc},
-                                                             {"karis", CND_SPECULAR_KARIS}};
-    for (const auto& [name, method] : others)
-        if (const KernelPoint* other = find(level, type, method))
-            out +=
-                fmt::format(", {} {}{}", name, meanPercent(other->error),
-                            own > 0 ? fmt::format(" ({} times as much)",
-                                                  threeDigits(other->error.mirror.all.mean / own))
-                                    : "");
-    return out;
+    const std::string from = threeDigits(least), to = threeDigits(most);
+    return from == to ? to : from + " to " + to;
 }
 
 // The FLIP of every scene that was drawn with a method, in the order of the scenes.
@@ -172,9 +170,10 @@ std::string speedSentence(const std::vector<CullingPoint>& points)
         const Spread s = spreadOf(p->of(engineName).times.totals());
         out +=
             fmt::format("to light one frame ({}) takes {} ms (half of the frames: {} to {}), and "
-                        "brute force takes {} times as long, so Candelabra is {}; ",
+                        "brute force takes {} times as long{}; ",
                         p->title(), threeDigits(s.median), threeDigits(s.lowerQuartile),
-                        threeDigits(s.upperQuartile), bracketed(r), verdict(r));
+                        threeDigits(s.upperQuartile), bracketed(r),
+                        r.isKnown() ? ", so Candelabra is " + verdict(r) : "");
     } else {
         out += "brute force took too long to be drawn; ";
     }
@@ -201,14 +200,20 @@ std::string accuracySentence(const KernelLevel& level, const std::vector<ImageSc
 {
     std::string types;
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (const std::string text = typeAccuracy(level, type); !text.empty())
-            types += (types.empty() ? "" : "; ") + text;
+        if (const KernelPoint* own = find(level, type, CND_SPECULAR_CONIC))
+            types += fmt::format("{}{} {}", types.empty() ? "" : ", ",
+                                 lightTypeName(CndLightType(type)), meanPercent(own->error));
     if (types.empty())
         return "Accuracy: the part \"accuracy\" was not measured in this run.";
     std::string out = "Accuracy: the mean error of the formula (conic) against the truth, in "
-                      "percent of the brightest reflection of such a light, by the shape of the "
+                      "percent of the brightest reflection of such a light, is by the shape of the "
                       "light: " +
                       types;
+    const std::pair<const char*, MeasuredMethod> others[] = {{"LTC", Rival::Ltc},
+                                                             {"karis", CND_SPECULAR_KARIS}};
+    for (const auto& [name, method] : others)
+        if (const std::string times = timesTheError(level, method); !times.empty())
+            out += fmt::format("; that of {} is {} times as large", name, times);
     const std::vector<double> conic = flipsOf(scenes, CND_SPECULAR_CONIC);
     if (conic.empty())
         return out + ".";
@@ -216,8 +221,6 @@ std::string accuracySentence(const KernelLevel& level, const std::vector<ImageSc
     out += fmt::format("; in {} of whole images the visible difference to the truth (FLIP) is "
                        "{:.4f} to {:.4f}",
                        counted(conic.size(), "scene"), *low, *high);
-    const std::pair<const char*, MeasuredMethod> others[] = {{"LTC", Rival::Ltc},
-                                                             {"karis", CND_SPECULAR_KARIS}};
     for (const auto& [name, method] : others)
         if (const std::vector<double> flips = flipsOf(scenes, method); !flips.empty()) {
             const auto [least, most] = std::minmax_element(flips.begin(), flips.end());
