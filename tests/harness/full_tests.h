@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tells tests how much to do.
+// Whether tests do all that they can (tools/test --full), and whether they have AddressSanitizer.
 #pragma once
 
 #include <cstdlib>
