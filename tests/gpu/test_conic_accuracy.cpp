@@ -106,7 +106,7 @@ class ConicAccuracy : public ProbeTest
 
 TEST_F(ConicAccuracy, AgainstQuadrature)
 {
-    const int groups = fullTests() ? 1500 : 200;
+    const int groups = fullTests() ? 1500 : 300;
     std::vector<Record> records = drawRecords(groups);
     std::vector<gpu::ConicProbeInput> inputs;
     std::vector<double> peak(size_t(groups), 0), dielectricPeak(size_t(groups), 0);

@@ -65,7 +65,7 @@ private:
 
 TEST_F(LightingTest, RandomFramesEqualBrute)
 {
-    const uint32_t frames = fullTests() ? 1000 : 30;
+    const uint32_t frames = fullTests() ? 1000 : 60;
     uint32_t lit = 0;
     CndError error{};
     const CndLightingDesc desc{.structSize = sizeof desc,
@@ -98,7 +98,7 @@ TEST_F(LightingTest, RandomFramesEqualBrute)
 // Whether a group or a lane makes a cluster and a list changes neither.
 TEST_F(LightingTest, RandomFramesHaveTheSameListsFromGroupsAndFromLanes)
 {
-    const uint32_t frames = fullTests() ? 1000 : 12;
+    const uint32_t frames = fullTests() ? 1000 : 20;
     const CndDeviceDesc gpu = gpuLike(deviceDesc());
     RunOptions byGroups;
     byGroups.host = &gpu;

@@ -11,7 +11,7 @@ struct Edit {
     const char* pointer;
     const char* value;
     const char* element;
-    bool isImage = false; // only an image cannot be read
+    bool isImage = false; // the file loads with a warning, because nothing but an image is broken
 };
 
 inline constexpr bool unreadableImage = true;

@@ -86,7 +86,8 @@ TEST_F(DefaultLight, ScenesWithoutLightGetAStudioIfAskedFor)
     EXPECT_TRUE(warns(off, "has no lights"));
 }
 
-// What is white follows the larger surfaces where unlit and glowing ones meet.
+// A scene has unlit surfaces and glowing ones: which of them decide how bright white is depends on
+// which have the larger area.
 TEST_F(DefaultLight, OneUnlitLineDoesNotSayWhatIsWhite)
 {
     GltfBuilder b = triangleScene();

@@ -47,7 +47,8 @@ constexpr Unread unreadExtensions[] = {
     {"KHR_materials_sheen", "sheen is left out"},
     {"KHR_materials_transmission",
      "by its factor, glass is drawn as a thin veil, which neither bends nor colours what is behind "
-     "it; its texture is left out",
+     "it; materials with a texture of their "
+     "transmission are drawn opaque",
      true},
     {"KHR_materials_variants", "the default variant of each material is drawn"},
     {"KHR_materials_volume",
@@ -86,7 +87,8 @@ std::set<std::string> unsupportedNames(const JsonValue& document, const char* ke
     return names;
 }
 
-// What is known of an extension that is not supported.
+// Returns the entry of unreadExtensions for an extension that is not read, or not all of it; for
+// one that has no entry, a general sentence.
 Unread unreadExtension(const std::string& name)
 {
     const auto known = std::find_if(std::begin(unreadExtensions), std::end(unreadExtensions),

@@ -26,8 +26,8 @@ Camera cameraOfPicture(const Camera& camera, double aspect);
 
 // How much of a picture points fill.
 struct PictureShare {
-    // The picture shows nothing of the points: all of them are behind the camera, or all are beyond
-    // the same edge of the picture.
+    // Whether none of the points is in the picture, because all are behind the camera, or all are
+    // outside the same edge of the picture.
     bool isEmpty = false;
     // The distance between the outermost points, as a share of the picture's width and of its
     // height. Both are 1 if a point is outside the picture.

@@ -236,8 +236,7 @@ std::string stabilitySentence(const Stability& s)
     std::string out = fmt::format(
         "Stability: of {} random and adversarial inputs {} gave a response that is no number, "
         "infinite, negative or impossibly bright (if all were random, that would be at most {} in "
-        "a "
-        "million with 95% confidence)",
+        "a million with 95% confidence)",
         grouped(s.tried()), s.invalid() ? grouped(s.invalid()) : "none",
         threeDigits(1e6 * largestShare(s.invalid(), s.tried())));
     const QuadratureCheck* worst = nullptr;

@@ -143,9 +143,8 @@ std::string notFaster(const std::vector<CullingPoint>& points)
         if (r.isSlower())
             continue;
         const bool slower = r.isKnown() && r.isFaster();
-        out +=
-            fmt::format("{}{} Candelabra is {} than {}", out.empty() ? "" : "; ", "in " + p.title(),
-                        slower ? "slower" : "not measurably faster", p.bestBaseline().name);
+        out += fmt::format("{}in {} Candelabra is {} than {}", out.empty() ? "" : "; ", p.title(),
+                           slower ? "slower" : "not measurably faster", p.bestBaseline().name);
         out += r.isKnown() ? fmt::format(", which takes {:.2f} [{:.2f}, {:.2f}] times as long",
                                          r.median, r.low, r.high)
                            : " (too few repeats for an interval)";
