@@ -169,21 +169,37 @@ void addChunks(Batches& b, uint32_t first, uint32_t count, uint32_t firstCommand
     }
 }
 
-// Appends the commands of one batch of `count` instances. The first run of the commands is the last
-// run of `b` if `sameState` says that it may go on.
+// Appends the commands of one batch of `count` instances, which has the last `pieces` pieces. The
+// first run of the commands is the last run of `b` if `sameState` says that it may go on.
 void addCommands(Batches& b, const BatchKey& key, uint32_t count, const PackedMesh& mesh,
-                 bool sameState, uint32_t maxDraws)
+                 uint32_t pieces, bool sameState, uint32_t maxDraws)
 {
+    const bool tested = pieces != 0;
+    const uint32_t endOfPieces = uint32_t(b.pieces.batchOfPiece().size());
+    sameState = sameState && b.runs.back().tested == tested;
     for (const PackedLevel& level : mesh.levels) {
         if (!sameState || b.runs.back().commandCount == maxDraws)
             b.runs.push_back({key.variant, key.doubleSided, key.mirrored, key.textureSet,
-                              uint32_t(b.commands.size()), 0});
+                              uint32_t(b.commands.size()), 0, tested, endOfPieces - pieces, 0});
         sameState = true;
+        b.runs.back().pieceCount += pieces;
+        pieces = 0; // if a second run follows, the first one draws all pieces
         ++b.runs.back().commandCount;
         b.commands.push_back(
             {level.indexCount, 0, level.firstIndex, mesh.vertexOffset, b.visibleCount});
         b.visibleCount += count;
     }
+}
+
+// Plans the triangles of the batch of the last `count` instances. Returns its number of pieces.
+uint32_t addPieces(Batches& b, const BatchKey& key, uint32_t count, const PackedMesh& mesh)
+{
+    gpu::PieceBatch batch{.firstCommand = uint32_t(b.commands.size())};
+    for (size_t i = b.bounds.size() - count; i < b.bounds.size(); ++i)
+        batch.scale = std::max(batch.scale, b.bounds[i].scale);
+    // Counter-clockwise in an image with y down is a negative area.
+    batch.front = key.doubleSided ? 0.f : key.mirrored ? 1.f : -1.f;
+    return b.pieces.add(mesh, key.mesh, count, batch);
 }
 
 void setRow(gpu::MaterialRecord& record, uint32_t texture, const TextureRef& ref)
@@ -195,7 +211,7 @@ void setRow(gpu::MaterialRecord& record, uint32_t texture, const TextureRef& ref
 } // namespace
 
 Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
-                     uint32_t maxDraws)
+                     uint32_t maxDraws, bool testTriangles)
 {
     Batches b;
     const std::vector<uint32_t> setOfMaterial = collectTextureSets(desc, b.textureSets);
@@ -210,13 +226,14 @@ Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& me
         const PackedMesh& mesh = meshes[key.mesh];
         const uint32_t count = uint32_t(end - begin);
         addChunks(b, uint32_t(begin), count, uint32_t(b.commands.size()), mesh);
-        addCommands(b, key, count, mesh, !b.runs.empty() && key.state() == last.state(), maxDraws);
         for (; begin < end; ++begin) {
             const Instance& instance = desc.instances[sorted[begin].instance];
             const glm::dmat4 worldFromObject = glm::make_mat4(instance.worldFromObject);
             b.instances.push_back(instanceRecord(worldFromObject, instance.material));
             b.bounds.push_back(instanceBounds(worldFromObject, mesh));
         }
+        addCommands(b, key, count, mesh, testTriangles ? addPieces(b, key, count, mesh) : 0,
+                    !b.runs.empty() && key.state() == last.state(), maxDraws);
         last = key;
     }
     return b;

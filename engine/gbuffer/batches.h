@@ -13,6 +13,7 @@
 #include "gbuffer/geometry.h"
 #include "gbuffer/mesh_variant.h"
 #include "gbuffer/meshes.h"
+#include "gbuffer/triangle_pieces.h"
 #include "shared/raster.h"
 
 namespace candelabra::gbuffer
@@ -30,6 +31,8 @@ struct Run {
     bool mirrored; // the transforms mirror the mesh, which reverses its winding
     uint32_t textureSet;
     uint32_t firstCommand, commandCount;
+    bool tested; // cull_triangles tests its triangles, in these pieces
+    uint32_t firstPiece, pieceCount;
 };
 
 struct Batches {
@@ -41,13 +44,15 @@ struct Batches {
     std::vector<gpu::Chunk> chunks;
     std::vector<gpu::InstanceRecord> instances; // sorted by batch
     std::vector<gpu::InstanceBounds> bounds;    // one per instance
+    TrianglePieces pieces;
 };
 
 // Sorts instances into batches. Batches are sorted by state, then by mesh; within a batch instances
-// keep their order. A run has at most `maxDraws` commands. Throws gpu::Failure naming an instance,
-// or a material, that refers to something that does not exist.
+// keep their order. A run has at most `maxDraws` commands. `testTriangles`: plan cull_triangles.
+// Throws gpu::Failure naming an instance, or a material, that refers to something that does not
+// exist.
 Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
-                     uint32_t maxDraws);
+                     uint32_t maxDraws, bool testTriangles);
 
 // Returns for each mesh whether an instance of it has textures or a coverage.
 std::vector<bool> texturedMeshes(const GeometryDesc& desc);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gbuffer/gbuffer.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -69,6 +71,20 @@ gpu::CullInstancesFrame cullFrame(const CameraTerms& camera, const FrameInputs& 
     return f;
 }
 
+gpu::CullTrianglesFrame trianglesFrame(const CameraTerms& camera, const FrameInputs& in,
+                                       uint32_t subPixelBits, uint32_t pieces)
+{
+    const DoubleSingle position(camera.position);
+    return {.viewFromWorld = glm::mat3(camera.viewFromWorld),
+            .clipFromView = camera.clipFromView,
+            .cameraHi = position.hi,
+            .cameraLo = position.lo,
+            .size = {float(in.width), float(in.height)},
+            .snap = float(std::exp2(-double(subPixelBits))),
+            .winding = camera.mirrored ? -1.f : 1.f,
+            .pieceCount = pieces};
+}
+
 gpu::AnalyticParams analyticParams(const AnalyticObject& object, const Material& material,
                                    const CameraTerms& camera)
 {
@@ -106,6 +122,7 @@ struct GBuffer::Impl {
     gpu::Timer timer;
     gpu::Kernel<gpu::NoParams> cullInstances;
     gpu::Kernel<gpu::CompactInstancesParams> compactInstances;
+    gpu::Kernel<gpu::NoParams> cullTriangles;
     Pipelines pipelines;
     std::vector<gpu::Buffer> rasterFrames; // one RasterFrame per slot
     gpu::Bindings raySets;                 // one per slot
@@ -118,7 +135,9 @@ struct GBuffer::Impl {
     void setState(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
     void beginRendering(VkCommandBuffer cmd, const FrameInputs& in, bool emissive) const noexcept;
     void drawMeshes(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
-                    uint32_t coverageFrame, bool emissive) const noexcept;
+                    const FrameInputs& in, bool emissive) const noexcept;
+    void drawRun(VkCommandBuffer cmd, const GeometryImpl& geometry, const Run& run,
+                 bool culledTriangles) const noexcept;
     void drawAnalytic(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
                       const FrameInputs& in) const noexcept;
     void drawBackground(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
@@ -143,6 +162,8 @@ GBuffer::Impl::Impl(const gpu::Device& d, const GBufferDesc& g)
               g.framesInFlight),
       emitters(d, g.framesInFlight)
 {
+    if (d.lanesAreCpuVector) // other devices have no Geometry that needs it
+        cullTriangles = {d, spirv::cull_triangles_comp};
     for (uint32_t slot = 0; slot < g.framesInFlight; ++slot) {
         rasterFrames.push_back(gpu::createBuffer(d, "raster frame", sizeof(gpu::RasterFrame),
                                                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -157,6 +178,13 @@ void GBuffer::Impl::recordCulling(const gpu::Frame& frame, const GeometryImpl& g
     const uint32_t chunks = in.drawInstances ? geometry.chunkCount : 0;
     const gpu::CullInstancesFrame cull = cullFrame(camera, in, chunks);
     device.CmdUpdateBuffer(frame.cmd, geometry.cullFrame.get(), 0, sizeof cull, &cull);
+    const TriangleTest& triangles = geometry.triangles;
+    const uint32_t pieces = in.drawInstances && in.cullTriangles ? triangles.pieceCount : 0;
+    if (pieces) {
+        const gpu::CullTrianglesFrame test =
+            trianglesFrame(camera, in, device.limits.subPixelPrecisionBits, pieces);
+        device.CmdUpdateBuffer(frame.cmd, triangles.frame.get(), 0, sizeof test, &test);
+    }
     frame.barrier();
     cullInstances.dispatch(frame, geometry.cullSet.set(0), {},
                            gpu::divideUp(chunks, gpu::CULL_INSTANCES_GROUP));
@@ -164,6 +192,11 @@ void GBuffer::Impl::recordCulling(const gpu::Frame& frame, const GeometryImpl& g
     compactInstances.dispatch(
         frame, geometry.compactSet.set(0), {chunks},
         gpu::divideUp(chunks * gpu::MESH_LEVELS, gpu::COMPACT_INSTANCES_GROUP));
+    if (!pieces)
+        return;
+    frame.barrier();
+    cullTriangles.dispatch(frame, triangles.set.set(0), {},
+                           gpu::divideUp(pieces, gpu::CULL_TRIANGLES_GROUP));
 }
 
 // Begins to draw the meshes that emit nothing, or everything else, after them.
@@ -215,20 +248,35 @@ void GBuffer::Impl::setState(VkCommandBuffer cmd, const FrameInputs& in) const n
     device.CmdSetFrontFace(cmd, VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
+// `culledTriangles`: cull_triangles has tested the triangles of the runs that it tests.
+void GBuffer::Impl::drawRun(VkCommandBuffer cmd, const GeometryImpl& g, const Run& run,
+                            bool culledTriangles) const noexcept
+{
+    const gpu::Buffer& indices = run.tested && culledTriangles ? g.triangles.kept : g.indices;
+    device.CmdBindIndexBuffer(cmd, indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    DrawRange draws = g.drawsOf(run, culledTriangles);
+    while (draws.count) {
+        const uint32_t count = std::min(draws.count, device.limits.maxDrawIndirectCount);
+        device.CmdDrawIndexedIndirect(cmd, draws.commands, draws.first * sizeof(gpu::DrawCommand),
+                                      count, sizeof(gpu::DrawCommand));
+        draws.first += count;
+        draws.count -= count;
+    }
+}
+
 // Draws the meshes whose material emits light, or the others.
 void GBuffer::Impl::drawMeshes(VkCommandBuffer cmd, const GeometryImpl& g,
-                               const CameraTerms& camera, uint32_t coverageFrame,
+                               const CameraTerms& camera, const FrameInputs& in,
                                bool emissive) const noexcept
 {
     const DoubleSingle position(camera.position);
     const gpu::MeshParams params{glm::mat3(camera.viewFromWorld), camera.clipFromView, position.hi,
-                                 position.lo, coverageFrame};
+                                 position.lo, in.coverageFrame};
     const VkPipelineLayout layout = pipelines.meshLayout.get();
     device.CmdPushConstants(cmd, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof params, &params);
     const VkBuffer streams[StreamCount] = {g.vertices.get(), g.vertices.get(), g.visible.get()};
     const VkDeviceSize offsets[StreamCount] = {0, g.detailOffset, 0};
     device.CmdBindVertexBuffers(cmd, 0, StreamCount, streams, offsets);
-    device.CmdBindIndexBuffer(cmd, g.indices.get(), 0, VK_INDEX_TYPE_UINT32);
     for (const Run& run : g.runs) {
         if (run.variant.emissive != emissive)
             continue;
@@ -240,9 +288,7 @@ void GBuffer::Impl::drawMeshes(VkCommandBuffer cmd, const GeometryImpl& g,
         device.CmdSetFrontFace(cmd, run.mirrored != camera.mirrored
                                         ? VK_FRONT_FACE_CLOCKWISE
                                         : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        device.CmdDrawIndexedIndirect(cmd, g.commands.get(),
-                                      run.firstCommand * sizeof(gpu::DrawCommand), run.commandCount,
-                                      sizeof(gpu::DrawCommand));
+        drawRun(cmd, g, run, in.cullTriangles);
     }
     device.CmdSetCullMode(cmd, VK_CULL_MODE_NONE);
 }
@@ -361,13 +407,13 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
     s.setState(cmd, in);
     s.beginRendering(cmd, in, false);
     if (meshes)
-        s.drawMeshes(cmd, g, camera, in.coverageFrame, false);
+        s.drawMeshes(cmd, g, camera, in, false);
     s.device.CmdEndRendering(cmd);
     betweenDraws(s.device, cmd);
     s.beginRendering(cmd, in, true);
     s.drawBackground(cmd, in);
     if (meshes)
-        s.drawMeshes(cmd, g, camera, in.coverageFrame, true);
+        s.drawMeshes(cmd, g, camera, in, true);
     if (in.drawAnalytic && !g.analyticObjects.empty())
         s.drawAnalytic(cmd, g, camera, in);
     if (in.drawEmitters && !s.emitters.empty())

@@ -24,20 +24,26 @@ constexpr VkDeviceSize stagingAlignment = 16;
 // Mip levels of a texture of 2^15 texels per side, the largest that any device allows today.
 constexpr uint32_t maxMipLevels = 16;
 
+template <typename T>
+std::span<const std::byte> bytesOf(const std::vector<T>& data)
+{
+    return std::as_bytes(std::span(data));
+}
+
 // Collects all uploads first, so that one staging buffer of the right size can be created.
 class Uploads
 {
 public:
     explicit Uploads(Geometry::Impl& g) : g_(g) {}
 
-    template <typename T>
-    gpu::Buffer buffer(const char* name, const std::vector<T>& data, VkBufferUsageFlags usage)
+    // The data must stay valid until write().
+    gpu::Buffer buffer(const char* name, std::span<const std::byte> data, VkBufferUsageFlags usage)
     {
         gpu::Buffer b =
-            gpu::createBuffer(*g_.device, name, data.size() * sizeof(T),
+            gpu::createBuffer(*g_.device, name, data.size(),
                               usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::Device);
         g_.counts.bytes += b.size;
-        add(b, 0, std::as_bytes(std::span(data)));
+        add(b, 0, data);
         return b;
     }
 
@@ -155,6 +161,45 @@ void createCulling(Geometry::Impl& g, VkDeviceSize visibleCount)
                            Binding::of(gpu::COMPACT_INSTANCES_COMMANDS, g.commands)});
 }
 
+// The buffers must have been created that culling instances needs.
+void createTriangleTest(Geometry::Impl& g, Uploads& uploads, const TrianglePieces& pieces,
+                        std::span<const gpu::TriangleCorner> corners)
+{
+    TriangleTest& t = g.triangles;
+    const gpu::Device& d = *g.device;
+    t.pieceCount = uint32_t(pieces.batchOfPiece().size());
+    if (!t.pieceCount)
+        return;
+    constexpr VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    const auto create = [&](const char* name, VkDeviceSize size, VkBufferUsageFlags usage) {
+        g.counts.bytes += size;
+        return gpu::createBuffer(d, name, size, usage, MemoryUse::Device);
+    };
+    t.corners = uploads.buffer("triangle corners", std::as_bytes(corners),
+                               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    createTexels(g, t.corners, "corners of triangles");
+    t.batches = uploads.buffer("piece batches", bytesOf(pieces.batches()), storage);
+    t.batchOfPiece = uploads.buffer("batches of pieces", bytesOf(pieces.batchOfPiece()), storage);
+    t.kept = create("kept indices", pieces.keptCount() * sizeof(uint32_t),
+                    storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    t.draws =
+        create("piece draws", t.pieceCount * sizeof(gpu::DrawCommand),
+               storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    t.frame = create("triangle frame", sizeof(gpu::CullTrianglesFrame),
+                     VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    t.set = gpu::Bindings(d, "cull_triangles", gpu::reflect(spirv::cull_triangles_comp).bindings,
+                          VK_SHADER_STAGE_COMPUTE_BIT, 1);
+    t.set.write(0, {Binding::of(gpu::CULL_TRIANGLES_FRAME, t.frame),
+                    Binding::ofTexels(gpu::CULL_TRIANGLES_INSTANCES, g.instances),
+                    Binding::ofTexels(gpu::CULL_TRIANGLES_CORNERS, t.corners),
+                    Binding::of(gpu::CULL_TRIANGLES_BATCHES, t.batches),
+                    Binding::of(gpu::CULL_TRIANGLES_PIECE_BATCHES, t.batchOfPiece),
+                    Binding::of(gpu::CULL_TRIANGLES_VISIBLE, g.visible),
+                    Binding::of(gpu::CULL_TRIANGLES_COMMANDS, g.commands),
+                    Binding::of(gpu::CULL_TRIANGLES_KEPT, t.kept),
+                    Binding::of(gpu::CULL_TRIANGLES_DRAWS, t.draws)});
+}
+
 void createMeshSets(Geometry::Impl& g, const std::vector<TextureSet>& sets,
                     const GeometryDesc& desc)
 {
@@ -228,7 +273,9 @@ Geometry::Geometry(const gpu::Device& device, const GeometryDesc& desc)
     : impl_(std::make_unique<Impl>(Impl{.device = &device}))
 {
     const PackedMeshes meshes = packMeshes(desc.meshes, texturedMeshes(desc));
-    Batches batches = buildBatches(desc, meshes.meshes, device.limits.maxDrawIndirectCount);
+    // Only llvmpipe sets up triangles in one thread of the CPU, so only there the test pays.
+    Batches batches = buildBatches(desc, meshes.meshes, device.limits.maxDrawIndirectCount,
+                                   device.lanesAreCpuVector);
     std::vector<gpu::MaterialRecord> materials;
     for (const Material& material : desc.materials)
         materials.push_back(materialRecord(material));
@@ -243,12 +290,13 @@ Geometry::Geometry(const gpu::Device& device, const GeometryDesc& desc)
     constexpr VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     constexpr VkBufferUsageFlags texels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     createVertices(g, uploads, meshes);
-    g.indices = uploads.buffer("indices", meshes.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-    g.instances = uploads.buffer("instances", batches.instances, texels);
-    g.materials = uploads.buffer("materials", materials, texels);
-    g.bounds = uploads.buffer("instance bounds", batches.bounds, storage);
-    g.chunks = uploads.buffer("chunks", batches.chunks, storage);
-    g.commands = uploads.buffer("draw commands", batches.commands,
+    g.indices =
+        uploads.buffer("indices", bytesOf(meshes.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    g.instances = uploads.buffer("instances", bytesOf(batches.instances), texels);
+    g.materials = uploads.buffer("materials", bytesOf(materials), texels);
+    g.bounds = uploads.buffer("instance bounds", bytesOf(batches.bounds), storage);
+    g.chunks = uploads.buffer("chunks", bytesOf(batches.chunks), storage);
+    g.commands = uploads.buffer("draw commands", bytesOf(batches.commands),
                                 storage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT); // lets hosts copy out how
                                                                        // many instances were drawn
@@ -257,6 +305,8 @@ Geometry::Geometry(const gpu::Device& device, const GeometryDesc& desc)
     createTexels(g, g.materials, "materials");
     createTextures(g, uploads, desc.textures);
     createCulling(g, batches.visibleCount);
+    const std::vector<gpu::TriangleCorner> corners = batches.pieces.corners(meshes);
+    createTriangleTest(g, uploads, batches.pieces, corners);
     createMeshSets(g, batches.textureSets, desc);
     g.runs = std::move(batches.runs);
     g.analyticObjects.assign(desc.analyticObjects.begin(), desc.analyticObjects.end());
@@ -273,9 +323,17 @@ GeometryCounts Geometry::counts() const
     return impl_->counts;
 }
 
-const gpu::Buffer& Geometry::drawCommands() const
+bool Geometry::testsTriangles() const
 {
-    return impl_->commands;
+    return impl_->triangles.pieceCount != 0;
+}
+
+std::vector<DrawRange> Geometry::draws(bool culledTriangles) const
+{
+    std::vector<DrawRange> draws;
+    for (const Run& run : impl_->runs)
+        draws.push_back(impl_->drawsOf(run, culledTriangles));
+    return draws;
 }
 
 void Geometry::releaseStaging() noexcept

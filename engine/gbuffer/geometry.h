@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "gpu/device.h"
 #include "gpu/memory.h"
@@ -118,6 +119,12 @@ struct GeometryCounts {
     uint64_t bytes = 0;     // GPU memory
 };
 
+// Consecutive VkDrawIndexedIndirectCommands in a buffer.
+struct DrawRange {
+    VkBuffer commands;
+    uint32_t first, count;
+};
+
 class Geometry
 {
 public:
@@ -136,9 +143,11 @@ public:
     void releaseStaging() noexcept;
 
     GeometryCounts counts() const;
-    // The draws of the last recorded frame, a VkDrawIndexedIndirectCommand each. Hosts that want to
-    // know what was drawn may copy them after the frame.
-    const gpu::Buffer& drawCommands() const;
+    // The draws of the last recorded frame, in order. `culledTriangles`: its
+    // FrameInputs::cullTriangles. Hosts that want to know what was drawn may copy them after the
+    // frame.
+    std::vector<DrawRange> draws(bool culledTriangles) const;
+    bool testsTriangles() const; // whether there is anything for cull_triangles to do
 
     struct Impl;
     const Impl& impl() const { return *impl_; } // used by GBuffer

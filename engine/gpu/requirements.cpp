@@ -36,7 +36,7 @@ namespace
 
 // Limits that must exceed the minimum that Vulkan guarantees: X(limit, least value, parts).
 // Exposure has a lane per bin of its histogram; cluster_lists has ten storage buffers,
-// compact_instances five.
+// cull_triangles six.
 #define CND_LIMIT_NEEDS(X)                                                                         \
     X(maxComputeWorkGroupInvocations, 256, exposureModule)                                         \
     X(maxComputeWorkGroupSize[0], 256, exposureModule)                                             \

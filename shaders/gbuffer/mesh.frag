@@ -97,10 +97,11 @@ void writeMaterial(vec3 normal)
     outNormalRoughness = quantizeOctahedral(normal, NORMAL_BITS_FULL) | varyingMaterial.yz;
 #ifdef COLORED
     outAlbedo = packAlbedoFull(varyingAlbedo);
-#else
-    outAlbedo = varyingAlbedo;
-#endif
     outSpecular = varyingSpecular;
+#else
+    outAlbedo = varyingAlbedoSpecular.xy;
+    outSpecular = varyingAlbedoSpecular.zw;
+#endif
 #ifdef EMISSIVE
     outRadiance = vec4(materialTexel(varyingMaterial.x, 3u).rgb, 1.0);
 #endif

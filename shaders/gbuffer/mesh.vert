@@ -6,6 +6,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gbuffer/mesh_varyings.glsl"
 #include "gbuffer/material_record.glsl"
+#include "lib/camera_relative.glsl"
 #include "lib/gbuffer.glsl"
 #include "shared/raster.h"
 
@@ -26,16 +27,6 @@ layout(location = MESH_COLOR) in vec4 color;
 #endif
 layout(location = MESH_INSTANCE) in uint instance;
 
-// Exact difference of the high parts (Knuth's TwoSum), plus the rounding error and the low parts.
-vec3 cameraRelative(vec3 hi, vec3 lo)
-{
-    precise vec3 difference = hi - params.cameraHi;
-    precise vec3 back = difference - hi;
-    precise vec3 lost = (hi - (difference - back)) - (params.cameraHi + back);
-    precise vec3 result = difference + (lost + (lo - params.cameraLo));
-    return result;
-}
-
 // Normalises a vector; a zero vector stays zero.
 vec3 safeNormalize(vec3 v)
 {
@@ -52,7 +43,7 @@ void main()
     const uint material = uint(last.w);
 
     const mat3 worldFromObject = mat3(x.xyz, y.xyz, z.xyz);
-    const vec3 origin = cameraRelative(vec3(x.w, y.w, z.w), last.xyz);
+    const vec3 origin = cameraRelative(vec3(x.w, y.w, z.w), last.xyz, params.cameraHi, params.cameraLo);
     const vec3 positionView = params.viewFromWorld * (origin + worldFromObject * position);
     gl_Position = params.clipFromView * vec4(positionView, 1.0);
 
@@ -72,10 +63,11 @@ void main()
 #ifdef COLORED
     m.baseColor *= color.rgb;
     varyingAlbedo = diffuseAlbedo(m);
-#else
-    varyingAlbedo = packAlbedoFull(diffuseAlbedo(m));
-#endif
     varyingSpecular = packSpecularFull(normalReflectance(m), m.specularWeight);
+#else
+    varyingAlbedoSpecular = uvec4(packAlbedoFull(diffuseAlbedo(m)),
+                                  packSpecularFull(normalReflectance(m), m.specularWeight));
+#endif
     varyingMaterial = uvec3(material, packRoughnessFull(m.perceptualRoughness));
 #endif
 }

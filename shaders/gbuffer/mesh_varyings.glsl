@@ -18,11 +18,9 @@ layout(location = 1) flat VARYING uvec3 varyingMaterial;
 layout(location = 2) VARYING vec4 varyingTangent; // view space
 layout(location = 3) VARYING vec4 varyingUv;
 layout(location = 4) VARYING vec4 varyingColor;
+#elif defined(COLORED)
+layout(location = 2) VARYING vec3 varyingAlbedo;
+layout(location = 3) flat VARYING uvec2 varyingSpecular; // packed
 #else
-layout(location = 2) flat VARYING uvec2 varyingSpecular; // packed
-#ifdef COLORED
-layout(location = 3) VARYING vec3 varyingAlbedo;
-#else
-layout(location = 3) flat VARYING uvec2 varyingAlbedo; // packed
-#endif
+layout(location = 2) flat VARYING uvec4 varyingAlbedoSpecular; // both packed
 #endif

@@ -119,6 +119,56 @@ struct CompactInstancesParams {
 };
 GPU_SIZE(CompactInstancesParams, 4)
 
+// cull_triangles: leaves out triangles that cover no sample. A piece is up to PIECE_TRIANGLES
+// consecutive triangles of one drawn instance. One lane tests a piece, and writes the indices of
+// the triangles that remain and a draw command for them.
+const uint CULL_TRIANGLES_GROUP = 8u;
+const uint PIECE_TRIANGLES = 128u;
+const uint CULL_TRIANGLES_FRAME = 0u;
+const uint CULL_TRIANGLES_INSTANCES = 1u;     // texels: InstanceRecord
+const uint CULL_TRIANGLES_CORNERS = 2u;       // texels: TriangleCorner, three per triangle
+const uint CULL_TRIANGLES_BATCHES = 3u;       // PieceBatch
+const uint CULL_TRIANGLES_PIECE_BATCHES = 4u; // uint per piece: the PieceBatch that it belongs to
+const uint CULL_TRIANGLES_VISIBLE = 5u;       // as compact_instances writes them
+const uint CULL_TRIANGLES_COMMANDS = 6u;
+const uint CULL_TRIANGLES_KEPT = 7u;  // uint: indices of the triangles that remain
+const uint CULL_TRIANGLES_DRAWS = 8u; // DrawCommand per piece
+struct CullTrianglesFrame {
+    mat3 viewFromWorld; // rotation
+    mat4 clipFromView;
+    vec3 cameraHi; // world space; the position is hi + lo
+    vec3 cameraLo;
+    vec2 size;     // of the image, pixels
+    float snap;    // pixels by which the rasteriser may move a vertex
+    float winding; // 1, or -1: the image is mirrored
+    uint pieceCount;
+};
+GPU_SIZE(CullTrianglesFrame, 144)
+
+// A corner of a triangle of a mesh.
+struct TriangleCorner {
+    vec3 position; // object space, m
+    float vertex;  // its index in the mesh, exact up to 2^24
+};
+GPU_SIZE(TriangleCorner, 16)
+
+// A batch of instances whose triangles are tested. Its pieces are numbered level by level, and
+// within a level instance by instance. There are as many as its instances need at level 0. Coarser
+// levels need fewer, so the last pieces may have no triangles in a frame.
+struct PieceBatch {
+    uint firstPiece;
+    uint firstCommand; // of level 0 of the batch's mesh; those of its other levels follow
+    uint levelCount;   // 1..MESH_LEVELS
+    uint firstKept;    // where its indices begin in CULL_TRIANGLES_KEPT
+    uint firstCorner;  // of the mesh, in CULL_TRIANGLES_CORNERS
+    uint firstIndex;   // of the mesh, in the index buffer
+    float reach;       // no sum of |coordinates| of a vertex is larger in object space, m
+    float scale;       // no length of object space is longer than this in world space, m
+    float front; // sign of the area of triangles that face the camera, in an image that is not
+                 // mirrored, with y down; 0: both sides are drawn
+};
+GPU_SIZE(PieceBatch, 36)
+
 // --- Meshes
 
 const uint MESH_POSITION = 0u; // vertex attribute locations

@@ -191,6 +191,7 @@ RasterImage RasterTest::renderWith(gbuffer::GBuffer& pass, const gbuffer::Geomet
                      .width = options.width,
                      .height = options.height,
                      .cullInstances = options.cullInstances,
+                     .cullTriangles = options.cullTriangles,
                      .maxLevelError = options.maxLevelError,
                      .coverageFrame = options.coverageFrame});
     });

@@ -51,6 +51,7 @@ struct RasterOptions {
     float clearDepth = 0;
     glm::vec3 background{0};
     bool cullInstances = true;
+    bool cullTriangles = true;
     float maxLevelError = 0; // most tests draw meshes as they describe them
     uint32_t coverageFrame = 0;
     std::vector<CndLight> emitters;

@@ -156,7 +156,8 @@ TEST_F(GBufferLevels, ErrorsAreWithinAQuarterOfAPixel)
     gbuffer::GBuffer pass(device(), {.framesInFlight = 1});
     const gbuffer::PackedMeshes packed =
         gbuffer::packMeshes(scene.meshes, gbuffer::texturedMeshes(scene.desc()));
-    const gbuffer::Batches batches = gbuffer::buildBatches(scene.desc(), packed.meshes, UINT32_MAX);
+    const gbuffer::Batches batches =
+        gbuffer::buildBatches(scene.desc(), packed.meshes, UINT32_MAX, false);
     uint32_t coarse = 0, fine = 0;
     for (int i = 0; i < 9; ++i) {
         SCOPED_TRACE(i);

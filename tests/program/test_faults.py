@@ -124,7 +124,7 @@ BAD = {
     "--budget-size": SIZES, "--configs": [*NUMBERS, "-1", "0.5"], "--quadrature": [*NUMBERS, "-1"],
     "--sweeps": [*COUNTS], "--parts": ["everything", "profile,,skip", ","],
     "--scenes": ["village", "hall,village", ","], "--tolerance": [*NUMBERS, "-1"],
-    "--lod": NAMES, "--warm-up": [*NUMBERS, "-1"], "--frames-in-flight": [*COUNTS, "0"],
+    "--lod": NAMES, "--cull-triangles": NAMES, "--warm-up": [*NUMBERS, "-1"], "--frames-in-flight": [*COUNTS, "0"],
     "--threads": [*COUNTS, "0"], "--shard": ["3/2", "0/2", "2", "1/0", "a/b", "1/2/3"],
     "--screenshot": ["x.jpg", "no/such/x.png"], "--while-moving": NAMES,
     "--merge": ["no_such.truth", "empty.truth", "noise.truth", "folder.truth"],

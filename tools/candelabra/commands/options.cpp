@@ -340,6 +340,9 @@ void FrameArguments::addTo(CLI::App& command)
     addChoice(command, "--lod", lod, onOffChoices,
               "draw meshes by coarser levels of detail where that moves their surface by at most a "
               "quarter of a pixel");
+    addChoice(command, "--cull-triangles", cullTriangles, onOffChoices,
+              "on llvmpipe, leave out triangles that cover no pixel's centre before they are "
+              "rasterised; the picture is the same");
 }
 
 void FrameArguments::addFitTo(CLI::App& command)
@@ -490,6 +493,11 @@ std::optional<bool> FrameArguments::lightsVisibleOverride() const
 bool FrameArguments::levels() const
 {
     return choose("--lod", lod, onOffChoices);
+}
+
+bool FrameArguments::trianglesCulled() const
+{
+    return choose("--cull-triangles", cullTriangles, onOffChoices);
 }
 
 CndExposureSettings FrameArguments::exposureSettings() const

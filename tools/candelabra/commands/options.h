@@ -74,7 +74,7 @@ struct FrameArguments {
     std::string gbuffer = "full", specular, culling = "clustered";
     std::string sampleCount = "64", errorBudget = "0";
     std::string influence = "given", influenceError;
-    std::string lightsVisible, reuse, heatMap = "none", lod = "on";
+    std::string lightsVisible, reuse, heatMap = "none", lod = "on", cullTriangles = "on";
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
     std::string middleGrey = "0.18";
 
@@ -102,7 +102,8 @@ struct FrameArguments {
     Reuse reuseMode() const;
     HeatMap heatMapMode() const; // throws if culling is not clustered
     std::optional<bool> lightsVisibleOverride() const;
-    bool levels() const; // FrameOptions::levels
+    bool levels() const;
+    bool trianglesCulled() const; // FrameOptions::levels
     CndExposureSettings exposureSettings() const;
 };
 

@@ -49,6 +49,7 @@ ProfilePath cameraPath(const std::string& text)
 FrameOptions frameOptions(const FrameArguments& frame)
 {
     return {.levels = frame.levels(),
+            .cullTriangles = frame.trianglesCulled(),
             .specular = frame.specularMethod(),
             .sampleCount = frame.samples(),
             .errorBudget = frame.budget(),

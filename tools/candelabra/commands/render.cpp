@@ -166,6 +166,7 @@ RenderPlan plan(const RenderArguments& a)
     return {.scene = scene,
             .frame = {.time = numberOption("--time", a.time, -1e9, 1e9),
                       .levels = a.frame.levels(),
+                      .cullTriangles = a.frame.trianglesCulled(),
                       .specular = a.frame.specularMethod(),
                       .sampleCount = a.frame.samples(),
                       .errorBudget = a.frame.budget(),

@@ -52,6 +52,7 @@ StressSettings settingsOf(const StressArguments& a)
             .size = *size,
             .gbufferLayout = a.frame.gbufferLayout(),
             .frame = {.levels = a.frame.levels(),
+                      .cullTriangles = a.frame.trianglesCulled(),
                       .specular = a.frame.specularMethod(),
                       .sampleCount = a.frame.samples(),
                       .errorBudget = a.frame.budget(),

@@ -31,6 +31,7 @@ ViewerOptions optionsOf(const ViewArguments& a)
 {
     ViewerOptions out{.gbufferLayout = a.frame.gbufferLayout(),
                       .frame = {.levels = a.frame.levels(),
+                                .cullTriangles = a.frame.trianglesCulled(),
                                 .specular = a.frame.specularMethod(),
                                 .sampleCount = a.frame.samples(),
                                 .errorBudget = a.frame.budget(),

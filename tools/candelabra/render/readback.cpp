@@ -130,13 +130,23 @@ std::vector<uint8_t> readDisplay(const VulkanContext& context, const Renderer& r
 
 uint64_t readDrawnTriangles(const VulkanContext& context, const Renderer& renderer)
 {
-    const gpu::Buffer& commands = renderer.drawCommands();
+    constexpr VkDeviceSize stride = sizeof(VkDrawIndexedIndirectCommand);
+    const std::vector<gbuffer::DrawRange> draws = renderer.draws();
+    VkDeviceSize size = 0;
+    for (const gbuffer::DrawRange& range : draws)
+        size += range.count * stride;
     const gpu::Buffer copy =
-        gpu::createBuffer(context.device(), "draw commands readback", commands.size,
+        gpu::createBuffer(context.device(), "draw commands readback", size,
                           VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::Readback);
     context.submitAndWait([&](VkCommandBuffer cmd) {
-        const VkBufferCopy region{0, 0, commands.size};
-        vkCmdCopyBuffer(cmd, commands.get(), copy.get(), 1, &region);
+        VkBufferCopy region{};
+        for (const gbuffer::DrawRange& range : draws) {
+            region.srcOffset = range.first * stride;
+            region.size = range.count * stride;
+            if (region.size)
+                vkCmdCopyBuffer(cmd, range.commands, copy.get(), 1, &region);
+            region.dstOffset += region.size;
+        }
         makeVisibleToHost(cmd);
     });
     uint64_t sum = 0;

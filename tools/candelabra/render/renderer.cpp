@@ -189,7 +189,8 @@ struct Renderer::State {
     Environment environment; // empty: the scene has none
     std::vector<CndLight> lights;
     std::optional<uint32_t>
-        emitterLayers; // layers of the emitters in the G-buffer; empty: no lights yet
+        emitterLayers;           // layers of the emitters in the G-buffer; empty: no lights yet
+    bool culledTriangles = true; // FrameOptions::cullTriangles of the last recorded frame
     double lightTime = 0;
     std::optional<Lit> drawn;                 // what the images show
     std::optional<HeatMapPass> heatMaps;      // created for the first frame that shows a heat map
@@ -373,6 +374,7 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
         emitterLayers = frame.camera.layers;
     }
     const glm::vec3 background = environment.get() ? glm::vec3(0) : scene->background;
+    culledTriangles = frame.cullTriangles;
     gbuffer.record(cmd, geometry,
                    {.slot = slot,
                     .camera = cameraOf(frame),
@@ -381,6 +383,7 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
                     .attachments = targets.attachments(),
                     .width = options.size.width,
                     .height = options.size.height,
+                    .cullTriangles = frame.cullTriangles,
                     .maxLevelError = frame.levels ? gbuffer::defaultMaxLevelError : 0,
                     .coverageFrame = frame.sample.index,
                     .drawEmitters = frame.lightsVisible});
@@ -585,9 +588,11 @@ std::vector<CndPassPlan> Renderer::State::plan(uint32_t slot, const FrameStats& 
 {
     const char* kept = stats.lit ? nullptr : "nothing has changed";
     const char* noMeshes = geometry.counts().instances ? nullptr : "no meshes";
+    const char* untested = geometry.testsTriangles() ? nullptr : "no large meshes, or a GPU";
     const char* noEnvironment = environment.get() ? nullptr : "no environment";
     std::vector<CndPassPlan> out{{"cull_instances", kept ? kept : noMeshes},
                                  {"compact_instances", kept ? kept : noMeshes},
+                                 {"cull_triangles", kept ? kept : untested},
                                  {"gbuffer_raster", kept},
                                  {"shade_environment", noEnvironment ? noEnvironment : kept}};
     const auto add = [&](const CndPassPlan* passes, uint32_t count) {
@@ -679,9 +684,9 @@ uint64_t Renderer::triangleCount() const
     return state_->geometry.counts().triangles;
 }
 
-const gpu::Buffer& Renderer::drawCommands() const
+std::vector<gbuffer::DrawRange> Renderer::draws() const
 {
-    return state_->geometry.drawCommands();
+    return state_->geometry.draws(state_->culledTriangles);
 }
 
 } // namespace candelabra::app

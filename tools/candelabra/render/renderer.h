@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "candelabra/candelabra.h"
+#include "gbuffer/geometry.h"
 #include "gbuffer/targets.h"
 #include "gpu/memory.h"
 #include "io/parse.h"
@@ -63,7 +64,8 @@ struct FrameOptions {
     float deltaTime = 0;       // s since the previous frame, for the adaptation of exposure
     bool resetExposure = true; // jump to the converged exposure
     bool lightsVisible = true;
-    bool levels = true; // draw distant meshes by coarser levels of detail
+    bool levels = true;        // draw distant meshes by coarser levels of detail
+    bool cullTriangles = true; // gbuffer::FrameInputs::cullTriangles
     bool countPairs = false;
     uint32_t ditherSeed = 0;
     CndSpecularMethod specular = CND_SPECULAR_CONIC;
@@ -175,8 +177,8 @@ public:
     const gpu::Image& pairs() const;
 
     uint64_t triangleCount() const; // of all instances
-    // The draws of meshes in the last recorded frame, a VkDrawIndexedIndirectCommand each.
-    const gpu::Buffer& drawCommands() const;
+    // The draws of meshes in the last recorded frame.
+    std::vector<gbuffer::DrawRange> draws() const;
 
 private:
     struct State;

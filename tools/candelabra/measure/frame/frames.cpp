@@ -232,6 +232,7 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"toneMap", toneMapName(options.exposure.toneMap)},
             {"lightsVisible", options.lightsVisible},
             {"levelsOfDetail", options.levels},
+            {"cullTriangles", options.cullTriangles},
             {"exposure", options.exposure.manual ? "manual" : "auto"},
             {"compensationEv", options.exposure.compensation},
             {"middleGrey", options.exposure.middleGrey}};
