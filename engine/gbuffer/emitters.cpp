@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "candelabra_gbuffer_shaders.h"
+
 namespace candelabra::gbuffer
 {
 namespace
@@ -73,12 +75,43 @@ gpu::EmitterCorners cornersOf(const CndLight& light, size_t index)
 
 } // namespace
 
+// Only llvmpipe sets up triangles in one thread of the CPU, so only there culling pays.
+Emitters::Emitters(const gpu::Device& device, uint32_t slots)
+    : device_(&device), culls_(device.lanesAreCpuVector), slots_(slots)
+{
+    if (!culls_)
+        return;
+    cullEmitters_ = {device, spirv::cull_emitters_comp};
+    cullSets_ = cullEmitters_.createBindings(slots);
+}
+
+Emitters::Buffers Emitters::createBuffers(VkDeviceSize bytes) const
+{
+    constexpr VkBufferUsageFlags vertices =
+        VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    Buffers buffers;
+    buffers.records =
+        gpu::createBuffer(*device_, "emitters", bytes, vertices, gpu::MemoryUse::Upload);
+    if (culls_) {
+        const VkDeviceSize pieces =
+            bytes / (sizeof(gpu::EmitterRecord) * gpu::PIECE_EMITTERS) + shapeCount;
+        buffers.kept =
+            gpu::createBuffer(*device_, "kept emitters", bytes, vertices, gpu::MemoryUse::Device);
+        buffers.draws = gpu::createBuffer(
+            *device_, "emitter draws", pieces * sizeof(gpu::EmitterDraw),
+            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Device);
+    }
+    return buffers;
+}
+
 void Emitters::set(std::span<const CndLight> lights, const double origin[3])
 {
     std::vector<gpu::EmitterRecord> records;
     records.reserve(lights.size());
     std::vector<gpu::EmitterCorners> corners;
     std::array<Group, shapeCount> groups{};
+    uint32_t pieces = 0;
     for (size_t shape = 0; shape < shapeCount; ++shape) {
         groups[shape].first = uint32_t(records.size());
         for (size_t i = 0; i < lights.size(); ++i)
@@ -88,20 +121,21 @@ void Emitters::set(std::span<const CndLight> lights, const double origin[3])
                     corners.push_back(cornersOf(lights[i], i));
             }
         groups[shape].count = uint32_t(records.size()) - groups[shape].first;
+        groups[shape].firstPiece = pieces;
+        groups[shape].pieceCount = gpu::divideUp(groups[shape].count, gpu::PIECE_EMITTERS);
+        pieces += groups[shape].pieceCount;
     }
 
     if (corners.empty())
         corners.push_back({});
     const VkDeviceSize bytes =
         records.empty() ? 0 : cornersOffsetOf(records.size()) + corners.size() * sizeof(corners[0]);
-    std::vector<gpu::Buffer> larger(slots_.size());
+    std::vector<Buffers> larger(slots_.size());
     for (size_t s = 0; s < slots_.size(); ++s)
-        if (slots_[s].buffer.size < bytes && slots_[s].larger.size < bytes)
-            larger[s] =
-                gpu::createBuffer(*device_, "emitters", bytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-                                  gpu::MemoryUse::Upload);
+        if (!slots_[s].buffers.hold(bytes) && !slots_[s].larger.hold(bytes))
+            larger[s] = createBuffers(bytes);
     for (size_t s = 0; s < slots_.size(); ++s)
-        if (larger[s].mapped)
+        if (larger[s].records.mapped)
             slots_[s].larger = std::move(larger[s]);
     records_ = std::move(records);
     corners_ = std::move(corners);
@@ -110,21 +144,50 @@ void Emitters::set(std::span<const CndLight> lights, const double origin[3])
     ++version_;
 }
 
-const gpu::Buffer& Emitters::update(uint32_t slotIndex) noexcept
+void Emitters::update(uint32_t slotIndex, const gpu::Buffer& rasterFrame) noexcept
 {
     Slot& slot = slots_[slotIndex];
-    if (slot.larger.mapped) {
-        slot.buffer = std::move(slot.larger);
+    if (slot.larger.records.mapped) {
+        slot.buffers = std::move(slot.larger);
         slot.larger = {};
+        if (culls_)
+            cullSets_.write(slotIndex,
+                            {gpu::Binding::of(gpu::RAY_FRAME, rasterFrame),
+                             gpu::Binding::of(gpu::CULL_EMITTERS_RECORDS, slot.buffers.records),
+                             gpu::Binding::of(gpu::CULL_EMITTERS_CORNERS, slot.buffers.records),
+                             gpu::Binding::of(gpu::CULL_EMITTERS_KEPT_RECORDS, slot.buffers.kept),
+                             gpu::Binding::of(gpu::CULL_EMITTERS_KEPT_CORNERS, slot.buffers.kept),
+                             gpu::Binding::of(gpu::CULL_EMITTERS_DRAWS, slot.buffers.draws)});
     }
     if (slot.version != version_ && !records_.empty()) {
-        std::memcpy(slot.buffer.mapped, records_.data(),
-                    records_.size() * sizeof(gpu::EmitterRecord));
-        std::memcpy(slot.buffer.mapped + cornersOffset(), corners_.data(),
+        std::byte* const to = slot.buffers.records.mapped;
+        std::memcpy(to, records_.data(), records_.size() * sizeof(gpu::EmitterRecord));
+        std::memcpy(to + cornersOffset(), corners_.data(),
                     corners_.size() * sizeof(gpu::EmitterCorners));
     }
     slot.version = version_;
-    return slot.buffer;
+}
+
+void Emitters::recordCulling(const gpu::Frame& frame) const noexcept
+{
+    const gpu::UntimedFrame untimed(frame); // one timer row for all shapes
+    for (size_t i = 0; i < shapeCount; ++i) {
+        const Group& group = groups_[i];
+        if (group.count) {
+            cullEmitters_.dispatch(
+                untimed, cullSets_.set(frame.slot),
+                {.shape = shapes[i],
+                 .first = group.first,
+                 .count = group.count,
+                 .firstCorners = uint32_t(cornersOffset() / sizeof(glm::vec4)),
+                 .firstPiece = group.firstPiece,
+                 .pieceCount = group.pieceCount,
+                 .snap = float(std::exp2(-double(device_->limits.subPixelPrecisionBits)))},
+                gpu::divideUp(group.pieceCount, gpu::CULL_EMITTERS_GROUP));
+            frame.barrier(); // all shapes write to the same buffers
+        }
+    }
+    frame.timer.stamp(frame.cmd, "cull_emitters");
 }
 
 } // namespace candelabra::gbuffer

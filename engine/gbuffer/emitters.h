@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visible area lights. Changed lights are copied into one upload buffer per frame slot.
+// The visible area lights. Changed lights are copied into one upload buffer per frame slot. On
+// llvmpipe, cull_emitters leaves out those that cover no sample.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 #include <vector>
 
 #include "candelabra/candelabra.h"
-#include "gpu/memory.h"
+#include "gpu/kernel.h"
 #include "shared/light_types.h"
 #include "shared/raster.h"
 
@@ -19,14 +20,27 @@ namespace candelabra::gbuffer
 class Emitters
 {
 public:
-    Emitters(const gpu::Device& device, uint32_t slots) : device_(&device), slots_(slots) {}
+    Emitters(const gpu::Device& device, uint32_t slots);
 
     // Stores the area lights among `lights`. Throws gpu::Failure; then the previous set stays.
     void set(std::span<const CndLight> lights, const double origin[3]);
 
-    // Returns the buffer of `slot`, filled with the latest set. The GPU must have finished the
-    // slot's previous frame.
-    const gpu::Buffer& update(uint32_t slot) noexcept;
+    // Fills the buffers of `slot` with the latest set. `rasterFrame` holds the slot's RasterFrame.
+    // The GPU must have finished the slot's previous frame.
+    void update(uint32_t slot, const gpu::Buffer& rasterFrame) noexcept;
+    // Whether recordCulling() has anything to do.
+    bool canCull() const { return culls_ && !empty(); }
+    // Records cull_emitters. Needed before drawing culled emitters.
+    void recordCulling(const gpu::Frame& frame) const noexcept;
+
+    // The buffer to draw from: all emitters of `slot`, or those that culling left.
+    VkBuffer buffer(uint32_t slot, bool culled) const
+    {
+        const Buffers& buffers = slots_[slot].buffers;
+        return culled ? buffers.kept.get() : buffers.records.get();
+    }
+    // gpu::EmitterDraw for each piece; Group tells which.
+    VkBuffer draws(uint32_t slot) const { return slots_[slot].buffers.draws.get(); }
 
     // Where the gpu::EmitterCorners of the polygons begin in the buffer, in bytes. If there are
     // none, at least as many bytes as one element follow.
@@ -35,6 +49,7 @@ public:
     // The lights of one shape, contiguous in the buffer.
     struct Group {
         uint32_t first = 0, count = 0;
+        uint32_t firstPiece = 0, pieceCount = 0; // of cull_emitters
     };
     static constexpr size_t shapeCount = std::popcount(gpu::AREA_LIGHT_TYPES);
     // shapes[i] is the light type of group i: the types of lights that have a size. Distant ones
@@ -58,18 +73,28 @@ public:
     const std::array<double, 3>& origin() const { return origin_; } // world space
 
 private:
+    struct Buffers {
+        gpu::Buffer records;
+        gpu::Buffer kept, draws; // of cull_emitters; empty if there is none
+
+        bool hold(VkDeviceSize bytes) const { return records.size >= bytes; }
+    };
     struct Slot {
-        gpu::Buffer buffer;
-        // Replaces `buffer` at the next update, because the GPU may still read `buffer` until then.
-        gpu::Buffer larger;
+        Buffers buffers;
+        // Replace `buffers` at the next update, because the GPU may still read these until then.
+        Buffers larger;
         uint64_t version = 0;
     };
+    Buffers createBuffers(VkDeviceSize bytes) const;
     static VkDeviceSize cornersOffsetOf(size_t records)
     {
         return (records * sizeof(gpu::EmitterRecord) + 15) / 16 * 16; // aligned to a vec4
     }
 
     const gpu::Device* device_;
+    bool culls_;
+    gpu::Kernel<gpu::CullEmittersParams> cullEmitters_;
+    gpu::Bindings cullSets_; // one per slot
     std::vector<Slot> slots_;
     std::vector<gpu::EmitterRecord> records_;
     std::vector<gpu::EmitterCorners> corners_; // one per polygon, or one that nothing reads

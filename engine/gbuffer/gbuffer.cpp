@@ -34,6 +34,14 @@ VkCompareOp nearer(const FrameInputs& in)
     return in.clearDepth == 0 ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS;
 }
 
+// Calls part(first, count) for consecutive parts of a range, none of which is longer than `most`.
+template <typename Part>
+void forEachPart(uint32_t first, uint32_t count, uint32_t most, const Part& part)
+{
+    for (uint32_t done = 0; done < count; done += std::min(most, count - done))
+        part(first + done, std::min(most, count - done));
+}
+
 gpu::RasterFrame rasterFrame(const CameraTerms& camera, const FrameInputs& in,
                              const std::array<double, 3>& emitterOrigin)
 {
@@ -141,8 +149,7 @@ struct GBuffer::Impl {
     void drawAnalytic(VkCommandBuffer cmd, const GeometryImpl& geometry, const CameraTerms& camera,
                       const FrameInputs& in) const noexcept;
     void drawBackground(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
-    void drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records,
-                      uint32_t slot) const noexcept;
+    void drawEmitters(VkCommandBuffer cmd, uint32_t slot, bool culled) const noexcept;
     void bindRays(VkCommandBuffer cmd, VkPipelineLayout layout, uint32_t slot) const noexcept
     {
         const VkDescriptorSet set = raySets.set(slot);
@@ -192,6 +199,10 @@ void GBuffer::Impl::recordCulling(const gpu::Frame& frame, const GeometryImpl& g
     compactInstances.dispatch(
         frame, geometry.compactSet.set(0), {chunks},
         gpu::divideUp(chunks * gpu::MESH_LEVELS, gpu::COMPACT_INSTANCES_GROUP));
+    if (in.drawEmitters && in.cullTriangles && emitters.canCull()) {
+        frame.barrier(); // so that the time of the kernels before is not told as part of this one's
+        emitters.recordCulling(frame);
+    }
     if (!pieces)
         return;
     frame.barrier();
@@ -254,14 +265,13 @@ void GBuffer::Impl::drawRun(VkCommandBuffer cmd, const GeometryImpl& g, const Ru
 {
     const gpu::Buffer& indices = run.tested && culledTriangles ? g.triangles.kept : g.indices;
     device.CmdBindIndexBuffer(cmd, indices.get(), 0, VK_INDEX_TYPE_UINT32);
-    DrawRange draws = g.drawsOf(run, culledTriangles);
-    while (draws.count) {
-        const uint32_t count = std::min(draws.count, device.limits.maxDrawIndirectCount);
-        device.CmdDrawIndexedIndirect(cmd, draws.commands, draws.first * sizeof(gpu::DrawCommand),
-                                      count, sizeof(gpu::DrawCommand));
-        draws.first += count;
-        draws.count -= count;
-    }
+    const DrawRange draws = g.drawsOf(run, culledTriangles);
+    forEachPart(draws.first, draws.count, device.limits.maxDrawIndirectCount,
+                [&](uint32_t first, uint32_t count) {
+                    constexpr uint32_t stride = sizeof(gpu::DrawCommand);
+                    device.CmdDrawIndexedIndirect(cmd, draws.commands, first * stride, count,
+                                                  stride);
+                });
 }
 
 // Draws the meshes whose material emits light, or the others.
@@ -335,11 +345,13 @@ void GBuffer::Impl::drawBackground(VkCommandBuffer cmd, const FrameInputs& in) c
     device.CmdSetDepthCompareOp(cmd, nearer(in));
 }
 
-void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records,
-                                 uint32_t slot) const noexcept
+// Draws the visible lights: one quad for each, as a triangle strip. `culled`: cull_emitters has
+// left out those that cover no sample.
+void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, uint32_t slot, bool culled) const noexcept
 {
     bindRays(cmd, pipelines.emitterLayout.get(), slot);
-    const VkBuffer buffers[] = {records.get(), records.get()};
+    const VkBuffer records = emitters.buffer(slot, culled);
+    const VkBuffer buffers[] = {records, records};
     for (size_t i = 0; i < Emitters::shapes.size(); ++i) {
         const Emitters::Group& group = emitters.groups()[i];
         if (!group.count)
@@ -351,7 +363,15 @@ void GBuffer::Impl::drawEmitters(VkCommandBuffer cmd, const gpu::Buffer& records
         const VkDeviceSize offsets[] = {group.first * sizeof(gpu::EmitterRecord),
                                         emitters.cornersOffset()};
         device.CmdBindVertexBuffers(cmd, 0, 2, buffers, offsets);
-        device.CmdDraw(cmd, 4, group.count, 0, 0); // one quad per emitter, as a triangle strip
+        if (culled)
+            forEachPart(group.firstPiece, group.pieceCount, device.limits.maxDrawIndirectCount,
+                        [&](uint32_t first, uint32_t count) {
+                            constexpr uint32_t stride = sizeof(gpu::EmitterDraw);
+                            device.CmdDrawIndirect(cmd, emitters.draws(slot), first * stride, count,
+                                                   stride);
+                        });
+        else
+            device.CmdDraw(cmd, 4, group.count, 0, 0);
     }
 }
 
@@ -386,6 +406,11 @@ void GBuffer::setEmitters(std::span<const CndLight> lights, const double origin[
     impl_->emitters.set(lights, origin);
 }
 
+bool GBuffer::cullsEmitters() const
+{
+    return impl_->emitters.canCull();
+}
+
 void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameInputs& in) noexcept
 {
     Impl& s = *impl_;
@@ -393,7 +418,7 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
     const CameraTerms camera(in.camera, in.clearDepth);
     const gpu::RasterFrame rays = rasterFrame(camera, in, s.emitters.origin());
     std::memcpy(s.rasterFrames[in.slot].mapped, &rays, sizeof rays);
-    const gpu::Buffer& emitters = s.emitters.update(in.slot);
+    s.emitters.update(in.slot, s.rasterFrames[in.slot]);
 
     s.timer.begin(cmd, in.slot);
     waitForEarlierDraws(s.device, cmd); // earlier draws read what culling will write
@@ -417,7 +442,7 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
     if (in.drawAnalytic && !g.analyticObjects.empty())
         s.drawAnalytic(cmd, g, camera, in);
     if (in.drawEmitters && !s.emitters.empty())
-        s.drawEmitters(cmd, emitters, in.slot);
+        s.drawEmitters(cmd, in.slot, in.cullTriangles && s.emitters.canCull());
     s.device.CmdEndRendering(cmd);
     handToCompute(s.device, cmd, in.attachments);
     s.device.endLabel(cmd);

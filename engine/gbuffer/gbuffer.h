@@ -19,8 +19,8 @@ namespace candelabra::gbuffer
 struct GBufferDesc {
     uint32_t framesInFlight = 2; // 1..8
     CndGBufferLayout layout = CND_GBUFFER_FULL;
-    bool timestamps = false; // timer rows: cull_instances, compact_instances, cull_triangles,
-                             // gbuffer_raster
+    bool timestamps = false; // timer rows: cull_instances, compact_instances, cull_emitters,
+                             // cull_triangles, gbuffer_raster
 };
 
 // Smaller than what separates two samples, so that edges move by less than they do when the camera
@@ -35,7 +35,7 @@ struct FrameInputs {
     Attachments attachments;
     uint32_t width = 0, height = 0; // pixels, at most the size of the images
     bool cullInstances = true;      // false: draw every instance (to check the culling)
-    bool cullTriangles = true;      // false: draw every triangle (to check the culling)
+    bool cullTriangles = true;      // false: draw every triangle and light (to check the culling)
     // The coarser levels of meshes are drawn where they are off by no more than this, in pixels.
     float maxLevelError = defaultMaxLevelError;
     // The number of this frame among several that are averaged. Surfaces of Coverage::Dithered
@@ -68,6 +68,9 @@ public:
     // the call returns and shown from the next recording on. May allocate memory when their number
     // grows. Throws gpu::Failure; then the previous set stays.
     void setEmitters(std::span<const CndLight> lights, const double origin[3]);
+
+    // Whether frames leave out the emitters of the present set that cover no sample.
+    bool cullsEmitters() const;
 
     // Records one frame, outside a render pass. On entry the attachments may be in any state: their
     // contents are discarded, and all earlier work is waited for. On exit normalRoughness, albedo,

@@ -162,8 +162,8 @@ constexpr VkVertexInputAttributeDescription meshAttributes[] = {
      offsetof(VertexDetail, tangent)},
     {gpu::MESH_UV, StreamDetail, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexDetail, uv)}};
 
-// Every pipeline of emitters needs the attributes of corners, which only polygons have. The others
-// read the same 64 bytes for all emitters and ignore them.
+// The pipelines of spheres have the first four attributes. All others need those of corners too,
+// which only polygons have; the rest read the same 64 bytes for all emitters and ignore them.
 constexpr VkVertexInputBindingDescription emitterStreams[] = {
     {StreamEmitter, sizeof(gpu::EmitterRecord), VK_VERTEX_INPUT_RATE_INSTANCE},
     {StreamCorners, 0, VK_VERTEX_INPUT_RATE_INSTANCE}};
@@ -206,6 +206,23 @@ MeshShaders meshShaders(CndGBufferLayout layout, const MeshVariant& v)
                 v.emissive ? mesh_frag_full_colored_emissive : mesh_frag_full_colored, 4};
     return {"constant", mesh_vert_constant,
             v.emissive ? mesh_frag_full_constant_emissive : mesh_frag_full_constant, 3};
+}
+
+struct EmitterShaders {
+    const gpu::Spirv& vertex;
+    const gpu::Spirv& fragment;
+    uint32_t attributes; // how many of emitterAttributes it reads
+};
+
+EmitterShaders emitterShaders(CndGBufferLayout layout, uint32_t shape)
+{
+    using namespace spirv;
+    const bool full = layout == CND_GBUFFER_FULL;
+    if (shape == gpu::LIGHT_SPHERE || shape == gpu::LIGHT_DISTANT_SPHERE)
+        return {emitter_vert_ball,
+                full ? emitter_frag_full_emissive_ball : emitter_frag_compact_emissive_ball, 4};
+    return {emitter_vert, full ? emitter_frag_full_emissive : emitter_frag_compact_emissive,
+            uint32_t(std::size(emitterAttributes))};
 }
 
 } // namespace
@@ -255,14 +272,15 @@ Pipelines::Pipelines(const gpu::Device& device, CndGBufferLayout layout)
                             full ? background_frag_full_emissive : background_frag_compact_emissive,
                             {}, backgroundLayout.get());
     for (size_t i = 0; i < emitters.size(); ++i) {
-        const std::array constants{gpu::SpecConstant{gpu::RASTER_SHAPE, Emitters::shapes[i]}};
-        const bool polygon = Emitters::shapes[i] == gpu::LIGHT_POLYGON;
-        emitters[i] =
-            createPipeline(device, layout,
-                           {"emitter", emitter_vert,
-                            full ? emitter_frag_full_emissive : emitter_frag_compact_emissive,
-                            constants, polygon ? polygonStreams : emitterStreams, emitterAttributes,
-                            VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP, emitterLayout.get()});
+        const uint32_t shape = Emitters::shapes[i];
+        const std::array constants{gpu::SpecConstant{gpu::RASTER_SHAPE, shape}};
+        const EmitterShaders shaders = emitterShaders(layout, shape);
+        const bool polygon = shape == gpu::LIGHT_POLYGON;
+        emitters[i] = createPipeline(device, layout,
+                                     {"emitter", shaders.vertex, shaders.fragment, constants,
+                                      polygon ? polygonStreams : emitterStreams,
+                                      std::span(emitterAttributes).first(shaders.attributes),
+                                      VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP, emitterLayout.get()});
     }
 }
 

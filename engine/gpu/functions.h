@@ -69,6 +69,7 @@
     X(CmdBindVertexBuffers)                                                                        \
     X(CmdDraw)                                                                                     \
     X(CmdDrawIndexedIndirect)                                                                      \
+    X(CmdDrawIndirect)                                                                             \
     X(CmdEndRendering)                                                                             \
     X(CmdPipelineBarrier2)                                                                         \
     X(CmdSetCullMode)                                                                              \

@@ -14,9 +14,21 @@ layout(constant_id = RASTER_SHAPE) const uint shape = LIGHT_SPHERE;
 // view-space centre, radius; distant sphere: direction, sine of its angular radius
 layout(location = 0) flat in vec4 inCenter;
 layout(location = 1) flat in vec3 inLuminance;
+#ifndef BALL
 layout(location = 2) flat in vec3 inAxisU; // view space
 layout(location = 3) flat in vec4 inAxisV; // view space; w: whether it is two-sided
 layout(location = 4) flat in vec4 inCorners[EMITTER_CORNER_PAIRS]; // of a polygon, along its axes
+#endif
+
+EmitterHit intersect(Ray ray)
+{
+#ifdef BALL
+    return intersectBall(ray, inCenter.xyz, inCenter.w);
+#else
+    return intersectEmitter(ray, shape, inCenter.xyz, inCenter.w, inAxisU, inAxisV.xyz,
+                            inAxisV.w > 0.5, inCorners);
+#endif
+}
 
 void main()
 {
@@ -30,8 +42,7 @@ void main()
         writeEmitter(-inCenter.xyz, inLuminance);
         return;
     }
-    const EmitterHit hit = intersectEmitter(ray, shape, inCenter.xyz, inCenter.w, inAxisU, inAxisV.xyz,
-                                            inAxisV.w > 0.5, inCorners);
+    const EmitterHit hit = intersect(ray);
     const bool perspective = frame.perspective > 0.5;
     const bool inside = perspective && hit.near <= 0.0;
     const float farDepth = depthOf(ray.origin + hit.far * ray.direction);

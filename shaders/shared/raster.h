@@ -264,6 +264,36 @@ struct EmitterCorners {
 };
 GPU_SIZE(EmitterCorners, 64)
 
+// cull_emitters: leaves out emitters that cover no sample. A piece is up to PIECE_EMITTERS
+// consecutive emitters of one shape. One lane tests a piece, and writes the emitters that remain,
+// from the place of the first one on, and a draw command for them. One dispatch for each shape.
+const uint CULL_EMITTERS_GROUP = 8u;
+const uint PIECE_EMITTERS = 256u;
+const uint CULL_EMITTERS_RECORDS = 1u; // EmitterRecord; binding 0 is RAY_FRAME
+const uint CULL_EMITTERS_CORNERS = 2u; // vec4: the same buffer
+const uint CULL_EMITTERS_KEPT_RECORDS = 3u;
+const uint CULL_EMITTERS_KEPT_CORNERS = 4u; // the same buffer as those records
+const uint CULL_EMITTERS_DRAWS = 5u;        // EmitterDraw per piece
+struct CullEmittersParams {
+    uint shape; // LIGHT_*
+    uint first; // of the shape's emitters
+    uint count;
+    uint firstCorners; // of the polygons, in vec4 from the beginning of the buffer
+    uint firstPiece;
+    uint pieceCount;
+    float snap; // pixels by which the rasteriser may move a vertex
+};
+GPU_SIZE(CullEmittersParams, 28)
+
+// The same members as VkDrawIndirectCommand.
+struct EmitterDraw {
+    uint vertexCount;
+    uint instanceCount;
+    uint firstVertex;
+    uint firstInstance; // counted within the shape
+};
+GPU_SIZE(EmitterDraw, 16)
+
 // --- Specialisation constants
 const uint RASTER_TEXTURES = 0u; // sampled meshes: mask of 1 << TEXTURE_*
 const uint RASTER_COVERAGE = 1u; // sampled meshes: COVERAGE_*

@@ -281,6 +281,42 @@ TEST_F(GBufferEmitterShapes, SilhouettesAreThoseOfTheRayCast)
             }
 }
 
+// Lights from a thousandth of a pixel to a quarter of the image, around the camera. cull_emitters,
+// where a device has it, leaves out most of them, which must not change the image.
+TEST_F(GBufferEmitterShapes, WhatCoversNoSampleMakesNoDifference)
+{
+    Random random(77);
+    std::vector<CndLightType> types = shapeTypes();
+    types.insert(types.end(), {CND_LIGHT_SPHERE, CND_LIGHT_DISTANT_SPHERE});
+    RasterOptions options = perspectiveOptions();
+    options.emitterOrigin = {3e5, 200, -7e5};
+    for (size_t i = 0; i < 9000; ++i) {
+        const CndLightType type = types[i % types.size()];
+        CndLight l = randomLight(type, random, 30, float(i));
+        const double scale = std::pow(10, random.uniform(-4, 0));
+        if (type == CND_LIGHT_DISTANT_SPHERE)
+            set(l.direction, random.direction());
+        l.radius *= float(type == CND_LIGHT_DISTANT_SPHERE ? 0.1 * scale : scale);
+        set(l.axisU, scale * vec(l.axisU));
+        set(l.axisV, scale * vec(l.axisV));
+        options.emitters.push_back(l);
+    }
+    const gbuffer::Geometry geometry = uploadGeometry({});
+    gbuffer::GBuffer pass(device(), {.framesInFlight = 2});
+    for (uint32_t view = 0; view < 16; ++view) {
+        SCOPED_TRACE(view);
+        setProjection(options, int(view % 4));
+        lookAt(options.camera, options.emitterOrigin + random.box(25),
+               options.emitterOrigin + random.box(10));
+        options.cullTriangles = true;
+        const RasterImage culled = renderWith(pass, geometry, options, view % 2);
+        options.cullTriangles = false;
+        const RasterImage all = renderWith(pass, geometry, options, view % 2);
+        EXPECT_GT(all.coveredCount(), 100u);
+        expectSameImage(culled, all);
+    }
+}
+
 // Lights around the camera, at arm's length, and filling the image.
 TEST_F(GBufferEmitterShapes, CloseToTheCamera)
 {

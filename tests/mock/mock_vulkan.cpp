@@ -205,6 +205,12 @@ struct Override {
         const Call c("CmdDrawIndexedIndirect");
         use(arguments);
     }
+    static void VKAPI_CALL CmdDrawIndirect(VkCommandBuffer, VkBuffer arguments, VkDeviceSize,
+                                           uint32_t, uint32_t)
+    {
+        const Call c("CmdDrawIndirect");
+        use(arguments);
+    }
     static void VKAPI_CALL CmdBindVertexBuffers(VkCommandBuffer, uint32_t, uint32_t count,
                                                 const VkBuffer* buffers, const VkDeviceSize*)
     {
@@ -332,6 +338,7 @@ PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice, const char* wanted)
     X(CmdFillBuffer)
     X(CmdCopyBuffer)
     X(CmdDispatchIndirect)
+    X(CmdDrawIndirect)
     X(CmdDrawIndexedIndirect)
     X(CmdBindVertexBuffers)
     X(CmdBindPipeline)

@@ -341,8 +341,8 @@ void FrameArguments::addTo(CLI::App& command)
               "draw meshes by coarser levels of detail where that moves their surface by at most a "
               "quarter of a pixel");
     addChoice(command, "--cull-triangles", cullTriangles, onOffChoices,
-              "on llvmpipe, leave out triangles that cover no pixel's centre before they are "
-              "rasterised; the picture is the same");
+              "on llvmpipe, leave out triangles and visible lights that cover no pixel's centre "
+              "before they are rasterised; the picture is the same");
 }
 
 void FrameArguments::addFitTo(CLI::App& command)

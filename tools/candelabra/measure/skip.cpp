@@ -223,8 +223,8 @@ bool isExposure(const std::string& pass)
 
 bool isRaster(const std::string& pass)
 {
-    return pass == "cull_instances" || pass == "compact_instances" || pass == "cull_triangles" ||
-           pass == "gbuffer_raster";
+    return pass == "cull_instances" || pass == "compact_instances" || pass == "cull_emitters" ||
+           pass == "cull_triangles" || pass == "gbuffer_raster";
 }
 
 Skip noLights(SkipStage& stage)

@@ -176,6 +176,10 @@ struct Renderer::State {
     std::vector<bool> exposedSlots; // whether the slot has had a frame with exposure
     // Why the slot's last frame did without bloom and without the edge filter; null: it had them.
     std::vector<const char*> unbloomed, unfiltered;
+    struct Unculled {
+        const char *triangles, *emitters; // why they were drawn without a test; null: they were not
+    };
+    std::vector<Unculled> unculled; // by slot
     gbuffer::Geometry geometry;
     gbuffer::GBuffer gbuffer;
     gbuffer::Targets targets;
@@ -208,6 +212,7 @@ struct Renderer::State {
           exposedSlots(o.framesInFlight),
           unbloomed(o.framesInFlight),
           unfiltered(o.framesInFlight),
+          unculled(o.framesInFlight),
           geometry(std::move(g)),
           gbuffer(c.device(), gbufferDesc(o))
     {
@@ -375,6 +380,13 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
     }
     const glm::vec3 background = environment.get() ? glm::vec3(0) : scene->background;
     culledTriangles = frame.cullTriangles;
+    const auto unculledBecause = [&](bool culls, const char* otherwise) {
+        return !culls ? otherwise : frame.cullTriangles ? nullptr : "switched off";
+    };
+    unculled[slot] = {.triangles = unculledBecause(geometry.testsTriangles(),
+                                                   "no mesh of 20 triangles, or a GPU"),
+                      .emitters = unculledBecause(frame.lightsVisible && gbuffer.cullsEmitters(),
+                                                  "no visible lights, or a GPU")};
     gbuffer.record(cmd, geometry,
                    {.slot = slot,
                     .camera = cameraOf(frame),
@@ -588,11 +600,11 @@ std::vector<CndPassPlan> Renderer::State::plan(uint32_t slot, const FrameStats& 
 {
     const char* kept = stats.lit ? nullptr : "nothing has changed";
     const char* noMeshes = geometry.counts().instances ? nullptr : "no meshes";
-    const char* untested = geometry.testsTriangles() ? nullptr : "no large meshes, or a GPU";
     const char* noEnvironment = environment.get() ? nullptr : "no environment";
     std::vector<CndPassPlan> out{{"cull_instances", kept ? kept : noMeshes},
                                  {"compact_instances", kept ? kept : noMeshes},
-                                 {"cull_triangles", kept ? kept : untested},
+                                 {"cull_emitters", kept ? kept : unculled[slot].emitters},
+                                 {"cull_triangles", kept ? kept : unculled[slot].triangles},
                                  {"gbuffer_raster", kept},
                                  {"shade_environment", noEnvironment ? noEnvironment : kept}};
     const auto add = [&](const CndPassPlan* passes, uint32_t count) {

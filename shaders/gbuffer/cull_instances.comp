@@ -6,6 +6,7 @@
 // the instances stays that of the input.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "gbuffer/sample_bounds.glsl"
 #include "shared/raster.h"
 
 layout(local_size_x = CULL_INSTANCES_GROUP) in;
@@ -29,10 +30,6 @@ layout(scalar, binding = CULL_INSTANCES_COUNTS) writeonly buffer Counts
 {
     uint counts[];
 };
-
-// Largest error of a sum of rounded products, relative to the magnitudes in it: 8 roundings of 2^-24,
-// times a safety factor of 20.
-const float SLACK = 1e-5;
 
 // Bounds relative to the camera.
 struct View {

@@ -8,7 +8,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "lib/camera_relative.glsl"
+#include "gbuffer/camera_relative.glsl"
+#include "gbuffer/sample_bounds.glsl"
 #include "shared/raster.h"
 
 layout(local_size_x = CULL_TRIANGLES_GROUP) in;
@@ -43,9 +44,6 @@ layout(scalar, binding = CULL_TRIANGLES_DRAWS) writeonly buffer Draws
     DrawCommand draws[];
 };
 
-// Largest error of a sum of rounded products, relative to the magnitudes in it: 8 roundings of 2^-24,
-// times a safety factor of 20.
-const float SLACK = 1e-5;
 // Samples are looked for in triangles that reach over at most so many rows or columns of pixels.
 const int SMALL_ROWS = 4;
 
@@ -159,11 +157,12 @@ void narrow(RowBound bound, float y, inout float low, inout float high)
     low = bound.isUpper ? low : max(low, x);
 }
 
-// Tells whether a triangle certainly covers no sample. Its bounds hold those of the pixels `first` to
-// `last`, which are at most SMALL_ROWS columns or rows. `sense` is the sign of its area. Its corners
-// may be off by `error` pixels.
-bool missesSamples(vec2 a, vec2 b, vec2 c, vec2 first, vec2 last, float sense, float error)
+// Tells whether a triangle certainly covers none of the samples in its bounds, which are at most
+// SMALL_ROWS columns or rows. `sense` is the sign of its area. Its corners may be off by `error`
+// pixels.
+bool missesSamples(vec2 a, vec2 b, vec2 c, SampleBounds samples, float sense, float error)
 {
+    vec2 first = samples.first, last = samples.last;
     if (last.x - first.x < last.y - first.y) { // so that there are few rows
         a = a.yx;
         b = b.yx;
@@ -201,18 +200,16 @@ bool coversNothing(vec3 a, vec3 b, vec3 c, Projection projection, float front)
     // The last term is the rounding of the divisions and of what follows.
     const float error = (projection.error + far * projection.wError) / (w - projection.wError) +
                         frame.snap + 1e-6 * far;
-    const vec2 first = max(ceil(low - (0.5 + error)), vec2(0));
-    const vec2 last = min(floor(high - (0.5 - error)), frame.size - 1.0);
+    const SampleBounds samples = samplesIn(low, high, error, frame.size);
     const vec2 size = high - low;
     const float area = cross2(pb - pa, pc - pa);
     const float rounding = 1e-6 * size.x * size.y; // of the area
     const float areaError = 4.0 * error * (size.x + size.y + error) + rounding;
-    const bool empty = first.x > last.x || first.y > last.y;
     const bool facesAway = front * area < -areaError;
-    const vec2 reach = last - first;
+    const vec2 reach = samples.last - samples.first;
     const bool small = min(reach.x, reach.y) < float(SMALL_ROWS) && abs(area) > rounding;
-    return empty || facesAway ||
-           (small && missesSamples(pa, pb, pc, first, last, sign(area), error));
+    return isEmpty(samples) || facesAway ||
+           (small && missesSamples(pa, pb, pc, samples, sign(area), error));
 }
 
 void main()

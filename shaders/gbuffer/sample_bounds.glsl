@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which samples, the centres of pixels, may be inside of a box in the image.
+#ifndef CND_GBUFFER_SAMPLE_BOUNDS
+#define CND_GBUFFER_SAMPLE_BOUNDS
+
+// Largest error of a sum of rounded products, relative to the magnitudes in it: 8 roundings of 2^-24,
+// times a safety factor of 20.
+const float SLACK = 1e-5;
+
+// The pixels from `first` to `last`, in both directions; none if one of these is above the other.
+struct SampleBounds {
+    vec2 first;
+    vec2 last;
+};
+
+// The box, in pixels, may be off by `error` at each side. `size` is that of the image.
+SampleBounds samplesIn(vec2 low, vec2 high, float error, vec2 size)
+{
+    return SampleBounds(max(ceil(low - (0.5 + error)), vec2(0.0)),
+                        min(floor(high - (0.5 - error)), size - 1.0));
+}
+
+bool isEmpty(SampleBounds samples)
+{
+    return samples.first.x > samples.last.x || samples.first.y > samples.last.y;
+}
+
+#endif
