@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests glTF materials, textures, texture transforms, and the tangents that normal maps need.
+#include <algorithm>
 #include <cmath>
+
+#include <sys/inotify.h>
+#include <unistd.h>
 
 #include "io/image.h"
 #include "load/load.h"
@@ -360,6 +364,41 @@ TEST_F(GltfMaterials, ImagesThatCannotBeReadAreOneWarning)
     EXPECT_TRUE(warns(scene, "scene.gltf: images[0].uri: \"stone.png\": cannot be opened: No such "
                              "file or directory; the texture is left out, and so are those of 2 "
                              "other images that cannot be read"));
+}
+
+// A texture is made for each sampler and colour space of an image. A broken image has none, and is
+// opened for the first of them only.
+TEST_F(GltfMaterials, ABrokenImageIsReadOnce)
+{
+    GltfBuilder b = withMaterial(R"({"pbrMetallicRoughness": {
+        "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}},
+        "emissiveTexture": {"index": 2}})",
+                                 3);
+    b.json["samplers"] = Json::parse(R"([{}, {"magFilter": 9728}])");
+    for (const size_t texture : {size_t{0}, size_t{1}})
+        b.json["textures"][texture + 1]["sampler"] = texture;
+    b.json["images"][0] = {{"uri", "broken.png"}};
+    const std::string image = folder_.write("broken.png", std::string("no image"));
+    const int watch = inotify_init1(IN_NONBLOCK);
+    // Equal events that follow each other would be one, so it watches for those between them too.
+    ASSERT_GE(inotify_add_watch(watch, image.c_str(), IN_OPEN | IN_CLOSE), 0);
+    const auto timesOpened = [&] {
+        inotify_event events[16]; // no name follows the events of a file that is watched itself
+        const ssize_t bytes = read(watch, events, sizeof(events));
+        const auto count = bytes < 0 ? 0 : bytes / ssize_t{sizeof(inotify_event)};
+        return std::count_if(events, events + count,
+                             [](const inotify_event& event) { return event.mask & IN_OPEN; });
+    };
+    const Scene scene = load(b);
+    EXPECT_EQ(timesOpened(), 1);
+    EXPECT_EQ(scene.warnings.size(), 2u); // and it has no lights
+    EXPECT_TRUE(warns(scene, "scene.gltf: images[0] (broken.png): is neither a PNG, a JPEG nor a "
+                             "WebP image; the texture is left out"));
+    folder_.write("broken.png", png()); // an image that is not broken is opened for all three
+    timesOpened();
+    EXPECT_EQ(load(b).textures.size(), 3u);
+    EXPECT_EQ(timesOpened(), 3);
+    close(watch);
 }
 
 // Two triangles form a square in z = 0 with the image upright (v down), two more form a square

@@ -45,6 +45,7 @@ private:
     // Throws SceneError that names the image.
     Texture decode(size_t image);
     // Decodes the image as scene_.textures.back(). Returns its index, or -1 if it cannot be read.
+    // An image that could not be read is not tried again.
     int32_t add(int gltfImage, int gltfSampler, bool srgb);
 
     const GltfDocument& document_;
@@ -88,6 +89,8 @@ int32_t GltfTextures::find(int gltfTexture, bool srgb)
 
 int32_t GltfTextures::add(int gltfImage, int gltfSampler, bool srgb)
 {
+    if (unreadImages_.contains(gltfImage))
+        return -1;
     try {
         scene_.textures.push_back(decode(static_cast<size_t>(gltfImage)));
     } catch (const SceneError& error) {
