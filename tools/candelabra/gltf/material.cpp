@@ -211,6 +211,13 @@ glm::dvec2 vector2Or(const nlohmann::json& object, const char* key, glm::dvec2 o
                                  : glm::dvec2((*found)[0].get<double>(), (*found)[1].get<double>());
 }
 
+AlphaMode alphaModeOf(const tinygltf::Material& source)
+{
+    if (source.alphaMode == "MASK")
+        return AlphaMode::Mask;
+    return source.alphaMode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+}
+
 class MaterialReader
 {
 public:
@@ -288,10 +295,7 @@ void MaterialReader::readSurface(const tinygltf::Material& source, const nlohman
     material.normalScale = static_cast<float>(source.normalTexture.scale);
     material.doubleSided = source.doubleSided;
     material.alphaCutoff = static_cast<float>(source.alphaCutoff);
-    if (source.alphaMode == "MASK")
-        material.alphaMode = AlphaMode::Mask;
-    else if (source.alphaMode == "BLEND")
-        material.alphaMode = AlphaMode::Blend;
+    material.alphaMode = alphaModeOf(source);
 }
 
 void MaterialReader::readEmission(const tinygltf::Material& source, const nlohmann::json& json,
@@ -373,8 +377,8 @@ void MaterialReader::readTransmission(const nlohmann::json& json, Material& mate
     if (material.alpha == 1)
         return;
     material.alphaMode = AlphaMode::Blend;
-    // The alpha of an opaque material's texture has no meaning (glTF 2.0, section 3.9.4). Nor has
-    // that of vertex colours, which the reader of meshes leaves out.
+    // AlphaMode::Blend uses the alpha of the texture, which has no meaning if the file says that the
+    // material is opaque.
     if (int32_t& texture = material.baseColorTexture.texture; isOpaque && texture >= 0)
         texture = textures_.withoutAlpha(texture);
 }
@@ -434,6 +438,12 @@ Material MaterialReader::read(size_t index)
 }
 
 } // namespace
+
+bool isGltfAlphaUsed(const GltfDocument& document, int material)
+{
+    return material >= 0 && alphaModeOf(document.model.materials[static_cast<size_t>(material)]) !=
+                                AlphaMode::Opaque;
+}
 
 void requireFiniteEmission(const GltfDocument& document, size_t index, const Material& material)
 {

@@ -14,6 +14,12 @@ namespace candelabra::app
 // index, else returns 0. Textures whose image cannot be read are left out, with a warning.
 uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene);
 
+// Tells whether the alpha of the textures and vertex colours of a material of the document has a
+// meaning. That of an opaque material has none (glTF 2.0, section 3.9.4), also if the material is
+// glass and so Material::alphaMode is AlphaMode::Blend. A material of -1 is the default material,
+// which is opaque.
+bool isGltfAlphaUsed(const GltfDocument& document, int material);
+
 // Fails if an emission of the material `index` of the document is not finite.
 void requireFiniteEmission(const GltfDocument& document, size_t index, const Material& material);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "gltf/accessor.h"
+#include "gltf/material.h"
 #include "scene/scene_file.h"
 
 namespace candelabra::app
@@ -184,13 +185,6 @@ private:
     void readPositions(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readUvs(const std::vector<uint32_t>& used, Mesh& mesh) const;
     void readColors(const std::vector<uint32_t>& used, Mesh& mesh) const;
-    // An opaque material has the alpha 1 everywhere (glTF 2.0, section 3.9.4), also if it is glass.
-    bool isAlphaUsed() const
-    {
-        return primitive_.material >= 0 &&
-               document_.model.materials[static_cast<size_t>(primitive_.material)].alphaMode !=
-                   "OPAQUE";
-    }
     // Normals of zero length stay as they are.
     bool readNormals(const std::vector<uint32_t>& used, Mesh& mesh) const;
     bool readTangents(const std::vector<uint32_t>& used, Mesh& mesh) const;
@@ -364,7 +358,8 @@ void PrimitiveReader::readColors(const std::vector<uint32_t>& used, Mesh& mesh) 
         return;
     const GltfAccessor accessor = gltfColorAttribute(document_, element_ + ".attributes.COLOR_0",
                                                      found->second, 3, 4, vertexCount_);
-    const bool hasAlpha = accessor.components() == 4 && isAlphaUsed();
+    const bool hasAlpha =
+        accessor.components() == 4 && isGltfAlphaUsed(document_, primitive_.material);
     size_t outside = 0;
     for (size_t i = 0; i < used.size(); ++i) {
         glm::vec4 color = accessor.read(used[i]);
