@@ -358,12 +358,11 @@ void PrimitiveReader::readColors(const std::vector<uint32_t>& used, Mesh& mesh) 
         return;
     const GltfAccessor accessor = gltfColorAttribute(document_, element_ + ".attributes.COLOR_0",
                                                      found->second, 3, 4, vertexCount_);
-    const bool hasAlpha =
-        accessor.components() == 4 && isGltfAlphaUsed(document_, primitive_.material);
+    const bool hasAlpha = isGltfAlphaUsed(document_, primitive_.material);
     size_t outside = 0;
     for (size_t i = 0; i < used.size(); ++i) {
         glm::vec4 color = accessor.read(used[i]);
-        if (!hasAlpha)
+        if (accessor.components() < 4 || !hasAlpha)
             color.w = 1;
         // Colours multiply a reflectance, so they have the range of reflectances.
         outside += glm::any(glm::lessThan(color, glm::vec4(-1e-4f))) ||

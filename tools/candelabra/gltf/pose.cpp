@@ -81,34 +81,37 @@ GltfPosedVertices::GltfPosedVertices(const GltfDocument& document,
     : document_(document), element_(element), pose_(pose)
 {
     const auto vectors = [&](const char* attribute, int components) {
-        return morphs(primitive, attribute, gltfVertexAttribute, components, vertexCount);
+        return morphs(primitive, attribute, gltfVertexAttribute, components, components,
+                      vertexCount);
     };
     positions_ = vectors("POSITION", 3);
     normals_ = vectors("NORMAL", 3);
     tangents_ = vectors("TANGENT", 3);
     uvs_[0] = vectors("TEXCOORD_0", 2);
     uvs_[1] = vectors("TEXCOORD_1", 2);
-    if (const auto colors = primitive.attributes.find("COLOR_0");
-        colors != primitive.attributes.end())
-        colors_ = morphs(primitive, "COLOR_0", gltfColorAttribute,
-                         GltfAccessor(document, colors->second).components(), vertexCount);
+    // Offsets without alpha have the alpha 0, whether or not the attribute itself has one
+    // (glTF 2.0, section 3.7.2.2).
+    colors_ = morphs(primitive, "COLOR_0", gltfColorAttribute, 3, 4, vertexCount);
     if (isSkinned())
         readInfluences(primitive, vertexCount);
 }
 
 std::vector<GltfPosedVertices::Morph>
 GltfPosedVertices::morphs(const tinygltf::Primitive& primitive, const char* attribute,
-                          OpenAttribute open, int components, size_t vertexCount) const
+                          OpenAttribute open, int minComponents, int maxComponents,
+                          size_t vertexCount) const
 {
     std::vector<Morph> out;
+    if (!primitive.attributes.contains(attribute))
+        return out;
     const size_t count = std::min(primitive.targets.size(), pose_.weights.size());
     for (size_t t = 0; t < count; ++t) {
         const auto found = primitive.targets[t].find(attribute);
         if (pose_.weights[t] == 0 || found == primitive.targets[t].end())
             continue;
         const std::string element = element_ + "." + gltfElement("targets", t) + "." + attribute;
-        out.push_back({pose_.weights[t], open(document_, element, found->second, components,
-                                              components, vertexCount)});
+        out.push_back({pose_.weights[t], open(document_, element, found->second, minComponents,
+                                              maxComponents, vertexCount)});
     }
     return out;
 }

@@ -73,9 +73,11 @@ private:
 
     using OpenAttribute = decltype(&gltfVertexAttribute);
 
-    // The targets of an attribute, whose offsets must have as many components as the attribute.
+    // The targets of an attribute with weights other than 0. There are none if the primitive does
+    // not have the attribute.
     std::vector<Morph> morphs(const tinygltf::Primitive& primitive, const char* attribute,
-                              OpenAttribute open, int components, size_t vertexCount) const;
+                              OpenAttribute open, int minComponents, int maxComponents,
+                              size_t vertexCount) const;
     void readInfluences(const tinygltf::Primitive& primitive, size_t vertexCount);
     void checkWeights(size_t vertexCount) const;
     glm::dmat4 meshFromVertex(size_t i) const;
