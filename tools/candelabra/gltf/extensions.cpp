@@ -15,7 +15,7 @@ namespace candelabra::app
 namespace
 {
 
-constexpr std::array<std::string_view, 16> supportedExtensions = {
+constexpr std::array<std::string_view, 16> wholeExtensions = {
     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "EXT_texture_webp",
     "KHR_draco_mesh_compression", "KHR_lights_area", "KHR_lights_punctual",
     "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness",
@@ -24,14 +24,14 @@ constexpr std::array<std::string_view, 16> supportedExtensions = {
     // These only name things or say where they come from.
     "KHR_xmp", "KHR_xmp_json_ld"};
 
-// An extension that is not read, or not all of it.
-struct Unread {
+// What is missing from a picture because the loader does not read an extension, or not all of it.
+struct Gap {
     std::string_view extension;
     std::string_view consequence; // what the picture lacks, and what helps
     bool isReadInPart = false;
 };
 
-constexpr Unread unreadExtensions[] = {
+constexpr Gap gaps[] = {
     {"EXT_lights_ies", "lights shine as if they had no profile"},
     {"EXT_lights_image_based", "its environment is left out; --environment FILE adds one"},
     {"EXT_mesh_features", "the features that it numbers are not needed for a picture"},
@@ -62,10 +62,10 @@ constexpr Unread unreadExtensions[] = {
     {"MSFT_lod", "the finest level of detail is drawn"},
     {"MSFT_texture_dds", "DDS textures are left out; export with PNG, JPEG or WebP textures"}};
 
-bool isSupported(const std::string& extension)
+bool isReadWhole(const std::string& extension)
 {
-    return std::find(supportedExtensions.begin(), supportedExtensions.end(), extension) !=
-           supportedExtensions.end();
+    return std::find(wholeExtensions.begin(), wholeExtensions.end(), extension) !=
+           wholeExtensions.end();
 }
 
 std::string quoted(const std::string& extension)
@@ -73,8 +73,9 @@ std::string quoted(const std::string& extension)
     return "\"" + printable(extension, 60) + "\"";
 }
 
-// Returns the names in the list `key` of the document that the loader does not support.
-std::set<std::string> unsupportedNames(const JsonValue& document, const char* key)
+// Returns the extensions in the list `key` of the document of which the loader reads nothing or
+// only a part.
+std::set<std::string> namesWithGaps(const JsonValue& document, const char* key)
 {
     std::set<std::string> names;
     const auto list = document.find(key);
@@ -82,18 +83,17 @@ std::set<std::string> unsupportedNames(const JsonValue& document, const char* ke
         return names;
     list->requireArray();
     for (size_t i = 0; i < list->size(); ++i)
-        if (const std::string& name = list->item(i).string(); !isSupported(name))
+        if (const std::string& name = list->item(i).string(); !isReadWhole(name))
             names.insert(name);
     return names;
 }
 
-// Returns the entry of unreadExtensions for an extension that is not read, or not all of it; for
-// one that has no entry, a general sentence.
-Unread unreadExtension(const std::string& name)
+// Returns the gap that an extension leaves which is not one of wholeExtensions.
+Gap gapOf(const std::string& name)
 {
-    const auto known = std::find_if(std::begin(unreadExtensions), std::end(unreadExtensions),
-                                    [&](const Unread& u) { return u.extension == name; });
-    return known == std::end(unreadExtensions) ? Unread{name, "what it adds is left out"} : *known;
+    const auto known = std::find_if(std::begin(gaps), std::end(gaps),
+                                    [&](const Gap& gap) { return gap.extension == name; });
+    return known == std::end(gaps) ? Gap{name, "what it adds is left out"} : *known;
 }
 
 } // namespace
@@ -103,18 +103,18 @@ std::string checkGltfExtensions(const std::string& file, const nlohmann::json& j
 {
     const JsonValue document(file, json);
     document.requireObject();
-    std::set<std::string> unread = unsupportedNames(document, "extensionsUsed");
-    const std::set<std::string> required = unsupportedNames(document, "extensionsRequired");
-    unread.insert(required.begin(), required.end());
-    for (const std::string& name : unread) {
-        const Unread u = unreadExtension(name);
+    std::set<std::string> used = namesWithGaps(document, "extensionsUsed");
+    const std::set<std::string> required = namesWithGaps(document, "extensionsRequired");
+    used.insert(required.begin(), required.end());
+    for (const std::string& name : used) {
+        const Gap gap = gapOf(name);
         warnings.add("", "extension " + quoted(name) +
-                             (u.isReadInPart ? " is read in part: " : " is not supported: ") +
-                             std::string(u.consequence));
+                             (gap.isReadInPart ? " is read in part: " : " is not supported: ") +
+                             std::string(gap.consequence));
     }
     std::string phrase;
     for (const std::string& name : required)
-        if (!unreadExtension(name).isReadInPart)
+        if (!gapOf(name).isReadInPart)
             phrase += (phrase.empty() ? "" : ", ") + quoted(name);
     return phrase;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which extensions of glTF the loader reads, and what is missing from the picture without the
-// others. Internal to the glTF loader.
+// Which extensions of glTF the loader reads, and what is missing from the picture because it reads
+// nothing or only a part of the others. Internal to the glTF loader.
 #pragma once
 
 #include <string>
@@ -13,9 +13,10 @@
 namespace candelabra::app
 {
 
-// Warns of the extensions that the file uses and that the loader does not read, with a hint where
-// one helps. Returns those of them that the file calls required, as one phrase for a message, or ""
-// if there are none. Throws SceneError if the lists of extensions are no lists of names.
+// Warns of the extensions that the file uses and of which the loader reads nothing or only a part,
+// with a hint where one helps. Returns the extensions that the file calls required and of which the
+// loader reads nothing, as one phrase for a message, or "" if there are none. Throws SceneError if
+// the lists of extensions are no lists of names.
 std::string checkGltfExtensions(const std::string& file, const nlohmann::json& json,
                                 GltfWarnings& warnings);
 
