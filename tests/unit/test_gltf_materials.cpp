@@ -98,6 +98,12 @@ TEST_F(GltfMaterials, TransmissionLeavesAVeil)
         read("", R"({"transmissionFactor": 1, "transmissionTexture": {"index": 0}})");
     EXPECT_EQ(textured.materials.at(0).alphaMode, AlphaMode::Opaque);
     EXPECT_TRUE(warns(textured, "materials[0]: has a texture of its transmission"));
+    // Metal lets no light through, so nothing of it is left out.
+    EXPECT_FALSE(warns(read(R"("alphaMode": "MASK", )", R"({"transmissionFactor": 1})", "1"),
+                       "transmission"));
+    EXPECT_FALSE(
+        warns(read("", R"({"transmissionFactor": 1, "transmissionTexture": {"index": 0}})", "1"),
+              "transmission"));
 }
 
 // The alpha of an opaque material has no meaning, nor has that of its texture. A texture of the

@@ -138,8 +138,8 @@ TEST_F(GltfWireTest, OneZeroNormalMakesLinesUnlitWithAWarning)
         b.floats({0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 1}, "VEC3");
     const Scene scene = load(b);
     EXPECT_TRUE(scene.materials.at(scene.instances.at(0).material).unlit);
-    EXPECT_TRUE(warns(scene, "meshes[0].primitives[0]: 1 normals have zero length, so light "
-                             "changes nothing of its lines"));
+    EXPECT_TRUE(warns(scene, "meshes[0].primitives[0]: has normals of zero length, so its lines "
+                             "are drawn in their plain colours, whatever the light"));
 }
 
 // Points and lines have no tangents, along which a normal map lies.

@@ -359,7 +359,10 @@ void MaterialReader::readTransmission(const nlohmann::json& json, Material& mate
     const double factor = extension ? numberOr(*extension, "transmissionFactor", 0) : 0;
     const auto* volume = GltfDocument::extension(json, "KHR_materials_volume");
     const bool isBody = volume && numberOr(*volume, "thicknessFactor", 0) > 0;
-    if (factor <= 0 || isBody)
+    // With a texture of metalness, the factor alone (1 by default) does not say what is metal.
+    const float metal = material.metallicRoughnessTexture.texture < 0 ? material.metalness : 0;
+    const float lost = (1 - veil) * unit(factor) * (1 - metal); // the share of the coverage
+    if (lost <= 0 || isBody)
         return;
     if (material.alphaMode == AlphaMode::Mask) {
         document_.warn(element_, "has alphaMode MASK, so its transmission is left out");
@@ -370,15 +373,10 @@ void MaterialReader::readTransmission(const nlohmann::json& json, Material& mate
         return;
     }
     const bool isOpaque = material.alphaMode == AlphaMode::Opaque;
-    // With a texture of metalness, the factor alone (1 by default) does not say what is metal.
-    const float metal = material.metallicRoughnessTexture.texture < 0 ? material.metalness : 0;
-    material.alpha =
-        (isOpaque ? 1 : material.alpha) * (1 - (1 - veil) * unit(factor) * (1 - metal));
-    if (material.alpha == 1)
-        return;
+    material.alpha = (isOpaque ? 1 : material.alpha) * (1 - lost);
     material.alphaMode = AlphaMode::Blend;
-    // AlphaMode::Blend uses the alpha of the texture, which has no meaning if the file says that the
-    // material is opaque.
+    // AlphaMode::Blend uses the alpha of the texture, which has no meaning if the file says that
+    // the material is opaque.
     if (int32_t& texture = material.baseColorTexture.texture; isOpaque && texture >= 0)
         texture = textures_.withoutAlpha(texture);
 }

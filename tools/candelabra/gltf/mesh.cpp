@@ -486,12 +486,11 @@ std::optional<GltfWire> PrimitiveReader::readWire()
     Mesh mesh;
     readVertices(used, mesh);
     wire.hasNormals = readNormals(used, mesh);
-    const auto broken = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
-                                      [](const Vertex& v) { return v.normal == glm::vec3(0); });
-    if (wire.hasNormals && broken > 0) {
-        document_.warn(element_, std::to_string(broken) +
-                                     " normals have zero length, so light changes nothing of its " +
-                                     (wire.isPoints ? "points" : "lines"));
+    if (wire.hasNormals && std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
+                                       [](const Vertex& v) { return v.normal == glm::vec3(0); })) {
+        document_.warn(element_, std::string("has normals of zero length, so its ") +
+                                     (wire.isPoints ? "points" : "lines") +
+                                     " are drawn in their plain colours, whatever the light");
         wire.hasNormals = false;
     }
     wire.vertices = std::move(mesh.vertices);

@@ -53,7 +53,8 @@ private:
     };
 
     // The index of the material that points and lines have instead of `material`. Without normals
-    // light changes nothing of them (glTF 2.0, section 3.9.7), and normal maps are left out.
+    // they have their plain colour, whatever the light (glTF 2.0, section 3.9.7). Normal maps are
+    // left out.
     uint32_t materialOf(const GltfWire& wire, uint32_t material);
     // Subtracts the boxes of points or lines from the budget. Fails if it is too small.
     void takeBudget(const std::string& element, const GltfWire& wire);
