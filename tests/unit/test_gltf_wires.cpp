@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gltf/mesh.h"
+#include "gltf/wires.h"
 #include "unit/gltf_fixture.h"
 
 namespace candelabra::test
@@ -17,6 +19,11 @@ using namespace candelabra::app;
 constexpr const char* onePixel =
     "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAA"
     "DUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+
+constexpr const char* tooManyPoints =
+    "meshes[0].primitives[0]: brings the scene above 33554432 vertices; points are drawn as boxes, "
+    "again in each instance, and a scene has room for at most 4194304 boxes: keep fewer points in "
+    "the file, such as every second one";
 
 class GltfWireTest : public GltfTest
 {
@@ -41,6 +48,17 @@ protected:
             out = {glm::min(out.min, p), glm::max(out.max, p)};
         }
         return out;
+    }
+    // Returns the message of the SceneError that `act` throws, or "no error".
+    template <typename Act>
+    static std::string refusal(const GltfDocument& document, Act&& act)
+    {
+        try {
+            act();
+        } catch (const SceneError& error) {
+            return document.withoutFile(error.what());
+        }
+        return "no error";
     }
     static size_t boxes(const Scene& scene) { return scene.meshes.at(0).indices.size() / 36; }
     static void expectNear(const glm::dvec3& actual, const glm::dvec3& expected)
@@ -260,11 +278,49 @@ TEST_F(GltfWireTest, BrokenAndTooManyPointsAndLinesAreRefused)
     primitive["mode"] = 0;
     const std::vector<uint8_t> zeros(4'200'000); // the same point again and again
     primitive["indices"] = b.accessor(b.view(zeros), componentUnsignedByte, "SCALAR", zeros.size());
-    EXPECT_NE(error(b).find("meshes[0].primitives[0]: has 4200000 points, but the scene has room "
-                            "for 4194295 more; keep fewer of them in the file, such as every "
-                            "second one"),
-              std::string::npos)
-        << error(b);
+    EXPECT_NE(error(b).find(tooManyPoints), std::string::npos) << error(b);
+}
+
+// Each instance of a mesh of one point is a mesh, which costs 64 vertices besides the 8 of its box.
+TEST_F(GltfWireTest, TooManyInstancesOfOnePointAreRefused)
+{
+    const GltfDocument document = openGltf(folder_.write("scene.gltf", wires(0).text()));
+    Scene scene;
+    scene.materials.emplace_back();
+    GltfMeshBudget budget{.vertices = 3 * 72};
+    GltfWires points(document, scene, budget);
+    const GltfWire point{.vertices = {Vertex{}}, .ends = {0, 0}, .isPoints = true};
+    for (int instance = 0; instance < 3; ++instance)
+        points.add("meshes[0].primitives[0]", point, glm::dmat4(1), 0);
+    EXPECT_EQ(scene.instances.size(), 3u);
+    EXPECT_EQ(
+        refusal(document, [&] { points.add("meshes[0].primitives[0]", point, glm::dmat4(1), 0); }),
+        tooManyPoints);
+}
+
+// Points and lines that do not fit as they are read, before they become boxes, are refused with the
+// same words.
+TEST_F(GltfWireTest, TooManyPointsAndLinesAreRefusedWhenTheyAreRead)
+{
+    const auto reading = [&](int mode, GltfMeshBudget budget) {
+        const GltfDocument document = openGltf(folder_.write("scene.gltf", wires(mode).text()));
+        return refusal(document, [&] { readGltfWire(document, 0, 0, GltfPose{}, budget); });
+    };
+    EXPECT_EQ(reading(0, {.vertices = 4}), "no error");
+    EXPECT_EQ(reading(0, {.vertices = 3}), tooManyPoints);
+    EXPECT_EQ(
+        reading(3, {.vertices = 3}),
+        "meshes[0].primitives[0]: brings the scene above 33554432 vertices; lines are drawn as "
+        "boxes, again in each instance, and a scene has room for at most 4194304 boxes: keep "
+        "fewer lines in the file, such as every second one");
+    // A point is read as one index, and then becomes two ends.
+    EXPECT_EQ(reading(0, {.indices = 12}), "no error");
+    for (const uint64_t indices : {3, 11}) {
+        const std::string message = reading(0, {.indices = indices});
+        EXPECT_NE(message.find("above 268435456 indices; points are drawn as boxes"),
+                  std::string::npos)
+            << message;
+    }
 }
 
 TEST_F(GltfWireTest, InstancesOfOneLine)

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "gltf/accessor.h"
 #include "gltf/material.h"
 #include "scene/scene_file.h"
@@ -174,8 +176,10 @@ private:
     std::vector<uint32_t> lineEnds(const std::vector<uint32_t>& corners) const;
     void takeBudget(uint64_t vertices, uint64_t indices) const
     {
-        takeGltfBudget(document_, element_, vertices, indices, budget_);
+        takeGltfBudget(document_, element_, vertices, indices, budget_,
+                       isGltfWire(primitive_) ? gltfWireHint(isPoints()) : "");
     }
+    bool isPoints() const { return primitive_.mode == TINYGLTF_MODE_POINTS; }
     // Renumbers `indices` so that only the vertices that the triangles use are kept: exporters let
     // many primitives share one large vertex buffer. Returns the numbers of these vertices in the
     // file, in increasing order.
@@ -276,7 +280,6 @@ std::vector<uint32_t> PrimitiveReader::triangles(const std::vector<uint32_t>& co
 std::vector<uint32_t> PrimitiveReader::lineEnds(const std::vector<uint32_t>& corners) const
 {
     const size_t n = corners.size();
-    const bool isPoints = primitive_.mode == TINYGLTF_MODE_POINTS;
     const bool isList = primitive_.mode == TINYGLTF_MODE_LINE;
     if (isList && n % 2 != 0)
         document_.warn(element_, "is a list of lines with " + std::to_string(n) +
@@ -286,10 +289,10 @@ std::vector<uint32_t> PrimitiveReader::lineEnds(const std::vector<uint32_t>& cor
     out.reserve(2 * n);
     for (size_t i = 0; i < n; i += isList ? 2 : 1) {
         const bool isLast = i + 1 == n;
-        if (isLast && !isPoints && primitive_.mode != TINYGLTF_MODE_LINE_LOOP)
+        if (isLast && !isPoints() && primitive_.mode != TINYGLTF_MODE_LINE_LOOP)
             break;
-        const uint32_t a = corners[i], b = isPoints ? a : corners[isLast ? 0 : i + 1];
-        if (a != b || isPoints)
+        const uint32_t a = corners[i], b = isPoints() ? a : corners[isLast ? 0 : i + 1];
+        if (a != b || isPoints())
             out.insert(out.end(), {a, b});
     }
     return out;
@@ -474,7 +477,7 @@ std::optional<GltfWire> PrimitiveReader::readWire()
     if (!countVertices())
         return std::nullopt;
     GltfWire wire;
-    wire.isPoints = primitive_.mode == TINYGLTF_MODE_POINTS;
+    wire.isPoints = isPoints();
     wire.ends = lineEnds(readIndices(vertexCount_));
     if (wire.ends.empty()) {
         document_.warn(element_, "has no lines and is left out");
@@ -515,14 +518,14 @@ glm::vec4 anyTangent(const glm::vec3& normal)
 }
 
 void takeGltfBudget(const GltfDocument& document, const std::string& element, uint64_t vertices,
-                    uint64_t indices, GltfMeshBudget& budget)
+                    uint64_t indices, GltfMeshBudget& budget, std::string_view hint)
 {
     if (vertices > budget.vertices)
         document.fail(element,
-                      "brings the scene above " + std::to_string(maxSceneVertices) + " vertices");
+                      fmt::format("brings the scene above {} vertices{}", maxSceneVertices, hint));
     if (indices > budget.indices)
         document.fail(element,
-                      "brings the scene above " + std::to_string(maxSceneIndices) + " indices");
+                      fmt::format("brings the scene above {} indices{}", maxSceneIndices, hint));
     budget.vertices -= vertices;
     budget.indices -= indices;
 }
@@ -534,6 +537,14 @@ std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh,
     PrimitiveReader reader(document, document.model.meshes[mesh].primitives[primitive],
                            gltfPrimitive(mesh, primitive), pose, budget);
     return reader.read(material);
+}
+
+std::string gltfWireHint(bool isPoints)
+{
+    const char* what = isPoints ? "points" : "lines";
+    return fmt::format("; {} are drawn as boxes, again in each instance, and a scene has room for "
+                       "at most {} boxes: keep fewer {} in the file, such as every second one",
+                       what, maxSceneVertices / gltfBoxCorners, what);
 }
 
 bool isGltfWire(const tinygltf::Primitive& primitive)

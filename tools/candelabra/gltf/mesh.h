@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gltf/document.h"
@@ -29,9 +30,10 @@ struct GltfMeshBudget {
     uint64_t indices = maxSceneIndices;
 };
 
-// Subtracts from the budget. Fails with a message that names `element` if the budget is too small.
+// Subtracts from the budget. Fails with a message that names `element` and ends with `hint` if the
+// budget is too small.
 void takeGltfBudget(const GltfDocument& document, const std::string& element, uint64_t vertices,
-                    uint64_t indices, GltfMeshBudget& budget);
+                    uint64_t indices, GltfMeshBudget& budget, std::string_view hint = {});
 
 // Reads the triangles of one primitive in a pose and fills in all vertex attributes. Missing
 // normals become flat, so that triangles share no vertices; missing tangents follow the UVs of
@@ -47,6 +49,12 @@ struct GltfWire {
     bool isPoints = false;
     bool hasNormals = false;
 };
+
+// Points and lines are drawn as boxes with so many vertices.
+constexpr uint64_t gltfBoxCorners = 8;
+
+// The end of the message if points or lines do not fit into the budget.
+std::string gltfWireHint(bool isPoints);
 
 // Returns true if the primitive consists of points or lines, and not of triangles.
 bool isGltfWire(const tinygltf::Primitive& primitive);

@@ -36,7 +36,6 @@ double pointWidth(size_t count)
 
 // The corners of a box of two ends with four corners each, and its triangles, counter-clockwise
 // seen from outside.
-constexpr uint32_t boxCorners = 8;
 constexpr std::array<uint32_t, 36> boxTriangles = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
                                                    0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3,
                                                    0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
@@ -99,14 +98,8 @@ uint32_t GltfWires::materialOf(const GltfWire& wire, uint32_t material)
 void GltfWires::takeBudget(const std::string& element, const GltfWire& wire)
 {
     const uint64_t segments = wire.ends.size() / 2;
-    const uint64_t vertices = budget_.vertices > meshCost ? budget_.vertices - meshCost : 0;
-    const uint64_t room = std::min(vertices / boxCorners, budget_.indices / boxTriangles.size());
-    if (segments > room)
-        document_.fail(element, fmt::format("has {} {}, but the scene has room for {} more; keep "
-                                            "fewer of them in the file, such as every second one",
-                                            segments, wire.isPoints ? "points" : "lines", room));
-    takeGltfBudget(document_, element, meshCost + boxCorners * segments,
-                   boxTriangles.size() * segments, budget_);
+    takeGltfBudget(document_, element, meshCost + gltfBoxCorners * segments,
+                   boxTriangles.size() * segments, budget_, gltfWireHint(wire.isPoints));
 }
 
 void GltfWires::addBox(const GltfWire& wire, size_t segment, const Placement& placement, Thin& thin)
@@ -115,7 +108,7 @@ void GltfWires::addBox(const GltfWire& wire, size_t segment, const Placement& pl
     const uint32_t ends[] = {wire.ends[2 * segment], wire.ends[2 * segment + 1]};
     const BoxAxes axes = axesAlong(placement.at(wire, ends[1]) - placement.at(wire, ends[0]));
     const auto first = static_cast<uint32_t>(mesh.vertices.size());
-    for (uint32_t corner = 0; corner < boxCorners; ++corner) {
+    for (uint32_t corner = 0; corner < gltfBoxCorners; ++corner) {
         const bool isSecond = corner & 4;
         Vertex vertex = wire.vertices[ends[isSecond]];
         vertex.position = glm::vec3(placement.at(wire, ends[isSecond]));
@@ -143,9 +136,9 @@ void GltfWires::add(const std::string& element, const GltfWire& wire,
     placement.fromMesh[3] -= glm::dvec4(origin, 0);
     Thin thin{static_cast<uint32_t>(scene_.meshes.size()), wire.isPoints, {}};
     Mesh& mesh = scene_.meshes.emplace_back();
-    mesh.vertices.reserve(boxCorners * segments);
+    mesh.vertices.reserve(gltfBoxCorners * segments);
     mesh.indices.reserve(boxTriangles.size() * segments);
-    thin.offsets.reserve(boxCorners * segments);
+    thin.offsets.reserve(gltfBoxCorners * segments);
     for (size_t segment = 0; segment < segments; ++segment)
         addBox(wire, segment, placement, thin);
     (wire.isPoints ? points_ : lines_) += segments;
