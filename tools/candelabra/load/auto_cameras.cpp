@@ -229,9 +229,8 @@ void chooseDefaultCamera(Scene& scene, size_t own, double aspect)
     visitVertices(scene, {0, scene.instances.size()},
                   [&](const glm::dvec3& p) { points.push_back(p); });
     // Only the first of thousands of cameras are tried: 8 of them if there are 4 million points.
-    constexpr size_t mostTries = size_t{1} << 25; // a point in a camera each
     const size_t tried =
-        std::min(own, std::max<size_t>(mostTries / std::max<size_t>(points.size(), 1), 1));
+        std::min(own, std::max<size_t>(mostPointsTried / std::max<size_t>(points.size(), 1), 1));
     constexpr double least = 0.5; // of the width or of the height
     const char* fault = "the scene less than half as wide and as high as the picture";
     for (size_t i = 0; i < tried; ++i) {
@@ -246,7 +245,10 @@ void chooseDefaultCamera(Scene& scene, size_t own, double aspect)
     scene.defaultCamera = own;
     scene.notes.push_back(std::string("the file's ") + (own == 1 ? "camera" : "first camera") +
                           " shows " + fault + ", so the automatic camera " +
-                          scene.cameras[own].name + " is used; --camera 0 chooses the file's");
+                          scene.cameras[own].name + " is used; --camera 0 chooses the file's" +
+                          (tried == own ? ""
+                                        : "; only the first " + std::to_string(tried) + " of its " +
+                                              std::to_string(own) + " cameras were tried"));
 }
 
 // --- lights alone

@@ -8,6 +8,10 @@
 namespace candelabra::app
 {
 
+// How many times a vertex is looked for in the picture of a camera of the file, at most, all
+// vertices and cameras together. One camera is always tried.
+constexpr size_t mostPointsTried = size_t{1} << 25;
+
 // Appends cameras that show all instances in pictures of the given width / height.
 //
 // Of an object: "three-quarter" from the front and slightly above, then "front", "right", "back",
@@ -24,7 +28,7 @@ namespace candelabra::app
 //
 // Scene::defaultCamera becomes the first camera of the file that shows the scene at least half as
 // wide or as high as the picture, or else the first automatic one, with a note. In scenes of very
-// many vertices only the first of very many cameras are tried.
+// many vertices only the first of very many cameras are tried, and the note says how many.
 void addAutomaticCameras(Scene& scene, double aspect);
 
 } // namespace candelabra::app
