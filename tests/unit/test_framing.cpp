@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "io/error.h"
 #include "load/auto_cameras.h"
@@ -262,7 +263,8 @@ TEST_F(Framing, OfVeryManyCamerasTheFirstAreTried)
 {
     Scene scene = boxScene(glm::vec3(1));
     Mesh& mesh = scene.meshes[0];
-    for (uint32_t i = 0; i < 20'000; ++i) {
+    constexpr size_t more = 20'000;
+    for (size_t i = 0; i < more; ++i) {
         mesh.indices.insert(mesh.indices.end(), 3, static_cast<uint32_t>(mesh.vertices.size()));
         mesh.vertices.push_back({.position = glm::vec3(0)});
     }
@@ -270,17 +272,24 @@ TEST_F(Framing, OfVeryManyCamerasTheFirstAreTried)
     camera.position = {0, 0, 2};
     Camera away = camera;
     away.forward = {0, 0, 1};
-    for (const size_t good : {size_t{1'000}, size_t{1'999}}) {
+    constexpr size_t tried = mostPointsTried / (8 + more); // 8 corners of the box
+    static_assert(tried == 1'677);
+    const auto choose = [&](size_t cameras, std::optional<size_t> good) {
         scene.notes.clear();
-        scene.cameras.assign(2'000, away);
-        scene.cameras[good] = camera;
+        scene.cameras.assign(cameras, away);
+        if (good)
+            scene.cameras.at(*good) = camera;
         addAutomaticCameras(scene, 1.5);
-        EXPECT_EQ(scene.defaultCamera,
-                  good == 1'000 ? good : size_t{2'000}); // 2^25 / 20,008 are tried
-    }
-    EXPECT_EQ(scene.notes.at(0),
-              "the file's first camera shows nothing of the scene, so the automatic camera "
-              "three-quarter is used; --camera 0 chooses the file's");
+        return scene.defaultCamera;
+    };
+    EXPECT_EQ(choose(tried + 1, tried - 1), tried - 1);
+    EXPECT_TRUE(scene.notes.empty());
+    const std::string note = "the file's first camera shows nothing of the scene, so the automatic "
+                             "camera three-quarter is used; --camera 0 chooses the file's";
+    EXPECT_EQ(choose(tried + 1, tried), tried + 1);
+    EXPECT_EQ(scene.notes.at(0), note + "; only the first 1677 of its 1678 cameras were tried");
+    EXPECT_EQ(choose(tried, std::nullopt), tried); // all of them are tried
+    EXPECT_EQ(scene.notes.at(0), note);
 }
 
 TEST_F(Framing, NodesAreFoundWithAllBelowThem)
