@@ -109,8 +109,12 @@ TEST_F(DefaultLight, OneUnlitLineDoesNotSayWhatIsWhite)
     b.json["materials"].push_back(Json::parse(R"({"extensions": {"KHR_materials_unlit": {}}})"));
     const int shown = b.mesh(b.json["meshes"][0]["primitives"][0]);
     b.json["meshes"][static_cast<size_t>(shown)]["primitives"][0]["material"] = 1;
-    b.rootNode({{"mesh", shown}, {"scale", {2, 2, 2}}});
-    EXPECT_EQ(studioWhite(load(b)), unlitLuminance);
+    const int node = b.rootNode({{"mesh", shown}});
+    // At scale 1 both triangles have the same area, and the line is an unlit surface too.
+    for (const double scale : {0.9, 1.1}) {
+        b.json["nodes"][static_cast<size_t>(node)]["scale"] = {scale, scale, scale};
+        EXPECT_EQ(studioWhite(load(b)), scale < 1 ? 1 : unlitLuminance) << scale;
+    }
 }
 
 TEST_F(DefaultLight, AnyLightOfTheSceneKeepsTheStudioAway)
