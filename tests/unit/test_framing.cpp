@@ -7,6 +7,7 @@
 
 #include "io/error.h"
 #include "load/auto_cameras.h"
+#include "load/outside.h"
 #include "render/camera.h"
 #include "scene/fit_camera.h"
 #include "unit/gltf_fixture.h"
@@ -256,6 +257,40 @@ TEST_F(Framing, TheFirstCameraOfTheFileThatShowsTheSceneIsTheDefault)
     const Scene scene = load(builder);
     EXPECT_EQ(selectCamera(scene, "").name, "near");
     EXPECT_TRUE(scene.notes.empty());
+}
+
+// A small file may have very many triangles, because instances share meshes. The first mesh of this
+// scene has 2^14 triangles, of which all but one are points, and 2^10 instances: as many triangles
+// as are drawn. The second mesh, beside it, has one triangle or none.
+TEST_F(Framing, MeshesWithVeryManyTrianglesAreSeenAsBoxesFromOutside)
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    Mesh triangle; // half of a square of 1 m, which faces +z
+    for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)})
+        triangle.vertices.push_back({.position = glm::vec3(corner, 0)});
+    triangle.indices = {0, 1, 2};
+    Mesh large = triangle;
+    large.indices.resize(3 << 14);
+    triangle.indices.clear();
+    scene.meshes = {large, triangle};
+    scene.instances.resize(1 << 10);
+    static_assert(mostTrianglesOutside == uint64_t{1} << 24);
+    Instance beside{.mesh = 1};
+    beside.worldFromObject[3].x = 2;
+    scene.instances.push_back(beside);
+    // The scene is 3 m wide and 1 m high, and the picture as wide and high as its diagonal.
+    const double square = 1.0 / 10, tolerance = 0.01;
+    const auto seen = [&](double z) { return seenFromOutside(scene, {{0, 0, z}}).at(0); };
+    EXPECT_NEAR(seen(-1).fronts, 0.5 * square, tolerance);
+    scene.meshes[1].indices = {0, 1, 2};
+    const OutsideView front = seen(-1);
+    EXPECT_NEAR(front.fronts, 1.5 * square, tolerance); // a box, and half of a square
+    EXPECT_NEAR(front.drawn, 1.5 * square, tolerance);
+    EXPECT_EQ(front.backs, 0);
+    const OutsideView back = seen(1);
+    EXPECT_NEAR(back.fronts, square, tolerance); // a box has no back
+    EXPECT_NEAR(back.backs, 0.5 * square, tolerance);
 }
 
 // A file may have thousands of cameras and millions of vertices.

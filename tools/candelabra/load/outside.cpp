@@ -4,6 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
+
+#include "generate/shapes.h"
+#include "scene/mesh_bounds.h"
 
 namespace candelabra::app
 {
@@ -31,7 +36,9 @@ public:
     {
     }
 
-    void draw(const glm::dvec3 (&corners)[3], bool doubleSided)
+    // Draws a triangle. Backs of a closed surface are never the nearest, unless the surface is flat
+    // and its fronts are as near, and are left out.
+    void draw(const glm::dvec3 (&corners)[3], bool doubleSided, bool closed)
     {
         glm::dvec3 p[3]; // pixels, and depth
         for (int i = 0; i < 3; ++i) {
@@ -44,6 +51,8 @@ public:
         if (!(std::abs(area) > 0))
             return;
         const Face face = area < 0 ? Front : Back;
+        if (closed && face == Back)
+            return;
         const bool drawn = face == Front || doubleSided;
         const auto first = [](double v) { return int(std::clamp(std::ceil(v - 0.5), 0.0, 1e4)); };
         const auto last = [](double v) {
@@ -90,6 +99,42 @@ private:
     std::vector<bool> drawn_;
 };
 
+// Returns the box around a mesh.
+Mesh boxAround(const Mesh& mesh)
+{
+    const Bounds bounds = meshBounds(mesh);
+    Mesh box = makeBox(); // around the origin, with edges of length 1
+    for (Vertex& vertex : box.vertices)
+        vertex.position = glm::vec3(0.5 * (bounds.min + bounds.max) +
+                                    glm::dvec3(vertex.position) * (bounds.max - bounds.min));
+    return box;
+}
+
+// Returns for each mesh the box that is drawn in its place, or nothing if the mesh itself is drawn:
+// the meshes with the fewest triangles in all their instances are drawn, as long as these are not
+// more than mostTrianglesOutside, and so are meshes that are no larger than a box.
+std::vector<std::optional<Mesh>> boxesInPlaceOfMeshes(const Scene& scene)
+{
+    std::vector<uint64_t> triangles(scene.meshes.size()); // in all instances
+    for (const Instance& instance : scene.instances)
+        triangles[instance.mesh] += scene.meshes[instance.mesh].indices.size() / 3;
+    std::vector<size_t> order(scene.meshes.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return triangles[a] < triangles[b]; });
+    std::vector<std::optional<Mesh>> out(scene.meshes.size());
+    uint64_t sum = 0;
+    for (const size_t mesh : order) {
+        sum += triangles[mesh];
+        if (sum <= mostTrianglesOutside)
+            continue;
+        Mesh box = boxAround(scene.meshes[mesh]);
+        if (box.indices.size() < scene.meshes[mesh].indices.size())
+            out[mesh] = std::move(box);
+    }
+    return out;
+}
+
 } // namespace
 
 std::vector<OutsideView> seenFromOutside(const Scene& scene,
@@ -99,9 +144,11 @@ std::vector<OutsideView> seenFromOutside(const Scene& scene,
     std::vector<Picture> pictures;
     for (const glm::dvec3& direction : directions)
         pictures.emplace_back(direction, bounds);
+    const std::vector<std::optional<Mesh>> boxes = boxesInPlaceOfMeshes(scene);
     std::vector<glm::dvec3> positions;
     for (const Instance& instance : scene.instances) {
-        const Mesh& mesh = scene.meshes[instance.mesh];
+        const std::optional<Mesh>& box = boxes[instance.mesh];
+        const Mesh& mesh = box ? *box : scene.meshes[instance.mesh];
         positions.clear();
         for (const Vertex& vertex : mesh.vertices)
             positions.emplace_back(instance.worldFromObject * glm::dvec4(vertex.position, 1));
@@ -111,7 +158,7 @@ std::vector<OutsideView> seenFromOutside(const Scene& scene,
                                            positions[mesh.indices[i + 1]],
                                            positions[mesh.indices[i + 2]]};
             for (Picture& picture : pictures)
-                picture.draw(corners, doubleSided);
+                picture.draw(corners, doubleSided, box.has_value());
         }
     }
     std::vector<OutsideView> out;
