@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the light of scenes that have none, how bright environments are, and added lights.
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "load/brightness.h"
@@ -115,6 +116,54 @@ TEST_F(DefaultLight, OneUnlitLineDoesNotSayWhatIsWhite)
         b.json["nodes"][static_cast<size_t>(node)]["scale"] = {scale, scale, scale};
         EXPECT_EQ(studioWhite(load(b)), scale < 1 ? 1 : unlitLuminance) << scale;
     }
+}
+
+// A scene of an unlit triangle and of a glowing one, each half of a square of 1 m.
+Scene unlitAndGlowing()
+{
+    Scene scene;
+    Mesh mesh;
+    for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)})
+        mesh.vertices.push_back({.position = glm::vec3(corner, 0)});
+    mesh.indices = {0, 1, 2};
+    scene.meshes = {mesh, mesh};
+    scene.materials = {Material{.emission = glm::vec3(unlitLuminance), .unlit = true},
+                       Material{.emission = glm::vec3(1)}};
+    scene.instances = {Instance{.mesh = 0, .material = 0}, Instance{.mesh = 1, .material = 1}};
+    return scene;
+}
+
+TEST_F(DefaultLight, SurfacesHaveTheAreaThatTheirTransformGivesThem)
+{
+    const auto white = [](Scene scene, const glm::dvec3& scale) {
+        for (int axis = 0; axis < 3; ++axis)
+            scene.instances[0].worldFromObject[axis] *= scale[axis];
+        return studioWhite(scene);
+    };
+    Scene scene = unlitAndGlowing();
+    EXPECT_EQ(white(scene, {4, 0.24, 9}), 1);
+    EXPECT_EQ(white(scene, {4, 0.26, 0.01}), unlitLuminance);
+    // Both meshes get a second triangle, which stands upright on the first.
+    for (Mesh& mesh : scene.meshes) {
+        mesh.vertices.push_back({.position = {0, 0, 1}});
+        mesh.indices.insert(mesh.indices.end(), {0, 1, 3});
+    }
+    EXPECT_EQ(white(scene, {1, 1, 0.9}), 1);
+    EXPECT_EQ(white(scene, {1, 1, 1.1}), unlitLuminance);
+}
+
+// A small file may have very many triangles, because instances share meshes.
+TEST_F(DefaultLight, TheTrianglesOfAMeshAreMeasuredOnce)
+{
+    Scene scene = unlitAndGlowing();
+    for (Mesh& mesh : scene.meshes)
+        mesh.indices.resize(300'000);
+    for (const size_t material : {size_t{0}, size_t{1}})
+        scene.instances.insert(scene.instances.end(), 100'000, Instance(scene.instances[material]));
+    const std::clock_t start = std::clock();
+    EXPECT_EQ(studioWhite(scene), unlitLuminance);
+    const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+    EXPECT_LT(seconds, 10); // 2e10 triangles would take minutes
 }
 
 TEST_F(DefaultLight, AnyLightOfTheSceneKeepsTheStudioAway)

@@ -7,6 +7,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/cofactors.h"
+
 namespace candelabra::app
 {
 
@@ -201,12 +203,8 @@ glm::dvec3 GltfPosedVertices::normal(size_t i, const glm::dvec3& rest) const
     const glm::dvec3 n = morphed(rest, normals_, i);
     if (!isSkinned())
         return n;
-    // The matrix of cofactors is the inverse transpose times the determinant, and exists without
-    // an inverse too.
     const glm::dmat3 m(meshFromVertex(i));
-    const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
-                               glm::cross(m[0], m[1]));
-    return normalizedOrZero(cofactors * n) * (glm::determinant(m) < 0 ? -1.0 : 1.0);
+    return normalizedOrZero(cofactors(m) * n) * (glm::determinant(m) < 0 ? -1.0 : 1.0);
 }
 
 glm::dvec3 GltfPosedVertices::tangent(size_t i, const glm::dvec3& rest) const

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "gltf/material.h"
+#include "scene/cofactors.h"
 
 namespace candelabra::app
 {
@@ -63,9 +64,7 @@ BoxAxes axesAlong(const glm::dvec3& direction)
 glm::dmat3 normalTransform(const glm::dmat4& worldFromMesh)
 {
     const glm::dmat3 m(worldFromMesh);
-    const double side = glm::determinant(m) < 0 ? -1 : 1;
-    return {side * glm::cross(m[1], m[2]), side * glm::cross(m[2], m[0]),
-            side * glm::cross(m[0], m[1])};
+    return cofactors(m) * (glm::determinant(m) < 0 ? -1.0 : 1.0);
 }
 
 } // namespace

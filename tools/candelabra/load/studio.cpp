@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "load/brightness.h"
+#include "scene/cofactors.h"
 
 namespace candelabra::app
 {
@@ -54,19 +57,53 @@ double skyLuminance(const glm::dvec3& direction)
     return out;
 }
 
-// Returns the area of an instance in m^2.
-double areaOf(const Scene& scene, const Instance& instance)
+// The areas of instances. Every mesh is looked at once, so that the time does not grow with the
+// triangles of all instances, which may be very many in a small file.
+class Areas
 {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    const glm::dmat3 worldFromObject(instance.worldFromObject);
-    double sum = 0;
+public:
+    explicit Areas(const Scene& scene) : scene_(scene), meshes_(scene.meshes.size()) {}
+
+    // Returns the area of an instance in m^2. It is exact if the mesh is flat or the transform
+    // keeps shapes, and else may be too large: the root mean square over the mesh stands for the
+    // mean factor by which the transform enlarges an area.
+    double of(const Instance& instance);
+
+private:
+    struct MeshArea {
+        double area = 0;
+        glm::dmat3 normals{0}; // the sum over triangles of area * n * transpose(n), n the normal
+    };
+    static MeshArea measured(const Mesh& mesh);
+
+    const Scene& scene_;
+    std::vector<std::optional<MeshArea>> meshes_; // measured when first needed
+};
+
+Areas::MeshArea Areas::measured(const Mesh& mesh)
+{
+    MeshArea out;
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const auto corner = [&](size_t k) {
-            return worldFromObject * glm::dvec3(mesh.vertices[mesh.indices[i + k]].position);
+            return glm::dvec3(mesh.vertices[mesh.indices[i + k]].position);
         };
-        sum += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+        const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+        const double length = glm::length(normal);
+        out.area += 0.5 * length;
+        if (length > 0)
+            out.normals += glm::outerProduct(0.5 * normal, normal / length);
     }
-    return sum;
+    return out;
+}
+
+double Areas::of(const Instance& instance)
+{
+    std::optional<MeshArea>& mesh = meshes_[instance.mesh];
+    if (!mesh)
+        mesh = measured(scene_.meshes[instance.mesh]);
+    const glm::dmat3 c = cofactors(glm::dmat3(instance.worldFromObject));
+    const glm::dmat3 squares = c * mesh->normals * glm::transpose(c);
+    return std::sqrt(mesh->area * (squares[0][0] + squares[1][1] + squares[2][2]));
 }
 
 } // namespace
@@ -82,13 +119,14 @@ bool isLit(const Scene& scene)
 
 float studioWhite(const Scene& scene)
 {
+    Areas areas(scene);
     double unlit = 0, glowing = 0; // m^2
     bool isAnyUnlit = false;
     for (const Instance& instance : scene.instances) {
         const Material& material = scene.materials[instance.material];
         isAnyUnlit = isAnyUnlit || material.unlit;
         if (material.unlit || material.emission != glm::vec3(0))
-            (material.unlit ? unlit : glowing) += areaOf(scene, instance);
+            (material.unlit ? unlit : glowing) += areas.of(instance);
     }
     return isAnyUnlit && unlit >= glowing ? unlitLuminance : 1;
 }
