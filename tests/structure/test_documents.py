@@ -14,6 +14,9 @@ sys.dont_write_bytecode = True  # the source may be read-only
 import test_includes
 
 root = pathlib.Path(sys.argv[1]).resolve()
+sys.path.insert(0, str(root / "engine/package"))
+import doxygen_filter
+
 failures = []
 
 
@@ -40,20 +43,7 @@ def without_code(text):
 
 def anchors(path):
     """Returns the anchors that GitHub gives to the headings of a document."""
-    out = set()
-    listing = False
-    for line in path.read_text(encoding="utf-8").split("\n"):
-        listing = listing != line.startswith("```")
-        heading = re.match(r"#{1,6} (.*)", line)
-        if not heading or listing:
-            continue
-        text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading[1]).replace("`", "").strip().lower()
-        slug = re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
-        number = 0
-        while (slug if not number else f"{slug}-{number}") in out:
-            number += 1
-        out.add(slug if not number else f"{slug}-{number}")
-    return out
+    return {anchor for _, anchor in doxygen_filter.headings(path.read_text(encoding="utf-8").split("\n"))}
 
 
 def check_link(document, target):
