@@ -88,7 +88,7 @@ TEST_F(DefaultLight, ScenesWithoutLightGetAStudioIfAskedFor)
 }
 
 // A scene has unlit surfaces and glowing ones: which of them decide how bright white is depends on
-// which have the larger area.
+// which have the larger area, in which faint glow counts for less.
 TEST_F(DefaultLight, OneUnlitLineDoesNotSayWhatIsWhite)
 {
     GltfBuilder b = triangleScene();
@@ -150,6 +150,39 @@ TEST_F(DefaultLight, SurfacesHaveTheAreaThatTheirTransformGivesThem)
     }
     EXPECT_EQ(white(scene, {1, 1, 0.9}), 1);
     EXPECT_EQ(white(scene, {1, 1, 1.1}), unlitLuminance);
+}
+
+TEST_F(DefaultLight, FaintAndMostlyDarkGlowCountsForLess)
+{
+    // The glowing triangle is twice as large as the unlit one.
+    const auto white = [](const glm::vec3& emission, const std::vector<uint8_t>& codes) {
+        Scene scene = unlitAndGlowing();
+        scene.instances[1].worldFromObject[0] *= 2.0;
+        Material& material = scene.materials[1];
+        material.emission = emission;
+        if (!codes.empty()) {
+            Texture texture{.width = static_cast<uint32_t>(codes.size()), .height = 1};
+            for (const uint8_t code : codes)
+                texture.rgba.insert(texture.rgba.end(), {code, code, code, 255});
+            scene.textures.push_back(texture);
+            material.emissiveTexture.texture = 0;
+        }
+        return studioWhite(scene);
+    };
+    EXPECT_EQ(white(glm::vec3(0.51f), {}), 1);
+    EXPECT_EQ(white(glm::vec3(0.49f), {}), unlitLuminance);
+    EXPECT_EQ(white({0, 0.71f, 0}, {}), 1); // green has 0.7152 of the luminance
+    EXPECT_EQ(white({0.9f, 0, 0.9f}, {}), unlitLuminance);
+    EXPECT_EQ(white(glm::vec3(1), {255, 255, 0}), 1);
+    EXPECT_EQ(white(glm::vec3(1), {255, 0, 0}), unlitLuminance);
+    EXPECT_EQ(white(glm::vec3(1), {190}), 1);              // 0.515 in linear values
+    EXPECT_EQ(white(glm::vec3(1), {185}), unlitLuminance); // 0.485
+    EXPECT_EQ(white(glm::vec3(1.6f), {255, 0, 0}), 1);
+    // The lamp is no easier to see if it is brighter than white.
+    Scene lamp = unlitAndGlowing();
+    lamp.instances[1].worldFromObject[0] *= 0.9;
+    lamp.materials[1].emission = glm::vec3(50);
+    EXPECT_EQ(studioWhite(lamp), unlitLuminance);
 }
 
 // A small file may have very many triangles, because instances share meshes.

@@ -2,7 +2,6 @@
 #include "gltf/material.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -30,8 +29,10 @@ public:
     // Returns -1 if the texture has no image that can be read. A warning says so, which is that of
     // warnOfImages() if the texture has an image.
     int32_t find(int gltfTexture, bool srgb);
-    // The mean of a texture of sRGB colours that was read as linear data, in linear values.
-    glm::vec3 meanColor(int32_t texture) const;
+    glm::vec3 meanColor(int32_t texture) const
+    {
+        return meanOfSrgb(scene_.textures[static_cast<size_t>(texture)]);
+    }
     // Adds a texture whose green is the roughness of a texture that has the glossiness, divided by
     // `factor`, in its alpha. Returns its index.
     int32_t roughnessOfGlossiness(int32_t texture, float factor);
@@ -117,21 +118,6 @@ void GltfTextures::warnOfImages() const
         sentence += ", and so are those of " + std::to_string(others) + " other image" +
                     (others == 1 ? "" : "s") + " that cannot be read";
     document_.warn("", sentence);
-}
-
-glm::vec3 GltfTextures::meanColor(int32_t texture) const
-{
-    const Texture& source = scene_.textures[static_cast<size_t>(texture)];
-    std::array<double, 256> linear; // IEC 61966-2-1
-    for (size_t i = 0; i < linear.size(); ++i) {
-        const double x = static_cast<double>(i) / 255;
-        linear[i] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-    }
-    glm::dvec3 sum{0};
-    for (size_t i = 0; i < source.rgba.size(); i += 4)
-        for (size_t c = 0; c < 3; ++c)
-            sum[static_cast<int>(c)] += linear[source.rgba[i + c]];
-    return glm::vec3(sum / (static_cast<double>(source.rgba.size()) / 4));
 }
 
 int32_t GltfTextures::roughnessOfGlossiness(int32_t texture, float factor)

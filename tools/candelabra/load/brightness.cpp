@@ -14,14 +14,9 @@ namespace
 
 using std::numbers::pi;
 
-double luminanceOf(const float (&rgb)[3])
-{
-    return 0.2126 * double{rgb[0]} + 0.7152 * double{rgb[1]} + 0.0722 * double{rgb[2]};
-}
-
 // Returns the luminance of a pixel in cd/m^2. Files may hold any number; those that are negative or
 // not finite are black, as the engine takes them.
-double luminanceOf(const Image& image, uint32_t x, uint32_t y)
+double pixelLuminance(const Image& image, uint32_t x, uint32_t y)
 {
     const float* pixel = &image.pixels[(size_t(y) * image.width + x) * size_t(image.channels)];
     const float rgb[3] = {pixel[0], pixel[image.channels == 1 ? 0 : 1],
@@ -71,6 +66,11 @@ double illuminanceOf(const CndLight& light, const glm::dvec3& position, const Su
 
 } // namespace
 
+double luminanceOf(const float (&rgb)[3])
+{
+    return 0.2126 * double{rgb[0]} + 0.7152 * double{rgb[1]} + 0.0722 * double{rgb[2]};
+}
+
 glm::dvec3 equirectangularDirection(const Image& image, uint32_t x, uint32_t y)
 {
     const double azimuth = (2 * (x + 0.5) / image.width - 1) * pi;
@@ -92,7 +92,7 @@ double groundIlluminance(const SceneEnvironment& environment)
         };
         const double weight = pi / image.width * (squaredSine(y + 1.0) - squaredSine(y));
         for (uint32_t x = 0; weight > 0 && x < image.width; ++x)
-            sum += weight * luminanceOf(image, x, y);
+            sum += weight * pixelLuminance(image, x, y);
     }
     return environment.scale * sum;
 }
@@ -107,7 +107,7 @@ double planeIlluminance(const SceneEnvironment& environment, const glm::dvec3& n
             (std::cos(pi * y / image.height) - std::cos(pi * (y + 1.0) / image.height));
         for (uint32_t x = 0; x < image.width; ++x) {
             const double cosine = glm::dot(normal, equirectangularDirection(image, x, y));
-            sum += cosine > 0 ? solidAngle * cosine * luminanceOf(image, x, y) : 0;
+            sum += cosine > 0 ? solidAngle * cosine * pixelLuminance(image, x, y) : 0;
         }
     }
     return environment.scale * sum;

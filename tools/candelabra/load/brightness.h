@@ -7,6 +7,9 @@
 namespace candelabra::app
 {
 
+// Returns the luminance of linear components of Rec. 709, in their unit.
+double luminanceOf(const float (&rgb)[3]);
+
 // Returns the direction of the middle of a pixel of an equirectangular image.
 glm::dvec3 equirectangularDirection(const Image& image, uint32_t x, uint32_t y);
 

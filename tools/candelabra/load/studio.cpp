@@ -106,6 +106,34 @@ double Areas::of(const Instance& instance)
     return std::sqrt(mesh->area * (squares[0][0] + squares[1][1] + squares[2][2]));
 }
 
+// How much surfaces glow. Every texture is looked at once.
+class Glow
+{
+public:
+    explicit Glow(const Scene& scene) : scene_(scene), means_(scene.textures.size()) {}
+
+    // Returns the mean luminance of what a material emits, in cd/m^2 and at most 1: a brighter glow
+    // is no easier to see. All parts of its texture count alike, whatever part surfaces show.
+    double of(const Material& material);
+
+private:
+    const Scene& scene_;
+    std::vector<std::optional<glm::vec3>> means_; // of textures, computed when first needed
+};
+
+double Glow::of(const Material& material)
+{
+    glm::vec3 emission = material.emission;
+    if (const int32_t texture = material.emissiveTexture.texture; texture >= 0) {
+        std::optional<glm::vec3>& mean = means_[static_cast<size_t>(texture)];
+        if (!mean)
+            mean = meanOfSrgb(scene_.textures[static_cast<size_t>(texture)]);
+        emission *= *mean;
+    }
+    const float rgb[3] = {emission.r, emission.g, emission.b};
+    return std::min(luminanceOf(rgb), 1.0);
+}
+
 } // namespace
 
 bool isLit(const Scene& scene)
@@ -119,16 +147,23 @@ bool isLit(const Scene& scene)
 
 float studioWhite(const Scene& scene)
 {
+    const auto materialOf = [&](const Instance& instance) -> const Material& {
+        return scene.materials[instance.material];
+    };
+    if (std::none_of(scene.instances.begin(), scene.instances.end(),
+                     [&](const Instance& instance) { return materialOf(instance).unlit; }))
+        return 1;
     Areas areas(scene);
+    Glow glow(scene);
     double unlit = 0, glowing = 0; // m^2
-    bool isAnyUnlit = false;
     for (const Instance& instance : scene.instances) {
-        const Material& material = scene.materials[instance.material];
-        isAnyUnlit = isAnyUnlit || material.unlit;
-        if (material.unlit || material.emission != glm::vec3(0))
-            (material.unlit ? unlit : glowing) += areas.of(instance);
+        const Material& material = materialOf(instance);
+        if (material.unlit)
+            unlit += areas.of(instance);
+        else if (material.emission != glm::vec3(0))
+            glowing += areas.of(instance) * glow.of(material);
     }
-    return isAnyUnlit && unlit >= glowing ? unlitLuminance : 1;
+    return unlit >= glowing ? unlitLuminance : 1;
 }
 
 float studioEv100(float white)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.h"
 
+#include <array>
 #include <cmath>
 
 #include "scene/mesh_bounds.h"
@@ -29,6 +30,20 @@ Bounds transformBounds(const Bounds& bounds, const glm::dmat4& worldFromObject)
     for (int column = 0; column < 3; ++column)
         reach += glm::abs(glm::dvec3(worldFromObject[column])) * half[column];
     return {middle - reach, middle + reach};
+}
+
+glm::vec3 meanOfSrgb(const Texture& texture)
+{
+    std::array<double, 256> linear; // IEC 61966-2-1
+    for (size_t i = 0; i < linear.size(); ++i) {
+        const double x = static_cast<double>(i) / 255;
+        linear[i] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    }
+    glm::dvec3 sum{0};
+    for (size_t i = 0; i < texture.rgba.size(); i += 4)
+        for (size_t c = 0; c < 3; ++c)
+            sum[static_cast<int>(c)] += linear[texture.rgba[i + c]];
+    return glm::vec3(sum / (static_cast<double>(texture.rgba.size()) / 4));
 }
 
 uint32_t materialClasses(const Scene& scene, const std::vector<Material>& materials)

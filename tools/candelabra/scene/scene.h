@@ -38,6 +38,10 @@ struct Texture {
     bool repeatU = true, repeatV = true, mirrorU = false, mirrorV = false, nearest = false;
 };
 
+// Returns the mean of the colours of a texture in linear values. Its bytes are those of sRGB,
+// whatever Texture::srgb says.
+glm::vec3 meanOfSrgb(const Texture& texture);
+
 struct TextureRef {
     // Index into Scene::textures. -1 is no texture, which reads as 1, as a normal map as +z.
     int32_t texture = -1;
