@@ -134,7 +134,9 @@ Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
     surfaces_ = make("surface tiles", tileWorkBytes(), workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     splits_ = make("split tiles", workBytes(2, splitCapacity_),
                    workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    entries_ = make("list entries", std::max(sizes.listBudget, 2 * pageBytes), storageUse);
+    entries_ = make("list entries", std::max(sizes.listBudget, 2 * pageBytes),
+                    storageUse | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    gpu::createTexelView(device, entries_, VK_FORMAT_R32_UINT, sizeof(uint32_t));
 }
 
 // The buffer of clusters holds one per tile of the largest frame, then the slices of split tiles,

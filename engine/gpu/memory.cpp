@@ -200,14 +200,13 @@ Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize 
     return result;
 }
 
-void createTexelView(const Device& device, Buffer& buffer)
+void createTexelView(const Device& device, Buffer& buffer, VkFormat format, VkDeviceSize texelBytes)
 {
-    constexpr VkDeviceSize texelBytes = 16;
     const VkDeviceSize texels =
         std::min<VkDeviceSize>(buffer.size / texelBytes, device.limits.maxTexelBufferElements);
     const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                       .buffer = buffer.get(),
-                                      .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                      .format = format,
                                       .range = texels * texelBytes};
     VkBufferView view{};
     check(device.CreateBufferView(device.handle, &info, device.allocationCallbacks, &view),

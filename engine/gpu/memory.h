@@ -57,7 +57,7 @@ struct Buffer {
     // The members are destroyed in reverse order, so that the memory is freed last.
     Memory memory;
     Handle<VkBuffer> buffer;
-    Handle<VkBufferView> texels; // optional view, R32G32B32A32_SFLOAT
+    Handle<VkBufferView> texels; // optional view
     VkDeviceSize size = 0;
     std::byte* mapped = nullptr; // null if only the GPU accesses the buffer
 
@@ -73,9 +73,10 @@ struct Buffer {
 Buffer createBuffer(const Device& device, const std::string& name, VkDeviceSize size,
                     VkBufferUsageFlags usage, MemoryUse use);
 
-// Adds a texel view of the buffer's first bytes, as many as maxTexelBufferElements allows. The
-// buffer needs usage UNIFORM_TEXEL_BUFFER.
-void createTexelView(const Device& device, Buffer& buffer);
+// Adds a texel view of the buffer's first bytes, as many as maxTexelBufferElements allows.
+// `texelBytes` is the size of a texel of the format. The buffer needs usage UNIFORM_TEXEL_BUFFER.
+void createTexelView(const Device& device, Buffer& buffer,
+                     VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT, VkDeviceSize texelBytes = 16);
 
 struct Image {
     Memory memory;

@@ -79,10 +79,10 @@ Lighting::Lighting(const CndDeviceDesc& device, const CndLightingDesc& desc)
                     "than %u sphere lights, or of fewer lights of other types, are shaded in "
                     "parts, slower",
                     device_.maxLoopIterations, batch);
-    if (device_.lanesAreCpuVector && !texelBuffersHoldAllLights(device_.limits))
+    if (device_.lanesAreCpuVector && !texelBuffersSuffice(device_.limits))
         device_.say(CND_MESSAGE_INFO,
-                    "cndCreateLighting: maxTexelBufferElements is %u: lights are read from storage "
-                    "buffers, which is slower on this device",
+                    "cndCreateLighting: maxTexelBufferElements is %u: lights and lists are read "
+                    "from storage buffers, which is slower on this device",
                     device_.limits.maxTexelBufferElements);
 }
 

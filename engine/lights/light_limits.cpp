@@ -20,14 +20,15 @@ uint32_t maxLights(const VkPhysicalDeviceLimits& limits)
     return uint32_t(std::min({countable, stored, dispatched}));
 }
 
-bool texelBuffersHoldAllLights(const VkPhysicalDeviceLimits& limits)
+bool texelBuffersSuffice(const VkPhysicalDeviceLimits& limits)
 {
-    return limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >= maxLights(limits);
+    return limits.maxTexelBufferElements / gpu::LIGHT_CORE_STRIDE >= maxLights(limits) &&
+           limits.maxTexelBufferElements >= limits.maxStorageBufferRange / sizeof(uint32_t);
 }
 
 uint32_t lightsAsTexels(const gpu::Device& device)
 {
-    return device.lanesAreCpuVector && texelBuffersHoldAllLights(device.limits);
+    return device.lanesAreCpuVector && texelBuffersSuffice(device.limits);
 }
 
 } // namespace candelabra::lighting

@@ -10,12 +10,13 @@ namespace candelabra::lighting
 // Returns the number of lights in the largest set that a device with these limits can take.
 uint32_t maxLights(const VkPhysicalDeviceLimits& limits);
 
-// Tells whether a texel buffer of a device with these limits can hold maxLights() lights.
-bool texelBuffersHoldAllLights(const VkPhysicalDeviceLimits& limits);
+// Tells whether texel buffers of a device with these limits can hold maxLights() lights, and the
+// largest buffer of list entries.
+bool texelBuffersSuffice(const VkPhysicalDeviceLimits& limits);
 
-// Returns the value of SPEC_LIGHTS_AS_TEXELS. It is 0 on GPUs: their kernels read lights from a
-// storage buffer. It is 1 on a device whose lanes are a CPU vector, where texel reads are cheaper,
-// if its texel buffers can hold all lights: then kernels read lights from a texel buffer.
+// Returns the value of SPEC_LIGHTS_AS_TEXELS. It is 0 on GPUs: their kernels read lights and the
+// entries of lists from storage buffers. It is 1 on a device whose lanes are a CPU vector, where
+// texel reads are cheaper, if its texel buffers suffice: then kernels read both from texel buffers.
 uint32_t lightsAsTexels(const gpu::Device& device);
 
 } // namespace candelabra::lighting

@@ -89,12 +89,13 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const Binding tiles = Binding::of(SHADE_TILES, clusters_.tiles());
     const Binding heads = Binding::of(SHADE_LISTS, lists.heads);
     const Binding entries = Binding::of(SHADE_ENTRIES, clusters_.entries());
+    const Binding entryTexels = Binding::ofTexels(SHADE_ENTRY_TEXELS, clusters_.entries());
     const Binding surfaces = Binding::of(SHADE_WORK, clusters_.surfaces());
     const Binding toShade = Binding::of(SHADE_WORK, clusters_.tilesToShade(type));
     const Binding unlisted = Binding::of(SHADE_WORK, lists.unlisted);
     sets_.shadeTiles.write(set,
                            {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, tiles,
-                            heads, entries, toShade},
+                            heads, entries, entryTexels, toShade},
                            gbuffer);
     sets_.shadeUnlisted.write(set,
                               {core, coreWords, shapes, ids, depth, uniforms, radiance, dfg, tiles,
@@ -105,7 +106,7 @@ void View::writeShadeBindings(const CndLightingFrame& frame, const surfaces::GBu
     const VkImageView pairs = frame.pairImage ? frame.pairImage : frame.radiance;
     sets_.countPairs.write(set,
                            {core, coreWords, shapes, ids, depth, uniforms, dfg, tiles, heads,
-                            entries, surfaces, Binding::of(SHADE_COUNTERS, counters_),
+                            entries, entryTexels, surfaces, Binding::of(SHADE_COUNTERS, counters_),
                             Binding::storage(SHADE_PAIRS, pairs)},
                            gbuffer);
 }

@@ -141,8 +141,9 @@ const uint SHADE_WORK = 12u;     // a WorkList per class: the tiles to shade
 const uint SHADE_COUNTERS = 13u; // count_pairs
 const uint SHADE_NODES = 14u;    // shade_unlisted
 const uint SHADE_NODE_WORDS = 15u;
-const uint SHADE_GBUFFER = 16u; // six bindings (shared/host_gbuffer.h)
-const uint PIXEL_OF_TILE = 1u;  // the values of CndPixelClass
+const uint SHADE_GBUFFER = 16u;      // six bindings (shared/host_gbuffer.h)
+const uint SHADE_ENTRY_TEXELS = 22u; // the same buffer as SHADE_ENTRIES
+const uint PIXEL_OF_TILE = 1u;       // the values of CndPixelClass
 const uint PIXEL_OF_SLICE = 2u;
 const uint PIXEL_UNLISTED = 3u;
 
@@ -182,7 +183,8 @@ struct CountPairsParams {
 GPU_SIZE(CountPairsParams, 12)
 
 // Specialisation constants of the kernels above.
-const uint SPEC_LIGHTS_AS_TEXELS = 0u; // 1: read core as a texel buffer; 0: as a storage buffer
+const uint SPEC_LIGHTS_AS_TEXELS = 0u; // 1: read core and list entries as texel buffers;
+                                       // 0: as storage buffers
 const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
 const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
 const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer.h)

@@ -9,10 +9,17 @@ layout(scalar, binding = SHADE_ENTRIES) readonly buffer Entries
 {
     uint entries[];
 };
+layout(binding = SHADE_ENTRY_TEXELS) uniform utextureBuffer entryTexels;
+
+uint entryAt(uint i)
+{
+    return lightsAsTexels != 0u ? texelFetch(entryTexels, int(i)).x : entries[i];
+}
+
 // Returns the light with index k. Blocks are ranges of such indices.
 uint lightAt(uint k)
 {
-    return IS_DISTANT ? k : entries[k];
+    return IS_DISTANT ? k : entryAt(k);
 }
 
 struct Block {
@@ -22,7 +29,7 @@ struct Block {
 
 Block pageBlock(uint page)
 {
-    const uint header = entries[page * PAGE_WORDS];
+    const uint header = entryAt(page * PAGE_WORDS);
     return Block(page * PAGE_WORDS + 1u, header & ((1u << PAGE_COUNT_BITS) - 1u),
                  header >> PAGE_COUNT_BITS);
 }
