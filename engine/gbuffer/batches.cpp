@@ -211,9 +211,10 @@ void setRow(gpu::MaterialRecord& record, uint32_t texture, const TextureRef& ref
 } // namespace
 
 Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
-                     uint32_t maxDraws, bool testTriangles)
+                     uint32_t maxDraws, uint32_t corners)
 {
     Batches b;
+    b.pieces = TrianglePieces(corners);
     const std::vector<uint32_t> setOfMaterial = collectTextureSets(desc, b.textureSets);
     const std::vector<Keyed> sorted = sortInstances(desc, meshes, setOfMaterial);
     BatchKey last{};
@@ -232,7 +233,7 @@ Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& me
             b.instances.push_back(instanceRecord(worldFromObject, instance.material));
             b.bounds.push_back(instanceBounds(worldFromObject, mesh));
         }
-        addCommands(b, key, count, mesh, testTriangles ? addPieces(b, key, count, mesh) : 0,
+        addCommands(b, key, count, mesh, addPieces(b, key, count, mesh),
                     !b.runs.empty() && key.state() == last.state(), maxDraws);
         last = key;
     }

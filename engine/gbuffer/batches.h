@@ -48,11 +48,11 @@ struct Batches {
 };
 
 // Sorts instances into batches. Batches are sorted by state, then by mesh; within a batch instances
-// keep their order. A run has at most `maxDraws` commands. `testTriangles`: plan cull_triangles.
-// Throws gpu::Failure naming an instance, or a material, that refers to something that does not
-// exist.
+// keep their order. A run has at most `maxDraws` commands. `corners`: room for the corners of
+// meshes that cull_triangles tests; with 0 it tests none. Throws gpu::Failure naming an instance,
+// or a material, that refers to something that does not exist.
 Batches buildBatches(const GeometryDesc& desc, const std::vector<PackedMesh>& meshes,
-                     uint32_t maxDraws, bool testTriangles);
+                     uint32_t maxDraws, uint32_t corners);
 
 // Returns for each mesh whether an instance of it has textures or a coverage.
 std::vector<bool> texturedMeshes(const GeometryDesc& desc);

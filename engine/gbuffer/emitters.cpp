@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "candelabra_gbuffer_shaders.h"
+#include "gbuffer/triangle_pieces.h"
 
 namespace candelabra::gbuffer
 {
@@ -75,9 +76,8 @@ gpu::EmitterCorners cornersOf(const CndLight& light, size_t index)
 
 } // namespace
 
-// Only llvmpipe sets up triangles in one thread of the CPU, so only there culling pays.
 Emitters::Emitters(const gpu::Device& device, uint32_t slots)
-    : device_(&device), culls_(device.lanesAreCpuVector), slots_(slots)
+    : device_(&device), culls_(cullsTriangles(device)), slots_(slots)
 {
     if (!culls_)
         return;
@@ -92,14 +92,15 @@ Emitters::Buffers Emitters::createBuffers(VkDeviceSize bytes) const
     Buffers buffers;
     buffers.records =
         gpu::createBuffer(*device_, "emitters", bytes, vertices, gpu::MemoryUse::Upload);
-    if (culls_) {
+    if (culls(bytes)) {
         const VkDeviceSize pieces =
             bytes / (sizeof(gpu::EmitterRecord) * gpu::PIECE_EMITTERS) + shapeCount;
         buffers.kept =
             gpu::createBuffer(*device_, "kept emitters", bytes, vertices, gpu::MemoryUse::Device);
         buffers.draws = gpu::createBuffer(
             *device_, "emitter draws", pieces * sizeof(gpu::EmitterDraw),
-            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                VK_BUFFER_USAGE_TRANSFER_SRC_BIT, // lets tests copy it
             gpu::MemoryUse::Device);
     }
     return buffers;
@@ -150,7 +151,7 @@ void Emitters::update(uint32_t slotIndex, const gpu::Buffer& rasterFrame) noexce
     if (slot.larger.records.mapped) {
         slot.buffers = std::move(slot.larger);
         slot.larger = {};
-        if (culls_)
+        if (slot.buffers.kept.size)
             cullSets_.write(slotIndex,
                             {gpu::Binding::of(gpu::RAY_FRAME, rasterFrame),
                              gpu::Binding::of(gpu::CULL_EMITTERS_RECORDS, slot.buffers.records),
@@ -184,7 +185,9 @@ void Emitters::recordCulling(const gpu::Frame& frame) const noexcept
                  .pieceCount = group.pieceCount,
                  .snap = float(std::exp2(-double(device_->limits.subPixelPrecisionBits)))},
                 gpu::divideUp(group.pieceCount, gpu::CULL_EMITTERS_GROUP));
-            frame.barrier(); // all shapes write to the same buffers
+            // All shapes write to the same buffers. They write to different places, but
+            // synchronisation validation cannot know.
+            frame.barrier();
         }
     }
     frame.timer.stamp(frame.cmd, "cull_emitters");

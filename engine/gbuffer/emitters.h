@@ -29,7 +29,7 @@ public:
     // The GPU must have finished the slot's previous frame.
     void update(uint32_t slot, const gpu::Buffer& rasterFrame) noexcept;
     // Whether recordCulling() has anything to do.
-    bool canCull() const { return culls_ && !empty(); }
+    bool canCull() const { return !empty() && culls(bytes()); }
     // Records cull_emitters. Needed before drawing culled emitters.
     void recordCulling(const gpu::Frame& frame) const noexcept;
 
@@ -86,6 +86,16 @@ private:
         uint64_t version = 0;
     };
     Buffers createBuffers(VkDeviceSize bytes) const;
+    // Whether cull_emitters is run for so many bytes of emitters. If a storage buffer cannot hold
+    // them, all are drawn.
+    bool culls(VkDeviceSize bytes) const
+    {
+        return culls_ && bytes <= device_->limits.maxStorageBufferRange;
+    }
+    VkDeviceSize bytes() const
+    {
+        return cornersOffset() + corners_.size() * sizeof(gpu::EmitterCorners);
+    }
     static VkDeviceSize cornersOffsetOf(size_t records)
     {
         return (records * sizeof(gpu::EmitterRecord) + 15) / 16 * 16; // aligned to a vec4

@@ -138,6 +138,10 @@ struct GBuffer::Impl {
 
     Impl(const gpu::Device& d, const GBufferDesc& g);
 
+    bool cullsEmitters(const FrameInputs& in) const
+    {
+        return in.drawEmitters && in.cullTriangles && emitters.canCull();
+    }
     void recordCulling(const gpu::Frame& frame, const GeometryImpl& geometry,
                        const CameraTerms& camera, const FrameInputs& in) const noexcept;
     void setState(VkCommandBuffer cmd, const FrameInputs& in) const noexcept;
@@ -169,7 +173,7 @@ GBuffer::Impl::Impl(const gpu::Device& d, const GBufferDesc& g)
               g.framesInFlight),
       emitters(d, g.framesInFlight)
 {
-    if (d.lanesAreCpuVector) // other devices have no Geometry that needs it
+    if (cullsTriangles(d))
         cullTriangles = {d, spirv::cull_triangles_comp};
     for (uint32_t slot = 0; slot < g.framesInFlight; ++slot) {
         rasterFrames.push_back(gpu::createBuffer(d, "raster frame", sizeof(gpu::RasterFrame),
@@ -199,7 +203,7 @@ void GBuffer::Impl::recordCulling(const gpu::Frame& frame, const GeometryImpl& g
     compactInstances.dispatch(
         frame, geometry.compactSet.set(0), {chunks},
         gpu::divideUp(chunks * gpu::MESH_LEVELS, gpu::COMPACT_INSTANCES_GROUP));
-    if (in.drawEmitters && in.cullTriangles && emitters.canCull()) {
+    if (cullsEmitters(in)) {
         frame.barrier(); // so that the time of the kernels before is not told as part of this one's
         emitters.recordCulling(frame);
     }
@@ -411,6 +415,15 @@ bool GBuffer::cullsEmitters() const
     return impl_->emitters.canCull();
 }
 
+std::vector<DrawRange> GBuffer::emitterDraws(uint32_t slot) const
+{
+    std::vector<DrawRange> draws;
+    for (const Emitters::Group& group : impl_->emitters.groups())
+        if (group.pieceCount)
+            draws.push_back({impl_->emitters.draws(slot), group.firstPiece, group.pieceCount});
+    return draws;
+}
+
 void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameInputs& in) noexcept
 {
     Impl& s = *impl_;
@@ -442,7 +455,7 @@ void GBuffer::record(VkCommandBuffer cmd, const Geometry& geometry, const FrameI
     if (in.drawAnalytic && !g.analyticObjects.empty())
         s.drawAnalytic(cmd, g, camera, in);
     if (in.drawEmitters && !s.emitters.empty())
-        s.drawEmitters(cmd, in.slot, in.cullTriangles && s.emitters.canCull());
+        s.drawEmitters(cmd, in.slot, s.cullsEmitters(in));
     s.device.CmdEndRendering(cmd);
     handToCompute(s.device, cmd, in.attachments);
     s.device.endLabel(cmd);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "candelabra/candelabra.h"
 #include "gbuffer/geometry.h"
@@ -71,6 +72,8 @@ public:
 
     // Whether frames leave out the emitters of the present set that cover no sample.
     bool cullsEmitters() const;
+    // If so, the draws of the last frame of `slot`, a VkDrawIndirectCommand each.
+    std::vector<DrawRange> emitterDraws(uint32_t slot) const;
 
     // Records one frame, outside a render pass. On entry the attachments may be in any state: their
     // contents are discarded, and all earlier work is waited for. On exit normalRoughness, albedo,

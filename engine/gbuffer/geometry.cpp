@@ -177,7 +177,7 @@ void createTriangleTest(Geometry::Impl& g, Uploads& uploads, const TrianglePiece
     };
     t.corners = uploads.buffer("triangle corners", std::as_bytes(corners),
                                VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    createTexels(g, t.corners, "corners of triangles");
+    gpu::createTexelView(d, t.corners);
     t.batches = uploads.buffer("piece batches", bytesOf(pieces.batches()), storage);
     t.batchOfPiece = uploads.buffer("batches of pieces", bytesOf(pieces.batchOfPiece()), storage);
     t.kept = create("kept indices", pieces.keptCount() * sizeof(uint32_t),
@@ -273,9 +273,9 @@ Geometry::Geometry(const gpu::Device& device, const GeometryDesc& desc)
     : impl_(std::make_unique<Impl>(Impl{.device = &device}))
 {
     const PackedMeshes meshes = packMeshes(desc.meshes, texturedMeshes(desc));
-    // Only llvmpipe sets up triangles in one thread of the CPU, so only there the test pays.
-    Batches batches = buildBatches(desc, meshes.meshes, device.limits.maxDrawIndirectCount,
-                                   device.lanesAreCpuVector);
+    Batches batches =
+        buildBatches(desc, meshes.meshes, device.limits.maxDrawIndirectCount,
+                     cullsTriangles(device) ? device.limits.maxTexelBufferElements : 0);
     std::vector<gpu::MaterialRecord> materials;
     for (const Material& material : desc.materials)
         materials.push_back(materialRecord(material));

@@ -119,7 +119,7 @@ struct GeometryCounts {
     uint64_t bytes = 0;     // GPU memory
 };
 
-// Consecutive VkDrawIndexedIndirectCommands in a buffer.
+// Consecutive commands of indirect draws in a buffer.
 struct DrawRange {
     VkBuffer commands;
     uint32_t first, count;
@@ -143,9 +143,9 @@ public:
     void releaseStaging() noexcept;
 
     GeometryCounts counts() const;
-    // The draws of the last recorded frame, in order. `culledTriangles`: its
-    // FrameInputs::cullTriangles. Hosts that want to know what was drawn may copy them after the
-    // frame.
+    // The draws of the last recorded frame, a VkDrawIndexedIndirectCommand each, in order.
+    // `culledTriangles`: its FrameInputs::cullTriangles. Hosts that want to know what was drawn may
+    // copy them after the frame.
     std::vector<DrawRange> draws(bool culledTriangles) const;
     bool testsTriangles() const; // whether there is anything for cull_triangles to do
 

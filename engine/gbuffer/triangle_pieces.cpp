@@ -28,14 +28,14 @@ uint32_t TrianglePieces::add(const PackedMesh& mesh, uint32_t meshIndex, uint32_
     const uint32_t triangles = mesh.levels.front().indexCount / 3;
     const uint64_t pieces = uint64_t(count) * gpu::divideUp(triangles, gpu::PIECE_TRIANGLES);
     const uint64_t kept = uint64_t(count) * triangles * 3;
+    const uint32_t corners = firstCorners_.contains(meshIndex) ? 0 : indexCountOfAllLevels(mesh);
     if (triangles < minTestedTriangles || pieces > maxPieces - batchOfPiece_.size() ||
-        kept > maxKeptIndices - keptCount_)
+        kept > maxKeptIndices - keptCount_ || corners > most_ - cornerCount_ || most_ == 0)
         return 0;
     const auto [corner, isNew] = firstCorners_.try_emplace(meshIndex, cornerCount_);
-    if (isNew) {
+    if (isNew)
         meshes_.push_back(meshIndex);
-        cornerCount_ += indexCountOfAllLevels(mesh);
-    }
+    cornerCount_ += corners;
     batch.firstPiece = uint32_t(batchOfPiece_.size());
     batch.levelCount = uint32_t(mesh.levels.size());
     batch.firstKept = keptCount_;

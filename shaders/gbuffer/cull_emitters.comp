@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gbuffer/emitter_quad.glsl"
 #include "gbuffer/sample_bounds.glsl"
+#include "gbuffer/slack.glsl"
 
 layout(local_size_x = CULL_EMITTERS_GROUP) in;
 layout(push_constant, scalar) uniform Push

@@ -6,7 +6,7 @@
 // the instances stays that of the input.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gbuffer/sample_bounds.glsl"
+#include "gbuffer/slack.glsl"
 #include "shared/raster.h"
 
 layout(local_size_x = CULL_INSTANCES_GROUP) in;

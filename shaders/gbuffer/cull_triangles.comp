@@ -10,6 +10,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gbuffer/camera_relative.glsl"
 #include "gbuffer/sample_bounds.glsl"
+#include "gbuffer/slack.glsl"
 #include "shared/raster.h"
 
 layout(local_size_x = CULL_TRIANGLES_GROUP) in;
@@ -69,7 +70,7 @@ Piece pieceAt(uint index, PieceBatch batch)
     uint left = index - batch.firstPiece;
     uint kept = batch.firstKept;
     Piece piece = Piece(0u, 0u, 0u, 0u, 0u);
-    // All levels are tried, because llvmpipe runs loops that end early at a fifth of the speed.
+    // All levels are tried, so that lanes of pieces of different levels stay together.
     for (uint level = 0u; level < batch.levelCount; ++level) {
         const DrawCommand command = commands[batch.firstCommand + level];
         const uint triangles = command.indexCount / 3u;

@@ -12,7 +12,9 @@ layout(location = EMITTER_POSITION) in vec4 positionAndRadius;
 layout(location = EMITTER_LUMINANCE) in vec3 luminance;
 layout(location = EMITTER_AXIS_U) in vec3 axisU;
 layout(location = EMITTER_AXIS_V) in vec4 axisVAndTwoSided;
+#ifndef BALL
 layout(location = EMITTER_CORNERS) in vec4 corners[EMITTER_CORNER_PAIRS];
+#endif
 
 // view-space centre, radius; distant sphere: direction, sine of its angular radius
 layout(location = 0) flat out vec4 outCenter;

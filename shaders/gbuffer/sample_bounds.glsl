@@ -3,10 +3,6 @@
 #ifndef CND_GBUFFER_SAMPLE_BOUNDS
 #define CND_GBUFFER_SAMPLE_BOUNDS
 
-// Largest error of a sum of rounded products, relative to the magnitudes in it: 8 roundings of 2^-24,
-// times a safety factor of 20.
-const float SLACK = 1e-5;
-
 // The pixels from `first` to `last`, in both directions; none if one of these is above the other.
 struct SampleBounds {
     vec2 first;

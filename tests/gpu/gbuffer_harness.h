@@ -75,6 +75,25 @@ protected:
     // Renders `options` in slot `slot` of an existing pass.
     RasterImage renderWith(gbuffer::GBuffer& pass, const gbuffer::Geometry& geometry,
                            const RasterOptions& options, uint32_t slot = 0);
+    // Calls visit(command) for each command of the ranges, which must be of type Command.
+    template <typename Command, typename Visit>
+    void forEachDraw(const std::vector<gbuffer::DrawRange>& ranges, const Visit& visit)
+    {
+        for (const gbuffer::DrawRange& range : ranges) {
+            const VkDeviceSize size = range.count * sizeof(Command);
+            if (!size)
+                continue;
+            const gpu::Buffer copy = readback("draw commands", size);
+            context().submitAndWait([&](VkCommandBuffer cmd) {
+                fullBarrier(cmd);
+                const VkBufferCopy region{range.first * sizeof(Command), 0, size};
+                vkCmdCopyBuffer(cmd, range.commands, copy.get(), 1, &region);
+                fullBarrier(cmd);
+            });
+            for (const Command& command : copy.as<Command>().first(range.count))
+                visit(command);
+        }
+    }
 };
 
 // 160x120 pixels, 1 radian high, near plane 0.1 m, reversed and infinite depth; at the origin,

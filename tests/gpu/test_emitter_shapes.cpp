@@ -11,6 +11,7 @@
 #include "reference/visible_lights.h"
 #include "scene/polygons.h"
 #include "shared/gbuffer.h"
+#include "shared/raster.h"
 
 namespace candelabra::test
 {
@@ -310,10 +311,19 @@ TEST_F(GBufferEmitterShapes, WhatCoversNoSampleMakesNoDifference)
                options.emitterOrigin + random.box(10));
         options.cullTriangles = true;
         const RasterImage culled = renderWith(pass, geometry, options, view % 2);
+        uint64_t left = 0;
+        if (pass.cullsEmitters())
+            forEachDraw<gpu::EmitterDraw>(
+                pass.emitterDraws(view % 2),
+                [&](const gpu::EmitterDraw& draw) { left += draw.instanceCount; });
         options.cullTriangles = false;
         const RasterImage all = renderWith(pass, geometry, options, view % 2);
         EXPECT_GT(all.coveredCount(), 100u);
         expectSameImage(culled, all);
+        ASSERT_EQ(pass.cullsEmitters(), device().lanesAreCpuVector);
+        if (pass.cullsEmitters()) {
+            EXPECT_LT(left, options.emitters.size() / 3);
+        }
     }
 }
 

@@ -157,7 +157,7 @@ TEST_F(GBufferLevels, ErrorsAreWithinAQuarterOfAPixel)
     const gbuffer::PackedMeshes packed =
         gbuffer::packMeshes(scene.meshes, gbuffer::texturedMeshes(scene.desc()));
     const gbuffer::Batches batches =
-        gbuffer::buildBatches(scene.desc(), packed.meshes, UINT32_MAX, false);
+        gbuffer::buildBatches(scene.desc(), packed.meshes, UINT32_MAX, 0);
     uint32_t coarse = 0, fine = 0;
     for (int i = 0; i < 9; ++i) {
         SCOPED_TRACE(i);

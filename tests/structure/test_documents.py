@@ -133,7 +133,7 @@ for document in (DECISIONS, DESIGN, RESULTS):
 # in the last column, with what these may include in turn, are those that test_includes.py allows. Public headers
 # and headers that the build generates are not compared.
 design = DESIGN.read_text(encoding="utf-8")
-for kernel in sorted((root / "shaders/kernels").glob("*.comp")):
+for kernel in sorted((root / "shaders").glob("kernels/*.comp")) + sorted((root / "shaders").glob("gbuffer/*.comp")):
     if not re.search(rf"\b{kernel.stem}\b", design):
         fail(DESIGN, f"does not name the kernel {kernel.stem}")
 

@@ -260,8 +260,8 @@ TEST_F(Framing, TheFirstCameraOfTheFileThatShowsTheSceneIsTheDefault)
 }
 
 // A small file may have very many triangles, because instances share meshes. The first mesh of this
-// scene has 2^14 triangles, of which all but one are points, and 2^10 instances: as many triangles
-// as are drawn. The second mesh, beside it, has one triangle or none.
+// scene has 2^14 triangles, of which all but one are points, and 2^4 instances: as many triangles
+// as are drawn here. The second mesh, beside it, has one triangle or none.
 TEST_F(Framing, MeshesWithVeryManyTrianglesAreSeenAsBoxesFromOutside)
 {
     Scene scene;
@@ -274,23 +274,28 @@ TEST_F(Framing, MeshesWithVeryManyTrianglesAreSeenAsBoxesFromOutside)
     large.indices.resize(3 << 14);
     triangle.indices.clear();
     scene.meshes = {large, triangle};
-    scene.instances.resize(1 << 10);
-    static_assert(mostTrianglesOutside == uint64_t{1} << 24);
+    scene.instances.resize(1 << 4);
     Instance beside{.mesh = 1};
     beside.worldFromObject[3].x = 2;
     scene.instances.push_back(beside);
     // The scene is 3 m wide and 1 m high, and the picture as wide and high as its diagonal.
     const double square = 1.0 / 10, tolerance = 0.01;
-    const auto seen = [&](double z) { return seenFromOutside(scene, {{0, 0, z}}).at(0); };
-    EXPECT_NEAR(seen(-1).fronts, 0.5 * square, tolerance);
+    const auto seen = [&](double z, uint64_t most) {
+        return seenFromOutside(scene, {{0, 0, z}}, most).at(0);
+    };
+    constexpr uint64_t most = 1 << 18;
+    EXPECT_NEAR(seen(-1, most).fronts, 0.5 * square, tolerance);
     scene.meshes[1].indices = {0, 1, 2};
-    const OutsideView front = seen(-1);
+    const OutsideView front = seen(-1, most);
     EXPECT_NEAR(front.fronts, 1.5 * square, tolerance); // a box, and half of a square
     EXPECT_NEAR(front.drawn, 1.5 * square, tolerance);
     EXPECT_EQ(front.backs, 0);
-    const OutsideView back = seen(1);
+    const OutsideView back = seen(1, most);
     EXPECT_NEAR(back.fronts, square, tolerance); // a box has no back
     EXPECT_NEAR(back.backs, 0.5 * square, tolerance);
+    // A file that is large itself is seen as it is, because its backs tell rooms from objects.
+    scene.instances.erase(scene.instances.begin() + 1, scene.instances.end() - 1);
+    EXPECT_NEAR(seen(1, 1).backs, square, tolerance);
 }
 
 // A file may have thousands of cameras and millions of vertices.

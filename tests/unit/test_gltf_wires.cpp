@@ -22,8 +22,8 @@ constexpr const char* onePixel =
 
 constexpr const char* tooManyPoints =
     "meshes[0].primitives[0]: brings the scene above 33554432 vertices; points are drawn as boxes, "
-    "again in each instance, and a scene has room for at most 4194304 boxes: keep fewer points in "
-    "the file, such as every second one";
+    "of which a scene has room for at most 4194304, and each instance has boxes of its own: keep "
+    "fewer points in the file, such as every second one";
 
 class GltfWireTest : public GltfTest
 {
@@ -311,8 +311,8 @@ TEST_F(GltfWireTest, TooManyPointsAndLinesAreRefusedWhenTheyAreRead)
     EXPECT_EQ(
         reading(3, {.vertices = 3}),
         "meshes[0].primitives[0]: brings the scene above 33554432 vertices; lines are drawn as "
-        "boxes, again in each instance, and a scene has room for at most 4194304 boxes: keep "
-        "fewer lines in the file, such as every second one");
+        "boxes, of which a scene has room for at most 4194304, and each instance has boxes of its "
+        "own: keep fewer lines in the file, such as every second one");
     // A point is read as one index, and then becomes two ends.
     EXPECT_EQ(reading(0, {.indices = 12}), "no error");
     for (const uint64_t indices : {3, 11}) {

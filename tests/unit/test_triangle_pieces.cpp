@@ -2,6 +2,7 @@
 // Tests the plan of cull_triangles: which batches are tested, and where their pieces are.
 #include <gtest/gtest.h>
 
+#include "gbuffer/batches.h"
 #include "gbuffer/triangle_pieces.h"
 
 namespace candelabra::test
@@ -74,6 +75,48 @@ TEST(TrianglePieces, LeaveBatchesAloneForWhichThereIsNoRoom)
     EXPECT_EQ(pieces.add(small, 0, 1, {}), 0u); // less than a triangle has room now
     EXPECT_EQ(pieces.batches().size(), 1u);
     EXPECT_LE(pieces.keptCount(), gbuffer::maxKeptIndices);
+
+    TrianglePieces fewCorners(3 * (gbuffer::minTestedTriangles + 5)), none(0);
+    EXPECT_EQ(fewCorners.add(small, 0, 7, {}), 7u);
+    EXPECT_EQ(fewCorners.add(small, 1, 7, {}), 0u); // another mesh has corners of its own
+    EXPECT_EQ(fewCorners.add(small, 0, 7, {}), 7u);
+    EXPECT_EQ(none.add(small, 0, 7, {}), 0u);
+}
+
+// However few draws a run may have, the runs that are tested have all pieces, in order.
+TEST(TrianglePieces, AreDividedAmongTheRuns)
+{
+    const std::vector<PackedMesh> meshes{meshOf(0, {100, 50, 25}), meshOf(525, {10}),
+                                         meshOf(555, {40, 20})};
+    const std::vector<gbuffer::Material> materials(1);
+    std::vector<gbuffer::Instance> instances;
+    for (uint32_t i = 0; i < 9; ++i) {
+        gbuffer::Instance instance{.mesh = i % 3, .worldFromObject = {}};
+        for (int k = 0; k < 4; ++k)
+            instance.worldFromObject[5 * k] = 1;
+        instances.push_back(instance);
+    }
+    const gbuffer::GeometryDesc desc{.materials = materials, .instances = instances};
+    for (const uint32_t maxDraws : {1u, 2u, 3u, 100u}) {
+        SCOPED_TRACE(maxDraws);
+        const gbuffer::Batches b =
+            gbuffer::buildBatches(desc, meshes, maxDraws, gbuffer::maxCorners);
+        uint32_t pieces = 0, commands = 0;
+        for (const gbuffer::Run& run : b.runs) {
+            EXPECT_LE(run.commandCount, maxDraws);
+            EXPECT_EQ(run.firstCommand, commands);
+            commands += run.commandCount;
+            for (uint32_t c = run.firstCommand; c < commands; ++c)
+                EXPECT_EQ(run.tested, b.commands[c].firstIndex != 525); // the small mesh
+            if (run.pieceCount) {
+                EXPECT_EQ(run.firstPiece, pieces);
+            }
+            pieces += run.pieceCount;
+        }
+        EXPECT_EQ(commands, 6u);
+        EXPECT_EQ(pieces, 6u); // one for each instance that is tested
+        EXPECT_EQ(b.pieces.batchOfPiece().size(), 6u);
+    }
 }
 
 TEST(TrianglePieces, KnowTheCornersOfTheirMeshes)

@@ -102,8 +102,8 @@ struct FrameArguments {
     Reuse reuseMode() const;
     HeatMap heatMapMode() const; // throws if culling is not clustered
     std::optional<bool> lightsVisibleOverride() const;
-    bool levels() const;
-    bool trianglesCulled() const; // FrameOptions::levels
+    bool levels() const;          // FrameOptions::levels
+    bool trianglesCulled() const; // FrameOptions::cullTriangles
     CndExposureSettings exposureSettings() const;
 };
 

@@ -542,9 +542,11 @@ std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh,
 std::string gltfWireHint(bool isPoints)
 {
     const char* what = isPoints ? "points" : "lines";
-    return fmt::format("; {} are drawn as boxes, again in each instance, and a scene has room for "
-                       "at most {} boxes: keep fewer {} in the file, such as every second one",
-                       what, maxSceneVertices / gltfBoxCorners, what);
+    return fmt::format(
+        "; {} are drawn as boxes, of which a scene has room for at most {}, and each "
+        "instance has boxes of its own: keep fewer {} in the file, such as every "
+        "second one",
+        what, maxSceneVertices / gltfBoxCorners, what);
 }
 
 bool isGltfWire(const tinygltf::Primitive& primitive)

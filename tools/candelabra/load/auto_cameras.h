@@ -8,8 +8,8 @@
 namespace candelabra::app
 {
 
-// How many times a vertex is looked for in the picture of a camera of the file, at most, all
-// vertices and cameras together. One camera is always tried.
+// The number of cameras of a file that are tried, times the number of its vertices, is at most
+// this. One camera is always tried.
 constexpr size_t mostPointsTried = size_t{1} << 25;
 
 // Appends cameras that show all instances in pictures of the given width / height.

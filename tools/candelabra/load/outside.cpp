@@ -36,8 +36,8 @@ public:
     {
     }
 
-    // Draws a triangle. Backs of a closed surface are never the nearest, unless the surface is flat
-    // and its fronts are as near, and are left out.
+    // Draws a triangle. `closed`: it is part of a closed surface. Its back is not drawn then,
+    // because a front is always nearer, or as near where the surface is flat.
     void draw(const glm::dvec3 (&corners)[3], bool doubleSided, bool closed)
     {
         glm::dvec3 p[3]; // pixels, and depth
@@ -112,9 +112,13 @@ Mesh boxAround(const Mesh& mesh)
 
 // Returns for each mesh the box that is drawn in its place, or nothing if the mesh itself is drawn:
 // the meshes with the fewest triangles in all their instances are drawn, as long as these are not
-// more than mostTrianglesOutside, and so are meshes that are no larger than a box.
-std::vector<std::optional<Mesh>> boxesInPlaceOfMeshes(const Scene& scene)
+// more than seenFromOutside() draws, and so are meshes that are no larger than a box.
+std::vector<std::optional<Mesh>> boxesInPlaceOfMeshes(const Scene& scene, uint64_t most)
 {
+    uint64_t once = 0;
+    for (const Mesh& mesh : scene.meshes)
+        once += mesh.indices.size() / 3;
+    most = std::max(most, once);
     std::vector<uint64_t> triangles(scene.meshes.size()); // in all instances
     for (const Instance& instance : scene.instances)
         triangles[instance.mesh] += scene.meshes[instance.mesh].indices.size() / 3;
@@ -126,7 +130,7 @@ std::vector<std::optional<Mesh>> boxesInPlaceOfMeshes(const Scene& scene)
     uint64_t sum = 0;
     for (const size_t mesh : order) {
         sum += triangles[mesh];
-        if (sum <= mostTrianglesOutside)
+        if (sum <= most)
             continue;
         Mesh box = boxAround(scene.meshes[mesh]);
         if (box.indices.size() < scene.meshes[mesh].indices.size())
@@ -138,13 +142,13 @@ std::vector<std::optional<Mesh>> boxesInPlaceOfMeshes(const Scene& scene)
 } // namespace
 
 std::vector<OutsideView> seenFromOutside(const Scene& scene,
-                                         const std::vector<glm::dvec3>& directions)
+                                         const std::vector<glm::dvec3>& directions, uint64_t most)
 {
     const Bounds bounds = sceneBounds(scene);
     std::vector<Picture> pictures;
     for (const glm::dvec3& direction : directions)
         pictures.emplace_back(direction, bounds);
-    const std::vector<std::optional<Mesh>> boxes = boxesInPlaceOfMeshes(scene);
+    const std::vector<std::optional<Mesh>> boxes = boxesInPlaceOfMeshes(scene, most);
     std::vector<glm::dvec3> positions;
     for (const Instance& instance : scene.instances) {
         const std::optional<Mesh>& box = boxes[instance.mesh];

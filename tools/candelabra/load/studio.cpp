@@ -103,7 +103,9 @@ double Areas::of(const Instance& instance)
         mesh = measured(scene_.meshes[instance.mesh]);
     const glm::dmat3 c = cofactors(glm::dmat3(instance.worldFromObject));
     const glm::dmat3 squares = c * mesh->normals * glm::transpose(c);
-    return std::sqrt(mesh->area * (squares[0][0] + squares[1][1] + squares[2][2]));
+    // Rounding may make the trace of a flat mesh that is seen edge-on negative.
+    const double trace = std::max(0.0, squares[0][0] + squares[1][1] + squares[2][2]);
+    return std::sqrt(mesh->area * trace);
 }
 
 // How much surfaces glow. Every texture is looked at once.

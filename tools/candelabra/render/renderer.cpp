@@ -381,12 +381,14 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
     const glm::vec3 background = environment.get() ? glm::vec3(0) : scene->background;
     culledTriangles = frame.cullTriangles;
     const auto unculledBecause = [&](bool culls, const char* otherwise) {
-        return !culls ? otherwise : frame.cullTriangles ? nullptr : "switched off";
+        const char* device =
+            context.device().lanesAreCpuVector ? otherwise : "the device is not llvmpipe";
+        return !culls ? device : frame.cullTriangles ? nullptr : "it is switched off";
     };
-    unculled[slot] = {.triangles = unculledBecause(geometry.testsTriangles(),
-                                                   "no mesh of 20 triangles, or a GPU"),
-                      .emitters = unculledBecause(frame.lightsVisible && gbuffer.cullsEmitters(),
-                                                  "no visible lights, or a GPU")};
+    unculled[slot] = {
+        .triangles = unculledBecause(geometry.testsTriangles(), "no mesh has enough triangles"),
+        .emitters =
+            unculledBecause(frame.lightsVisible && gbuffer.cullsEmitters(), "no light is visible")};
     gbuffer.record(cmd, geometry,
                    {.slot = slot,
                     .camera = cameraOf(frame),

@@ -65,7 +65,7 @@ struct FrameOptions {
     bool resetExposure = true; // jump to the converged exposure
     bool lightsVisible = true;
     bool levels = true;        // draw distant meshes by coarser levels of detail
-    bool cullTriangles = true; // gbuffer::FrameInputs::cullTriangles
+    bool cullTriangles = true; // and visible lights: gbuffer::FrameInputs::cullTriangles
     bool countPairs = false;
     uint32_t ditherSeed = 0;
     CndSpecularMethod specular = CND_SPECULAR_CONIC;
