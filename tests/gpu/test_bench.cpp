@@ -7,7 +7,6 @@
 #include "harness/full_tests.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
-#include "io/image.h"
 #include "measure/accuracy/image_level.h"
 #include "measure/accuracy/kernel_level.h"
 #include "measure/accuracy/low_roughness.h"
@@ -194,8 +193,6 @@ TEST_F(Bench, TransformedCosinesAreAsGoodAsTheyWere)
 TEST_F(Bench, LowRoughnessBreaksTheNaiveRepresentativePointAlone)
 {
     const auto images = measureLowRoughness(context(), 256);
-    savePng(testing::TempDir() + "low_roughness.png", uint32_t(256 * images.size()), 256,
-            lowRoughnessPicture(images));
     ASSERT_EQ(images.size(), 3u);
     const std::vector<float>& conic = images[2].response;
     for (const LowRoughnessImage& image : images) {

@@ -3,11 +3,14 @@
 // path tracer (Lambertian surfaces and a dielectric) and against the double-precision reference of
 // the same model (every material).
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <numeric>
 #include <span>
+
+#include <unistd.h>
 
 #include "harness/gpu_fixture.h"
 #include "render/camera.h"
@@ -58,9 +61,13 @@ class WholeFrame : public test::GpuTest
 protected:
     Scene load(const std::string& json)
     {
-        const std::string path = ::testing::TempDir() + "whole_frame.json";
+        // Tests of this file run at the same time in processes of their own.
+        const std::string path =
+            ::testing::TempDir() + "candelabra_whole_frame_" + std::to_string(::getpid()) + ".json";
         std::ofstream(path) << json;
-        return loadSceneJson(path);
+        const Scene scene = loadSceneJson(path);
+        std::filesystem::remove(path);
+        return scene;
     }
     Image draw(const Scene& scene, PixelSize size, CndSpecularMethod specular)
     {
