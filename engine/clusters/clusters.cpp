@@ -30,6 +30,11 @@ static_assert(gpu::LIGHT_TREE_GROUP == gpu::TREE_WIDTH * gpu::TREE_WIDTH);
 // counts at which the one and the other were measured to be faster (DECISIONS 25).
 constexpr uint32_t largeBlockLights = 131072;
 
+// Blocks with more lights than this have no list, and the clusters in them find their lights in the
+// tree: their own lights are few of so many. Of the lengths that were measured, this one is slow in
+// no scene (DECISIONS 70).
+constexpr uint32_t longestBlockList = 1024;
+
 uint32_t nodeCount(uint32_t lights)
 {
     uint32_t count = 0;
@@ -326,7 +331,7 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
     const auto level = levels(tileCount);
     gpu::ClusterListsParams params{.tree = tree,
                                    .pageCount = uint32_t(entries_.size / pageBytes) / 2,
-                                   .longest = UINT32_MAX,
+                                   .longest = longestBlockList,
                                    .maxSteps = loops == UINT32_MAX ? loops : loops / 4 * 3,
                                    // In shade_unlisted the walks of four clusters may run one
                                    // after the other, and the lights found are evaluated as well.

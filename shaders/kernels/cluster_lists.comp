@@ -77,20 +77,32 @@ void completeList(uint at, uint tile, ListWriter list, bool tooLong)
         appendTile(tile, list, tooLong);
 }
 
+// Returns the list that a lane makes by itself. Consecutive lists are slices of one block or tile,
+// whose lengths differ much, and the lanes of a vector wait for the longest. So consecutive lanes
+// take the same slice of several blocks or tiles.
+uint listOfLaneAlone(uint group, uint lane)
+{
+    const uint slices = params.which == LISTS_OF_BLOCKS   ? BLOCK_SLICES
+                        : params.which == LISTS_OF_SLICES ? SLICES
+                                                          : 1u;
+    const uint neighbours = LANES / slices;
+    return group * LANES + lane % neighbours * slices + lane / neighbours;
+}
+
 // Each lane makes a list.
-void makeByLane(uint index)
+void makeByLane(uint list)
 {
     uint at;
-    if (!clusterOfList(index, at))
+    if (!clusterOfList(list, at))
         return;
     const Cluster cluster = clusters[at];
     if (cluster.min.x > cluster.max.x)
         return;
     const uint parent = params.hasParents != 0u ? lists[cluster.parent] : LIST_UNLISTED;
-    ListWriter list = beginList();
+    ListWriter writer = beginList();
     const bool tooLong =
-        listOfLane(list, makeClusterBounds(cluster), parent, params.which == LISTS_OF_BLOCKS);
-    completeList(at, cluster.tile, list, tooLong);
+        listOfLane(writer, makeClusterBounds(cluster), parent, params.which == LISTS_OF_BLOCKS);
+    completeList(at, cluster.tile, writer, tooLong);
 }
 
 // The lanes of a group make a list that is not short, and the first group of a set makes the short
@@ -122,5 +134,5 @@ void main()
     if (lanesTogether)
         makeByGroup(group);
     else
-        makeByLane(group * LANES + gl_LocalInvocationIndex);
+        makeByLane(listOfLaneAlone(group, gl_LocalInvocationIndex));
 }

@@ -164,7 +164,7 @@ const uint LISTS_OF_SLICES = 2u; // slices of split tiles, from firstCluster on
 struct ClusterListsParams {
     TreeShape tree;
     uint pageCount;        // pages of the entry buffer
-    uint longest;          // longest list that shading can walk
+    uint longest;          // longest list that shading can walk, or that is of use to a block
     uint maxSteps;         // most steps through the tree or the parent's list
     uint maxUnlistedSteps; // most steps of shade_unlisted through the tree
     uint lightType;

@@ -47,6 +47,7 @@ constexpr Form byLane{false}, byGroup{true};
 
 struct Limits {
     uint32_t pages = 1u << 15, longest = UINT32_MAX, maxUnlistedSteps = UINT32_MAX;
+    uint32_t longestOfBlocks = UINT32_MAX;
 };
 
 // Lights lie along a curve through a cube of 20 m, as the sorted lights of the engine do, so that
@@ -258,7 +259,7 @@ void ClusterListsTest::recordLists(const gpu::Frame& f, const Scene& s, const Li
 {
     gpu::ClusterListsParams p{.tree = s.tree,
                               .pageCount = limits.pages / 2,
-                              .longest = UINT32_MAX,
+                              .longest = limits.longestOfBlocks,
                               .maxSteps = UINT32_MAX,
                               .maxUnlistedSteps = limits.maxUnlistedSteps,
                               .lightType = 2,
@@ -391,6 +392,33 @@ TEST_F(ClusterListsTest, GroupsAndLanesMakeTheSameOfAMillionLights)
     EXPECT_EQ(group.lit, lanes.lit);
     EXPECT_EQ(group.counters.listEntries, lanes.counters.listEntries);
     EXPECT_GT(group.counters.listEntries, 1000u);
+}
+
+// Clusters whose block has more lights than it may list find the same lights in the tree.
+TEST_F(ClusterListsTest, ClustersOfBlocksWithoutListsFindTheSame)
+{
+    const Scene scene = randomScene(33000, 4);
+    const Made listed = make(scene, byLane);
+    const Lights expected = lightsOf(listed);
+    for (const Form form : {byLane, byGroup}) {
+        const Made made = make(scene, form, {.longestOfBlocks = 200});
+        const Lights lights = lightsOf(made);
+        uint32_t withList = 0, without = 0;
+        for (uint32_t i = 0; i < Scene::clusters; ++i) {
+            const bool isBlock = i >= Scene::firstBlock, tooLong = expected[i].size() > 200;
+            if (isBlock && tooLong) {
+                EXPECT_EQ(made.heads[i], gpu::LIST_LONG) << i;
+                ++without;
+                continue;
+            }
+            EXPECT_EQ(lights[i], expected[i]) << i;
+            withList += isBlock && !lights[i].empty();
+        }
+        EXPECT_GT(withList, 5u);
+        EXPECT_GT(without, 5u);
+        EXPECT_EQ(made.lit, listed.lit);
+        EXPECT_EQ(made.counters.listEntries, listed.counters.listEntries);
+    }
 }
 
 // Lists of tiles are made together or alone, depending on how long the lists of their parents are.

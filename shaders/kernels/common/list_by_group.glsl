@@ -55,10 +55,10 @@ void testLights(inout ListWriter list, ClusterBounds bounds, uint light, bool ex
 }
 
 // Finds lights in the list that begins with a page. Returns whether all have been tested.
-bool searchPages(inout ListWriter list, ClusterBounds bounds, uint page, bool endIfFull)
+bool searchPages(inout ListWriter list, ClusterBounds bounds, uint page, bool isBlock)
 {
     uint first = 0u; // of the lights on this page that this turn tests
-    while (page != NO_PAGE && !(list.full && endIfFull)) {
+    while (page != NO_PAGE && !(isBlock && isUseless(list))) {
         const uint header = entries[page * PAGE_WORDS];
         const uint onPage = first + lane;
         const bool exists = onPage < pageCount(header);
@@ -75,10 +75,10 @@ bool searchPages(inout ListWriter list, ClusterBounds bounds, uint page, bool en
 
 // Finds lights in the tree. Returns whether all have been tested. Adds to `steps` the nodes and lights
 // that one lane would have had to test.
-bool searchTree(inout ListWriter list, ClusterBounds bounds, bool endIfFull, inout uint steps)
+bool searchTree(inout ListWriter list, ClusterBounds bounds, bool isBlock, inout uint steps)
 {
     TreeTurn t = firstTurn(params.tree);
-    while (t.parents != 0u && !(list.full && endIfFull)) {
+    while (t.parents != 0u && !(isBlock && isUseless(list))) {
         const bool ofLights = t.level == 1u;
         bool exists;
         const uint child = childOfLane(t, treeLevelSize(params.tree, t.level - 1u), exists);

@@ -47,11 +47,12 @@ void testLight(inout ListWriter list, ClusterBounds bounds, uint light, inout ui
 bool listOfLane(inout ListWriter list, ClusterBounds bounds, uint parent, bool isBlock)
 {
     const bool byParent = parent != LIST_UNLISTED && parent != LIST_LONG;
-    // The list of a block is useless without a page, so the loops end. `expected` counts the lights
-    // that the loops should have tested, because devices may end loops early without an error.
+    // The list of a block is useless without a page or if it is too long, so the loops end.
+    // `expected` counts the lights that the loops should have tested, because devices may end loops
+    // early without an error.
     uint steps = 0u, tested = 0u, expected = 0u;
     uint from = byParent ? parent : NO_PAGE;
-    while (from != NO_PAGE && steps < params.maxSteps && !(list.full && isBlock)) {
+    while (from != NO_PAGE && steps < params.maxSteps && !(isBlock && isUseless(list))) {
         const uint header = entries[from * PAGE_WORDS];
         const uint count = pageCount(header);
         for (uint first = 0u; first < count; first += TREE_WIDTH) {
@@ -79,7 +80,7 @@ bool listOfLane(inout ListWriter list, ClusterBounds bounds, uint parent, bool i
     uint leaves[LEAVES];
     TreeWalk walk = beginTreeWalk(params.tree, TREE_LEVELS);
     walk.done = walk.done || (byParent && !measure);
-    while (!walk.done && steps < params.maxSteps && !(list.full && isBlock)) {
+    while (!walk.done && steps < params.maxSteps && !(isBlock && isUseless(list))) {
         uint found = 0u;
         const uint stepsBefore = steps;
         while (!walk.done && found < LEAVES && steps < params.maxSteps) {

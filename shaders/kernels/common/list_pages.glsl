@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of one cluster while it is written into pages of the entry buffer. The includer provides
-// entries[], counters and params.pageCount.
+// entries[], counters and params.
 #ifndef CND_COMMON_LIST_PAGES
 #define CND_COMMON_LIST_PAGES
 
@@ -27,6 +27,12 @@ uint reservePage()
 {
     const uint next = atomicAdd(counters.pageCursor, 1u) + 1u;
     return next < params.pageCount ? next : NO_PAGE;
+}
+
+// Tells whether the list of a block is of no use to the clusters in the block.
+bool isUseless(ListWriter list)
+{
+    return list.full || list.found > params.longest;
 }
 
 uint pageHeader(uint count, uint next)
