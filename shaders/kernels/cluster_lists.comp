@@ -77,9 +77,9 @@ void completeList(uint at, uint tile, ListWriter list, bool tooLong)
         appendTile(tile, list, tooLong);
 }
 
-// Returns the list that a lane makes by itself. Consecutive lists are slices of one block or tile,
-// whose lengths differ much, and the lanes of a vector wait for the longest. So consecutive lanes
-// take the same slice of several blocks or tiles.
+// Returns the list that a lane makes by itself. Consecutive lists of blocks and of split tiles are
+// slices of one block or tile, whose lengths differ much, and the lanes of a vector wait for the
+// longest. So consecutive lanes take the same slice of several blocks or tiles.
 uint listOfLaneAlone(uint group, uint lane)
 {
     const uint slices = params.which == LISTS_OF_BLOCKS   ? BLOCK_SLICES

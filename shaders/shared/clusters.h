@@ -83,7 +83,7 @@ const uint PAGE_COUNT_BITS = 6u;
 // Heads of lists without pages.
 const uint LIST_EMPTY = 0u;
 const uint LIST_UNLISTED = 0xFFFFFFFFu; // no page was left: the tree is walked per pixel
-const uint LIST_LONG = 0xFFFFFFFEu;     // too long for a loop: the tree is walked in parts
+const uint LIST_LONG = 0xFFFFFFFEu;     // tile: too long for a loop, shaded in parts; block: useless
 
 // Arguments of an indirect dispatch and the range of indices that it works on. A buffer begins with
 // its work lists; the indices follow, and the range is `count` of them from `first` on. Groups are

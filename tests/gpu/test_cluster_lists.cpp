@@ -408,23 +408,26 @@ TEST_F(ClusterListsTest, ClustersOfBlocksWithoutListsWalkTheTree)
     EXPECT_EQ(lanes.lit, group.lit);
     EXPECT_EQ(lanes.counters.listEntries, group.counters.listEntries);
 
-    size_t withList = 0, without = 0, found = 0, foundByParents = 0;
+    size_t listed = 0, blocksWithout = 0, found = 0, foundByParents = 0;
     for (uint32_t i = 0; i < Scene::clusters; ++i) {
-        const bool isBlock = i >= Scene::firstBlock;
-        EXPECT_TRUE(std::ranges::includes(byParents[i], lights[i])) << i;
         EXPECT_EQ(lanes.heads[i] == gpu::LIST_LONG, group.heads[i] == gpu::LIST_LONG) << i;
-        if (lanes.heads[i] == gpu::LIST_LONG) {
-            EXPECT_TRUE(isBlock && byParents[i].size() > 200) << i;
-            ++without;
+        if (i >= Scene::firstBlock) {
+            const bool tooLong = byParents[i].size() > 200;
+            EXPECT_EQ(lanes.heads[i] == gpu::LIST_LONG, tooLong) << i;
+            blocksWithout += tooLong && i < Scene::firstLarge;
             continue;
         }
-        EXPECT_TRUE(!isBlock || lights[i].size() <= 200) << i;
-        withList += isBlock && !lights[i].empty();
-        found += isBlock ? 0 : lights[i].size();
-        foundByParents += isBlock ? 0 : byParents[i].size();
+        EXPECT_TRUE(std::ranges::includes(byParents[i], lights[i])) << i;
+        if (lanes.heads[scene.cluster[i].parent] == gpu::LIST_LONG) {
+            found += lights[i].size();
+            foundByParents += byParents[i].size();
+        } else {
+            listed += !lights[i].empty();
+            EXPECT_EQ(lights[i], byParents[i]) << i;
+        }
     }
-    EXPECT_GT(withList, 5u);
-    EXPECT_GT(without, 5u);
+    EXPECT_GT(listed, 5u);
+    EXPECT_GT(blocksWithout, 5u);
     EXPECT_GT(found, foundByParents / 10 * 9);
 }
 
