@@ -3,16 +3,13 @@
 // path tracer (Lambertian surfaces and a dielectric) and against the double-precision reference of
 // the same model (every material).
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <numeric>
 #include <span>
 
-#include <unistd.h>
-
 #include "harness/gpu_fixture.h"
+#include "harness/temporary_folder.h"
 #include "render/camera.h"
 #include "render/readback.h"
 #include "truth/reference_scene.h"
@@ -61,13 +58,7 @@ class WholeFrame : public test::GpuTest
 protected:
     Scene load(const std::string& json)
     {
-        // Tests of this file run at the same time in processes of their own.
-        const std::string path =
-            ::testing::TempDir() + "candelabra_whole_frame_" + std::to_string(::getpid()) + ".json";
-        std::ofstream(path) << json;
-        const Scene scene = loadSceneJson(path);
-        std::filesystem::remove(path);
-        return scene;
+        return loadSceneJson(test::TemporaryFolder().write("scene.json", json));
     }
     Image draw(const Scene& scene, PixelSize size, CndSpecularMethod specular)
     {

@@ -5,42 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include <gtest/gtest.h>
-#include <stdlib.h>
-
 namespace candelabra::test
 {
-
-TemporaryFolder::TemporaryFolder()
-{
-    std::string name = testing::TempDir() + "candelabra-XXXXXX";
-    if (!mkdtemp(name.data()))
-        throw std::runtime_error("cannot create " + name);
-    folder_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder()
-{
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
-
-std::string TemporaryFolder::write(const std::string& name, const std::string& text) const
-{
-    return write(name, Bytes(text.begin(), text.end()));
-}
-
-std::string TemporaryFolder::write(const std::string& name, const Bytes& bytes) const
-{
-    const std::string file = path(name);
-    std::filesystem::create_directories(std::filesystem::path(file).parent_path());
-    std::ofstream out(file, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(bytes.data()),
-              static_cast<std::streamsize>(bytes.size()));
-    if (!out.flush())
-        throw std::runtime_error("cannot write " + file);
-    return file;
-}
 
 Bytes readBytes(const std::string& path)
 {

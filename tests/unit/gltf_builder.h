@@ -4,34 +4,18 @@
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "harness/temporary_folder.h"
 
 namespace candelabra::test
 {
 
 using Json = nlohmann::json;
 using Bytes = std::vector<uint8_t>;
-
-// A folder that exists as long as this object.
-class TemporaryFolder
-{
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    std::string write(const std::string& name, const std::string& text) const;
-    std::string write(const std::string& name, const Bytes& bytes) const;
-
-private:
-    std::filesystem::path folder_;
-};
 
 Bytes readBytes(const std::string& path);
 std::string encodeBase64(const Bytes& bytes);
