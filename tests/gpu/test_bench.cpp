@@ -194,6 +194,7 @@ TEST_F(Bench, LowRoughnessBreaksTheNaiveRepresentativePointAlone)
 {
     const auto images = measureLowRoughness(context(), 256);
     ASSERT_EQ(images.size(), 3u);
+    EXPECT_EQ(lowRoughnessPicture(images).size(), 3u * 256 * images.size() * 256);
     const std::vector<float>& conic = images[2].response;
     for (const LowRoughnessImage& image : images) {
         size_t mirrored = 0, invalid = 0, broken = 0;
