@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the list of lights of each cluster, in the order of the lights and without a limit of its
-// length. A list is found in the list of the cluster's parent, or in the light tree if the parent
-// has no list, and written into pages of the entry buffer. On GPUs the lanes of a group make one
-// list together, or several short ones. On llvmpipe each lane makes one by itself. All find the
-// same lights. Where a page lies depends on the schedule; which lights a list holds does not. A
-// list that finds no page is marked as unlisted, and a list that is too long for a loop of the
-// device is marked as long. The tiles of both are shaded without lists, by the same lights. Between
-// the two pipelines the last bits may differ (DECISIONS 12 and 42).
+// Makes the list of lights of each cluster, in the order of the lights. A list is found in the list
+// of the cluster's parent, or in the light tree if the parent has no list, and written into pages of
+// the entry buffer. No list is cut short: it is complete, or its cluster has none. On GPUs the lanes
+// of a group make one list together, or several short ones. On llvmpipe each lane makes one by
+// itself. All find the same lights. Where a page lies depends on the schedule; which lights a list
+// holds does not, as long as there are pages for all.
+//
+// A list that finds no page is marked as unlisted, and a list that is too long as long. The lists of
+// tiles and slices are too long if a loop of the device cannot walk them. Tiles of such clusters are
+// shaded without lists, by the same lights; between the two pipelines the last bits may differ
+// (DECISIONS 12 and 42). The lists of blocks are too long if testing their lights takes more than
+// walking the tree (DECISIONS 70).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/cluster_test.glsl"

@@ -83,7 +83,9 @@ const uint PAGE_COUNT_BITS = 6u;
 // Heads of lists without pages.
 const uint LIST_EMPTY = 0u;
 const uint LIST_UNLISTED = 0xFFFFFFFFu; // no page was left: the tree is walked per pixel
-const uint LIST_LONG = 0xFFFFFFFEu;     // tile: too long for a loop, shaded in parts; block: useless
+// The list of a tile or slice is too long for a loop, and its pixels walk the tree in parts. The
+// list of a block is too long to be of use, and the clusters in the block are found in the tree.
+const uint LIST_LONG = 0xFFFFFFFEu;
 
 // Arguments of an indirect dispatch and the range of indices that it works on. A buffer begins with
 // its work lists; the indices follow, and the range is `count` of them from `first` on. Groups are
@@ -164,7 +166,7 @@ const uint LISTS_OF_SLICES = 2u; // slices of split tiles, from firstCluster on
 struct ClusterListsParams {
     TreeShape tree;
     uint pageCount;        // pages of the entry buffer
-    uint longest;          // longest list that shading can walk, or that is of use to a block
+    uint longest;          // longest list that shading can walk, or of a block, that is of use
     uint maxSteps;         // most steps through the tree or the parent's list
     uint maxUnlistedSteps; // most steps of shade_unlisted through the tree
     uint lightType;

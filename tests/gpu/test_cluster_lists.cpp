@@ -3,6 +3,7 @@
 // and one for llvmpipe, in which each lane works by itself. Both must make the same boxes and the
 // same lists, to the bit.
 #include <algorithm>
+#include <iterator>
 #include <random>
 
 #include "candelabra_shaders.h"
@@ -346,6 +347,30 @@ long countHeads(const Made& made, uint32_t head, uint32_t end = Scene::clusters)
     return std::count(made.heads.begin(), made.heads.begin() + end, head);
 }
 
+// Expects that a light reaches none of 1,000 random points of a cluster's box that lie in its slab
+// and in its cone, as its samples do. Returns how many points were tried.
+size_t expectOutOfReach(const Scene& s, uint32_t cluster, uint32_t light)
+{
+    const gpu::Cluster& c = s.cluster[cluster];
+    const glm::dvec3 centre = s.core[2 * light], low = c.min, high = c.max;
+    const double influence2 = s.core[2 * light + 1].w;
+    std::mt19937 random(light);
+    std::uniform_real_distribution<double> unit(0, 1);
+    size_t tried = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 p =
+            low + (high - low) * glm::dvec3(unit(random), unit(random), unit(random));
+        const double height = glm::dot(glm::dvec3(c.axis), p);
+        const glm::dvec3 ray = c.ray;
+        if (height < c.slabMin || height > c.slabMax ||
+            glm::length(glm::cross(p, ray)) > c.slope * glm::dot(p, ray))
+            continue;
+        ++tried;
+        EXPECT_GE(glm::dot(p - centre, p - centre), influence2) << cluster << ", light " << light;
+    }
+    return tried;
+}
+
 } // namespace
 
 TEST_F(ClusterListsTest, GroupsAndLanesMakeTheSame)
@@ -395,8 +420,9 @@ TEST_F(ClusterListsTest, GroupsAndLanesMakeTheSameOfAMillionLights)
 }
 
 // Clusters whose block has more lights than it may list find their lights in the tree, the same in
-// both forms. A box of the tree may rule out a light that the light's own test does not, but no
-// light is found that is not in the lists that are made from the lists of blocks.
+// both forms. A box of the tree may rule out a light that the light's own test does not. Such a
+// light reaches no sample, and no light is found that is not in the lists made from the lists of
+// blocks.
 TEST_F(ClusterListsTest, ClustersOfBlocksWithoutListsWalkTheTree)
 {
     const Scene scene = randomScene(33000, 4);
@@ -408,7 +434,7 @@ TEST_F(ClusterListsTest, ClustersOfBlocksWithoutListsWalkTheTree)
     EXPECT_EQ(lanes.lit, group.lit);
     EXPECT_EQ(lanes.counters.listEntries, group.counters.listEntries);
 
-    size_t listed = 0, blocksWithout = 0, found = 0, foundByParents = 0;
+    size_t listed = 0, blocksWithout = 0, found = 0, foundByParents = 0, points = 0;
     for (uint32_t i = 0; i < Scene::clusters; ++i) {
         EXPECT_EQ(lanes.heads[i] == gpu::LIST_LONG, group.heads[i] == gpu::LIST_LONG) << i;
         if (i >= Scene::firstBlock) {
@@ -421,6 +447,10 @@ TEST_F(ClusterListsTest, ClustersOfBlocksWithoutListsWalkTheTree)
         if (lanes.heads[scene.cluster[i].parent] == gpu::LIST_LONG) {
             found += lights[i].size();
             foundByParents += byParents[i].size();
+            std::vector<uint32_t> missing;
+            std::ranges::set_difference(byParents[i], lights[i], std::back_inserter(missing));
+            for (const uint32_t light : missing)
+                points += expectOutOfReach(scene, i, light);
         } else {
             listed += !lights[i].empty();
             EXPECT_EQ(lights[i], byParents[i]) << i;
@@ -429,6 +459,7 @@ TEST_F(ClusterListsTest, ClustersOfBlocksWithoutListsWalkTheTree)
     EXPECT_GT(listed, 5u);
     EXPECT_GT(blocksWithout, 5u);
     EXPECT_GT(found, foundByParents / 10 * 9);
+    EXPECT_GT(points, 100u);
 }
 
 // Lists of tiles are made together or alone, depending on how long the lists of their parents are.

@@ -29,7 +29,8 @@ uint reservePage()
     return next < params.pageCount ? next : NO_PAGE;
 }
 
-// Tells whether the list of a block is of no use to the clusters in the block.
+// Tells whether the list of a block is of no use to the clusters in the block, because it cannot be
+// written or is too long.
 bool isUseless(ListWriter list)
 {
     return list.full || list.found > params.longest;
