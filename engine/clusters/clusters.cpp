@@ -215,7 +215,8 @@ void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const 
                       Binding::of(TILE_CLUSTERS_SPLITS, splits_)},
                      in.gbuffer.normalBindings(TILE_CLUSTERS_GBUFFER));
     blockSets_.write(slot, {Binding::of(BLOCK_CLUSTERS_CLUSTERS, clusters_),
-                            Binding::of(BLOCK_CLUSTERS_TILES, tiles_)});
+                            Binding::of(BLOCK_CLUSTERS_TILES, tiles_),
+                            in.uniforms.at(slot, BLOCK_CLUSTERS_FRAME)});
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (types[type])
             listSets_.write(slot * CND_LIGHT_TYPE_COUNT + type,
@@ -304,7 +305,9 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
     kernels_.splitTiles.dispatchIndirect(f, splitSets_.set(f.slot), params, splits_);
     f.barrier();
     const auto level = levels(tileCount);
+    uint32_t side = gpu::TILE_SIZE;
     for (size_t i = 1; i < level.size(); ++i) {
+        side *= gpu::BLOCK_SIDE;
         const uint32_t blockCount = area(level[i].count);
         const uint32_t blockGroups =
             kernels_.lanesTogether
@@ -317,7 +320,8 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
                                                .blockFirst = level[i].first,
                                                .blockCountX = level[i].count.x,
                                                .blockCount = blockCount,
-                                               .clusterFirst = level[i].firstCluster},
+                                               .clusterFirst = level[i].firstCluster,
+                                               .side = side},
                                               blockGroups);
         f.barrier();
     }

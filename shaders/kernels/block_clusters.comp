@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the clusters of blocks of tiles, or of blocks of blocks: one per slice of a block's depth. On
-// GPUs the lanes of a group make the slices of one block, and each lane takes a few clusters of the
+// Makes the clusters of blocks of tiles, or of blocks of blocks: one per slice of a block's depth. How
+// many slices a block has depends on its length: thin slices share most of their lights, so their
+// lists take longer to make than they save (DECISIONS 71). On GPUs the lanes of a group make the slices of one block, and each lane takes a few clusters of the
 // children. On llvmpipe each lane makes one slice, and the lanes of a block walk its children in step.
 // Both make the same clusters.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/cluster_margins.glsl"
+#define FRAME_PARAMS BLOCK_CLUSTERS_FRAME
+#include "kernels/common/frame_params.glsl"
 #include "lib/ordered_bits.glsl"
+#include "lib/projection.glsl"
 
 layout(local_size_x = BLOCK_CLUSTERS_GROUP) in;
 layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = true;
@@ -47,11 +51,25 @@ uint clusterCount(TileClusters child)
     return min((child.highest - child.lowest) >> child.shift, BLOCK_SLICES - 1u) + 1u;
 }
 
+// Returns the number of slices of a block that has samples, as a power of two: 8 if the block is more
+// than four times as long, along the view axis, as it is wide at its far end, and fewer if it is
+// shorter. The slices have equal width in the bits of the depth.
+int sliceBitsOf(BlockRange range)
+{
+    const Projection m = frameParams.projection;
+    const float lowest = viewZ(m, uintBitsToFloat(range.lowest));
+    const float highest = viewZ(m, uintBitsToFloat(range.highest));
+    const float w = max(abs(m.m23 * lowest + m.m33), abs(m.m23 * highest + m.m33));
+    const float width = 2.0 * float(params.side) * frameParams.invImageSize.x * w / abs(m.m00);
+    const float length = abs(lowest - highest);
+    return length > 4.0 * width ? 3 : length > 2.0 * width ? 2 : length > width ? 1 : 0;
+}
+
 // Returns the record of a block.
 TileClusters recordOf(uint block, BlockRange range)
 {
     const bool empty = range.lowest > range.highest;
-    const int bits = findMSB(range.highest - range.lowest) + 1 - int(BLOCK_SLICE_BITS);
+    const int bits = findMSB(range.highest - range.lowest) + 1 - sliceBitsOf(range);
     return TileClusters(params.clusterFirst + block * BLOCK_SLICES, range.lowest, range.highest,
                         empty ? 0u : uint(max(bits, 0)), 0u);
 }

@@ -11,6 +11,13 @@ uint depthBits(float depth)
     return floatBitsToUint(depth) & 0x7FFFFFFFu;
 }
 
+// Returns the view-space z at a depth, as viewPosition() does.
+float viewZ(Projection m, float depth)
+{
+    precise float z = (m.m32 - depth * m.m33) / (depth * m.m23 - m.m22);
+    return z;
+}
+
 // Returns the view-space position of the centre of `pixel` at `depth`. The arithmetic is `precise`,
 // without fused operations, so that two pipelines can differ only by the rounding of the divisions,
 // which lib/cluster_margins.glsl allows for.
@@ -18,7 +25,7 @@ uint depthBits(float depth)
 // depth = (m22 z + m32) / (m23 z + m33).
 vec3 viewPosition(Projection m, uvec2 pixel, vec2 invImageSize, float depth)
 {
-    precise float z = (m.m32 - depth * m.m33) / (depth * m.m23 - m.m22);
+    precise float z = viewZ(m, depth);
     precise float w = m.m23 * z + m.m33;
     precise vec2 ndc = vec2(2u * pixel + 1u) * invImageSize - 1.0;
     precise float x = (ndc.x * w - m.m20 * z - m.m30) / m.m00;

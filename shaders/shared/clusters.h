@@ -35,8 +35,7 @@ GPU_SIZE(LightTreeParams, 20)
 // block need not be tested against its tiles.
 const uint SLICE_BITS = 2u; // slices of a deep tile
 const uint SLICES = 4u;
-const uint BLOCK_SLICE_BITS = 3u; // slices of a block
-const uint BLOCK_SLICES = 8u;
+const uint BLOCK_SLICES = 8u; // the most slices of a block
 const uint BLOCK_SIDE = 4u; // side of a block, in tiles or blocks of the level below
 const uint BLOCK_LEVELS = 2u;
 
@@ -131,14 +130,16 @@ const uint SPLIT_TILES_GROUP = 64u;
 const uint BLOCK_CLUSTERS_GROUP = 64u;
 const uint BLOCK_CLUSTERS_CLUSTERS = 0u;
 const uint BLOCK_CLUSTERS_TILES = 1u;
+const uint BLOCK_CLUSTERS_FRAME = 2u; // FrameParams
 struct BlockClustersParams {
     uint childFirst; // index in the buffer of TileClusters
     uint childCountX, childCountY;
     uint blockFirst; // index in the buffer of TileClusters
     uint blockCountX, blockCount;
     uint clusterFirst;
+    uint side; // side of a block, in pixels
 };
-GPU_SIZE(BlockClustersParams, 28)
+GPU_SIZE(BlockClustersParams, 32)
 
 // --- cluster_lists: makes the ordered list of a cluster from the list of its parent or from the
 // tree; one group per cluster, or one lane. 32 lanes are one subgroup of many GPUs, which then need

@@ -3,7 +3,11 @@
 // cluster, and one for llvmpipe, in which each lane works by itself. Both must make the same
 // clusters, on llvmpipe to the bit.
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <optional>
+#include <random>
 
 #include "candelabra_shaders.h"
 #include "gpu/three_classes.h"
@@ -122,7 +126,7 @@ void record(const gpu::Frame& f, const Kernels& k, const State& s, const Places&
     k.split.dispatchIndirect(f, s.splitSet.set(0), params, s.splits);
     fullBarrier(f.cmd);
     const auto makeBlocks = [&](uint32_t childFirst, glm::uvec2 children, glm::uvec2 count,
-                                uint32_t clusterFirst) {
+                                uint32_t clusterFirst, uint32_t side) {
         const uint32_t blocks = count.x * count.y;
         const gpu::BlockClustersParams p{.childFirst = childFirst,
                                          .childCountX = children.x,
@@ -130,13 +134,15 @@ void record(const gpu::Frame& f, const Kernels& k, const State& s, const Places&
                                          .blockFirst = childFirst + children.x * children.y,
                                          .blockCountX = count.x,
                                          .blockCount = blocks,
-                                         .clusterFirst = clusterFirst};
+                                         .clusterFirst = clusterFirst,
+                                         .side = side};
         dispatch(f, k.block, s.blockSet, p,
                  k.lanesTogether ? blocks
                                  : divideUp(blocks * gpu::BLOCK_SLICES, gpu::BLOCK_CLUSTERS_GROUP));
     };
-    makeBlocks(0, at.tiles, at.blocks, at.firstBlock);
-    makeBlocks(at.tileCount(), at.blocks, at.largeBlocks, at.firstLarge);
+    constexpr uint32_t side = gpu::TILE_SIZE * gpu::BLOCK_SIDE;
+    makeBlocks(0, at.tiles, at.blocks, at.firstBlock, side);
+    makeBlocks(at.tileCount(), at.blocks, at.largeBlocks, at.firstLarge, side * gpu::BLOCK_SIDE);
 }
 
 class ClusterBoundsTest : public LightingTest
@@ -144,6 +150,10 @@ class ClusterBoundsTest : public LightingTest
 protected:
     // Tiles longer than `splitLength` metres are split.
     Made make(const CpuGBuffer& g, bool lanesTogether, float splitLength);
+    // Expects that blocks of both sizes have as many slices as their length and width ask for.
+    // Counts the blocks by the number of slices, a power of two.
+    void expectSlices(const CpuGBuffer& g);
+    size_t blocksBySlices_[4] = {};
     // Compares what both forms make.
     void compare(const CpuGBuffer& g, float splitLength);
     size_t splits_ = 0; // tiles that were split in all comparisons
@@ -187,7 +197,8 @@ State ClusterBoundsTest::stateOf(const Kernels& k, const Places& at,
     s.splitSet.write(0, {depth, params, toClusters, toTiles, toSplits},
                      views.normalBindings(TILE_CLUSTERS_GBUFFER));
     s.blockSet.write(0, {Binding::of(BLOCK_CLUSTERS_CLUSTERS, s.clusters),
-                         Binding::of(BLOCK_CLUSTERS_TILES, s.tiles)});
+                         Binding::of(BLOCK_CLUSTERS_TILES, s.tiles),
+                         uniforms.at(0, BLOCK_CLUSTERS_FRAME)});
     return s;
 }
 
@@ -246,7 +257,80 @@ void ClusterBoundsTest::compare(const CpuGBuffer& g, float splitLength)
     }
 }
 
+// The length of a block's samples along the view axis over the width of the block at their far end,
+// by view-space positions in double precision. Negative if the block has no sample.
+double lengthOverWidth(const CpuGBuffer& g, glm::uvec2 first, uint32_t side)
+{
+    const float* clipFromView = g.camera.clipFromView;
+    double low = INFINITY, high = -INFINITY, w = 0;
+    for (uint32_t y = first.y; y < std::min(first.y + side, g.height); ++y)
+        for (uint32_t x = first.x; x < std::min(first.x + side, g.width); ++x)
+            if (g.depth[size_t(y) * g.width + x] != g.clearDepth) {
+                const double z = viewPosition(g, x, y).z;
+                low = std::min(low, z);
+                high = std::max(high, z);
+                w = std::max(w, std::abs(clipFromView[11] * z + clipFromView[15]));
+            }
+    return (high - low) / (2.0 * side / g.width * w / std::abs(clipFromView[0]));
+}
+
+// Moves each surface to 10 m from the camera, plus up to 12 m at the right edge of the image and
+// less at random and to the left.
+void deepenToTheRight(CpuGBuffer& g, uint32_t seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (size_t i = 0; i < g.depth.size(); ++i)
+        if (g.depth[i] != g.clearDepth) {
+            const double most = 12.0 * double(i % g.width) / g.width;
+            g.depth[i] = depthAt(g.camera, 10 + most * uniform(random));
+        }
+}
+
+void ClusterBoundsTest::expectSlices(const CpuGBuffer& g)
+{
+    const Made made = make(g, true, 1e6f);
+    const Places at(g);
+    const auto expectLevel = [&](uint32_t firstRecord, glm::uvec2 count, uint32_t side) {
+        for (uint32_t i = 0; i < count.x * count.y; ++i) {
+            const gpu::TileClusters& block = made.tiles[firstRecord + i];
+            const double ratio = lengthOverWidth(g, {i % count.x * side, i / count.x * side}, side);
+            EXPECT_EQ(block.lowest > block.highest, !(ratio >= 0)) << "block " << i;
+            const bool rounded = std::ranges::any_of(
+                std::array{1., 2., 4.}, [&](double r) { return std::abs(ratio / r - 1) < 1e-3; });
+            if (!(ratio >= 0) || rounded)
+                continue;
+            const uint32_t bits = ratio > 4 ? 3 : ratio > 2 ? 2 : ratio > 1 ? 1 : 0;
+            const uint32_t width = uint32_t(std::bit_width(block.highest - block.lowest));
+            EXPECT_EQ(block.shift, width > bits ? width - bits : 0)
+                << "block " << i << " of side " << side << ", length / width " << ratio;
+            ++blocksBySlices_[bits];
+        }
+    };
+    constexpr uint32_t side = gpu::TILE_SIZE * gpu::BLOCK_SIDE;
+    expectLevel(at.tileCount(), at.blocks, side);
+    expectLevel(at.tileCount() + at.blockCount(), at.largeBlocks, side * gpu::BLOCK_SIDE);
+}
+
 } // namespace
+
+TEST_F(ClusterBoundsTest, LongBlocksHaveMoreSlices)
+{
+    CndCamera orthographic{};
+    setOrthographic(orthographic, 20, 1.5, 0.1, 100, false);
+    for (uint32_t seed = 1; seed <= 4; ++seed) {
+        CpuGBuffer g = randomGBuffer(331, 200, seed);
+        CpuGBuffer parallel = randomGBuffer(331, 200, orthographic, 1, seed);
+        expectSlices(g);
+        expectSlices(parallel);
+        deepenToTheRight(g, seed);
+        deepenToTheRight(parallel, seed);
+        expectSlices(g);
+        expectSlices(parallel);
+    }
+    for (const size_t blocks : blocksBySlices_)
+        EXPECT_GT(blocks, 20u);
+}
 
 TEST_F(ClusterBoundsTest, GroupsAndLanesMakeTheSame)
 {
