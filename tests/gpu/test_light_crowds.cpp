@@ -39,7 +39,8 @@ TEST_F(LightingTest, AHundredThousandLightsInOnePixel)
             light.position[i] = float(p[i] + near(random));
     const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
     EXPECT_GT(brute.radiance[pixel].x + brute.radiance[pixel].y + brute.radiance[pixel].z, 0);
-    for (const VkDeviceSize budget : {VkDeviceSize(0), megabyte}) {
+    // The list of all lights takes 400 kB, for which a quarter of a megabyte is no room.
+    for (const VkDeviceSize budget : {VkDeviceSize(0), megabyte / 4}) {
         const LightingResult clustered = run(g, lights, {.listBudget = budget});
         EXPECT_TRUE(agree(clustered.radiance, brute.radiance, batchesOnLlvmpipe)) << budget;
         if (budget) {
