@@ -305,9 +305,7 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
     kernels_.splitTiles.dispatchIndirect(f, splitSets_.set(f.slot), params, splits_);
     f.barrier();
     const auto level = levels(tileCount);
-    uint32_t side = gpu::TILE_SIZE;
     for (size_t i = 1; i < level.size(); ++i) {
-        side *= gpu::BLOCK_SIDE;
         const uint32_t blockCount = area(level[i].count);
         const uint32_t blockGroups =
             kernels_.lanesTogether
@@ -321,7 +319,7 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
                                                .blockCountX = level[i].count.x,
                                                .blockCount = blockCount,
                                                .clusterFirst = level[i].firstCluster,
-                                               .side = side},
+                                               .side = blockSide(i)},
                                               blockGroups);
         f.barrier();
     }

@@ -27,6 +27,12 @@ struct ClusterKernels {
     gpu::Kernel<gpu::ClusterListsParams> clusterLists;
 };
 
+// Returns the side of a block in pixels. Level 1: blocks of tiles, 2: blocks of blocks.
+constexpr uint32_t blockSide(size_t level)
+{
+    return level == 0 ? gpu::TILE_SIZE : gpu::BLOCK_SIDE * blockSide(level - 1);
+}
+
 // Returns the byte offset of the work list of a material class in a buffer with one list per class.
 constexpr VkDeviceSize workListAt(uint32_t list)
 {

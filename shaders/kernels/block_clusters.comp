@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes the clusters of blocks of tiles, or of blocks of blocks: one per slice of a block's depth. How
-// many slices a block has depends on its length: thin slices share most of their lights, so their
-// lists take longer to make than they save (DECISIONS 71). On GPUs the lanes of a group make the slices of one block, and each lane takes a few clusters of the
-// children. On llvmpipe each lane makes one slice, and the lanes of a block walk its children in step.
-// Both make the same clusters.
+// many slices a block has depends on its length: the slices of a short block share most of their
+// lights, so their lists take longer to make than they save (DECISIONS 71). On GPUs the lanes of a
+// group make the slices of one block, and each lane takes a few clusters of the children. On llvmpipe
+// each lane makes one slice, and the lanes of a block walk its children in step. Both make the same
+// clusters.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/cluster_margins.glsl"
@@ -51,15 +52,16 @@ uint clusterCount(TileClusters child)
     return min((child.highest - child.lowest) >> child.shift, BLOCK_SLICES - 1u) + 1u;
 }
 
-// Returns the number of slices of a block that has samples, as a power of two: 8 if the block is more
-// than four times as long, along the view axis, as it is wide at its far end, and fewer if it is
-// shorter. The slices have equal width in the bits of the depth.
+// Returns the binary logarithm of the number of slices of a block that has samples. The block's length
+// is that of its samples along the z axis of view space, and its width is that of its pixels at the
+// sample nearest to the camera. A block that is no longer than wide is one slice; one that is up to
+// two or four times as long has two or four, and a longer one has eight.
 int sliceBitsOf(BlockRange range)
 {
     const Projection m = frameParams.projection;
     const float lowest = viewZ(m, uintBitsToFloat(range.lowest));
     const float highest = viewZ(m, uintBitsToFloat(range.highest));
-    const float w = max(abs(m.m23 * lowest + m.m33), abs(m.m23 * highest + m.m33));
+    const float w = min(abs(m.m23 * lowest + m.m33), abs(m.m23 * highest + m.m33));
     const float width = 2.0 * float(params.side) * frameParams.invImageSize.x * w / abs(m.m00);
     const float length = abs(lowest - highest);
     return length > 4.0 * width ? 3 : length > 2.0 * width ? 2 : length > width ? 1 : 0;
@@ -110,6 +112,10 @@ void makeByLane(uint block, uint slice)
     if (slice == 0u)
         tiles[params.blockFirst + block] = record;
     const uint self = record.first + slice;
+    if (range.lowest > range.highest) {
+        clusters[self] = emptySlice(rayOf(range));
+        return;
+    }
     Cluster merged = emptySlice(rayOf(range));
     i = 0u;
     do {

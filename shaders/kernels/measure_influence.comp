@@ -111,7 +111,8 @@ void main()
         if (gl_LocalInvocationIndex % LANES == 0u)
             keep(r);
     }
-    barrier(); // before the other lanes of a pixel read what the first one keeps
+    if (KEEPS_RECEIVERS)
+        barrier(); // before the other lanes of a pixel read what the first one keeps
     if (depth != frameParams.clearDepth)
         measure(r);
     barrier();

@@ -79,7 +79,16 @@ void makeByLane(FrameParams frame, uint tile)
     if (tile >= params.tileCount)
         return;
     const uvec2 first = firstPixelOfTile(tile, frame.size.x), last = frame.size - 1u;
-    uint highest = 0u, i = 0u;
+    const uint pixels = TILE_SIZE * TILE_SIZE;
+    // Looks for the first surface, so that tiles without one take a fraction of the time.
+    uint i = 0u;
+    bool empty = true;
+    do {
+        empty = depthAt(pixelOfTile(first, last, i)) == frame.clearDepth;
+        ++i;
+    } while (empty && i < pixels);
+    i = empty ? pixels - 1u : 0u;
+    uint highest = 0u;
     Cluster cluster = emptyCluster(frame, tile);
     do {
         const uvec2 pixel = pixelOfTile(first, last, i);
@@ -89,8 +98,10 @@ void makeByLane(FrameParams frame, uint tile)
             addSampleInOrder(cluster, readSample(frame, pixel, depth));
         }
         ++i;
-    } while (i < TILE_SIZE * TILE_SIZE);
-    const uint tileClass = classOfTile(first, min(first + TILE_SIZE, frame.size));
+    } while (i < pixels);
+    uint tileClass = CLASS_ANY;
+    if (!empty)
+        tileClass = classOfTile(first, min(first + TILE_SIZE, frame.size));
     writeTile(frame, tile, cluster, highest, tileClass);
 }
 

@@ -37,8 +37,8 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
     EXPECT_TRUE(agree(intact.radiance, brute.radiance, batchesOnLlvmpipe));
 
     // Lists are made block by block, then tile by tile, one page each. There are at most 4 blocks
-    // of 32x32 pixels and one of 128x128 pixels, with 8 slices each, so this page belongs to a
-    // tile.
+    // of 32x32 pixels and one of 128x128 pixels, with at most 8 slices each, so this page
+    // belongs to a tile.
     constexpr uint32_t tilePage = 5 * 8 + 3;
     uint32_t noticed = 0, written = 0;
     for (uint32_t entry = 0; entry < 50; entry += 7) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights where they hurt most: a crowd within one pixel, all of them over the whole screen, and
-// lists in one megabyte.
+// lists without enough room.
 #include "gpu/lighting_harness.h"
 
 #include <limits>
@@ -39,7 +39,7 @@ TEST_F(LightingTest, AHundredThousandLightsInOnePixel)
             light.position[i] = float(p[i] + near(random));
     const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
     EXPECT_GT(brute.radiance[pixel].x + brute.radiance[pixel].y + brute.radiance[pixel].z, 0);
-    // The list of all lights takes 400 kB, for which a quarter of a megabyte is no room.
+    // The list of all lights takes 400 kB, so a quarter of a megabyte has no room for it.
     for (const VkDeviceSize budget : {VkDeviceSize(0), megabyte / 4}) {
         const LightingResult clustered = run(g, lights, {.listBudget = budget});
         EXPECT_TRUE(agree(clustered.radiance, brute.radiance, batchesOnLlvmpipe)) << budget;
