@@ -63,17 +63,19 @@ int sliceBitsOf(BlockRange range)
     const float highest = viewZ(m, uintBitsToFloat(range.highest));
     const float w = min(abs(m.m23 * lowest + m.m33), abs(m.m23 * highest + m.m33));
     const float width = 2.0 * float(params.side) * frameParams.invImageSize.x * w / abs(m.m00);
-    const float length = abs(lowest - highest);
-    return length > 4.0 * width ? 3 : length > 2.0 * width ? 2 : length > width ? 1 : 0;
+    const float blockLength = abs(lowest - highest);
+    return blockLength > 4.0 * width ? 3 : blockLength > 2.0 * width ? 2 : blockLength > width ? 1 : 0;
 }
 
 // Returns the record of a block.
 TileClusters recordOf(uint block, BlockRange range)
 {
     const bool empty = range.lowest > range.highest;
-    const int bits = findMSB(range.highest - range.lowest) + 1 - sliceBitsOf(range);
+    int shift = 0;
+    if (!empty)
+        shift = max(findMSB(range.highest - range.lowest) + 1 - sliceBitsOf(range), 0);
     return TileClusters(params.clusterFirst + block * BLOCK_SLICES, range.lowest, range.highest,
-                        empty ? 0u : uint(max(bits, 0)), 0u);
+                        uint(shift), 0u);
 }
 
 vec3 rayOf(BlockRange range)

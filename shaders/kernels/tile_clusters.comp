@@ -80,11 +80,13 @@ void makeByLane(FrameParams frame, uint tile)
         return;
     const uvec2 first = firstPixelOfTile(tile, frame.size.x), last = frame.size - 1u;
     const uint pixels = TILE_SIZE * TILE_SIZE;
-    // Looks for the first surface, so that tiles without one take a fraction of the time.
+    // Looks for the first surface, so that tiles without one take a fraction of the time: llvmpipe runs
+    // the body of an `if` even if no lane needs it, but leaves a loop when no lane is left in it.
     uint i = 0u;
     bool empty = true;
     do {
-        empty = depthAt(pixelOfTile(first, last, i)) == frame.clearDepth;
+        if (empty) // SwiftShader needs the condition in the body too (DECISIONS 42)
+            empty = depthAt(pixelOfTile(first, last, i)) == frame.clearDepth;
         ++i;
     } while (empty && i < pixels);
     i = empty ? pixels - 1u : 0u;

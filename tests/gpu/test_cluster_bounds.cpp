@@ -243,6 +243,8 @@ void ClusterBoundsTest::compare(const CpuGBuffer& g, float splitLength)
     const Places at(g);
     for (size_t i = 0; i < lanes.tiles.size(); ++i) {
         const gpu::TileClusters &a = groups.tiles[i], &b = lanes.tiles[i];
+        // On other drivers than llvmpipe the last bit of a division may decide how many slices a
+        // block has, and so its shift. No block of these tests is so close to a limit.
         ASSERT_TRUE(a.lowest == b.lowest && a.highest == b.highest && a.shift == b.shift &&
                     a.onLists == b.onLists)
             << "tile or block " << i;
@@ -263,19 +265,20 @@ void ClusterBoundsTest::compare(const CpuGBuffer& g, float splitLength)
 // pixels at the nearest sample, by positions in double precision. NaN if the block has no sample.
 double lengthOverWidth(const CpuGBuffer& g, glm::uvec2 first, uint32_t side)
 {
-    const float* clipFromView = g.camera.clipFromView;
-    double low = INFINITY, high = -INFINITY, w = INFINITY;
+    double low = INFINITY, high = -INFINITY;
+    CpuGBuffer nearest{.width = g.width, .height = g.height, .camera = g.camera};
     for (uint32_t y = first.y; y < std::min(first.y + side, g.height); ++y)
         for (uint32_t x = first.x; x < std::min(first.x + side, g.width); ++x)
-            if (g.depth[size_t(y) * g.width + x] != g.clearDepth) {
+            if (const float depth = g.depth[size_t(y) * g.width + x]; depth != g.clearDepth) {
                 const double z = viewPosition(g, x, y).z;
+                if (z > high)
+                    nearest.depth = {depth, depth};
                 low = std::min(low, z);
                 high = std::max(high, z);
-                w = std::min(w, std::abs(clipFromView[11] * z + clipFromView[15]));
             }
     if (low > high)
         return NAN;
-    return (high - low) / (2.0 * side / g.width * w / std::abs(clipFromView[0]));
+    return (high - low) / (side * (viewPosition(nearest, 1, 0).x - viewPosition(nearest, 0, 0).x));
 }
 
 // Moves each surface to 10 m from the camera, plus up to 12 m at the right edge of the image and
@@ -287,6 +290,21 @@ void deepenToTheRight(CpuGBuffer& g, uint32_t seed)
         if (g.depth[i] != g.clearDepth) {
             const double most = 12.0 * double(i % g.width) / g.width;
             g.depth[i] = depthAt(g.camera, 10 + most * double(random()) / 4294967296.0);
+        }
+}
+
+// Leaves no surface in whole tiles and blocks: in the right third of the image, in tiles of the
+// left third that lie like the black squares of a chessboard, but for the last pixel of every
+// fourth of them.
+void makeHoles(CpuGBuffer& g)
+{
+    for (uint32_t y = 0; y < g.height; ++y)
+        for (uint32_t x = 0; x < g.width; ++x) {
+            const glm::uvec2 tile = glm::uvec2(x, y) / gpu::TILE_SIZE;
+            const bool last = (x + 1) % gpu::TILE_SIZE == 0 && (y + 1) % gpu::TILE_SIZE == 0;
+            const bool black = (tile.x + tile.y) % 2 == 0 && !(last && tile.x % 4 == 0);
+            if (x > g.width * 2 / 3 || (x < g.width / 3 && black))
+                g.depth[size_t(y) * g.width + x] = g.clearDepth;
         }
 }
 
@@ -329,6 +347,8 @@ TEST_F(ClusterBoundsTest, LongBlocksHaveMoreSlices)
             expectSlices(g, lanesTogether);
             deepenToTheRight(g, 2);
             expectSlices(g, lanesTogether);
+            makeHoles(g);
+            expectSlices(g, lanesTogether);
         }
     for (const size_t blocks : blocksBySlices_)
         EXPECT_GT(blocks, 20u);
@@ -341,6 +361,17 @@ TEST_F(ClusterBoundsTest, GroupsAndLanesMakeTheSame)
         for (const float splitLength : {0.1f, 1.0f, 1e6f})
             compare(randomGBuffer(width, height, width), splitLength);
     EXPECT_GT(splits_, 200u);
+}
+
+TEST_F(ClusterBoundsTest, GroupsAndLanesMakeTheSameWhereNothingIsSeen)
+{
+    for (const auto& [width, height] : {std::pair{8u, 8u}, {130u, 77u}, {331u, 200u}}) {
+        CpuGBuffer g = randomGBuffer(width, height, width);
+        makeHoles(g);
+        compare(g, 1);
+        std::ranges::fill(g.depth, g.clearDepth);
+        compare(g, 1);
+    }
 }
 
 TEST_F(ClusterBoundsTest, GroupsAndLanesFindTheSameClasses)
