@@ -27,7 +27,7 @@ struct ClusterKernels {
     gpu::Kernel<gpu::ClusterListsParams> clusterLists;
 };
 
-// Returns the side of a block in pixels. Level 0: a tile, 1: a block of tiles, 2: a block of blocks.
+// Returns the side of a block in pixels. Level 0: a tile, 1: a block of tiles, 2: one of blocks.
 constexpr uint32_t blockSide(size_t level)
 {
     return level == 0 ? gpu::TILE_SIZE : gpu::BLOCK_SIDE * blockSide(level - 1);
