@@ -61,8 +61,9 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
     };
     EXPECT_LT(mean(Rival::Ltc), mean(CND_SPECULAR_KARIS));
     EXPECT_LT(mean(CND_SPECULAR_CONIC), mean(Rival::Ltc));
-    // With F = 1 the second lobe takes no part. Two pipelines may round differently.
-    EXPECT_NEAR(mean(Rival::LtcOneLobe), mean(Rival::Ltc), 1e-6);
+    // With F = 1 the second lobe takes no part. On other drivers two pipelines may round
+    // differently.
+    EXPECT_NEAR(mean(Rival::LtcOneLobe), mean(Rival::Ltc), device().lanesAreCpuVector ? 0 : 1e-6);
     EXPECT_LT(pointOf(level, Rival::Ltc).error.dielectric.all.mean,
               pointOf(level, Rival::LtcOneLobe).error.dielectric.all.mean);
     const auto json = nlohmann::json::parse(kernelJson(settings, level).dump());

@@ -161,12 +161,7 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
         const LightingResult apart = run(g, lights, options);
         const double difference = maxPixelDifference(apart.radiance, together.radiance);
         std::cout << "type " << type << ": largest difference of a pixel " << difference << '\n';
-        // The kernels of a class are other pipelines. Where the lobe of a light with an outline is
-        // narrow, they differ by up to 1.5e-4 of the peak on drivers other than llvmpipe.
-        const bool byOutline = type == CND_LIGHT_TUBE || type == CND_LIGHT_RECTANGLE ||
-                               type == CND_LIGHT_DISC || type == CND_LIGHT_POLYGON;
-        EXPECT_LE(difference, byOutline && !device().lanesAreCpuVector ? 3e-4 : classTolerance)
-            << type;
+        EXPECT_LE(difference, classTolerance) << type;
         EXPECT_EQ(together.stats.diffuseTileCount, 0u);
         EXPECT_EQ(together.stats.specularTileCount, 0u);
         EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);
