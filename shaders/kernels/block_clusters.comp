@@ -114,11 +114,11 @@ void makeByLane(uint block, uint slice)
     if (slice == 0u)
         tiles[params.blockFirst + block] = record;
     const uint self = record.first + slice;
+    Cluster merged = emptySlice(rayOf(range));
     if (range.lowest > range.highest) {
-        clusters[self] = emptySlice(rayOf(range));
+        clusters[self] = merged;
         return;
     }
-    Cluster merged = emptySlice(rayOf(range));
     i = 0u;
     do {
         const uint count = takeChild(block, i, child) ? clusterCount(child) : 0u;

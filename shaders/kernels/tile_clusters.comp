@@ -89,7 +89,7 @@ void makeByLane(FrameParams frame, uint tile)
             empty = depthAt(pixelOfTile(first, last, i)) == frame.clearDepth;
         ++i;
     } while (empty && i < pixels);
-    i = empty ? pixels - 1u : 0u;
+    --i; // back to that surface, or to the last pixel
     uint highest = 0u;
     Cluster cluster = emptyCluster(frame, tile);
     do {

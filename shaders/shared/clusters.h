@@ -35,7 +35,7 @@ GPU_SIZE(LightTreeParams, 20)
 // block need not be tested against its tiles.
 const uint SLICE_BITS = 2u; // slices of a deep tile
 const uint SLICES = 4u;
-const uint BLOCK_SLICES = 8u; // the most slices of a block
+const uint BLOCK_SLICES = 8u; // the most slices of a block (sliceBitsOf() in block_clusters.comp)
 const uint BLOCK_SIDE = 4u;   // side of a block, in tiles or blocks of the level below
 const uint BLOCK_LEVELS = 2u;
 
