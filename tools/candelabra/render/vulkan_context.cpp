@@ -44,16 +44,16 @@ uint32_t findQueueFamily(const VulkanInstance& instance, const DeviceInfo& devic
                           "display"));
 }
 
-// The same two functions under two extensions. The first extension is not in the headers of Vulkan
-// 1.3.239.
+// The same two functions under two extensions. The second extension is not in the headers of Vulkan
+// 1.3.239, and the validation layer of that version warns of it, so the first is preferred.
 struct CalibratedTimestamps {
     const char *extension, *get, *domains;
 };
 constexpr CalibratedTimestamps calibratedTimestamps[] = {
-    {"VK_KHR_calibrated_timestamps", "vkGetCalibratedTimestampsKHR",
-     "vkGetPhysicalDeviceCalibrateableTimeDomainsKHR"},
     {VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME, "vkGetCalibratedTimestampsEXT",
-     "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT"}};
+     "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT"},
+    {"VK_KHR_calibrated_timestamps", "vkGetCalibratedTimestampsKHR",
+     "vkGetPhysicalDeviceCalibrateableTimeDomainsKHR"}};
 
 // Returns the extension of the device that knows CLOCK_MONOTONIC, or null if it has none.
 const CalibratedTimestamps* findCalibratedTimestamps(VkInstance instance, VkPhysicalDevice device)

@@ -26,8 +26,8 @@ public:
     // clock. With `byExtension` false the clock calibrates as on a device without the extension.
     explicit GpuClock(const VulkanContext& context, bool byExtension = true);
 
-    // Reads both clocks at the same time, with VK_KHR_calibrated_timestamps or
-    // VK_EXT_calibrated_timestamps if the device has one of them. Otherwise a timestamp is
+    // Reads both clocks at the same time, with VK_EXT_calibrated_timestamps or
+    // VK_KHR_calibrated_timestamps if the device has one of them. Otherwise a timestamp is
     // submitted and waited for, which needs an idle GPU, and is assumed to lie in the middle
     // between submission and end. Clocks drift, so a calibration is valid for some seconds.
     void calibrate();
