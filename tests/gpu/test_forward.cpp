@@ -17,7 +17,8 @@ namespace candelabra::test
 namespace
 {
 
-constexpr double tolerance = 1e-5; // relative difference of a pixel
+constexpr double tolerance =
+    1e-5; // relative difference of a pixel, if positions have the same bits
 
 // A host with a pipeline of its own in addition to the module.
 class ForwardTest : public LightingTest
@@ -142,6 +143,34 @@ protected:
         return {readRadiance(images), {values.begin(), values.begin() + long(count)}};
     }
 
+    // Tells whether what the shader of this test has computed for surfaces, with the module's
+    // forward functions, is what the view shows of them. llvmpipe compiles both alike. Elsewhere
+    // each pipeline computes positions with roundings of its own, and where the lobe is narrow and
+    // a light is near, an ulp of the position turns the direction to the light by a part of the
+    // lobe's width. So there the images may differ by a few times what an ulp of the depth changes.
+    void expectAlike(const std::vector<glm::vec4>& forward, const std::vector<glm::vec4>& expected,
+                     const CpuGBuffer& at, const std::vector<CndLight>& lights,
+                     const RunOptions& options, double onLlvmpipe = tolerance)
+    {
+        if (device().lanesAreCpuVector) {
+            EXPECT_LE(maxPixelDifference(forward, expected), onLlvmpipe);
+            return;
+        }
+        const std::vector<glm::vec4> image = run(at, lights, options).radiance;
+        double moved = 0;
+        for (const float end : {0.0f, 1.0f}) {
+            CpuGBuffer g = at;
+            for (float& depth : g.depth)
+                if (depth != g.clearDepth)
+                    depth = std::nextafter(depth, end);
+            moved = std::max(moved, maxRelativeDifference(run(g, lights, options).radiance, image));
+        }
+        const double difference = maxRelativeDifference(forward, expected);
+        std::cout << "largest difference over the peak " << difference
+                  << "; an ulp of the depth makes " << moved << "\n";
+        EXPECT_LE(difference, std::max(acrossPipelines, 4 * moved));
+    }
+
     CndLighting lighting_{};
     CndLightingView view_{};
     uint32_t slot_ = 0;
@@ -191,8 +220,7 @@ TEST_F(ForwardTest, EqualsTheDeferredResultForTheSameSurface)
     std::vector<glm::vec4> twice = same.lit(); // the view was recorded twice
     for (glm::vec4& pixel : twice)
         pixel *= 2;
-    const double onSurface = maxPixelDifference(twice, same.deferred);
-    EXPECT_LE(onSurface, tolerance);
+    expectAlike(twice, same.deferred, seen, lights, options);
     EXPECT_LE(maxPixelDifference(same.stepped(), same.lit()), tolerance);
     constexpr uint32_t shadowed = 9; // a bit mask of ids
     for (size_t id = 0; id < lights.size(); ++id)
@@ -200,17 +228,13 @@ TEST_F(ForwardTest, EqualsTheDeferredResultForTheSameSurface)
             e *= id & shadowed ? 0.5f : 1.0f;
     std::erase_if(lights, [](const CndLight& light) { return light.layers == 2; });
     const std::vector<glm::vec4> expected = run(elsewhere, lights, options).radiance;
-    for (const CpuGBuffer& opaque : {seen, nothing}) {
-        const double off =
-            maxPixelDifference(frame(opaque, elsewhere, options, shadowed).lit(), expected);
-        EXPECT_LE(off, tolerance);
-        std::cout << "largest difference on the surfaces of the view " << onSurface
-                  << ", elsewhere " << off << "\n";
-    }
+    for (const CpuGBuffer& opaque : {seen, nothing})
+        expectAlike(frame(opaque, elsewhere, options, shadowed).lit(), expected, elsewhere, lights,
+                    options);
     options.culling = CND_CULLING_BRUTE;
     const Lit brute = frame(seen, elsewhere, options, shadowed);
-    EXPECT_LE(maxPixelDifference(brute.lit(), expected), tolerance);
-    EXPECT_LE(maxPixelDifference(brute.stepped(), expected), tolerance);
+    expectAlike(brute.lit(), expected, elsewhere, lights, options);
+    expectAlike(brute.stepped(), expected, elsewhere, lights, options);
 }
 
 TEST_F(ForwardTest, OfEachTypeAloneEqualsTheDeferredResult)
@@ -227,10 +251,9 @@ TEST_F(ForwardTest, OfEachTypeAloneEqualsTheDeferredResult)
         // shorter code. Where the lobe is as narrow as allowed, rounding differs by up to 3e-4.
         const bool byOutline = type == CND_LIGHT_TUBE || type == CND_LIGHT_RECTANGLE ||
                                type == CND_LIGHT_DISC || type == CND_LIGHT_POLYGON;
-        EXPECT_LE(maxPixelDifference(frame(seen, elsewhere, options).lit(),
-                                     run(elsewhere, lights, options).radiance),
-                  byOutline ? 3e-4 : tolerance)
-            << type;
+        SCOPED_TRACE(type);
+        expectAlike(frame(seen, elsewhere, options).lit(), run(elsewhere, lights, options).radiance,
+                    elsewhere, lights, options, byOutline ? 3e-4 : tolerance);
     }
 }
 
@@ -252,7 +275,7 @@ TEST_F(ForwardTest, UnderLightsThatAreCutByAnError)
     std::vector<glm::vec4> twice = cut.lit();
     for (glm::vec4& pixel : twice)
         pixel *= 2;
-    EXPECT_LE(maxPixelDifference(twice, cut.deferred), tolerance);
+    expectAlike(twice, cut.deferred, seen, lights, options);
     EXPECT_GT(maxPixelDifference(cut.lit(), run(seen, lights,
                                                 {.specular = CND_SPECULAR_CONIC,
                                                  .influence = {.rule = CND_INFLUENCE_UNCUT}})
@@ -268,9 +291,8 @@ TEST_F(ForwardTest, UnderAnOrthographicCameraAndManyLights)
         light.influenceRadius = 0.3f + 1.01f * light.radius;
     create(seen, lights);
     const RunOptions options{.specular = CND_SPECULAR_CONIC};
-    EXPECT_LE(maxPixelDifference(frame(seen, elsewhere, options).lit(),
-                                 run(elsewhere, lights, options).radiance),
-              tolerance);
+    expectAlike(frame(seen, elsewhere, options).lit(), run(elsewhere, lights, options).radiance,
+                elsewhere, lights, options);
 }
 
 // The illuminance of points and spheres has a closed form.
