@@ -229,11 +229,8 @@ ShadeKernels::Variant ShadeKernels::make(const Job& job) const
 template <typename Params>
 gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Job& job) const
 {
-    const gpu::Spirv* kernel = &host_->of(builtIn);
-    if (device_->lanesAreCpuVector && kernel == spirv::shade_tiles_comp[gpu::FAMILY_CONIC])
-        kernel = &spirv::shade_tiles_comp_lanes_alone_conic;
     const gpu::FormattedSpirv code =
-        surfaces::addingTo(radianceFormat_, *kernel, gpu::SHADE_RADIANCE);
+        surfaces::addingTo(radianceFormat_, host_->of(builtIn), gpu::SHADE_RADIANCE);
     return gpu::Kernel<Params>(*device_, code,
                                {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(*device_)},
                                 {gpu::SPEC_SPECULAR_METHOD, uint32_t(job.method)},

@@ -15,10 +15,13 @@ const uint SUM_ABOVE = 0u;
 const uint SUM_GENERAL = 1u;
 const uint SUM_AS_POINT = 2u; // only with an error budget
 
+#ifdef KEPT_RECEIVERS
+layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = false;
+#endif
+
 #if defined(KEPT_RECEIVERS) && defined(HAS_OUTLINES)
 #extension GL_KHR_shader_subgroup_basic : require
 
-layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = false;
 const bool KEEPS_RECEIVERS = lanesTogether && BY_OUTLINE;
 
 // The places of values among the words of a receiver.

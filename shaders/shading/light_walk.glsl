@@ -2,11 +2,11 @@
 // Walks a pixel's lights in blocks. First all lanes test the lights of a block in step, at the cost of
 // one pass over the list. Then each lane shades the lights that passed; these differ little between
 // neighbours, so the loops diverge little. Each way of evaluation has its own loop and its own sum, in
-// the order of the lights, so results do not depend on where blocks begin.
-// The includer provides uint lightAt(uint k), which returns the k-th light, and defines COUNTS_DIFFER
-// if blocks of one subgroup may be of different sizes and lightAt or lightCentre reads a storage buffer
-// or shared memory. It may define COUNT_FOUND, which then counts the tests of a block and the lights
-// that it evaluates in each way.
+// the order of the lights, so results do not depend on where blocks begin. The includer provides uint
+// lightAt(uint k), which returns the k-th light. It may define READS_AHEAD as a constant that tells
+// whether the lights of several tests are read at once. GPUs gain from that, because a test waits long
+// for its light, but little longer for several. The includer may define COUNT_FOUND, which then counts
+// the tests of a block and the lights that it evaluates in each way.
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 
@@ -48,70 +48,81 @@ bool isUncut(Receiver r, vec3 toLight, float height, float d2, float radius2)
 }
 #endif
 
-// While some lanes of a subgroup are in a loop, SwiftShader also runs its body for those that have left
-// it, with reads of storage buffers and shared memory that give 0. What they compute replaces the value
-// with which they left, unless it is assigned under a condition that is false in them
-// (tools/bench/RESULTS.md, decision 42). So such a loop asks for its condition in its body too, if
-// lanes may leave it one by one.
-#ifdef COUNTS_DIFFER
-#define IF_COUNTS_DIFFER(condition) if (condition)
-#else
-#define IF_COUNTS_DIFFER(condition)
+#ifndef READS_AHEAD
+#define READS_AHEAD false
 #endif
+// How many lights are read at once. Twice as many would need a third more registers.
+const uint TESTS_AT_ONCE = READS_AHEAD ? 4u : 1u;
+const uint MOST_TESTS_AT_ONCE = 4u;
 
-// Tests the lights first .. first + count - 1, where count is 1..32. Spheres are sorted by their
-// position relative to the horizon, without a division and with few comparisons, because this runs for
-// every light of a list. What is compared is computed as `precise`, so that all pipelines sort a light
-// into the same class as far as they read the same surface: the evaluations differ by more than
-// rounding. `testInfluence`: leave out lights whose sphere of influence does not hold the point (they
-// would add 0).
+// What is read of a light to test it.
+struct TestedLight {
+    vec4 centreRadius;
+    float influence2; // squared influence radius
+};
+
+// Adds the results of the test of a light to those of others. Spheres are sorted by their position
+// relative to the horizon, without a division and with few comparisons, because this runs for every
+// light of a list. What is compared is computed as `precise`, so that all pipelines sort a light into
+// the same class as far as they read the same surface: the evaluations differ by more than rounding.
+void testLight(inout FoundWord found, Receiver r, TestedLight light, uint bit, bool testInfluence)
+{
+    precise const vec3 toLight = towardsLight(light.centreRadius.xyz, r.p.position);
+    const float radius = light.centreRadius.w;
+    const float height = invariantDot(r.p.n, toLight);
+    const float d2 = invariantDot(toLight, toLight);
+    bool reaches = height > -radius;
+    if (testInfluence)
+        reaches = reaches && d2 < light.influence2;
+    found.reaching |= reaches ? bit : 0u;
+#ifdef HAS_SPHERES
+    precise const float aboveFrom = r.aboveFrom * radius;
+    found.above |= height >= aboveFrom ? bit : 0u;
+#endif
+#if defined(HAS_OUTLINES) && !defined(LIGHT_FAMILY_ALL)
+    const bool easy = !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
+    found.above |= height >= radius && easy ? bit : 0u;
+    if (HAS_BUDGET) {
+        precise const float pointLimit2 = r.pointLimit * d2;
+        found.asPoint |= height >= 2.0 * radius && radius * radius < pointLimit2 ? bit : 0u;
+    }
+#endif
+#ifdef LIGHT_FAMILY_CONIC
+    // For a point inside the sphere the cap is limited as in makeSphereCap. At the centre both sides of
+    // the comparisons are 0. Spheres with (R / d)^2 below `smallCap` are not clipped.
+    precise const float smallCap = SMALL_CAP * r.conic.a2;
+    precise const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
+    precise const float height2 = height * abs(height);
+    precise const float smallCap2 = smallCap * d2, pointLimit2 = r.pointLimit * d2;
+    found.near |= height2 > radius2 || radius2 < smallCap2 ? bit : 0u;
+    if (HAS_BUDGET)
+        found.asPoint |= height >= 2.0 * radius && radius2 < pointLimit2 ? bit : 0u;
+#endif
+}
+
+// Tests the lights first .. first + count - 1, where count is at most 32. `testInfluence`: leave out
+// lights whose sphere of influence does not hold the point (they would add 0).
+//
+// While some lanes of a subgroup are in a loop, SwiftShader also runs its body for those that have
+// left it, with reads of storage buffers and shared memory that give 0 (tools/bench/RESULTS.md,
+// decision 42). Here such a lane has no bit left, so it finds nothing.
 FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 {
     FoundWord found = FoundWord(0u, 0u, 0u, 0u);
-#ifdef LIGHT_FAMILY_CONIC
-    // Spheres with (R / d)^2 below it are not clipped.
-    precise const float smallCap = SMALL_CAP * r.conic.a2;
-#endif
+    const uint end = first + count;
     uint bit = 1u;
     uint k = first;
     do {
-        IF_COUNTS_DIFFER(k < first + count) {
-            const uint light = lightAt(k);
-            const vec4 centreRadius = lightCentre(light);
-            precise const vec3 toLight = towardsLight(centreRadius.xyz, r.p.position);
-            const float radius = centreRadius.w;
-            const float height = invariantDot(r.p.n, toLight);
-            const float d2 = invariantDot(toLight, toLight);
-            bool reaches = height > -radius;
-            if (testInfluence)
-                reaches = reaches && d2 < lightEmission(light).w;
-            found.reaching |= reaches ? bit : 0u;
-#ifdef HAS_SPHERES
-            precise const float aboveFrom = r.aboveFrom * radius;
-            found.above |= height >= aboveFrom ? bit : 0u;
-#endif
-#if defined(HAS_OUTLINES) && !defined(LIGHT_FAMILY_ALL)
-            const bool easy = !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
-            found.above |= height >= radius && easy ? bit : 0u;
-            if (HAS_BUDGET) {
-                precise const float pointLimit2 = r.pointLimit * d2;
-                found.asPoint |= height >= 2.0 * radius && radius * radius < pointLimit2 ? bit : 0u;
-            }
-#endif
-#ifdef LIGHT_FAMILY_CONIC
-            // For a point inside the sphere the cap is limited as in makeSphereCap. At the centre
-            // both sides of the comparisons are 0.
-            precise const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
-            precise const float height2 = height * abs(height);
-            precise const float smallCap2 = smallCap * d2, pointLimit2 = r.pointLimit * d2;
-            found.near |= height2 > radius2 || radius2 < smallCap2 ? bit : 0u;
-            if (HAS_BUDGET)
-                found.asPoint |= height >= 2.0 * radius && radius2 < pointLimit2 ? bit : 0u;
-#endif
+        TestedLight lights[MOST_TESTS_AT_ONCE];
+        for (uint i = 0u; i < TESTS_AT_ONCE; ++i) {
+            const uint light = lightAt(READS_AHEAD && k + i >= end ? first : k + i);
+            lights[i] = TestedLight(lightCentre(light), testInfluence ? lightEmission(light).w : 0.0);
         }
-        bit <<= 1u;
-        ++k;
-    } while (k < first + count);
+        for (uint i = 0u; i < TESTS_AT_ONCE; ++i)
+            testLight(found, r, lights[i], k + i < end ? bit << i : 0u, testInfluence);
+        bit <<= TESTS_AT_ONCE;
+        k += TESTS_AT_ONCE;
+    } while (k < end);
     return found;
 }
 
@@ -161,7 +172,7 @@ bool none(uvec2 bits)
 // the front some devices run it once more. Outlines have loops whose count differs between lanes; if
 // such a loop is within another, llvmpipe (Mesa 22.3) runs a lane that is done once more, which must
 // then add nothing. With a shadow term, whose id is read from a storage buffer, SwiftShader needs the
-// condition too (see IF_COUNTS_DIFFER).
+// condition too (see findWord).
 #if defined(HAS_OUTLINES) || defined(CANDELABRA_VISIBILITY)
 #define IF_ANY_LEFT(left) if (!none(left))
 #else

@@ -13,16 +13,15 @@ const uint LANES_OF_TREE_LISTS = 0u;  // cluster_lists, clusters that find their
 const uint LANES_OF_BLOCK_LISTS = 1u; // cluster_lists, blocks by the lists of larger blocks
 const uint LANES_OF_TILE_LISTS = 2u;
 const uint LANES_OF_SLICE_LISTS = 3u;
-const uint LANES_OF_SHADING = 4u; // shade_tiles, what each lane does for its own pixel
-const uint LANES_OF_QUEUES = 5u;  // shade_tiles, pairs that lanes evaluate together
-const uint LANE_PHASES = 6u;
+const uint LANES_OF_SHADING = 4u; // shade_tiles
+const uint LANE_PHASES = 5u;
 
 // The loops of a lane, which run one after the other in each of its rounds.
 const uint LANE_LOOPS = 4u;
 
 // One round of one lane: how often it ran each loop. Loops of cluster_lists: 0 tests a light, 1
 // tests a node of the tree. Loops of shade_tiles: 0 tests a light, 1 evaluates one above the
-// horizon, 2 near it, 3 across it, by itself or from a queue.
+// horizon, 2 near it, 3 across it.
 struct LaneRound {
     uint phaseRound;       // phase << LANE_ROUND_BITS | round
     uint lane;             // counted through all work groups of the dispatch

@@ -91,27 +91,6 @@ TEST_F(LightingTest, FormsForGpusGiveTheSameBits)
     compare(mixed, 0);
 }
 
-// The pairs that lanes evaluate together (kernels/common/pair_queues.glsl) are those that each lane
-// would evaluate alone. Large spheres near the surfaces fill many steps of the queues, and many
-// small influences fill lists of several pages.
-TEST_F(LightingTest, PairsEvaluatedTogetherGiveTheSameBits)
-{
-    const CpuGBuffer g = randomGBuffer(75, 53, 31);
-    const CndDeviceDesc gpu = gpuLike(deviceDesc());
-    for (const auto& [radius, budget] : {std::pair(0.01f, 0.0f), {0.3f, 0.05f}, {3.0f, 0.0f}}) {
-        auto lights = randomSpheres(g, 900, 31);
-        for (CndLight& light : lights) {
-            light.radius = radius;
-            light.influenceRadius = 8;
-        }
-        const RunOptions options{.specular = CND_SPECULAR_CONIC, .errorBudget = budget};
-        RunOptions onGpu = options;
-        onGpu.host = &gpu;
-        EXPECT_TRUE(sameBits(run(g, lights, onGpu), run(g, lights, options)))
-            << radius << " " << budget;
-    }
-}
-
 // Devices with small texel buffers read lights from storage buffers, which must give the same bits.
 TEST_F(LightingTest, SmallTexelBuffersChangeNothing)
 {

@@ -34,7 +34,7 @@ MODEL = {"gpus": {"toy": {"match": "Toy", "multiprocessors": 1, "issuesPerCycle"
                             "gigabytesPerSecond": 1, "simds": 3, "code": "c"}},
          "stepCycles": {"low": 50, "expected": 100, "high": 200}, "issueShare": {"expected": 0.5},
          "instructions": {"cluster_lists": {"light tests": 10}, "shade_tiles": {"light tests": 10, "near it": 50}},
-         "evaluationCycles": {"expected": 2}, "bytes": {"shade_tiles": 0},
+         "chainCycles": {"expected": 2}, "waits": {"cluster_lists": {"light tests": 3}, "shade_tiles": {"near it": 1}}, "bytes": {"shade_tiles": 0},
          "steps": {"about": "", "tile_clusters": {"steps": 3, "lanesPer": "tile", "lanes": 2}},
          "dispatch": {"microseconds": 7, "count": {"tile_clusters": 1, "shade_unlisted": 1}}}
 PIPELINES = {"measures": ["vectorRegisters", "subgroupsPerSimd"],
@@ -48,7 +48,7 @@ def loop(name, slots32, longest):
 LANES = {"widthPixels": 10, "heightPixels": 10,
          "points": [{"scene": "hall", "lights": 5, "tiles": 16, "splitTiles": 0,
                      "dispatches": [{"name": "cluster_lists, tiles", "loops": [loop("light tests", 320, 4)]},
-                                    {"name": "shade_tiles, own pixels", "loops": [loop("near it", 64, 1)]}]}]}
+                                    {"name": "shade_tiles", "loops": [loop("near it", 64, 1)]}]}]}
 
 
 def toys_are_computed_by_hand():
@@ -57,8 +57,9 @@ def toys_are_computed_by_hand():
     near(gpu.resident("tile_clusters"), 8, "subgroups that fit at most")
     near(gpu_model.Gpu("simds", MODEL, PIPELINES).resident("cluster_lists"), 2 * 3 * 4, "subgroups by SIMD")
     found = gpu_model.predict(gpu, LANES, LANES["points"][0], 100)
-    # 10 turns of subgroups at 100 cycles, two at a time, then the longest with 4; issuing takes only 200 cycles.
-    near(found["cluster_lists"], (10 * 100 / 2 + 4 * 100) / 1e3 + 7, "lists")
+    # 10 turns of subgroups at 3 * 100 + 2 * 10 cycles, two at a time, then the longest with 4; issuing takes only
+    # 200 cycles.
+    near(found["cluster_lists"], (10 * 320 / 2 + 4 * 320) / 1e3 + 7, "lists")
     # 2 turns at 100 + 2 * 50 cycles, one at a time, and the longest.
     near(found["shade_tiles"], (2 * 200 + 200) / 1e3, "shading")
     # 32 lanes are one subgroup of 3 steps, of 8 that fit.

@@ -39,9 +39,6 @@ uint bitsOf(uvec2 x)
 #define COUNT_FOUND(tests, found)                                                                  \
     countRound(LANES_OF_SHADING, uvec4(tests, bitsOf((found).above), bitsOf((found).near),         \
                                        bitsOf((found).general)));
-// shade_tiles, where lanes evaluate pairs together. All lanes of a group count each step.
-#define COUNT_QUEUES(near, across, above)                                                          \
-    countRound(LANES_OF_QUEUES, uvec4(0u, above, near, across));
 // cluster_lists: tests of lights and of nodes.
 #define COUNT_LISTS(lights, nodes)                                                                 \
     countRound(params.which == LISTS_OF_BLOCKS                                                     \
@@ -51,7 +48,6 @@ uint bitsOf(uvec2 x)
                uvec4(lights, nodes, 0u, 0u));
 #else
 #define COUNT_FOUND(tests, found)
-#define COUNT_QUEUES(near, across, above)
 #define COUNT_LISTS(lights, nodes)
 #endif
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The form of cluster_lists for GPUs: the lanes of a group make one list together. Each lane tests one
-// light at a time, and the group appends those that touch the cluster in their order. The includer
-// provides bindings and params of cluster_lists, and COUNT_LISTS (count_lanes.glsl).
+// The form of cluster_lists for GPUs: the lanes of a group make one list together. In each turn a lane
+// tests up to TESTS_PER_LANE lights, which are LANES apart, and the group appends those that touch the
+// cluster in their order. The includer provides bindings and params of cluster_lists, and COUNT_LISTS
+// (count_lanes.glsl).
 #ifndef CND_COMMON_LIST_BY_GROUP
 #define CND_COMMON_LIST_BY_GROUP
 
@@ -45,13 +46,18 @@ void appendLights(inout ListWriter list, uint light, bool touched)
         entries[page * PAGE_WORDS + 1u + place - (onLast ? PAGE_LIGHTS : 0u)] = light;
 }
 
-// Tests the lane's light and appends those of the group.
-void testLights(inout ListWriter list, ClusterBounds bounds, uint light, bool exists)
+// Tests the lights of a turn and appends those that touch the cluster. `exist` tells which of the
+// lane's lights there are, and `two` whether some lane has a second one.
+void testLights(inout ListWriter list, ClusterBounds bounds, uvec2 lights, bvec2 exist, bool two)
 {
-    COUNT_LISTS(exists ? 1u : 0u, 0u)
-    const vec4 centre = lightCentre(light);
-    const float r2 = lightEmission(light).w;
-    appendLights(list, light, exists && lightTouches(bounds, centre.xyz, centre.w, r2));
+    const vec4 first = lightCentre(lights.x), second = lightCentre(lights.y);
+    const vec2 reach2 = vec2(lightEmission(lights.x).w, lightEmission(lights.y).w);
+    COUNT_LISTS(exist.x ? 1u : 0u, 0u)
+    appendLights(list, lights.x, exist.x && lightTouches(bounds, first.xyz, first.w, reach2.x));
+    if (two) {
+        COUNT_LISTS(exist.y ? 1u : 0u, 0u)
+        appendLights(list, lights.y, exist.y && lightTouches(bounds, second.xyz, second.w, reach2.y));
+    }
 }
 
 // Finds lights in the list that begins with a page. Returns whether all have been tested.
@@ -60,11 +66,13 @@ bool searchPages(inout ListWriter list, ClusterBounds bounds, uint page, bool is
     uint first = 0u; // of the lights on this page that this turn tests
     while (page != NO_PAGE && !(isBlock && isUseless(list))) {
         const uint header = entries[page * PAGE_WORDS];
-        const uint onPage = first + lane;
-        const bool exists = onPage < pageCount(header);
-        const uint entry = entries[page * PAGE_WORDS + 1u + min(onPage, PAGE_LIGHTS - 1u)];
-        testLights(list, bounds, exists ? entry : params.tree.firstLight, exists);
-        first += LANES;
+        const uvec2 onPage = first + lane + uvec2(0u, LANES);
+        const bvec2 exist = lessThan(onPage, uvec2(pageCount(header)));
+        const uvec2 words = page * PAGE_WORDS + 1u + min(onPage, uvec2(PAGE_LIGHTS - 1u));
+        const uvec2 found = uvec2(entries[words.x], entries[words.y]);
+        testLights(list, bounds, mix(uvec2(params.tree.firstLight), found, exist), exist,
+                   first + LANES < pageCount(header));
+        first += TESTS_PER_LANE * LANES;
         if (first >= pageCount(header)) {
             page = pageAfter(header);
             first = 0u;
@@ -73,22 +81,35 @@ bool searchPages(inout ListWriter list, ClusterBounds bounds, uint page, bool is
     return page == NO_PAGE;
 }
 
+// Tests the nodes of a turn and queues those that touch the cluster. `firstNode` is the first of their
+// level; the other parameters are those of testLights.
+void testNodes(inout TreeTurn t, ClusterBounds bounds, uint firstNode, uvec2 nodes, bvec2 exist,
+               bool two)
+{
+    const Box first = treeBox(firstNode + nodes.x), second = treeBox(firstNode + nodes.y);
+    COUNT_LISTS(0u, exist.x ? 1u : 0u)
+    enqueue(t, nodes.x, exist.x && boxTouches(bounds, first));
+    if (two) {
+        COUNT_LISTS(0u, exist.y ? 1u : 0u)
+        enqueue(t, nodes.y, exist.y && boxTouches(bounds, second));
+    }
+}
+
 // Finds lights in the tree. Returns whether all have been tested. Adds to `steps` the nodes and lights
 // that one lane would have had to test.
 bool searchTree(inout ListWriter list, ClusterBounds bounds, bool isBlock, inout uint steps)
 {
     TreeTurn t = firstTurn(params.tree);
     while (t.parents != 0u && !(isBlock && isUseless(list))) {
-        const bool ofLights = t.level == 1u;
-        bool exists;
-        const uint child = childOfLane(t, treeLevelSize(params.tree, t.level - 1u), exists);
-        if (ofLights) {
-            testLights(list, bounds, params.tree.firstLight + child, exists);
-        } else {
-            COUNT_LISTS(0u, exists ? 1u : 0u)
-            const Box box = treeBox(levelFirst[t.level - 2u] + child);
-            enqueue(t, child, exists && boxTouches(bounds, box));
-        }
+        const uint levelSize = treeLevelSize(params.tree, t.level - 1u);
+        bvec2 exist;
+        const uvec2 children = uvec2(childOfTurn(t, levelSize, lane, exist.x),
+                                     childOfTurn(t, levelSize, lane + LANES, exist.y));
+        const bool two = t.parents * TREE_WIDTH > LANES;
+        if (t.level == 1u)
+            testLights(list, bounds, params.tree.firstLight + children, exist, two);
+        else
+            testNodes(t, bounds, levelFirst[t.level - 2u], children, exist, two);
         steps += t.parents * TREE_WIDTH;
         nextTurn(t);
     }

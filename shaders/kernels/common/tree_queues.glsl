@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // A walk of a group of lanes (lane_group.glsl) through the light tree. In each turn the lanes take up
-// to PARENTS nodes of one level that the cluster touches, and each lane tests one of their children.
+// to PARENTS nodes of one level that the cluster touches, and each lane tests up to TESTS_PER_LANE of
+// their children.
 //
 // Each level has a queue of touched nodes whose children have not been tested. Nodes leave a queue in
 // the order in which they entered it, and they come from the level above alone. So every queue holds
 // nodes in ascending order, and lights are found in ascending order, whichever level a turn takes. It
 // takes the lowest level that has PARENTS nodes. If none has as many, it takes the highest level that
 // has nodes, so that the queues below fill up. So nearly all turns have work for all lanes. No queue
-// ever holds more than PARENTS - 1 + LANES nodes: those that were too few for a turn, and the children
-// of one turn.
+// ever holds more than PARENTS - 1 + PARENTS * TREE_WIDTH nodes: those that were too few for a turn,
+// and the children of one turn.
 #ifndef CND_COMMON_TREE_QUEUES
 #define CND_COMMON_TREE_QUEUES
 
 #include "kernels/common/lane_group.glsl"
 #include "lib/light_tree_walk.glsl"
 
-const uint PARENTS = LANES / TREE_WIDTH;
-const uint QUEUE_PLACES = PARENTS + LANES;
+// How many nodes or lights a lane tests in a turn. What they read of memory arrives together, so two
+// tests take little longer than one.
+const uint TESTS_PER_LANE = 2u;
+const uint PARENTS = TESTS_PER_LANE * LANES / TREE_WIDTH;
+const uint QUEUE_PLACES = PARENTS + PARENTS * TREE_WIDTH;
 
 // Place p of the queue of level k is treeQueues[(k - 1) * QUEUE_PLACES + p]: the index of a node in its
 // level.
@@ -65,16 +69,17 @@ TreeTurn firstTurn(TreeShape tree)
     return TreeTurn(uvec2(0u), uvec2(0u), root, root, tree.lightCount == 0u ? 0u : 1u);
 }
 
-// Returns the index of this lane's child in its level, or sets `exists` to false.
-uint childOfLane(TreeTurn t, uint levelSize, out bool exists)
+// Returns the index in its level of the child number `at` of those that this turn tests, or sets
+// `exists` to false.
+uint childOfTurn(TreeTurn t, uint levelSize, uint at, out bool exists)
 {
     uint parent = 0u;
     if (t.level != t.root) {
-        const uint place = queuePlace(t, t.level, lane / TREE_WIDTH);
+        const uint place = queuePlace(t, t.level, at / TREE_WIDTH);
         parent = treeQueues[(t.level - 1u) * QUEUE_PLACES + place];
     }
-    const uint child = parent * TREE_WIDTH + lane % TREE_WIDTH;
-    exists = lane < t.parents * TREE_WIDTH && child < levelSize;
+    const uint child = parent * TREE_WIDTH + at % TREE_WIDTH;
+    exists = at < t.parents * TREE_WIDTH && child < levelSize;
     return exists ? child : 0u;
 }
 

@@ -27,8 +27,7 @@ constexpr std::array<PhaseNames, gpu::LANE_PHASES> phaseNames{
      {"cluster_lists, blocks", {"light tests", "node tests"}},
      {"cluster_lists, tiles", {"light tests", "node tests"}},
      {"cluster_lists, slices", {"light tests", "node tests"}},
-     {"shade_tiles, own pixels", {"light tests", "above the horizon", "near it", "across it"}},
-     {"shade_tiles, queues", {nullptr, "queued above", "queued near", "queued across"}}}};
+     {"shade_tiles", {"light tests", "above the horizon", "near it", "across it"}}}};
 
 using Turns = std::array<uint64_t, gpu::LANE_LOOPS>;
 
