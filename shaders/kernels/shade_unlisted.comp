@@ -28,6 +28,7 @@ uint lightAt(uint k)
     return params.tree.firstLight + leaf * TREE_WIDTH + k % TREE_WIDTH;
 }
 
+#define COUNTS_DIFFER
 #define KEPT_RECEIVERS (TILE_SIZE * TILE_SIZE)
 #define KEPT_RECEIVER gl_LocalInvocationIndex
 #define KEPT_LANES KEPT_RECEIVERS

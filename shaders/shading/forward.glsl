@@ -61,6 +61,7 @@ uint lightAt(uint k)
 }
 
 #define LIGHT_FAMILY_ALL
+#define COUNTS_DIFFER
 #include "shading/light_walk.glsl"
 
 // Iterates over the lights of one type that reach a position. A shader may use one cursor at a time.

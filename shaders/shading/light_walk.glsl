@@ -2,11 +2,14 @@
 // Walks a pixel's lights in blocks. First all lanes test the lights of a block in step, at the cost of
 // one pass over the list. Then each lane shades the lights that passed; these differ little between
 // neighbours, so the loops diverge little. Each way of evaluation has its own loop and its own sum, in
-// the order of the lights, so results do not depend on where blocks begin. The includer provides uint
-// lightAt(uint k), which returns the k-th light. It may define READS_AHEAD as a constant that tells
-// whether the lights of several tests are read at once. GPUs gain from that, because a test waits long
-// for its light, but little longer for several. The includer may define COUNT_FOUND, which then counts
-// the tests of a block and the lights that it evaluates in each way.
+// the order of the lights, so results do not depend on where blocks begin.
+//
+// The includer provides uint lightAt(uint k), which returns the k-th light, and defines COUNTS_DIFFER
+// if blocks of one subgroup may be of different sizes and lightAt or lightCentre reads a storage buffer
+// or shared memory. It may define READS_AHEAD as a constant that tells whether the lights of several
+// tests are read at once. GPUs gain from that, because a test waits long for its light, but little
+// longer for several. It may also define COUNT_FOUND, which then counts the tests of a block and the
+// lights that it evaluates in each way.
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 
@@ -46,6 +49,17 @@ bool isUncut(Receiver r, vec3 toLight, float height, float d2, float radius2)
     precise const float size = radius2 * d2;
     return size < limit;
 }
+#endif
+
+// While some lanes of a subgroup are in a loop, SwiftShader also runs its body for those that have left
+// it, with reads of storage buffers and shared memory that give 0. What they compute replaces the value
+// with which they left, unless it is assigned under a condition that is false in them
+// (tools/bench/RESULTS.md, decision 42). So such a loop asks for its condition in its body too, if
+// lanes may leave it one by one.
+#ifdef COUNTS_DIFFER
+#define IF_COUNTS_DIFFER(condition) if (condition)
+#else
+#define IF_COUNTS_DIFFER(condition)
 #endif
 
 #ifndef READS_AHEAD
@@ -102,10 +116,6 @@ void testLight(inout FoundWord found, Receiver r, TestedLight light, uint bit, b
 
 // Tests the lights first .. first + count - 1, where count is at most 32. `testInfluence`: leave out
 // lights whose sphere of influence does not hold the point (they would add 0).
-//
-// While some lanes of a subgroup are in a loop, SwiftShader also runs its body for those that have
-// left it, with reads of storage buffers and shared memory that give 0 (tools/bench/RESULTS.md,
-// decision 42). Here such a lane has no bit left, so it finds nothing.
 FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 {
     FoundWord found = FoundWord(0u, 0u, 0u, 0u);
@@ -113,13 +123,16 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
     uint bit = 1u;
     uint k = first;
     do {
-        TestedLight lights[MOST_TESTS_AT_ONCE];
-        for (uint i = 0u; i < TESTS_AT_ONCE; ++i) {
-            const uint light = lightAt(READS_AHEAD && k + i >= end ? first : k + i);
-            lights[i] = TestedLight(lightCentre(light), testInfluence ? lightEmission(light).w : 0.0);
+        IF_COUNTS_DIFFER(k < end) {
+            TestedLight lights[MOST_TESTS_AT_ONCE];
+            for (uint i = 0u; i < TESTS_AT_ONCE; ++i) {
+                const uint light = lightAt(READS_AHEAD && k + i >= end ? first : k + i);
+                lights[i] =
+                    TestedLight(lightCentre(light), testInfluence ? lightEmission(light).w : 0.0);
+            }
+            for (uint i = 0u; i < TESTS_AT_ONCE; ++i)
+                testLight(found, r, lights[i], k + i < end ? bit << i : 0u, testInfluence);
         }
-        for (uint i = 0u; i < TESTS_AT_ONCE; ++i)
-            testLight(found, r, lights[i], k + i < end ? bit << i : 0u, testInfluence);
         bit <<= TESTS_AT_ONCE;
         k += TESTS_AT_ONCE;
     } while (k < end);
@@ -172,7 +185,7 @@ bool none(uvec2 bits)
 // the front some devices run it once more. Outlines have loops whose count differs between lanes; if
 // such a loop is within another, llvmpipe (Mesa 22.3) runs a lane that is done once more, which must
 // then add nothing. With a shadow term, whose id is read from a storage buffer, SwiftShader needs the
-// condition too (see findWord).
+// condition too (see IF_COUNTS_DIFFER).
 #if defined(HAS_OUTLINES) || defined(CANDELABRA_VISIBILITY)
 #define IF_ANY_LEFT(left) if (!none(left))
 #else
