@@ -159,7 +159,8 @@ float specularBound(ShadingPoint p, LightExtent light, float minNoV)
     const float a2 = p.alpha * p.alpha;
     const float smithV = sqrt(a2 + (1.0 - a2) * NoV * NoV);
     const float w = a2 + (1.0 - a2) * light.sine * light.sine;
-    return min(light.solidAngle * (0.5 * INV_PI) * a2 / (w * w * smithV), 1.0);
+    // The solid angle comes last: its product with a2 may be denormal, which GPUs flush to zero.
+    return min((0.5 * INV_PI) * a2 / (w * w * smithV) * light.solidAngle, 1.0);
 }
 
 // Returns the approximate response to a light of this solid angle in the mirror direction. It is exact

@@ -2,6 +2,25 @@
 // The random cases of sweep_inputs.comp, one kind per slice. Lights are within the documented ranges of
 // CndLight; surface points may be anything that a G-buffer can hold.
 
+// These functions return their argument. Every input that a record holds goes through one of them, so
+// that compilers cannot tell how it was computed, and the evaluation sees what the record holds.
+// NVIDIA's compiler simplifies centre - position, where centre is position + offset, back to the
+// offset, even if the sum is `precise`. But rounding of the sum moves the light.
+float opaque(float x)
+{
+    return uintBitsToFloat(floatBitsToUint(x) ^ params.zero);
+}
+
+vec3 opaque(vec3 x)
+{
+    return uintBitsToFloat(floatBitsToUint(x) ^ params.zero);
+}
+
+vec4 opaque(vec4 x)
+{
+    return uintBitsToFloat(floatBitsToUint(x) ^ params.zero);
+}
+
 struct SweepPoint {
     vec3 position, n, v;
     float perceptualRoughness;
@@ -37,6 +56,10 @@ SweepPoint makeSweepPoint(uint slice)
     p.albedo = vec3(random01(), random01(), chance(0.5) ? 0.0 : 1.0);
     p.F0 = vec3(random01(), 0.04, chance(0.5) ? 0.0 : 1.0);
     p.F90 = 1.0;
+    p.position = opaque(p.position);
+    p.n = opaque(p.n);
+    p.v = opaque(p.v);
+    p.perceptualRoughness = opaque(p.perceptualRoughness);
     return p;
 }
 
@@ -124,6 +147,9 @@ LightShape makeSweepShape(float size, vec3 u, vec3 w, float aspect, uint corners
         if (hasAxisV)
             shape.radius = boundingRadius; // as in shapeOfRecord()
     }
+    shape.axisU = opaque(shape.axisU);
+    shape.axisV = opaque(shape.axisV);
+    shape.radius = opaque(shape.radius);
     if (usesField(TYPES_WITH_SIDES))
         shape.flags = chance(0.5) ? LIGHT_TWO_SIDED : 0u;
     if (usesField(TYPES_WITH_CORNERS))
@@ -194,9 +220,6 @@ void makeSweepLight(uint slice, SweepPoint p)
     vec3 offset = d * at.xyz;
     if (slice == SWEEP_EDGE)
         offset -= outlineOffset(at.xyz, size, u, w, aspect, corners);
-    // Rounding of the position moves the light; the record must hold what the shader sees. Without
-    // `precise`, compilers simplify centre - position back to the offset.
-    precise const vec3 centre = p.position + offset;
     float emission = randomLog10(-2.0, 4.0);
     if (slice == SWEEP_EMISSION)
         emission = randomLog10(-8.0, 9.0);
@@ -206,13 +229,13 @@ void makeSweepLight(uint slice, SweepPoint p)
     float boundingRadius = 0.0;
     if (IS_DISTANT) {
         const float sine = usesField(TYPES_WITH_RADIUS) ? max(at.w, 1e-7) : 0.0;
-        lightShapes[0] = LightShape(vec3(0.0), sine, vec3(0.0), 0u);
-        centreRadius = vec4(normalize(at.xyz), min(sine, 1.0));
+        lightShapes[0] = LightShape(vec3(0.0), opaque(sine), vec3(0.0), 0u);
+        centreRadius = opaque(vec4(normalize(at.xyz), min(sine, 1.0)));
     } else {
         lightShapes[0] = makeSweepShape(size, u, w, aspect, corners, boundingRadius);
-        centreRadius = vec4(centre, boundingRadius);
+        centreRadius = opaque(vec4(p.position + offset, boundingRadius));
     }
     const float limited = boundingRadius * 1.01 + 3.0 * length(offset) + 1e-12;
     const float influence = chance(0.5) ? UNBOUNDED : limited;
-    emissionInfluence = vec4(emission * tint, influence * influence);
+    emissionInfluence = opaque(vec4(emission * tint, influence * influence));
 }

@@ -88,8 +88,9 @@ struct SweepParams {
     uint sampleCount; // as in FrameParams
     uint sampleSeed;
     float errorBudget;
+    uint zero; // 0, which compilers cannot know (see opaque() in bench/sweep_cases.glsl)
 };
-GPU_SIZE(SweepParams, 28)
+GPU_SIZE(SweepParams, 32)
 
 // Numbers of responses. above: responses of a closed form that are above an upper bound of the
 // exact response by more than the errors that SWEEP_CLOSED_FORM_ERROR and SWEEP_OUTLINE_ERROR

@@ -295,7 +295,10 @@ TEST_F(ForwardTest, UnderAnOrthographicCameraAndManyLights)
                 elsewhere, lights, options);
 }
 
-// The illuminance of points and spheres has a closed form.
+// The illuminance of points and spheres has a closed form. The shader computes the position by
+// division, which Vulkan allows to be wrong by 2.5 ULP, 3e-7 of the distance to the eye. (On
+// llvmpipe it is right to 0.5 ULP.) The window of a light falls steeply near the edge of its
+// influence: on NVIDIA an error of 4e-6 m, 27 m in front of the eye, moves one pixel by 3.5e-4.
 TEST_F(ForwardTest, IlluminanceForVolumes)
 {
     const CpuGBuffer g = gbuffer(9);
@@ -309,10 +312,11 @@ TEST_F(ForwardTest, IlluminanceForVolumes)
         if (g.depth[i] == g.clearDepth)
             continue;
         glm::dvec3 expected(0), by(0);
+        glm::dvec3 moved(0); // change of the illuminance by windows, if the position is as wrong
+        const glm::dvec3 position = viewPosition(g, i % g.width, i / g.width);
         for (const CndLight& light : lights) {
             const glm::dvec3 to =
-                glm::dvec3(light.position[0], light.position[1], light.position[2]) -
-                viewPosition(g, i % g.width, i / g.width);
+                glm::dvec3(light.position[0], light.position[1], light.position[2]) - position;
             const double d = glm::length(to), x = d / light.influenceRadius;
             if (x >= 1)
                 continue;
@@ -325,12 +329,14 @@ TEST_F(ForwardTest, IlluminanceForVolumes)
                 glm::dvec3(light.emission[0], light.emission[1], light.emission[2]);
             expected += e;
             by += e.x * to / d;
+            const double slope = 8 * x * x * x / ((1 - x * x * x * x) * light.influenceRadius);
+            moved += e * slope * 3e-7 * glm::length(position);
         }
         const gpu::ForwardProbeOutput& f = result.forward[i];
         for (int c = 0; c < 3; ++c)
-            largest = std::max(largest, std::abs(expected[c] - f.illuminance[c]) /
+            largest = std::max(largest, (std::abs(expected[c] - f.illuminance[c]) - moved[c]) /
                                             std::max(expected[c], 1.0));
-        EXPECT_NEAR(f.illuminanceBy.x, by.x, 2e-4 * expected.x + 1e-6);
+        EXPECT_NEAR(f.illuminanceBy.x, by.x, 2e-4 * expected.x + 1e-6 + moved.x);
         peak = std::max(peak, expected.x);
     }
     EXPECT_GT(peak, 0);

@@ -8,6 +8,7 @@
 #include "candelabra_probes.h"
 #include "gpu/lighting_harness.h"
 #include "gpu/probe.h"
+#include "measure/stability/stability.h"
 #include "reference/brdf.h"
 #include "render/setting_names.h"
 
@@ -137,6 +138,12 @@ TEST_F(LightLaws, NothingComesFromBelowTheHorizon)
 
 // The Sun as a sphere at a distance of 149.6 million km with a radius of 696,000 km, and as a
 // distant sphere. Then both with camera and scene 1,000 km from the origin.
+// Where the horizon cuts the Sun, the lobe over the rest is the sum of the integrals along two arcs
+// (lib/specular/conic_clip.glsl). In one pixel with alpha 0.017 the Sun is 124 degrees off the
+// mirror direction, and the sum is 1e-8 of what it is there, less than the rounding of the arcs.
+// Quotients and roots that are wrong by up to 2.5 ULP, as Vulkan allows, moved its luminance by up
+// to 4e-7 of what a lobe with F = 1 has in the mirror direction, which is 2.5 times the pixel's own
+// luminance. They moved no other pixel by more than 5e-5.
 TEST_F(LightLaws, SunIsTheSameFromAfar)
 {
     CpuGBuffer g = randomGBuffer(64, 48, plane(8, 5).camera, 0, 3);
@@ -156,10 +163,21 @@ TEST_F(LightLaws, SunIsTheSameFromAfar)
     const auto asSphere = run(g, {near}, {.specular = CND_SPECULAR_CONIC}).radiance;
     const auto asSun = run(g, {sun}, {.specular = CND_SPECULAR_CONIC}).radiance;
     double worst = 0;
-    for (size_t i = 0; i < asSun.size(); ++i)
-        for (int c = 0; c < 3; ++c)
+    for (uint32_t i = 0; i < asSun.size(); ++i) {
+        const glm::dvec3 n = storedNormal(g, i);
+        const double NoV = -glm::dot(n, glm::normalize(viewPosition(g, i % g.width, i / g.width)));
+        const double alpha = std::max(std::pow(storedRoughness(g, i), 2), double(gpu::MIN_ALPHA));
+        const double s = radius / distance;
+        const bool isCut = std::abs(glm::dot(n, towards)) < s;
+        const double rounding =
+            isCut ? 1e-6 * app::onAxisResponse(s, alpha, std::max(NoV, 0.02)) : 0;
+        for (int c = 0; c < 3; ++c) {
+            const double error = std::abs(double(asSphere[i][c]) - double(asSun[i][c]));
+            const double allowed = rounding * double(sun.emission[c]);
             if (asSun[i][c] > 0)
-                worst = std::max(worst, std::abs(double(asSphere[i][c]) / double(asSun[i][c]) - 1));
+                worst = std::max(worst, (error - allowed) / double(asSun[i][c]));
+        }
+    }
     std::cout << "Sun at 149.6e9 m: largest relative difference to the distant sphere " << worst
               << "\n";
     EXPECT_LE(worst, 1e-3);
