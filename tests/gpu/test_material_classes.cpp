@@ -14,7 +14,10 @@ namespace candelabra::test
 namespace
 {
 
-// Tolerance per pixel: the formulas are the same, but in another order.
+// Tolerance per pixel on llvmpipe: the formulas are the same, but in another order. Other drivers
+// may fuse and round each pipeline in its own way. There a dark pixel whose sphere is cut by the
+// horizon, far outside of its narrow lobe, differs by a part of itself, as it does if its position
+// changes by an ulp, and what is compared is what the engine promises (LightingTest::agree).
 constexpr double classTolerance = 1e-5;
 constexpr uint32_t bothClasses = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
 
@@ -117,7 +120,9 @@ TEST_P(MaterialClasses, LookTheSame)
     const LightingResult apart = run(g, lights, options);
     const double difference = maxPixelDifference(apart.radiance, together.radiance);
     std::cout << GetParam().name << ": largest difference of a pixel " << difference << '\n';
-    EXPECT_LE(difference, classTolerance);
+    if (device().lanesAreCpuVector)
+        EXPECT_LE(difference, classTolerance);
+    EXPECT_TRUE(agree(apart.radiance, together.radiance, classTolerance));
     EXPECT_GT(apart.stats.contributingPairs, 0u);
     // Three columns of six tiles each, without the row that has other pixels; fewer if a tile has
     // no surface.
@@ -161,7 +166,9 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
         const LightingResult apart = run(g, lights, options);
         const double difference = maxPixelDifference(apart.radiance, together.radiance);
         std::cout << "type " << type << ": largest difference of a pixel " << difference << '\n';
-        EXPECT_LE(difference, classTolerance) << type;
+        if (device().lanesAreCpuVector)
+            EXPECT_LE(difference, classTolerance) << type;
+        EXPECT_TRUE(agree(apart.radiance, together.radiance, classTolerance)) << type;
         EXPECT_EQ(together.stats.diffuseTileCount, 0u);
         EXPECT_EQ(together.stats.specularTileCount, 0u);
         EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);

@@ -108,8 +108,11 @@ vec3 onTubeEnd(TubeEnd e, vec2 at)
     return e.circle + at.x * e.outward + (at.y * e.acrossLength) * e.across;
 }
 
-// The parts of an end's arc above the horizon, as up to two ranges of its angle.
+// The parts of an end's arc above the horizon, as up to two ranges of its angle. A range that ends at
+// -limit or limit, where the arc does, is told from one that ends at the horizon by comparing them, so
+// `limit` is computed only once.
 struct TubeRanges {
+    float limit; // half the arc's angle
     vec2 first, second;
     bool hasFirst, hasSecond;
 };
@@ -133,19 +136,27 @@ TubeRanges rangesAboveHorizon(TubeEnd e, float centreHeight)
     const vec2 b = vec2(max(-limit, upper - reach), min(limit, upper + reach));
     const bool hasA = a.y > a.x, hasB = b.y > b.x;
     const bool whole = cosine <= -1.0;
-    return TubeRanges(whole ? vec2(-limit, limit) : hasA ? a : b, b,
+    return TubeRanges(limit, whole ? vec2(-limit, limit) : hasA ? a : b, b,
                       cosine < 1.0 && limit > 0.0 && (whole || hasA || hasB), !whole && hasA && hasB);
 }
 
-// Adds the arcs of an end within a range of its angle.
-void addTubeArcs(inout Outline k, TubeEnd e, vec2 range)
+// Returns cosine and sine of an angle. Vulkan lets both be wrong by 2^-11. Their length is made 1, so
+// that points stay on their circle.
+vec2 directionOf(float angle)
 {
-    const float limit = atan(e.half1.y, e.half1.x);
+    return unitVector(vec2(cos(angle), sin(angle)));
+}
+
+// Adds the arcs of an end within a range of its angle, which is within -limit..limit.
+void addTubeArcs(inout Outline k, TubeEnd e, float limit, vec2 range)
+{
     // The points that divide the whole arc, as in addTubeHalf, also divide the part of it above the
     // horizon, so that nothing jumps when the tube touches the horizon.
     const uint parts = e.half1.x < TUBE_ARC_COSINE ? 4u : 2u;
     float angle = range.x;
-    OutlinePoint a = pointAt(k, onTubeEnd(e, vec2(cos(range.x), sin(range.x))));
+    // The ends of the whole arc are known without sine and cosine, which some devices approximate.
+    const vec2 begin = range.x > -limit ? directionOf(range.x) : vec2(e.half1.x, -e.half1.y);
+    OutlinePoint a = pointAt(k, onTubeEnd(e, begin));
     if (range.x > -limit) {
         k.crosses = true;
         k.enters = a.dl;
@@ -154,7 +165,8 @@ void addTubeArcs(inout Outline k, TubeEnd e, vec2 range)
     do { // a lane that is done may run once more (lens.glsl)
         const float next = min((2.0 * float(part) / float(parts) - 1.0) * limit, range.y);
         if (next > angle && part <= parts) {
-            const OutlinePoint b = pointAt(k, onTubeEnd(e, vec2(cos(next), sin(next))));
+            const vec2 at = next < limit ? directionOf(next) : e.half1;
+            const OutlinePoint b = pointAt(k, onTubeEnd(e, at));
             addArc(k, a, b, e.seen, true);
             a = b;
             angle = next;
@@ -214,7 +226,7 @@ void addClippedTubeHalf(inout Outline k, TubeView t, float outwards)
     uint range = 0u;
     do { // twice in every lane, so no lane runs it once more (lens.glsl)
         if (range == 0u ? ranges.hasFirst : ranges.hasSecond)
-            addTubeArcs(k, e, range == 0u ? ranges.first : ranges.second);
+            addTubeArcs(k, e, ranges.limit, range == 0u ? ranges.first : ranges.second);
         ++range;
     } while (range < 2u);
 }
@@ -243,7 +255,9 @@ WalkedOutline tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 toEn
             addTubeHalf(k, t, outwards, last);
         ++end;
     } while (end < 2u);
-    if (needs.across && k.crosses)
+    // A side and the end next to it compute their common point in different ways. If it is on the
+    // horizon, rounding may let only one of them cross the horizon there, and nothing is to be closed.
+    if (needs.across && k.leaves != vec3(0.0) && k.enters != vec3(0.0))
         addHorizon(k);
     // The half axis across the tube is the radius, and the one along it is half the length with both
     // ends.
