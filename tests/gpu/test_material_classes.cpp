@@ -120,8 +120,9 @@ TEST_P(MaterialClasses, LookTheSame)
     const LightingResult apart = run(g, lights, options);
     const double difference = maxPixelDifference(apart.radiance, together.radiance);
     std::cout << GetParam().name << ": largest difference of a pixel " << difference << '\n';
-    if (device().lanesAreCpuVector)
+    if (device().lanesAreCpuVector) {
         EXPECT_LE(difference, classTolerance);
+    }
     EXPECT_TRUE(agree(apart.radiance, together.radiance, classTolerance));
     EXPECT_GT(apart.stats.contributingPairs, 0u);
     // Three columns of six tiles each, without the row that has other pixels; fewer if a tile has
@@ -166,8 +167,9 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
         const LightingResult apart = run(g, lights, options);
         const double difference = maxPixelDifference(apart.radiance, together.radiance);
         std::cout << "type " << type << ": largest difference of a pixel " << difference << '\n';
-        if (device().lanesAreCpuVector)
+        if (device().lanesAreCpuVector) {
             EXPECT_LE(difference, classTolerance) << type;
+        }
         EXPECT_TRUE(agree(apart.radiance, together.radiance, classTolerance)) << type;
         EXPECT_EQ(together.stats.diffuseTileCount, 0u);
         EXPECT_EQ(together.stats.specularTileCount, 0u);
