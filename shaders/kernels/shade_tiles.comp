@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push
 
 #include "kernels/common/count_lanes.glsl"
 #include "kernels/common/tile_walk.glsl"
-#define READS_AHEAD lanesTogether
+#define READS_AHEAD lanesTogether // of shading/kept_receiver.glsl
 #define KEPT_RECEIVERS (TILE_SIZE * TILE_SIZE)
 #define KEPT_RECEIVER gl_LocalInvocationIndex
 #define KEPT_LANES KEPT_RECEIVERS

@@ -65,9 +65,10 @@ bool isUncut(Receiver r, vec3 toLight, float height, float d2, float radius2)
 #ifndef READS_AHEAD
 #define READS_AHEAD false
 #endif
-// How many lights are read at once. Twice as many would need a third more registers.
-const uint TESTS_AT_ONCE = READS_AHEAD ? 4u : 1u;
-const uint MOST_TESTS_AT_ONCE = 4u;
+// How many lights are read at once. Eight at once take an H100 longer, and need a third more registers
+// on Navi 21 (engine/DECISIONS.md, 38).
+const uint MOST_TESTS_AT_ONCE = 4u; // the size of an array, which is no specialisation constant
+const uint TESTS_AT_ONCE = READS_AHEAD ? MOST_TESTS_AT_ONCE : 1u;
 
 // What is read of a light to test it.
 struct TestedLight {
@@ -233,9 +234,11 @@ vec3 total(Sums sums)
     return (sums.asPoint + sums.above) + (sums.near + sums.general);
 }
 
-// Adds the lights of a block that are evaluated as points or above the horizon to the sums.
-void shadeInPlace(inout Sums sums, Receiver r, uint first, Found found)
+// Adds the light of a block to the sums. The parameters are those of findLights.
+void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
+    const Found found = findLights(readAgain(r), first, count, testInfluence);
+    COUNT_FOUND(count, found)
 #ifdef HAS_AS_POINT
     if (HAS_BUDGET) {
         SHADE_FOUND(sums.asPoint, SUM_AS_POINT, r, first, found.asPoint, evaluateAsPoint)
@@ -244,14 +247,6 @@ void shadeInPlace(inout Sums sums, Receiver r, uint first, Found found)
 #ifdef HAS_ABOVE
     SHADE_FOUND(sums.above, SUM_ABOVE, r, first, found.above, evaluateAbove)
 #endif
-}
-
-// Adds the light of a block to the sums. The parameters are those of findLights.
-void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
-{
-    const Found found = findLights(readAgain(r), first, count, testInfluence);
-    COUNT_FOUND(count, found)
-    shadeInPlace(sums, r, first, found);
 #ifdef LIGHT_FAMILY_CONIC
     SHADE_FOUND(sums.near, SUM_GENERAL, r, first, found.near, evaluateNear)
 #endif

@@ -209,7 +209,7 @@ TEST_F(HostFunctions, AShadowTermScalesEachLightById)
     destroy(lighting, view);
 }
 
-// On GPUs, lanes evaluate the lights of several pixels together, and ask the shadow term for each.
+// The form of shading that GPUs run asks the shadow term for the same lights.
 TEST_F(HostFunctions, FormsForGpusAskTheShadowTermAlike)
 {
     const CompiledKernels kernels =

@@ -142,8 +142,9 @@ TEST_F(LightLaws, NothingComesFromBelowTheHorizon)
 // (lib/specular/conic_clip.glsl). In one pixel with alpha 0.017 the Sun is 124 degrees off the
 // mirror direction, and the sum is 1e-8 of what it is there, less than the rounding of the arcs.
 // Quotients and roots that are wrong by up to 2.5 ULP, as Vulkan allows, moved its luminance by up
-// to 4e-7 of what a lobe with F = 1 has in the mirror direction, which is 2.5 times the pixel's own
-// luminance. They moved no other pixel by more than 5e-5.
+// to 4e-7 of what a lobe with F = 1 has in the mirror direction, which was 2.5 times the pixel's
+// own luminance. (That was before the axes of cut cones became less sensitive to rounding.) They
+// moved no other pixel by more than 5e-5.
 TEST_F(LightLaws, SunIsTheSameFromAfar)
 {
     CpuGBuffer g = randomGBuffer(64, 48, plane(8, 5).camera, 0, 3);
@@ -169,8 +170,9 @@ TEST_F(LightLaws, SunIsTheSameFromAfar)
         const double alpha = std::max(std::pow(storedRoughness(g, i), 2), double(gpu::MIN_ALPHA));
         const double s = radius / distance;
         const bool isCut = std::abs(glm::dot(n, towards)) < s;
-        const double rounding =
-            isCut ? 1e-6 * app::onAxisResponse(s, alpha, std::max(NoV, 0.02)) : 0;
+        const double rounding = isCut && !device().lanesAreCpuVector
+                                    ? 1e-6 * app::onAxisResponse(s, alpha, std::max(NoV, 0.02))
+                                    : 0;
         for (int c = 0; c < 3; ++c) {
             const double error = std::abs(double(asSphere[i][c]) - double(asSun[i][c]));
             const double allowed = rounding * double(sun.emission[c]);

@@ -46,17 +46,6 @@ bool takeTile(out uint tile)
     return true;
 }
 
-// Returns a pixel of a tile. It may be outside the image.
-uvec2 pixelOfTile(uint tile, uint pixelInTile)
-{
-    return firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(pixelInTile);
-}
-
-bool isInImage(uvec2 pixel)
-{
-    return all(lessThan(pixel, frameParams.size));
-}
-
 // Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
 // outside the image.
 bool takeTile(out uint tile, out uvec2 pixel)
@@ -64,8 +53,8 @@ bool takeTile(out uint tile, out uvec2 pixel)
     pixel = uvec2(0u);
     if (!takeTile(tile))
         return false;
-    pixel = pixelOfTile(tile, gl_LocalInvocationIndex);
-    return isInImage(pixel);
+    pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(gl_LocalInvocationIndex);
+    return all(lessThan(pixel, frameParams.size));
 }
 
 #endif

@@ -17,7 +17,7 @@
 #include "lib/light_tree_walk.glsl"
 
 // How many nodes or lights a lane tests in a turn. What they read of memory arrives together, so two
-// tests take little longer than one.
+// take less than twice as long as one. list_by_group.glsl is written for two.
 const uint TESTS_PER_LANE = 2u;
 const uint PARENTS = TESTS_PER_LANE * LANES / TREE_WIDTH;
 const uint QUEUE_PLACES = PARENTS + PARENTS * TREE_WIDTH;

@@ -112,6 +112,24 @@ void addHorizon(inout Outline k)
     }
 }
 
+// Notes where the outline comes back above the horizon, or goes below it. An edge and an arc compute
+// their common point in different ways. If it is on the horizon, rounding may let only one of them
+// cross the horizon there. So the first crossing stands for both until the other is found, and if it
+// never is, the arc of the horizon between them is empty.
+void enterAt(inout Outline k, vec3 dl)
+{
+    k.leaves = k.crosses ? k.leaves : dl;
+    k.enters = dl;
+    k.crosses = true;
+}
+
+void leaveAt(inout Outline k, vec3 dl)
+{
+    k.enters = k.crosses ? k.enters : dl;
+    k.leaves = dl;
+    k.crosses = true;
+}
+
 // Adds the part above the horizon of the edge between two points that are given by their offsets.
 void addClippedEdge(inout Outline k, vec3 from, vec3 to)
 {
@@ -122,11 +140,10 @@ void addClippedEdge(inout Outline k, vec3 from, vec3 to)
             from + clamp(za / (abs(fall) > 0.0 ? fall : 1.0), 0.0, 1.0) * (to - from);
         const OutlinePoint a = pointAt(k, za < 0.0 ? crossing : from);
         const OutlinePoint b = pointAt(k, zb < 0.0 ? crossing : to);
-        k.crosses = k.crosses || za < 0.0 || zb < 0.0;
         if (za < 0.0)
-            k.enters = a.dl;
+            enterAt(k, a.dl);
         if (zb < 0.0)
-            k.leaves = b.dl;
+            leaveAt(k, b.dl);
         addEdge(k, a, b);
     }
 }

@@ -147,36 +147,29 @@ vec2 directionOf(float angle)
     return unitVector(vec2(cos(angle), sin(angle)));
 }
 
-// Adds the arcs of an end within a range of its angle, which is within -limit..limit.
+// Adds the arcs of an end within a range of its angle.
 void addTubeArcs(inout Outline k, TubeEnd e, float limit, vec2 range)
 {
     // The points that divide the whole arc, as in addTubeHalf, also divide the part of it above the
     // horizon, so that nothing jumps when the tube touches the horizon.
     const uint parts = e.half1.x < TUBE_ARC_COSINE ? 4u : 2u;
     float angle = range.x;
-    // The ends of the whole arc are known without sine and cosine, which some devices approximate.
-    const vec2 begin = range.x > -limit ? directionOf(range.x) : vec2(e.half1.x, -e.half1.y);
-    OutlinePoint a = pointAt(k, onTubeEnd(e, begin));
-    if (range.x > -limit) {
-        k.crosses = true;
-        k.enters = a.dl;
-    }
+    OutlinePoint a = pointAt(k, onTubeEnd(e, directionOf(range.x)));
+    if (range.x > -limit)
+        enterAt(k, a.dl);
     uint part = 1u;
     do { // a lane that is done may run once more (lens.glsl)
         const float next = min((2.0 * float(part) / float(parts) - 1.0) * limit, range.y);
         if (next > angle && part <= parts) {
-            const vec2 at = next < limit ? directionOf(next) : e.half1;
-            const OutlinePoint b = pointAt(k, onTubeEnd(e, at));
+            const OutlinePoint b = pointAt(k, onTubeEnd(e, directionOf(next)));
             addArc(k, a, b, e.seen, true);
             a = b;
             angle = next;
         }
         ++part;
     } while (part <= parts);
-    if (range.y < limit) {
-        k.crosses = true;
-        k.leaves = a.dl;
-    }
+    if (range.y < limit)
+        leaveAt(k, a.dl);
 }
 
 // Adds one side and the end after it of a tube that is wholly above the horizon. `last` is the
@@ -255,9 +248,7 @@ WalkedOutline tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 toEn
             addTubeHalf(k, t, outwards, last);
         ++end;
     } while (end < 2u);
-    // A side and the end next to it compute their common point in different ways. If it is on the
-    // horizon, rounding may let only one of them cross the horizon there, and nothing is to be closed.
-    if (needs.across && k.leaves != vec3(0.0) && k.enters != vec3(0.0))
+    if (needs.across && k.crosses)
         addHorizon(k);
     // The half axis across the tube is the radius, and the one along it is half the length with both
     // ends.

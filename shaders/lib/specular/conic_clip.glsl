@@ -222,9 +222,11 @@ ConeAxes makeConeAxes(CapCone q, vec3 inside)
     // For a narrow lobe the cone is flat, and rounding relative to the length of e1 is not small beside
     // the cone's thickness. The matrix q + lam I maps e to 0 and e1 to a multiple of itself: that takes
     // out what e1 has of e, and makes its small components precise too.
-    o.e1 = normalize(vec3(X * e1.x + q.xy * e1.y + q.xz * e1.z,
-                          q.xy * e1.x + Y * e1.y + q.yz * e1.z,
-                          q.xz * e1.x + q.yz * e1.y + W * e1.z));
+    const vec3 scaled = vec3(X * e1.x + q.xy * e1.y + q.xz * e1.z,
+                             q.xy * e1.x + Y * e1.y + q.yz * e1.z,
+                             q.xz * e1.x + q.yz * e1.y + W * e1.z);
+    const float length2Scaled = length2(scaled);
+    o.e1 = length2Scaled > MIN_LENGTH2 ? scaled * inversesqrt(length2Scaled) : e1;
     return o;
 }
 
@@ -243,12 +245,13 @@ vec3 capArc(ConeAxes axes, float sg, vec3 wc, float sp, bool above)
     const float w2e = dot(wc, axes.e2);
     const vec2 plus = vec2((w1 + sp * axes.e1.y) * b, (w2e + sp * axes.e2.y) * a);
     const vec2 minus = vec2((w1 - sp * axes.e1.y) * b, (w2e - sp * axes.e2.y) * a);
-    // The lengths follow from w . e, too. For a flat cone, whose arc cancels against the horizon, this
-    // keeps rounding of the cone's thickness out of the angles of the ends.
-    const bool isFlat = axes.B2 < 1.0;
+    // The lengths are a b w . e, too. Where the cone is narrow and flat, and its arc cancels against
+    // the horizon, this keeps rounding of the cone's thickness out of the angles of the ends. In wide
+    // cones w . e may be small beside w.
+    const bool isNarrow = axes.B2 < 1.0;
     const float we = dot(wc, axes.e);
-    const float lp = isFlat ? a * b * (we + sp * axes.e.y) : sqrt(max(dot(plus, plus), 1e-36));
-    const float lm = isFlat ? a * b * (we - sp * axes.e.y) : sqrt(max(dot(minus, minus), 1e-36));
+    const float lp = max(isNarrow ? a * b * (we + sp * axes.e.y) : sqrt(dot(plus, plus)), 1e-18);
+    const float lm = max(isNarrow ? a * b * (we - sp * axes.e.y) : sqrt(dot(minus, minus)), 1e-18);
     const float oa = 1.0 + axes.A2;
     const float ob = 1.0 + axes.B2;
     const float oab = oa * ob;

@@ -35,15 +35,17 @@ const MeasureNames measureNames[] = {
     {&PipelineCost::instructions, {"Instructions", "Instruction Count"}},
     {&PipelineCost::subgroupsPerSimd, {"Subgroups per SIMD"}}};
 
-// Values of one measure under several names, such as spills of both kinds of registers, add up. No
-// value reaches 2^32, but NVIDIA's driver 580.159 tells 2^36 bytes of local memory more than there
-// are (2^36, 2^36 + 16 and 2^36 + 32 in 434 pipelines), so higher bits are left out.
+// Values of one measure under several names, such as spills of both kinds of registers, add up.
+// NVIDIA's driver 580.159 tells 2^36 bytes of local memory more than there are (2^36, 2^36 + 16 and
+// 2^36 + 32 in 434 pipelines). No lane has 4 GiB of it, so higher bits are left out.
 bool recognise(PipelineCost& cost, const PipelineStatistic& s)
 {
     for (const MeasureNames& m : measureNames)
         for (const char* name : m.names)
             if (s.name == name) {
-                const uint64_t value = uint64_t(s.value) & 0xffffffff;
+                uint64_t value = uint64_t(s.value);
+                if (m.measure == &PipelineCost::scratchBytes)
+                    value &= 0xffffffff;
                 cost.*m.measure = (cost.*m.measure).value_or(0) + value;
                 return true;
             }
