@@ -31,9 +31,13 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
     dark.position[0] = dark.position[1] = dark.position[2] = 1e6f;
     lights.push_back(dark);
 
+    // Beside a highlight, which decides what the largest radiance is, a light on a wall could be
+    // too dim to be noticed. (On an H100 one of eight was, in a tile that happened to have the
+    // page.)
+    const CndSpecularMethod none = CND_SPECULAR_NONE;
     ModuleSpy spy(deviceDesc());
-    const LightingResult brute = run(g, lights, {.culling = CND_CULLING_BRUTE});
-    const LightingResult intact = run(g, lights, {.host = &spy.desc()});
+    const LightingResult brute = run(g, lights, {.specular = none, .culling = CND_CULLING_BRUTE});
+    const LightingResult intact = run(g, lights, {.specular = none, .host = &spy.desc()});
     EXPECT_TRUE(agree(intact.radiance, brute.radiance, batchesOnLlvmpipe));
 
     // Lists are made block by block, then tile by tile, one page each. There are at most 4 blocks
@@ -52,7 +56,7 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
             fullBarrier(cmd);
             ++written;
         };
-        const LightingResult broken = run(g, lights, {.host = &spy.desc()});
+        const LightingResult broken = run(g, lights, {.specular = none, .host = &spy.desc()});
         noticed += !agree(broken.radiance, brute.radiance, batchesOnLlvmpipe);
     }
     EXPECT_EQ(written, 8u);
