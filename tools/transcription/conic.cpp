@@ -5,8 +5,8 @@ namespace candelabra::transcription
 {
 
 // Transcribed from shaders/lib/specular/conic_clip.glsl. Two steps are left out that change nothing
-// but the rounding of floats: makeConeAxes() there multiplies e1 by the matrix q + lam I, and capArc()
-// computes the lengths of an arc's ends from w . e if the cone is narrow.
+// but the rounding of floats: makeConeAxes() there multiplies e1 by the matrix q + lam I, and
+// capArc() computes the lengths of an arc's ends from w . e if the cone is narrow.
 glm::dvec2 atanTail(glm::dvec2 t2)
 {
     glm::dvec2 k = -double(gpu::CONIC_ATAN_T15) * t2 + double(gpu::CONIC_ATAN_T13);
