@@ -13,7 +13,8 @@ layout(push_constant, scalar) uniform Push
 
 #include "kernels/common/count_lanes.glsl"
 #include "kernels/common/tile_walk.glsl"
-#define READS_AHEAD lanesTogether // of shading/kept_receiver.glsl
+// shading/kept_receiver.glsl, which light_walk.glsl includes, declares lanesTogether.
+#define READS_AHEAD lanesTogether
 #define KEPT_RECEIVERS (TILE_SIZE * TILE_SIZE)
 #define KEPT_RECEIVER gl_LocalInvocationIndex
 #define KEPT_LANES KEPT_RECEIVERS

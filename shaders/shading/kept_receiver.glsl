@@ -16,7 +16,7 @@ const uint SUM_GENERAL = 1u;
 const uint SUM_AS_POINT = 2u; // only with an error budget
 
 #ifdef KEPT_RECEIVERS
-// Whether the kernel runs in the form for GPUs.
+// lanesTogether tells whether the kernel runs in the form for GPUs ("Lanes and groups", DESIGN.md).
 layout(constant_id = SPEC_LANES_TOGETHER) const bool lanesTogether = false;
 #endif
 

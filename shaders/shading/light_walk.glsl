@@ -65,21 +65,24 @@ bool isUncut(Receiver r, vec3 toLight, float height, float d2, float radius2)
 #ifndef READS_AHEAD
 #define READS_AHEAD false
 #endif
-// How many lights are read at once. Eight at once take an H100 longer, and need a third more registers
-// on Navi 21 (engine/DECISIONS.md, 38).
-const uint MOST_TESTS_AT_ONCE = 4u; // the size of an array, which is no specialisation constant
+// findWord reads the lights of TESTS_AT_ONCE tests before it makes these tests. With eight instead of
+// four, an H100 takes longer, and the kernel needs a third more registers on Navi 21
+// (engine/DECISIONS.md, 38). MOST_TESTS_AT_ONCE is the size of the array that holds these lights. It
+// must not depend on a specialisation constant.
+const uint MOST_TESTS_AT_ONCE = 4u;
 const uint TESTS_AT_ONCE = READS_AHEAD ? MOST_TESTS_AT_ONCE : 1u;
 
-// What is read of a light to test it.
+// TestedLight holds the values of a light that testLight needs. They are read before it is called.
 struct TestedLight {
     vec4 centreRadius;
     float influence2; // squared influence radius
 };
 
-// Adds the results of the test of a light to those of others. Spheres are sorted by their position
-// relative to the horizon, without a division and with few comparisons, because this runs for every
-// light of a list. What is compared is computed as `precise`, so that all pipelines sort a light into
-// the same class as far as they read the same surface: the evaluations differ by more than rounding.
+// testLight tests whether and in which way a light is to be evaluated, and sets `bit` in the masks of
+// `found` that apply. Spheres are sorted by their position relative to the horizon, without a division
+// and with few comparisons, because this runs for every light of a list. What is compared is computed
+// as `precise`, so that all pipelines sort a light into the same class as far as they read the same
+// surface: the evaluations differ by more than rounding.
 void testLight(inout FoundWord found, Receiver r, TestedLight light, uint bit, bool testInfluence)
 {
     precise const vec3 toLight = towardsLight(light.centreRadius.xyz, r.p.position);

@@ -34,7 +34,8 @@ MODEL = {"gpus": {"toy": {"match": "Toy", "multiprocessors": 1, "issuesPerCycle"
                             "gigabytesPerSecond": 1, "simds": 3, "code": "c"}},
          "stepCycles": {"low": 50, "expected": 100, "high": 200}, "issueShare": {"expected": 0.5},
          "instructions": {"cluster_lists": {"light tests": 10}, "shade_tiles": {"light tests": 10, "near it": 50}},
-         "chainCycles": {"expected": 2}, "waits": {"cluster_lists": {"light tests": 3}, "shade_tiles": {"near it": 1}}, "bytes": {"shade_tiles": 0},
+         "waits": {"cluster_lists": {"light tests": 3}, "shade_tiles": {"near it": 1}},
+         "chainCycles": {"expected": 2}, "bytes": {"shade_tiles": 0},
          "steps": {"about": "", "tile_clusters": {"steps": 3, "lanesPer": "tile", "lanes": 2}},
          "dispatch": {"microseconds": 7, "count": {"tile_clusters": 1, "shade_unlisted": 1}}}
 PIPELINES = {"measures": ["vectorRegisters", "subgroupsPerSimd"],
