@@ -22,7 +22,7 @@ done
 wait $viewer
 echo "missing, until closed: $?"
 
-"$PROGRAM" view field --lights 20000 --size 320x200 --validate $device 2>closed.txt &
+"$PROGRAM" view hall --lights 1000000 --size 320x200 --validate $device 2>closed.txt &
 viewer=$!
 xdotool windowfocus --sync $(windowed) key Escape
 wait $viewer

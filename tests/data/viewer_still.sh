@@ -21,7 +21,7 @@ viewer=$!
 logged "^picture: complete"
 window=$(timeout 120 xdotool search --sync --onlyvisible --name '^candelabra$' | head -n 1)
 xdotool windowfocus --sync $window
-xdotool click --repeat 15 5 # the camera becomes slow
+xdotool click --repeat 25 5 # the camera becomes so slow that it stays in the hall while frames take a second
 xdotool keydown w
 logged "^picture: 100x75 pixels"
 xdotool key p

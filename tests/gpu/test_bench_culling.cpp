@@ -3,7 +3,9 @@
 // otherwise comparing their times would be meaningless.
 #include "harness/gpu_fixture.h"
 #include "harness/json_schema.h"
+#include "load/load.h"
 #include "measure/culling/culling.h"
+#include "shared/raster.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -19,11 +21,15 @@ class BenchCulling : public test::GpuTest
 
 TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
 {
-    const CullingSettings settings{
-        .sizes = {{200, 120}}, .lights = {300}, .overlaps = {8}, .rounds = 1};
+    CullingSettings settings{.sizes = {{200, 120}}, .lights = {300}, .overlaps = {8}, .rounds = 1};
+    // The instances of the field do not fit in a texel buffer of Vulkan's guaranteed 65,536 texels.
+    if (loadScene("field", {.lights = 1}).instances.size() * gpu::INSTANCE_TEXELS >
+        device().limits.maxTexelBufferElements)
+        std::erase(settings.scenes, "field");
     Progress progress(1, false);
     const std::vector<CullingPoint> points = measureCulling(context(), settings, progress);
-    ASSERT_EQ(points.size(), 3u);
+    ASSERT_EQ(points.size(), settings.scenes.size());
+    ASSERT_GE(points.size(), 2u);
     for (const CullingPoint& p : points) {
         const Contender& engine = p.of(engineName);
         for (const char* name : {engineName, tilesName, froxelsName, bruteName}) {
@@ -47,10 +53,10 @@ TEST_F(BenchCulling, EveryWayGivesTheImageOfBruteForce)
     }
     EXPECT_EQ(cullingFailures(points).size(), 0u);
     const auto json = nlohmann::json::parse(cullingJson(settings, points).dump());
-    EXPECT_EQ(json["points"].size(), 3u);
+    EXPECT_EQ(json["points"].size(), points.size());
     EXPECT_EQ(
         test::schemaFaults(json["points"], "bench_culling.schema.json", "#/properties/points"), "");
-    EXPECT_EQ(cullingPlots(points, context().info()).size(), 3u);
+    EXPECT_EQ(cullingPlots(points, context().info()).size(), points.size());
     EXPECT_NE(textOf(cullingTables(points)).find("200x120"), std::string::npos);
 }
 

@@ -394,7 +394,9 @@ TEST(Viewer, ShowsThePictureOfRenderAndDrawsNoMore)
     const std::string session = textOf(dir / "session.txt");
     EXPECT_GT(relativeError(dir / "candelabra-001.png", dir / "wide.png"), 1e-3);
     EXPECT_NE(session.find("pixel 100,120 at "), std::string::npos) << session;
-    // After the move the picture is that of the camera that was printed.
+    // After the move the picture is that of the camera that was printed, which is not the first
+    // one.
+    EXPECT_GT(relativeError(dir / "moved.png", dir / "wide.png"), 1e-3);
     EXPECT_LT(relativeError(dir / "candelabra-002.png", dir / "moved.png"), 3e-4);
     EXPECT_LT(relativeError(dir / "candelabra-003.exr", dir / "moved.exr"), 3e-2);
     // Since then, keys and the mouse have changed the panel alone.
