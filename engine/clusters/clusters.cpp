@@ -137,7 +137,7 @@ Clusters::Clusters(const gpu::Device& device, const ClusterKernels& kernels,
     };
     tiles_ = make("tiles", VkDeviceSize(records) * sizeof(gpu::TileClusters), storageUse);
     clusters_ = make("clusters", VkDeviceSize(clusterCount_) * sizeof(gpu::Cluster), storageUse);
-    surfaces_ = make("surface tiles", tileWorkBytes(), workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    surfaces_ = make("surface tiles", tileWorkBytes(1), workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     splits_ = make("split tiles", workBytes(2, splitCapacity_),
                    workUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     entries_ = make("list entries", std::max(sizes.listBudget, 2 * pageBytes),
@@ -161,10 +161,11 @@ std::array<Clusters::Level, 1 + gpu::BLOCK_LEVELS> Clusters::levels(glm::uvec2 t
     return out;
 }
 
-// Each class has room for all tiles, since all may be of the same class.
-VkDeviceSize Clusters::tileWorkBytes() const
+// Each list of a buffer of tiles has room for all tiles, since all may be on the same one.
+// `heights`: for how many heights there is room.
+VkDeviceSize Clusters::tileWorkBytes(uint32_t heights) const
 {
-    return workBytes(gpu::TILE_CLASSES, sizes_.tileClasses * maxTileCount());
+    return workBytes(gpu::TILE_WORK_LISTS, heights * sizes_.tileClasses * maxTileCount());
 }
 
 Clusters::Lists Clusters::createLists() const
@@ -173,8 +174,9 @@ Clusters::Lists Clusters::createLists() const
         return gpu::createBuffer(device_, name, bytes, use, gpu::MemoryUse::Scratch);
     };
     return {.heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
-            .lit = make("lit tiles", tileWorkBytes(), workUse),
-            .unlisted = make("unlisted tiles", tileWorkBytes(), workUse)};
+            .lit = make("lit tiles", tileWorkBytes(kernels_.lanesTogether ? 1 : gpu::TILE_HEIGHTS),
+                        workUse),
+            .unlisted = make("unlisted tiles", tileWorkBytes(1), workUse)};
 }
 
 void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
@@ -254,10 +256,15 @@ void Clusters::recordReset(const gpu::Frame& f, const LightTypeCounts& types) co
         {.groupsX = splitLanes / gpu::SPLIT_TILES_GROUP, .groupsZ = 1},
         {.groupsX = listGroups(gpu::SLICE_ROW), .groupsZ = 1}};
     f.device.CmdUpdateBuffer(f.cmd, splits_.get(), 0, sizeof noSplits, noSplits);
+    // In buffers without room for other heights than gpu::ANY_HEIGHT, their lists stay empty.
     const auto reset = [&](const gpu::Buffer& work) {
-        gpu::WorkList none[gpu::TILE_CLASSES];
-        for (uint32_t i = 0; i < gpu::TILE_CLASSES; ++i)
-            none[i] = {.groupsX = gpu::TILE_ROW, .groupsZ = 1, .first = i * maxTileCount()};
+        gpu::WorkList none[gpu::TILE_WORK_LISTS];
+        for (uint32_t i = 0; i < gpu::TILE_WORK_LISTS; ++i) {
+            const uint32_t height = i / gpu::TILE_CLASSES, tileClass = i % gpu::TILE_CLASSES;
+            none[i] = {.groupsX = gpu::TILE_ROW,
+                       .groupsZ = 1,
+                       .first = (height * sizes_.tileClasses + tileClass) * maxTileCount()};
+        }
         f.device.CmdUpdateBuffer(f.cmd, work.get(), 0, sizeof none, none);
     };
     reset(surfaces_);
@@ -326,7 +333,7 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
 }
 
 void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeShape& tree,
-                           glm::uvec2 tileCount, uint32_t longest) const noexcept
+                           glm::uvec2 tileCount, uint32_t longest, bool findsHeights) const noexcept
 {
     const gpu::Kernel<gpu::ClusterListsParams>& kernel = kernels_.clusterLists;
     const VkDescriptorSet set = listSets_.set(f.slot * CND_LIGHT_TYPE_COUNT + type);
@@ -342,7 +349,8 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
                                    .lightType = type,
                                    .which = gpu::LISTS_OF_BLOCKS,
                                    .tileCountX = tileCount.x,
-                                   .tileCountY = tileCount.y};
+                                   .tileCountY = tileCount.y,
+                                   .findsHeights = findsHeights};
     const auto dispatch = [&](uint32_t lists) {
         kernel.dispatchInRows(f, set, params, listGroups(lists));
     };

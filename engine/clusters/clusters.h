@@ -33,10 +33,15 @@ constexpr uint32_t blockSide(size_t level)
     return level == 0 ? gpu::TILE_SIZE : gpu::BLOCK_SIDE * blockSide(level - 1);
 }
 
-// Returns the byte offset of the work list of a material class in a buffer with one list per class.
+// Returns the byte offset of a work list in the buffer that begins with it and others.
 constexpr VkDeviceSize workListAt(uint32_t list)
 {
     return list * sizeof(gpu::WorkList);
+}
+// The same in a buffer of tiles, for a height, such as gpu::ANY_HEIGHT, and a material class.
+constexpr VkDeviceSize tileWorkListAt(uint32_t height, uint32_t tileClass)
+{
+    return workListAt(height * gpu::TILE_CLASSES + tileClass);
 }
 // Returns the number of tiles with a surface, of all classes.
 inline uint32_t surfaceTileCount(const gpu::LightingCounters& counters)
@@ -84,14 +89,15 @@ public:
     // the tiles that hold a surface. Tiles longer than `splitLength` metres are split into slices.
     void recordClusters(const gpu::Frame& frame, glm::uvec2 tileCount, float splitLength,
                         bool forLists) const noexcept;
-    // `longest`: number of lights in the longest list that shading can walk.
+    // `longest`: number of lights in the longest list that shading can walk. `findsHeights`: puts
+    // tiles on the work lists of their heights, instead of all on those of gpu::ANY_HEIGHT.
     void recordLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,
-                     glm::uvec2 tileCount, uint32_t longest) const noexcept;
+                     glm::uvec2 tileCount, uint32_t longest, bool findsHeights) const noexcept;
 
     // The light lists of one light type.
     struct Lists {
         gpu::Buffer heads;    // per cluster
-        gpu::Buffer lit;      // WorkLists by class: tiles with lists that hold lights
+        gpu::Buffer lit;      // WorkLists by height and class: tiles with lists that hold lights
         gpu::Buffer unlisted; // WorkLists by class: tiles with clusters that have no list
     };
     const Lists& lists(uint32_t type) const { return lists_[type]; }
@@ -119,7 +125,7 @@ private:
     std::array<Level, 1 + gpu::BLOCK_LEVELS> levels(glm::uvec2 tileCount) const;
     uint32_t maxTileCount() const { return sizes_.maxTiles.x * sizes_.maxTiles.y; }
     uint32_t firstSplit() const { return maxTileCount(); } // first cluster of split tiles
-    VkDeviceSize tileWorkBytes() const;
+    VkDeviceSize tileWorkBytes(uint32_t heights) const;
     Lists createLists() const;
     uint32_t listGroups(uint32_t lists) const noexcept;
 

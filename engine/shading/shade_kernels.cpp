@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading/shade_kernels.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -168,7 +169,7 @@ bool ShadeKernels::run(const Job& job)
     Tiles &from = made.tiles[job.tileClass], &to = slot.kernels.tiles[job.tileClass];
     switch (job.part) {
     case Lists:
-        to.shade = std::move(from.shade);
+        std::ranges::move(from.shade, to.shade);
         to.unlisted = std::move(from.unlisted);
         break;
     case Counts:
@@ -210,7 +211,8 @@ ShadeKernels::Variant ShadeKernels::make(const Job& job) const
     Tiles& tiles = out.tiles[job.tileClass];
     switch (job.part) {
     case Lists:
-        tiles.shade = makeKernel<gpu::ShadeTilesParams>(*kernels[0], job);
+        for (uint32_t height = 0; height < heightsOf(job.lightType); ++height)
+            tiles.shade[height] = makeKernel<gpu::ShadeTilesParams>(*kernels[0], job, height);
         tiles.unlisted = makeKernel<gpu::ShadeUnlistedParams>(*kernels[1], job);
         break;
     case Counts:
@@ -227,7 +229,8 @@ ShadeKernels::Variant ShadeKernels::make(const Job& job) const
 }
 
 template <typename Params>
-gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Job& job) const
+gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Job& job,
+                                             uint32_t height) const
 {
     const gpu::FormattedSpirv code =
         surfaces::addingTo(radianceFormat_, host_->of(builtIn), gpu::SHADE_RADIANCE);
@@ -238,6 +241,7 @@ gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Jo
                                 {gpu::SPEC_GBUFFER, gbuffer_},
                                 {gpu::SPEC_ERROR_BUDGET, job.withBudget},
                                 {gpu::SPEC_TILE_CLASS, job.tileClass},
+                                {gpu::SPEC_TILE_HEIGHT, height},
                                 {gpu::SPEC_LANES_TOGETHER, !device_->lanesAreCpuVector}},
                                host_->setLayout());
 }

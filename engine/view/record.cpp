@@ -15,8 +15,8 @@ namespace
 
 using gpu::divideUp;
 
-// Calls `record` for each material class of tiles, with its kernels and the offset of its work
-// list. No tile is on two of these lists, so their dispatches need no barriers between them.
+// Calls `record` for each material class of tiles, with its kernels and the class. No tile is on
+// two work lists of a buffer, so the dispatches for these lists need no barriers between them.
 template <typename Record>
 void byClass(const ShadeKernels& kernels, const CndLightingFrame& frame, uint32_t type,
              Record&& record) noexcept
@@ -24,7 +24,7 @@ void byClass(const ShadeKernels& kernels, const CndLightingFrame& frame, uint32_
     for (uint32_t tileClass = 0; tileClass < gpu::TILE_CLASSES; ++tileClass)
         if (kernels.tellsApart(tileClass))
             record(kernels.tiles(type, frame.specularMethod, frame.errorBudget > 0, tileClass),
-                   workListAt(tileClass));
+                   tileClass);
 }
 
 gpu::LightBatch allLights(const FramePlan& p, uint32_t type)
@@ -217,7 +217,8 @@ void View::recordLists(const gpu::Frame& f, const FramePlan& p) const noexcept
     const gpu::UntimedFrame u(f); // lists of one type may be made at the same time as of another
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (p.lights[type] && !isDistant(type))
-            clusters_.recordLists(u, type, p.trees[type], p.tileCount, lightsPerBatch(p, type));
+            clusters_.recordLists(u, type, p.trees[type], p.tileCount, lightsPerBatch(p, type),
+                                  module_.kernels.shade.heightsOf(type) > 1);
     f.timer.stamp(f.cmd, module_.kernels.clusters.clusterLists.name());
     f.barrier();
 }
@@ -230,14 +231,16 @@ uint32_t View::lightsPerBatch(const FramePlan& p, uint32_t type) const noexcept
 
 void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
 {
+    const ShadeKernels& kernels = module_.kernels.shade;
     const uint32_t set = f.slot * CND_LIGHT_TYPE_COUNT + type;
     const auto shade = [&](const gpu::LightBatch& batch) {
         const gpu::UntimedFrame u(f);
-        byClass(module_.kernels.shade, p.frame, type,
-                [&](const ShadeKernels::Tiles& kernels, VkDeviceSize workList) {
-                    kernels.shade.dispatchIndirect(u, sets_.shadeTiles.set(set), {batch},
-                                                   clusters_.tilesToShade(type), workList);
-                });
+        byClass(kernels, p.frame, type, [&](const ShadeKernels::Tiles& tiles, uint32_t tileClass) {
+            for (uint32_t height = 0; height < kernels.heightsOf(type); ++height)
+                tiles.shade[height].dispatchIndirect(u, sets_.shadeTiles.set(set), {batch},
+                                                     clusters_.tilesToShade(type),
+                                                     tileWorkListAt(height, tileClass));
+        });
         f.timer.stamp(f.cmd, sets_.shadeTiles.name());
         f.barrier();
     };
@@ -261,11 +264,11 @@ void View::recordUnlisted(const gpu::Frame& f, const FramePlan& p, uint32_t type
     const gpu::UntimedFrame untimed(f); // the dispatches share one row of times
     const gpu::Frame& u = untimed;
     const auto record = [&](const gpu::ShadeUnlistedParams& part) {
-        byClass(kernels, p.frame, type,
-                [&](const ShadeKernels::Tiles& tiles, VkDeviceSize workList) {
-                    tiles.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
-                                                    clusters_.lists(type).unlisted, workList);
-                });
+        byClass(kernels, p.frame, type, [&](const ShadeKernels::Tiles& tiles, uint32_t tileClass) {
+            tiles.unlisted.dispatchIndirect(u, sets_.shadeUnlisted.set(set), part,
+                                            clusters_.lists(type).unlisted,
+                                            tileWorkListAt(gpu::ANY_HEIGHT, tileClass));
+        });
         u.barrier();
     };
     record({.listHead = gpu::LIST_UNLISTED,
@@ -299,9 +302,10 @@ void View::recordCountPairs(const gpu::Frame& f, const FramePlan& p, uint32_t ty
                                        .writesImage = p.frame.pairImage != VK_NULL_HANDLE};
     const gpu::UntimedFrame u(f);
     byClass(module_.kernels.shade, p.frame, type,
-            [&](const ShadeKernels::Tiles& kernels, VkDeviceSize workList) {
+            [&](const ShadeKernels::Tiles& kernels, uint32_t tileClass) {
                 kernels.countPairs.dispatchIndirect(u, sets_.countPairs.set(set), params,
-                                                    clusters_.surfaces(), workList);
+                                                    clusters_.surfaces(),
+                                                    tileWorkListAt(gpu::ANY_HEIGHT, tileClass));
             });
     f.timer.stamp(f.cmd, sets_.countPairs.name());
     f.barrier();

@@ -11,6 +11,9 @@
 // shaded without lists, by the same lights; between the two pipelines the last bits may differ
 // (DECISIONS 12 and 42). The lists of blocks are too long if testing their lights takes more than
 // walking the tree (DECISIONS 70).
+//
+// Lanes by themselves also find how high the spheres of a list are above the horizons of its tile
+// (shared/lighting.h, ANY_HEIGHT), unless the tile is split.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/cluster_test.glsl"
@@ -68,7 +71,7 @@ void appendTile(uint tile, ListWriter list, bool tooLong)
     if (withoutList)
         appendUnlisted(tile);
     else if (list.found != 0u)
-        appendLit(tile);
+        appendLit(tile, list.height);
     atomicAdd(counters.listEntries, withoutList ? 0u : list.found);
     atomicMax(counters.maxListLength, list.found);
 }
@@ -104,6 +107,8 @@ void makeByLane(uint list)
         return;
     const uint parent = params.hasParents != 0u ? lists[cluster.parent] : LIST_UNLISTED;
     ListWriter writer = beginList();
+    if (params.findsHeights != 0u && params.which == LISTS_OF_TILES)
+        writer.height = ALL_ABOVE; // until a light is lower
     const bool tooLong =
         listOfLane(writer, makeClusterBounds(cluster), parent, params.which == LISTS_OF_BLOCKS);
     completeList(at, cluster.tile, writer, tooLong);

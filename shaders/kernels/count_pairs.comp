@@ -59,7 +59,7 @@ void main()
 {
     uint tile;
     uvec2 pixel;
-    const bool inside = takeTile(tile, pixel);
+    const bool inside = takeTile(ANY_HEIGHT, tile, pixel);
     const float depth = inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
     const bool surface = inside && depth != frameParams.clearDepth;
     uint listed = 0u, evaluated = 0u, influenced = 0u, contributing = 0u;

@@ -6,6 +6,7 @@
 #include "kernels/common/shade_receiver.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+layout(constant_id = SPEC_TILE_HEIGHT) const uint tileHeight = ANY_HEIGHT;
 layout(push_constant, scalar) uniform Push
 {
     ShadeTilesParams params;
@@ -15,6 +16,7 @@ layout(push_constant, scalar) uniform Push
 #include "kernels/common/tile_walk.glsl"
 // shading/kept_receiver.glsl, which light_walk.glsl includes, declares lanesTogether.
 #define READS_AHEAD lanesTogether
+#define TILE_HEIGHT tileHeight
 #define KEPT_RECEIVERS (TILE_SIZE * TILE_SIZE)
 #define KEPT_RECEIVER gl_LocalInvocationIndex
 #define KEPT_LANES KEPT_RECEIVERS
@@ -50,7 +52,7 @@ void main()
 {
     uint tile;
     uvec2 pixel;
-    if (!takeTile(tile, pixel))
+    if (!takeTile(tileHeight, tile, pixel))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth != frameParams.clearDepth)

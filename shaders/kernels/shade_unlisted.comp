@@ -42,7 +42,7 @@ void main()
 {
     uint tile;
     uvec2 pixel;
-    if (!takeTile(tile, pixel))
+    if (!takeTile(ANY_HEIGHT, tile, pixel))
         return;
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == frameParams.clearDepth)

@@ -18,7 +18,7 @@ layout(scalar, binding = TILE_CLUSTERS_TILES) writeonly buffer Tiles
 };
 layout(scalar, binding = TILE_CLUSTERS_SURFACES) buffer Surfaces
 {
-    WorkList surfaces[TILE_CLASSES];
+    WorkList surfaces[TILE_WORK_LISTS];
     uint surfaceTiles[];
 };
 layout(scalar, binding = TILE_CLUSTERS_SPLITS) buffer Splits

@@ -66,4 +66,28 @@ bool lightTouches(ClusterBounds c, vec3 centre, float boundingRadius, float r2)
            coneTouches(c, centre, r, margin);
 }
 
+// Returns what the bounds tell of the height of a sphere above the horizons of the samples that its
+// light may reach: NONE_ACROSS, ALL_ABOVE or ANY_HEIGHT. It is conservative in float32. `radius`: that
+// of the sphere; `r2`: square of its radius of influence.
+uint heightOfSphere(ClusterBounds c, vec3 centre, float radius, float r2)
+{
+    // Let a be the axis and v the vector from a sample to the centre, with a.v >= lowest > 0 and
+    // |v|^2 <= farthest2. A normal n at the angle t from the axis has n.v >= cos(t) a.v - sin(t) aside,
+    // where aside^2 = |v|^2 - (a.v)^2. This is lowest where t and |v| are largest and a.v is lowest.
+    const float margin = 2.0 * DOT_MARGIN * largest(centre);
+    const float lowest = dot(c.axis, centre) - c.slabMax - margin;
+    const vec3 corner = max(abs(centre - c.box.min), abs(centre - c.box.max));
+    const float farthest2 = min(r2, dot(corner, corner)) * BOUNDS_MARGIN;
+    const float aside = sqrt(max(farthest2 - lowest * lowest, 0.0));
+    // In units of 2^-24 of the two terms, of which DOT_MARGIN is 16: the length of n may be wrong by
+    // 16, the n.v that shading computes by 5, the operations here by 3, and each of two roots by 6.
+    // That the sine of a narrow cone is computed from a cosine is allowed for by COS_MARGIN.
+    const float rounding = margin + 4.0 * DOT_MARGIN * (abs(lowest) + aside);
+    const float height = c.minCos * lowest - c.maxSin * aside - rounding;
+    const float above = radius * BOUNDS_MARGIN;
+    if (!(lowest > 0.0 && c.minCos > 0.0 && height > above))
+        return ANY_HEIGHT;
+    return height >= ABOVE_FROM * above ? ALL_ABOVE : NONE_ACROSS;
+}
+
 #endif

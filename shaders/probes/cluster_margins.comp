@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test-only: makes the bounds of some samples, moves the samples by as much as Vulkan allows two
 // pipelines to differ, places lights that just reach the moved samples, and counts the lights that the
-// tests of the bounds leave out.
+// tests of the bounds leave out. It also makes spheres just too large for a height above the horizon,
+// and a little smaller, and counts those that have this height by the bounds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/margins_probe.h"
@@ -74,6 +75,14 @@ void addTo(inout Cluster c, vec3 p, vec3 n)
     c.slope = max(c.slope, aside < MAX_SLOPE * ahead ? aside / ahead : MAX_SLOPE);
 }
 
+// Tells whether the bounds say that a sphere is at least `radii`, 1 or ABOVE_FROM, of its radii above
+// all horizons.
+bool isHigh(Cluster c, vec3 centre, float radius, float r2, float radii)
+{
+    const uint height = heightOfSphere(makeClusterBounds(c), centre, radius, r2);
+    return height == ALL_ABOVE || (radii == 1.0 && height == NONE_ACROSS);
+}
+
 bool touches(Cluster c, vec3 centre, float radius, float r2)
 {
     const ClusterBounds bounds = makeClusterBounds(c);
@@ -92,22 +101,24 @@ void main()
     Cluster cluster = Cluster(vec3(UNBOUNDED), 0u, vec3(-UNBOUNDED), 0u, vec3(0.0), UNBOUNDED,
                               -UNBOUNDED, 1.0, 0u, ray, 0.0);
     const vec3 axis = randomDirection();
+    const float bend = i % 2u == 0u ? 0.01 : 0.0; // the bounds of a flat cluster are the tightest
     vec3 moved[SAMPLES], normals[SAMPLES];
     for (uint k = 0u; k < SAMPLES; ++k) {
         const uvec2 pixel = probe.pixel + uvec2(8.0 * vec2(random01(), random01()));
         const float depth = probe.depth * (1.0 + probe.depthRange * random01());
-        const vec3 n = normalize(axis + 0.01 * randomDirection());
+        const vec3 n = normalize(axis + bend * randomDirection());
         normals[k] = n * nearby(1.0, 8);
         addTo(cluster, viewPosition(probe.projection, pixel, probe.invImageSize, depth), n);
         moved[k] = movedPosition(probe.projection, pixel, probe.invImageSize, depth);
     }
     const Cluster widened = withMargins(cluster, probe.projection);
     cluster = probe.projection.eyeIsPoint == 0.0 ? withoutCone(cluster) : cluster;
-    MarginsProbeOutput result = MarginsProbeOutput(0u, 0u, 0u);
+    MarginsProbeOutput result = MarginsProbeOutput(0u, 0u, 0u, 0u, 0u);
     for (uint k = 0u; k < LIGHTS; ++k) {
         const uint at = k % SAMPLES;
-        // Lights along an axis, anywhere, and at the horizon of the sample, at the end of their reach.
-        vec3 towards = randomDirection();
+        // Lights straight above the sample, along an axis, anywhere, and at the horizon of the sample,
+        // at the end of their reach.
+        vec3 towards = k % 8u == 2u ? normals[at] : randomDirection();
         if (k % 3u == 0u)
             towards = vec3(equal(uvec3(k / 3u % 3u), uvec3(0u, 1u, 2u))) * sign(towards);
         if (k % 3u == 1u)
@@ -122,6 +133,14 @@ void main()
             ++result.reaching;
             result.missed += touches(widened, centre, radius, r2) ? 0u : 1u;
             result.missedIfNotWidened += touches(cluster, centre, radius, r2) ? 0u : 1u;
+        }
+        const float above = invariantDot(normals[at], toLight);
+        if (length2(toLight) < r2 && above > 0.0) {
+            const float radii = k % 2u == 0u ? 1.0 : ABOVE_FROM;
+            const float fitting = above / radii;
+            const float tooLarge = fitting * (1.0 + 3e-7 + 1e-6 * random01());
+            result.tooHigh += isHigh(widened, centre, tooLarge, r2, radii) ? 1u : 0u;
+            result.high += isHigh(widened, centre, 0.99 * fitting, r2, radii) ? 1u : 0u;
         }
     }
     outputs[i] = result;

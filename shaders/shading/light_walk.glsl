@@ -8,8 +8,9 @@
 // if blocks of one subgroup may be of different sizes and lightAt or lightCentre reads a storage buffer
 // or shared memory. It may define READS_AHEAD as a constant that tells whether the lights of several
 // tests are read at once. GPUs gain from that, because a test waits long for its light, but little
-// longer for several. It may also define COUNT_FOUND, which then counts the tests of a block and the
-// lights that it evaluates in each way.
+// longer for several. It may define TILE_HEIGHT as a constant, what is known of the heights of
+// spheres above the horizon of the pixel (shared/lighting.h, ANY_HEIGHT). It may also define
+// COUNT_FOUND, which then counts the tests of a block and the lights that it evaluates in each way.
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 
@@ -21,6 +22,19 @@
 #endif
 
 const uint WALK_BLOCK = 64u; // lights of a block, which are the bits of two words
+
+// Whether spheres may be evaluated as across the horizon, and as near it. Only the closed form has an
+// evaluation for those near it. llvmpipe runs the body of a loop once even if no light needs it, so a
+// loop that is not needed is left out.
+#ifndef TILE_HEIGHT
+#define TILE_HEIGHT ANY_HEIGHT
+#endif
+const bool ACROSS_IS_POSSIBLE = TILE_HEIGHT == ANY_HEIGHT;
+#ifdef LIGHT_FAMILY_CONIC
+const bool NEAR_IS_POSSIBLE = TILE_HEIGHT != ALL_ABOVE;
+#else
+const bool NEAR_IS_POSSIBLE = ACROSS_IS_POSSIBLE;
+#endif
 
 // The lights of a block that are to be evaluated in each way, one bit per light.
 struct Found {
@@ -153,7 +167,10 @@ Found findLights(Receiver r, uint first, uint count, bool testInfluence)
     const uvec2 reaching = count == 0u ? uvec2(0u) : uvec2(low.reaching, high.reaching);
     Found found;
     found.asPoint = uvec2(low.asPoint, high.asPoint) & reaching;
-    found.above = uvec2(low.above, high.above) & reaching & ~found.asPoint;
+    // All lights that are left belong to the last way that is possible.
+    found.above = reaching & ~found.asPoint;
+    if (NEAR_IS_POSSIBLE)
+        found.above &= uvec2(low.above, high.above);
 #ifdef LIGHT_FAMILY_ALL
     if (FAMILY_OF_TYPE[lightType] != FAMILY_SPHERE) {
         found.above = uvec2(0u);
@@ -163,7 +180,9 @@ Found findLights(Receiver r, uint first, uint count, bool testInfluence)
     }
 #endif
     const uvec2 closer = reaching & ~(found.asPoint | found.above);
-    found.near = uvec2(low.near, high.near) & closer;
+    found.near = closer;
+    if (ACROSS_IS_POSSIBLE)
+        found.near &= uvec2(low.near, high.near);
     found.general = closer & ~found.near;
     return found;
 }
@@ -251,7 +270,9 @@ void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testIn
     SHADE_FOUND(sums.above, SUM_ABOVE, r, first, found.above, evaluateAbove)
 #endif
 #ifdef LIGHT_FAMILY_CONIC
-    SHADE_FOUND(sums.near, SUM_GENERAL, r, first, found.near, evaluateNear)
+    if (NEAR_IS_POSSIBLE) {
+        SHADE_FOUND(sums.near, SUM_GENERAL, r, first, found.near, evaluateNear)
+    }
 #endif
 #ifdef LIGHT_FAMILY_ALL
     // All lights of the block are of one type. Each family has its own loop, so that a device that pays
@@ -263,7 +284,9 @@ void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testIn
     GENERAL_RESPONSES(X)
 #undef X
 #else
-    SHADE_FOUND(sums.general, SUM_GENERAL, r, first, found.general, evaluateGeneral)
+    if (ACROSS_IS_POSSIBLE) {
+        SHADE_FOUND(sums.general, SUM_GENERAL, r, first, found.general, evaluateGeneral)
+    }
 #endif
 }
 

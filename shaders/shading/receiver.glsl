@@ -91,7 +91,7 @@ Receiver makeReceiver(ShadingPoint p, float budget, uint sampleCount, uint sampl
     const float oneNodeError = mix(ONE_NODE_ERROR.x, ONE_NODE_ERROR.y, lowestF0(p));
     const bool oneNode =
         HAS_BUDGET && specularMethod == SPECULAR_CONIC && share >= oneNodeError;
-    r.aboveFrom = oneNode ? 1.0 : 2.0;
+    r.aboveFrom = oneNode ? 1.0 : ABOVE_FROM;
     r.pointLimit = pointLimit(p, share);
 #else
     r.aboveFrom = 1.0;

@@ -109,7 +109,7 @@ const uint TILE_CLUSTERS_GROUP = 128u;
 const uint TILE_CLUSTERS_DEPTH = 0u;
 const uint TILE_CLUSTERS_CLUSTERS = 1u;
 const uint TILE_CLUSTERS_TILES = 2u;
-const uint TILE_CLUSTERS_SURFACES = 3u; // a WorkList per class: tiles with a surface
+const uint TILE_CLUSTERS_SURFACES = 3u; // TILE_WORK_LISTS WorkLists: tiles with a surface
 const uint TILE_CLUSTERS_SPLITS = 4u;   // WorkList: tiles to be split
 const uint TILE_CLUSTERS_FRAME = 5u;    // FrameParams
 const uint TILE_CLUSTERS_GBUFFER = 6u;  // six bindings (shared/host_gbuffer.h); split_tiles has
@@ -157,9 +157,9 @@ const uint CLUSTER_LISTS_TILES = 5u;
 const uint CLUSTER_LISTS_SPLITS = 6u;
 const uint CLUSTER_LISTS_LISTS = 7u;
 const uint CLUSTER_LISTS_ENTRIES = 8u;
-const uint CLUSTER_LISTS_UNLISTED = 9u; // a WorkList per class: tiles with unlisted clusters
+const uint CLUSTER_LISTS_UNLISTED = 9u; // TILE_WORK_LISTS WorkLists: tiles with unlisted clusters
 const uint CLUSTER_LISTS_COUNTERS = 10u;
-const uint CLUSTER_LISTS_LIT = 11u; // a WorkList per class: tiles with lists that hold lights
+const uint CLUSTER_LISTS_LIT = 11u; // TILE_WORK_LISTS WorkLists: tiles with lists that hold lights
 // The clusters whose lists are made:
 const uint LISTS_OF_BLOCKS = 0u; // those of firstCluster and clusterCount
 const uint LISTS_OF_TILES = 1u;  // tiles that are not split, block by block: lanes share parents
@@ -174,9 +174,10 @@ struct ClusterListsParams {
     uint which; // LISTS_OF_*
     uint firstCluster, clusterCount;
     uint tileCountX, tileCountY;
-    uint hasParents; // 1: parents have lists
+    uint hasParents;   // 1: parents have lists
+    uint findsHeights; // 1: finds the heights of unsplit tiles (only lanes by themselves do)
 };
-GPU_SIZE(ClusterListsParams, 56)
+GPU_SIZE(ClusterListsParams, 60)
 
 GPU_END
 

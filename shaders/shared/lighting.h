@@ -82,6 +82,19 @@ const uint CLASS_ANY = 0u;
 const uint CLASS_DIFFUSE = 1u;  // no specular lobe
 const uint CLASS_SPECULAR = 2u; // no diffuse lobe
 const uint TILE_CLASSES = 3u;
+// What is known of the heights of a tile's spheres above the horizons of its samples, of those
+// spheres whose light may reach the sample. Each height has a kernel without the evaluations that
+// it rules out, and a work list per class of tiles. All buffers of tiles begin with a list for each
+// height and class, at height * TILE_CLASSES + CLASS_*. Those of tiles with a surface and of
+// unlisted tiles have room in the lists of ANY_HEIGHT only.
+const uint ANY_HEIGHT = 0u;  // nothing is known
+const uint NONE_ACROSS = 1u; // every centre is more than one radius above the horizon
+const uint ALL_ABOVE = 2u;   // every centre is at least ABOVE_FROM radii above the horizon
+const uint TILE_HEIGHTS = 3u;
+const uint TILE_WORK_LISTS = TILE_HEIGHTS * TILE_CLASSES;
+// The closed form evaluates a sphere as above the horizon if its centre is at least so many of its
+// radii above it, or one if the error budget allows that. All other methods do so from one on.
+const float ABOVE_FROM = 2.0f;
 
 // Counters of one frame, cleared before it and read back after it.
 struct LightingCounters {
@@ -137,7 +150,7 @@ const uint SHADE_DFG = 8u; // table of the directional albedo (shared/dfg.h)
 const uint SHADE_TILES = 9u;
 const uint SHADE_LISTS = 10u;
 const uint SHADE_ENTRIES = 11u;
-const uint SHADE_WORK = 12u;     // a WorkList per class: the tiles to shade
+const uint SHADE_WORK = 12u;     // TILE_WORK_LISTS WorkLists: the tiles to shade
 const uint SHADE_COUNTERS = 13u; // count_pairs
 const uint SHADE_NODES = 14u;    // shade_unlisted
 const uint SHADE_NODE_WORDS = 15u;
@@ -194,6 +207,9 @@ const uint SPEC_TILE_CLASSES = 6u; // tile_clusters: mask of 1 << CLASS_*, the c
 // Chooses the form of kernels that have two. 1: the lanes of a group share the work on one cluster,
 // node, tile, block or run of lights, for GPUs; 0: each lane has work of its own, for llvmpipe.
 const uint SPEC_LANES_TOGETHER = 7u;
+// shade_tiles: the height of its tiles, such as ANY_HEIGHT: which work list, which lights are
+// absent
+const uint SPEC_TILE_HEIGHT = 9u;
 
 // The lowest alpha of the specular lobe. Below it a float32 NoH cannot resolve the peak (measured:
 // the relative error of D is up to 7e-5 at 0.002 and grows as 1 / alpha^2).

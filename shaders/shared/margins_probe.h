@@ -25,8 +25,12 @@ struct MarginsProbeOutput {
     uint reaching;
     uint missed;             // left out by the tests of clusters or of nodes of the light tree
     uint missedIfNotWidened; // left out by the tests of bounds without margins
+    // Spheres that have a height above the horizon of all samples by the bounds (heightOfSphere),
+    // of those that are a millionth too large for it at one sample, and of those that are 1%
+    // smaller.
+    uint tooHigh, high;
 };
-GPU_SIZE(MarginsProbeOutput, 12)
+GPU_SIZE(MarginsProbeOutput, 20)
 
 GPU_END
 

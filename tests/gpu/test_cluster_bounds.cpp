@@ -182,8 +182,8 @@ State ClusterBoundsTest::stateOf(const Kernels& k, const Places& at,
             .tiles = readback("tiles",
                               (tiles + at.blockCount() + at.largeCount()) * sizeof(TileClusters)),
             .clusters = readback("clusters", at.clusters * sizeof(Cluster)),
-            .ofClass = readback("tiles of classes",
-                                TILE_CLASSES * (sizeof(WorkList) + tiles * sizeof(uint32_t))),
+            .ofClass = readback("tiles of classes", TILE_WORK_LISTS * sizeof(WorkList) +
+                                                        TILE_CLASSES * tiles * sizeof(uint32_t)),
             .splits = upload("splits", work)};
     for (uint32_t i = 0; i < TILE_CLASSES; ++i)
         s.ofClass.as<WorkList>()[i].first = i * tiles;
@@ -229,7 +229,7 @@ Made ClusterBoundsTest::make(const CpuGBuffer& g, bool lanesTogether, float spli
               .clusters = {bounds.begin(), bounds.end()},
               .splits = sortedTiles(state.splits, 2, 0)};
     for (uint32_t i = 0; i < gpu::TILE_CLASSES; ++i)
-        made.ofClass[i] = sortedTiles(state.ofClass, gpu::TILE_CLASSES, i);
+        made.ofClass[i] = sortedTiles(state.ofClass, gpu::TILE_WORK_LISTS, i);
     return made;
 }
 

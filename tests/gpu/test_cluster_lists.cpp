@@ -35,7 +35,8 @@ struct Scene {
 struct Made {
     std::vector<glm::vec4> nodes;
     std::vector<uint32_t> heads, entries;
-    std::vector<uint32_t> lit, unlisted; // tiles, sorted
+    std::vector<uint32_t> lit, unlisted;            // tiles, sorted
+    std::vector<uint32_t> litAt[gpu::TILE_HEIGHTS]; // those of `lit` by their heights
     gpu::LightingCounters counters;
 };
 
@@ -49,6 +50,7 @@ constexpr Form byLane{false}, byGroup{true};
 struct Limits {
     uint32_t pages = 1u << 15, longest = UINT32_MAX, maxUnlistedSteps = UINT32_MAX;
     uint32_t longestOfBlocks = UINT32_MAX;
+    bool findsHeights = false;
 };
 
 // Lights lie along a curve through a cube of 20 m, as the sorted lights of the engine do, so that
@@ -180,14 +182,15 @@ Scene blockScene(uint32_t seed, float reach, float share)
     return s;
 }
 
-// Returns the tiles of the work lists of all classes, sorted.
-std::vector<uint32_t> tilesOf(const gpu::Buffer& work)
+// Returns the tiles of `count` work lists from `first` on, sorted.
+std::vector<uint32_t> tilesOf(const gpu::Buffer& work, uint32_t first = 0,
+                              uint32_t count = gpu::TILE_WORK_LISTS)
 {
     const auto words = work.as<uint32_t>();
     const uint32_t* tiles =
-        words.data() + gpu::TILE_CLASSES * sizeof(gpu::WorkList) / sizeof(uint32_t);
+        words.data() + gpu::TILE_WORK_LISTS * sizeof(gpu::WorkList) / sizeof(uint32_t);
     std::vector<uint32_t> out;
-    for (const gpu::WorkList& list : work.as<gpu::WorkList>().first(gpu::TILE_CLASSES))
+    for (const gpu::WorkList& list : work.as<gpu::WorkList>().subspan(first, count))
         out.insert(out.end(), tiles + list.first, tiles + list.first + list.count);
     std::ranges::sort(out);
     return out;
@@ -228,8 +231,8 @@ private:
 gpu::Buffer ClusterListsTest::workOfTiles(const char* name) const
 {
     gpu::Buffer work =
-        readback(name, gpu::TILE_CLASSES * (sizeof(gpu::WorkList) + 4 * Scene::tiles));
-    for (uint32_t i = 0; i < gpu::TILE_CLASSES; ++i)
+        readback(name, gpu::TILE_WORK_LISTS * (sizeof(gpu::WorkList) + 4 * Scene::tiles));
+    for (uint32_t i = 0; i < gpu::TILE_WORK_LISTS; ++i)
         work.as<gpu::WorkList>()[i].first = i * Scene::tiles;
     return work;
 }
@@ -265,7 +268,8 @@ void ClusterListsTest::recordLists(const gpu::Frame& f, const Scene& s, const Li
                               .maxUnlistedSteps = limits.maxUnlistedSteps,
                               .lightType = 2,
                               .tileCountX = Scene::tileCount.x,
-                              .tileCountY = Scene::tileCount.y};
+                              .tileCountY = Scene::tileCount.y,
+                              .findsHeights = limits.findsHeights};
     const auto dispatch = [&](uint32_t which, uint32_t first, uint32_t count, uint32_t lists) {
         p.which = which;
         p.firstCluster = first;
@@ -333,12 +337,15 @@ Made ClusterListsTest::make(const Scene& s, Form form, const Limits& limits)
     const auto copy = []<typename T>(std::span<T> values) {
         return std::vector<T>(values.begin(), values.end());
     };
-    return {.nodes = copy(nodes.as<glm::vec4>()),
-            .heads = copy(heads.as<uint32_t>()),
-            .entries = copy(entries.as<uint32_t>()),
-            .lit = tilesOf(lit),
-            .unlisted = tilesOf(unlisted),
-            .counters = counters.as<LightingCounters>()[0]};
+    Made made{.nodes = copy(nodes.as<glm::vec4>()),
+              .heads = copy(heads.as<uint32_t>()),
+              .entries = copy(entries.as<uint32_t>()),
+              .lit = tilesOf(lit),
+              .unlisted = tilesOf(unlisted),
+              .counters = counters.as<LightingCounters>()[0]};
+    for (uint32_t height = 0; height < TILE_HEIGHTS; ++height)
+        made.litAt[height] = tilesOf(lit, height * TILE_CLASSES, TILE_CLASSES);
+    return made;
 }
 
 // Returns how many clusters have this head.
@@ -394,6 +401,62 @@ TEST_F(ClusterListsTest, GroupsAndLanesMakeTheSame)
         longest = std::max<uint64_t>(longest, group.counters.maxListLength);
     }
     EXPECT_GT(longest, 3 * gpu::PAGE_LIGHTS);
+}
+
+// Every tile that is not split is a horizontal square of 1 m, far from the others, under a sphere
+// of 1 m radius or two. Whatever is found of heights, the lists are the same.
+TEST_F(ClusterListsTest, TilesAreOnTheWorkListsOfTheirHeights)
+{
+    struct Case {
+        std::vector<float> heights; // of the centres of spheres, m
+        float minCos;               // of the cone of normals
+        uint32_t expected;
+    };
+    const Case cases[] = {{{0.5f}, 1, gpu::ANY_HEIGHT},       {{1.5f}, 1, gpu::NONE_ACROSS},
+                          {{2.5f}, 1, gpu::ALL_ABOVE},        {{2.5f, 1.5f}, 1, gpu::NONE_ACROSS},
+                          {{0.5f, 2.5f}, 1, gpu::ANY_HEIGHT}, {{4, 3}, 1, gpu::ALL_ABOVE},
+                          {{2.5f}, 0.75f, gpu::NONE_ACROSS},  {{2.5f}, 0.3f, gpu::ANY_HEIGHT},
+                          {{2.5f}, -0.5f, gpu::ANY_HEIGHT}};
+    Scene s;
+    s.tree = {.firstLight = 0, .firstNode = 0};
+    const gpu::Cluster everything{.min = {-1, -1, -40},
+                                  .max = {100 * Scene::tiles, 1, -20},
+                                  .slabMin = -1e6f,
+                                  .slabMax = 1e6f};
+    s.cluster.assign(Scene::clusters, everything);
+    std::vector<uint32_t> expected[gpu::TILE_HEIGHTS];
+    for (uint32_t tile = 0; tile < Scene::tiles; ++tile) {
+        const bool split = tile < Scene::splitTiles;
+        const Case& c = cases[split ? 2 : tile % std::size(cases)];
+        const glm::vec3 middle(100 * tile, 0, -30);
+        for (const float height : c.heights) {
+            s.core.emplace_back(middle.x, middle.y, middle.z + height, 1);
+            s.core.emplace_back(1, 1, 1, 25);
+        }
+        const uint32_t cluster = split ? Scene::firstSlice + tile * gpu::SLICES : tile;
+        for (uint32_t i = cluster; i < cluster + (split ? gpu::SLICES : 1); ++i)
+            s.cluster[i] = {.min = middle - glm::vec3(0.5f, 0.5f, 0),
+                            .tile = tile,
+                            .max = middle + glm::vec3(0.5f, 0.5f, 0),
+                            .parent = Scene::firstBlock,
+                            .axis = {0, 0, 1},
+                            .slabMin = middle.z,
+                            .slabMax = middle.z,
+                            .minCos = c.minCos};
+        s.tile.push_back({cluster, 0, 7, split ? 1 : gpu::UNSPLIT, (tile % 2) << gpu::CLASS_BITS});
+        expected[split ? gpu::ANY_HEIGHT : c.expected].push_back(tile);
+    }
+    for (uint32_t i = Scene::firstBlock; i < Scene::firstLarge; ++i)
+        s.cluster[i].parent = Scene::firstLarge;
+    s.tree.lightCount = uint32_t(s.core.size() / gpu::LIGHT_CORE_STRIDE);
+    const Made found = make(s, byLane, {.findsHeights = true}), unknown = make(s, byLane);
+    for (uint32_t height = 0; height < gpu::TILE_HEIGHTS; ++height) {
+        EXPECT_FALSE(expected[height].empty());
+        EXPECT_EQ(found.litAt[height], expected[height]) << height;
+    }
+    EXPECT_EQ(unknown.litAt[gpu::ANY_HEIGHT].size(), Scene::tiles);
+    EXPECT_EQ(make(s, byGroup).litAt[gpu::ANY_HEIGHT].size(), Scene::tiles);
+    EXPECT_EQ(lightsOf(found), lightsOf(unknown));
 }
 
 // On GPUs a group is mostly one subgroup, whose lanes need no shared memory to agree. Groups of

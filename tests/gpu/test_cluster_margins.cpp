@@ -66,16 +66,21 @@ TEST_F(ClusterMargins, HoldSamplesThatAnotherPipelineMoves)
     uint64_t missedIfNotWidened = 0;
     for (const auto& [name, camera] : cameras()) {
         const float clearDepth = std::string_view(name) == "finite" ? 1.0f : 0.0f;
-        uint64_t reaching = 0, missed = 0;
+        uint64_t reaching = 0, missed = 0, tooHigh = 0, high = 0;
         for (const gpu::MarginsProbeOutput& out : runProbe<gpu::MarginsProbeOutput>(
                  spirv::cluster_margins_comp, inputsOf(camera, clearDepth, 20000))) {
             reaching += out.reaching;
             missed += out.missed;
             missedIfNotWidened += out.missedIfNotWidened;
+            tooHigh += out.tooHigh;
+            high += out.high;
         }
         EXPECT_GT(reaching, 200000u) << name;
         EXPECT_EQ(missed, 0u) << name;
-        std::cout << name << ": " << reaching << " lights reach a sample\n";
+        EXPECT_EQ(tooHigh, 0u) << name;
+        EXPECT_GT(high, 10000u) << name;
+        std::cout << name << ": " << reaching << " lights reach a sample, " << high
+                  << " spheres are found to be high\n";
     }
     // Without margins lights are lost, so the probe does move samples out of their bounds.
     EXPECT_GT(missedIfNotWidened, 1000u);

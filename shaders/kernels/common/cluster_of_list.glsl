@@ -6,12 +6,12 @@
 
 layout(scalar, binding = CLUSTER_LISTS_LIT) buffer Lit
 {
-    WorkList lit[TILE_CLASSES];
+    WorkList lit[TILE_WORK_LISTS];
     uint litTiles[];
 };
 layout(scalar, binding = CLUSTER_LISTS_UNLISTED) buffer Unlisted
 {
-    WorkList unlisted[TILE_CLASSES];
+    WorkList unlisted[TILE_WORK_LISTS];
     uint unlistedTiles[];
 };
 
@@ -37,28 +37,29 @@ bool clusterOfList(uint list, out uint at)
 }
 
 // Appends a tile to a work list unless another cluster's lane has done so for this light type.
-#define APPEND_TILE(works, workTiles, tile, firstBit)                                              \
+// `height`: that of the tile, such as ANY_HEIGHT.
+#define APPEND_TILE(works, workTiles, tile, firstBit, height)                                      \
     const uint bit = 1u << ((firstBit) + params.lightType);                                        \
     const uint before = atomicOr(tiles[tile].onLists, bit);                                        \
-    const uint tileClass = before >> CLASS_BITS;                                                   \
+    const uint work = (height) * TILE_CLASSES + (before >> CLASS_BITS);                            \
     if ((before & bit) == 0u) {                                                                    \
-        const uint place = atomicAdd(works[tileClass].count, 1u);                                  \
-        workTiles[works[tileClass].first + place] = tile;                                          \
+        const uint place = atomicAdd(works[work].count, 1u);                                       \
+        workTiles[works[work].first + place] = tile;                                               \
         if (place % TILE_ROW == 0u)                                                                \
-            atomicAdd(works[tileClass].groupsY, 1u);                                               \
+            atomicAdd(works[work].groupsY, 1u);                                                    \
     }
 
 // Appends a tile to the work lists of shade_tiles.
-void appendLit(uint tile)
+void appendLit(uint tile, uint height)
 {
-    APPEND_TILE(lit, litTiles, tile, LIT_BITS)
+    APPEND_TILE(lit, litTiles, tile, LIT_BITS, height)
 }
 
 // Appends a tile to the work lists of shade_unlisted, and counts the cluster.
 void appendUnlisted(uint tile)
 {
     atomicAdd(counters.unlistedClusters, 1u);
-    APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS)
+    APPEND_TILE(unlisted, unlistedTiles, tile, UNLISTED_BITS, ANY_HEIGHT)
 }
 
 #endif

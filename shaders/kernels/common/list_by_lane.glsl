@@ -33,8 +33,10 @@ void testLight(inout ListWriter list, ClusterBounds bounds, uint light, inout ui
 {
     ++tested;
     const vec4 centre = lightCentre(light);
-    if (!lightTouches(bounds, centre.xyz, centre.w, lightEmission(light).w))
+    const float influence2 = lightEmission(light).w;
+    if (!lightTouches(bounds, centre.xyz, centre.w, influence2))
         return;
+    list.height = min(list.height, heightOfSphere(bounds, centre.xyz, centre.w, influence2));
     if (!list.full) {
         ++list.inPage;
         entries[list.page * PAGE_WORDS + list.inPage] = light;

@@ -13,12 +13,13 @@ struct ListWriter {
     uint inPage;         // lights on the last page
     uint found;          // lights
     bool full;           // the buffer had no page left: lights are still counted, but not written
+    uint height;         // what is known of the heights of the lights, such as ANY_HEIGHT
 };
 
 // A list begins as if it had a complete page.
 ListWriter beginList()
 {
-    return ListWriter(NO_PAGE, NO_PAGE, PAGE_LIGHTS, 0u, false);
+    return ListWriter(NO_PAGE, NO_PAGE, PAGE_LIGHTS, 0u, false, ANY_HEIGHT);
 }
 
 // Takes a page of the entry buffer, or returns NO_PAGE if none is left. The cursor does not wrap: a

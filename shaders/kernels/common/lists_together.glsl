@@ -144,7 +144,7 @@ uint makeShortLists(uint firstList)
 ListWriter shortList(uint list)
 {
     const uint page = setPage[list], found = setFound[list];
-    return ListWriter(page, page, found, found, found != 0u && page == NO_PAGE);
+    return ListWriter(page, page, found, found, found != 0u && page == NO_PAGE, ANY_HEIGHT);
 }
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the tile that a workgroup shades, on the work list of its class, and the clusters of its
-// pixels. The includer includes kernels/common/frame_params.glsl first.
+// Finds the tile that a workgroup shades, on the work list of its height and class, and the clusters of
+// its pixels. The includer includes kernels/common/frame_params.glsl first.
 #ifndef CND_COMMON_TILE_OF_GROUP
 #define CND_COMMON_TILE_OF_GROUP
 
@@ -19,7 +19,7 @@ layout(scalar, binding = SHADE_LISTS) readonly buffer Lists
 };
 layout(scalar, binding = SHADE_WORK) readonly buffer Work
 {
-    WorkList works[TILE_CLASSES];
+    WorkList works[TILE_WORK_LISTS];
     uint workTiles[];
 };
 
@@ -29,10 +29,11 @@ uint clusterOf(uint tile, float depth)
     return tiles[tile].first + ((depthBits(depth) - tiles[tile].lowest) >> tiles[tile].shift);
 }
 
-// Sets the tile of this workgroup. Returns false after the last tile.
-bool takeTile(out uint tile)
+// Sets the tile of this workgroup, from the work list of its class and of a height, such as ANY_HEIGHT.
+// Returns false after the last tile.
+bool takeTile(uint height, out uint tile)
 {
-    const WorkList work = works[tileClass];
+    const WorkList work = works[height * TILE_CLASSES + tileClass];
     const uint at = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     tile = 0u;
     if (at >= work.count)
@@ -48,10 +49,10 @@ bool takeTile(out uint tile)
 
 // Sets the tile of this workgroup and the pixel of this lane. Returns false after the last tile and
 // outside the image.
-bool takeTile(out uint tile, out uvec2 pixel)
+bool takeTile(uint height, out uint tile, out uvec2 pixel)
 {
     pixel = uvec2(0u);
-    if (!takeTile(tile))
+    if (!takeTile(height, tile))
         return false;
     pixel = firstPixelOfTile(tile, frameParams.size.x) + pixelOfLane(gl_LocalInvocationIndex);
     return all(lessThan(pixel, frameParams.size));
