@@ -46,9 +46,11 @@ TEST_F(LightingTest, DeletingOneLightFromOneTileIsNoticed)
     constexpr uint32_t tilePage = 5 * 8 + 3;
     uint32_t noticed = 0, written = 0;
     for (uint32_t entry = 0; entry < 50; entry += 7) {
+        bool done = false; // the pass may have several dispatches
         spy.onPass = [&](VkCommandBuffer cmd, const std::string& pass) {
-            if (pass != "shade_tiles")
+            if (pass != "shade_tiles" || done)
                 return;
+            done = true;
             fullBarrier(cmd);
             const uint32_t at = tilePage * gpu::PAGE_WORDS + 1 + entry;
             vkCmdFillBuffer(cmd, spy.buffer("list entries").buffer, at * sizeof(uint32_t),
