@@ -83,6 +83,12 @@ ClusterKernels::ClusterKernels(const gpu::Device& device, const surfaces::HostKe
 {
 }
 
+uint32_t tileHeightsOf(const gpu::Device& device, uint32_t lightType)
+{
+    const bool spheres = isSphere(lightType) && !isDistant(lightType);
+    return device.lanesAreCpuVector && spheres ? gpu::TILE_HEIGHTS : 1;
+}
+
 TreeShapes treeShapes(const LightTypeCounts& counts)
 {
     TreeShapes shapes{};
@@ -168,14 +174,13 @@ VkDeviceSize Clusters::tileWorkBytes(uint32_t heights) const
     return workBytes(gpu::TILE_WORK_LISTS, heights * sizes_.tileClasses * maxTileCount());
 }
 
-Clusters::Lists Clusters::createLists() const
+Clusters::Lists Clusters::createLists(uint32_t type) const
 {
     const auto make = [&](const char* name, VkDeviceSize bytes, VkBufferUsageFlags use) {
         return gpu::createBuffer(device_, name, bytes, use, gpu::MemoryUse::Scratch);
     };
     return {.heads = make("list heads", clusterCount_ * sizeof(uint32_t), storageUse),
-            .lit = make("lit tiles", tileWorkBytes(kernels_.lanesTogether ? 1 : gpu::TILE_HEIGHTS),
-                        workUse),
+            .lit = make("lit tiles", tileWorkBytes(tileHeightsOf(device_, type)), workUse),
             .unlisted = make("unlisted tiles", tileWorkBytes(1), workUse)};
 }
 
@@ -194,7 +199,7 @@ void Clusters::grow(uint32_t lightCapacity, const LightTypeCounts& types)
     }
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (types[type] && !lists_[type].heads.buffer)
-            lists_[type] = createLists();
+            lists_[type] = createLists(type);
 }
 
 void Clusters::writeBindings(uint32_t slot, const LightTypeCounts& types, const Inputs& in) const
@@ -333,7 +338,7 @@ void Clusters::recordClusters(const gpu::Frame& f, glm::uvec2 tileCount, float s
 }
 
 void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeShape& tree,
-                           glm::uvec2 tileCount, uint32_t longest, bool findsHeights) const noexcept
+                           glm::uvec2 tileCount, uint32_t longest) const noexcept
 {
     const gpu::Kernel<gpu::ClusterListsParams>& kernel = kernels_.clusterLists;
     const VkDescriptorSet set = listSets_.set(f.slot * CND_LIGHT_TYPE_COUNT + type);
@@ -350,7 +355,7 @@ void Clusters::recordLists(const gpu::Frame& f, uint32_t type, const gpu::TreeSh
                                    .which = gpu::LISTS_OF_BLOCKS,
                                    .tileCountX = tileCount.x,
                                    .tileCountY = tileCount.y,
-                                   .findsHeights = findsHeights};
+                                   .findsHeights = tileHeightsOf(device_, type) > 1};
     const auto dispatch = [&](uint32_t lists) {
         kernel.dispatchInRows(f, set, params, listGroups(lists));
     };

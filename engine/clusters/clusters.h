@@ -43,6 +43,10 @@ constexpr VkDeviceSize tileWorkListAt(uint32_t height, uint32_t tileClass)
 {
     return workListAt(height * gpu::TILE_CLASSES + tileClass);
 }
+// Returns how many heights of tiles are told apart for lights of a type: all for spheres on
+// llvmpipe, where a loop costs time even if no light needs it, else only gpu::ANY_HEIGHT (DECISIONS
+// 72).
+uint32_t tileHeightsOf(const gpu::Device& device, uint32_t lightType);
 // Returns the number of tiles with a surface, of all classes.
 inline uint32_t surfaceTileCount(const gpu::LightingCounters& counters)
 {
@@ -89,10 +93,9 @@ public:
     // the tiles that hold a surface. Tiles longer than `splitLength` metres are split into slices.
     void recordClusters(const gpu::Frame& frame, glm::uvec2 tileCount, float splitLength,
                         bool forLists) const noexcept;
-    // `longest`: number of lights in the longest list that shading can walk. `findsHeights`: puts
-    // tiles on the work lists of their heights, instead of all on those of gpu::ANY_HEIGHT.
+    // `longest`: number of lights in the longest list that shading can walk.
     void recordLists(const gpu::Frame& frame, uint32_t type, const gpu::TreeShape& tree,
-                     glm::uvec2 tileCount, uint32_t longest, bool findsHeights) const noexcept;
+                     glm::uvec2 tileCount, uint32_t longest) const noexcept;
 
     // The light lists of one light type.
     struct Lists {
@@ -126,7 +129,7 @@ private:
     uint32_t maxTileCount() const { return sizes_.maxTiles.x * sizes_.maxTiles.y; }
     uint32_t firstSplit() const { return maxTileCount(); } // first cluster of split tiles
     VkDeviceSize tileWorkBytes(uint32_t heights) const;
-    Lists createLists() const;
+    Lists createLists(uint32_t type) const;
     uint32_t listGroups(uint32_t lists) const noexcept;
 
     const gpu::Device& device_;

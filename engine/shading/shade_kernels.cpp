@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "candelabra_shaders.h"
+#include "clusters/clusters.h"
 #include "lights/light_limits.h"
 #include "shading/light_family.h"
 #include "surfaces/radiance_format.h"
@@ -211,7 +212,7 @@ ShadeKernels::Variant ShadeKernels::make(const Job& job) const
     Tiles& tiles = out.tiles[job.tileClass];
     switch (job.part) {
     case Lists:
-        for (uint32_t height = 0; height < heightsOf(job.lightType); ++height)
+        for (uint32_t height = 0; height < tileHeightsOf(*device_, job.lightType); ++height)
             tiles.shade[height] = makeKernel<gpu::ShadeTilesParams>(*kernels[0], job, height);
         tiles.unlisted = makeKernel<gpu::ShadeUnlistedParams>(*kernels[1], job);
         break;

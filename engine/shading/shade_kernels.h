@@ -10,7 +10,6 @@
 
 #include "candelabra/candelabra.h"
 #include "gpu/kernel.h"
-#include "lights/light_types.h"
 #include "shared/influence.h"
 #include "shared/lighting.h"
 #include "surfaces/host_kernels.h"
@@ -53,7 +52,7 @@ public:
     }
     // The kernels for tiles of one material class.
     struct Tiles {
-        // One per height of tiles, such as gpu::ANY_HEIGHT. Those below heightsOf() exist.
+        // One per height of tiles, such as gpu::ANY_HEIGHT. Those below tileHeightsOf() exist.
         gpu::Kernel<gpu::ShadeTilesParams> shade[gpu::TILE_HEIGHTS];
         gpu::Kernel<gpu::ShadeUnlistedParams> unlisted;
         gpu::Kernel<gpu::CountPairsParams> countPairs;
@@ -71,14 +70,6 @@ public:
                        uint32_t tileClass) const;
     // Tells whether tiles of this class have a work list and kernels of their own.
     bool tellsApart(uint32_t tileClass) const { return tileClasses_ >> tileClass & 1; }
-    // Returns how many heights of tiles are told apart for lights of this type: all for spheres on
-    // llvmpipe, where a loop costs time even if no light needs it, else only gpu::ANY_HEIGHT
-    // (DECISIONS 72).
-    uint32_t heightsOf(uint32_t lightType) const
-    {
-        const bool spheres = isSphere(lightType) && !isDistant(lightType);
-        return device_->lanesAreCpuVector && spheres ? gpu::TILE_HEIGHTS : 1;
-    }
 
 private:
     // Pipelines that are made together. The value is their bit in Slot::made for CLASS_ANY; Lists

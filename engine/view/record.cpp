@@ -217,8 +217,7 @@ void View::recordLists(const gpu::Frame& f, const FramePlan& p) const noexcept
     const gpu::UntimedFrame u(f); // lists of one type may be made at the same time as of another
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (p.lights[type] && !isDistant(type))
-            clusters_.recordLists(u, type, p.trees[type], p.tileCount, lightsPerBatch(p, type),
-                                  module_.kernels.shade.heightsOf(type) > 1);
+            clusters_.recordLists(u, type, p.trees[type], p.tileCount, lightsPerBatch(p, type));
     f.timer.stamp(f.cmd, module_.kernels.clusters.clusterLists.name());
     f.barrier();
 }
@@ -236,7 +235,7 @@ void View::recordClustered(const gpu::Frame& f, const FramePlan& p, uint32_t typ
     const auto shade = [&](const gpu::LightBatch& batch) {
         const gpu::UntimedFrame u(f);
         byClass(kernels, p.frame, type, [&](const ShadeKernels::Tiles& tiles, uint32_t tileClass) {
-            for (uint32_t height = 0; height < kernels.heightsOf(type); ++height)
+            for (uint32_t height = 0; height < tileHeightsOf(module_.device, type); ++height)
                 tiles.shade[height].dispatchIndirect(u, sets_.shadeTiles.set(set), {batch},
                                                      clusters_.tilesToShade(type),
                                                      tileWorkListAt(height, tileClass));

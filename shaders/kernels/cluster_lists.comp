@@ -12,8 +12,8 @@
 // (DECISIONS 12 and 42). The lists of blocks are too long if testing their lights takes more than
 // walking the tree (DECISIONS 70).
 //
-// Lanes by themselves also find how high the spheres of a list are above the horizons of its tile
-// (shared/lighting.h, ANY_HEIGHT), unless the tile is split.
+// A lane that makes the list of a tile by itself also finds the tile's height (shared/lighting.h,
+// ANY_HEIGHT), unless the tile is split.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/cluster_test.glsl"
@@ -108,7 +108,7 @@ void makeByLane(uint list)
     const uint parent = params.hasParents != 0u ? lists[cluster.parent] : LIST_UNLISTED;
     ListWriter writer = beginList();
     if (params.findsHeights != 0u && params.which == LISTS_OF_TILES)
-        writer.height = ALL_ABOVE; // until a light is lower
+        writer.height = ALL_ABOVE; // until a lower light is found
     const bool tooLong =
         listOfLane(writer, makeClusterBounds(cluster), parent, params.which == LISTS_OF_BLOCKS);
     completeList(at, cluster.tile, writer, tooLong);

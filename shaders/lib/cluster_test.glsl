@@ -79,9 +79,10 @@ uint heightOfSphere(ClusterBounds c, vec3 centre, float radius, float r2)
     const vec3 corner = max(abs(centre - c.box.min), abs(centre - c.box.max));
     const float farthest2 = min(r2, dot(corner, corner)) * BOUNDS_MARGIN;
     const float aside = sqrt(max(farthest2 - lowest * lowest, 0.0));
-    // In units of 2^-24 of the two terms, of which DOT_MARGIN is 16: the length of n may be wrong by
-    // 16, the n.v that shading computes by 5, the operations here by 3, and each of two roots by 6.
-    // That the sine of a narrow cone is computed from a cosine is allowed for by COS_MARGIN.
+    // `rounding` exceeds the errors of this bound and of the n.v that shading computes. It is a share
+    // of both terms, of 64 units of 2^-24. The length of n may be wrong by 16 such units, the n.v of
+    // shading by 5, the operations here by 3, and each of two square roots by 6. The sine of a narrow
+    // cone, which is computed from its cosine, is large enough because of COS_MARGIN.
     const float rounding = margin + 4.0 * DOT_MARGIN * (abs(lowest) + aside);
     const float height = c.minCos * lowest - c.maxSin * aside - rounding;
     const float above = radius * BOUNDS_MARGIN;

@@ -8,9 +8,9 @@
 // if blocks of one subgroup may be of different sizes and lightAt or lightCentre reads a storage buffer
 // or shared memory. It may define READS_AHEAD as a constant that tells whether the lights of several
 // tests are read at once. GPUs gain from that, because a test waits long for its light, but little
-// longer for several. It may define TILE_HEIGHT as a constant, what is known of the heights of
-// spheres above the horizon of the pixel (shared/lighting.h, ANY_HEIGHT). It may also define
-// COUNT_FOUND, which then counts the tests of a block and the lights that it evaluates in each way.
+// longer for several. It may define TILE_HEIGHT, a constant that holds the height of the
+// pixel's tile: ANY_HEIGHT or another (shared/lighting.h). It may also define COUNT_FOUND, which then
+// counts the tests of a block and the lights that it evaluates in each way.
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 
@@ -167,7 +167,7 @@ Found findLights(Receiver r, uint first, uint count, bool testInfluence)
     const uvec2 reaching = count == 0u ? uvec2(0u) : uvec2(low.reaching, high.reaching);
     Found found;
     found.asPoint = uvec2(low.asPoint, high.asPoint) & reaching;
-    // All lights that are left belong to the last way that is possible.
+    // Where a way of evaluation is not possible, the lights that are left belong to the way before it.
     found.above = reaching & ~found.asPoint;
     if (NEAR_IS_POSSIBLE)
         found.above &= uvec2(low.above, high.above);

@@ -175,7 +175,7 @@ struct ClusterListsParams {
     uint firstCluster, clusterCount;
     uint tileCountX, tileCountY;
     uint hasParents;   // 1: parents have lists
-    uint findsHeights; // 1: finds the heights of unsplit tiles (only lanes by themselves do)
+    uint findsHeights; // 1: lanes by themselves find the heights of unsplit tiles
 };
 GPU_SIZE(ClusterListsParams, 60)
 

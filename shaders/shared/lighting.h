@@ -82,11 +82,12 @@ const uint CLASS_ANY = 0u;
 const uint CLASS_DIFFUSE = 1u;  // no specular lobe
 const uint CLASS_SPECULAR = 2u; // no diffuse lobe
 const uint TILE_CLASSES = 3u;
-// What is known of the heights of a tile's spheres above the horizons of its samples, of those
-// spheres whose light may reach the sample. Each height has a kernel without the evaluations that
-// it rules out, and a work list per class of tiles. All buffers of tiles begin with a list for each
-// height and class, at height * TILE_CLASSES + CLASS_*. Those of tiles with a surface and of
-// unlisted tiles have room in the lists of ANY_HEIGHT only.
+// Tiles are told apart by how high their spheres are. The height of a sphere at a sample is how far
+// its centre is above the sample's tangent plane, the horizon. A tile's height says what holds at
+// every sample of the tile, for every sphere whose light may reach the sample. Each height has a
+// kernel without the evaluations that it rules out, and a work list per class of tiles. All buffers
+// of tiles begin with a list for each height and class, at height * TILE_CLASSES + CLASS_*. Those
+// of tiles with a surface and of unlisted tiles have room in the lists of ANY_HEIGHT only.
 const uint ANY_HEIGHT = 0u;  // nothing is known
 const uint NONE_ACROSS = 1u; // every centre is more than one radius above the horizon
 const uint ALL_ABOVE = 2u;   // every centre is at least ABOVE_FROM radii above the horizon
@@ -207,8 +208,9 @@ const uint SPEC_TILE_CLASSES = 6u; // tile_clusters: mask of 1 << CLASS_*, the c
 // Chooses the form of kernels that have two. 1: the lanes of a group share the work on one cluster,
 // node, tile, block or run of lights, for GPUs; 0: each lane has work of its own, for llvmpipe.
 const uint SPEC_LANES_TOGETHER = 7u;
-// shade_tiles: the height of its tiles, such as ANY_HEIGHT: which work list, which lights are
-// absent
+// shade_tiles: the height of the tiles that the kernel shades, ANY_HEIGHT or another. The kernel
+// takes tiles from the work list of this height and does not evaluate lights that the height rules
+// out.
 const uint SPEC_TILE_HEIGHT = 9u;
 
 // The lowest alpha of the specular lobe. Below it a float32 NoH cannot resolve the peak (measured:

@@ -25,9 +25,9 @@ struct MarginsProbeOutput {
     uint reaching;
     uint missed;             // left out by the tests of clusters or of nodes of the light tree
     uint missedIfNotWidened; // left out by the tests of bounds without margins
-    // Spheres that have a height above the horizon of all samples by the bounds (heightOfSphere),
-    // of those that are a millionth too large for it at one sample, and of those that are 1%
-    // smaller.
+    // `tooHigh` counts spheres that are a millionth too large to be so high at one sample as the
+    // bounds say that they are at all (heightOfSphere). `high` counts spheres that are 1% smaller
+    // than the largest sphere that is so high at the sample, and of which the bounds say it.
     uint tooHigh, high;
 };
 GPU_SIZE(MarginsProbeOutput, 20)

@@ -112,9 +112,9 @@ TEST_F(LightingTest, TilesUnderHighLightsAreShadedAsOthers)
     }
 }
 
-// The same with lights that end near their spheres, with kernels for classes of materials, and with
-// a wall in steps, whose tiles are split into slices of depth.
-TEST_F(LightingTest, TilesUnderHighLightsAreShadedAsOthersWithWhatElseDividesTiles)
+// Compares the pictures of lights that end near their spheres, of a lighting with kernels for
+// classes of materials, and of a wall in steps, whose tiles are split into slices of depth.
+TEST_F(LightingTest, SplitAndClassedTilesUnderHighLightsAreShadedAsOthers)
 {
     CpuGBuffer stepped = bumpyWall(144, 96, 0.3);
     for (size_t pixel = 0; pixel < stepped.depth.size(); ++pixel)

@@ -13,7 +13,7 @@ struct ListWriter {
     uint inPage;         // lights on the last page
     uint found;          // lights
     bool full;           // the buffer had no page left: lights are still counted, but not written
-    uint height;         // what is known of the heights of the lights, such as ANY_HEIGHT
+    uint height;         // height of the list's tile by the lights so far (shared/lighting.h)
 };
 
 // A list begins as if it had a complete page.
