@@ -324,7 +324,7 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
         run("stress --lights 50,200 --size 128x72 --frames 2 --warm-up 0.1 --out o --json s.json "
             "--validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    for (const char* word : {"shade_tiles", "p95 ms", "lights per tile", "identical", "Try next"})
+    for (const char* word : {"shade_tiles", "p95 ms", "entries per tile", "identical", "Try next"})
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     const auto json = nlohmann::json::parse(text("s.json"));
     EXPECT_EQ(test::schemaFaults(json, "stress.schema.json"), "");
@@ -341,6 +341,33 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
     EXPECT_EQ(readPng(path("o/hall_200.png")).width, 128);
     EXPECT_NE(text("o/stress.svg").find("shade_tiles"), std::string::npos);
     EXPECT_EQ(test::xmlFault(path("o/stress.svg")), "");
+}
+
+TEST_F(ProgramTest, StressMeasuresNoLightsAndNeedNotCheck)
+{
+    const Outcome outcome =
+        run("stress --lights 0,20 --size 64x36 --frames 1 --check none --out o --validate");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("not compared"), std::string::npos) << outcome.out;
+    const auto json = nlohmann::json::parse(text("o/stress.json"));
+    EXPECT_EQ(test::schemaFaults(json, "stress.schema.json"), "");
+    EXPECT_EQ(json["points"][0]["lights"], 0);
+    EXPECT_TRUE(json["points"][1]["twoRunsIdentical"].is_null());
+    EXPECT_EQ(readPng(path("o/hall_0.png")).width, 64);
+    EXPECT_EQ(test::xmlFault(path("o/stress.svg")), "");
+}
+
+// A pass that has a time did not skip its recording.
+TEST_F(ProgramTest, ExplainDoesNotDenyTheTimes)
+{
+    const Outcome outcome = run("render hall --lights 20 --size 64x36 --explain");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("shade_unlisted       recorded, found nothing to do: every cluster"),
+              std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("shade_brute          skipped: lights are culled"),
+              std::string::npos)
+        << outcome.out;
 }
 
 TEST_F(ProgramTest, ProfileTimesEveryPass)

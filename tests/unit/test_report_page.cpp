@@ -56,8 +56,10 @@ KernelPoint kernelPoint(uint32_t type, const MeasuredMethod& method, double erro
     for (int i = 0; i < 10; ++i)
         out.error.groupMeans.push_back(error * (1 + 0.1 * i));
     out.error.mirror.all = {.count = 890, .mean = 1.45 * error, .max = 20 * error};
-    out.classes.push_back({.evaluationClass = EvaluationClass::Above,
-                           .both = {.medianNs = 3, .ratio = 2, .ratioLow = 1.9, .ratioHigh = 2.1}});
+    out.classes.push_back(
+        {.evaluationClass = EvaluationClass::Above,
+         .both = {.medianNs = 3, .roundsNs = {3, 3}, .ratio = 2, .ratioLow = 1.9, .ratioHigh = 2.1},
+         .specularNs = {}});
     return out;
 }
 
@@ -178,6 +180,28 @@ TEST(ReportSentences, SpeedSaysFasterOnlyWhereTheIntervalDoes)
     EXPECT_TRUE(has(speedSentence({few}), "too few repeats")) << speedSentence({few});
 }
 
+// The ratio and its interval are of the same quotient.
+TEST(ReportTable, CullingHasTheRatioWithinItsInterval)
+{
+    const std::string text = textOf(cullingTables({point(2)})); // froxels take twice as long
+    EXPECT_TRUE(has(text, "95% interval")) << text;
+    EXPECT_TRUE(has(text, " 0.50  0.50 .. 0.50 ")) << text;
+    CullingPoint few = point(2);
+    for (Contender& c : few.contenders)
+        c = contender(c.name.c_str(),
+                      c.name == froxelsName ? std::vector{20.0} : std::vector{10.0});
+    EXPECT_FALSE(has(textOf(cullingTables({few})), ".."));
+}
+
+TEST(ReportTable, TimesThatNoiseHidesHaveNoNumber)
+{
+    KernelLevel level = kernels(0.01, 0.1, 0.3);
+    level.points[0].classes[0].both = {.medianNs = -24.2, .roundsNs = {-24.2, -30, 5}};
+    const std::string text = kernelTables(level)[1].text();
+    EXPECT_TRUE(has(text, "below noise")) << text;
+    EXPECT_FALSE(has(text, "-24.2")) << text;
+}
+
 TEST(ReportSentences, WhatWasDrawnOnceHasNoInterval)
 {
     CullingPoint once = point(2);
@@ -237,8 +261,10 @@ TEST(ReportSentences, WeakSidesAreTheWorstOfTheRun)
                         .skips = {}};
     KernelPoint& disc = facts.kernels.points[3]; // conic
     disc.error.mirror.all.max = 0.777;
-    disc.classes.push_back({.evaluationClass = EvaluationClass::General,
-                            .both = {.ratio = 3.5, .ratioLow = 3.4, .ratioHigh = 3.6}});
+    disc.classes.push_back(
+        {.evaluationClass = EvaluationClass::General,
+         .both = {.roundsNs = {1}, .ratio = 3.5, .ratioLow = 3.4, .ratioHigh = 3.6},
+         .specularNs = {}});
     facts.kernels.points[0].error.dielectric.all.max = 0.888;
     const std::string text = weaknessSentence(facts);
     EXPECT_TRUE(has(text, "up to 3.50 [3.40, 3.60] times as long as by karis (a disc across"))

@@ -24,6 +24,15 @@ TEST(Statistics, SpreadOfKnownValues)
     EXPECT_EQ(one.cv, 0);
 }
 
+TEST(Statistics, ADifferenceIsAboveNoiseIfThreeQuartersArePositive)
+{
+    EXPECT_EQ(medianAboveNoise(differences(std::vector{5.0, 6.0, 7.0}, std::vector{4.0, 4.0, 4.0})),
+              2);
+    EXPECT_EQ(medianAboveNoise({-1, 2, 3, 4, 5}), 3);
+    EXPECT_FALSE(medianAboveNoise({-2, -1, 3, 4, 5}));
+    EXPECT_FALSE(medianAboveNoise({0}));
+}
+
 // The ranks of the interval are those in published tables: six pairs are the least that give an
 // interval.
 TEST(Statistics, IntervalOfTheMedianHasTheTabulatedRanks)

@@ -2,6 +2,7 @@
 // candelabra compare: tests whether two sets of runs of `candelabra profile`, such as before and
 // after a change, differ significantly.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 
 #include "commands/commands.h"
 #include "io/error.h"
-#include "io/statistics.h"
 #include "io/table.h"
 #include "measure/profile/run_comparison.h"
 #include "measure/profile/run_file.h"
@@ -111,6 +111,16 @@ bool allPositive(const std::vector<double>& values)
     return std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
 }
 
+// What tables show of the times of one side: their geometric mean. RunRatio::ratio is the quotient
+// of these means.
+double meanMs(const std::vector<double>& times)
+{
+    double logarithms = 0;
+    for (const double ms : times)
+        logarithms += std::log(ms);
+    return std::exp(logarithms / double(times.size())); // 0 if any time is 0
+}
+
 // Returns false for a pass that is missing in some run, or that was too short there to be timed.
 bool hasRatio(const ComparedRow& row)
 {
@@ -161,7 +171,7 @@ std::string comparedTable(const std::vector<ComparedRow>& rows, const Statistic&
                  "95% interval", "p", "B is"});
     for (const ComparedRow& row : rows) {
         const bool both = hasRatio(row);
-        table.add({row.name, threeDigits(medianOf(row.times.a)), threeDigits(medianOf(row.times.b)),
+        table.add({row.name, threeDigits(meanMs(row.times.a)), threeDigits(meanMs(row.times.b)),
                    both ? fmt::format("{:.3f}", row.ratio.ratio) : "-",
                    both ? fmt::format("{:.3f} .. {:.3f}", row.ratio.low, row.ratio.high) : "-",
                    both ? fmt::format("{:.3f}", row.ratio.p) : "-", row.verdict});
@@ -181,8 +191,7 @@ Json comparedJson(const std::vector<ComparedRow>& rows)
 {
     Json out = Json::array();
     for (const ComparedRow& row : rows) {
-        Json one{
-            {"name", row.name}, {"aMs", medianOf(row.times.a)}, {"bMs", medianOf(row.times.b)}};
+        Json one{{"name", row.name}, {"aMs", meanMs(row.times.a)}, {"bMs", meanMs(row.times.b)}};
         if (hasRatio(row))
             one.update(Json{{"ratio", row.ratio.ratio},
                             {"low", row.ratio.low},
@@ -283,7 +292,9 @@ void addCompareCommand(CLI::App& app, Run& run)
     command->footer(
         "A run is one call of profile. The shortest time of each pass over the frames of a run is\n"
         "compared, because a busy machine adds least to it; with a camera path or moving lights\n"
-        "it is the median. Compare at least 4 runs with 4, better 5 with 5 or more, of 40 frames\n"
+        "it is the median. The table shows the geometric means of these times over the runs, and\n"
+        "their quotient B / A. Compare at least 4 runs with 4, better 5 with 5 or more, of 40 "
+        "frames\n"
         "or more each, and of equally many frames. Make the runs of A and B alternately, so that\n"
         "a machine that becomes slower affects both.\n"
         "\"cannot tell\" means that the interval is wider than the change; \"too short to time\",\n"

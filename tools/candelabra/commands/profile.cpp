@@ -192,10 +192,11 @@ Json describe(const ProgramContext& program, const ProfileArguments& a, const Pr
 // `all` is the number of triangles of all instances.
 std::string text(const ProfileArguments& a, const Profile& profile, uint64_t all)
 {
-    std::string drawn;
-    for (const uint64_t triangles : profile.drawnTriangles)
-        drawn += (drawn.empty() ? "" : " and ") + grouped(triangles);
-    drawn = fmt::format("The first camera draws {} of {} triangles.\n", drawn, grouped(all));
+    const std::vector<uint64_t>& counts = profile.drawnTriangles; // one per variant
+    std::string drawn = fmt::format("The first frame draws {}", grouped(counts.front()));
+    if (counts.back() != counts.front())
+        drawn += fmt::format(" (A) and {} (B)", grouped(counts.back()));
+    drawn += fmt::format(" of {} triangles.\n", grouped(all));
     if (a.ab.empty())
         return seriesTable(profile.series[0]).text() +
                overheadText(profile.series[0], profile.stampMs) + drawn;
@@ -204,8 +205,9 @@ std::string text(const ProfileArguments& a, const Profile& profile, uint64_t all
     };
     return fmt::format("A: {}\nB: {}\n", shown(a.ab[0]), shown(a.ab[1])) +
            comparisonTable(profile.series[0], profile.series[1]) +
-           "Each row has its own 95% interval: of twenty rows without a difference, one is called "
-           "faster or slower by chance.\n" +
+           "A pair is a frame of A and the frame of B drawn next to it. Each row has its own 95% "
+           "interval: of twenty rows without a difference, one is called faster or slower by "
+           "chance.\n" +
            drawn;
 }
 

@@ -68,7 +68,7 @@ StressSettings settingsOf(const StressArguments& a)
 
 std::vector<uint32_t> lightCounts(const StressArguments& a)
 {
-    std::vector<uint32_t> counts = unsignedListOption("--lights", a.lights, 1, maxLights);
+    std::vector<uint32_t> counts = unsignedListOption("--lights", a.lights, 0, maxLights);
     for (size_t i = 1; i < counts.size(); ++i) {
         const auto end = counts.begin() + std::ptrdiff_t(i);
         if (std::find(counts.begin(), end, counts[i]) != end)
@@ -166,7 +166,8 @@ void addStressCommand(CLI::App& app, Run& run)
     command
         ->add_option("--check", a->check,
                      "pixels compared with brute force: auto (all up to 16384 lights, beyond "
-                     "that sampled tiles), sampled (fewer tiles, for a quick look), full, none")
+                     "that sampled tiles), sampled (fewer tiles, for a quick look), full, or none, "
+                     "which also leaves out the second run")
         ->type_name("NAME")
         ->capture_default_str();
     command->add_option("--out", a->directory, "directory for everything; made if missing")

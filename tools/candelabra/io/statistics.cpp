@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -61,6 +62,19 @@ Spread spreadOf(std::vector<double> values)
             .p95 = rank(values, 0.95),
             .p99 = rank(values, 0.99),
             .cv = mean > 0 ? deviation / mean : 0};
+}
+
+std::optional<double> medianAboveNoise(const std::vector<double>& values)
+{
+    const Spread s = spreadOf(values);
+    return s.lowerQuartile > 0 ? std::optional(s.median) : std::nullopt;
+}
+
+std::vector<double> differences(std::span<const double> a, std::span<const double> b)
+{
+    std::vector<double> out(a.size());
+    std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::minus<>());
+    return out;
 }
 
 bool isNoisy(const std::vector<double>& values)

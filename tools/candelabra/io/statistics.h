@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct Spread {
 // `values` must not be empty.
 double medianOf(std::vector<double> values);
 Spread spreadOf(std::vector<double> values);
+
+// Returns the median of times that were measured as differences, unless a quarter of them or more
+// are not positive: then the time is below the noise. `values` must not be empty.
+std::optional<double> medianAboveNoise(const std::vector<double>& values);
+// a - b, element by element. Both must have the same number of values.
+std::vector<double> differences(std::span<const double> a, std::span<const double> b);
 
 // Measurements are called noisy if the middle half of them, from the lower to the upper quartile,
 // spans more than this share of their median.

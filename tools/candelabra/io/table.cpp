@@ -38,6 +38,12 @@ std::string noisyLegend()
                        noisyMark, 100 * noisyShare);
 }
 
+std::string pairedLegend()
+{
+    return "paired: the median of the ratios of single rounds, which differs from the quotient of "
+           "the medians.";
+}
+
 std::string contradictionLegend()
 {
     return fmt::format(
@@ -197,6 +203,11 @@ std::string threeDigits(double value)
                          : size < 99.95   ? 1
                                           : 0;
     return fmt::format("{:.{}f}", value, value == 0 ? 0 : decimals);
+}
+
+std::string threeDigits(const std::optional<double>& value)
+{
+    return value ? threeDigits(*value) : "below noise";
 }
 
 std::string grouped(unsigned long long value)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,6 +79,8 @@ inline constexpr const char* contradictionMark = "!";
 // The sentences that explain them.
 std::string noisyLegend();
 std::string contradictionLegend();
+// Explains columns whose unit is "paired".
+std::string pairedLegend();
 
 // Several tables one after another, with an empty line between two of them.
 std::string textOf(std::span<const Table> tables);
@@ -85,6 +88,8 @@ std::string textOf(std::span<const Table> tables);
 // A number for people to read: three significant digits, such as "12.3", or all digits before the
 // point if there are more. Values below 0.001 and from 1e6 on have an exponent.
 std::string threeDigits(double value);
+// The same, or "below noise" for none.
+std::string threeDigits(const std::optional<double>& value);
 // 1234567 -> "1,234,567".
 std::string grouped(unsigned long long value);
 // "1 light", "4,000 lights": for nouns whose plural ends in s.

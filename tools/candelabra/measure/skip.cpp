@@ -574,7 +574,8 @@ std::string costOf(const SkipRow& row)
 {
     if (!row.idleWith.frames())
         return "nothing";
-    return fmt::format("{:+.1f} of {} ms", medianMs(row.idleWith) - medianMs(row.idleWithout),
+    const std::vector<double> costs = differences(row.idleWith.totals(), row.idleWithout.totals());
+    return fmt::format("{} of {} ms", threeDigits(medianAboveNoise(costs)),
                        threeDigits(medianMs(row.idleWithout)));
 }
 
@@ -597,9 +598,10 @@ Table skipTable(const std::vector<SkipRow>& rows)
          Column::words("passes", "The passes of the frame that are timed."),
          {"with", "ms", "The median time of these passes with the skip."},
          {"without", "ms", "Their median time without the skip."},
-         {"ratio", "[95%]",
-          "The time with the skip divided by the time without, and an interval that holds the true "
-          "median with 95% confidence. Below 1 the skip saves time."},
+         {"median of paired ratios", "[95%]",
+          "The time with the skip divided by the time without in the same round, the median of the "
+          "rounds, and an interval that holds the true median with 95% confidence. Below 1 the "
+          "skip saves time."},
          {"limit", "",
           "The largest ratio that the project allows itself, where it has set one. It is missed "
           "if the whole interval is above it, and open if only a part of it is."},
@@ -615,7 +617,7 @@ Table skipTable(const std::vector<SkipRow>& rows)
                    row.interval().isKnown()
                        ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", row.interval().median,
                                      row.interval().low, row.interval().high)
-                       : fmt::format("{:.3f}", row.ratio()),
+                       : fmt::format("{:.3f}", row.interval().median),
                    limitOf(row), costOf(row), threeDigits(row.difference)},
                   {.noisy = isNoisy(row.with.totals()) || isNoisy(row.without.totals()),
                    .key = row.key()});

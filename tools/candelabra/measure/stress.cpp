@@ -98,12 +98,17 @@ StressPoint measureStressPoint(const VulkanContext& context, const StressSetting
     out.exposure = frames.last.exposure;
     out.stats = countPairs(context, renderer, frame);
 
-    progress.doing(label + ": two runs");
+    progress.doing(label + ": picture");
     const Pictures first = renderOnce(context, renderer, frame);
     out.image = (std::filesystem::path(settings.directory) /
                  fmt::format("{}_{}.png", fileName(scene.name), out.lights))
                     .string();
     savePng(out.image, settings.size.width, settings.size.height, first.display);
+    if (settings.check == CheckExtent::None) {
+        progress.advance(secondsToBuild);
+        return out;
+    }
+    progress.doing(label + ": second run");
     Renderer second(context, scene, rendererOptions);
     out.identical = sameBits(first, renderOnce(context, second, frame));
     progress.advance(secondsToBuild);
@@ -122,7 +127,7 @@ StressPoint measureStressPoint(const VulkanContext& context, const StressSetting
 namespace
 {
 
-double meanListLength(const CndLightingStats& stats)
+double entriesPerTile(const CndLightingStats& stats)
 {
     return double(stats.listEntries) / std::max(stats.tileCount, 1u);
 }
@@ -137,6 +142,11 @@ std::string checkText(const BruteCheck& check)
     return check.pixels ? fmt::format("{:.1e}", check.relative()) : "not checked";
 }
 
+const char* identityText(const std::optional<bool>& identical)
+{
+    return !identical ? "not compared" : *identical ? "identical" : "DIFFERENT";
+}
+
 std::string pixelsText(const BruteCheck& check)
 {
     if (!check.pixels || check.allPixels)
@@ -146,14 +156,16 @@ std::string pixelsText(const BruteCheck& check)
 
 std::string listTable(const std::vector<StressPoint>& points)
 {
-    Table table({"lights", "tiles", "lights per tile", "max", "pairs listed", "in influence",
-                 "evaluated", "over budget"});
+    Table table({"lights", "tiles", "entries per tile", "longest list", "pairs listed",
+                 "in influence", "contributing", "without list"});
     for (const StressPoint& p : points)
         table.add({grouped(p.lights), grouped(p.stats.tileCount),
-                   threeDigits(meanListLength(p.stats)), grouped(p.stats.maxListLength),
+                   threeDigits(entriesPerTile(p.stats)), grouped(p.stats.maxListLength),
                    millions(p.stats.listedPairs), millions(p.stats.insidePairs),
                    millions(p.stats.contributingPairs), grouped(p.stats.unlistedClusters)});
-    return table.text();
+    return table.text() +
+           "Entries per tile add up the lists of a tile: one for every type of light and, in deep "
+           "tiles, every slice of depth.\nClusters without a list walk the light tree instead.\n";
 }
 
 std::string checkTable(const std::vector<StressPoint>& points)
@@ -163,7 +175,7 @@ std::string checkTable(const std::vector<StressPoint>& points)
     for (const StressPoint& p : points)
         table.add({grouped(p.lights), threeDigits(p.times.total().medianMs),
                    p.check.allPixels ? threeDigits(p.check.bruteMs) : "-", pixelsText(p.check),
-                   checkText(p.check), p.identical ? "identical" : "DIFFERENT"});
+                   checkText(p.check), identityText(p.identical)});
     const bool all = std::all_of(points.begin(), points.end(), [](const StressPoint& p) {
         return p.check.allPixels || !p.check.pixels;
     });
@@ -242,7 +254,7 @@ Json stressJson(const StressSettings& settings, const std::vector<StressPoint>& 
                           {"maxDifferenceOverMaxRadiance", p.check.relative()},
                           {"bound", BruteCheck::bound},
                           {"shadingMs", p.check.bruteMs}}},
-                        {"twoRunsIdentical", p.identical},
+                        {"twoRunsIdentical", p.identical ? Json(*p.identical) : Json()},
                         {"image", p.image}});
     Json frame = toJson(settings.frame, settings.gbufferLayout);
     frame.erase("camera"); // it belongs to the scene, not to the settings
@@ -278,7 +290,7 @@ std::vector<std::string> failedChecks(const std::vector<StressPoint>& points)
                                       "{:.2e} of the maximum, the bound is {:.0e}",
                                       counted(p.lights, "light"), p.check.relative(),
                                       BruteCheck::bound));
-        if (!p.identical)
+        if (p.identical == false)
             out.push_back(counted(p.lights, "light") + ": two runs gave different images");
     }
     return out;

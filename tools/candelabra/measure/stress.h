@@ -3,6 +3,7 @@
 // with brute force and between two runs, and saves pictures.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ struct StressPoint {
     CndLightingStats stats{}; // including counted pairs
     CndExposureStats exposure{};
     BruteCheck check;
-    bool identical = false; // whether a second, new renderer gave the same image, bit for bit
-    std::string image;      // the path of the picture
+    // Whether a second, new renderer gave the same image, bit for bit; none with CheckExtent::None.
+    std::optional<bool> identical;
+    std::string image; // the path of the picture
     Json scene;
 };
 

@@ -215,7 +215,7 @@ void drawLights(PanelState& state, const PanelFigures& figures)
 {
     const CndLightingStats& s = figures.lighting;
     if (s.tileCount && state.frame.culling == CND_CULLING_CLUSTERED)
-        ImGui::Text("lights per tile: %.1f mean, %u max%s",
+        ImGui::Text("list entries per tile: %.1f, longest list: %u%s",
                     double(s.listEntries) / double(s.tileCount), s.maxListLength,
                     s.unlistedClusters ? " (some clusters have no list)" : "");
     ImGui::Text("%s", counted(figures.lights, "light").c_str());

@@ -285,8 +285,9 @@ Table budgetTable(const BudgetSweep& sweep)
           "The method, and the error that lights may have so that small ones are evaluated as "
           "points."},
          {"lighting", "ms", "The median time of all lighting passes."},
-         {"/ karis", "", "That time divided by the time with karis."},
-         {"/ full", "", "That time divided by the time of the same method without a budget."},
+         {"/ karis", "paired",
+          "That time divided by the time with karis in the same round, the median of the rounds."},
+         {"/ full", "paired", "The same, divided by the time of the same method without a budget."},
          {"shading", "ms", "The median time of the passes that evaluate lights."},
          {"mean error to full", "", "The mean relative difference to the image without a budget."},
          {"p99", "", "The relative difference that 99% of the values do not exceed."},
@@ -299,6 +300,7 @@ Table budgetTable(const BudgetSweep& sweep)
                    fmt::format("{:.2f}", p.ratioToFull), threeDigits(p.time.shadingMs),
                    threeDigits(p.meanRel), threeDigits(p.p99Rel), threeDigits(p.maxOverPeak)},
                   {.noisy = p.time.noisy});
+    table.note(pairedLegend());
     return table;
 }
 
@@ -323,7 +325,9 @@ std::vector<Table> imageTables(const std::vector<ImageScene>& scenes, const Budg
         Table table(
             {{"method", "", "How lights are evaluated."},
              {"lighting", "ms", "The median time of all lighting passes."},
-             {"/ karis", "", "That time divided by the time with karis."},
+             {"/ karis", "paired",
+              "That time divided by the time with karis in the same round, the median of the "
+              "rounds."},
              {"brute force", "ms", "The median time of evaluating every light at every pixel."},
              {"relMSE", "", "The relative mean squared error of the image."},
              {"lit relMSE", "", "The mean squared relative error of the lit pixels."},

@@ -135,14 +135,20 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
             p.classes.clear();
         return;
     }
+    const auto rounds = [&](int i) -> const std::vector<double>& {
+        return times[size_t(i)].roundsNs;
+    };
+    const auto difference = [&](int a, int b) {
+        return medianAboveNoise(differences(rounds(a), rounds(b)));
+    };
     for (const ClassPlan& c : plans) {
         KernelPoint::Class& entry = out.points[c.point].classes[c.index];
         entry.both = times[size_t(c.both)];
-        entry.specularNs = entry.both.medianNs - times[size_t(c.diffuse)].medianNs;
+        entry.specularNs = difference(c.both, c.diffuse);
     }
-    const auto ns = [&](int i) { return times[size_t(i)].medianNs; };
-    out.formFactor = {ns(robust) - ns(loop), ns(naive) - ns(loop), ns(naiveAbove) - ns(loop)};
-    out.pointBudgetNs = ns(asPoint);
+    out.formFactor = {difference(robust, loop), difference(naive, loop),
+                      difference(naiveAbove, loop)};
+    out.pointBudgetNs = medianAboveNoise(rounds(asPoint));
 }
 
 } // namespace
@@ -256,10 +262,11 @@ void addTimeRow(Table& table, const KernelPoint& p)
     for (const auto c : {EvaluationClass::Above, EvaluationClass::Near, EvaluationClass::General}) {
         const KernelPoint::Class* entry = classOf(p, c);
         noisy |= entry && entry->both.noisy;
-        row.push_back(entry ? threeDigits(entry->both.medianNs) : "-");
+        row.push_back(entry ? threeDigits(medianAboveNoise(entry->both.roundsNs)) : "-");
         if (c != EvaluationClass::Near)
             row.push_back(entry ? threeDigits(entry->specularNs) : "-");
-        row.push_back(entry ? fmt::format("{:.2f}", entry->both.ratio) : "-");
+        const bool timed = entry && entry->both.ratio > 0;
+        row.push_back(timed ? fmt::format("{:.2f}", entry->both.ratio) : "-");
     }
     table.add(row, {.noisy = noisy,
                     .key = kernelTimeKey(lightTypeName(p.lightType), methodName(p.method))});
@@ -273,14 +280,14 @@ Table timeTable(const KernelLevel& level)
           "The median time of one light at one pixel, for lights well above the horizon of the "
           "surface."},
          {"specular", "ns", "The part of it that the mirrored light takes."},
-         {"/ karis", "",
+         {"/ karis", "paired",
           "The time divided by that of karis in the same round, the median of the rounds."},
          {"near", "ns",
           "The same for lights near the horizon, which conic treats apart for spheres."},
-         {"/ karis", "", "That time divided by that of karis."},
+         {"/ karis", "paired", "That time divided by that of karis, in the same way."},
          {"general", "ns", "The same for lights across the horizon."},
          {"specular", "ns", "The part of it that the mirrored light takes."},
-         {"/ karis", "", "That time divided by that of karis."}},
+         {"/ karis", "paired", "That time divided by that of karis, in the same way."}},
         "Time per (pixel, light), diffuse and specular, on the whole device");
     uint32_t type = CND_LIGHT_TYPE_COUNT;
     for (const KernelPoint& p : level.points) {
@@ -301,7 +308,13 @@ Table timeTable(const KernelLevel& level)
                            threeDigits(form.naiveAboveNs)));
     table.note(fmt::format("sphere as a point within an error budget: {} ns",
                            threeDigits(level.pointBudgetNs)));
+    table.note(pairedLegend());
     return table;
+}
+
+Json orNull(const std::optional<double>& ns)
+{
+    return ns ? Json(*ns) : Json();
 }
 
 Json toJson(const VariantTime& t)
@@ -323,7 +336,7 @@ Json kernelJson(const KernelLevelSettings& s, const KernelLevel& level)
         Json times = Json::object();
         for (const KernelPoint::Class& c : p.classes) {
             Json time = toJson(c.both);
-            time["specularAloneNs"] = c.specularNs;
+            time["specularAloneNs"] = orNull(c.specularNs);
             times[className(c.evaluationClass)] = time;
         }
         points.push_back({{"light", lightTypeName(p.lightType)},
@@ -344,10 +357,10 @@ Json kernelJson(const KernelLevelSettings& s, const KernelLevel& level)
               {"manyLights", s.timing.manyLights},
               {"rounds", s.timing.rounds}}},
             {"formFactorNs",
-             {{"robust", level.formFactor.robustNs},
-              {"naive", level.formFactor.naiveNs},
-              {"naiveAbove", level.formFactor.naiveAboveNs}}},
-            {"asPointNs", level.pointBudgetNs},
+             {{"robust", orNull(level.formFactor.robustNs)},
+              {"naive", orNull(level.formFactor.naiveNs)},
+              {"naiveAbove", orNull(level.formFactor.naiveAboveNs)}}},
+            {"asPointNs", orNull(level.pointBudgetNs)},
             {"points", points}};
 }
 

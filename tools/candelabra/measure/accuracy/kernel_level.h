@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,9 @@ struct KernelPoint {
     std::string worst; // what is special about the worst sample with F = 1
     struct Class {
         EvaluationClass evaluationClass;
-        VariantTime both;      // diffuse and specular; ratio: to karis
-        double specularNs = 0; // both less diffuse alone
+        VariantTime both; // diffuse and specular; ratio: to karis
+        // Both less diffuse alone; none if that is below the noise.
+        std::optional<double> specularNs;
     };
     std::vector<Class> classes; // empty without timestamps
 };
@@ -41,15 +43,16 @@ struct KernelPoint {
 // The time that the form factor of a sphere takes: as the engine computes it and in the naive form
 // for lights that cross the horizon, and in the naive form for lights above it. The engine then
 // needs only the product of cosine and s^2. That product is subtracted from all three, like the
-// loop over the lights and the light's direction.
+// loop over the lights and the light's direction. A time below the noise is none.
 struct FormFactorTime {
-    double robustNs = 0, naiveNs = 0, naiveAboveNs = 0;
+    std::optional<double> robustNs, naiveNs, naiveAboveNs;
 };
 
 struct KernelLevel {
     std::vector<KernelPoint> points;
     FormFactorTime formFactor;
-    double pointBudgetNs = 0;     // sphere evaluated as a point by an error budget
+    // Sphere evaluated as a point by an error budget; none if that is below the noise.
+    std::optional<double> pointBudgetNs;
     size_t unconvergedTruths = 0; // samples whose quadrature did not reach the tolerance
     size_t samples = 0;
 };

@@ -184,8 +184,10 @@ std::vector<VariantTime> timeVariants(const VulkanContext& context,
     for (size_t i = 0; i < variants.size(); ++i) {
         VariantTime t{.medianNs = medianOf(ns[i]),
                       .minNs = *std::min_element(ns[i].begin(), ns[i].end()),
+                      .roundsNs = ns[i],
                       .noisy = isNoisy(ns[i])};
-        if (baseline[i] >= 0) {
+        if (baseline[i] >= 0 && medianAboveNoise(ns[i]) &&
+            medianAboveNoise(ns[size_t(baseline[i])])) {
             const PairedRatio r = pairedRatio(ns[size_t(baseline[i])], ns[i]);
             t.ratio = r.median;
             t.ratioLow = r.low;

@@ -31,8 +31,11 @@ struct TimedVariant {
 };
 
 struct VariantTime {
-    double medianNs = 0, minNs = 0; // per (pixel, light), with the whole device at work
-    // The median ratio to the variant's baseline in the same round; 0 without a baseline.
+    // Per (pixel, light), with the whole device at work. Noise can make them negative.
+    double medianNs = 0, minNs = 0;
+    std::vector<double> roundsNs; // of every round
+    // The median ratio to the variant's baseline in the same round; 0 without a baseline, and if
+    // either time is below the noise.
     double ratio = 0;
     // An interval that holds the true median of that ratio (io/statistics.h).
     double ratioLow = 0, ratioHigh = 0;

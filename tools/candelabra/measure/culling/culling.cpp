@@ -412,11 +412,11 @@ Ratios ratiosOf(const CullingPoint& p)
             .best = best.name};
 }
 
-// A ratio with its interval, if there were enough rounds for one.
-std::string withInterval(const PairedRatio& r)
+// The interval of the engine's time divided by that of another way in the same round, if there were
+// enough rounds for one. `r` is the inverse ratio.
+std::string inverseInterval(const PairedRatio& r)
 {
-    return r.isKnown() ? fmt::format("{:.2f} [{:.2f}, {:.2f}]", r.median, r.low, r.high)
-                       : fmt::format("{:.2f}", r.median);
+    return r.isKnown() ? fmt::format("{:.2f} .. {:.2f}", 1 / r.high, 1 / r.low) : "-";
 }
 
 Table ratioTable(const std::vector<CullingPoint>& points)
@@ -428,10 +428,10 @@ Table ratioTable(const std::vector<CullingPoint>& points)
          {"time / best other", "",
           "Candelabra's median time divided by that of the fastest other way that was drawn and "
           "gives the same image. Below 1, Candelabra is faster."},
+         {"95% interval", "",
+          "An interval of the same ratio: it holds the true median of the ratios of the rounds "
+          "with 95% confidence."},
          Column::words("which other", "The fastest other way."),
-         {"other / Candelabra", "[95%]",
-          "The median over the rounds of the other's time divided by Candelabra's, and an interval "
-          "that holds the true median with 95% confidence. Above 1, Candelabra is faster."},
          {"time / floor", "",
           "The median time divided by that of shading the same lights when finding them costs "
           "nothing."},
@@ -443,11 +443,11 @@ Table ratioTable(const std::vector<CullingPoint>& points)
           "The same share divided by that of lists per tile of 16x16 pixels."},
          {"contributing / evaluated", "",
           "Of the lights that are evaluated in full, the share that adds light."}},
-        "Candelabra against the others");
+        "Candelabra against the others: quotients of the medians above");
     for (const CullingPoint& p : points) {
         const Ratios r = ratiosOf(p);
-        table.add({p.title(), fmt::format("{:.2f}", r.toBest), r.best,
-                   withInterval(p.toEngine(r.best)), fmt::format("{:.2f}", r.toFloor),
+        table.add({p.title(), fmt::format("{:.2f}", r.toBest), inverseInterval(p.toEngine(r.best)),
+                   r.best, fmt::format("{:.2f}", r.toFloor),
                    fmt::format("{:.1f}", 100 * r.cullingShare), fmt::format("{:.2f}", r.perListed),
                    fmt::format("{:.1f}", r.listedGain), fmt::format("{:.2f}", r.perEvaluated)},
                   {.noisy = isNoisy(p.of(engineName).times.totals()) ||

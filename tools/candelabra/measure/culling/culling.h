@@ -23,7 +23,7 @@ struct CullingSettings {
     std::vector<PixelSize> sizes{{1280, 720}};
     std::vector<uint32_t> lights{1000, 4000, 16000, 64000};
     std::vector<uint32_t> overlaps{8, 30};
-    uint32_t rounds = 5;
+    uint32_t rounds = minPairs; // the least that give an interval
     uint32_t seed = 1;
     // ms; brute force that takes longer is drawn once, and not in every round.
     double brutePatience = 1000;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/frame/frames.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -155,9 +156,14 @@ std::string planText(const FrameStats& frame)
     if (frame.lit)
         out =
             fmt::format("lights: {}; other types have no passes\n", types.empty() ? "none" : types);
-    for (const CndPassPlan& pass : frame.plan)
+    for (const CndPassPlan& pass : frame.plan) {
+        // A pass that has a time although it did nothing was recorded (CndPassPlan).
+        const bool recorded = std::any_of(frame.passes.begin(), frame.passes.end(),
+                                          [&](const PassTime& p) { return p.name == pass.name; });
+        const char* what = recorded ? "recorded, found nothing to do" : "skipped";
         out += fmt::format("{:<20} {}\n", pass.name,
-                           pass.skipped ? fmt::format("skipped: {}", pass.skipped) : "runs");
+                           pass.skipped ? fmt::format("{}: {}", what, pass.skipped) : "runs");
+    }
     return out;
 }
 
@@ -191,7 +197,7 @@ Json toJson(const CndLightingStats& stats)
     return {{"lights", stats.lightCount},
             {"tiles", stats.tileCount},
             {"listEntries", stats.listEntries},
-            {"meanListLength", stats.listEntries / tiles},
+            {"entriesPerTile", stats.listEntries / tiles},
             {"maxListLength", stats.maxListLength},
             {"unlistedClusters", stats.unlistedClusters},
             {"cutBelowLux", stats.cutBelow},

@@ -59,7 +59,8 @@ CndLightingStats countPairs(const VulkanContext& context, Renderer& renderer, Fr
 // Returns a table with the spread of the time of each pass, or of one frame its times alone.
 std::string passTable(const PassTimes& times);
 // Returns a line with the number of lights of each type, if the frame was lit, then a line per
-// pass, which says that the pass runs or why it was skipped.
+// pass, which says that the pass ran, or why it was skipped, or why it was recorded and timed but
+// had nothing to do.
 std::string planText(const FrameStats& frame);
 
 Json toJson(const PassTimes& times);

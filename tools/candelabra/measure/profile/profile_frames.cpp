@@ -308,7 +308,8 @@ std::string overheadText(const FrameSeries& series, double stampMs)
 
 std::string comparisonTable(const FrameSeries& a, const FrameSeries& b)
 {
-    Table table({"GPU pass", "A median ms", "B median ms", "B / A", "95% interval", "B is"});
+    Table table({"GPU pass", "A median ms", "B median ms", "median of paired B / A", "95% interval",
+                 "B is"});
     forBoth(a, b, [&](const std::string& name, const auto& aMs, const auto& bMs) {
         const PairedRatio r = pairedRatio(aMs, bMs);
         const double aMedian = medianOf(aMs), bMedian = medianOf(bMs);
