@@ -12,6 +12,13 @@
 namespace candelabra::lighting
 {
 
+#define X(id, NAME, name) static_assert(gpu::SPECULAR_##NAME == uint32_t{CND_SPECULAR_##NAME});
+CND_SPECULAR_METHODS(X)
+#undef X
+// Every value but CND_SPECULAR_DEFAULT is a method.
+static_assert((gpu::ALL_SPECULAR_METHODS ^ 1u << CND_SPECULAR_DEFAULT) ==
+              (1u << CND_SPECULAR_METHOD_COUNT) - 1);
+
 constexpr bool isClosedForm(CndSpecularMethod method)
 {
     return method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL;
@@ -59,9 +66,9 @@ inline void checkSpecularMethods(const char* owner, uint32_t specularMethods)
     const std::string member = std::string(owner) + ": specularMethods has ";
     if (specularMethods >> CND_SPECULAR_METHOD_COUNT)
         gpu::failArgument(member + "bits beyond the last CndSpecularMethod");
-    if (specularMethods & ~gpu::ALL_SPECULAR_METHODS)
-        gpu::failArgument(member + "bit 4, which stood for linearly transformed cosines; "
-                                   "CND_SPECULAR_CONIC replaces them");
+    if (specularMethods & 1u << CND_SPECULAR_DEFAULT)
+        gpu::failArgument(member + "bit 0, CND_SPECULAR_DEFAULT, which is no method: name methods, "
+                                   "or pass 0");
 }
 
 } // namespace candelabra::lighting

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/frame_checks.h"
 
+#include <bit>
 #include <string>
 
 #include "surfaces/camera.h"
@@ -50,10 +51,13 @@ void checkSurfaces(const Module& module, const CndLightingViewDesc& view,
     surfaces::checkCamera(frame.camera);
 }
 
-void checkFrame(const Module& module, const CndLightingViewDesc& view,
-                const CndLightingFrame& frame)
+CndLightingFrame checkedFrame(const Module& module, const CndLightingViewDesc& view,
+                              const CndLightingFrame& asked)
 {
-    checkSurfaces(module, view, frame);
+    checkSurfaces(module, view, asked);
+    CndLightingFrame frame = asked;
+    if (frame.specularMethod == CND_SPECULAR_DEFAULT)
+        frame.specularMethod = CndSpecularMethod(std::countr_zero(module.desc.specularMethods));
     if (!frame.radiance)
         gpu::failArgument("CndLightingFrame: radiance is null");
     if (uint32_t(frame.specularMethod) >= CND_SPECULAR_METHOD_COUNT)
@@ -61,11 +65,8 @@ void checkFrame(const Module& module, const CndLightingViewDesc& view,
     if (!module.kernels.shade.allows(frame.specularMethod))
         gpu::failArgument("CndLightingFrame: specularMethod " +
                           std::to_string(frame.specularMethod) +
-                          " is not among CndLightingDesc::specularMethods" +
-                          (frame.specularMethod == CND_SPECULAR_NONE
-                               ? "; 0, CND_SPECULAR_NONE, means light without highlights, and the "
-                                 "method to begin with is CND_SPECULAR_CONIC"
-                               : ""));
+                          " is not among CndLightingDesc::specularMethods; 0 means the first of "
+                          "these");
     if (!module.kernels.shade.allows(frame.specularMethod, shadingOf(frame)))
         gpu::failArgument(missingShading(module, frame));
     if (frame.sampleCount > maxSampleCount)
@@ -90,6 +91,7 @@ void checkFrame(const Module& module, const CndLightingViewDesc& view,
     if (!isInside(r.offset.x, r.extent.width, frame.width) ||
         !isInside(r.offset.y, r.extent.height, frame.height))
         gpu::failArgument("CndLightingFrame: bruteRect is not inside the frame");
+    return frame;
 }
 
 } // namespace candelabra::lighting

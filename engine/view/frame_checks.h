@@ -9,8 +9,9 @@ namespace candelabra::lighting
 
 // Both functions throw gpu::Failure naming the first field outside its documented range. `view` is
 // what the view was created with.
-void checkFrame(const Module& module, const CndLightingViewDesc& view,
-                const CndLightingFrame& frame);
+// Returns the frame with the method that CND_SPECULAR_DEFAULT stands for.
+CndLightingFrame checkedFrame(const Module& module, const CndLightingViewDesc& view,
+                              const CndLightingFrame& asked);
 // Checks only the fields that describe the surfaces, which are those that an overlay reads.
 void checkSurfaces(const Module& module, const CndLightingViewDesc& view,
                    const CndLightingFrame& frame);

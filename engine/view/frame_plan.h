@@ -18,8 +18,8 @@ struct FramePlan {
     gpu::PrepareLightsParams prepare;
 };
 
-// `frame` has passed checkFrame and must outlive the plan. Throws gpu::Failure if its projection is
-// none that projectionOf takes.
+// `frame` comes from checkedFrame and must outlive the plan. Throws gpu::Failure if its projection
+// is none that projectionOf takes.
 FramePlan planFrame(const Module& module, const CndLightingFrame& frame);
 
 // Returns the number of tiles in a row of `pixels` pixels.

@@ -43,9 +43,9 @@ gpu::ForwardView forwardView(const FramePlan& p)
 
 } // namespace
 
-void View::record(VkCommandBuffer cmd, const CndLightingFrame& frame)
+void View::record(VkCommandBuffer cmd, const CndLightingFrame& asked)
 {
-    checkFrame(module_, desc_, frame);
+    const CndLightingFrame frame = checkedFrame(module_, desc_, asked);
     const FramePlan plan = planFrame(module_, frame);
     writeBindings(plan);
 

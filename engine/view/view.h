@@ -21,7 +21,7 @@ public:
     View& operator=(const View&) = delete;
 
     // Both throw gpu::Failure, before anything is recorded, if an argument is out of range.
-    void record(VkCommandBuffer cmd, const CndLightingFrame& frame);
+    void record(VkCommandBuffer cmd, const CndLightingFrame& asked);
     void recordOverlay(VkCommandBuffer cmd, const CndLightingFrame& frame,
                        const CndSurfaceOverlay& overlay); // surface_overlay.cpp
 
@@ -37,7 +37,7 @@ private:
     // previous one if these values are the same.
     struct ListsKey {
         uint64_t lightSet = 0; // 0: there are no lists
-        CndSpecularMethod method = CND_SPECULAR_NONE;
+        CndSpecularMethod method = CND_SPECULAR_DEFAULT;
         uint32_t sampleCount = 0;
         uint32_t layers = 0;
         CndInfluenceRule rule = CND_INFLUENCE_GIVEN;

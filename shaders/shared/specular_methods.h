@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one list of specular methods for sphere lights: X(id, NAME, name on the command line). The
-// ids are those of CndSpecularMethod and appear in recorded results, so they are stable. No method
-// has the id 4: it was that of linearly transformed cosines, which are now a rival that only the
-// benchmarks have (shaders/bench/ltc).
+// ids are those of CndSpecularMethod, in which 0 stands for the first method of a module.
 #ifndef CND_SHARED_SPECULAR_METHODS_H
 #define CND_SHARED_SPECULAR_METHODS_H
 
 #include "shared/prelude.h"
 
 #define CND_SPECULAR_METHODS(X)                                                                    \
-    X(0, NONE, "none")                                                                             \
-    X(1, KARIS, "karis")                                                                           \
-    X(2, POINT, "point")                                                                           \
-    X(3, KX, "kx")                                                                                 \
+    X(1, NONE, "none")                                                                             \
+    X(2, KARIS, "karis")                                                                           \
+    X(3, POINT, "point")                                                                           \
+    X(4, KX, "kx")                                                                                 \
     X(5, CONIC, "conic")                                                                           \
     X(6, CONIC_FULL, "conic-full")                                                                 \
     X(7, SAMPLED, "sampled")

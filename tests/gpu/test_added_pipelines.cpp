@@ -102,7 +102,7 @@ TEST_F(AddedPipelines, FramesAskForNothingElseBefore)
                   "errorBudget needs CND_SHADING_ERROR_BUDGET_BIT"},
                  {{.specular = CND_SPECULAR_POINT},
                   CND_SHADING_CLUSTERED_BIT,
-                  "specularMethod 2 is not among CndLightingDesc::specularMethods"}};
+                  "specularMethod 3 is not among CndLightingDesc::specularMethods"}};
     for (const auto& c : cases) {
         EXPECT_NE(refusal(c.options).find(c.sentence), std::string::npos) << refusal(c.options);
         ASSERT_TRUE(lighting_.addPipelines(

@@ -21,13 +21,15 @@ typedef struct CndLightingView_T* CndLightingView;
 // and error of each method. Other lights have fewer methods. With CONIC and CONIC_FULL, area lights
 // of other shapes (tubes, rectangles, discs, polygons) use a closed form along their outlines; with
 // POINT, KARIS and KX a representative point; with SAMPLED, samples. Point, spot and directional
-// lights need no approximation: every method but NONE evaluates them exactly. No method has the
-// value 4, which was that of linearly transformed cosines.
+// lights need no approximation: every method but NONE evaluates them exactly.
 typedef enum CndSpecularMethod {
-    CND_SPECULAR_NONE = 0,  // no specular lobe, diffuse only
-    CND_SPECULAR_KARIS = 1, // representative point, normalised for a widened lobe (Karis 2013)
-    CND_SPECULAR_POINT = 2, // the sphere is treated as a point at its centre
-    CND_SPECULAR_KX = 3,    // representative point, normalised for the exact peak of the lobe
+    // In a frame: the method with the smallest value in CndLightingDesc::specularMethods. Masks of
+    // methods must not hold it.
+    CND_SPECULAR_DEFAULT = 0,
+    CND_SPECULAR_NONE = 1,  // no specular lobe, diffuse only
+    CND_SPECULAR_KARIS = 2, // representative point, normalised for a widened lobe (Karis 2013)
+    CND_SPECULAR_POINT = 3, // the sphere is treated as a point at its centre
+    CND_SPECULAR_KX = 4,    // representative point, normalised for the exact peak of the lobe
     // Closed form for spheres, derived in slope space, where the sphere is bounded by a conic: the
     // GGX distribution is integrated exactly. Microfacet shadowing and Fresnel are evaluated at two
     // directions where the sphere is near the horizon, and at one elsewhere.
@@ -223,8 +225,8 @@ typedef struct CndLightingFrame {
     VkImageLayout gbufferImageLayout, depthImageLayout;
     // Storage image of radianceFormat; outgoing luminance (cd/m^2) is ADDED to it.
     VkImageView radiance;
-    CndSpecularMethod specularMethod; // one of CndLightingDesc::specularMethods, or added since; 0
-                                      // is CND_SPECULAR_NONE
+    // One of CndLightingDesc::specularMethods, or added since; 0: CND_SPECULAR_DEFAULT.
+    CndSpecularMethod specularMethod;
     // With CND_SPECULAR_SAMPLED: samples per light and pixel, 1..4096; 0: 64.
     uint32_t sampleCount;
     // With CND_SPECULAR_SAMPLED: the same seed gives the same image.
