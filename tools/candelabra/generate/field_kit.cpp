@@ -161,21 +161,20 @@ Mesh makeMast()
 }
 
 struct WindowTextures {
-    int32_t baseColor, metallicRoughness, emissive;
+    int32_t baseColor, metallicRoughness;
 };
 
-// The colours of lit panes in sRGB bytes: warm lamps, cool tubes, and the blue of televisions. All
-// other panes are dark.
-glm::u8vec3 paneLight(Random& random)
+// Draws the colour of a pane in sRGB bytes: glass is nearly black, unless curtains are drawn.
+glm::u8vec3 paneColour(Random& random)
 {
-    const glm::u8vec3 kinds[] = {
+    const glm::u8vec3 curtains[] = {
         {255, 196, 110}, {255, 214, 150}, {235, 240, 255}, {130, 170, 255}};
-    const bool lit = random.chance(0.36f);
+    const bool drawn = random.chance(0.36f);
     const uint32_t kind = random.below(8);
     const float level = random.uniform(0.35f, 1.0f);
-    if (!lit)
-        return {0, 0, 0};
-    return glm::u8vec3(level * glm::vec3(kinds[kind < 4 ? 0 : kind < 6 ? 1 : kind < 7 ? 2 : 3]));
+    if (!drawn)
+        return glm::u8vec3(40);
+    return glm::u8vec3(level * glm::vec3(curtains[kind < 4 ? 0 : kind < 6 ? 1 : kind < 7 ? 2 : 3]));
 }
 
 WindowTextures addWindowTextures(Scene& scene, Random& random)
@@ -183,11 +182,11 @@ WindowTextures addWindowTextures(Scene& scene, Random& random)
     constexpr uint32_t size = textureCells * cellTexels;
     Texture base{.width = size, .height = size, .rgba = std::vector<uint8_t>(4 * size * size, 255)};
     base.srgb = true;
-    Texture roughness = base, emissive = base;
+    Texture roughness = base;
     roughness.srgb = false;
     for (uint32_t cellY = 0; cellY < textureCells; ++cellY) {
         for (uint32_t cellX = 0; cellX < textureCells; ++cellX) {
-            const glm::u8vec3 light = paneLight(random);
+            const glm::u8vec3 colour = paneColour(random);
             for (uint32_t i = 0; i < cellTexels * cellTexels; ++i) {
                 const uint32_t x = i % cellTexels, y = i / cellTexels;
                 const bool pane = x >= frameTexels && x < cellTexels - frameTexels &&
@@ -195,9 +194,8 @@ WindowTextures addWindowTextures(Scene& scene, Random& random)
                 const size_t at = 4 * ((cellY * cellTexels + y) * static_cast<size_t>(size) +
                                        cellX * cellTexels + x);
                 for (size_t channel = 0; channel < 3; ++channel) {
-                    base.rgba[at + channel] = pane ? 40 : 255; // glass is nearly black
                     const int c = static_cast<int>(channel);
-                    emissive.rgba[at + channel] = pane ? light[c] : uint8_t{0};
+                    base.rgba[at + channel] = pane ? colour[c] : uint8_t{255};
                 }
                 roughness.rgba[at + 1] = pane ? 25 : 200; // 0.1 and 0.78
                 roughness.rgba[at + 2] = 0;
@@ -207,8 +205,7 @@ WindowTextures addWindowTextures(Scene& scene, Random& random)
     const int32_t first = static_cast<int32_t>(scene.textures.size());
     scene.textures.push_back(std::move(base));
     scene.textures.push_back(std::move(roughness));
-    scene.textures.push_back(std::move(emissive));
-    return {first, first + 1, first + 2};
+    return {first, first + 1};
 }
 
 void addFacades(Kit& kit, Random& random)
@@ -222,8 +219,6 @@ void addFacades(Kit& kit, Random& random)
             facade.name =
                 "facade " + std::to_string(style) + ", " + std::to_string(storeys) + " storeys";
             facade.baseColor = walls[style];
-            // The luminance in cd/m^2 of a lit pane, like that of a room seen from the street.
-            facade.emission = glm::vec3(5);
             // The offset is a whole number of cells, so that uv 0 stays in the corner of a cell,
             // which is wall.
             const glm::vec2 offset =
@@ -236,8 +231,6 @@ void addFacades(Kit& kit, Random& random)
             facade.baseColorTexture = ref;
             ref.texture = textures.metallicRoughness;
             facade.metallicRoughnessTexture = ref;
-            ref.texture = textures.emissive;
-            facade.emissiveTexture = ref;
             kit.material.facades.push_back(kit.builder.addMaterial(facade));
         }
     }
@@ -286,11 +279,6 @@ void addMaterials(Kit& kit, Random& random)
     m.chrome = b.addMetal("chrome", {0.549f, 0.556f, 0.554f}, 0.06f);
     m.gold = b.addMetal("gold", {1.0f, 0.766f, 0.336f}, 0.2f);
     addFacades(kit, random);
-    // No lamp lights these. They reflect the sky, so that they are not black in front of it.
-    for (const uint32_t outside : {m.grass, m.hill}) {
-        Material& material = b.scene.materials[outside];
-        material.emission = material.baseColor * skyLuminance;
-    }
 }
 
 } // namespace candelabra::app::field

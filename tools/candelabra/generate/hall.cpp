@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "generate/mesh_builder.h"
 #include "generate/shapes.h"
-#include "generate/textures.h"
 
 namespace candelabra::app
 {
@@ -73,22 +73,38 @@ Mesh makeVase()
                      14);
 }
 
-// Makes the shade of a lamp, a closed pear of glass.
-Mesh makeShade()
+// Makes the ribs of a lamp, which stand in a circle around its light and bulge like a pear. The
+// gaps between them take three quarters of it.
+Mesh makeLampRibs()
 {
-    return makeLathe({{{0, 0},
-                       {0.14f, 0.02f},
-                       {0.27f, 0.12f},
-                       {0.335f, 0.28f},
-                       {0.345f, 0.43f},
-                       {0.30f, 0.60f},
-                       {0.20f, 0.73f},
-                       {0.12f, 0.80f}}},
-                     20);
+    constexpr int ribs = 8;
+    constexpr float halfWidth = pi_v<float> / ribs / 4, thickness = 0.02f;
+    constexpr glm::vec2 profile[] = {{0.14f, 0.02f},  {0.27f, 0.12f}, {0.335f, 0.28f},
+                                     {0.345f, 0.43f}, {0.30f, 0.60f}, {0.20f, 0.73f}};
+    Mesh mesh;
+    for (int rib = 0; rib < ribs; ++rib) {
+        const auto at = [&](const glm::vec2& point, float aside, float out) {
+            const glm::vec2 around = direction(2 * pi_v<float> * float(rib) / ribs + aside);
+            return glm::vec3(around.x * (point.x + out), point.y, around.y * (point.x + out));
+        };
+        for (size_t i = 0; i + 1 < std::size(profile); ++i) {
+            const glm::vec2 &low = profile[i], &high = profile[i + 1];
+            const auto addFace = [&](float from, float fromOut, float to, float toOut,
+                                     const glm::vec3& outward) {
+                appendQuad(mesh, at(low, from, fromOut), at(low, to, toOut), at(high, to, toOut),
+                           at(high, from, fromOut), outward);
+            };
+            const glm::vec3 out = at({1, 0}, 0, 0);
+            addFace(-halfWidth, 0, halfWidth, 0, -out);
+            addFace(-halfWidth, 0, 0, thickness, out);
+            addFace(0, thickness, halfWidth, 0, out);
+        }
+    }
+    return mesh;
 }
 
-// Makes the metal at both ends of a shade.
-Mesh makeShadeCap()
+// Makes the metal at both ends of the ribs.
+Mesh makeLampCaps()
 {
     return makeLathe(
         {{{0, -0.12f}, {0.04f, -0.08f}, {0.02f, -0.03f}, {0.10f, -0.01f}, {0.16f, 0.025f}},
@@ -138,71 +154,26 @@ void addMeshes(Kit& kit)
     kit.mesh.rod = b.addMesh(makeCylinder(6));
     kit.mesh.link = b.addMesh(makeTorus(1, 0.24f, 10, 4));
     kit.mesh.disc = b.addMesh(makeCylinder(32));
-    kit.mesh.shade = b.addMesh(makeShade());
-    kit.mesh.shadeCap = b.addMesh(makeShadeCap());
+    kit.mesh.ribs = b.addMesh(makeLampRibs());
+    kit.mesh.caps = b.addMesh(makeLampCaps());
+    kit.mesh.roseWall = b.addMesh(makeArchedWall(10, 4.5f, 0.46f, float(roseRadius), 48));
 }
 
 namespace
 {
 
-// Makes the glow of a shade: brightest where the lamp inside is nearest, and redder where its light
-// has had a longer way.
-Texture makeShadeGlow()
+// Adds the dark frosted glass of the ribs. A lamp is so near that it lights even this glass to
+// about the luminance of white marble in the hall.
+void addLampGlass(Kit& kit)
 {
-    std::vector<glm::vec3> colours;
-    constexpr int steps = 64;
-    for (int i = 0; i < steps; ++i) {
-        const float away = (static_cast<float>(i) / (steps - 1) - 0.47f) / 0.30f;
-        const float glow = 0.12f + 0.88f * std::exp(-away * away);
-        colours.push_back({glow, std::pow(glow, 1.25f), std::pow(glow, 1.6f)});
-    }
-    return makeGradient(colours);
-}
-
-// Adds the materials that glow. Emission is in cd/m^2; stone beside it has 1 to 5.
-void addGlass(Kit& kit)
-{
-    SceneBuilder& b = kit.builder;
-    Materials& m = kit.material;
-    const auto textured = [&](Texture texture) {
-        b.scene.textures.push_back(std::move(texture));
-        TextureRef ref;
-        ref.texture = static_cast<int32_t>(b.scene.textures.size() - 1);
-        return ref;
+    const auto add = [&](const std::string& name, const glm::vec3& colour) {
+        const glm::vec3 albedo = 0.02f * colour / std::max({colour.r, colour.g, colour.b});
+        return kit.builder.addDielectric(name, albedo, 0.9f);
     };
-    const TextureRef glow = textured(makeShadeGlow());
-    m.alabaster = b.addMaterial({.name = "alabaster",
-                                 .baseColor = {0.6f, 0.5f, 0.4f},
-                                 .perceptualRoughness = 0.4f,
-                                 .emission = 8.0f * glm::vec3(1, 0.60f, 0.27f),
-                                 .emissiveTexture = glow});
-    m.amberGlass = b.addMaterial({.name = "amber glass",
-                                  .baseColor = {0.3f, 0.2f, 0.1f},
-                                  .perceptualRoughness = 0.3f,
-                                  .emission = 7.0f * glm::vec3(1, 0.40f, 0.09f),
-                                  .emissiveTexture = glow});
-    for (int hue = 0; hue < lanternHueCount; ++hue) {
-        const glm::vec3 colour = lanternColour(hue, 0);
-        m.lantern.push_back(
-            b.addMaterial({.name = "lantern glass " + std::to_string(hue),
-                           .baseColor = 0.3f * colour / std::max({colour.r, colour.g, colour.b}),
-                           .perceptualRoughness = 0.3f,
-                           .emission = luminanceOfPeak(colour, 6) * colour,
-                           .emissiveTexture = glow}));
-    }
-    // Stained glass before an evening sky. Each window shows another part of the pattern.
-    TextureRef leads = textured(makeLeadedGlass());
-    const glm::vec3 panes[] = {{4, 8.5f, 25}, {20, 6.5f, 4}, {4, 13.5f, 12}, {20, 12.5f, 4}};
-    for (size_t i = 0; i < std::size(panes); ++i) {
-        const float offset = static_cast<float>(i) / static_cast<float>(std::size(panes));
-        leads.uRow = {0.5f, 0, offset};
-        leads.vRow = {0, 0.5f, offset};
-        m.glass.push_back(b.addMaterial({.name = "stained glass",
-                                         .baseColor = glm::vec3(0.02f),
-                                         .perceptualRoughness = 0.12f,
-                                         .emission = panes[i],
-                                         .emissiveTexture = leads}));
-    }
+    kit.material.amberGlass = add("amber glass", {1, 0.6f, 0.3f});
+    for (int hue = 0; hue < lanternHueCount; ++hue)
+        kit.material.lantern.push_back(
+            add("lantern glass " + std::to_string(hue), lanternColour(hue, 0)));
 }
 
 } // namespace
@@ -251,7 +222,7 @@ void addMaterials(Kit& kit)
         m.glaze.push_back(b.addDielectric("glaze " + std::to_string(i), glazes[i],
                                           roughnesses[i % std::size(roughnesses)]));
     }
-    addGlass(kit);
+    addLampGlass(kit);
 }
 
 } // namespace hall
@@ -269,6 +240,7 @@ Scene generateHall(const SceneOptions& options)
     hall::addFurnishings(kit, random);
 
     Scene scene = std::move(kit.builder.scene);
+    scene.background = {0.45f, 0.75f, 1.7f}; // the evening sky in the windows, cd/m^2
     scene.cameras = {
         makeUprightCamera("nave", {-28.2, 2.6, 1.4}, {1, 0.035, -0.065}, glm::radians(58.0)),
         makeUprightCamera("gallery", {27.5, 9.8, -4.6}, {-1, -0.22, 0.16}, glm::radians(62.0))};

@@ -29,7 +29,9 @@ constexpr double arcadeTop = 8.5;
 constexpr double gallery = 8.7; // top of the cornice, railings stand on it
 constexpr double vaultSpringing = 10.4;
 constexpr double vaultRadius = 6.3;
+constexpr double roseY = 10.6, roseRadius = 3.2; // of the round windows in the end walls
 constexpr double chandelierY = 7.2;
+constexpr double lanternZ = naveHalf - 1.3; // of the lanterns on the floor, on both sides
 constexpr double chandelierRadius = 1.6;
 constexpr int chandelierCups = 16;
 
@@ -62,18 +64,18 @@ constexpr double garlandY = 5.3, garlandSag = 0.9; // along the arcades
 struct Meshes {
     uint32_t box, tile, shaft, columnBase, capital, archedWall, archRing, vault;
     uint32_t ball, fineBall, ring, vase, knot, baluster, rod, link, disc;
-    uint32_t shade, shadeCap; // of lamps; the shade is from y = 0 to 0.8
+    uint32_t ribs, caps; // of lamps; the ribs are from y = 0 to 0.73
+    uint32_t roseWall;
 };
 
 struct Materials {
     uint32_t gold, copper, iron, chrome, bronze, silver;
     uint32_t marble, darkMarble, sandstone, plaster, wood, grout;
-    std::vector<uint32_t> floor;    // from mirror-smooth to rough
-    std::vector<uint32_t> stone;    // wall blocks
-    std::vector<uint32_t> glaze;    // coloured dielectrics of all roughnesses
-    std::vector<uint32_t> glass;    // glowing window panes
-    uint32_t alabaster, amberGlass; // shades of lit lamps
-    std::vector<uint32_t> lantern;  // shades of coloured lanterns, one for each hue
+    std::vector<uint32_t> floor;   // from mirror-smooth to rough
+    std::vector<uint32_t> stone;   // wall blocks
+    std::vector<uint32_t> glaze;   // coloured dielectrics of all roughnesses
+    uint32_t amberGlass;           // ribs of lamps
+    std::vector<uint32_t> lantern; // ribs of coloured lanterns, one for each hue
 };
 
 struct Kit {
@@ -92,14 +94,14 @@ void addMaterials(Kit& kit);
 void addArchitecture(Kit& kit, Random& random);
 void addFurnishings(Kit& kit, Random& random);
 
-// Adds the shades of the lamps and what holds them.
+// Adds the open cages of the lamps and what holds them.
 void addLampFixtures(Kit& kit);
 // Returns the colour of a lantern by its hue: 0 to lanternHueCount - 1, and on from 0 again.
 // `variation` is added to its place on the colour circle.
 constexpr int lanternHueCount = 5;
 glm::vec3 lanternColour(int hue, float variation);
-// Returns the lamps inside the shades and the light that comes in from outside, the most important
-// first. They are the first lights of a hall of `lightCount` lights. `random` is for motion alone.
+// Returns the lamps and the light that comes in from outside, the most important first. They are
+// the first lights of a hall of `lightCount` lights. `random` is for motion alone.
 std::vector<LightSite> keyLights(uint32_t lightCount, bool moving, Random& random);
 
 // Returns all lights: the key lights, then small ones.

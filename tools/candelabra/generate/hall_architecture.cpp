@@ -11,6 +11,9 @@ namespace
 {
 
 using std::numbers::pi;
+// The inner radius of the rings around arches, as a share of that of the arch. They cover the
+// arch's edge, which has other corners.
+constexpr double archivolt = 0.985;
 
 void addFloor(Kit& kit, Random& random)
 {
@@ -67,8 +70,8 @@ void addColumns(Kit& kit)
     }
 }
 
-// Three small arches per bay on short columns, with glowing panes behind.
-void addTriforium(Kit& kit, Random& random, int bay, double side)
+// Three small open arches per bay on short columns.
+void addTriforium(Kit& kit, int bay, double side)
 {
     SceneBuilder& b = kit.builder;
     constexpr double scale = 1.0 / 3.0, rise = scale * (arcadeTop - springingHeight);
@@ -80,16 +83,10 @@ void addTriforium(Kit& kit, Random& random, int bay, double side)
         b.placeRod(kit.mesh.rod, kit.material.darkMarble,
                    {x - 0.5 * bayWidth * scale, gallery, side * z},
                    {x - 0.5 * bayWidth * scale, springing, side * z}, 0.07);
-        b.place(kit.mesh.box, kit.anyOf(random, kit.material.glass),
-                {x, 0.5 * (gallery + vaultSpringing), side * (z + 0.5)},
-                {bayWidth * scale - 0.25, vaultSpringing - gallery - 0.1, 0.05});
     }
-    b.place(kit.mesh.box, kit.material.stone[2],
-            {bayCentre(bay), 0.5 * (gallery + vaultSpringing) + 0.4, side * (z + 0.7)},
-            {bayWidth, vaultSpringing - gallery + 0.8, 0.2});
 }
 
-void addArcades(Kit& kit, Random& random)
+void addArcades(Kit& kit)
 {
     SceneBuilder& b = kit.builder;
     const Materials& m = kit.material;
@@ -102,7 +99,7 @@ void addArcades(Kit& kit, Random& random)
             for (const double face : {-1.0, 1.0}) {
                 b.place(kit.mesh.archRing, m.marble,
                         {x, springingHeight, z + face * 0.5 * arcadeDepth},
-                        {archRadius, archRadius, 0.16});
+                        {archivolt * archRadius, archivolt * archRadius, 0.16});
             }
             b.place(kit.mesh.box, m.marble, {x, 0.5 * (arcadeTop + gallery), z},
                     {bayWidth, gallery - arcadeTop, arcadeDepth + 0.5});
@@ -114,25 +111,30 @@ void addArcades(Kit& kit, Random& random)
                         {x + bayWidth * (0.25 * beam - 0.375), arcadeTop - 0.12, aisle},
                         {0.22, 0.26, 6});
             }
-            addTriforium(kit, random, bay, side);
+            addTriforium(kit, bay, side);
         }
     }
 }
 
-// A lead lattice and a glowing pane in a round-headed frame on the outer wall.
-void addAisleWindow(Kit& kit, Random& random, double x, double side)
+// The outer walls are built of courses. Windows take the place of some of them.
+constexpr int courses = 9, firstWindowCourse = 2, lastWindowCourse = 6;
+constexpr double courseHeight = arcadeTop / courses;
+constexpr double windowHalf = 0.95;
+constexpr double windowHeadScale = windowHalf / archRadius; // of the arched wall over a window
+constexpr double windowSill = courseHeight * firstWindowCourse;
+constexpr double windowSpringing =
+    courseHeight * (lastWindowCourse + 1) - windowHeadScale * (arcadeTop - springingHeight);
+
+// A lattice without panes in a round-headed opening of the outer wall.
+void addAisleWindow(Kit& kit, double x, double side)
 {
     SceneBuilder& b = kit.builder;
-    constexpr double sill = 2.2, springing = 5.2, half = 0.95;
+    constexpr double sill = windowSill, springing = windowSpringing, half = windowHalf;
     const double z = side * (halfWidth - 0.12);
-    const uint32_t glass = kit.anyOf(random, kit.material.glass);
-    b.place(kit.mesh.box, glass, {x, 0.5 * (sill + springing), z},
-            {2 * half, springing - sill, 0.06});
-    b.place(kit.mesh.archRing, kit.material.marble, {x, springing, z}, {half, half, 0.3});
-    b.place(kit.mesh.disc, glass,
-            glm::translate(glm::dmat4(1), {x, springing, z - 0.025}) *
-                glm::rotate(glm::dmat4(1), 0.5 * pi, {1, 0, 0}) *
-                glm::scale(glm::dmat4(1), {half, 0.05, half}));
+    b.place(kit.mesh.archedWall, kit.material.stone[2], {x, springing, side * (halfWidth + 0.2)},
+            {windowHeadScale, windowHeadScale, 0.46 / arcadeDepth});
+    b.place(kit.mesh.archRing, kit.material.marble, {x, springing, z},
+            {archivolt * half, archivolt * half, 0.3});
     for (const double edge : {-1.0, 1.0}) {
         b.place(kit.mesh.box, kit.material.marble,
                 {x + edge * (half + 0.04), 0.5 * (sill + springing), z},
@@ -151,61 +153,70 @@ void addAisleWindow(Kit& kit, Random& random, double x, double side)
     }
 }
 
-void addSideWalls(Kit& kit, Random& random)
+void addSideWall(Kit& kit, Random& random, double side)
 {
-    SceneBuilder& b = kit.builder;
-    constexpr int courses = 9;
-    constexpr double height = arcadeTop / courses, length = 2.5;
-    constexpr int perCourse = static_cast<int>(2 * halfLength / length);
-    for (const double side : {-1.0, 1.0}) {
-        for (int course = 0; course < courses; ++course) {
-            for (int i = 0; i <= perCourse; ++i) {
-                // Running bond: odd courses start half a block earlier.
-                const double x = -halfLength + length * (i + (course % 2 ? 0.0 : 0.5));
-                const double proud = random.uniform(0.0f, 0.04f);
-                b.place(kit.mesh.box, kit.anyOf(random, kit.material.stone),
-                        {x, height * (course + 0.5), side * (halfWidth + 0.2 - proud)},
-                        {length, height, 0.5});
-            }
+    const auto addBlock = [&](double middle, double length, int course) {
+        const double proud = random.uniform(0.0f, 0.04f);
+        kit.builder.place(kit.mesh.box, kit.anyOf(random, kit.material.stone),
+                          {middle, courseHeight * (course + 0.5), side * (halfWidth + 0.2 - proud)},
+                          {length, courseHeight, 0.5});
+    };
+    for (int course = 0; course < courses; ++course) {
+        if (course >= firstWindowCourse && course <= lastWindowCourse) {
+            constexpr double length = 0.5 * bayWidth - windowHalf;
+            for (int bay = 0; bay < bays; ++bay)
+                for (const double edge : {-1.0, 1.0})
+                    addBlock(bayCentre(bay) + edge * (windowHalf + 0.5 * length), length, course);
+        } else {
+            // Running bond: odd courses start half a block earlier.
+            constexpr double length = 0.5 * bayWidth;
+            for (int i = 0; i <= 2 * bays; ++i)
+                addBlock(-halfLength + length * (i + (course % 2 ? 0.0 : 0.5)), length, course);
         }
-        for (int bay = 0; bay < bays; ++bay)
-            addAisleWindow(kit, random, bayCentre(bay), side);
     }
+    for (int bay = 0; bay < bays; ++bay)
+        addAisleWindow(kit, bayCentre(bay), side);
 }
 
-void addEndWalls(Kit& kit, Random& random)
+// Rings and spokes without panes in a round opening of an end wall.
+void addRoseWindow(Kit& kit, double end)
 {
     SceneBuilder& b = kit.builder;
-    constexpr double length = 2, height = 1;
-    for (const double end : {-1.0, 1.0}) {
-        for (int course = 0; course < 17; ++course) {
-            const int half = course < 9 ? 6 : 4; // above the aisles only the nave goes on
-            for (int i = -half; i <= half; ++i) {
-                const double z = length * (i + (course % 2 ? 0.0 : 0.5));
-                b.place(kit.mesh.box, kit.anyOf(random, kit.material.stone),
-                        {end * (halfLength + 0.25), height * (course + 0.5), z},
-                        {0.5, height, length});
-            }
-        }
-    }
-    // Rose window over the far end: rings and spokes before a glowing disc.
-    const glm::dvec3 rose{halfLength - 0.1, 10.6, 0};
-    const glm::dmat4 facing = glm::rotate(glm::dmat4(1), 0.5 * pi, {0, 0, 1});
-    const double radii[] = {3.2, 2.2, 1.1};
-    for (int i = 0; i < 3; ++i) {
-        const glm::dmat4 at =
-            glm::translate(glm::dmat4(1), rose - glm::dvec3(0.05 * (i + 1), 0, 0));
+    const glm::dmat4 inWall = glm::rotate(
+        glm::translate(glm::dmat4(1), {end * (halfLength + 0.25), roseY, 0}), 0.5 * pi, {0, 1, 0});
+    for (const double turn : {0.0, pi})
+        b.place(kit.mesh.roseWall, kit.material.stone[0], glm::rotate(inWall, turn, {0, 0, 1}));
+    const double front = end * (halfLength - 0.1);
+    for (const double radius : {roseRadius, 2.2, 1.1}) {
         b.place(kit.mesh.ring, kit.material.marble,
-                at * facing * glm::scale(glm::dmat4(1), glm::dvec3(radii[i])));
-        b.place(kit.mesh.disc, kit.material.glass[static_cast<size_t>(i)],
-                at * facing * glm::scale(glm::dmat4(1), {radii[i], 0.05, radii[i]}));
+                glm::translate(glm::dmat4(1), {front, roseY, 0}) *
+                    glm::rotate(glm::dmat4(1), 0.5 * pi, {0, 0, 1}) *
+                    glm::scale(glm::dmat4(1), glm::dvec3(radius)));
     }
     for (int spoke = 0; spoke < 16; ++spoke) {
         const double angle = 2 * pi * spoke / 16;
         const glm::dvec3 out{0, std::cos(angle), std::sin(angle)};
-        const glm::dvec3 from = rose - glm::dvec3(0.22, 0, 0) + 0.3 * out;
+        const glm::dvec3 from = glm::dvec3(front, roseY, 0) + 0.3 * out;
         b.placeRod(kit.mesh.rod, kit.material.marble, from, from + 2.9 * out, 0.05);
     }
+}
+
+void addEndWall(Kit& kit, Random& random, double end)
+{
+    constexpr double length = 2, height = 1;
+    for (int course = 0; course < 17; ++course) {
+        const int half = course < 9 ? 6 : 4; // above the aisles only the nave goes on
+        const bool atRose = std::abs(height * (course + 0.5) - roseY) < roseRadius + 0.5 * height;
+        for (int i = -half; i <= half; ++i) {
+            const double z = length * (i + (course % 2 ? 0.0 : 0.5));
+            if (atRose && std::abs(z) < roseRadius + 0.5 * length)
+                continue;
+            kit.builder.place(kit.mesh.box, kit.anyOf(random, kit.material.stone),
+                              {end * (halfLength + 0.25), height * (course + 0.5), z},
+                              {0.5, height, length});
+        }
+    }
+    addRoseWindow(kit, end);
 }
 
 void addVault(Kit& kit)
@@ -245,9 +256,11 @@ void addArchitecture(Kit& kit, Random& random)
 {
     addFloor(kit, random);
     addColumns(kit);
-    addArcades(kit, random);
-    addSideWalls(kit, random);
-    addEndWalls(kit, random);
+    addArcades(kit);
+    for (const double side : {-1.0, 1.0})
+        addSideWall(kit, random, side);
+    for (const double end : {-1.0, 1.0})
+        addEndWall(kit, random, end);
     addVault(kit);
 }
 

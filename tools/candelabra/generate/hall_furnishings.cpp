@@ -47,7 +47,8 @@ void addChandelier(Kit& kit, double x)
         b.place(kit.mesh.vase, m.gold, cup, glm::dvec3(0.16, 0.11, 0.16));
         if (i % 2 == 0) {
             b.placeRod(kit.mesh.rod, m.bronze, cup, hub, 0.015);
-            b.placeRod(kit.mesh.rod, m.bronze, glm::dvec3(x, chandelierY + 0.1, 0), cup, 0.02);
+            b.placeRod(kit.mesh.rod, m.bronze, glm::dvec3(x, chandelierY, 0) + 0.65 * out, cup,
+                       0.02);
         }
     }
 }
@@ -172,9 +173,14 @@ void addScatter(Kit& kit, Random& random)
         const double z = side * (aisle ? 9 + 2 * spread : 4 + 1.8 * spread);
         const float share = random.uniform();
         const double radius = 0.06 + 0.26 * share * share * share;
+        const double toLantern =
+            std::hypot(x - bayWidth * std::round(x / bayWidth), std::abs(z) - lanternZ);
         const bool metal = random.chance(0.35f);
         const uint32_t material = metal ? metals[random.below(5)] : kit.anyOf(random, m.glaze);
-        if (random.chance(0.8f)) {
+        const bool round = random.chance(0.8f);
+        if (toLantern < 0.3 + 1.2 * radius)
+            continue; // it would lie in the lantern
+        if (round) {
             b.place(x < fineUntilX ? kit.mesh.fineBall : kit.mesh.ball, material, {x, radius, z},
                     glm::dvec3(radius));
         } else {

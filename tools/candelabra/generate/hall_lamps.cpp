@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lights the hall whatever the number of its lights: lamps in closed shades and the evening
-// light that comes in from outside. Their emitters are out of sight, inside the shades or past the
-// walls, and may therefore be far brighter than what a display shows in colour. The engine has no
-// translucent materials: a shade does not hold back the light of its lamp, and the glow of the
-// shade, which lights nothing, is chosen by eye.
+// What lights the hall whatever the number of its lights: lamps in open cages and the evening light
+// that comes in through the windows. A hall of few lights has the first of them. The other lamps
+// hang there dark.
 #include <cmath>
 #include <iterator>
 
@@ -14,59 +12,62 @@ namespace candelabra::app::hall
 namespace
 {
 
-// Lamps that move go around circles of this radius in metres, which keeps them inside their shades.
+// Lamps that move go around circles of this radius in metres, which keeps them inside their cages.
 constexpr float lampSway = 0.2f;
 
-// A lamp inside its shade, which is 0.69 x 0.8 x 0.69 m times `shade` large.
-struct ShadedLamp {
+// A lamp in its cage, which is 0.69 x 0.8 x 0.69 m times `cage` large.
+struct Lamp {
     glm::dvec3 position{0};
-    glm::dvec3 shade{1};
+    double radius = 0; // of the light
+    glm::dvec3 cage{1};
     int hue = -1; // hue of lanternColour(); -1 is the colour of all lamps of its kind
 
-    // The middle of the shade's bottom. The lamp is where the shade is widest.
-    glm::dvec3 foot() const { return position - glm::dvec3(0, 0.42 * shade.y, 0); }
-    glm::dvec3 top() const { return foot() + glm::dvec3(0, shade.y, 0); }
+    // The middle of the cage's bottom. The lamp is where the cage is widest.
+    glm::dvec3 foot() const { return position - glm::dvec3(0, 0.42 * cage.y, 0); }
+    glm::dvec3 top() const { return foot() + glm::dvec3(0, cage.y, 0); }
 };
 
 constexpr double bothSides[] = {-1.0, 1.0};
 
-std::vector<ShadedLamp> chandelierLamps()
+std::vector<Lamp> chandelierLamps()
 {
-    std::vector<ShadedLamp> lamps;
+    std::vector<Lamp> lamps;
     for (int i = 0; i < chandeliers; ++i)
-        lamps.push_back({{chandelierX(i), chandelierY - 0.05, 0}, {1.9, 1.5, 1.9}});
+        lamps.push_back({{chandelierX(i), chandelierY - 0.05, 0}, 0.3, {1.9, 1.5, 1.9}});
     return lamps;
 }
 
 // Lamps that hang under the arches of the arcades.
-std::vector<ShadedLamp> archLamps()
+std::vector<Lamp> archLamps()
 {
-    std::vector<ShadedLamp> lamps;
+    std::vector<Lamp> lamps;
     for (int bay = 0; bay < bays; ++bay) {
         for (const double side : bothSides)
-            lamps.push_back({{bayCentre(bay), 5.6, side * naveHalf}});
+            lamps.push_back({{bayCentre(bay), 5.6, side * naveHalf}, 0.1});
     }
     return lamps;
 }
 
 // Lamps at the columns of the outer walls.
-std::vector<ShadedLamp> wallLamps()
+std::vector<Lamp> wallLamps()
 {
-    std::vector<ShadedLamp> lamps;
+    std::vector<Lamp> lamps;
     for (int column = 0; column <= bays; ++column) {
         for (const double side : bothSides)
-            lamps.push_back({{columnX(column), 3.6, side * (halfWidth - 1.1)}, glm::dvec3(0.85)});
+            lamps.push_back(
+                {{columnX(column), 3.6, side * (halfWidth - 1.1)}, 0.05, glm::dvec3(0.85)});
     }
     return lamps;
 }
 
 // Coloured lanterns on the floor of the nave, before the columns. Opposite lanterns differ in hue.
-std::vector<ShadedLamp> floorLanterns()
+std::vector<Lamp> floorLanterns()
 {
-    std::vector<ShadedLamp> lamps;
+    std::vector<Lamp> lamps;
     for (int column = 1; column < bays; ++column) {
         for (const double side : bothSides) {
-            lamps.push_back({{columnX(column), 0.5, side * (naveHalf - 1.3)},
+            lamps.push_back({{columnX(column), 0.5, side * lanternZ},
+                             0.05,
                              glm::dvec3(0.85),
                              column + (side > 0 ? 2 : 0)});
         }
@@ -75,14 +76,15 @@ std::vector<ShadedLamp> floorLanterns()
 }
 
 // Coloured lanterns that hang from the cables across the nave.
-std::vector<ShadedLamp> cableLanterns()
+std::vector<Lamp> cableLanterns()
 {
-    std::vector<ShadedLamp> lamps;
+    std::vector<Lamp> lamps;
     for (int column = 2; column < bays; ++column) {
         for (const int at : {-1, 0, 1}) {
             const double t = 0.5 + 0.29 * at;
             lamps.push_back(
                 {{columnX(column), hanging(cableY, cableSag, t) - 0.75, (2 * t - 1) * cableHalf},
+                 0.05,
                  glm::dvec3(0.75),
                  2 * column + at + 1});
         }
@@ -92,8 +94,8 @@ std::vector<ShadedLamp> cableLanterns()
 
 // A kind of key light: `peak` is the radiance of its brightest channel.
 struct KeyLight {
-    float radius, influenceRadius; // metres
-    float peak;                    // cd/m^2
+    float influenceRadius; // metres
+    float peak;            // cd/m^2
     glm::vec3 colour;
 };
 
@@ -104,11 +106,14 @@ float usualInfluenceRadius(uint32_t lightCount)
     return 1.4f * std::pow(static_cast<float>(lightCount) / defaultLightCount, -0.43f);
 }
 
-void placeShade(Kit& kit, const ShadedLamp& lamp, uint32_t glass, uint32_t metal)
+void placeCage(Kit& kit, const Lamp& lamp, uint32_t glass, uint32_t metal)
 {
-    kit.builder.place(kit.mesh.shade, glass, lamp.foot(), lamp.shade);
-    kit.builder.place(kit.mesh.shadeCap, metal, lamp.foot(), lamp.shade);
-    kit.builder.place(kit.mesh.ring, metal, lamp.position, 0.348 * lamp.shade);
+    SceneBuilder& b = kit.builder;
+    b.place(kit.mesh.ribs, glass, lamp.foot(), lamp.cage);
+    b.place(kit.mesh.caps, metal, lamp.foot(), lamp.cage);
+    b.place(kit.mesh.ring, metal, lamp.position, 0.348 * lamp.cage);
+    const glm::dvec3 bottom = lamp.position - glm::dvec3(0, lamp.radius, 0);
+    b.placeRod(kit.mesh.rod, metal, lamp.foot(), bottom, 0.3 * lamp.radius);
 }
 
 } // namespace
@@ -124,28 +129,28 @@ void addLampFixtures(Kit& kit)
 {
     SceneBuilder& b = kit.builder;
     const Materials& m = kit.material;
-    const auto lanternGlass = [&](const ShadedLamp& lamp) {
+    const auto lanternGlass = [&](const Lamp& lamp) {
         return m.lantern[static_cast<size_t>(lamp.hue % lanternHueCount)];
     };
-    for (const ShadedLamp& lamp : chandelierLamps())
-        placeShade(kit, lamp, m.alabaster, m.gold);
-    for (const ShadedLamp& lamp : archLamps()) {
-        placeShade(kit, lamp, m.amberGlass, m.bronze);
+    for (const Lamp& lamp : chandelierLamps())
+        placeCage(kit, lamp, m.marble, m.gold);
+    for (const Lamp& lamp : archLamps()) {
+        placeCage(kit, lamp, m.amberGlass, m.bronze);
         b.placeRod(kit.mesh.rod, m.iron, lamp.top(),
                    {lamp.position.x, springingHeight + archRadius, lamp.position.z}, 0.012);
     }
-    for (const ShadedLamp& lamp : wallLamps()) {
-        placeShade(kit, lamp, m.amberGlass, m.bronze);
+    for (const Lamp& lamp : wallLamps()) {
+        placeCage(kit, lamp, m.amberGlass, m.bronze);
         const double wall = std::copysign(halfWidth - 0.4, lamp.position.z);
         b.placeRod(kit.mesh.rod, m.iron, lamp.top(), {lamp.position.x, lamp.top().y + 0.15, wall},
                    0.025);
     }
-    for (const ShadedLamp& lamp : floorLanterns()) {
-        placeShade(kit, lamp, lanternGlass(lamp), m.bronze);
+    for (const Lamp& lamp : floorLanterns()) {
+        placeCage(kit, lamp, lanternGlass(lamp), m.bronze);
         b.place(kit.mesh.disc, m.bronze, {lamp.position.x, 0, lamp.position.z}, {0.2, 0.14, 0.2});
     }
-    for (const ShadedLamp& lamp : cableLanterns()) {
-        placeShade(kit, lamp, lanternGlass(lamp), m.bronze);
+    for (const Lamp& lamp : cableLanterns()) {
+        placeCage(kit, lamp, lanternGlass(lamp), m.bronze);
         b.placeRod(kit.mesh.rod, m.iron, lamp.top(), lamp.position + glm::dvec3(0, 0.75, 0), 0.012);
     }
 }
@@ -154,45 +159,45 @@ std::vector<LightSite> keyLights(uint32_t lightCount, bool moving, Random& rando
 {
     const float reachPerMetre = 1 / usualInfluenceRadius(lightCount);
     std::vector<LightSite> sites;
-    const auto add = [&](const KeyLight& kind, const glm::dvec3& position) {
+    const auto add = [&](const KeyLight& kind, const glm::dvec3& position, float radius) {
         LightSite site;
         site.position = position;
-        site.radius = kind.radius;
+        site.radius = radius;
         site.reach = reachPerMetre * kind.influenceRadius;
         site.colour = kind.colour;
         site.luminance = luminanceOfPeak(kind.colour, kind.peak);
         if (moving) {
             const float speed = random.uniform(0.1f, 0.3f);
-            site.motion = circleMotion(random, position.y, kind.radius, lampSway, speed);
+            site.motion = circleMotion(random, position.y, radius, lampSway, speed);
         }
         sites.push_back(site);
     };
-    const auto addAll = [&](KeyLight kind, const std::vector<ShadedLamp>& lamps) {
-        for (const ShadedLamp& lamp : lamps) {
+    const auto addAll = [&](KeyLight kind, const std::vector<Lamp>& lamps) {
+        for (const Lamp& lamp : lamps) {
             if (lamp.hue >= 0)
                 kind.colour = lanternColour(lamp.hue, 0);
-            add(kind, lamp.position);
+            add(kind, lamp.position, static_cast<float>(lamp.radius));
         }
     };
-    addAll({0.3f, 13, 1200, blackbodyColour(3800)}, chandelierLamps());
-    // The sky past the rose window at the far end, which floor and columns reflect, and past the
+    addAll({13, 1200, blackbodyColour(3800)}, chandelierLamps());
+    // The sky past the rose windows of the far end, which floor and columns reflect, and of the
     // near end.
     const glm::vec3 evening = hueColour(0.60f, 0.6f);
-    add({3.2f, 75, 5, hueColour(0.61f, 0.9f)}, {halfLength + 8, 10.6, 0});
-    add({3.0f, 30, 40, blackbodyColour(5000)}, {-halfLength - 7, 9, 0});
-    addAll({0.1f, 7, 2500, blackbodyColour(3000)}, archLamps());
-    addAll({0.05f, 5, 6000, {}}, cableLanterns());
-    addAll({0.05f, 4.5f, 6000, blackbodyColour(2500)}, wallLamps());
-    addAll({0.05f, 4, 3000, {}}, floorLanterns());
-    // The sky above the roofs of the aisles, through the panes of the gallery, and past the windows
-    // of the aisles.
+    add({75, 5, hueColour(0.61f, 0.9f)}, {halfLength + 8, roseY, 0}, 3.2f);
+    add({30, 40, blackbodyColour(5000)}, {-halfLength - 7, 9, 0}, 3);
+    addAll({7, 2500, blackbodyColour(3000)}, archLamps());
+    addAll({5, 6000, {}}, cableLanterns());
+    addAll({4.5f, 6000, blackbodyColour(2500)}, wallLamps());
+    addAll({4, 3000, {}}, floorLanterns());
+    // The sky above the roofs of the aisles, through the arches of the gallery, and past the
+    // windows of the aisles.
     for (int bay = 1; bay < bays; bay += 3) {
         for (const double side : bothSides)
-            add({1.8f, 13, 120, evening}, {bayCentre(bay), 11, side * (naveHalf + 4.2)});
+            add({13, 120, evening}, {bayCentre(bay), 11, side * (naveHalf + 4.2)}, 1.8f);
     }
     for (int bay = 0; bay < bays; ++bay) {
         for (const double side : bothSides)
-            add({1.2f, 6, 80, evening}, {bayCentre(bay), 3.9, side * (halfWidth + 2.2)});
+            add({6, 80, evening}, {bayCentre(bay), 3.9, side * (halfWidth + 2.2)}, 1.2f);
     }
     return sites;
 }
