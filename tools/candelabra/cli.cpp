@@ -228,7 +228,7 @@ int parseAndRun(int typedCount, const char* const* typed)
     const int argc = int(arguments.size());
     const char* const* argv = arguments.data();
     ProgramContext context{.commandLine = commandLine(argc, argv)};
-    CLI::App app("Lights scenes with thousands of physically sized sphere lights.", "candelabra");
+    CLI::App app("Lights scenes with thousands of physically sized lights.", "candelabra");
     Run run;
     describe(app, context);
     addRenderCommand(app, run);

@@ -238,6 +238,7 @@ int compare(const ProgramContext& program, const CompareArguments& given)
         std::string text =
             fmt::format("A: {}, B: {}{}\n{}", counted(a.size(), "run"), counted(b.size(), "run"),
                         args.paired ? ", in pairs" : "", comparedTable(rows, statistic));
+        text += "A ms and B ms are geometric means over the runs, and B / A is their quotient.\n";
         if (tooFew)
             text += fmt::format("There is no interval with fewer than {} runs of each.\n", needed);
         else

@@ -431,8 +431,9 @@ void addRenderCommand(CLI::App& app, Run& run)
             "list the lights of the pixel X,Y, counted from the left and the top, with what "
             "each contributes and its error against the truth in double precision")
         ->type_name("X,Y");
-    command->add_flag("--explain", a->explain,
-                      "list the passes that the last frame ran, and why it skipped the others");
+    command->add_flag(
+        "--explain", a->explain,
+        "list the passes that the last frame ran, and why the others had nothing to do");
     a->frame.addTo(*command);
     a->frame.addFitTo(*command);
     a->frame.addCullingTo(*command);

@@ -180,6 +180,7 @@ void addStressCommand(CLI::App& app, Run& run)
         ->type_name("FILE");
     a->frame.size = "1280x720";
     a->frame.addTo(*command);
+    command->get_option("--size")->description("image size in pixels")->capture_default_str();
     a->frame.addReuseTo(*command, Reuse::None);
     a->device.addTo(*command);
     command->footer("Exit code 1 when clustered lighting differs from brute force by more than "
