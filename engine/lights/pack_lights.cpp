@@ -25,18 +25,16 @@ glm::vec3 vec(const float (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-// Returns cos(inner) - cos(outer) in double precision: float cosines of narrow cones are too close
-// to 1 to be subtracted.
-double cosBetween(const CndLight& light)
+// Returns the squared distance between the ends of two unit vectors that enclose this angle. It is
+// 2 - 2 cos(angle), but float keeps its digits for small angles, whose cosines are too close to 1.
+double squaredChord(double angle)
 {
-    return std::cos(double(light.innerConeAngle)) - std::cos(double(light.outerConeAngle));
+    const double half = 2 * std::sin(angle / 2);
+    return half * half;
 }
 
 const float maxCoordinate = gpu::MAX_LIGHT_COORDINATE;
 const float minLength = gpu::MIN_LIGHT_LENGTH;
-// Smallest difference between the cosines of a spot light's cone angles: the device's float cosines
-// do not resolve a smaller one.
-constexpr double minCosBetween = 1e-6;
 
 bool isNear(const float (&v)[3])
 {
@@ -70,8 +68,8 @@ const char* whyConeInvalid(const CndLight& light)
     if (!(light.innerConeAngle >= 0 && light.innerConeAngle < light.outerConeAngle &&
           light.outerConeAngle <= quarterTurn))
         return "cone angles must satisfy 0 <= inner < outer <= pi/2";
-    if (cosBetween(light) < minCosBetween)
-        return "cone angles are too close or too narrow (their cosines differ by less than 1e-6)";
+    if (light.outerConeAngle - light.innerConeAngle < CND_MIN_CONE_EDGE)
+        return "cone angles must differ by at least 1e-5 (CND_MIN_CONE_EDGE)";
     return nullptr;
 }
 
@@ -152,9 +150,11 @@ gpu::LightRecord pack(const CndLight& light)
         r.axisU = unit(light.direction);
     if (fields & gpu::LIGHT_HAS_CONE) {
         // As in KHR_lights_punctual, the attenuation is the square of a linear function of the
-        // cosine between the cones. axisV holds its slope and offset.
-        const double cosOuter = std::cos(double(light.outerConeAngle));
-        r.axisV = {float(1 / cosBetween(light)), float(-cosOuter / cosBetween(light)), 0};
+        // cosine between the cones, and so of the squared chord. axisV holds where the function is
+        // 0, and its slope.
+        const double outer = squaredChord(double(light.outerConeAngle));
+        r.axisV = {float(outer), float(1 / (outer - squaredChord(double(light.innerConeAngle)))),
+                   0};
     } else if (fields & gpu::LIGHT_HAS_AXIS_V) {
         r.axisV = vec(light.axisV);
     } else if (fields & gpu::LIGHT_HAS_AXIS_U && fields & gpu::LIGHT_HAS_RADIUS) {

@@ -52,8 +52,9 @@ glm::dvec3 fromPosition(const SurfacePoint& surface, const Material& material,
     const glm::dvec3 toLight = offset / distance;
     glm::dvec3 intensity = vec3(light.emission);
     if (light.type == CND_LIGHT_SPOT) {
-        const double cosTheta = glm::dot(glm::normalize(vec3(light.direction)), -toLight);
-        intensity *= spotAttenuation(cosTheta, light.innerConeAngle, light.outerConeAngle);
+        const glm::dvec3 chord = glm::normalize(vec3(light.direction)) + toLight;
+        intensity *=
+            spotAttenuation(glm::dot(chord, chord) / 4, light.innerConeAngle, light.outerConeAngle);
     }
     return fromDirection(surface, material, toLight, intensity * (window / (distance * distance)),
                          method);
@@ -77,11 +78,11 @@ glm::dvec3 fromSphere(const SurfacePoint& surface, const Material& material, con
 
 } // namespace
 
-double spotAttenuation(double cosTheta, double innerConeAngle, double outerConeAngle)
+double spotAttenuation(double halfSine2, double innerConeAngle, double outerConeAngle)
 {
-    const double cosOuter = std::cos(outerConeAngle);
-    const double t =
-        std::clamp((cosTheta - cosOuter) / (std::cos(innerConeAngle) - cosOuter), 0.0, 1.0);
+    const double inner = std::pow(std::sin(innerConeAngle / 2), 2);
+    const double outer = std::pow(std::sin(outerConeAngle / 2), 2);
+    const double t = std::clamp((outer - halfSine2) / (outer - inner), 0.0, 1.0);
     return t * t;
 }
 

@@ -3,6 +3,7 @@
 #ifndef CND_LIB_LIGHT_SHAPE
 #define CND_LIB_LIGHT_SHAPE
 
+#include "lib/math.glsl"
 #include "shared/lighting.h"
 
 bool isTwoSided(LightShape shape)
@@ -10,16 +11,15 @@ bool isTwoSided(LightShape shape)
     return (shape.flags & LIGHT_TWO_SIDED) != 0u;
 }
 
-// The intensity of a spot light at an angle to its axis is multiplied by
-// saturate(cos(angle) coneScale + coneOffset)^2.
-float coneScale(LightShape spot)
+// Returns the factor that multiplies the intensity of a spot light in a unit direction: the square of
+// (cos(theta) - cos(outer)) / (cos(inner) - cos(outer)), KHR_lights_punctual, "Inner and Outer Cone
+// Angles". theta is the angle between axis and direction. Their distance c has c^2 = 2 - 2 cos(theta),
+// and unlike the cosine it keeps its digits in narrow cones.
+float coneAttenuation(LightShape spot, vec3 direction)
 {
-    return spot.axisV.x;
-}
-
-float coneOffset(LightShape spot)
-{
-    return spot.axisV.y;
+    const vec3 chord = direction - spot.axisU;
+    const float t = saturate((spot.axisV.x - dot(chord, chord)) * spot.axisV.y);
+    return t * t;
 }
 
 uint cornerCount(LightShape polygon)

@@ -18,12 +18,8 @@ vec3 intensityResponse(ShadingPoint p, Light light)
     const float d2 = max(length2(light.toLight), MIN_LENGTH2);
     const vec3 l = light.toLight * inversesqrt(d2);
     float illuminance = 1.0 / d2;
-    if (lightType == LIGHT_SPOT) {
-        // KHR_lights_punctual, "Inner and Outer Cone Angles".
-        const LightShape spot = lightShapes[light.index];
-        const float t = saturate(dot(-l, spot.axisU) * coneScale(spot) + coneOffset(spot));
-        illuminance *= t * t;
-    }
+    if (lightType == LIGHT_SPOT)
+        illuminance *= coneAttenuation(lightShapes[light.index], -l);
     return illuminance * responseFrom(p, l);
 }
 

@@ -18,7 +18,7 @@ GPU_BEGIN
 struct LightShape {
     vec3 axisU;   // m; disc: unit normal; spot: unit, the way the light travels
     float radius; // m; distant sphere: the sine of its angular radius; polygon: how many corners
-    vec3 axisV;   // m; spot: scale and offset of its cone (lib/light_shape.glsl)
+    vec3 axisV;   // m; spot: squared chord of the outer cone, and slope (lib/light_shape.glsl)
     uint flags;   // LIGHT_TWO_SIDED; polygon: plus the index of its first shape of corners
 };
 GPU_SIZE(LightShape, 32)

@@ -10,6 +10,7 @@
 #include "gpu/probe.h"
 #include "measure/stability/stability.h"
 #include "reference/brdf.h"
+#include "reference/light.h"
 #include "render/setting_names.h"
 
 namespace candelabra::test
@@ -132,6 +133,44 @@ TEST_F(LightLaws, NothingComesFromBelowTheHorizon)
             options.culling = culling;
             for (const glm::vec4& pixel : run(g, lights, options).radiance)
                 ASSERT_EQ(pixel, glm::vec4(0)) << method.name;
+        }
+    }
+}
+
+// Spots of different widths that light the same disc from as far away as that needs, along an axis
+// with no special direction. In the narrow ones cosines of float would be wrong by the whole edge.
+TEST_F(LightLaws, NarrowSpotsKeepTheirEdges)
+{
+    const CpuGBuffer g = plane(32, 5);
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.5, -1));
+    for (const double outer : {0.5, 0.02, 2e-3, 2e-4, 1e-4}) {
+        for (const double share : {0.0, 0.5}) {
+            CndLight spot{.type = CND_LIGHT_SPOT,
+                          .influenceRadius = std::numeric_limits<float>::infinity(),
+                          .innerConeAngle = float(share * outer),
+                          .outerConeAngle = float(outer)};
+            const double distance = 1.5 / std::tan(outer);
+            for (int k = 0; k < 3; ++k) {
+                spot.position[k] = float((glm::dvec3(0, 0, -5) - distance * axis)[k]);
+                spot.direction[k] = float(axis[k]);
+                spot.emission[k] = float(distance * distance);
+            }
+            const auto radiance = run(g, {spot}, {.specular = CND_SPECULAR_NONE}).radiance;
+            double peak = 0, worst = 0;
+            for (uint32_t i = 0; i < radiance.size(); ++i) {
+                const glm::dvec3 position = viewPosition(g, i % g.width, i / g.width);
+                const glm::dvec3 expected = reference::outgoingLuminance(
+                    {position, storedNormal(g, i), glm::normalize(-position)},
+                    {.diffuseAlbedo = storedAlbedo(g, i)}, spot, glm::dvec3(0), CND_SPECULAR_NONE);
+                for (int c = 0; c < 3; ++c) {
+                    peak = std::max(peak, expected[c]);
+                    worst = std::max(worst, std::abs(double(radiance[i][c]) - expected[c]));
+                }
+            }
+            std::cout << "spot of " << outer << " rad, inner angle " << share
+                      << " of that: largest error " << worst / peak << " of the peak\n";
+            EXPECT_GT(peak, 0);
+            EXPECT_LE(worst, 5e-3 * peak);
         }
     }
 }

@@ -303,6 +303,13 @@ TEST_F(LightingTest, BadLightsAreRefusedByNameAndTheOldSetStays)
              l.innerConeAngle = l.outerConeAngle = 0.5f;
          },
          "cone"},
+        {[](CndLight& l, float) {
+             l.type = CND_LIGHT_SPOT;
+             l.direction[2] = 1;
+             l.outerConeAngle = 0.5f;
+             l.innerConeAngle = 0.5f - 0.5f * CND_MIN_CONE_EDGE;
+         },
+         "CND_MIN_CONE_EDGE"},
     };
     auto lights = randomSpheres(g, 3, 1);
     const CndLightSet set{sizeof set, 3, lights.data(), {}};

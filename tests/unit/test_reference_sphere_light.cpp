@@ -248,11 +248,11 @@ TEST(ReferenceSphereLight, windowScalesEveryTerm)
 TEST(ReferencePunctualLight, spotFadesBetweenItsCones)
 {
     const double inner = 0.3, outer = 0.6;
-    EXPECT_EQ(spotAttenuation(1, inner, outer), 1);
-    EXPECT_NEAR(spotAttenuation(std::cos(inner), inner, outer), 1, 1e-14);
-    EXPECT_EQ(spotAttenuation(std::cos(0.61), inner, outer), 0);
-    const double middle = (std::cos(inner) + std::cos(outer)) / 2;
-    EXPECT_NEAR(spotAttenuation(middle, inner, outer), 0.25, 1e-14);
+    const auto at = [&](double cosine) { return spotAttenuation((1 - cosine) / 2, inner, outer); };
+    EXPECT_EQ(at(1), 1);
+    EXPECT_NEAR(at(std::cos(inner)), 1, 1e-14);
+    EXPECT_EQ(at(std::cos(0.61)), 0);
+    EXPECT_NEAR(at((std::cos(inner) + std::cos(outer)) / 2), 0.25, 1e-14);
 
     CndLight spot = makePunctual(CND_LIGHT_SPOT, {0, 2, 0}, 12);
     spot.innerConeAngle = 0.3f;

@@ -46,6 +46,11 @@ typedef struct CndPolygon {
     float corners[CND_MAX_CORNERS][2];
 } CndPolygon;
 
+// Radians: the smallest width of the edge of a spot's cone, outerConeAngle - innerConeAngle. Single
+// precision knows directions to 1e-7, so the intensity within an edge of this width is wrong by up
+// to a few percent of the peak; from a width of 1e-4 on, by less than 0.5%.
+#define CND_MIN_CONE_EDGE 1e-5f
+
 // One light. Fields that its type does not use are ignored.
 //
 // Window: a light is multiplied by (1 - (d/r)^4)^2 for d < r and is absent for d >= r, where d
@@ -69,10 +74,11 @@ typedef struct CndLight {
     // rectangle: half its diagonal; polygon: distance of the farthest corner). Used by all types
     // but directional and distant sphere.
     float influenceRadius;
-    // Spot: half angle of the cone with full intensity, radians, 0 <= inner < outer.
+    // Spot: half angle of the cone with full intensity, radians, >= 0.
     float innerConeAngle;
-    // Spot: half angle of the cone outside which there is no light, radians,
-    // inner < outer <= pi/2, with cos inner - cos outer >= 1e-6.
+    // Spot: half angle of the cone outside which there is no light, radians, at most pi/2 and at
+    // least innerConeAngle + CND_MIN_CONE_EDGE. In between, at the angle theta from the axis, the
+    // intensity is multiplied by ((cos theta - cos outer) / (cos inner - cos outer))^2.
     float outerConeAngle;
     // Metres, length at least 1e-15, components within 1e15. Tube: axisU points from the centre to
     // one end of its segment. Rectangle: axisU points from the centre to the middle of one edge,
