@@ -15,8 +15,8 @@ struct BrokenCase {
     std::string file; // name of the file to write
     Bytes bytes;
     std::string element; // the error message must contain this
-    // The scene is loaded, and a warning has the message: an image could not be read.
-    bool isImage = false;
+    // The scene is loaded, and a warning has the message.
+    bool isMended = false;
 };
 
 // A valid glTF scene with nodes, a textured material with a normal map, sparse and quantised

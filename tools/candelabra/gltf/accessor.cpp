@@ -97,9 +97,14 @@ GltfAccessor::Elements GltfAccessor::locate(int view, uint64_t byteOffset, uint6
     // count is compared first, so that the product below cannot overflow.
     if (byteOffset > bytes.size() || count > bytes.size() ||
         stride * (count - 1) + elementSize > bytes.size() - byteOffset)
-        document_.fail(element_, std::to_string(count) + " elements do not fit into the " +
-                                     std::to_string(bytes.size()) + " bytes of bufferViews[" +
-                                     std::to_string(view) + "]");
+        document_.fail(
+            element_,
+            std::to_string(count) + " elements do not fit into the " +
+                std::to_string(bytes.size()) + " bytes of bufferViews[" + std::to_string(view) +
+                "]" +
+                (bytes.size() < document_.model.bufferViews[static_cast<size_t>(view)].byteLength
+                     ? ", whose buffer is cut short"
+                     : ""));
     return {bytes.data() + byteOffset, stride};
 }
 

@@ -1,450 +1,471 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the JSON of a glTF file before tinygltf reads it, because tinygltf ignores properties of
-// the wrong type and truncates large integers.
+// Checks and mends the JSON of a glTF file before tinygltf reads it, because tinygltf ignores
+// properties of the wrong type and truncates large integers.
+//
+// One wrong value does not lose a file. A value that is not needed is replaced by what schema.h
+// says; an element that nothing uses, or a texture, material, camera or light, is left out. What is
+// left out leaves its place in its array, so that indices stay as they are. Each time a warning
+// names the element, the value and what is used instead.
+#include <algorithm>
+#include <cmath>
 #include <initializer_list>
-#include <limits>
-#include <span>
-#include <string_view>
+#include <map>
+#include <set>
+#include <sstream>
 
 #include "gltf/document.h"
-#include "scene/json_value.h"
-#include "scene/scene_file.h"
+#include "gltf/schema.h"
+#include "scene/scene_error.h"
 
 namespace candelabra::app
 {
-
-// Tables of the properties of glTF 2.0 that the loader reads: their types, ranges and, for indices,
-// the array that they point into. Properties that are not listed are not read.
-namespace schema
-{
-namespace
-{
-
-enum class Kind {
-    Integer,
-    Number,
-    Boolean,
-    String,
-    Index,      // an integer, an index into the array `target`
-    Object,     // an object with the members `fields`
-    Numbers,    // an array of minItems to maxItems numbers
-    Indices,    // an array of indices into `target`
-    Objects,    // an array of objects with the members `fields`
-    IndexMap,   // an object whose values are indices into `target`
-    IndexMaps,  // an array of such objects
-    IntegerMap, // an object whose values are integers
-    List        // any array
-};
-
-struct Field {
-    std::string_view name;
-    Kind kind = Kind::Number;
-    bool required = false;
-    NumberRange range = {};
-    size_t minItems = 0, maxItems = 0;
-    const char* target = nullptr; // JSON pointer of the array that an index points into
-    std::span<const Field> fields = {};
-
-    constexpr Field need() const
-    {
-        Field f = *this;
-        f.required = true;
-        return f;
-    }
-};
-
-constexpr double maxInteger = 2147483647;    // the largest int of tinygltf
-constexpr double maxByte = 9007199254740991; // 2^53 - 1, exact in double
-// Factors of 0 to 1. Exporters' rounding is accepted, and the values are clamped when they are
-// used.
-constexpr NumberRange unitInterval{-1e-4, 1.0001};
-constexpr NumberRange coordinate{-maxCoordinate, maxCoordinate};
-constexpr NumberRange notNegative{0};
-
-constexpr Field number(std::string_view n, NumberRange r = {})
-{
-    return {n, Kind::Number, 0, r};
-}
-constexpr Field integer(std::string_view n, double lo, double hi)
-{
-    return {n, Kind::Integer, false, {lo, hi}};
-}
-constexpr Field boolean(std::string_view n)
-{
-    return {n, Kind::Boolean};
-}
-constexpr Field string(std::string_view n)
-{
-    return {n, Kind::String};
-}
-constexpr Field list(std::string_view n)
-{
-    return {n, Kind::List};
-}
-constexpr Field numbers(std::string_view n, size_t count, NumberRange r = {})
-{
-    return {n, Kind::Numbers, false, r, count, count};
-}
-constexpr Field anyNumbers(std::string_view n, NumberRange r)
-{
-    return {n, Kind::Numbers, false, r, 0, std::numeric_limits<size_t>::max()};
-}
-constexpr Field index(std::string_view n, const char* target, Kind kind = Kind::Index)
-{
-    return {n, kind, false, {}, 0, 0, target};
-}
-constexpr Field object(std::string_view n, std::span<const Field> fields, Kind kind = Kind::Object)
-{
-    return {n, kind, false, {}, 0, 0, nullptr, fields};
-}
-constexpr Field objects(std::string_view n, std::span<const Field> fields)
-{
-    return object(n, fields, Kind::Objects);
-}
-
-// --- accessors
-constexpr Field sparseIndices[] = {index("bufferView", "/bufferViews").need(),
-                                   integer("byteOffset", 0, maxInteger),
-                                   integer("componentType", 5121, 5125).need()};
-constexpr Field sparseValues[] = {index("bufferView", "/bufferViews").need(),
-                                  integer("byteOffset", 0, maxInteger)};
-constexpr Field sparse[] = {integer("count", 1, maxInteger).need(),
-                            object("indices", sparseIndices).need(),
-                            object("values", sparseValues).need()};
-constexpr Field accessor[] = {index("bufferView", "/bufferViews"),
-                              integer("byteOffset", 0, maxByte),
-                              integer("componentType", 5120, 5126).need(),
-                              boolean("normalized"),
-                              integer("count", 1, maxByte).need(),
-                              string("type").need(),
-                              string("name"),
-                              object("sparse", sparse)};
-constexpr Field meshopt[] = {index("buffer", "/buffers").need(),
-                             integer("byteOffset", 0, maxByte),
-                             integer("byteLength", 1, maxByte).need(),
-                             integer("byteStride", 1, 256).need(),
-                             integer("count", 1, maxInteger).need(),
-                             string("mode").need(),
-                             string("filter")};
-constexpr Field bufferViewExtensions[] = {object("EXT_meshopt_compression", meshopt),
-                                          object("KHR_meshopt_compression", meshopt)};
-constexpr Field bufferView[] = {index("buffer", "/buffers").need(),
-                                integer("byteOffset", 0, maxByte),
-                                integer("byteLength", 1, maxByte).need(),
-                                integer("byteStride", 4, 252),
-                                string("name"),
-                                object("extensions", bufferViewExtensions)};
-constexpr Field fallback[] = {boolean("fallback")};
-constexpr Field bufferExtensions[] = {object("EXT_meshopt_compression", fallback),
-                                      object("KHR_meshopt_compression", fallback)};
-constexpr Field buffer[] = {integer("byteLength", 1, maxByte).need(), string("uri"), string("name"),
-                            object("extensions", bufferExtensions)};
-
-// --- textures and materials
-constexpr Field image[] = {string("uri"), string("mimeType"), string("name"),
-                           index("bufferView", "/bufferViews")};
-constexpr Field sampler[] = {integer("magFilter", 0, maxInteger), integer("wrapS", 0, maxInteger),
-                             integer("wrapT", 0, maxInteger), string("name")};
-constexpr Field textureSource[] = {index("source", "/images").need()};
-constexpr Field textureSources[] = {object("EXT_texture_webp", textureSource)};
-constexpr Field texture[] = {index("sampler", "/samplers"), index("source", "/images"),
-                             string("name"), object("extensions", textureSources)};
-constexpr Field textureTransform[] = {numbers("offset", 2), number("rotation"), numbers("scale", 2),
-                                      integer("texCoord", 0, maxInteger)};
-constexpr Field textureExtensions[] = {object("KHR_texture_transform", textureTransform)};
-constexpr Field textureInfo[] = {index("index", "/textures").need(),
-                                 integer("texCoord", 0, maxInteger),
-                                 number("scale"),    // normal textures
-                                 number("strength"), // occlusion textures
-                                 object("extensions", textureExtensions)};
-constexpr Field metallicRoughness[] = {
-    numbers("baseColorFactor", 4, unitInterval), object("baseColorTexture", textureInfo),
-    number("metallicFactor", unitInterval), number("roughnessFactor", unitInterval),
-    object("metallicRoughnessTexture", textureInfo)};
-constexpr Field emissiveStrength[] = {number("emissiveStrength", notNegative)};
-constexpr Field ior[] = {number("ior", notNegative)};
-constexpr Field specular[] = {
-    number("specularFactor", unitInterval), numbers("specularColorFactor", 3, notNegative),
-    object("specularTexture", textureInfo), object("specularColorTexture", textureInfo)};
-constexpr Field transmission[] = {number("transmissionFactor", unitInterval),
-                                  object("transmissionTexture", textureInfo)};
-constexpr Field volume[] = {number("thicknessFactor", notNegative)};
-constexpr Field unlit[] = {string("name")};
-constexpr Field specularGlossiness[] = {
-    numbers("diffuseFactor", 4, unitInterval), object("diffuseTexture", textureInfo),
-    numbers("specularFactor", 3, unitInterval), number("glossinessFactor", unitInterval),
-    object("specularGlossinessTexture", textureInfo)};
-constexpr Field materialExtensions[] = {
-    object("KHR_materials_emissive_strength", emissiveStrength),
-    object("KHR_materials_ior", ior),
-    object("KHR_materials_specular", specular),
-    object("KHR_materials_transmission", transmission),
-    object("KHR_materials_volume", volume),
-    object("KHR_materials_unlit", unlit),
-    object("KHR_materials_pbrSpecularGlossiness", specularGlossiness)};
-constexpr Field material[] = {string("name"),
-                              object("pbrMetallicRoughness", metallicRoughness),
-                              object("normalTexture", textureInfo),
-                              object("occlusionTexture", textureInfo),
-                              object("emissiveTexture", textureInfo),
-                              numbers("emissiveFactor", 3, NumberRange{unitInterval.min}),
-                              string("alphaMode"),
-                              number("alphaCutoff", notNegative),
-                              boolean("doubleSided"),
-                              object("extensions", materialExtensions)};
-
-// --- meshes, nodes, cameras, lights
-constexpr Field draco[] = {index("bufferView", "/bufferViews").need(),
-                           Field{"attributes", Kind::IntegerMap, true, {0, maxInteger}}};
-constexpr Field primitiveExtensions[] = {object("KHR_draco_mesh_compression", draco)};
-constexpr Field primitive[] = {index("attributes", "/accessors", Kind::IndexMap).need(),
-                               index("indices", "/accessors"),
-                               index("material", "/materials"),
-                               integer("mode", 0, 6),
-                               index("targets", "/accessors", Kind::IndexMaps),
-                               object("extensions", primitiveExtensions)};
-constexpr Field mesh[] = {objects("primitives", primitive).need(),
-                          anyNumbers("weights", coordinate), string("name")};
-constexpr Field skin[] = {index("joints", "/nodes", Kind::Indices).need(),
-                          index("inverseBindMatrices", "/accessors"), string("name")};
-constexpr Field lightReference[] = {
-    index("light", "/extensions/KHR_lights_punctual/lights").need()};
-constexpr Field areaReference[] = {index("light", "/extensions/KHR_lights_area/lights").need()};
-constexpr Field instancing[] = {index("attributes", "/accessors", Kind::IndexMap).need()};
-constexpr Field nodeExtensions[] = {object("KHR_lights_punctual", lightReference),
-                                    object("KHR_lights_area", areaReference),
-                                    object("EXT_mesh_gpu_instancing", instancing)};
-constexpr Field node[] = {index("camera", "/cameras"),
-                          index("mesh", "/meshes"),
-                          index("skin", "/skins"),
-                          index("children", "/nodes", Kind::Indices),
-                          numbers("matrix", 16, coordinate),
-                          numbers("rotation", 4, coordinate),
-                          numbers("scale", 3, coordinate),
-                          numbers("translation", 3, coordinate),
-                          anyNumbers("weights", coordinate),
-                          string("name"),
-                          object("extensions", nodeExtensions)};
-constexpr Field sceneFields[] = {index("nodes", "/nodes", Kind::Indices), string("name")};
-constexpr Field perspective[] = {number("yfov", NumberRange::positive(3.14159)).need(),
-                                 number("znear", NumberRange::positive(maxCoordinate)).need(),
-                                 number("zfar", NumberRange::positive(maxCoordinate)),
-                                 number("aspectRatio", NumberRange::positive(1e6))};
-constexpr Field orthographic[] = {number("xmag", coordinate).need(),
-                                  number("ymag", coordinate).need(),
-                                  number("zfar", NumberRange::positive(maxCoordinate)).need(),
-                                  number("znear", {0, maxCoordinate}).need()};
-constexpr Field camera[] = {string("type").need(), string("name"),
-                            object("perspective", perspective),
-                            object("orthographic", orthographic)};
-constexpr Field spot[] = {number("innerConeAngle"), number("outerConeAngle")};
-constexpr Field punctual[] = {string("type").need(),
-                              string("name"),
-                              numbers("color", 3, notNegative),
-                              number("intensity", notNegative),
-                              number("range", NumberRange::positive(maxCoordinate)),
-                              object("spot", spot)};
-constexpr Field punctualLights[] = {objects("lights", punctual).need()};
-constexpr Field area[] = {string("shape"),
-                          string("type"), // the name of "shape" in an earlier draft
-                          string("name"),
-                          numbers("color", 3, notNegative),
-                          number("intensity", notNegative),
-                          number("radius", NumberRange::positive(maxCoordinate)),
-                          number("range", NumberRange::positive(maxCoordinate))};
-constexpr Field areaLights[] = {objects("lights", area).need()};
-constexpr Field rootExtensions[] = {object("KHR_lights_punctual", punctualLights),
-                                    object("KHR_lights_area", areaLights)};
-
-constexpr Field asset[] = {string("version").need(), string("minVersion"), string("generator"),
-                           string("copyright")};
-constexpr Field root[] = {object("asset", asset).need(),
-                          object("extensions", rootExtensions),
-                          list("extensionsUsed"),
-                          list("extensionsRequired"),
-                          objects("accessors", accessor),
-                          objects("bufferViews", bufferView),
-                          objects("buffers", buffer),
-                          objects("images", image),
-                          objects("samplers", sampler),
-                          objects("textures", texture),
-                          objects("materials", material),
-                          objects("meshes", mesh),
-                          objects("nodes", node),
-                          objects("cameras", camera),
-                          objects("scenes", sceneFields),
-                          index("scene", "/scenes"),
-                          list("animations"),
-                          objects("skins", skin)};
-
-} // namespace
-} // namespace schema
 
 namespace
 {
 
 using schema::Field;
 using schema::Kind;
+using Json = nlohmann::json;
 
-void checkObject(const nlohmann::json& document, const JsonValue& value,
-                 std::span<const Field> fields);
+// Thrown for a reference to an element that is left out, of which a warning has told already.
+struct LeftOut {
+};
 
-void checkIndex(const nlohmann::json& document, const JsonValue& value, const char* target)
+// Calls found(target, index) for every index in a value that is not checked yet.
+void visitIndices(const Json& value, std::span<const Field> fields, const auto& found)
 {
-    const nlohmann::json::json_pointer pointer(target);
-    const size_t size = document.contains(pointer) ? document[pointer].size() : 0;
-    const int64_t i = value.integer(0, static_cast<int64_t>(schema::maxInteger));
-    if (static_cast<uint64_t>(i) >= size)
-        value.fail("is " + std::to_string(i) + ", but there are " + std::to_string(size) + " " +
-                   pointer.back());
+    if (!value.is_object())
+        return;
+    for (const Field& field : fields) {
+        const auto member = value.find(field.name);
+        if (member == value.end())
+            continue;
+        const auto reference = [&](const Json& index) {
+            if (index.is_number() && index.get<double>() >= 0 &&
+                index.get<double>() <= schema::maxInteger)
+                found(field.target, static_cast<size_t>(index.get<double>()));
+        };
+        if (field.kind == Kind::Index)
+            reference(*member);
+        else if (field.kind == Kind::Object)
+            visitIndices(*member, field.fields, found);
+        else
+            for (const Json& item : *member)
+                if (field.kind == Kind::Indices || field.kind == Kind::IndexMap)
+                    reference(item);
+                else if (field.kind == Kind::IndexMaps)
+                    std::for_each(item.begin(), item.end(), reference);
+                else if (field.kind == Kind::Objects)
+                    visitIndices(item, field.fields, found);
+    }
 }
 
-void checkIndexMap(const nlohmann::json& document, const JsonValue& value, const char* target)
+// Finds the elements that the drawn scene uses, in a document that is not checked yet.
+class UseFinder
 {
-    value.requireObject();
-    for (const auto& entry : value.json().items())
-        checkIndex(document, value.member(entry.key()), target);
+public:
+    explicit UseFinder(const Json& document) : document_(document) {}
+    GltfUse find();
+
+private:
+    void use(const char* array, size_t index);
+    const Json* list(const char* array) const;
+
+    const Json& document_;
+    GltfUse used_;
+    std::vector<std::pair<const char*, size_t>> open_;
+};
+
+const Json* UseFinder::list(const char* array) const
+{
+    const Json::json_pointer pointer(array);
+    return document_.contains(pointer) && document_[pointer].is_array() ? &document_[pointer]
+                                                                        : nullptr;
 }
 
-void checkField(const nlohmann::json& document, const JsonValue& value, const Field& field)
+void UseFinder::use(const char* array, size_t index)
+{
+    const Json* elements = list(array);
+    if (elements && index < elements->size() && used_[array].insert(index).second)
+        open_.emplace_back(array, index);
+}
+
+GltfUse UseFinder::find()
+{
+    const Json* nodes = list("/nodes");
+    // The transforms of a node depend on its ancestors, even if those are not drawn.
+    std::multimap<size_t, size_t> parents;
+    for (size_t i = 0; nodes && i < nodes->size(); ++i)
+        visitIndices((*nodes)[i], schema::node, [&](std::string_view target, size_t index) {
+            if (target == "/nodes")
+                parents.emplace(index, i);
+        });
+    if (const Json* scenes = list("/scenes"); scenes && !scenes->empty()) {
+        size_t drawn = 0;
+        visitIndices(document_, schema::root, [&](const char*, size_t scene) {
+            if (scene < scenes->size())
+                drawn = scene;
+        });
+        use("/scenes", drawn);
+    } else {
+        for (size_t i = 0; nodes && i < nodes->size(); ++i)
+            use("/nodes", i);
+    }
+    while (!open_.empty()) {
+        const auto [array, index] = open_.back();
+        open_.pop_back();
+        for (const schema::Array& one : schema::arrays)
+            if (one.pointer == std::string_view(array))
+                visitIndices((*list(array))[index], one.fields,
+                             [&](const char* target, size_t i) { use(target, i); });
+        if (array == std::string_view("/nodes")) {
+            const auto [first, last] = parents.equal_range(index);
+            for (auto parent = first; parent != last; ++parent)
+                use("/nodes", parent->second);
+        }
+    }
+    return used_;
+}
+
+class Mender
+{
+public:
+    Mender(const std::string& file, Json& document, LoadWarnings& warnings)
+        : file_(file), document_(document), warnings_(warnings), used_(UseFinder(document).find())
+    {
+    }
+    GltfUse mend();
+
+private:
+    JsonValue at(const Json& value, const std::string& path) const
+    {
+        return JsonValue(file_, value, path);
+    }
+
+    void mendArray(const schema::Array& array);
+    void mendElement(const schema::Array& array, Json& element, size_t index);
+    void mendObject(Json& value, const std::string& path, std::span<const Field> fields);
+    // Returns false if the value is not to be used, and throws if that makes its owner wrong.
+    bool keeps(Json& value, const std::string& path, const Field& field);
+    void mendValue(Json& value, const std::string& path, const Field& field);
+    void mendList(Json& value, const std::string& path, const Field& field);
+    void mendNumber(Json& value, const std::string& path, const Field& field);
+    void mendInteger(Json& value, const std::string& path, const NumberRange& range);
+    void mendIndex(Json& value, const std::string& path, const char* target);
+    void mendMap(Json& value, const std::string& path, const Field& field);
+
+    // Rules that the tables of schema.h cannot express.
+    void mendVersion();
+    void mendBySpecialRules(const schema::Array& array, Json& element, const std::string& path);
+    void mendChoice(Json& owner, const std::string& path, const char* key, const char* instead,
+                    std::initializer_list<Json> allowed);
+    void mendBufferView(Json& view, const std::string& path);
+    void mendLight(Json& light, const std::string& path);
+
+    const std::string& file_;
+    Json& document_;
+    LoadWarnings& warnings_;
+    GltfUse used_;
+    std::set<std::pair<std::string_view, size_t>> leftOut_; // array and index
+};
+
+void Mender::mendInteger(Json& value, const std::string& path, const NumberRange& range)
+{
+    // glTF allows integers to be written as 1.0 or 1e0.
+    if (value.is_number_float()) {
+        const double x = value.get<double>();
+        if (std::abs(x) <= schema::maxByte && x == std::floor(x)) {
+            const auto whole = static_cast<int64_t>(x);
+            warnings_.addOfKind("integer", path,
+                                "is an integer that is written as " + value.dump() + "; " +
+                                    std::to_string(whole) + " is used");
+            value = whole;
+        }
+    }
+    at(value, path).integer(static_cast<int64_t>(range.min), static_cast<int64_t>(range.max));
+}
+
+void Mender::mendIndex(Json& value, const std::string& path, const char* target)
+{
+    mendInteger(value, path, {0, schema::maxInteger});
+    const Json::json_pointer pointer(target);
+    const size_t size = document_.contains(pointer) ? document_[pointer].size() : 0;
+    const size_t index = value.get<size_t>();
+    if (index >= size)
+        at(value, path)
+            .fail("is " + std::to_string(index) + ", but there are " + std::to_string(size) + " " +
+                  pointer.back());
+    if (leftOut_.contains({target, index}))
+        throw LeftOut();
+}
+
+void Mender::mendMap(Json& value, const std::string& path, const Field& field)
+{
+    at(value, path).requireObject();
+    for (const auto& entry : value.items()) {
+        const std::string entryPath = path + "." + entry.key();
+        if (field.kind == Kind::IntegerMap)
+            mendInteger(entry.value(), entryPath, field.range);
+        else
+            mendIndex(entry.value(), entryPath, field.target);
+    }
+}
+
+void Mender::mendNumber(Json& value, const std::string& path, const Field& field)
+{
+    const NumberRange& range = field.range;
+    if (field.clamps && value.is_number() && !range.contains(value.get<double>())) {
+        const double x = value.get<double>(), end = x < range.min ? range.min : range.max;
+        // An end that only says what a float can hold is no replacement.
+        if (std::abs(end) < NumberRange{}.max) {
+            std::ostringstream used;
+            used << std::round(end) + 0.0; // without the sign of zero
+            warnings_.add(path, "must be " + range.text(x) + ", is " + value.dump() + "; " +
+                                    used.str() + " is used");
+            value = std::round(end) + 0.0;
+            return;
+        }
+    }
+    at(value, path).number(range);
+}
+
+void Mender::mendList(Json& value, const std::string& path, const Field& field)
+{
+    at(value, path).requireArray();
+    if (field.kind == Kind::Numbers &&
+        (value.size() < field.minItems || value.size() > field.maxItems))
+        at(value, path)
+            .fail("must have " + std::to_string(field.minItems) + " numbers, has " +
+                  std::to_string(value.size()));
+    Json kept = Json::array();
+    std::set<size_t> seen;
+    for (size_t i = 0; i < value.size(); ++i) {
+        const std::string itemPath = path + "[" + std::to_string(i) + "]";
+        if (field.kind == Kind::Numbers) {
+            mendNumber(value[i], itemPath, field);
+        } else if (field.kind == Kind::IndexMaps) {
+            mendMap(value[i], itemPath, field);
+        } else if (field.kind == Kind::Objects) {
+            mendObject(value[i], itemPath, field.fields);
+        } else if (field.kind == Kind::Indices) {
+            Field item = field;
+            item.kind = Kind::Index;
+            if (!keeps(value[i], itemPath, item))
+                continue;
+            if (field.instead && !seen.insert(value[i].get<size_t>()).second)
+                warnings_.add(itemPath, "is " + value[i].dump() + ", which is listed before; " +
+                                            field.instead);
+            else
+                kept.push_back(value[i]);
+        }
+    }
+    if (field.kind == Kind::Indices)
+        value = std::move(kept);
+}
+
+void Mender::mendValue(Json& value, const std::string& path, const Field& field)
 {
     switch (field.kind) {
     case Kind::Integer:
-        value.integer(static_cast<int64_t>(field.range.min), static_cast<int64_t>(field.range.max));
-        return;
+        return mendInteger(value, path, field.range);
     case Kind::Number:
-        value.number(field.range);
-        return;
+        return mendNumber(value, path, field);
     case Kind::Boolean:
-        value.boolean();
+        at(value, path).boolean();
         return;
     case Kind::String:
-        value.string();
+        at(value, path).string();
         return;
     case Kind::Index:
-        checkIndex(document, value, field.target);
-        return;
+        return mendIndex(value, path, field.target);
     case Kind::Object:
-        checkObject(document, value, field.fields);
-        return;
+        return mendObject(value, path, field.fields);
     case Kind::IndexMap:
-        checkIndexMap(document, value, field.target);
-        return;
     case Kind::IntegerMap:
-        value.requireObject();
-        for (const auto& entry : value.json().items())
-            value.member(entry.key())
-                .integer(static_cast<int64_t>(field.range.min),
-                         static_cast<int64_t>(field.range.max));
-        return;
+        return mendMap(value, path, field);
     default:
-        break;
-    }
-    value.requireArray();
-    if (field.kind == Kind::Numbers &&
-        (value.size() < field.minItems || value.size() > field.maxItems))
-        value.fail("must have " + std::to_string(field.minItems) + " numbers, has " +
-                   std::to_string(value.size()));
-    for (size_t i = 0; i < value.size(); ++i) {
-        if (field.kind == Kind::Numbers)
-            value.item(i).number(field.range);
-        else if (field.kind == Kind::Indices)
-            checkIndex(document, value.item(i), field.target);
-        else if (field.kind == Kind::IndexMaps)
-            checkIndexMap(document, value.item(i), field.target);
-        else if (field.kind == Kind::Objects)
-            checkObject(document, value.item(i), field.fields);
+        return mendList(value, path, field);
     }
 }
 
-void checkObject(const nlohmann::json& document, const JsonValue& value,
-                 std::span<const Field> fields)
+bool Mender::keeps(Json& value, const std::string& path, const Field& field)
 {
-    value.requireObject();
-    for (const Field& field : fields) {
-        const std::string name(field.name);
-        if (field.required)
-            value.member(name); // fails when it is missing
-        if (const auto member = value.find(name))
-            checkField(document, *member, field);
+    try {
+        mendValue(value, path, field);
+        return true;
+    } catch (const LeftOut&) {
+        if (!field.instead)
+            throw;
+    } catch (const SceneError& error) {
+        if (!field.instead)
+            throw;
+        warnings_.addInstead(file_, error, field.instead);
     }
+    return false;
+}
+
+void Mender::mendObject(Json& value, const std::string& path, std::span<const Field> fields)
+{
+    at(value, path).requireObject();
+    for (const Field& field : fields) {
+        const std::string key(field.name), memberPath = path.empty() ? key : path + "." + key;
+        const bool isNeeded = field.required && !field.fill;
+        const auto instead = [&] { return field.instead ? std::string("; ") + field.instead : ""; };
+        const auto member = value.find(key);
+        if (member == value.end()) {
+            if (!field.required)
+                continue;
+            if (isNeeded)
+                at(value, path).member(key); // fails
+            warnings_.add(path, '"' + key + "\" is missing" + instead());
+        } else if (!member->is_null()) {
+            if (keeps(*member, memberPath, field))
+                continue;
+        } else {
+            if (isNeeded)
+                at(*member, memberPath).fail("must not be null");
+            warnings_.add(memberPath, "is null, which counts as missing" + instead());
+        }
+        value.erase(key);
+        if (field.fill)
+            value[key] = Json::parse(field.fill);
+    }
+}
+
+void Mender::mendElement(const schema::Array& array, Json& element, size_t index)
+{
+    const std::string path = gltfElement(array.path, index);
+    const bool isUsed = used_[array.pointer].contains(index);
+    try {
+        mendObject(element, path, array.fields);
+        mendBySpecialRules(array, element, path);
+        return;
+    } catch (const LeftOut&) {
+        if (isUsed && !array.instead)
+            at(element, path).fail("needs an element that is left out");
+    } catch (const SceneError& error) {
+        if (isUsed && !array.instead)
+            throw;
+        warnings_.addInstead(file_, error,
+                             isUsed ? array.instead : "nothing uses it, so it is left out");
+    }
+    element = Json::parse(array.stub);
+    leftOut_.emplace(array.pointer, index);
+}
+
+void Mender::mendArray(const schema::Array& array)
+{
+    const Json::json_pointer pointer(array.pointer);
+    if (!document_.contains(pointer))
+        return;
+    Json& list = document_[pointer];
+    if (list.is_null()) {
+        warnings_.add(array.path, "is null, which counts as missing");
+        document_[pointer.parent_pointer()].erase(pointer.back());
+        return;
+    }
+    at(list, array.path).requireArray();
+    for (size_t i = 0; i < list.size(); ++i)
+        mendElement(array, list[i], i);
+}
+
+GltfUse Mender::mend()
+{
+    at(document_, "").requireObject();
+    mendVersion();
+    mendObject(document_, "", schema::root);
+    if (const auto names = document_.find("extensionsUsed"); names != document_.end())
+        std::erase_if(names->get_ref<Json::array_t&>(), [&](const Json& name) {
+            if (!name.is_string())
+                warnings_.add("extensionsUsed", "has " + printable(name.dump(), 60) +
+                                                    " in place of a name; it is left out");
+            return !name.is_string();
+        });
+    for (const schema::Array& array : schema::arrays)
+        mendArray(array);
+    if (const auto animations = document_.find("animations");
+        animations != document_.end() && !animations->empty())
+        warnings_.add("",
+                      "animations are not played; everything stands as the nodes of the file say");
+    return used_;
 }
 
 // --- Rules that the tables of schema.h cannot express
 
-void checkOneOf(const JsonValue& value, std::initializer_list<const char*> allowed)
+// Checks that owner[key], if it is there, is one of these values. A wrong one is removed if
+// `instead` says what is used then.
+void Mender::mendChoice(Json& owner, const std::string& path, const char* key, const char* instead,
+                        std::initializer_list<Json> allowed)
 {
-    std::string names;
-    for (const char* name : allowed) {
-        if (value.string() == name)
-            return;
-        names += (names.empty() ? "" : ", ") + std::string(name);
-    }
-    value.fail("must be one of " + names + ", is \"" + printable(value.string(), 60) + "\"");
-}
-
-void checkItems(const JsonValue& rootValue, const char* array, const auto& check)
-{
-    const auto items = rootValue.find(array);
-    if (!items)
+    const auto found = owner.find(key);
+    if (found == owner.end() || std::find(allowed.begin(), allowed.end(), *found) != allowed.end())
         return;
-    items->requireArray();
-    for (size_t i = 0; i < items->size(); ++i)
-        check(items->item(i));
+    std::string names;
+    for (const Json& one : allowed)
+        names +=
+            (names.empty() ? "" : ", ") + (one.is_string() ? one.get<std::string>() : one.dump());
+    const std::string reason =
+        "must be one of " + names + ", is " +
+        (found->is_string() ? "\"" + printable(found->get<std::string>(), 60) + "\""
+                            : found->dump());
+    if (!instead)
+        at(*found, path + "." + key).fail(reason);
+    warnings_.add(path + "." + key, reason + "; " + instead);
+    owner.erase(key);
 }
 
-void checkLight(const JsonValue& light)
+void Mender::mendBufferView(Json& view, const std::string& path)
 {
-    checkOneOf(light.member("type"), {"directional", "point", "spot"});
-    if (light.member("type").string() == "spot")
-        light.member("spot");
-}
-
-void checkCamera(const JsonValue& camera)
-{
-    checkOneOf(camera.member("type"), {"perspective", "orthographic"});
-    camera.member(camera.member("type").string());
-}
-
-void checkAccessor(const JsonValue& accessor)
-{
-    checkOneOf(accessor.member("type"), {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
-    if (accessor.member("componentType").json() == 5124)
-        accessor.member("componentType").fail("is 5124, which is not a component type of glTF 2.0");
-}
-
-void checkBufferView(const JsonValue& view)
-{
-    if (const auto stride = view.find("byteStride"))
-        if (stride->json().get<int64_t>() % 4 != 0)
-            stride->fail("must be a multiple of 4, is " + stride->json().dump());
-    const auto extensions = view.find("extensions");
+    if (const auto stride = view.find("byteStride"); stride != view.end())
+        if (stride->get<int64_t>() % 4 != 0)
+            at(*stride, path + ".byteStride").fail("must be a multiple of 4, is " + stride->dump());
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-        if (const auto meshopt = extensions ? extensions->find(name) : std::nullopt) {
-            checkOneOf(meshopt->member("mode"), {"ATTRIBUTES", "TRIANGLES", "INDICES"});
-            if (const auto filter = meshopt->find("filter"))
-                checkOneOf(*filter, {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"});
+        if (view.contains("extensions") && view["extensions"].contains(name)) {
+            const std::string extension = path + ".extensions." + name;
+            Json& meshopt = view["extensions"][name];
+            mendChoice(meshopt, extension, "mode", nullptr, {"ATTRIBUTES", "TRIANGLES", "INDICES"});
+            mendChoice(meshopt, extension, "filter", nullptr,
+                       {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"});
         }
 }
 
-void checkMaterial(const JsonValue& material)
+void Mender::mendLight(Json& light, const std::string& path)
 {
-    if (const auto mode = material.find("alphaMode"))
-        checkOneOf(*mode, {"OPAQUE", "MASK", "BLEND"});
+    mendChoice(light, path, "type", nullptr, {"directional", "point", "spot"});
+    if (light["type"] == "spot" && !light.contains("spot")) {
+        warnings_.add(path,
+                      "is a spot without \"spot\"; its cone has the default angles 0 and pi/4");
+        light["spot"] = Json::object();
+    }
 }
 
-void checkSampler(const JsonValue& sampler)
+void Mender::mendBySpecialRules(const schema::Array& array, Json& element, const std::string& path)
 {
-    for (const char* name : {"wrapS", "wrapT"})
-        if (const auto wrap = sampler.find(name)) {
-            const int64_t mode = wrap->json().get<int64_t>();
-            if (mode != 33071 && mode != 33648 && mode != 10497)
-                wrap->fail("must be 33071, 33648 or 10497, is " + std::to_string(mode));
-        }
+    const std::string_view kind = array.path;
+    if (kind == "accessors") {
+        mendChoice(element, path, "type", nullptr,
+                   {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
+        if (element["componentType"] == 5124)
+            at(element, path + ".componentType")
+                .fail("is 5124, which is not a component type of glTF 2.0");
+    } else if (kind == "bufferViews") {
+        mendBufferView(element, path);
+    } else if (kind == "samplers") {
+        for (const char* wrap : {"wrapS", "wrapT"})
+            mendChoice(element, path, wrap, "10497 (repeat) is used", {33071, 33648, 10497});
+    } else if (kind == "materials") {
+        mendChoice(element, path, "alphaMode", "OPAQUE is used", {"OPAQUE", "MASK", "BLEND"});
+    } else if (kind == "cameras") {
+        mendChoice(element, path, "type", nullptr, {"perspective", "orthographic"});
+        at(element, path).member(element["type"].get<std::string>());
+    } else if (kind == "extensions.KHR_lights_punctual.lights") {
+        mendLight(element, path);
+    }
 }
 
-void checkVersion(const JsonValue& asset)
+void Mender::mendVersion()
 {
+    const JsonValue asset = at(document_, "").member("asset");
     for (const char* name : {"version", "minVersion"})
         if (const auto version = asset.find(name)) {
             // Files of version 1 may have a number here.
@@ -456,29 +477,18 @@ void checkVersion(const JsonValue& asset)
                 version->fail("is " + printable(version->json().dump(), 20) +
                               "; only glTF 2.0 can be read" +
                               (text.starts_with("1") ? "; gltf-pipeline converts the file" : ""));
-            version->string(); // fails for numbers
+            if (version->json().is_number()) {
+                warnings_.add(version->path(), "is a number, not text; \"2.0\" is used");
+                document_["asset"][name] = "2.0";
+            }
         }
 }
 
 } // namespace
 
-void checkGltfJson(const std::string& file, const nlohmann::json& json, GltfWarnings& warnings)
+GltfUse mendGltfJson(const std::string& file, nlohmann::json& json, LoadWarnings& warnings)
 {
-    const JsonValue document(file, json);
-    document.requireObject();
-    checkVersion(document.member("asset"));
-    checkObject(json, document, schema::root);
-    checkItems(document, "accessors", checkAccessor);
-    checkItems(document, "bufferViews", checkBufferView);
-    checkItems(document, "cameras", checkCamera);
-    checkItems(document, "materials", checkMaterial);
-    checkItems(document, "samplers", checkSampler);
-    if (const auto* lights = GltfDocument::extension(json, "KHR_lights_punctual"))
-        checkItems(JsonValue(file, *lights, "extensions.KHR_lights_punctual"), "lights",
-                   checkLight);
-    if (const auto animations = document.find("animations"); animations && animations->size() > 0)
-        warnings.add("",
-                     "animations are not played; everything stands as the nodes of the file say");
+    return Mender(file, json, warnings).mend();
 }
 
 } // namespace candelabra::app

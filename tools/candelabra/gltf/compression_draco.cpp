@@ -242,7 +242,7 @@ void decompressDraco(GltfDocument& document)
         for (size_t p = 0; p < document.model.meshes[m].primitives.size(); ++p) {
             const nlohmann::json& json = document.json["meshes"][m]["primitives"][p];
             const auto* extension = GltfDocument::extension(json, "KHR_draco_mesh_compression");
-            if (extension)
+            if (extension && document.isUsed("/meshes", m))
                 decompressPrimitive(document, json, *extension,
                                     gltfPrimitive(m, p) + ".extensions.KHR_draco_mesh_compression",
                                     document.model.meshes[m].primitives[p], budget);

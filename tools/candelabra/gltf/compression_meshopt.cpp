@@ -107,7 +107,7 @@ void decompressMeshopt(GltfDocument& document)
     for (size_t i = 0; i < views->size(); ++i)
         for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
             const auto* extension = GltfDocument::extension((*views)[i], name);
-            if (!extension)
+            if (!extension || !document.isUsed("/bufferViews", i))
                 continue;
             const JsonValue source(document.file, *extension,
                                    gltfElement("bufferViews", i) + ".extensions." + name);

@@ -2,6 +2,7 @@
 // Opens a glTF file: takes .glb chunks apart, resolves URIs, loads buffers and calls tinygltf.
 #include "gltf/document.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
@@ -166,31 +167,40 @@ bool isFallback(const nlohmann::json& buffer)
     return false;
 }
 
+std::vector<uint8_t> loadBuffer(const GltfDocument& document, GltfContainer& container,
+                                size_t index)
+{
+    const nlohmann::json& json = document.json["buffers"][index];
+    const std::string element = gltfElement("buffers", index);
+    std::vector<uint8_t> bytes;
+    if (json.contains("uri"))
+        bytes = readGltfUri(document, json["uri"].get<std::string>(), element + ".uri");
+    else if (index == 0 && container.isBinary && !container.binary.empty())
+        bytes = std::move(container.binary);
+    else if (isFallback(json))
+        return bytes;
+    else
+        document.fail(element, "has no uri");
+    const uint64_t declared = json["byteLength"].get<uint64_t>();
+    if (bytes.size() < declared)
+        document.warn(element, "declares " + std::to_string(declared) + " bytes, has " +
+                                   std::to_string(bytes.size()) + "; these are used");
+    bytes.resize(std::min<uint64_t>(declared, bytes.size()));
+    return bytes;
+}
+
 void loadBuffers(GltfDocument& document, GltfContainer& container)
 {
-    const auto found = document.json.find("buffers");
-    if (found == document.json.end())
-        return;
-    const nlohmann::json& buffers = *found;
-    for (size_t i = 0; i < buffers.size(); ++i) {
-        const std::string element = gltfElement("buffers", i);
-        std::vector<uint8_t> bytes;
-        if (buffers[i].contains("uri"))
-            bytes = readGltfUri(document, buffers[i]["uri"].get<std::string>(), element + ".uri");
-        else if (i == 0 && container.isBinary && !container.binary.empty())
-            bytes = std::move(container.binary);
-        else if (isFallback(buffers[i])) {
+    const auto buffers = document.json.find("buffers");
+    for (size_t i = 0; buffers != document.json.end() && i < buffers->size(); ++i)
+        try {
+            document.buffers.push_back(loadBuffer(document, container, i));
+        } catch (const SceneError& error) {
+            if (document.isUsed("/buffers", i))
+                throw;
+            document.warnInstead(error, "nothing uses it, so it is left out");
             document.buffers.emplace_back();
-            continue;
-        } else
-            document.fail(element, "has no uri");
-        const uint64_t declared = buffers[i]["byteLength"].get<uint64_t>();
-        if (bytes.size() < declared)
-            document.fail(element, "declares " + std::to_string(declared) + " bytes, has " +
-                                       std::to_string(bytes.size()));
-        bytes.resize(declared);
-        document.buffers.push_back(std::move(bytes));
-    }
+        }
 }
 
 // Gives tinygltf the checked JSON without buffers and images. It would read them from anywhere,
@@ -223,7 +233,8 @@ void parseWithTinyGltf(GltfDocument& document)
         error = e.what();
     }
     if (!loaded)
-        document.fail("", "is not usable glTF: " + printable(error.substr(0, error.find('\n'))));
+        document.fail("", "cannot be read; the parser says \"" +
+                              printable(error.substr(0, error.find('\n'))) + "\"");
 }
 
 } // namespace
@@ -248,10 +259,15 @@ std::span<const uint8_t> GltfDocument::bufferView(int index, const std::string& 
 {
     const tinygltf::BufferView& view = model.bufferViews[static_cast<size_t>(index)];
     const std::vector<uint8_t>& buffer = buffers[static_cast<size_t>(view.buffer)];
-    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
-        fail(element, "bufferViews[" + std::to_string(index) + "] extends beyond its buffer of " +
-                          std::to_string(buffer.size()) + " bytes");
-    return std::span(buffer).subspan(view.byteOffset, view.byteLength);
+    const std::string beyond = "bufferViews[" + std::to_string(index) +
+                               "] extends beyond its buffer of " + std::to_string(buffer.size()) +
+                               " bytes";
+    if (view.byteOffset >= buffer.size())
+        fail(element, beyond);
+    const size_t inside = buffer.size() - view.byteOffset;
+    if (view.byteLength > inside)
+        warn(element, beyond + "; the part inside is used");
+    return std::span(buffer).subspan(view.byteOffset, std::min(view.byteLength, inside));
 }
 
 const nlohmann::json* GltfDocument::extension(const nlohmann::json& object, const char* name)
@@ -299,8 +315,8 @@ GltfDocument openGltf(const std::string& path)
     GltfContainer container = readGltfContainer(path);
     document.json = parseSceneJson(path, container.json);
     container.json.clear();
+    document.used = mendGltfJson(path, document.json, document.warnings);
     document.missingExtensions = checkGltfExtensions(path, document.json, document.warnings);
-    checkGltfJson(path, document.json, document.warnings);
     loadBuffers(document, container);
     parseWithTinyGltf(document);
     decompressMeshopt(document);

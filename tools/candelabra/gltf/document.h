@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
-#include "gltf/warnings.h"
+#include "scene/warnings.h"
 
 namespace candelabra::app
 {
@@ -24,11 +26,14 @@ struct GltfContainer {
     bool isBinary = false; // true for a .glb file
 };
 
+// The elements of arrays that the drawn scene uses: indices by JSON pointer, such as "/buffers".
+using GltfUse = std::map<std::string, std::set<size_t>, std::less<>>;
+
 struct GltfDocument {
     std::string file; // the path as the user gave it; messages name it
-    // The JSON. Every property that the loader reads is known to have the right type, range and
-    // index.
+    // The JSON, mended: every property that the loader reads has the right type, range and index.
     nlohmann::json json;
+    GltfUse used;
     // What tinygltf made of it, without buffers and images, which the loader reads itself.
     // Extensions and extras are read from `json`, because tinygltf::Value cuts integers to 32 bits.
     // Decompression changes the buffer views and accessors of `model`, and not those of `json`.
@@ -37,7 +42,7 @@ struct GltfDocument {
     // what was decompressed.
     std::vector<std::vector<uint8_t>> buffers;
     std::string missingExtensions; // those that the file requires and the loader does not read
-    mutable GltfWarnings warnings;
+    mutable LoadWarnings warnings;
 
     // The message of a failure of this document without the name of the file at its beginning.
     std::string withoutFile(const std::string& message) const;
@@ -46,7 +51,18 @@ struct GltfDocument {
     {
         warnings.add(element, reason);
     }
-    // The bytes of a buffer view. Fails if it extends beyond its buffer.
+    // Warns with the message of an error of this document, and says what is used instead.
+    void warnInstead(const SceneError& error, const std::string& instead) const
+    {
+        warnings.addInstead(file, error, instead);
+    }
+    bool isUsed(std::string_view array, size_t index) const
+    {
+        const auto indices = used.find(array);
+        return indices != used.end() && indices->second.contains(index);
+    }
+    // The bytes of a buffer view, or those of them that its buffer has, with a warning. Fails if it
+    // has none.
     std::span<const uint8_t> bufferView(int index, const std::string& element) const;
     // Returns object["extensions"][name], or nullptr if there is none. `object` may be any JSON
     // object of the document.
@@ -59,8 +75,9 @@ std::string gltfElement(const char* array, size_t index);
 GltfContainer readGltfContainer(const std::string& path);
 
 // Checks types, ranges, array lengths and indices of every property that the loader or tinygltf
-// reads, and the glTF version. Warns of content that is not used.
-void checkGltfJson(const std::string& file, const nlohmann::json& json, GltfWarnings& warnings);
+// reads, and the glTF version. Replaces or removes what is wrong and not needed, with warnings
+// (check.cpp), and warns of content that is not used. Returns what the drawn scene uses.
+GltfUse mendGltfJson(const std::string& file, nlohmann::json& json, LoadWarnings& warnings);
 
 // Reads what a "uri" stands for: base64 data, or a file in the folder of document.file or below
 // that folder. Absolute paths, "..", and schemes other than data: are errors.

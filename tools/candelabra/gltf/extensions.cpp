@@ -81,7 +81,6 @@ std::set<std::string> namesWithGaps(const JsonValue& document, const char* key)
     const auto list = document.find(key);
     if (!list)
         return names;
-    list->requireArray();
     for (size_t i = 0; i < list->size(); ++i)
         if (const std::string& name = list->item(i).string(); !isReadWhole(name))
             names.insert(name);
@@ -99,7 +98,7 @@ Gap gapOf(const std::string& name)
 } // namespace
 
 std::string checkGltfExtensions(const std::string& file, const nlohmann::json& json,
-                                GltfWarnings& warnings)
+                                LoadWarnings& warnings)
 {
     const JsonValue document(file, json);
     document.requireObject();

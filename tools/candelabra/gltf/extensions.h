@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gltf/warnings.h"
+#include "scene/warnings.h"
 
 namespace candelabra::app
 {
@@ -18,6 +18,6 @@ namespace candelabra::app
 // loader reads nothing, as one phrase for a message, or "" if there are none. Throws SceneError if
 // the lists of extensions are no lists of names.
 std::string checkGltfExtensions(const std::string& file, const nlohmann::json& json,
-                                GltfWarnings& warnings);
+                                LoadWarnings& warnings);
 
 } // namespace candelabra::app

@@ -212,10 +212,16 @@ void SceneBuilder::addCamera(const GltfPlacedNode& placed)
     camera.orthographic = source.type == "orthographic";
     if (camera.orthographic) {
         const tinygltf::OrthographicCamera& lens = source.orthographic;
-        if (!(lens.xmag > 0) || !(lens.ymag > 0))
-            document_.fail(element, "xmag and ymag must be > 0");
-        camera.orthographicHeight = 2 * lens.ymag;
-        camera.aspect = lens.xmag / lens.ymag;
+        if (lens.xmag == 0 || lens.ymag == 0) {
+            document_.warn(element, "xmag and ymag must not be 0; the camera is left out");
+            return;
+        }
+        if (lens.xmag < 0 || lens.ymag < 0)
+            document_.warn(element, "xmag and ymag must be > 0, are " + std::to_string(lens.xmag) +
+                                        " and " + std::to_string(lens.ymag) +
+                                        "; they are used without their signs");
+        camera.orthographicHeight = 2 * std::abs(lens.ymag);
+        camera.aspect = std::abs(lens.xmag / lens.ymag);
         camera.nearPlane = lens.znear;
         camera.farPlane = lens.zfar;
     } else {
@@ -226,8 +232,12 @@ void SceneBuilder::addCamera(const GltfPlacedNode& placed)
         camera.nearPlane = lens.znear;
         camera.farPlane = lens.zfar; // 0: infinite
     }
-    if (camera.farPlane != 0 && !(camera.farPlane > camera.nearPlane))
-        document_.fail(element, "zfar must be greater than znear");
+    if (camera.farPlane != 0 && !(camera.farPlane > camera.nearPlane)) {
+        document_.warn(
+            element, "zfar must be greater than znear, " + std::to_string(camera.nearPlane) +
+                         ", is " + std::to_string(camera.farPlane) + "; the far plane is left out");
+        camera.farPlane = camera.orthographic ? camera.nearPlane + maxCoordinate : 0;
+    }
     scene_.cameras.push_back(camera);
 }
 

@@ -37,10 +37,23 @@ struct Size {
     int width = 0, height = 0;
 };
 
-[[noreturn]] void failDecode(const GltfDocument& document, const std::string& element,
-                             const char* reason)
+// Returns the reason of the last failure of stb_image, which has a word or two for it.
+std::string reasonOfStb()
 {
-    document.fail(element, "cannot be decoded: " + printable(reason ? reason : "unknown reason"));
+    const char* given = stbi_failure_reason();
+    const std::string said = given ? given : "";
+    if (said == "outofdata")
+        return "it is cut short";
+    if (said == "outofmem")
+        return "there is not enough memory";
+    return "it is damaged or of a rare kind" +
+           (said.empty() ? "" : " (the decoder says \"" + printable(said, 60) + "\")");
+}
+
+[[noreturn]] void failDecode(const GltfDocument& document, const std::string& element,
+                             const std::string& reason)
+{
+    document.fail(element, std::string("cannot be decoded: ") + reason);
 }
 
 Size sizeOf(const GltfDocument& document, const std::string& element,
@@ -50,10 +63,10 @@ Size sizeOf(const GltfDocument& document, const std::string& element,
     int channels = 0;
     if (format == Format::WebP) {
         if (!WebPGetInfo(bytes.data(), bytes.size(), &size.width, &size.height))
-            failDecode(document, element, "broken WebP header");
+            failDecode(document, element, "its WebP header is damaged");
     } else if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.width,
                                       &size.height, &channels)) {
-        failDecode(document, element, stbi_failure_reason());
+        failDecode(document, element, reasonOfStb());
     }
     return size;
 }
@@ -66,7 +79,7 @@ std::vector<uint8_t> pixelsOf(const GltfDocument& document, const std::string& e
     if (format == Format::WebP) {
         std::vector<uint8_t> out(count);
         if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), out.data(), count, 4 * size.width))
-            failDecode(document, element, "broken WebP data");
+            failDecode(document, element, "its WebP data is damaged");
         return out;
     }
     int channels = 0;
@@ -75,7 +88,7 @@ std::vector<uint8_t> pixelsOf(const GltfDocument& document, const std::string& e
                               &size.height, &channels, 4),
         stbi_image_free);
     if (!pixels)
-        failDecode(document, element, stbi_failure_reason());
+        failDecode(document, element, reasonOfStb());
     return {pixels.get(), pixels.get() + count};
 }
 

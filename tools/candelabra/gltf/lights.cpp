@@ -5,7 +5,11 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
+#include "scene/cone.h"
 #include "scene/json_value.h"
+#include "scene/scene_error.h"
 #include "scene/scene_file.h"
 
 namespace candelabra::app
@@ -15,6 +19,8 @@ namespace
 {
 
 using std::numbers::pi;
+
+constexpr float smallestRadius = 1e-15f; // metres, of CndLight
 
 struct Emission {
     glm::dvec3 color{1};
@@ -37,25 +43,28 @@ void setEmission(const GltfDocument& document, const std::string& element, const
 void setInfluence(const GltfDocument& document, const std::string& element, double range,
                   CndLight& light)
 {
-    light.influenceRadius = range > 0 ? static_cast<float>(range) : INFINITY;
-    if (!(light.influenceRadius > 0))
-        document.fail(element, "range is too small for single precision");
+    light.influenceRadius = INFINITY;
+    if (range == 0) // it has none
+        return;
     // Among the lights of glTF only rectangles have axes.
     const bool hasAxes = cndLightFields(light.type) & CND_LIGHT_FIELD_AXIS_U_BIT;
     const float size = cndEmitterBoundingRadius(&light);
-    if (!(light.influenceRadius > size * (hasAxes ? 1 + 1e-6f : 1.0f)))
-        document.fail(element,
-                      "range " + std::to_string(range) + " must be greater than " +
-                          (hasAxes ? "half the light's diagonal " : "the light's radius ") +
-                          std::to_string(size));
+    if (static_cast<float>(range) > size * (hasAxes ? 1 + 1e-6f : 1.0f))
+        light.influenceRadius = static_cast<float>(range);
+    else
+        document.warn(element + ".range",
+                      fmt::format("must be greater than {}, {:g}, is {:g}; the light has no range",
+                                  hasAxes ? "half the light's diagonal" : "the light's radius",
+                                  size, range));
 }
 
 void setRadius(const GltfDocument& document, const std::string& element, double radius,
                CndLight& light)
 {
     light.radius = static_cast<float>(radius);
-    if (!(light.radius > 0) || !(radius <= maxCoordinate))
-        document.fail(element, "radius must be > 0 and at most 1e12, is " + std::to_string(radius));
+    if (!(light.radius >= smallestRadius) || !(radius <= maxCoordinate))
+        document.fail(element,
+                      fmt::format("has a radius of {:g} m, which must be 1e-15 to 1e12", radius));
 }
 
 // A radius that a file gives to a light, and where it stands.
@@ -73,8 +82,13 @@ std::optional<GivenRadius> extrasRadius(const GltfDocument& document, const nloh
     if (extras == owner.end() || !extras->is_object() || !extras->contains("radius"))
         return std::nullopt;
     const JsonValue value(document.file, *extras, element + ".extras");
-    return GivenRadius{value.member("radius").number(NumberRange::positive(maxCoordinate)),
-                       element};
+    try {
+        const NumberRange range{double{smallestRadius}, maxCoordinate};
+        return GivenRadius{value.member("radius").number(range), element};
+    } catch (const SceneError& error) {
+        document.warnInstead(error, "the light has no such radius");
+        return std::nullopt;
+    }
 }
 
 // Returns the radius that the file gives to the light of a node. The node's own comes first,
@@ -104,26 +118,16 @@ bool direction(const glm::dmat4& worldFromNode, CndLight& light)
     return true;
 }
 
-void setCone(const GltfDocument& document, const std::string& element,
-             const tinygltf::SpotLight& spot, CndLight& light)
+void readCone(const GltfDocument& document, const std::string& element,
+              const tinygltf::SpotLight& spot, CndLight& light)
 {
-    const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
-    // Exporters may round pi/2 up. The largest float below pi/2 is used then.
-    if (!(inner >= 0) || !(outer >= inner) || !(outer > 0) || !(outer <= 1.5708))
-        document.fail(element + ".spot",
-                      "angles must satisfy 0 <= innerConeAngle < outerConeAngle <= pi/2, are " +
-                          std::to_string(inner) + " and " + std::to_string(outer));
-    light.outerConeAngle =
-        std::min(static_cast<float>(outer), std::nextafter(static_cast<float>(pi / 2), 0.0f));
-    // The cosines of both angles must differ. Some exporters make spots with a hard edge by equal
-    // angles, which glTF 2.0 does not allow.
-    const float largestInner = 0.999f * light.outerConeAngle;
-    light.innerConeAngle = static_cast<float>(inner);
-    if (light.innerConeAngle > largestInner) {
-        light.innerConeAngle = largestInner;
-        document.warn(element + ".spot",
-                      "has nearly equal angles; the edge of its cone is a thousandth wide");
-    }
+    if (!setCone(spot.innerConeAngle, spot.outerConeAngle, light))
+        document.warn(
+            element + ".spot",
+            fmt::format("innerConeAngle must be at least {:g} below outerConeAngle, and that at "
+                        "most pi/2; they are {:g} and {:g}; {:g} and {:g} are used",
+                        CND_MIN_CONE_EDGE, spot.innerConeAngle, spot.outerConeAngle,
+                        light.innerConeAngle, light.outerConeAngle));
 }
 
 // Turns a point light into a sphere, and a spot into a disc, of the same intensity: along its axis
@@ -157,7 +161,7 @@ void addPunctual(const GltfDocument& document, size_t index, const GltfPlacedNod
         return;
     }
     if (light.type == CND_LIGHT_SPOT)
-        setCone(document, element, source.spot, light);
+        readCone(document, element, source.spot, light);
     const auto given = givenRadius(document, placed, json, element);
     if (light.type == CND_LIGHT_DIRECTIONAL) {
         if (given)
@@ -274,10 +278,14 @@ void addGltfLights(const GltfDocument& document, const GltfPlacedNode& placed,
                    const SceneOptions& options, GltfLights& out)
 {
     const nlohmann::json& json = document.json["nodes"][placed.node];
-    if (const auto* extension = GltfDocument::extension(json, "KHR_lights_punctual"))
-        addPunctual(document, (*extension)["light"].get<size_t>(), placed, options, out);
-    if (const auto* extension = GltfDocument::extension(json, "KHR_lights_area"))
-        addArea(document, (*extension)["light"].get<size_t>(), placed.worldFromNode, out);
+    try {
+        if (const auto* extension = GltfDocument::extension(json, "KHR_lights_punctual"))
+            addPunctual(document, (*extension)["light"].get<size_t>(), placed, options, out);
+        if (const auto* extension = GltfDocument::extension(json, "KHR_lights_area"))
+            addArea(document, (*extension)["light"].get<size_t>(), placed.worldFromNode, out);
+    } catch (const SceneError& error) {
+        document.warnInstead(error, "the light is left out");
+    }
 }
 
 } // namespace candelabra::app

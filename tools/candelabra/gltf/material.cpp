@@ -308,10 +308,12 @@ void MaterialReader::readDielectric(const nlohmann::json& json, Material& materi
 {
     double f0 = 0.04;
     if (const auto* extension = GltfDocument::extension(json, "KHR_materials_ior")) {
-        const double n = numberOr(*extension, "ior", 1.5);
-        if (n != 0 && n < 1)
-            document_.fail(element_ + ".extensions.KHR_materials_ior.ior",
-                           "must be 0 or >= 1, is " + std::to_string(n));
+        double n = numberOr(*extension, "ior", 1.5);
+        if (n != 0 && n < 1) {
+            document_.warn(element_ + ".extensions.KHR_materials_ior.ior",
+                           "must be 0 or >= 1, is " + std::to_string(n) + "; 1.5 is used");
+            n = 1.5;
+        }
         f0 = n == 0 ? 1 : std::pow((n - 1) / (n + 1), 2);
     }
     material.dielectricF0 = glm::vec3(static_cast<float>(f0));

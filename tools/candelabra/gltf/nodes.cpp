@@ -30,10 +30,6 @@ std::string quotedName(const GltfDocument& document, size_t i)
 [[noreturn]] void refuseSecondParent(const GltfDocument& document, size_t node, size_t first,
                                      size_t second)
 {
-    if (first == second)
-        document.fail(nodeName(node), "is listed twice among the children of " +
-                                          quotedName(document, first) +
-                                          "; list it once, or copy the node");
     document.fail(nodeName(node), "has two parents, " + quotedName(document, first) + " and " +
                                       quotedName(document, second) +
                                       ", but glTF allows one: give each of them a copy of " +
@@ -71,37 +67,68 @@ void refuseCycles(const GltfDocument& document, const std::vector<int>& parents)
         }
 }
 
-std::vector<size_t> nodesWithoutParent(const std::vector<int>& parents)
+std::vector<GltfPlacedNode> nodesWithoutParent(const std::vector<int>& parents)
 {
-    std::vector<size_t> roots;
+    std::vector<GltfPlacedNode> roots;
     for (size_t i = 0; i < parents.size(); ++i)
         if (parents[i] == noParent)
-            roots.push_back(i);
+            roots.push_back({i, glm::dmat4(1), {}});
     return roots;
 }
 
-// The roots of the scene that is drawn.
-std::vector<size_t> findRoots(const GltfDocument& document, const std::vector<int>& parents)
+// Returns for each node whether one of these nodes is above it.
+std::vector<bool> findNodesBelow(const GltfDocument& document, std::vector<int> nodes)
+{
+    std::vector<bool> below(document.model.nodes.size());
+    while (!nodes.empty()) {
+        const int node = nodes.back();
+        nodes.pop_back();
+        for (const int child : document.model.nodes[static_cast<size_t>(node)].children)
+            if (!below[static_cast<size_t>(child)]) {
+                below[static_cast<size_t>(child)] = true;
+                nodes.push_back(child);
+            }
+    }
+    return below;
+}
+
+// Returns the roots of the scene that is drawn. worldFromNode is the transform of what is above
+// them: none, but for broken files that list nodes that have parents.
+std::vector<GltfPlacedNode> findRoots(const GltfDocument& document, const std::vector<int>& parents)
 {
     if (document.model.scenes.empty()) {
         if (!parents.empty())
             document.warn("", "has no scene; all its nodes are used");
         return nodesWithoutParent(parents);
     }
-    std::vector<size_t> roots;
     const auto index = static_cast<size_t>(std::max(document.model.defaultScene, 0));
+    const std::string scene = gltfElement("scenes", index);
     if (const size_t scenes = document.model.scenes.size(); scenes > 1)
-        document.warn("", "has " + std::to_string(scenes) + " scenes, of which only " +
-                              gltfElement("scenes", index) + " is drawn");
-    std::vector<bool> listed(parents.size(), false);
-    for (const int root : document.model.scenes[index].nodes) {
+        document.warn("", "has " + std::to_string(scenes) + " scenes, of which only " + scene +
+                              " is drawn");
+    const std::vector<int>& listed = document.model.scenes[index].nodes;
+    const std::vector<bool> below = findNodesBelow(document, listed);
+    std::vector<GltfPlacedNode> roots;
+    std::vector<glm::dmat4> worldFromNodes;
+    for (const int root : listed) {
         const auto i = static_cast<size_t>(root);
-        if (parents[i] != noParent)
-            document.fail(gltfElement("scenes", index), nodeName(i) + " is not a root node");
-        if (listed[i])
-            document.fail(gltfElement("scenes", index), nodeName(i) + " is listed twice");
-        listed[i] = true;
-        roots.push_back(i);
+        glm::dmat4 worldFromParent(1);
+        if (below[i]) {
+            document.warn(nodeName(i), "is listed as a root of " + scene +
+                                           " and is below another node of it; it is drawn once, "
+                                           "there");
+            continue;
+        }
+        if (parents[i] != noParent) {
+            document.warn(nodeName(i), "is listed as a root of " + scene + " and is a child of " +
+                                           nodeName(static_cast<size_t>(parents[i])) +
+                                           ", which the scene lacks; it is drawn where that node "
+                                           "puts it");
+            if (worldFromNodes.empty())
+                worldFromNodes = gltfWorldTransforms(document);
+            worldFromParent = worldFromNodes[static_cast<size_t>(parents[i])];
+        }
+        roots.push_back({i, worldFromParent, {}});
     }
     return roots;
 }
@@ -126,14 +153,12 @@ glm::dmat4 localTransform(const GltfDocument& document, size_t index)
 
 // Places these nodes and all below them, parents before children.
 std::vector<GltfPlacedNode> placeFrom(const GltfDocument& document,
-                                      const std::vector<size_t>& roots)
+                                      const std::vector<GltfPlacedNode>& roots)
 {
     std::vector<GltfPlacedNode> placed;
     // A stack and not recursion, because chains of nodes can be long. Here worldFromNode is still
     // the transform of the parent.
-    std::vector<GltfPlacedNode> open;
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        open.push_back({*root, glm::dmat4(1), {}});
+    std::vector<GltfPlacedNode> open(roots.rbegin(), roots.rend());
     while (!open.empty()) {
         GltfPlacedNode current = open.back();
         open.pop_back();
@@ -155,9 +180,10 @@ glm::dmat4 gltfMatrix(const GltfDocument& document, const std::string& rotation,
 {
     const glm::dvec4& r = transform.rotation;
     const glm::dquat q(r.w, r.x, r.y, r.z);
-    if (!(glm::length(q) > 1e-6))
-        document.fail(rotation, "must not be zero");
-    glm::dmat4 m = glm::mat4_cast(glm::normalize(q));
+    const bool isZero = !(glm::length(q) > 1e-6);
+    if (isZero)
+        document.warn(rotation, "is 0, 0, 0, 0; no rotation is used");
+    glm::dmat4 m = isZero ? glm::dmat4(1) : glm::mat4_cast(glm::normalize(q));
     for (int i = 0; i < 3; ++i)
         m[i] *= transform.scale[i];
     m[3] = glm::dvec4(transform.translation, 1);

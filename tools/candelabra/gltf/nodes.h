@@ -22,12 +22,12 @@ struct GltfPlacedNode {
 
 struct GltfTransform {
     glm::dvec3 translation{0};
-    glm::dvec4 rotation{0, 0, 0, 1}; // quaternion x, y, z, w, of any length but 0
+    glm::dvec4 rotation{0, 0, 0, 1}; // quaternion x, y, z, w, of any length
     glm::dvec3 scale{1};
 };
 
-// Returns the matrix that scales, then rotates, then translates. Fails, with a message that names
-// `rotation`, if the quaternion is zero.
+// Returns the matrix that scales, then rotates, then translates. A quaternion that is zero does not
+// rotate, with a warning that names `rotation`.
 glm::dmat4 gltfMatrix(const GltfDocument& document, const std::string& rotation,
                       const GltfTransform& transform);
 
@@ -40,8 +40,9 @@ void refuseHugeTransform(const GltfDocument& document, const std::string& elemen
 
 // Returns the nodes of the default scene, parents before children, in the order of the file.
 // Without a default scene they are those of scene 0, and without any scene all root nodes and their
-// children, with a warning. Fails for nodes with two parents, cycles, scenes that list a node twice
-// or a node that is not a root, and transforms that are not affine, not finite, or exceed 1e12 m.
+// children, with a warning. Nodes that a scene lists although they have a parent are drawn once,
+// where their parents put them, with a warning. Fails for nodes with two parents, cycles, and
+// transforms that are not affine, not finite, or exceed 1e12 m.
 std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document);
 
 // Returns worldFromNode of all nodes of the file, also of those that are in no scene, such as

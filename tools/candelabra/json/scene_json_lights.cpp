@@ -8,9 +8,13 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "scene/cone.h"
 #include "scene/light_placement.h"
 #include "scene/light_types.h"
 #include "scene/scene_file.h"
+#include "scene/warnings.h"
 
 namespace candelabra::app
 {
@@ -97,7 +101,7 @@ void readCorners(const JsonValue& value, CndLight& light, glm::dvec3& position, 
 // Reads what a key says of a light. `light` has what the keys before it said; `position` is that of
 // the light, or the start of its segment.
 void readKey(const JsonValue& value, LightKeyMeaning meaning, CndLight& light, glm::dvec3& position,
-             Scene& scene)
+             Scene& scene, LoadWarnings& warnings)
 {
     switch (meaning) {
     case LightKeyMeaning::Position:
@@ -135,18 +139,19 @@ void readKey(const JsonValue& value, LightKeyMeaning meaning, CndLight& light, g
     case LightKeyMeaning::InnerCone:
         light.innerConeAngle = static_cast<float>(value.number({0, 90}) * pi / 180);
         return;
-    case LightKeyMeaning::OuterCone:
-        light.outerConeAngle =
-            std::min(static_cast<float>(value.number(NumberRange::positive(90)) * pi / 180),
-                     std::nextafter(static_cast<float>(pi / 2), 0.0f));
-        // The lighting module requires the same, because float cosines cannot resolve smaller
-        // differences.
-        if (!(std::cos(static_cast<double>(light.innerConeAngle)) -
-                  std::cos(static_cast<double>(light.outerConeAngle)) >=
-              1e-6))
-            value.fail("must be greater than inner_cone_degrees: their cosines must differ by "
-                       "1e-6");
+    case LightKeyMeaning::OuterCone: {
+        const double outer = value.number(NumberRange::positive(90));
+        const double inner = double{light.innerConeAngle} * 180 / pi;
+        if (!setCone(double{light.innerConeAngle}, outer * pi / 180, light))
+            warnings.add(value.path(),
+                         fmt::format("must be greater than inner_cone_degrees, {:g}, by at least "
+                                     "{:.2g}, is {:g}; the cone from {:.8g} to {:.8g} degrees is "
+                                     "used",
+                                     inner, double{CND_MIN_CONE_EDGE} * 180 / pi, outer,
+                                     double{light.innerConeAngle} * 180 / pi,
+                                     double{light.outerConeAngle} * 180 / pi));
         return;
+    }
     case LightKeyMeaning::TwoSided:
         light.twoSided = value.boolean() ? VK_TRUE : VK_FALSE;
         return;
@@ -214,7 +219,8 @@ void readEmission(const JsonValue& json, CndLight& light)
             value.fail("needs an emission beyond single precision for so small a light");
 }
 
-CndLight readLight(const JsonValue& json, glm::dvec3& position, Scene& scene)
+CndLight readLight(const JsonValue& json, glm::dvec3& position, Scene& scene,
+                   LoadWarnings& warnings)
 {
     CndLight light = {};
     light.type = typeOf(json);
@@ -222,7 +228,7 @@ CndLight readLight(const JsonValue& json, glm::dvec3& position, Scene& scene)
     for (const LightKey& key : lightTypeInfo(light.type).keys) {
         const bool optional = key.meaning == LightKeyMeaning::TwoSided;
         if (!optional || json.find(key.name))
-            readKey(json.member(key.name), key.meaning, light, position, scene);
+            readKey(json.member(key.name), key.meaning, light, position, scene, warnings);
     }
     if (const auto layers = json.find("layers"))
         light.layers = readLayers(*layers);
@@ -248,9 +254,12 @@ void readSceneLights(const JsonValue& list, Scene& scene)
 {
     list.requireArray();
     std::vector<glm::dvec3> positions(list.size());
+    LoadWarnings warnings;
     for (size_t i = 0; i < list.size(); ++i)
-        scene.lights.push_back(readLight(list.item(i), positions[i], scene));
+        scene.lights.push_back(readLight(list.item(i), positions[i], scene, warnings));
     placeLights(scene, positions);
+    for (std::string& sentence : warnings.sentences(list.file()))
+        scene.warnings.push_back(std::move(sentence));
 }
 
 } // namespace candelabra::app

@@ -2,6 +2,7 @@
 #include "scene/json_value.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "scene/scene_file.h"
@@ -118,6 +119,12 @@ int64_t JsonValue::integer(int64_t min, int64_t max) const
 {
     const std::string wanted =
         "an integer between " + std::to_string(min) + " and " + std::to_string(max);
+    if (value_->is_number_float()) { // JSON does not tell 2.0 from 2
+        const double x = value_->get<double>();
+        if (x != std::floor(x) || x < double(min) || x > double(max))
+            failType(wanted);
+        return static_cast<int64_t>(x);
+    }
     if (!value_->is_number_integer())
         failType(wanted);
     // Unsigned numbers beyond int64 would wrap in get<int64_t>().

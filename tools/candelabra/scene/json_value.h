@@ -39,6 +39,7 @@ public:
     JsonValue(const std::string& file, const nlohmann::json& value, std::string path = "");
 
     const nlohmann::json& json() const { return *value_; }
+    const std::string& file() const { return *file_; }
     const std::string& path() const { return path_; }
     [[noreturn]] void fail(const std::string& reason) const;
 

@@ -67,17 +67,52 @@ int jsonDepth(std::string_view text)
     return deepest;
 }
 
-// Shortens "[json.exception.parse_error.101] parse error at line 1, ..." to "line 1, ...".
-std::string jsonErrorText(const char* what)
+// Says in a sentence what nlohmann::json says in its own words, such as "[json.exception.
+// parse_error.101] parse error at line 1, column 5: syntax error while parsing value - unexpected
+// end of input; expected ...".
+std::string jsonErrorText(const nlohmann::json::exception& error)
 {
-    std::string_view text = what;
-    const size_t bracket = text.find("] ");
-    if (bracket != std::string_view::npos)
-        text.remove_prefix(bracket + 2);
-    for (const std::string_view prefix : {"parse error at ", "parse error: "})
-        if (text.substr(0, prefix.size()) == prefix)
-            text.remove_prefix(prefix.size());
-    return printable(text, 300);
+    const std::string_view said = error.what();
+    const auto has = [&](std::string_view text) { return said.find(text) != text.npos; };
+    constexpr std::string_view overflow = "number overflow parsing ";
+    if (const size_t at = said.find(overflow); at != said.npos)
+        return "the number " + printable(said.substr(at + overflow.size()), 60) + " is too large";
+    const size_t from = said.find("line "), to = said.find(':', from);
+    const std::string place(from == said.npos ? "an unknown place" : said.substr(from, to - from));
+    if (has("unexpected end of input") || has("missing closing quote"))
+        return "it ends too early, at " + place + "; is the file cut short?";
+    if (has("ill-formed UTF-8"))
+        return place + " has bytes that are not UTF-8";
+    for (const std::string_view before : {"last read: ", "unexpected "})
+        if (const size_t at = said.find(before); at != said.npos) {
+            const std::string_view rest = said.substr(at + before.size());
+            return place + " is wrong, at " + printable(rest.substr(0, rest.find(';')), 60);
+        }
+    return place + " is wrong";
+}
+
+// Returns JSON with its NaN, Infinity and -Infinity in quotes. JSON has no such numbers, but some
+// exporters write them: as texts they are values of the wrong type, which messages can name.
+std::string withNonFiniteQuoted(std::string_view text)
+{
+    std::string out;
+    bool inString = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '"')
+            inString = !inString;
+        std::string_view word;
+        for (const std::string_view one : {"NaN", "Infinity", "-Infinity"})
+            if (!inString && text.substr(i).starts_with(one))
+                word = one;
+        if (!word.empty())
+            out.append("\"").append(word).append("\"");
+        else
+            out += text[i];
+        if (inString && text[i] == '\\' && i + 1 < text.size())
+            out += text[i + 1];
+        i += !word.empty() ? word.size() - 1 : inString && text[i] == '\\' ? 1 : 0;
+    }
+    return out;
 }
 
 } // namespace
@@ -155,7 +190,9 @@ nlohmann::json parseSceneJson(const std::string& file, std::string_view text)
     try {
         return nlohmann::json::parse(text.begin(), text.end());
     } catch (const nlohmann::json::exception& e) {
-        failScene(file, "", "is not valid JSON: " + jsonErrorText(e.what()));
+        if (const std::string quoted = withNonFiniteQuoted(text); quoted != text)
+            return parseSceneJson(file, quoted);
+        failScene(file, "", "is not valid JSON: " + jsonErrorText(e));
     }
 }
 

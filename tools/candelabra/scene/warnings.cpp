@@ -1,21 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/warnings.h"
+#include "scene/warnings.h"
+
+#include <algorithm>
+#include <cctype>
 
 #include "scene/scene_file.h"
 
 namespace candelabra::app
 {
 
-void GltfWarnings::add(const std::string& element, const std::string& reason)
+std::string LoadWarnings::withoutValues(const std::string& text)
 {
-    const auto [entry, isNew] = byReason_.try_emplace(reason, warnings_.size());
+    std::string out;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const size_t number = text.find_first_not_of("0123456789.eE+-", i);
+        if (std::isdigit(static_cast<unsigned char>(text[i]))) {
+            i = std::min(number, text.size()) - 1;
+            out += '#';
+        } else if (text[i] == '"' && out.ends_with(", is ")) {
+            i = std::min(text.find('"', i + 1), text.size() - 1);
+        } else if (text[i] != '-') {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
+void LoadWarnings::addOfKind(const std::string& kind, const std::string& element,
+                             const std::string& reason)
+{
+    const auto [entry, isNew] = byKind_.try_emplace(kind, warnings_.size());
     if (isNew)
         warnings_.push_back({element, reason});
-    else
+    else if (warnings_[entry->second].element != element)
         ++warnings_[entry->second].others;
 }
 
-std::vector<std::string> GltfWarnings::sentences(const std::string& file) const
+void LoadWarnings::addInstead(const std::string& file, const SceneError& error,
+                              const std::string& instead)
+{
+    std::string message = error.what();
+    if (const std::string start = printable(file, 4096) + ": "; message.starts_with(start))
+        message.erase(0, start.size());
+    const size_t colon = message.find(": ");
+    const bool hasElement = colon != std::string::npos;
+    add(hasElement ? message.substr(0, colon) : "",
+        (hasElement ? message.substr(colon + 2) : message) + "; " + instead);
+}
+
+std::vector<std::string> LoadWarnings::sentences(const std::string& file) const
 {
     std::vector<std::string> out;
     for (const Warning& w : warnings_) {

@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include "scene/cone.h"
 #include "scene/light_types.h"
 #include "scene/polygons.h"
 
@@ -149,10 +150,8 @@ bool coneWidgets(CndLight& light)
     if (!ImGui::DragFloatRange2("cone", &inner, &outer, 0.2f, 0, 90, "%.1f deg", nullptr,
                                 ImGuiSliderFlags_AlwaysClamp))
         return false;
-    outer = std::max(outer, 1.0f);
-    light.outerConeAngle = glm::radians(outer);
-    // The cosines of the two angles must differ.
-    light.innerConeAngle = glm::radians(std::clamp(inner, 0.0f, outer - 0.5f));
+    outer = std::max(outer, 0.1f);
+    setCone(glm::radians(double(inner)), glm::radians(double(outer)), light);
     return true;
 }
 
