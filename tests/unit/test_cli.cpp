@@ -12,6 +12,7 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
+#include "commands/messages.h"
 #include "commands/options.h"
 #include "generate/generators.h"
 #include "harness/run_program.h"
@@ -62,7 +63,7 @@ TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)
         {{"render", "hall", "--seed", "1", "--seed", "2"},
          "--seed: is given 2 times, but may be given once"},
         {{"paint"}, "paint"},
-        {{"render"}, "scene"},
+        {{"render"}, "no scene is given"},
         {{"render", "hall"}, "-o"},
         {{"render", "hall", "-o", "x.bmp"}, ".png"},
         {{"render", "hall", "-o", "no/such/dir/x.png"}, "no/such/dir"},
@@ -82,7 +83,7 @@ TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)
         {{"render", "hall", "-o", "x.png", "--culling", "none"}, "clustered"},
         {{"render", "hall", "-o", "x.png", "--gbuffer", "thin"}, "compact"},
         {{"render", "no_such_file.glb", "-o", "x.png"}, "no_such_file.glb"},
-        {{"render", "hall", "extra", "-o", "x.png"}, "extra"},
+        {{"render", "hall", "extra", "-o", "x.png"}, "\"extra\" is not expected here"},
         {{"render", "hall", "-o", "x.png", "--environment", "no_such.hdr"}, "no_such.hdr"},
         {{"render", "hall", "-o", "x.png", "--environment", "sky.png"}, ".hdr"},
         {{"render", "hall", "-o", "x.png", "--environment-rotation", "north"}, "-rotation"},
@@ -123,6 +124,31 @@ TEST(Cli, RefusesInOneSentenceThatNamesTheArgument)
         EXPECT_EQ(outcome.err.rfind("candelabra: ", 0), 0u) << outcome.err;
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
         EXPECT_NE(outcome.err.find(named), std::string::npos) << typed << ": " << outcome.err;
+    }
+}
+
+TEST(Cli, MessagesOfTheParserBecomeSentences)
+{
+    const struct {
+        std::vector<const char*> arguments;
+        const char* sentence;
+    } cases[] = {
+        {{"render"}, "no scene is given"},
+        {{"render", "hall", "extra", "-o", "x.png"}, "\"extra\" is not expected here"},
+        {{"render", "hall", "4", "5", "-o", "x.png"}, "\"4\" and \"5\" are not expected here"},
+        {{"render", "hall", "-o", "x.png", "--explain=no"}, "--explain: takes no value"},
+        {{"truth", "scene.json", "-o", "x.exr", "--no-cache=maybe"}, "--no-cache: takes no value"},
+        {{"profile", "hall", "--ab", "x"}, "--ab: needs 2 values"},
+        {{"profile", "hall", "--ab", "--lights 4", ""}, "\"--lights\" and \"4\" are not expected"},
+        {{"completions"}, "no shell is given"},
+        {{"compare", "a"}, "compare: give results"},
+    };
+    for (const auto& [arguments, sentence] : cases) {
+        const Outcome outcome = runWith(arguments);
+        EXPECT_EQ(outcome.exitCode, exitUsage) << sentence;
+        EXPECT_NE(outcome.err.find(sentence), std::string::npos) << outcome.err;
+        for (const char* word : {"argument", "required", "Could not", "requires"})
+            EXPECT_EQ(outcome.err.find(word), std::string::npos) << outcome.err;
     }
 }
 
@@ -355,6 +381,28 @@ void expectSampleWithinBudget(size_t pixels, size_t imagePixels, uint64_t lights
 } // namespace
 
 // Every pixel is in at most one rectangle, and no rectangle extends outside the image.
+TEST(Messages, AutomaticExposureSaysWhenItReachesAnEnd)
+{
+    CndExposureSettings settings{};
+    cndDefaultExposureSettings(&settings);
+    const auto text = [&](float ev100) {
+        return exposureText(settings, Scene{}, false, {.adaptedEv100 = ev100});
+    };
+    EXPECT_EQ(text(3), "exposed at EV100 3.00 (automatic), middle grey 0.18");
+    EXPECT_NE(text(settings.minEv100)
+                  .find("-6 is the lower limit of automatic exposure, so the picture may be too "
+                        "dark: --compensation EV above 0 or "
+                        "--exposure EV below -6 brightens it"),
+              std::string::npos);
+    EXPECT_NE(text(settings.maxEv100)
+                  .find("18 is the upper limit of automatic exposure, so the picture may be too "
+                        "bright: --compensation EV below 0 "
+                        "or --exposure EV above 18 darkens it"),
+              std::string::npos);
+    settings.manual = VK_TRUE; // as for the studio
+    EXPECT_EQ(text(-6).find("limit"), std::string::npos);
+}
+
 TEST(BruteCheck, RectanglesCoverTheImageOnceOrSampleIt)
 {
     for (const PixelSize size : {PixelSize{1, 1}, {17, 3}, {641, 359}, {1280, 720}})

@@ -6,6 +6,7 @@
 
 #include "load/brightness.h"
 #include "load/studio.h"
+#include "shared/lighting.h"
 #include "unit/gltf_fixture.h"
 
 namespace candelabra::test
@@ -312,12 +313,67 @@ TEST_F(DefaultLight, AddedLightsDoNotStandInFrontOfACamera)
     EXPECT_GT(widest, 1.0 / 300); // the bound is not met because all lights are tiny
 }
 
+// Scene descriptions mean what they say: no studio takes the place of their background, nor of
+// their dark lights.
+TEST_F(DefaultLight, DescriptionsHaveTheirOwnLightOnly)
+{
+    Json json = Json::parse(R"({
+        "camera": {"position": [0, 3, 6], "look_at": [0, 0.5, 0], "up": [0, 1, 0],
+                   "vertical_fov_degrees": 50},
+        "object": {"type": "sphere", "center": [0, 0, 0], "radius": 1},
+        "material": {"albedo": [0.5, 0.5, 0.5], "alpha": 0.5},
+        "lights": [], "background": [5, 6, 7]})");
+    const auto described = [&] {
+        return loadScene(folder_.write("scene.json", json.dump()), {.defaultLight = true});
+    };
+    const Scene background = described();
+    EXPECT_FALSE(background.environment);
+    EXPECT_FALSE(background.knownEv100);
+    EXPECT_TRUE(background.notes.empty());
+    json["background"] = {0, 0, 0};
+    json["lights"] = Json::parse(R"([{"type": "point", "position": [0, 3, 0],
+                                      "intensity": [0, 0, 0]}])");
+    const Scene dark = described();
+    EXPECT_FALSE(dark.environment);
+    EXPECT_TRUE(notes(dark, "has no light, so it is dark; --environment FILE lights it"));
+}
+
+// The engine draws no lobe narrower than alpha 0.002: files with a narrower one get one warning.
+TEST_F(DefaultLight, LobesThatAreTooNarrowAreAWarning)
+{
+    const auto warnings = [&](std::vector<double> roughness, const Json& extra = Json::object()) {
+        GltfBuilder b = triangleScene();
+        for (size_t i = 0; i < roughness.size(); ++i) {
+            Json material{{"pbrMetallicRoughness", {{"roughnessFactor", roughness[i]}}}};
+            material.update(extra);
+            b.json["materials"].push_back(material);
+            const int mesh = b.mesh(b.json["meshes"][0]["primitives"][0]);
+            b.json["meshes"][size_t(mesh)]["primitives"][0]["material"] = i;
+            b.rootNode({{"mesh", mesh}});
+        }
+        std::vector<std::string> out = load(b, {.defaultLight = true}).warnings;
+        return out;
+    };
+    const auto narrow = warnings({0.5, 0.01, 0, 0.03});
+    ASSERT_EQ(narrow.size(), 1u);
+    EXPECT_NE(narrow[0].find("scene.gltf: material 1 (and 2 others): alpha, the square of its "
+                             "roughness, is 0.0001; render uses 0.002"),
+              std::string::npos)
+        << narrow[0];
+    EXPECT_TRUE(warnings({std::sqrt(0.002), 1}).empty());
+    EXPECT_EQ(CND_MIN_ALPHA, gpu::MIN_ALPHA);
+    EXPECT_TRUE(
+        warnings({0.0}, {{"extensions", {{"KHR_materials_unlit", Json::object()}}}}).empty());
+}
+
 TEST_F(DefaultLight, ScenesWithoutAnythingToSeeAreRefused)
 {
     EXPECT_NO_THROW(requireSomethingToDraw(load(triangleScene()), "a"));
     GltfBuilder empty;
     empty.rootNode({{"name", "nothing"}});
     const Scene scene = load(empty, {.defaultLight = true});
+    EXPECT_FALSE(scene.environment);
+    EXPECT_TRUE(scene.notes.empty()); // nothing says that a studio lights it
     try {
         requireSomethingToDraw(scene, "void.glb");
         ADD_FAILURE();

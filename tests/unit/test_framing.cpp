@@ -21,8 +21,9 @@ using namespace candelabra::app;
 
 using Framing = GltfTest;
 
-// Adds a box of the given size as a mesh, with fronts outside or inside, and returns its index.
-int addBox(GltfBuilder& builder, const glm::vec3& size, bool inward)
+// Adds a box of the given size as a mesh, with fronts outside or inside, and returns its index. The
+// faces are +x, -x, +y, -y, +z and -z; the face `open` is left out.
+int addBox(GltfBuilder& builder, const glm::vec3& size, bool inward, int open = -1)
 {
     std::vector<float> positions;
     for (int corner = 0; corner < 8; ++corner)
@@ -34,6 +35,8 @@ int addBox(GltfBuilder& builder, const glm::vec3& size, bool inward)
     if (inward)
         for (size_t i = 0; i < indices.size(); i += 3)
             std::swap(indices[i], indices[i + 1]);
+    if (open >= 0)
+        indices.erase(indices.begin() + 6 * open, indices.begin() + 6 * (open + 1));
     const int position = builder.floats(positions, "VEC3"), index = builder.indices(indices);
     return builder.mesh({{"attributes", {{"POSITION", position}}}, {"indices", index}});
 }
@@ -175,6 +178,23 @@ TEST_F(Framing, RoomsAreSeenFromInside)
         EXPECT_LT(glm::dot(glm::dvec3(p.x, 0, p.z), camera.forward), -1);
     }
     EXPECT_LE(glm::dot(scene.cameras[0].forward, scene.cameras[1].forward), 0.1);
+}
+
+TEST_F(Framing, OpenRoomsAreSeenThroughTheirOpening)
+{
+    const glm::dvec3 outward[] = {{1, 0, 0}, {-1, 0, 0}, {}, {}, {0, 0, 1}, {0, 0, -1}};
+    for (const int open : {0, 1, 4, 5}) {
+        GltfBuilder room;
+        room.rootNode({{"mesh", addBox(room, {6, 5, 6}, true, open)}});
+        room.rootNode({{"mesh", addBox(room, {1, 2, 1}, false)}, {"translation", {1, -1.5, 0.5}}});
+        const Scene scene = load(room);
+        EXPECT_TRUE(scene.interior);
+        const Camera& camera = scene.cameras.at(scene.defaultCamera);
+        EXPECT_EQ(camera.name, "open-side");
+        EXPECT_GT(glm::dot(camera.position, outward[open]), 3) << open;
+        EXPECT_LT(glm::dot(camera.forward, outward[open]), -0.99) << open;
+        EXPECT_EQ(scene.cameras.at(1).name, "inside");
+    }
 }
 
 // A closed box is an object, and so is a house whose walls have two sides.

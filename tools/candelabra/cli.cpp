@@ -16,6 +16,7 @@
 #include <spdlog/spdlog.h>
 
 #include "commands/commands.h"
+#include "commands/parser_messages.h"
 #include "io/error.h"
 #include "io/report.h"
 #include "io/suggestion.h"
@@ -157,21 +158,6 @@ std::string optionSentence(const Named& named, int argc, const char* const* argv
     return "";
 }
 
-// Returns the parser's message, or a sentence in its place if it is about the number of values of
-// an option: "--lights: 1 required N missing" or "--seed: At Most 1 required but received 2".
-std::string parserSentence(const CLI::ParseError& error)
-{
-    const std::string said = error.what();
-    const std::string option = said.substr(0, said.find(':'));
-    constexpr std::string_view repeated = ": At Most 1 required but received ";
-    if (said.starts_with(option + std::string(repeated)))
-        return fmt::format("{}: is given {} times, but may be given once", option,
-                           said.substr(option.size() + repeated.size()));
-    if (said.starts_with(option + ": 1 required ") && said.ends_with(" missing"))
-        return option + ": its value is missing";
-    return said;
-}
-
 // Returns the error message for a command line that cannot be parsed.
 std::string parseSentence(const CLI::App& app, int argc, const char* const* argv,
                           const CLI::ParseError& error)
@@ -181,23 +167,31 @@ std::string parseSentence(const CLI::App& app, int argc, const char* const* argv
         return command;
     if (const std::string option = optionSentence(named, argc, argv, error); !option.empty())
         return option;
-    return parserSentence(error) + seeHelp(named);
+    return parserSentence(app, error) + seeHelp(named);
 }
 
-// Refuses "--option=" and empty values. With "--camera= -o x.png" the parser would take "-o" for
-// the camera, and some options take an empty text for "not given".
-void refuseAssignmentsOfNothing(int argc, const char* const* argv)
+// Refuses "--option=", and values of options that take none: with "--camera= -o x.png" the parser
+// would take "-o" for the camera, and with "--explain=no" it would ignore the value.
+void refuseWrongAssignments(const CLI::App& app, int argc, const char* const* argv)
 {
+    const Named named = namedCommands(app, argc, argv);
     for (int i = 1; i < argc; ++i) {
         const std::string argument = argv[i];
         if (argument == "--")
             return;
+        if (const size_t equals = argument.find('='); equals != std::string::npos)
+            for (const CLI::App* command : named.path)
+                if (const CLI::Option* option =
+                        command->get_option_no_throw(argument.substr(0, equals));
+                    option && option->get_items_expected_max() == 0)
+                    throw UsageError(argument.substr(0, equals) + ": takes no value");
         if (argument.size() > 3 && argument.starts_with("--") &&
             argument.find('=') == argument.size() - 1)
             throw UsageError(argument + ": its value is missing");
     }
 }
 
+// Refuses empty values, because some options take an empty text for "not given".
 void refuseEmptyValues(const CLI::App& app)
 {
     for (const CLI::App* command : app.get_subcommands())
@@ -242,7 +236,7 @@ int parseAndRun(int typedCount, const char* const* typed)
     addDevicesCommand(app, run);
     addExamplesCommand(app, run);
     addManualCommands(app, run);
-    refuseAssignmentsOfNothing(argc, argv);
+    refuseWrongAssignments(app, argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) { // --help, --version

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "render/vulkan_context.h"
 #include "scene/scene.h"
@@ -12,6 +13,11 @@ namespace candelabra::app
 
 // Logs the warnings of the scene's loader, at most ten of them.
 void logWarnings(const Scene& scene);
+
+// Says with which exposure a frame was drawn, and what helps if automatic exposure has reached an
+// end of its range. `given` tells whether --exposure has set the EV100.
+std::string exposureText(const CndExposureSettings& settings, const Scene& scene, bool given,
+                         const CndExposureStats& stats);
 
 // Prints the validation messages collected so far on stderr and returns how many there were.
 size_t printValidationMessages(const VulkanContext& context);

@@ -190,7 +190,7 @@ void SceneArguments::addDefaultLightTo(CLI::App& command)
     defaultLight = "on";
     addChoice(command, "--default-light", defaultLight, onOffChoices,
               "light a scene that has no light of its own by a studio: a soft grey sky with a key "
-              "light");
+              "light; scene descriptions (.json) mean what they say and get none");
 }
 
 void SceneArguments::addLightsTo(CLI::App& command)

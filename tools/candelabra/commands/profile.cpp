@@ -10,6 +10,7 @@
 
 #include "commands/commands.h"
 #include "commands/messages.h"
+#include "commands/parser_messages.h"
 #include "io/error.h"
 #include "io/progress.h"
 #include "io/statistics.h"
@@ -67,13 +68,13 @@ FrameOptions variant(const FrameArguments& base, const std::string& text)
     frame.addCullingTo(app);
     frame.addInfluenceTo(app);
     frame.specular = base.specular;
-    const auto refuse = [&](const char* why) {
+    const auto refuse = [&](const std::string& why) {
         throw UsageError(fmt::format("--ab \"{}\": {}", text, why));
     };
     try {
         app.parse(text, false);
     } catch (const CLI::ParseError& error) {
-        refuse(error.what());
+        refuse(parserSentence(app, error));
     }
     if (frame.size != base.size || frame.camera != base.camera || frame.gbuffer != base.gbuffer ||
         frame.lightsVisible != base.lightsVisible)

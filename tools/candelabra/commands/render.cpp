@@ -301,21 +301,6 @@ void writePictures(const RenderArguments& a, const RenderPlan& p, size_t drawn,
         }
 }
 
-// `given` tells whether --exposure has set the EV100.
-std::string exposureText(const CndExposureSettings& settings, const Scene& scene, bool given,
-                         const CndExposureStats& stats)
-{
-    std::string out = fmt::format("exposed at EV100 {:.2f} ({})", stats.adaptedEv100,
-                                  given              ? "as given"
-                                  : scene.knownEv100 ? "for the light of the studio"
-                                                     : "automatic");
-    if (scene.exposureCompensation != 0)
-        out += fmt::format(", {:+g} EV of the scene", scene.exposureCompensation);
-    if (settings.compensation != 0)
-        out += fmt::format(", {:+g} EV by --compensation", settings.compensation);
-    return out + fmt::format(", middle grey {:g}", settings.middleGrey);
-}
-
 int render(const ProgramContext& program, const RenderArguments& a)
 {
     RenderPlan p = plan(a);

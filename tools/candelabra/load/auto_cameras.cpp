@@ -100,6 +100,25 @@ bool showsBacksOutside(const Scene& scene)
     return backs > fronts;
 }
 
+// Returns the horizontal direction in which one looks into a room through a side that is open, and
+// sees hardly any backs of surfaces; nothing if all sides are closed.
+std::optional<glm::dvec3> intoOpenSide(const Scene& scene)
+{
+    constexpr double leastFronts = 0.9; // of all that is seen
+    std::vector<glm::dvec3> directions;
+    for (int i = 0; i < 8; ++i)
+        directions.push_back(towards(i * pi / 4, 0));
+    const std::vector<OutsideView> seen =
+        seenFromOutside(scene, directions, mostTrianglesOutside / 4);
+    std::optional<size_t> best;
+    for (size_t i = 0; i < seen.size(); ++i)
+        if (seen[i].fronts > 0 &&
+            seen[i].fronts >= leastFronts * (seen[i].fronts + seen[i].backs) &&
+            (!best || seen[i].fronts > seen[*best].fronts))
+            best = i;
+    return best ? std::optional(directions[*best]) : std::nullopt;
+}
+
 constexpr int headings = 24; // horizontal rays around a standpoint
 constexpr int viewHalf = 3;  // rays to either side of a view's middle: 90 degrees in all
 
@@ -202,7 +221,7 @@ Camera roomCamera(const std::string& name, const RoomView& view)
     return camera;
 }
 
-void addRoomCameras(Scene& scene)
+void addRoomCameras(Scene& scene, double aspect)
 {
     if (!showsBacksOutside(scene))
         return;
@@ -211,6 +230,9 @@ void addRoomCameras(Scene& scene)
     if (!(first.depth > 0))
         return;
     scene.interior = true;
+    if (const auto direction = intoOpenSide(scene))
+        scene.cameras.push_back(fitCamera(scene, {0, scene.instances.size()},
+                                          cameraLooking("open-side", *direction, roomFov), aspect));
     scene.cameras.push_back(roomCamera("inside", first));
     const RoomView second = deepestView(standpoints, first.heading);
     if (second.depth > 0)
@@ -282,7 +304,7 @@ void addAutomaticCameras(Scene& scene, double aspect)
             cameraLooking("three-quarter", towards(threeQuarter, 0.35), objectFov), aspect));
         return;
     }
-    addRoomCameras(scene);
+    addRoomCameras(scene, aspect);
     addObjectCameras(scene, aspect);
     chooseDefaultCamera(scene, own, aspect);
 }

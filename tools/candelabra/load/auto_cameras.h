@@ -20,6 +20,7 @@ constexpr size_t mostPointsTried = size_t{1} << 25;
 // instance of a plane that shows its back there.
 //
 // Of a room, which shows mostly backs of its surfaces from outside and mostly fronts from inside:
+// "open-side", which looks in from outside, if the room is open to one side;
 // "inside" and "inside-2", at the height of eyes, with the widest views that were found; then the
 // cameras above. Scene::interior becomes true.
 //

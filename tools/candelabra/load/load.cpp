@@ -12,6 +12,7 @@
 #include "io/suggestion.h"
 #include "load/auto_cameras.h"
 #include "load/brightness.h"
+#include "load/depth_range.h"
 #include "load/studio.h"
 #include "scene/file_kind.h"
 #include "scene/scene_error.h"
@@ -142,6 +143,62 @@ bool outshinesStudio(const Scene& scene, float white)
                        });
 }
 
+bool hasSomethingToDraw(const Scene& scene)
+{
+    return !scene.instances.empty() || !scene.analyticObjects.empty() ||
+           std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [](const CndLight& light) { return !cndIsPunctual(light.type); });
+}
+
+// Lights a scene without light by a studio.
+void addStudio(Scene& scene)
+{
+    const float white = studioWhite(scene);
+    scene.environment = studioEnvironment(scene.cameras[scene.defaultCamera], white);
+    scene.exposureCompensation = 0;
+    if (!outshinesStudio(scene, white))
+        scene.knownEv100 = studioEv100(white);
+    scene.notes.push_back(scene.name + " has no light, so a studio lights it (" +
+                          rounded(groundIlluminance(*scene.environment)) +
+                          " lx on level ground); --default-light off turns it off");
+}
+
+// Warns of highlights that are narrower than the engine draws them. Textures are left out of
+// account: they may make surfaces smoother than their material says.
+void warnOfNarrowLobes(const std::string& file, Scene& scene)
+{
+    std::vector<bool> used(scene.materials.size());
+    for (const Instance& instance : scene.instances)
+        used[instance.material] = true;
+    for (const AnalyticObject& object : scene.analyticObjects)
+        used[object.material] = true;
+    const auto alphaOf = [](const Material& m) {
+        return m.perceptualRoughness * m.perceptualRoughness;
+    };
+    std::optional<size_t> first;
+    size_t others = 0;
+    for (size_t i = 0; i < used.size(); ++i) {
+        const Material& m = scene.materials[i];
+        const bool hasLobe =
+            m.specularWeight > 0 || m.metalness > 0 || m.dielectricF0 != glm::vec3(0);
+        // The square of the root of 0.002 may be a little less.
+        if (!used[i] || m.unlit || !hasLobe || alphaOf(m) >= CND_MIN_ALPHA * (1 - 1e-6f))
+            continue;
+        others += first.has_value();
+        first = first.value_or(i);
+    }
+    if (!first)
+        return;
+    const Material& m = scene.materials[*first];
+    scene.warnings.push_back(fmt::format(
+        "{}: material {}{}: alpha, the square of its roughness, is {:.3g}; render uses {:g}, the "
+        "width of its narrowest highlights, and truth at least 1e-4",
+        printable(file, 4096),
+        m.name.empty() ? std::to_string(*first) : '"' + printable(m.name, 60) + '"',
+        others ? fmt::format(" (and {} {})", others, others == 1 ? "other" : "others") : "",
+        alphaOf(m), CND_MIN_ALPHA));
+}
+
 } // namespace
 
 Scene loadScene(const std::string& scene, const SceneOptions& options)
@@ -152,18 +209,18 @@ Scene loadScene(const std::string& scene, const SceneOptions& options)
     if (!options.environment.empty())
         environment = loadEnvironment(options);
     Scene out = loadWithLights(scene, std::move(environment), options);
-    if (options.defaultLight && !isLit(out)) {
-        const float white = studioWhite(out);
-        out.environment = studioEnvironment(out.cameras[out.defaultCamera], white);
-        out.exposureCompensation = 0;
-        if (!outshinesStudio(out, white))
-            out.knownEv100 = studioEv100(white);
-        out.notes.push_back(out.name + " has no light, so a studio lights it (" +
-                            rounded(groundIlluminance(*out.environment)) +
-                            " lx on level ground); --default-light off turns it off");
+    if (options.defaultLight && !isLit(out) && hasSomethingToDraw(out)) {
+        // Scene descriptions mean what they say: without light, they are dark.
+        if (isBuiltIn(scene) || isGltf(scene))
+            addStudio(out);
+        else if (out.background == glm::vec3(0))
+            out.notes.push_back(out.name + " has no light, so it is dark; --environment FILE "
+                                           "lights it");
     } else if (out.environment) {
         describeEnvironment(out);
     }
+    fitDepthRanges(out);
+    warnOfNarrowLobes(scene, out);
     out.lobes = options.lobes.value_or(out.lobes);
     out.energyCompensation = options.energyCompensation.value_or(out.energyCompensation);
     return out;
@@ -171,9 +228,7 @@ Scene loadScene(const std::string& scene, const SceneOptions& options)
 
 void requireSomethingToDraw(const Scene& scene, const std::string& name)
 {
-    const auto isEmitter = [](const CndLight& light) { return !cndIsPunctual(light.type); };
-    if (scene.instances.empty() && scene.analyticObjects.empty() &&
-        std::none_of(scene.lights.begin(), scene.lights.end(), isEmitter))
+    if (!hasSomethingToDraw(scene))
         throw SceneError(name + ": nothing to draw: there is no surface in it that the program can "
                                 "draw, and no light that can be seen");
 }
