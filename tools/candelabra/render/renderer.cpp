@@ -288,7 +288,13 @@ void Renderer::State::createSized()
     display = {};
     targets = gbuffer::createTargets(device, options.gbufferLayout, width, height);
     display = createDisplay(device, options.size);
-    view = take(lighting.createView({.maxWidth = width, .maxHeight = height}));
+    // 64 MiB, the default of the library, are 32 bytes for each of 1920x1080 pixels. Larger images
+    // have more lists, and clusters without room for one take much longer.
+    const VkDeviceSize lists = std::max<VkDeviceSize>(64 << 20, 32ull * width * height);
+    view = take(lighting.createView(
+        {.maxWidth = width,
+         .maxHeight = height,
+         .listBudget = std::min<VkDeviceSize>(lists, device.limits.maxStorageBufferRange)}));
 }
 
 Renderer::Renderer(const VulkanContext& context, const Scene& scene, const RendererOptions& options)
