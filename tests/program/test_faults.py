@@ -141,6 +141,7 @@ BAD_OF = {
     ("view", "--frames"): COUNTS, ("bench skip", "--scene"): ["village", "a.glb"],
     ("bench accuracy", "--scene"): ["no_such.glb"], ("compare", "--a"): None, ("compare", "--b"): None,
     ("bench culling", "--lights"): [*COUNTS, "0", "1,,2"], ("bench culling", "--size"): [*SIZES, "8x8,"],
+    ("bench host", "--lights"): [*COUNTS, "0", "1,,2"],
     ("bench lanes", "--lights"): [*COUNTS, "0", "1,,2"], ("bench lanes", "--overlaps"): COUNTS,
     ("bench pipelines", "--kernels"): None,  # tests/program/test_null_device.py
     ("bench culling", "--overlaps"): COUNTS, ("stress", "--lights"): [*COUNTS, "5,5", "5,,6"],
@@ -157,6 +158,7 @@ BASE = {
     "truth": ["truth", "scene.json", "--size=4x4", "--no-cache", "--output=x.exr"],
     "bench accuracy": ["bench", "accuracy", "--groups=10", "--size=8x8", "--out=o", "-q"],
     "bench culling": ["bench", "culling", "--scenes=hall", "--lights=5", "--size=8x8", "--out=o"],
+    "bench host": ["bench", "host", "--lights=5", "--rounds=1"],
     "bench lanes": ["bench", "lanes", "--scenes=hall", "--lights=5", "--size=8x8"],
     "bench pipelines": ["bench", "pipelines"],
     "bench skip": ["bench", "skip", "--lights=5", "--size=8x8", "--out=o"],

@@ -94,6 +94,8 @@ ROOMS = [
                                             "tools/candelabra/scene", "tools/candelabra/io", PUBLIC, "engine/gpu",
                                             "engine/gbuffer", "shaders/shared/lighting.h",
                                             "shaders/shared/raster.h"]),
+    ("tools/candelabra/measure/host", ["tools/candelabra/render", "tools/candelabra/load", "tools/candelabra/scene",
+                                       "tools/candelabra/io", PUBLIC, "shaders/shared/lighting.h"]),
     ("tools/candelabra/measure/lanes", ["tools/candelabra/render", "tools/candelabra/load", "tools/candelabra/scene",
                                         "tools/candelabra/io", PUBLIC, "engine/gpu", "shaders/shared/lane_counts.h",
                                         "shaders/shared/light_types.h", "candelabra_shaders.h",

@@ -41,11 +41,13 @@ std::string benchOutput(const std::string& directory, const std::string& option,
 
 void addBenchCommand(CLI::App& app, Run& run)
 {
-    CLI::App* bench = app.add_subcommand(
-        "bench", "Measure accuracy, stability, culling, skips, compiled code and the use of lanes");
+    CLI::App* bench =
+        app.add_subcommand("bench", "Measure accuracy, stability, culling, skips, CPU time of "
+                                    "lights, compiled code and the use of lanes");
     bench->require_subcommand(1);
     addBenchAccuracy(*bench, run);
     addBenchCulling(*bench, run);
+    addBenchHost(*bench, run);
     addBenchLanes(*bench, run);
     addBenchPipelines(*bench, run);
     addBenchSkip(*bench, run);
