@@ -108,25 +108,29 @@ Emitters::Buffers Emitters::createBuffers(VkDeviceSize bytes) const
 
 void Emitters::set(std::span<const CndLight> lights, const double origin[3])
 {
-    std::vector<gpu::EmitterRecord> records;
-    records.reserve(lights.size());
-    std::vector<gpu::EmitterCorners> corners;
+    std::array<uint32_t, gpu::LIGHT_TYPE_COUNT> counts{}, next{}; // by type
+    for (const CndLight& light : lights)
+        if (light.type < gpu::LIGHT_TYPE_COUNT)
+            ++counts[light.type];
     std::array<Group, shapeCount> groups{};
-    uint32_t pieces = 0;
+    uint32_t emitters = 0, pieces = 0;
     for (size_t shape = 0; shape < shapeCount; ++shape) {
-        groups[shape].first = uint32_t(records.size());
-        for (size_t i = 0; i < lights.size(); ++i)
-            if (lights[i].type == shapes[shape]) {
-                records.push_back(recordOf(lights[i], i));
-                if (lights[i].type == gpu::LIGHT_POLYGON)
-                    corners.push_back(cornersOf(lights[i], i));
-            }
-        groups[shape].count = uint32_t(records.size()) - groups[shape].first;
-        groups[shape].firstPiece = pieces;
-        groups[shape].pieceCount = gpu::divideUp(groups[shape].count, gpu::PIECE_EMITTERS);
+        const uint32_t count = counts[shapes[shape]];
+        groups[shape] = {emitters, count, pieces, gpu::divideUp(count, gpu::PIECE_EMITTERS)};
+        next[shapes[shape]] = emitters;
+        emitters += count;
         pieces += groups[shape].pieceCount;
     }
-
+    std::vector<gpu::EmitterRecord> records(emitters);
+    std::vector<gpu::EmitterCorners> corners;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const uint32_t type = lights[i].type;
+        if (type >= gpu::LIGHT_TYPE_COUNT || !(gpu::AREA_LIGHT_TYPES >> type & 1))
+            continue;
+        records[next[type]++] = recordOf(lights[i], i);
+        if (type == gpu::LIGHT_POLYGON)
+            corners.push_back(cornersOf(lights[i], i));
+    }
     if (corners.empty())
         corners.push_back({});
     const VkDeviceSize bytes =

@@ -37,16 +37,26 @@ InfluenceBoxes influenceBoxesOf(std::span<const CndLight> lights)
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         out[type] = isDistant(type) ? endlessBox(0)
                                     : InfluenceBox{glm::dvec3(unbounded), glm::dvec3(-unbounded)};
-    for (const CndLight& light : lights) {
-        InfluenceBox& box = out[light.type];
-        box.layers |= layersOf(light.layers);
-        if (isDistant(light.type))
-            continue;
-        const glm::dvec3 centre(light.position[0], light.position[1], light.position[2]);
-        box.low = glm::min(box.low, centre - double(light.influenceRadius));
-        box.high = glm::max(box.high, centre + double(light.influenceRadius));
-    }
+    widen(out, lights);
     return out;
+}
+
+void widen(InfluenceBoxes& boxes, std::span<const CndLight> lights)
+{
+    for (size_t i = 0; i < lights.size();) {
+        const uint32_t type = lights[i].type;
+        InfluenceBox box = boxes[type]; // a copy stays in registers while the type is the same
+        for (; i < lights.size() && lights[i].type == type; ++i) {
+            const CndLight& light = lights[i];
+            box.layers |= layersOf(light.layers);
+            if (isDistant(type))
+                continue;
+            const glm::dvec3 centre(light.position[0], light.position[1], light.position[2]);
+            box.low = glm::min(box.low, centre - double(light.influenceRadius));
+            box.high = glm::max(box.high, centre + double(light.influenceRadius));
+        }
+        boxes[type] = box;
+    }
 }
 
 void widen(InfluenceBoxes& boxes, const InfluenceBoxes& more)

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
+#include "candelabra_shaders.h"
 #include "lights/light_limits.h"
 #include "lights/pack_lights.h"
 
@@ -15,7 +15,7 @@ namespace
 {
 
 // Light buffers start with this capacity and grow by half, so that a growing scene reallocates
-// rarely. A light takes 64 bytes of records and 64 of staging.
+// rarely. A light takes 64 bytes of records and 68 of staging.
 constexpr uint32_t defaultCapacity = 1024;
 
 // The extent of the lights is estimated again when more than one light in editsPerExtent has been
@@ -42,6 +42,7 @@ LightSet::LightSet(const gpu::Device& device, gpu::Recordings& recordings, uint3
       prepare_(std::move(prepare)),
       firstCapacity_(capacity ? capacity : defaultCapacity),
       sorting_(device),
+      lightEdits_(device, spirv::light_edits_comp),
       deviceLights_(device),
       polygons_(device, recordings),
       lights_(polygons_)
@@ -81,9 +82,7 @@ void LightSet::set(const CndLightSet& set)
         if (!std::isfinite(o))
             gpu::failArgument("CndLightSet: origin must be finite");
     const std::span lights(set.lights, set.count);
-    validateLights(lights);
-    LightTypeCounts types = countTypes(lights);
-    InfluenceBoxes boxes = influenceBoxesOf(lights);
+    auto [types, boxes] = validateLights(lights);
     if (device) {
         types[device->type] += device->maxCount;
         InfluenceBox& box = boxes[device->type]; // only the device knows where its lights are
@@ -107,7 +106,7 @@ void LightSet::set(const CndLightSet& set)
     else
         deviceLights_.takeNone();
     firstRecord_ = device ? device->maxCount : 0;
-    lights_.set(lights, hostRecords(staging));
+    lights_.set(lights, staging.memory);
     pending_ = &staging;
     carriedFrom_ = VK_NULL_HANDLE;
     onDevice_ = 0;
@@ -127,17 +126,14 @@ void LightSet::add(std::span<const CndLight> lights, CndLightId* ids)
         return;
     const uint64_t total = uint64_t(count_) + lights.size();
     requireRoom("cndAddLights", total);
-    validateLights(lights);
-    LightTypeCounts types = countTypes(lights);
+    auto [types, boxes] = validateLights(lights);
     const uint32_t polygons = types[CND_LIGHT_POLYGON];
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         types[type] += typeCounts_[type];
     requireShapes("cndAddLights", types);
     polygons_.reserve(polygons, polygons);
-    const LightTable::Records staging = prepareEdit(types, lights.size(), lights.size());
-    for (size_t i = 0; i < lights.size(); ++i)
-        ids[i] = lights_.add(lights[i], staging);
-    finishEdit(types, lights, lights.size());
+    lights_.add(lights, ids, prepareEdit(types, 0, lights.size()));
+    finishEdit(types, boxes, lights.size());
 }
 
 void LightSet::update(std::span<const CndLightId> ids, std::span<const CndLight> lights)
@@ -145,22 +141,20 @@ void LightSet::update(std::span<const CndLightId> ids, std::span<const CndLight>
     if (ids.empty())
         return;
     lights_.check("cndUpdateLights", ids);
-    validateLights(lights);
+    const auto [with, boxes] = validateLights(lights);
     LightTypeCounts types = typeCounts_;
-    size_t polygons = 0, newPolygons = 0;
-    for (size_t i = 0; i < ids.size(); ++i) {
-        const uint32_t before = lights_.typeOf(ids[i]);
-        --types[before];
-        ++types[lights[i].type];
-        polygons += lights[i].type == CND_LIGHT_POLYGON;
-        newPolygons += lights[i].type == CND_LIGHT_POLYGON && before != CND_LIGHT_POLYGON;
-    }
+    for (const CndLightId id : ids)
+        --types[lights_.typeOf(id)];
+    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
+        types[type] += with[type];
     requireShapes("cndUpdateLights", types);
-    polygons_.reserve(polygons, newPolygons);
-    const LightTable::Records staging = prepareEdit(types, ids.size(), 0);
-    for (size_t i = 0; i < ids.size(); ++i)
-        lights_.update(ids[i], lights[i], staging);
-    finishEdit(types, lights, ids.size());
+    size_t newPolygons = 0;
+    for (size_t i = 0; with[CND_LIGHT_POLYGON] && i < ids.size(); ++i)
+        newPolygons +=
+            lights[i].type == CND_LIGHT_POLYGON && lights_.typeOf(ids[i]) != CND_LIGHT_POLYGON;
+    polygons_.reserve(with[CND_LIGHT_POLYGON], newPolygons);
+    lights_.update(ids, lights, prepareEdit(types, 0, 0));
+    finishEdit(types, boxes, ids.size());
 }
 
 void LightSet::remove(std::span<const CndLightId> ids)
@@ -171,20 +165,19 @@ void LightSet::remove(std::span<const CndLightId> ids)
     LightTypeCounts types = typeCounts_;
     for (const CndLightId id : ids)
         --types[lights_.typeOf(id)];
-    const LightTable::Records staging = prepareEdit(types, ids.size(), 0);
-    for (const CndLightId id : ids)
-        lights_.remove(id, staging);
-    finishEdit(types, {}, ids.size());
+    lights_.remove(ids, prepareEdit(types, ids.size(), 0));
+    finishEdit(types, influenceBoxesOf({}), ids.size());
 }
 
-// Does everything in an edit that can fail. Returns where the host's records are to be written.
-// `types`: the number of lights of each type after the edit.
-LightTable::Records LightSet::prepareEdit(const LightTypeCounts& types, size_t edits, size_t added)
+// Does everything in an edit that can fail. Returns where the records are to be staged. `types`:
+// the number of lights of each type after the edit.
+const LightTable::Staging& LightSet::prepareEdit(const LightTypeCounts& types, size_t removed,
+                                                 size_t added)
 {
     const uint32_t capacity = capacityFor(count_ + uint32_t(added));
     recordings_.freeRetired();
     prepare_(capacity, types);
-    lights_.reserveEdits(edits, added);
+    lights_.reserveEdits(removed, added);
     std::shared_ptr<gpu::Bindings> bindings;
     if (deviceLights_.present() && capacity > capacity_)
         bindings = deviceLights_.prepare(deviceLights_.lights(), true);
@@ -192,10 +185,11 @@ LightTable::Records LightSet::prepareEdit(const LightTypeCounts& types, size_t e
     if (bindings)
         deviceLights_.take(deviceLights_.lights(), store_.records, std::move(bindings));
     pending_ = &freeStaging();
-    return hostRecords(*pending_);
+    return pending_->memory;
 }
 
-void LightSet::finishEdit(const LightTypeCounts& types, std::span<const CndLight> lights,
+// `boxes`: of the lights that were added or updated.
+void LightSet::finishEdit(const LightTypeCounts& types, const InfluenceBoxes& boxes,
                           size_t edits) noexcept
 {
     // Lights that were replaced or removed stay in the boxes until their type has no lights.
@@ -203,7 +197,7 @@ void LightSet::finishEdit(const LightTypeCounts& types, std::span<const CndLight
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (!typeCounts_[type])
             influenceBoxes_[type] = none[type];
-    widen(influenceBoxes_, influenceBoxesOf(lights));
+    widen(influenceBoxes_, boxes);
     typeCounts_ = types;
     count_ = firstRecord_ + lights_.count();
     ++number_;
@@ -232,11 +226,6 @@ LightTypeCounts LightSet::countsInView(const CndCamera& camera, uint32_t layers)
     return out;
 }
 
-LightTable::Records LightSet::hostRecords(const Staging& staging) const
-{
-    return staging.buffer.as<gpu::LightRecord>().subspan(firstRecord_);
-}
-
 LightExtent LightSet::currentExtent() const noexcept
 {
     const LightExtent host = lights_.extent();
@@ -257,7 +246,7 @@ LightSet::Staging& LightSet::freeStaging()
     for (Staging& staging : store_.staging)
         if (staging.recording < running)
             return staging;
-    store_.staging.push_back({createStaging(capacity_)});
+    store_.staging.push_back(createStaging(capacity_, store_.records));
     device_.say(CND_MESSAGE_INFO,
                 "lights have %u staging buffers of %llu bytes now, because frames in flight "
                 "still read the others",
@@ -266,10 +255,25 @@ LightSet::Staging& LightSet::freeStaging()
     return store_.staging.back();
 }
 
-gpu::Buffer LightSet::createStaging(uint32_t capacity) const
+LightSet::Staging LightSet::createStaging(uint32_t capacity, const gpu::Buffer& records) const
 {
-    return gpu::createBuffer(device_, "light staging", capacity * recordBytes,
-                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryUse::Upload);
+    // The places begin where every device lets the range of a storage buffer begin.
+    constexpr VkDeviceSize alignment = 256;
+    const VkDeviceSize bytes = capacity * recordBytes;
+    const VkDeviceSize placesAt = (bytes + alignment - 1) / alignment * alignment;
+    Staging out;
+    out.buffer =
+        gpu::createBuffer(device_, "light staging", placesAt + capacity * sizeof(uint32_t),
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                          gpu::MemoryUse::Upload);
+    out.memory = {out.buffer.as<gpu::LightRecord>().first(capacity),
+                  out.buffer.as<uint32_t>().subspan(placesAt / sizeof(uint32_t), capacity)};
+    out.bindings = lightEdits_.createBindings(1);
+    out.bindings.write(
+        0, {{.binding = gpu::LIGHT_EDITS_STAGED, .buffer = out.buffer.get(), .range = bytes},
+            {.binding = gpu::LIGHT_EDITS_PLACES, .buffer = out.buffer.get(), .offset = placesAt},
+            gpu::Binding::of(gpu::LIGHT_EDITS_RECORDS, records)});
+    return out;
 }
 
 LightSet::Store LightSet::createStore(uint32_t capacity) const
@@ -281,7 +285,7 @@ LightSet::Store LightSet::createStore(uint32_t capacity) const
                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                           gpu::MemoryUse::Device);
     store.sort = sorting_.createState(capacity, store.records);
-    store.staging.push_back({createStaging(capacity)}); // the first upload needs one
+    store.staging.push_back(createStaging(capacity, store.records)); // the first upload needs one
     return store;
 }
 
@@ -306,7 +310,7 @@ void LightSet::grow(uint32_t capacity, bool keepRecords)
     Staging& staging = store.staging.front();
     const bool keepStaging = keepRecords && pending_;
     if (keepStaging)
-        std::memcpy(staging.buffer.mapped, pending_->buffer.mapped, count_ * recordBytes);
+        lights_.stageAnew(staging.memory);
     if (deviceLights_.bindings())
         recordings_.retire(deviceLights_.bindings());
     // The next recording may copy the old records, so it still needs the old store.
@@ -336,14 +340,17 @@ void LightSet::recordUpload(const gpu::Frame& frame, uint64_t recording) noexcep
         device_.CmdCopyBuffer(frame.cmd, carriedFrom_, records, 1, &all);
         frame.barrier();
     }
-    const auto& [moves, uploads] = lights_.take(firstRecord_);
-    if (!moves.empty()) {
-        device_.CmdCopyBuffer(frame.cmd, records, records, uint32_t(moves.size()), moves.data());
-        frame.barrier();
+    const LightTable::Upload upload = lights_.take();
+    if (upload.all && upload.records) {
+        const VkBufferCopy all{.dstOffset = firstRecord_ * recordBytes,
+                               .size = upload.records * recordBytes};
+        device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records, 1, &all);
+    } else if (upload.records) {
+        lightEdits_.dispatchInRows(
+            gpu::UntimedFrame(frame), pending_->bindings.set(0),
+            {.count = upload.records, .firstRecord = firstRecord_},
+            gpu::divideUp(upload.records, gpu::LIGHT_EDITS_GROUP / gpu::LIGHT_EDITS_LANES));
     }
-    if (!uploads.empty())
-        device_.CmdCopyBuffer(frame.cmd, pending_->buffer.get(), records, uint32_t(uploads.size()),
-                              uploads.data());
     if (deviceLightsPending_) {
         deviceLights_.recordReset(frame);
         frame.barrier();

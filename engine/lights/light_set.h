@@ -14,6 +14,7 @@
 #include "lights/light_order.h"
 #include "lights/light_table.h"
 #include "lights/light_types.h"
+#include "shared/light_edits.h"
 
 namespace candelabra::lighting
 {
@@ -74,7 +75,9 @@ public:
 private:
     struct Staging {
         gpu::Buffer buffer;
-        uint64_t recording = 0; // number of the recording that copies from it; 0: none yet
+        LightTable::Staging memory; // of the buffer
+        gpu::Bindings bindings;     // of light_edits
+        uint64_t recording = 0;     // number of the recording that copies from it; 0: none yet
     };
     // The buffers whose size depends on the number of lights.
     struct Store {
@@ -83,16 +86,16 @@ private:
         std::deque<Staging> staging; // a deque does not move its elements when it grows
     };
     Store createStore(uint32_t capacity) const;
-    gpu::Buffer createStaging(uint32_t capacity) const;
+    Staging createStaging(uint32_t capacity, const gpu::Buffer& records) const;
     void requireRoom(const char* what, uint64_t count) const;
     uint32_t capacityFor(uint32_t count) const;
     void grow(uint32_t capacity, bool keepRecords);
     Staging& freeStaging();
     void requireShapes(const char* what, const LightTypeCounts& types) const;
-    LightTable::Records prepareEdit(const LightTypeCounts& types, size_t edits, size_t added);
-    void finishEdit(const LightTypeCounts& types, std::span<const CndLight> lights,
+    const LightTable::Staging& prepareEdit(const LightTypeCounts& types, size_t removed,
+                                           size_t added);
+    void finishEdit(const LightTypeCounts& types, const InfluenceBoxes& boxes,
                     size_t edits) noexcept;
-    LightTable::Records hostRecords(const Staging& staging) const;
     LightExtent currentExtent() const noexcept;
 
     const gpu::Device& device_;
@@ -100,6 +103,7 @@ private:
     Prepare prepare_;
     uint32_t firstCapacity_; // the capacity at creation
     LightOrder sorting_;
+    gpu::Kernel<gpu::LightEditsParams> lightEdits_;
     DeviceLights deviceLights_;
     PolygonTable polygons_;
     LightTable lights_; // the host's lights

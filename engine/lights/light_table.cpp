@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string>
-#include <utility>
 
 #include "gpu/failure.h"
 #include "lights/light_types.h"
@@ -29,129 +29,118 @@ std::string text(CndLightId id)
     return std::to_string(uint32_t(id)) + " (generation " + std::to_string(id >> 32) + ")";
 }
 
-// Adds the copy of one record: it extends the last region if it continues it, or is a new region.
-void append(std::vector<VkBufferCopy>& regions, VkDeviceSize from, VkDeviceSize to) noexcept
-{
-    if (!regions.empty()) {
-        VkBufferCopy& last = regions.back();
-        if (last.srcOffset + last.size == from && last.dstOffset + last.size == to) {
-            last.size += recordBytes;
-            return;
-        }
-    }
-    regions.push_back({from, to, recordBytes});
-}
+// Lights are looked up, packed and staged in blocks. The processor waits for many records at the
+// same time when they are far from each other, and not for the small writes of a record before it
+// copies it.
+constexpr size_t blockSize = 64;
 
 } // namespace
 
 void LightTable::reserveSet(size_t count)
 {
-    lights_.reserve(count);
+    records_.reserve(count);
+    places_.reserve(count);
     recordOf_.reserve(count);
     generations_.reserve(count);
-    transfers_.uploads.reserve(1);
 }
 
-void LightTable::reserveEdits(size_t edits, size_t added)
+void LightTable::reserveEdits(size_t removed, size_t added)
 {
-    reserveMore(lights_, added);
+    reserveMore(records_, added);
+    reserveMore(places_, added);
     const size_t newSlots = added - std::min(added, freeSlots_.size());
     reserveMore(recordOf_, newSlots);
     reserveMore(generations_, newSlots);
-    reserveMore(freeSlots_, edits);
-    if (touched_.size() > 2 * lights_.size() + 1024)
-        forgetDuplicates();
-    reserveMore(touched_, edits);
-    for (std::vector<VkBufferCopy>* regions : {&transfers_.moves, &transfers_.uploads})
-        if (regions->capacity() < touched_.capacity() + 1)
-            regions->reserve(touched_.capacity() + 1);
+    reserveMore(freeSlots_, removed);
+    staged_.reserve(records_.capacity());
 }
 
-// Lights that are added and removed between two recordings put the same records on the list many
-// times. This makes the list anew, with each record once.
-void LightTable::forgetDuplicates() noexcept
-{
-    touched_.clear();
-    for (uint32_t record = 0; record < lights_.size(); ++record)
-        if (lights_[record].source != inPlace)
-            touched_.push_back(record);
-}
-
-void LightTable::check(const char* call, std::span<const CndLightId> ids) const
+void LightTable::check(const char* call, std::span<const CndLightId> ids)
 {
     for (const CndLightId id : ids)
         if (const uint32_t slot = slotOf(id); slot >= recordOf_.size() ||
                                               recordOf_[slot] == noRecord ||
                                               generations_[slot] != uint32_t(id >> 32))
             gpu::failArgument(std::string(call) + ": no light of the set has the id " + text(id));
-    std::vector<CndLightId> sorted(ids.begin(), ids.end());
-    std::sort(sorted.begin(), sorted.end());
-    if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
-        gpu::failArgument(std::string(call) + ": the id " + text(*twice) + " is given twice");
+    if (std::ranges::adjacent_find(ids, std::greater_equal<>()) == ids.end())
+        return; // each is larger than the one before
+    seen_.resize(recordOf_.size());
+    size_t different = 0;
+    for (; different < ids.size() && !seen_[slotOf(ids[different])]; ++different)
+        seen_[slotOf(ids[different])] = true;
+    for (const CndLightId id : ids.first(different))
+        seen_[slotOf(id)] = false;
+    if (different < ids.size())
+        gpu::failArgument(std::string(call) + ": the id " + text(ids[different]) +
+                          " is given twice");
 }
 
-LightTable::Light LightTable::entry(const CndLight& light, uint32_t slot)
+// Gives a packed record its id: the slot, or the index of its polygon. `before`: the polygon that
+// the light of this slot has had, or noPolygon.
+void LightTable::identify(gpu::LightRecord& packed, const CndLight& light, uint32_t slot,
+                          uint32_t before) noexcept
 {
-    const float* p = light.position;
-    return {{p[0], p[1], p[2]}, light.influenceRadius, light.type, slot};
-}
-
-// Packs the light of a record, whose entry is already there.
-void LightTable::pack(uint32_t record, const CndLight& light, Records staging) noexcept
-{
-    packLights({&light, 1}, staging.subspan(record), lights_[record].slot);
-    if (light.type == CND_LIGHT_POLYGON)
-        writePolygon(record, *light.polygon, staging);
-}
-
-// Writes the corners of a record that has been packed.
-void LightTable::writePolygon(uint32_t record, const CndPolygon& corners, Records staging) noexcept
-{
-    Light& light = lights_[record];
-    if (light.polygon == noPolygon)
-        light.polygon = polygons_.add(corners, light.slot);
-    else
-        polygons_.update(light.polygon, corners, light.slot);
-    staging[record].id = light.polygon;
-}
-
-void LightTable::forgetPolygon(uint32_t record) noexcept
-{
-    if (lights_[record].polygon != noPolygon)
-        polygons_.remove(lights_[record].polygon);
-    lights_[record].polygon = noPolygon;
-}
-
-void LightTable::set(std::span<const CndLight> lights, Records staging) noexcept
-{
-    packLights(lights, staging);
-    polygons_.clear();
-    lights_.clear();
-    recordOf_.clear();
-    freeSlots_.clear();
-    touched_.clear();
-    for (uint32_t i = 0; i < lights.size(); ++i) {
-        lights_.push_back(entry(lights[i], i));
-        recordOf_.push_back(i);
-        if (lights[i].type == CND_LIGHT_POLYGON)
-            writePolygon(i, *lights[i].polygon, staging);
+    packed.id = slot;
+    if (light.type == CND_LIGHT_POLYGON) {
+        if (before == noPolygon)
+            before = polygons_.add(*light.polygon, slot);
+        else
+            polygons_.update(before, *light.polygon, slot);
+        packed.id = before;
+    } else if (before != noPolygon) {
+        polygons_.remove(before);
     }
-    generations_.assign(lights.size(), 0);
-    whole_ = true;
 }
 
-void LightTable::touch(uint32_t record, uint32_t source) noexcept
+void LightTable::stageAt(uint32_t at, uint32_t record, const Staging& staging) noexcept
 {
-    if (whole_)
+    staged_[at] = record;
+    places_[record].staged = at;
+    staging.places[at] = record;
+    staging.records[at] = records_[record];
+}
+
+void LightTable::stage(uint32_t record, const Staging& staging) noexcept
+{
+    if (all_) {
+        staging.records[record] = records_[record];
         return;
-    if (lights_[record].source == inPlace)
-        touched_.push_back(record);
-    lights_[record].source = source;
+    }
+    const bool before = isStaged(record);
+    const uint32_t at = before ? places_[record].staged : uint32_t(staged_.size());
+    if (!before)
+        staged_.push_back(record);
+    stageAt(at, record, staging);
 }
 
-CndLightId LightTable::add(const CndLight& light, Records staging) noexcept
+void LightTable::set(std::span<const CndLight> lights, const Staging& staging) noexcept
 {
-    const uint32_t record = count();
+    const size_t count = lights.size();
+    polygons_.clear();
+    freeSlots_.clear();
+    staged_.clear();
+    all_ = true;
+    records_.resize(count);
+    places_.resize(count);
+    recordOf_.resize(count);
+    generations_.assign(count, 0);
+    for (uint32_t i = 0; i < count; ++i) {
+        places_[i] = {i, 0};
+        recordOf_[i] = i;
+    }
+    for (size_t first = 0; first < count; first += blockSize) {
+        const auto block = std::span(records_).subspan(first, std::min(blockSize, count - first));
+        packLights(lights.subspan(first, block.size()), block, uint32_t(first));
+        for (size_t i = 0; i < block.size(); ++i)
+            if (const CndLight& light = lights[first + i]; light.type == CND_LIGHT_POLYGON)
+                identify(block[i], light, uint32_t(first + i), noPolygon);
+        std::ranges::copy(block, staging.records.begin() + std::ptrdiff_t(first));
+    }
+}
+
+// Gives the light of a new record a slot, and returns its id.
+CndLightId LightTable::addSlot(uint32_t record) noexcept
+{
     uint32_t slot = uint32_t(recordOf_.size());
     if (freeSlots_.empty()) {
         recordOf_.push_back(record);
@@ -163,102 +152,129 @@ CndLightId LightTable::add(const CndLight& light, Records staging) noexcept
     }
     generation_ += generation_ == UINT32_MAX ? 2 : 1; // 0 is the generation of lights set whole
     generations_[slot] = generation_;
-    lights_.push_back(entry(light, slot));
-    touch(record, staged);
-    pack(record, light, staging);
+    places_.push_back({slot, UINT32_MAX});
     return CndLightId(generation_) << 32 | slot;
 }
 
-void LightTable::update(CndLightId id, const CndLight& light, Records staging) noexcept
+void LightTable::add(std::span<const CndLight> lights, CndLightId* ids,
+                     const Staging& staging) noexcept
 {
-    const uint32_t record = recordOf_[slotOf(id)];
-    touch(record, staged);
-    if (light.type != CND_LIGHT_POLYGON)
-        forgetPolygon(record);
-    Light& at = lights_[record];
-    std::copy_n(light.position, 3, at.position);
-    at.influenceRadius = light.influenceRadius;
-    at.type = light.type;
-    pack(record, light, staging);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const uint32_t record = count();
+        ids[i] = addSlot(record);
+        packLights(lights.subspan(i, 1), {&records_.emplace_back(), 1});
+        identify(records_.back(), lights[i], slotOf(ids[i]), noPolygon);
+        stage(record, staging);
+    }
 }
 
-void LightTable::remove(CndLightId id, Records staging) noexcept
+void LightTable::update(std::span<const CndLightId> ids, std::span<const CndLight> lights,
+                        const Staging& staging) noexcept
 {
-    const uint32_t slot = slotOf(id), record = recordOf_[slot], last = count() - 1;
-    forgetPolygon(record);
-    if (record != last) {
-        // The light of the last record moves here, with the source of that record. Moves never read
-        // a record that a move writes: they write below the smallest count that the table has had
-        // since the last transfers and read from there on. Records added since are staged.
-        const uint32_t from = lights_[last].source == inPlace ? last : lights_[last].source;
-        if (isStaged(last))
-            staging[record] = staging[last];
-        touch(record, from);
-        const uint32_t source = lights_[record].source;
-        lights_[record] = lights_[last];
-        lights_[record].source = source;
-        recordOf_[lights_[record].slot] = record;
+    for (size_t first = 0; first < ids.size(); first += blockSize) {
+        const size_t count = std::min(blockSize, ids.size() - first);
+        struct {
+            uint32_t record, polygon;
+        } edits[blockSize];
+        for (size_t i = 0; i < count; ++i) {
+            const uint32_t record = recordOf_[slotOf(ids[first + i])];
+            edits[i] = {record, polygonOf(record)};
+        }
+        for (size_t i = 0; i < count; ++i) {
+            const auto [record, polygon] = edits[i];
+            packLights(lights.subspan(first + i, 1), {&records_[record], 1});
+            identify(records_[record], lights[first + i], slotOf(ids[first + i]), polygon);
+        }
+        for (size_t i = 0; i < count; ++i)
+            stage(edits[i].record, staging);
     }
-    lights_.pop_back();
+}
+
+void LightTable::remove(std::span<const CndLightId> ids, const Staging& staging) noexcept
+{
+    for (const CndLightId id : ids)
+        remove(slotOf(id), staging);
+}
+
+void LightTable::remove(uint32_t slot, const Staging& staging) noexcept
+{
+    const uint32_t record = recordOf_[slot], last = count() - 1;
+    if (const uint32_t polygon = polygonOf(record); polygon != noPolygon)
+        polygons_.remove(polygon);
+    if (record != last) {
+        records_[record] = records_[last];
+        places_[record].slot = places_[last].slot;
+        recordOf_[places_[record].slot] = record;
+        stage(record, staging);
+    }
+    if (isStaged(last)) { // another one takes its place among the staged
+        const uint32_t at = places_[last].staged, moved = staged_.back();
+        staged_.pop_back();
+        if (moved != last)
+            stageAt(at, moved, staging);
+    }
+    records_.pop_back();
+    places_.pop_back();
     recordOf_[slot] = noRecord;
     freeSlots_.push_back(slot);
+}
+
+LightTable::Upload LightTable::take() noexcept
+{
+    const Upload upload{all_ ? count() : uint32_t(staged_.size()), all_};
+    staged_.clear();
+    all_ = false;
+    return upload;
+}
+
+void LightTable::stageAnew(const Staging& staging) const noexcept
+{
+    if (all_)
+        std::ranges::copy(records_, staging.records.begin());
+    for (size_t at = 0; at < staged_.size(); ++at) {
+        staging.places[at] = staged_[at];
+        staging.records[at] = records_[staged_[at]];
+    }
 }
 
 LightExtent LightTable::extent() const noexcept
 {
     constexpr size_t samples = 1024;
     constexpr double outer = 0.02; // share of the lights that is left out at either end
-    const size_t step = lights_.size() / samples + 1;
+    const size_t step = records_.size() / samples + 1;
     LightExtent extent;
     float longest = 0;
     std::array<float, samples> along;
+    std::array<float, size_t(outer * samples) + 1> ends;
     const auto sample = [&](auto&& value) {
         size_t n = 0;
-        for (size_t i = 0; i < lights_.size(); i += step)
-            if (!isDistant(lights_[i].type))
-                along[n++] = value(lights_[i]);
+        for (size_t i = 0; i < records_.size(); i += step)
+            if (!isDistant(typeOfRecord(uint32_t(i))))
+                along[n++] = value(records_[i]);
         return n;
     };
     for (int axis = 0; axis < 3; ++axis) {
-        const size_t n = sample([&](const Light& light) { return light.position[axis]; });
+        const size_t n = sample([&](const gpu::LightRecord& r) { return r.position[axis]; });
         if (!n)
             return extent;
-        std::sort(along.begin(), along.begin() + n);
         const size_t cut = size_t(outer * double(n));
-        const float low = along[cut], high = along[n - 1 - cut];
+        // Returns the value before which `cut` others are in this order.
+        const auto end = [&](auto&& order) {
+            std::partial_sort_copy(along.begin(), along.begin() + n, ends.begin(),
+                                   ends.begin() + cut + 1, order);
+            return ends[cut];
+        };
+        const float low = end(std::less<>()), high = end(std::greater<>());
         const float border = (high - low) / 8; // room for lights beyond the sampled ones
         extent.low[axis] = low - border;
         longest = std::max(longest, high - low + 2 * border);
     }
-    const size_t n = sample([](const Light& light) { return light.influenceRadius; });
+    const size_t n = sample([](const gpu::LightRecord& r) { return r.influenceRadius; });
     std::nth_element(along.begin(), along.begin() + n / 2, along.begin() + n);
     extent.influenceRadius = along[n / 2];
     constexpr float shortest = 1e-15f; // the shortest length that CndLight allows
     extent.size = std::max(longest, shortest);
     return extent;
-}
-
-const LightTable::Transfers& LightTable::take(uint32_t firstRecord) noexcept
-{
-    auto& [moves, uploads] = transfers_;
-    moves.clear();
-    uploads.clear();
-    const VkDeviceSize first = firstRecord * recordBytes;
-    if (whole_ && !lights_.empty())
-        uploads.push_back({first, first, lights_.size() * recordBytes});
-    whole_ = false;
-    for (const uint32_t record : touched_) {
-        if (record >= lights_.size() || lights_[record].source == inPlace)
-            continue; // the record no longer exists, or its copy is already on the list
-        const uint32_t source = std::exchange(lights_[record].source, inPlace);
-        const VkDeviceSize to = first + record * recordBytes;
-        if (source == staged)
-            append(uploads, to, to);
-        else
-            append(moves, first + source * recordBytes, to);
-    }
-    touched_.clear();
-    return transfers_;
 }
 
 } // namespace candelabra::lighting

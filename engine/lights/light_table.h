@@ -25,67 +25,80 @@ public:
     explicit LightTable(PolygonTable& polygons) : polygons_(polygons) {}
 
     // Allocates the memory that the noexcept functions below need, apart from that of the polygons:
-    // for a set of `count` lights, or for `edits` edits, of which `added` add a light.
+    // for a set of `count` lights, or for edits, of which `added` add a light.
     void reserveSet(size_t count);
-    void reserveEdits(size_t edits, size_t added);
+    void reserveEdits(size_t removed, size_t added);
     // Throws gpu::Failure naming `call` and an id that no light has, or that is given twice.
-    void check(const char* call, std::span<const CndLightId> ids) const;
+    void check(const char* call, std::span<const CndLightId> ids);
 
-    // The records of the host's lights in the staging buffer from which edits are uploaded.
-    using Records = std::span<gpu::LightRecord>;
-    // Replaces all lights. Their indices become their ids, and all records are to be uploaded.
-    void set(std::span<const CndLight> lights, Records staging) noexcept;
-    CndLightId add(const CndLight& light, Records staging) noexcept;
-    void update(CndLightId id, const CndLight& light, Records staging) noexcept;
-    void remove(CndLightId id, Records staging) noexcept;
+    // Where records wait for their upload. It is written in order where many are written, whole
+    // records at a time, and never read: it may be memory that the CPU does not cache.
+    struct Staging {
+        std::span<gpu::LightRecord> records;
+        std::span<uint32_t> places; // by staged record: the index of the host's record
+    };
+    // Replaces all lights. Their indices become their ids, and all records are staged.
+    void set(std::span<const CndLight> lights, const Staging& staging) noexcept;
+    void add(std::span<const CndLight> lights, CndLightId* ids, const Staging& staging) noexcept;
+    void update(std::span<const CndLightId> ids, std::span<const CndLight> lights,
+                const Staging& staging) noexcept;
+    void remove(std::span<const CndLightId> ids, const Staging& staging) noexcept;
 
-    uint32_t count() const { return uint32_t(lights_.size()); }
-    uint32_t typeOf(CndLightId id) const { return lights_[recordOf_[slotOf(id)]].type; }
+    uint32_t count() const { return uint32_t(records_.size()); }
+    uint32_t typeOf(CndLightId id) const { return typeOfRecord(recordOf_[slotOf(id)]); }
     // Estimates the extent from at most 1024 lights. It leaves out the outermost of these, so that
     // one far light does not make the grid coarse.
     LightExtent extent() const noexcept;
 
-    // The copies that bring the device's records up to date: first the moves from record to record,
-    // none of which overlap, then the uploads from the staging buffer to the same offset.
-    struct Transfers {
-        std::vector<VkBufferCopy> moves, uploads;
+    // What is staged: every record in order, or some whose places are in Staging::places.
+    struct Upload {
+        uint32_t records;
+        bool all;
     };
-    // Returns the transfers for all edits since the last call. `firstRecord`: index of the first
-    // record of the host's lights.
-    const Transfers& take(uint32_t firstRecord) noexcept;
+    // Returns what has been staged since the last call, which is staged no longer.
+    Upload take() noexcept;
+    // Stages what is staged in another buffer too.
+    void stageAnew(const Staging& staging) const noexcept;
 
 private:
-    // Special values of Light::source. Every other value is the index of the device's record that
-    // is to be moved here.
-    static constexpr uint32_t inPlace = UINT32_MAX, staged = UINT32_MAX - 1;
-    struct Light {
-        float position[3];
-        float influenceRadius;
-        uint32_t type;
-        uint32_t slot;
-        uint32_t source = inPlace;
-        uint32_t polygon = noPolygon; // index in the table of polygons
-    };
     static constexpr uint32_t noRecord = UINT32_MAX, noPolygon = UINT32_MAX;
+    struct Place {
+        uint32_t slot;
+        uint32_t staged; // index among the staged records, if staged_ says so too
+    };
 
     static uint32_t slotOf(CndLightId id) { return uint32_t(id); }
-    static Light entry(const CndLight& light, uint32_t slot);
-    bool isStaged(uint32_t record) const { return whole_ || lights_[record].source == staged; }
-    void pack(uint32_t record, const CndLight& light, Records staging) noexcept;
-    void writePolygon(uint32_t record, const CndPolygon& corners, Records staging) noexcept;
-    void forgetPolygon(uint32_t record) noexcept;
-    void touch(uint32_t record, uint32_t source) noexcept;
-    void forgetDuplicates() noexcept;
+    uint32_t typeOfRecord(uint32_t record) const
+    {
+        return records_[record].flags & gpu::LIGHT_TYPE_MASK;
+    }
+    // Returns the index of the record's polygon in the table of polygons, or noPolygon.
+    uint32_t polygonOf(uint32_t record) const
+    {
+        return typeOfRecord(record) == CND_LIGHT_POLYGON ? records_[record].id : noPolygon;
+    }
+    bool isStaged(uint32_t record) const
+    {
+        const uint32_t at = places_[record].staged;
+        return at < staged_.size() && staged_[at] == record;
+    }
+    void identify(gpu::LightRecord& packed, const CndLight& light, uint32_t slot,
+                  uint32_t before) noexcept;
+    void stage(uint32_t record, const Staging& staging) noexcept;
+    void stageAt(uint32_t at, uint32_t record, const Staging& staging) noexcept;
+    CndLightId addSlot(uint32_t record) noexcept;
+    void remove(uint32_t slot, const Staging& staging) noexcept;
 
     PolygonTable& polygons_;
-    std::vector<Light> lights_;         // indexed by record
-    std::vector<uint32_t> recordOf_;    // indexed by slot, which is the low half of an id
-    std::vector<uint32_t> generations_; // indexed by slot: the high half of the id
+    std::vector<gpu::LightRecord> records_; // as the device has them after the next upload
+    std::vector<Place> places_;             // indexed by record
+    std::vector<uint32_t> recordOf_;        // indexed by slot, which is the low half of an id
+    std::vector<uint32_t> generations_;     // indexed by slot: the high half of the id
     std::vector<uint32_t> freeSlots_;
-    std::vector<uint32_t> touched_; // every record whose source is not inPlace, and some others
-    bool whole_ = false;            // the staging buffer holds every record
-    uint32_t generation_ = 0;       // generation of the light added last
-    Transfers transfers_;
+    std::vector<uint32_t> staged_; // the staged records, unless all are
+    bool all_ = false;             // all records are staged, in order
+    std::vector<bool> seen_;       // used by check(); indexed by slot; false between calls
+    uint32_t generation_ = 0;      // generation of the light added last
 };
 
 } // namespace candelabra::lighting

@@ -34,14 +34,12 @@ double sides(VkBool32 twoSided)
 
 } // namespace
 
-float boundingRadiusOf(const CndLight& light)
+float boundingRadiusOfAxes(const CndLight& light)
 {
     const uint32_t fields = fieldsOf(light.type);
-    const float radius = fields & gpu::LIGHT_HAS_RADIUS ? light.radius : 0;
-    if (!(fields & gpu::LIGHT_HAS_AXIS_U))
-        return radius;
     if (fields & gpu::LIGHT_HAS_CORNERS)
         return polygonRadius(light);
+    const float radius = fields & gpu::LIGHT_HAS_RADIUS ? light.radius : 0;
     const float u = lengthOf(light.axisU);
     return (fields & gpu::LIGHT_HAS_AXIS_V ? std::hypot(u, lengthOf(light.axisV)) : u) + radius;
 }

@@ -26,15 +26,18 @@ static_assert(gpu::LIGHT_HAS_POSITION == uint32_t{CND_LIGHT_FIELD_POSITION_BIT} 
               gpu::LIGHT_HAS_SIDES == uint32_t{CND_LIGHT_FIELD_TWO_SIDED_BIT} &&
               gpu::LIGHT_HAS_CORNERS == uint32_t{CND_LIGHT_FIELD_POLYGON_BIT});
 
-// Returns the fields of CndLight that the type uses, as a mask of gpu::LIGHT_HAS_*, or 0 if
-// `lightType` is not a type.
-constexpr uint32_t fieldsOf(uint32_t lightType)
-{
+// By light type: the fields of CndLight that it uses, as a mask of gpu::LIGHT_HAS_*.
+inline constexpr auto fieldsOfTypes = [] {
     using namespace gpu;
 #define X(id, NAME, family, fields) (fields),
-    constexpr uint32_t fieldsOfTypes[] = {CND_LIGHT_TYPES(X)};
+    return std::array<uint32_t, LIGHT_TYPE_COUNT>{CND_LIGHT_TYPES(X)};
 #undef X
-    return lightType < LIGHT_TYPE_COUNT ? fieldsOfTypes[lightType] : 0;
+}();
+
+// Returns the fields of CndLight that the type uses, or 0 if `lightType` is not a type.
+constexpr uint32_t fieldsOf(uint32_t lightType)
+{
+    return lightType < gpu::LIGHT_TYPE_COUNT ? fieldsOfTypes[lightType] : 0;
 }
 
 constexpr bool has(uint32_t lightType, uint32_t field)
@@ -71,9 +74,17 @@ constexpr bool isPunctual(uint32_t lightType)
     return baseFamilyOf(lightType) == gpu::FAMILY_PUNCTUAL;
 }
 
+// boundingRadiusOf for types with axes.
+float boundingRadiusOfAxes(const CndLight& light);
 // Returns the radius of a sphere around the light's centre that holds its emitter: in metres, 0 for
 // punctual lights, and the sine of the angular radius for distant spheres.
-float boundingRadiusOf(const CndLight& light);
+inline float boundingRadiusOf(const CndLight& light)
+{
+    const uint32_t fields = fieldsOf(light.type);
+    return fields & gpu::LIGHT_HAS_AXIS_U   ? boundingRadiusOfAxes(light)
+           : fields & gpu::LIGHT_HAS_RADIUS ? light.radius
+                                            : 0;
+}
 
 // Returns the luminous power in lm of a light of this type and shape whose emission is 1, without
 // its window. Throws gpu::Failure for directional and distant lights, which have none.

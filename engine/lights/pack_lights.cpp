@@ -8,7 +8,6 @@
 #include <string>
 
 #include "gpu/failure.h"
-#include "lights/influence_box.h"
 #include "lights/light_types.h"
 #include "lights/polygon.h"
 #include "shared/lengths.h"
@@ -134,53 +133,55 @@ glm::vec3 unit(const float (&v)[3])
     return d / std::hypot(d.x, d.y, d.z);
 }
 
-gpu::LightRecord pack(const CndLight& light)
+void pack(const CndLight& light, uint32_t id, gpu::LightRecord& r)
 {
     const uint32_t fields = fieldsOf(light.type);
     const bool distant = isDistant(light.type);
-    gpu::LightRecord r{};
-    r.flags = light.type;
+    r.position = distant ? -unit(light.direction) : vec(light.position);
     r.boundingRadius = boundingRadiusOf(light);
     r.emission = vec(light.emission);
     r.influenceRadius = distant ? gpu::UNBOUNDED : std::min(light.influenceRadius, gpu::UNBOUNDED);
-    r.position = distant ? -unit(light.direction) : vec(light.position);
+    glm::vec3 axisU(0), axisV(0);
     if (fields & gpu::LIGHT_HAS_AXIS_U)
-        r.axisU = vec(light.axisU);
+        axisU = vec(light.axisU);
     else if (fields & gpu::LIGHT_HAS_DIRECTION && !distant)
-        r.axisU = unit(light.direction);
+        axisU = unit(light.direction);
     if (fields & gpu::LIGHT_HAS_CONE) {
         // As in KHR_lights_punctual, the attenuation is the square of a linear function of the
         // cosine between the cones, and so of the squared chord. axisV holds where the function is
         // 0, and its slope.
         const double outer = squaredChord(double(light.outerConeAngle));
-        r.axisV = {float(outer), float(1 / (outer - squaredChord(double(light.innerConeAngle)))),
-                   0};
+        axisV = {float(outer), float(1 / (outer - squaredChord(double(light.innerConeAngle)))), 0};
     } else if (fields & gpu::LIGHT_HAS_AXIS_V) {
-        r.axisV = vec(light.axisV);
+        axisV = vec(light.axisV);
     } else if (fields & gpu::LIGHT_HAS_AXIS_U && fields & gpu::LIGHT_HAS_RADIUS) {
-        r.axisV.x = light.radius; // read by shapeOf
+        axisV.x = light.radius; // read by shapeOf
     }
-    if (light.twoSided && fields & gpu::LIGHT_HAS_SIDES)
-        r.flags |= gpu::LIGHT_TWO_SIDED;
-    r.flags |= layersOf(light.layers) << gpu::LIGHT_LAYERS_SHIFT;
-    return r;
+    r.axisU = axisU;
+    r.id = id;
+    r.axisV = axisV;
+    const bool twoSided = light.twoSided && fields & gpu::LIGHT_HAS_SIDES;
+    r.flags = light.type | layersOf(light.layers) << gpu::LIGHT_LAYERS_SHIFT |
+              (twoSided ? gpu::LIGHT_TWO_SIDED : 0);
 }
 
 } // namespace
 
-void validateLights(std::span<const CndLight> lights)
+// The lights are taken in blocks that stay in the processor's nearest cache.
+LightSummary validateLights(std::span<const CndLight> lights)
 {
-    for (size_t i = 0; i < lights.size(); ++i)
-        if (const char* why = whyInvalid(lights[i]))
-            gpu::failArgument("lights[" + std::to_string(i) + "]: " + why);
-}
-
-LightTypeCounts countTypes(std::span<const CndLight> lights)
-{
-    LightTypeCounts counts{};
-    for (const CndLight& light : lights)
-        ++counts[light.type];
-    return counts;
+    constexpr size_t blockSize = 64;
+    LightSummary out;
+    for (size_t first = 0; first < lights.size(); first += blockSize) {
+        const auto block = lights.subspan(first, std::min(blockSize, lights.size() - first));
+        for (size_t i = 0; i < block.size(); ++i) {
+            if (const char* why = whyInvalid(block[i]))
+                gpu::failArgument("lights[" + std::to_string(first + i) + "]: " + why);
+            ++out.types[block[i].type];
+        }
+        widen(out.boxes, block);
+    }
+    return out;
 }
 
 gpu::PolygonRecord packPolygon(const CndPolygon& polygon, uint32_t id) noexcept
@@ -207,10 +208,8 @@ gpu::LightShape shapeOf(const gpu::LightRecord& record)
 void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records,
                 uint32_t firstId) noexcept
 {
-    for (size_t i = 0; i < lights.size(); ++i) {
-        records[i] = pack(lights[i]);
-        records[i].id = firstId + uint32_t(i);
-    }
+    for (size_t i = 0; i < lights.size(); ++i)
+        pack(lights[i], firstId + uint32_t(i), records[i]);
 }
 
 } // namespace candelabra::lighting

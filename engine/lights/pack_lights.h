@@ -6,17 +6,20 @@
 #include <span>
 
 #include "candelabra/candelabra.h"
+#include "lights/influence_box.h"
 #include "lights/light_types.h"
 #include "shared/lighting.h"
 
 namespace candelabra::lighting
 {
 
+// What some lights are together.
+struct LightSummary {
+    LightTypeCounts types{};
+    InfluenceBoxes boxes = influenceBoxesOf({});
+};
 // Throws gpu::Failure naming the first light and field outside its documented range.
-void validateLights(std::span<const CndLight> lights);
-
-// Counts lights, which must be valid, by type.
-LightTypeCounts countTypes(std::span<const CndLight> lights);
+LightSummary validateLights(std::span<const CndLight> lights);
 
 // Writes one record for each light. The lights must be valid. The id of a polygon's record is the
 // light's, like all others: the caller replaces it by the index of the light's PolygonRecord.

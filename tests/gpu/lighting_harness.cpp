@@ -446,8 +446,9 @@ LightingResult LightingTest::run(const CpuGBuffer& g, const std::vector<CndLight
 
     CndLightingFrame frame = frameOf(g, images, options);
     options.withFrame(frame);
+    const uint32_t noMethod = 1u << CND_SPECULAR_DEFAULT;
     const CndLightingPipelines needed{.structSize = sizeof needed,
-                                      .specularMethods = 1u << frame.specularMethod,
+                                      .specularMethods = 1u << frame.specularMethod & ~noMethod,
                                       .shading = shadingOf(frame)};
     EXPECT_EQ(cndAddLightingPipelines(lighting, &needed, &error), CND_SUCCESS) << error.message;
     LightingResult result;

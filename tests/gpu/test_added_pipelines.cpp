@@ -121,6 +121,20 @@ TEST_F(AddedPipelines, FramesAskForNothingElseBefore)
     EXPECT_EQ(refusal({.specular = CND_SPECULAR_POINT, .errorBudget = 0.1f}), "");
 }
 
+// KARIS has a smaller value than the method of creation.
+TEST_F(AddedPipelines, LeaveTheDefaultMethodAsItWas)
+{
+    create();
+    ASSERT_TRUE(lighting_.addPipelines({.specularMethods = 1u << CND_SPECULAR_KARIS}));
+    const auto drawn = [&](CndSpecularMethod method) {
+        RunOptions options{.specular = method};
+        options.lighting = lighting_.get();
+        return run(g_, spheres_, options).radiance;
+    };
+    EXPECT_TRUE(sameBits(drawn(CND_SPECULAR_DEFAULT), drawn(CND_SPECULAR_CONIC)));
+    EXPECT_FALSE(sameBits(drawn(CND_SPECULAR_DEFAULT), drawn(CND_SPECULAR_KARIS)));
+}
+
 TEST_F(AddedPipelines, DrawTheBitsOfANewModule)
 {
     create(CND_MATERIAL_DIFFUSE_ONLY);

@@ -396,12 +396,12 @@ CND_API CndResult cndAddLightingPipelines(CndLighting lighting,
 // Replaces the light set; takes effect at the next recording. The id of each light is its index;
 // ids of the previous set must not be used any more. On error the previous set stays. Allocates
 // memory when there are more lights than the capacity, and creates pipelines and list buffers when
-// a light type is new. Lights are uploaded through a staging buffer of 64 bytes per light of the
+// a light type is new. Lights are uploaded through a staging buffer of 68 bytes per light of the
 // capacity; one more is allocated whenever frames in flight still read all existing ones.
 CND_API CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error);
 
 // Edits of the light set, for sets of which few lights change. Only the edited lights are
-// validated, packed and uploaded (64 bytes each). Edits take effect at the next recording, which
+// validated, packed and uploaded (68 bytes each). Edits take effect at the next recording, which
 // sorts the set on the device again. CndDeviceLights are not read again. On error nothing has
 // changed. Memory is allocated when the set grows beyond the capacity, and pipelines are created
 // when a light type is new. The same sequence of calls gives the same image, bit for bit. Setting

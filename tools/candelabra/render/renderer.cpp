@@ -381,7 +381,10 @@ void Renderer::State::recordGBuffer(VkCommandBuffer cmd, uint32_t slot, const Fr
     drawn.reset();
     if (frame.lightsVisible && emitterLayers != frame.camera.layers) {
         const double origin[3] = {scene->lightOrigin.x, scene->lightOrigin.y, scene->lightOrigin.z};
-        gbuffer.setEmitters(lightsShown(lights, frame.camera), origin);
+        if (frame.camera.layers)
+            gbuffer.setEmitters(lightsShown(lights, frame.camera), origin);
+        else
+            gbuffer.setEmitters(lights, origin);
         emitterLayers = frame.camera.layers;
     }
     const glm::vec3 background = environment.get() ? glm::vec3(0) : scene->background;

@@ -86,19 +86,29 @@ Bounds sceneBounds(const Scene& scene)
     return all;
 }
 
-CndLight lightAtTime(const Scene& scene, size_t light, double time)
+namespace
 {
-    CndLight out = scene.lights[light];
-    if (light >= scene.lightMotions.size() || cndIsDistant(out.type))
-        return out; // it stands still, or has no position
-    const LightMotion& motion = scene.lightMotions[light];
+
+void move(CndLight& light, const LightMotion& motion, double time)
+{
+    if (cndIsDistant(light.type))
+        return; // it has no position
     // The angle is a double until its sine and cosine are taken, so that the motion stays smooth
     // after hours.
     const double angle = motion.phase + static_cast<double>(motion.angularSpeed) * time;
     const float c = static_cast<float>(std::cos(angle));
     const float s = static_cast<float>(std::sin(angle));
     for (int axis = 0; axis < 3; ++axis)
-        out.position[axis] += motion.axisU[axis] * c + motion.axisV[axis] * s;
+        light.position[axis] += motion.axisU[axis] * c + motion.axisV[axis] * s;
+}
+
+} // namespace
+
+CndLight lightAtTime(const Scene& scene, size_t light, double time)
+{
+    CndLight out = scene.lights[light];
+    if (light < scene.lightMotions.size())
+        move(out, scene.lightMotions[light], time);
     return out;
 }
 
@@ -106,7 +116,7 @@ void lightsAtTime(const Scene& scene, double time, std::vector<CndLight>& out)
 {
     out = scene.lights;
     for (size_t i = 0; i < scene.lightMotions.size() && i < out.size(); ++i)
-        out[i] = lightAtTime(scene, i, time);
+        move(out[i], scene.lightMotions[i], time);
 }
 
 } // namespace candelabra::app
