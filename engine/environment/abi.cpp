@@ -51,33 +51,6 @@ CndResult cndRecordEnvironmentMap(CndEnvironment environment, VkCommandBuffer cm
     });
 }
 
-CndResult cndGetEnvironmentMapInfo(CndEnvironment environment, CndEnvironmentMapInfo* info,
-                                   CndError* error)
-{
-    return gpu::guard(error, [&] {
-        gpu::requireNotNull("cndGetEnvironmentMapInfo", {environment, info});
-        environment->impl.readMapInfo(*info);
-    });
-}
-
-CndResult cndRecordEnvironmentMapSave(CndEnvironment environment, VkCommandBuffer cmd,
-                                      const CndEnvironmentMapBuffer* to, CndError* error)
-{
-    return gpu::guard(error, [&] {
-        gpu::requireNotNull("cndRecordEnvironmentMapSave", {environment, cmd, to});
-        environment->impl.recordMapSave(cmd, *to);
-    });
-}
-
-CndResult cndRecordEnvironmentMapLoad(CndEnvironment environment, VkCommandBuffer cmd,
-                                      const CndEnvironmentMapBuffer* from, CndError* error)
-{
-    return gpu::guard(error, [&] {
-        gpu::requireNotNull("cndRecordEnvironmentMapLoad", {environment, cmd, from});
-        environment->impl.recordMapLoad(cmd, *from);
-    });
-}
-
 CndResult cndRecordEnvironment(CndEnvironment environment, VkCommandBuffer cmd,
                                const CndEnvironmentFrame* frame, CndError* error)
 {

@@ -2,9 +2,11 @@
 #include "environment/environment.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <string>
 
 #include <glm/mat3x3.hpp>
@@ -26,6 +28,11 @@ static_assert(gpu::LOBES_CONSERVING == CND_LOBES_CONSERVING);
 static_assert(gpu::LOBES_SUM == CND_LOBES_SUM);
 
 constexpr uint32_t defaultCubeSize = 256;
+
+// Devices that limit loops end them after 65,535 iterations in all
+// (decision 12). A row of the image takes environment_cube some iterations besides one per
+// column.
+constexpr uint32_t cubeIterations = 60000, cubeRowOverhead = 16;
 
 CndEnvironmentDesc checked(const gpu::Device& device, CndEnvironmentDesc desc)
 {
@@ -82,6 +89,61 @@ Binding cubeSampled(uint32_t binding, const gpu::CubeImage& cube, VkSampler samp
             .sampler = sampler};
 }
 
+// Returns the samples of a level of the prefiltered cube, as environment_prefilter reads them.
+std::array<glm::vec4, gpu::ENVIRONMENT_SAMPLES> lobeSamples(double alpha, uint32_t sourceSize)
+{
+    using std::numbers::pi;
+    constexpr double count = gpu::ENVIRONMENT_SAMPLES;
+    const double goldenAngle = pi * (3 - std::sqrt(5.0));
+    const double texelSolidAngle = 4 * pi / (6.0 * sourceSize * sourceSize);
+    // The mips that are read blur the lobe, so its samples are those of one up to 5% narrower.
+    const double narrowed = alpha * (0.95 + 0.05 * alpha), a2 = narrowed * narrowed;
+    const double above = 1 / (1 + a2); // the share of microfacet normals whose l has NoL > 0
+    std::array<glm::vec4, gpu::ENVIRONMENT_SAMPLES> out;
+    double weights = 0;
+    for (uint32_t i = 0; i < out.size(); ++i) {
+        // The microfacet normals have the density D NoH (Walter et al. 2007, eq. 35). v = n, so
+        // VoH = NoH.
+        const double u = (i + 0.5) / count * above, phi = goldenAngle * i;
+        const double c2 = (1 - u) / (1 + (a2 - 1) * u); // squared NoH
+        const double NoL = 2 * c2 - 1, sine = 2 * std::sqrt((1 - c2) * c2);
+        const double width = c2 * (a2 - 1) + 1;
+        const double pdf = a2 / (4 * pi * width * width * above); // D NoH / (4 VoH), above
+        const double share = 1 / (pdf * count);
+        // Wider texels blur the lobe, smaller ones let a small sun show the samples.
+        const double texels = 0.87 * std::sqrt(share / texelSolidAngle);
+        const double mip = std::max(std::round(std::log2(texels)), 0.0);
+        // BRDF NoL / pdf = G2 / NoV = 1 / (1 + Lambda(l)), since Lambda(v) = 0 (Heitz 2014, eq.
+        // 72).
+        const double tan2 = sine * sine / (NoL * NoL);
+        const double weight = 1 / (0.5 + 0.5 * std::sqrt(1 + a2 * tan2));
+        out[i] = {sine * std::cos(phi), sine * std::sin(phi), mip, weight};
+        weights += weight;
+    }
+    for (glm::vec4& sample : out)
+        sample.w = float(sample.w / weights);
+    return out;
+}
+
+// The alpha of a level of the prefiltered cube but the first.
+double alphaOf(uint32_t level, uint32_t cubeSize)
+{
+    return std::exp2(-double(levelCount(cubeSize) - 1 - level));
+}
+
+gpu::Buffer createLobeSamples(const gpu::Device& device, uint32_t cubeSize)
+{
+    const uint32_t levels = levelCount(cubeSize);
+    gpu::Buffer out = gpu::createBuffer(device, "environment lobe samples",
+                                        (levels - 1) * gpu::ENVIRONMENT_SAMPLES * sizeof(glm::vec4),
+                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Upload);
+    const std::span<glm::vec4> all = out.as<glm::vec4>();
+    for (uint32_t level = 1; level < levels; ++level)
+        std::ranges::copy(lobeSamples(alphaOf(level, cubeSize), cubeSize),
+                          all.begin() + (level - 1) * gpu::ENVIRONMENT_SAMPLES);
+    return out;
+}
+
 bool isRotation(const glm::dmat3& m)
 {
     const glm::dmat3 product = glm::transpose(m) * m;
@@ -112,6 +174,7 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
       cube_(device_, spirv::environment_cube_comp),
       mip_(device_, spirv::environment_mip_comp),
       prefilter_(device_, spirv::environment_prefilter_comp),
+      cellsKernel_(device_, spirv::environment_cells_comp),
       irradianceKernel_(device_, spirv::environment_irradiance_comp),
       hostKernels_(desc_.hostKernels, desc_.gbufferLayout),
       shade_(device_,
@@ -127,9 +190,15 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
     prefiltered_ = gpu::createCubeImage(device_, "prefiltered environment", desc_.cubeSize, levels);
     irradiance_ = gpu::createCubeImage(device_, "environment irradiance",
                                        gpu::ENVIRONMENT_IRRADIANCE_SIZE, 1);
+    lobeSamples_ = createLobeSamples(device_, desc_.cubeSize);
+    cells_ = gpu::createBuffer(device_, "environment cells",
+                               gpu::ENVIRONMENT_CELL_ROWS * gpu::ENVIRONMENT_CELL_COLUMNS *
+                                   sizeof(gpu::mat3),
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Scratch);
     sets_ = {.cube = cube_.createBindings(1),
              .mip = mip_.createBindings(mips - 1),
              .prefilter = prefilter_.createBindings(levels - 1),
+             .cells = cellsKernel_.createBindings(1),
              .irradiance = irradianceKernel_.createBindings(1),
              .shade = shade_.createBindings(desc_.framesInFlight)};
     for (uint32_t mip = 1; mip < mips; ++mip)
@@ -140,11 +209,10 @@ Environment::Environment(const CndDeviceDesc& device, const CndEnvironmentDesc& 
         sets_.prefilter.write(
             level - 1,
             {cubeSampled(gpu::ENVIRONMENT_PREFILTER_SOURCE, source_, sampler_.get()),
-             Binding::storage(gpu::ENVIRONMENT_PREFILTER_OUTPUT, prefiltered_.mips[level].get())});
-    const uint32_t sourceMip =
-        mips - mipCount(gpu::ENVIRONMENT_IRRADIANCE_SOURCE_SIZE); // at least 1: cubeSize >= 64
+             Binding::storage(gpu::ENVIRONMENT_PREFILTER_OUTPUT, prefiltered_.mips[level].get()),
+             Binding::of(gpu::ENVIRONMENT_PREFILTER_SAMPLES, lobeSamples_)});
     sets_.irradiance.write(
-        0, {Binding::storage(gpu::ENVIRONMENT_IRRADIANCE_SOURCE, source_.mips[sourceMip].get()),
+        0, {Binding::of(gpu::ENVIRONMENT_IRRADIANCE_CELLS, cells_),
             Binding::storage(gpu::ENVIRONMENT_IRRADIANCE_OUTPUT, irradiance_.mips[0].get())});
 }
 
@@ -163,25 +231,22 @@ void Environment::recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map)
                      {Binding::sampled(gpu::ENVIRONMENT_CUBE_IMAGE, map.equirectangular),
                       Binding::storage(gpu::ENVIRONMENT_CUBE_OUTPUT, source_.mips[0].get()),
                       Binding::storage(gpu::ENVIRONMENT_CUBE_MIRROR, prefiltered_.mips[0].get())});
+    sets_.cells.write(0, {Binding::sampled(gpu::ENVIRONMENT_CELLS_IMAGE, map.equirectangular),
+                          Binding::of(gpu::ENVIRONMENT_CELLS_OUTPUT, cells_)});
 
     const gpu::Frame f{device_, cmd, timer_, mapSlot()};
-    recordMapBegin(f);
-    recordCube(f, map);
-    recordPrefiltering(f);
-    f.barrier();
-    device_.endLabel(cmd);
-    mapped_ = true;
-}
-
-// Records what precedes any preparation of the cube maps, whose previous contents are discarded.
-void Environment::recordMapBegin(const gpu::Frame& f) noexcept
-{
-    device_.beginLabel(f.cmd, "candelabra environment map");
-    timer_.begin(f.cmd, f.slot);
+    device_.beginLabel(cmd, "candelabra environment map");
+    timer_.begin(cmd, f.slot);
     f.barrier(); // waits for earlier frames, which use the same images
     recordLayouts(f);
     gbuffer_.record(f);
     dfg_.recordFill(f);
+    recordCube(f, map);
+    recordIrradiance(f, map);
+    recordPrefiltering(f);
+    f.barrier();
+    device_.endLabel(cmd);
+    mapped_ = true;
 }
 
 // Moves the cube maps to layout GENERAL, in which they stay. Their previous contents are discarded.
@@ -194,37 +259,51 @@ void Environment::recordLayouts(const gpu::Frame& f) const noexcept
 void Environment::recordCube(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept
 {
     const auto groups = [](uint32_t size) { return divideUp(size, gpu::ENVIRONMENT_GROUP); };
-    // A cube face spans a quarter of the image's width and half of its height.
-    const uint32_t perTexel =
-        std::max(divideUp(map.width, 4 * desc_.cubeSize), divideUp(map.height, 2 * desc_.cubeSize));
-    cube_.dispatch(f, sets_.cube.set(0),
-                   {.imageSize = {map.width, map.height},
-                    .cubeSize = desc_.cubeSize,
-                    .samples = std::min(perTexel, gpu::ENVIRONMENT_MAX_SAMPLES)},
-                   groups(desc_.cubeSize), groups(desc_.cubeSize), 6);
+    // Texels around a pole gather from rows up to two diagonals of a texel away from it, the
+    // farthest and with a margin of 3 rows.
+    const uint32_t rows = std::max(cubeIterations / (map.width + cubeRowOverhead), 1u);
+    const uint32_t most =
+        uint32_t(2 * std::numbers::sqrt2 * 2 / desc_.cubeSize * map.height / std::numbers::pi) + 3;
+    for (uint32_t skipped = 0; skipped < most; skipped += rows) {
+        if (skipped > 0)
+            f.barrier();
+        cube_.dispatch(f, sets_.cube.set(0),
+                       {.imageSize = {map.width, map.height},
+                        .cubeSize = desc_.cubeSize,
+                        .skippedRows = skipped,
+                        .rows = rows},
+                       groups(desc_.cubeSize), groups(desc_.cubeSize), 6);
+    }
     for (uint32_t mip = 1; mip < source_.mips.size(); ++mip) {
         f.barrier();
         const uint32_t size = desc_.cubeSize >> mip;
         mip_.dispatch(f, sets_.mip.set(mip - 1), {size}, groups(size), groups(size), 6);
     }
-    f.barrier();
+}
+
+// Records the light of every normal, which follows from the image, not from the cube.
+void Environment::recordIrradiance(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept
+{
+    cellsKernel_.dispatch(f, sets_.cells.set(0), {.imageSize = {map.width, map.height}},
+                          gpu::ENVIRONMENT_CELL_COLUMNS / gpu::ENVIRONMENT_GROUP,
+                          gpu::ENVIRONMENT_CELL_ROWS / gpu::ENVIRONMENT_GROUP);
+    f.barrier(); // also for the cube's last mip
+    constexpr uint32_t size = gpu::ENVIRONMENT_IRRADIANCE_SIZE;
+    constexpr uint32_t rows = divideUp(size, gpu::ENVIRONMENT_IRRADIANCE_NORMALS);
+    irradianceKernel_.dispatch(f, sets_.irradiance.set(0), {},
+                               divideUp(size, gpu::ENVIRONMENT_GROUP),
+                               divideUp(rows, gpu::ENVIRONMENT_GROUP), 3);
 }
 
 void Environment::recordPrefiltering(const gpu::Frame& f) const noexcept
 {
-    const uint32_t last = uint32_t(prefiltered_.mips.size()) - 1;
-    for (uint32_t level = 1; level <= last; ++level) {
+    for (uint32_t level = 1; level < prefiltered_.mips.size(); ++level) {
         const uint32_t size = desc_.cubeSize >> level;
         const uint32_t groups = divideUp(size, gpu::ENVIRONMENT_GROUP);
-        prefilter_.dispatch(
-            f, sets_.prefilter.set(level - 1),
-            {.size = size, .sourceSize = desc_.cubeSize, .alpha = std::exp2(-float(last - level))},
-            groups, groups, 6);
+        prefilter_.dispatch(f, sets_.prefilter.set(level - 1),
+                            {.size = size, .firstSample = (level - 1) * gpu::ENVIRONMENT_SAMPLES},
+                            groups, groups, 6);
     }
-    constexpr uint32_t groups = gpu::ENVIRONMENT_IRRADIANCE_SIZE / gpu::ENVIRONMENT_GROUP;
-    irradianceKernel_.dispatch(f, sets_.irradiance.set(0),
-                               {.sourceSize = gpu::ENVIRONMENT_IRRADIANCE_SOURCE_SIZE}, groups,
-                               groups, 6);
 }
 
 void Environment::validate(const CndEnvironmentFrame& frame) const
@@ -233,8 +312,7 @@ void Environment::validate(const CndEnvironmentFrame& frame) const
         gpu::failArgument("CndEnvironmentFrame: structSize is " + std::to_string(frame.structSize) +
                           ", this library expects " + std::to_string(sizeof frame));
     if (!mapped_)
-        gpu::failArgument("cndRecordEnvironment: cndRecordEnvironmentMap or "
-                          "cndRecordEnvironmentMapLoad must be recorded first");
+        gpu::failArgument("cndRecordEnvironment: cndRecordEnvironmentMap must be recorded first");
     if (frame.frameSlot >= recorded_.size())
         gpu::failArgument("CndEnvironmentFrame: frameSlot is " + std::to_string(frame.frameSlot) +
                           ", framesInFlight is " + std::to_string(recorded_.size()));

@@ -24,28 +24,21 @@ public:
 
     // These throw gpu::Failure on arguments out of range; once recording starts nothing can fail.
     void recordMap(VkCommandBuffer cmd, const CndEnvironmentMap& map);
-    void readMapInfo(CndEnvironmentMapInfo& info) const;
-    void recordMapSave(VkCommandBuffer cmd, const CndEnvironmentMapBuffer& to);
-    void recordMapLoad(VkCommandBuffer cmd, const CndEnvironmentMapBuffer& from);
     void record(VkCommandBuffer cmd, const CndEnvironmentFrame& frame);
     CndResult stats(uint32_t slot, CndEnvironmentStats& stats) const noexcept;
     const gpu::Device& device() const { return device_; }
 
 private:
     void validate(const CndEnvironmentFrame& frame) const;
-    void recordMapBegin(const gpu::Frame& f) noexcept;
     void recordLayouts(const gpu::Frame& f) const noexcept;
     void recordCube(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept;
     void recordPrefiltering(const gpu::Frame& f) const noexcept;
-    void requireMapBuffer(const CndEnvironmentMapBuffer& buffer) const;
-    // Calls `copy` with each part of a prepared map, in the order of CndEnvironmentMapBuffer.
-    template <typename Copy>
-    void forEachMapPart(VkDeviceSize offset, const Copy& copy) const;
+    void recordIrradiance(const gpu::Frame& f, const CndEnvironmentMap& map) const noexcept;
     // The timer's slot for recordMap, which follows those of the frames.
     uint32_t mapSlot() const { return uint32_t(recorded_.size()); }
 
     struct Sets {
-        gpu::Bindings cube, mip, prefilter, irradiance, shade;
+        gpu::Bindings cube, mip, prefilter, cells, irradiance, shade;
     };
 
     gpu::Device device_;
@@ -57,7 +50,8 @@ private:
     gpu::Kernel<gpu::EnvironmentCubeParams> cube_;
     gpu::Kernel<gpu::EnvironmentMipParams> mip_;
     gpu::Kernel<gpu::EnvironmentPrefilterParams> prefilter_;
-    gpu::Kernel<gpu::EnvironmentIrradianceParams> irradianceKernel_;
+    gpu::Kernel<gpu::EnvironmentCellsParams> cellsKernel_;
+    gpu::Kernel<gpu::NoParams> irradianceKernel_;
     surfaces::HostKernels hostKernels_;
     gpu::Kernel<gpu::ShadeEnvironmentParams> shade_;
     Sets sets_;
@@ -65,6 +59,8 @@ private:
     gpu::CubeImage prefiltered_; // the environment convolved with the GGX lobe, one mip level per
                                  // alpha
     gpu::CubeImage irradiance_;
+    gpu::Buffer lobeSamples_; // of each level of prefiltered_ but the first
+    gpu::Buffer cells_;
     gpu::Handle<VkSampler> sampler_;
     std::vector<bool> recorded_; // per frame slot: a frame has been recorded in it
     bool mapped_ = false;

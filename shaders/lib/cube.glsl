@@ -31,11 +31,4 @@ float cubeTexelSolidAngle(vec2 uv, uint size)
     return side * side * inversesqrt(r2) / r2;
 }
 
-// Returns the position of a unit direction in an equirectangular image, in [0, 1]^2 from the top left
-// corner.
-vec2 equirectangular(vec3 d)
-{
-    return vec2(atan(d.x, -d.z) * (0.5 * INV_PI) + 0.5, acos(clamp(d.y, -1.0, 1.0)) * INV_PI);
-}
-
 #endif

@@ -41,14 +41,6 @@ void EnvironmentTest::createEnvironment(CndEnvironmentDesc desc)
         << error.message;
 }
 
-CndEnvironmentMapInfo EnvironmentTest::mapInfo() const
-{
-    CndEnvironmentMapInfo info{.structSize = sizeof info};
-    CndError error{};
-    EXPECT_EQ(cndGetEnvironmentMapInfo(environment_, &info, &error), CND_SUCCESS) << error.message;
-    return info;
-}
-
 void EnvironmentTest::setImage(const EnvironmentImage& source, uint32_t cubeSize,
                                const CndGBufferDesc* gbuffer, const CndHostKernels* custom,
                                CndGBufferLayout customLayout)

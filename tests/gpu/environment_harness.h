@@ -45,7 +45,6 @@ protected:
     // Replaces the object by one that has prepared nothing. Size, frames in flight and timestamps
     // are filled in.
     void createEnvironment(CndEnvironmentDesc desc);
-    CndEnvironmentMapInfo mapInfo() const;
     std::vector<glm::vec4> shade(const CpuGBuffer& g, const EnvironmentOptions& options = {});
     CndEnvironmentFrame environmentFrame(const CpuGBuffer& g, const Images& images,
                                          const EnvironmentOptions& options) const;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the built program as a user runs it: files, exit codes, the window under Xvfb.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -189,28 +191,39 @@ TEST_F(ProgramTest, BloomIsOfPicturesAlone)
     EXPECT_NEAR(json["settings"]["bloom"], 0.1, 1e-6);
 }
 
-// Pictures have the same bits whether their environment was prepared now or before.
-TEST_F(ProgramTest, KeepsPreparedEnvironments)
+// A white floor gets the illuminance that is printed, and that follows from the image alone.
+TEST_F(ProgramTest, FloorsGetTheIlluminanceThatIsPrinted)
 {
-    const std::string start = "render scene.glb --environment sky.hdr --size 48x27 -q -o ";
-    ASSERT_EQ(run("examples").exitCode, 0);
-    ASSERT_EQ(run(start + "a.png --no-cache").exitCode, 0);
-    EXPECT_FALSE(std::filesystem::exists(path("cache/candelabra/environments")));
-    for (const char* picture : {"b.png", "c.png"}) { // stores it, and finds it
-        const Outcome outcome = run(start + picture + " --validate");
+    const struct {
+        uint32_t width, row;
+    } texels[] = {{64, 0}, {64, 15}, {256, 40}, {1024, 1}, {1024, 180}, {1024, 250}};
+    for (const auto& [width, row] : texels) {
+        app::Image image{.width = width, .height = width / 2, .channels = 3, .pixels = {}};
+        image.pixels.assign(size_t(width) * image.height * 3, 0);
+        const size_t texel = 3 * (size_t(row) * width + width / 3);
+        std::fill_n(&image.pixels[texel], 3, 1e7f);
+        app::savePfm(path("sky.pfm"), image);
+        const Outcome outcome =
+            run("render " + test::shellWord(test::dataPath("matte_floor.gltf")) +
+                " --environment sky.pfm --size 8x8 --validate -o o.pfm");
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-        EXPECT_EQ(outcome.err, "");
-        EXPECT_EQ(text("a.png"), text(picture));
-        const std::filesystem::directory_iterator files(path("cache/candelabra/environments"));
-        EXPECT_EQ(std::distance(files, {}), 1);
+        const auto squaredSine = [&](double y) {
+            return std::pow(std::sin(std::numbers::pi * y / image.height), 2);
+        };
+        const double lux =
+            1e7 * std::numbers::pi / width * (squaredSine(row + 1.0) - squaredSine(row));
+        const std::string said = outcome.out + outcome.err, before = "environment sky.pfm: ";
+        ASSERT_NE(said.find(before), std::string::npos) << said;
+        const double printed = std::stod(said.substr(said.find(before) + before.size()));
+        EXPECT_NEAR(printed, lux, 0.006 * lux) << said; // three digits
+        const double elevation = 90 - 180 * (row + 0.5) / image.height;
+        const double facing = lux / std::sin(elevation * std::numbers::pi / 180);
+        const std::vector<float> floor = app::loadPfm(path("o.pfm")).pixels;
+        for (const float radiance : floor)
+            ASSERT_NEAR(double(radiance) * std::numbers::pi / 0.5, lux,
+                        1e-3 * (elevation < 10 ? facing : lux))
+                << width << " " << row;
     }
-    // Where there is no place for a cache, there is none. Mesa has a cache of its own, and would
-    // say that it has no place for it.
-    const Outcome without = run(start + "d.png", "HOME=/dev/null XDG_CACHE_HOME=/dev/null "
-                                                 "MESA_SHADER_CACHE_DISABLE=true");
-    ASSERT_EQ(without.exitCode, 0) << without.err;
-    EXPECT_EQ(without.err, "");
-    EXPECT_EQ(text("a.png"), text("d.png"));
 }
 
 // A sequence that was interrupted gets the same pictures as one that was not: the exposure of each

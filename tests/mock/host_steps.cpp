@@ -273,15 +273,6 @@ std::vector<Step> deviceLightSteps()
     };
 }
 
-CndEnvironmentMapBuffer mapBuffer(const Host& h)
-{
-    CndEnvironmentMapInfo info{.structSize = sizeof info};
-    EXPECT_EQ(cndGetEnvironmentMapInfo(h.environment, &info, nullptr), CND_SUCCESS);
-    return {.structSize = sizeof(CndEnvironmentMapBuffer),
-            .buffer = MockVulkan::hostBuffer(),
-            .size = info.size};
-}
-
 // Records the modules beside lighting.
 std::vector<Step> moduleSteps()
 {
@@ -304,18 +295,6 @@ std::vector<Step> moduleSteps()
                                          .equirectangular = MockVulkan::imageView()};
              return cndRecordEnvironmentMap(h.environment, MockVulkan::commandBuffer(), &map,
                                             error);
-         }},
-        {"save environment map", true,
-         [](Host& h, CndError* error) {
-             const CndEnvironmentMapBuffer buffer = mapBuffer(h);
-             return cndRecordEnvironmentMapSave(h.environment, MockVulkan::commandBuffer(), &buffer,
-                                                error);
-         }},
-        {"load environment map", true,
-         [](Host& h, CndError* error) {
-             const CndEnvironmentMapBuffer buffer = mapBuffer(h);
-             return cndRecordEnvironmentMapLoad(h.environment, MockVulkan::commandBuffer(), &buffer,
-                                                error);
          }},
         {"record environment", true,
          [](Host& h, CndError* error) {

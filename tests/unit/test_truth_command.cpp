@@ -15,6 +15,7 @@
 #include "cli.h"
 #include "io/image.h"
 #include "truth/reference_scene.h"
+#include "truth/truth_cache.h"
 #include "truth/truth_file.h"
 #include "json/scene_json.h"
 
@@ -323,6 +324,30 @@ TEST_F(TruthCommand, NothingThatIsReadIsReplaced)
     EXPECT_EQ(run({"--merge", path("part.pfm"), "-o", path("part.pfm")}), 2);
     EXPECT_NE(err_.find("would replace"), std::string::npos) << err_;
     EXPECT_EQ(text("part.pfm"), part);
+}
+
+TEST(TruthCacheTest, StandardFolderIsThatOfXdg)
+{
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::string(value ? value : "");
+    };
+    const auto folder = [] { return TruthCache::standard().directory(); };
+    const std::string cache = variable("XDG_CACHE_HOME"), home = variable("HOME");
+    setenv("XDG_CACHE_HOME", "/x", 1);
+    setenv("HOME", "/h", 1);
+    EXPECT_EQ(folder(), "/x/candelabra/truth");
+    setenv("XDG_CACHE_HOME", "relative", 1);
+    EXPECT_EQ(folder(), "/h/.cache/candelabra/truth");
+    unsetenv("XDG_CACHE_HOME");
+    EXPECT_EQ(folder(), "/h/.cache/candelabra/truth");
+    setenv("HOME", "relative", 1);
+    EXPECT_EQ(folder(), "");
+    unsetenv("HOME");
+    EXPECT_EQ(folder(), "");
+    setenv("HOME", home.c_str(), 1);
+    if (!cache.empty())
+        setenv("XDG_CACHE_HOME", cache.c_str(), 1);
 }
 
 TEST_F(TruthCommand, MergeTakesNoOtherOptions)

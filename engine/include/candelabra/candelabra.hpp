@@ -379,25 +379,6 @@ public:
         map.structSize = sizeof map;
         return detail::call(cndRecordEnvironmentMap, handle_, cmd, &map);
     }
-    Result<CndEnvironmentMapInfo> mapInfo() const noexcept
-    {
-        CndEnvironmentMapInfo info{};
-        info.structSize = sizeof info;
-        CndError error{};
-        if (cndGetEnvironmentMapInfo(handle_, &info, &error) != CND_SUCCESS)
-            return error;
-        return info;
-    }
-    Result<void> recordMapSave(VkCommandBuffer cmd, CndEnvironmentMapBuffer to) const noexcept
-    {
-        to.structSize = sizeof to;
-        return detail::call(cndRecordEnvironmentMapSave, handle_, cmd, &to);
-    }
-    Result<void> recordMapLoad(VkCommandBuffer cmd, CndEnvironmentMapBuffer from) const noexcept
-    {
-        from.structSize = sizeof from;
-        return detail::call(cndRecordEnvironmentMapLoad, handle_, cmd, &from);
-    }
     Result<void> record(VkCommandBuffer cmd, CndEnvironmentFrame frame) const noexcept
     {
         frame.structSize = sizeof frame;

@@ -18,8 +18,8 @@ typedef struct CndEnvironmentDesc {
     uint32_t framesInFlight; // 1..8: frames recorded and not yet waited for, all views together
     CndGBufferLayout gbufferLayout;
     // Side of a cube face in texels, a power of two in 64..2048; 0: default, 256. It limits the
-    // sharpness of the background and of mirror reflections. The module takes 256 * cubeSize^2
-    // bytes for it (17 MB for 256).
+    // sharpness of the background and of mirror reflections; diffuse light does not depend on it.
+    // The module takes 256 * cubeSize^2 bytes for it, and 1 MB (18 MB in all for 256).
     uint32_t cubeSize;
     VkBool32 timestamps; // VK_TRUE: measure the GPU time of every kernel
     CndGBufferDesc gbuffer;
@@ -28,41 +28,20 @@ typedef struct CndEnvironmentDesc {
                                 // used
 } CndEnvironmentDesc;
 
+// The largest luminance of an environment image, cd/m^2: 1000 times that of the Sun's disc.
+#define CND_ENVIRONMENT_MAX_LUMINANCE 2e12f
+
 // An equirectangular (latitude-longitude) image: up (+y) is the top row, -z is the middle, +x is to
 // the right of the middle. It holds luminance in cd/m^2 per Rec.709 channel. NaN and negative
-// values are read as 0, values above 2e12 as 2e12. On entry the image has a float format, is in
-// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL and is visible to COMPUTE_SHADER / SHADER_SAMPLED_READ.
-// It is not needed any more once the GPU has finished the recording.
+// values are read as 0, values above CND_ENVIRONMENT_MAX_LUMINANCE as that. On entry the image has
+// a float format, is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL and is visible to COMPUTE_SHADER /
+// SHADER_SAMPLED_READ. Each texel lights surfaces with its luminance times its exact solid angle,
+// from where it is. It is not needed any more once the GPU has finished the recording.
 typedef struct CndEnvironmentMap {
     uint32_t structSize;
     uint32_t width, height; // texels, 1..16384
     VkImageView equirectangular;
 } CndEnvironmentMap;
-
-// What preparing an image amounts to, for hosts that keep it instead of preparing the same image
-// anew: the same bytes give the same pictures, bit for bit.
-typedef struct CndEnvironmentMapInfo {
-    uint32_t structSize;
-    // Bytes of a prepared map, a multiple of 16. It follows from CndEnvironmentDesc::cubeSize: less
-    // than 160 * cubeSize^2 + 98304 (10.6 MB for 256).
-    uint64_t size;
-    // Differs between versions of this library that prepare maps differently, and between sizes of
-    // cubes. Bytes may be loaded only where version, physical device and driver are those with
-    // which they were saved, because devices round differently.
-    uint64_t version;
-} CndEnvironmentMapInfo;
-
-// A range of a buffer of the host that holds, or receives, a prepared map: R32G32B32A32_SFLOAT
-// texels, row by row from the top, face by face (+x -x +y -y +z -z), of which the fourth channel is
-// 1. First come the faces of the cube with cubeSize texels a side, then those of half the side and
-// so on down to 1. Then come the levels of the prefiltered cube from cubeSize / 2 to 8 texels a
-// side, then the irradiance with 32 texels a side.
-typedef struct CndEnvironmentMapBuffer {
-    uint32_t structSize;
-    VkBuffer buffer;     // with usage TRANSFER_SRC to load it, TRANSFER_DST to save it
-    VkDeviceSize offset; // bytes, a multiple of 16
-    VkDeviceSize size;   // bytes, CndEnvironmentMapInfo::size
-} CndEnvironmentMapBuffer;
 
 // One frame of one view. The G-buffer, and the states of images on entry and on exit, are as for
 // CndLightingFrame. It may be recorded before or after the CndLightingFrame of the same view. The
@@ -130,28 +109,11 @@ CND_API CndResult cndGetEnvironmentMemory(CndEnvironment environment, CndMemoryU
 // the push constants; must be recorded outside a render pass.
 CND_API CndResult cndRecordEnvironmentMap(CndEnvironment environment, VkCommandBuffer cmd,
                                           const CndEnvironmentMap* map, CndError* error);
-// Writes the size and the version of the maps that the object prepares.
-CND_API CndResult cndGetEnvironmentMapInfo(CndEnvironment environment, CndEnvironmentMapInfo* info,
-                                           CndError* error);
-// Records a copy of the prepared map to a buffer, which the host may read once it has waited for
-// the GPU. Earlier uses of that range by the GPU must have finished and be visible to transfers. A
-// map must have been recorded before, in this recording or in one submitted earlier to the same
-// queue. Must be recorded outside a render pass; changes no state.
-CND_API CndResult cndRecordEnvironmentMapSave(CndEnvironment environment, VkCommandBuffer cmd,
-                                              const CndEnvironmentMapBuffer* to, CndError* error);
-// Records the same as cndRecordEnvironmentMap, under the same rules, from the bytes of a map that
-// was saved before in place of the image: it copies, and computes nothing but the table. On entry
-// the bytes are visible to TRANSFER / TRANSFER_READ, as bytes are that the host has written before
-// it submits. What the bytes are is not checked: others than those that were saved give surfaces
-// any colours.
-CND_API CndResult cndRecordEnvironmentMapLoad(CndEnvironment environment, VkCommandBuffer cmd,
-                                              const CndEnvironmentMapBuffer* from, CndError* error);
-// Records the shading of one frame, which is one kernel; cndRecordEnvironmentMap or
-// cndRecordEnvironmentMapLoad must have been recorded before. The specular term is a split-sum
-// approximation: exact in surroundings of constant luminance, otherwise the lobe has the shape that
-// it has when viewed along the normal. There are no shadows. Changes the same state as
-// cndRecordEnvironmentMap (and compute descriptor set 1 with host kernels); must be recorded
-// outside a render pass.
+// Records the shading of one frame, which is one kernel; cndRecordEnvironmentMap must have been
+// recorded before. The specular term is a split-sum approximation: exact in surroundings of
+// constant luminance, otherwise the lobe has the shape that it has when viewed along the normal.
+// There are no shadows. Changes the same state as cndRecordEnvironmentMap (and compute descriptor
+// set 1 with host kernels); must be recorded outside a render pass.
 CND_API CndResult cndRecordEnvironment(CndEnvironment environment, VkCommandBuffer cmd,
                                        const CndEnvironmentFrame* frame, CndError* error);
 // Writes kernel times of the last frame recorded in frameSlot, and of the last map. With

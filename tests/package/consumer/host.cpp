@@ -17,8 +17,7 @@
            lighting.addLight(lights[0]) && lighting.updateLights({&ids[0], 1}, {&lights[0], 1}) &&
            lighting.removeLights(ids) && view.record(nullptr, {}) && view.stats(0) &&
            view.recordOverlay(nullptr, {}, {}) && environment.record(nullptr, {}) &&
-           environment.mapInfo() && environment.recordMapSave(nullptr, {}) &&
-           environment.recordMapLoad(nullptr, {}) && exposure.setMask(weights, 1, 1) &&
+           environment.recordMap(nullptr, {}) && exposure.setMask(weights, 1, 1) &&
            exposure.record(nullptr, {}) && exposure.stats(0);
 }
 

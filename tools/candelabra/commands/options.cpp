@@ -79,18 +79,13 @@ void DeviceArguments::addTo(CLI::App& command)
     command.add_flag("--validate", validate,
                      "run with the Vulkan validation layers; their messages go to stderr, and any "
                      "message makes the exit code 1");
-    command.add_flag(
-        "--no-cache", noCache,
-        "prepare environment images anew, and neither read nor write the cache of prepared ones "
-        "(candelabra/environments in $XDG_CACHE_HOME or ~/.cache)");
 }
 
 ContextOptions DeviceArguments::contextOptions(Presentation presentation) const
 {
     return {.device = device,
             .validation = validate ? Validation::On : Validation::Off,
-            .presentation = presentation,
-            .cache = !noCache};
+            .presentation = presentation};
 }
 
 void DeviceArguments::requireRoomFor(uint32_t lights) const

@@ -25,7 +25,7 @@ struct ProgramContext {
 
 struct DeviceArguments {
     std::string device;
-    bool validate = false, noCache = false;
+    bool validate = false;
 
     void addTo(CLI::App& command);
     ContextOptions contextOptions(Presentation presentation = Presentation::Headless) const;

@@ -314,10 +314,7 @@ Renderer::Renderer(const VulkanContext& context, const Scene& scene, const Rende
     if (scene.environment)
         s.environment = uploadEnvironment(
             context, *scene.environment,
-            {.gbufferLayout = options.gbufferLayout,
-             .framesInFlight = options.framesInFlight,
-             .cache = context.caches() ? CacheFolder(standardCacheFolder("environments"))
-                                       : CacheFolder()});
+            {.gbufferLayout = options.gbufferLayout, .framesInFlight = options.framesInFlight});
     if (options.stamps)
         s.stamps =
             FrameStamps(context.device(), context.timestampValidBits(), options.framesInFlight, 3);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "candelabra/candelabra.hpp"
-#include "io/cache_folder.h"
 #include "render/vulkan_context.h"
 #include "scene/scene.h"
 
@@ -13,12 +12,9 @@ namespace candelabra::app
 struct EnvironmentOptions {
     CndGBufferLayout gbufferLayout = CND_GBUFFER_FULL;
     uint32_t framesInFlight = 1;
-    CacheFolder cache; // of prepared environments (decision 65)
 };
 
-// Returns the environment, ready for frames: as the cache has it, or else prepared by the device
-// from the image and then stored in the cache. Both give the same bits. Throws UsageError, RunError
-// or gpu::Failure.
+// Returns the environment, ready for frames. Throws UsageError, RunError or gpu::Failure.
 Environment uploadEnvironment(const VulkanContext& context, const SceneEnvironment& environment,
                               const EnvironmentOptions& options);
 

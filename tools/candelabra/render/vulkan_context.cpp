@@ -107,8 +107,7 @@ VkPipelineCache createPipelineCache(VkDevice device)
 
 VulkanContext::VulkanContext(const ContextOptions& options)
     : instance_(options.validation, options.presentation),
-      info_(chooseDevice(instance_.devices(), options.device)),
-      caches_(options.cache)
+      info_(chooseDevice(instance_.devices(), options.device))
 {
     if (info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU)
         keepFreedMemory();

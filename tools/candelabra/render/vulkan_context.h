@@ -18,8 +18,6 @@ struct ContextOptions {
     std::string device; // `wanted` of chooseDevice
     Validation validation = Validation::Off;
     Presentation presentation = Presentation::Headless;
-    // What takes long to compute for the device may be kept in standardCacheFolder().
-    bool cache = false;
     // Where the engine finds Vulkan's functions.
     PFN_vkGetInstanceProcAddr engineFunctions = vkGetInstanceProcAddr;
 };
@@ -38,7 +36,6 @@ public:
     // The description from which modules are created. It is valid as long as the context.
     const CndDeviceDesc& desc() const { return desc_; }
     const gpu::Device& device() const { return *gpu_; }
-    bool caches() const { return caches_; } // ContextOptions::cache
     // The queue does graphics, compute and transfers, and presentation with Presentation::Window.
     // Who uses it directly must know that no other thread uses it at the same time; the functions
     // below see to that themselves.
@@ -78,7 +75,7 @@ private:
     VkQueue queue_ = VK_NULL_HANDLE;
     mutable std::mutex queueMutex_; // Vulkan lets one thread at a time use a queue
     uint32_t queueFamily_ = 0, timestampValidBits_ = 0;
-    bool samplerAnisotropy_ = false, caches_ = false;
+    bool samplerAnisotropy_ = false;
     const char* calibratedTimestamps_ = nullptr;
     PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps_ = nullptr;
     CndDeviceDesc desc_{};

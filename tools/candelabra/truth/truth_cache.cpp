@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "truth/truth_cache.h"
 
+#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
-#include "io/cache_folder.h"
 
 namespace candelabra::app
 {
 
 TruthCache TruthCache::standard()
 {
-    return TruthCache(standardCacheFolder("truth"));
+    // The XDG Base Directory Specification has paths that are not absolute ignored.
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    if (cache && cache[0] == '/')
+        return TruthCache(std::string(cache) + "/candelabra/truth");
+    const char* home = std::getenv("HOME");
+    if (home && home[0] == '/')
+        return TruthCache(std::string(home) + "/.cache/candelabra/truth");
+    return {};
 }
 
 std::string TruthCache::file(const TruthShard& shard) const

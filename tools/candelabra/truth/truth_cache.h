@@ -21,6 +21,7 @@ public:
     // A cache that stores nothing and finds nothing.
     TruthCache() = default;
 
+    const std::string& directory() const { return directory_; } // empty: it stores nothing
     // Looks for the shard that the other members of `wanted` describe. Returns true and sets its
     // pixels if the cache has it. A file that does not hold what its name says is ignored.
     bool find(TruthShard& wanted) const;
