@@ -2,6 +2,7 @@
 // Tests the light of scenes that have none, how bright environments are, and added lights.
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <numbers>
 
 #include "load/brightness.h"
@@ -261,6 +262,35 @@ TEST_F(DefaultLight, EnvironmentsAreMeasuredAndScaled)
     options.environment = sky(0);
     EXPECT_NE(error(triangleScene(), options).find("gives level ground no light"),
               std::string::npos);
+}
+
+// What a file may hold besides luminance is replaced, and counted in one warning.
+TEST_F(DefaultLight, TexelsThatAreNoLuminanceAreCounted)
+{
+    Image image{.width = 64, .height = 32, .channels = 3, .pixels = {}};
+    image.pixels.assign(64 * 32 * 3, 100);
+    const std::string path = folder_.path("broken.pfm");
+    savePfm(path, image);
+    EXPECT_FALSE(warns(load(triangleScene(), {.environment = path}), "texels"));
+    const float infinity = std::numeric_limits<float>::infinity();
+    image.pixels[0] = 60'000;
+    image.pixels[6] = image.pixels[7] = std::numeric_limits<float>::quiet_NaN(); // one texel
+    image.pixels[9] = -1;
+    image.pixels[12] = -infinity;
+    image.pixels[15] = infinity;
+    image.pixels[18] = 1e20f;
+    savePfm(path, image);
+    const Scene scene = load(triangleScene(), {.environment = path});
+    EXPECT_TRUE(warns(scene, "of its 2048 texels 1 are NaN (0 is used), 2 negative (0 is used), 1 "
+                             "infinite (2e+12 is used, the greatest of the others), 1 above 2e+12 "
+                             "cd/m^2 (which is used)"));
+    const std::vector<float>& pixels = scene.environment->radiance.pixels;
+    for (const int i : {6, 7, 9, 12})
+        EXPECT_EQ(pixels[size_t(i)], 0) << i;
+    EXPECT_EQ(pixels[8], 100);
+    EXPECT_EQ(pixels[15], 2e12f);
+    EXPECT_EQ(pixels[18], 2e12f);
+    EXPECT_TRUE(std::isfinite(groundIlluminance(*scene.environment)));
 }
 
 TEST_F(DefaultLight, AnEnvironmentThatDoesNotFitTheSunIsAWarning)

@@ -18,6 +18,7 @@
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfTileDescription.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
@@ -397,6 +398,122 @@ TEST(ImageFiles, DamagedHdrIsOneSentence)
     EXPECT_NE(error(head + "-Y 99999 +X 1\n").find("16384"), std::string::npos);
     EXPECT_NE(error(head + "+Y 1 +X 1\nabcd").find("rows from the top"), std::string::npos);
     EXPECT_NE(error("#?RADIANCE\n\n-Y 1 +X 1\nabcd").find("FORMAT"), std::string::npos);
+}
+
+// Adds attributes to the header of an EXR file of one colour, and returns what is read.
+template <typename AddTo>
+Image readExrOfOneColour(const std::string& path, const glm::vec3& colour, const AddTo& addTo)
+{
+    ForeignExr exr{.width = 4, .height = 2};
+    Imf::Header header = exr.header();
+    addTo(header);
+    Imf::FrameBuffer slices; // strides of 0: all pixels are one value
+    for (int c = 0; c < 3; ++c)
+        slices.insert(std::string(1, "RGB"[c]),
+                      Imf::Slice(Imf::FLOAT, (char*)&colour[c], 0, 0)); // NOLINT: is only read
+    {
+        Imf::OutputFile file(path.c_str(), header, 0);
+        file.setFrameBuffer(slices);
+        file.writePixels(exr.height);
+    }
+    return loadExr(path);
+}
+
+void expectColour(const Image& image, const glm::vec3& colour)
+{
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        EXPECT_NEAR(image.pixels[i], colour[int(i % 3)], 2e-4f) << i;
+}
+
+TEST(ImageFiles, ExrColoursOfOtherPrimariesAreConverted)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path("image.exr");
+    const auto read = [&](const glm::vec3& colour, const Imf::Chromaticities& c) {
+        return readExrOfOneColour(path, colour,
+                                  [&](Imf::Header& h) { Imf::addChromaticities(h, c); });
+    };
+    const float third = 1.0f / 3;
+    const Imf::Chromaticities xyz({1, 0}, {0, 1}, {0, 0}, {third, third});
+    // The red primary of Rec. 709 (IEC 61966-2-1, rounded to four digits there).
+    const Image red = read(3.5f * glm::vec3(0.412391f, 0.212639f, 0.019331f), xyz);
+    expectColour(red, {3.5f, 0, 0});
+    EXPECT_TRUE(red.warnings.empty());
+    EXPECT_EQ(*std::min_element(red.pixels.begin(), red.pixels.end()), 0); // not a little less
+    // White stays white, whatever the white is.
+    const Imf::Chromaticities ap0({0.7347f, 0.2653f}, {0, 1}, {0.0001f, -0.077f},
+                                  {0.32168f, 0.33767f});
+    expectColour(read({2, 2, 2}, ap0), {2, 2, 2});
+    // Green of AP0 is no colour of Rec. 709. ACES publishes this column of its matrix (Bradford).
+    const Image green = read({0, 1, 0}, ap0);
+    EXPECT_NEAR(green.pixels[0], -1.1343f, 2e-3f);
+    EXPECT_NEAR(green.pixels[1], 1.3727f, 2e-3f);
+    EXPECT_NEAR(green.pixels[2], -0.1530f, 2e-3f);
+    // The default of the class is Rec. 709: bits stay as they are.
+    EXPECT_EQ(read({0.1f, 7, 1e-9f}, Imf::Chromaticities()).pixels[2], 1e-9f);
+    const Image degenerate = read({1, 2, 3}, Imf::Chromaticities({0, 0}, {0, 0}, {0, 0}, {0, 0}));
+    expectColour(degenerate, {1, 2, 3});
+    ASSERT_EQ(degenerate.warnings.size(), 1u);
+    EXPECT_NE(degenerate.warnings[0].find("chromaticities"), std::string::npos);
+    const Image white =
+        readExrOfOneColour(path, {1, 2, 3}, [](Imf::Header& h) { Imf::addWhiteLuminance(h, 100); });
+    expectColour(white, {1, 2, 3});
+    ASSERT_EQ(white.warnings.size(), 1u);
+    EXPECT_NE(white.warnings[0].find("whiteLuminance"), std::string::npos);
+}
+
+TEST(ImageFiles, HdrHeadersAreApplied)
+{
+    const TemporaryFolder folder;
+    // One pixel of (2, 1, 0.5): mantissas 128, 64 and 32 with the exponent 2.
+    const auto read = [&](const std::string& lines) {
+        return loadHdr(folder.write("image.hdr", "#?RADIANCE\n" + lines +
+                                                     "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" +
+                                                     std::string("\x80\x40\x20\x82")));
+    };
+    expectColour(read(""), {2, 1, 0.5f});
+    expectColour(read("EXPOSURE=2\nVIEW= -vtv\nEXPOSURE= 4.0 \r\n"), {0.25f, 0.125f, 0.0625f});
+    expectColour(read("COLORCORR= 2 1 0.5\n"), {1, 1, 1});
+    expectColour(read("PRIMARIES= 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329\n"), {2, 1, 0.5f});
+    // Radiance's own primaries: white stays white.
+    const Image white =
+        read("COLORCORR= 2 1 0.5\nPRIMARIES= .64 .33 .29 .6 .15 .06 .333333 .333333\n");
+    expectColour(white, {1, 1, 1});
+    EXPECT_TRUE(white.warnings.empty());
+    EXPECT_NE(read("PRIMARIES= .64 .33 .29 .6 .15 .06 .333333 .333333\n").pixels[0], 2);
+    for (const std::string line :
+         {"EXPOSURE=0", "EXPOSURE=", "EXPOSURE=nan", "EXPOSURE=1 2", "EXPOSURE=-1",
+          "EXPOSURE=1e999", "COLORCORR=1 2", "COLORCORR=1 0 1", "PRIMARIES=1 2 3",
+          "PRIMARIES=0 0 0 0 0 0 0 0"}) {
+        const Image image = read(line + "\n");
+        expectColour(image, {2, 1, 0.5f});
+        ASSERT_EQ(image.warnings.size(), 1u) << line;
+        EXPECT_NE(image.warnings[0].find(line.substr(0, line.find('='))), std::string::npos);
+    }
+}
+
+TEST(ImageFiles, PfmScalesAreNamed)
+{
+    const TemporaryFolder folder;
+    const std::string pixel("\0\0\x80?", 4); // 1, little-endian
+    EXPECT_TRUE(loadPfm(folder.write("a.pfm", "Pf\n1 1\n-1\n" + pixel)).warnings.empty());
+    const Image scaled = loadPfm(folder.write("a.pfm", "Pf\n1 1\n-2.5\n" + pixel));
+    EXPECT_EQ(scaled.pixels[0], 1);
+    ASSERT_EQ(scaled.warnings.size(), 1u);
+    EXPECT_NE(scaled.warnings[0].find("scale 2.5"), std::string::npos) << scaled.warnings[0];
+}
+
+TEST(ImageFiles, PointersOfGitLfsAreNamed)
+{
+    const TemporaryFolder folder;
+    const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\n";
+    for (const char* name : {"sky.hdr", "sky.exr", "sky.pfm"}) {
+        const std::string path = folder.write(name, pointer);
+        EXPECT_EQ(errorOf([&] { loadImageByExtension(path); }),
+                  "cannot read " + path +
+                      ": is a pointer of Git LFS, not the file itself; \"git "
+                      "lfs pull\" fetches it");
+    }
 }
 
 TEST(ImageFiles, HdrRefusesWhatItCannotHold)

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <stb/stb_image_write.h>
 
 #include "io/image_file.h"
@@ -140,6 +141,11 @@ Image loadPfm(const std::string& path)
     if (scale > 0) // big-endian
         for (float& x : image.pixels)
             x = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<uint32_t>(x)));
+    if (std::abs(scale) != 1)
+        image.warnings.push_back(fmt::format("{}: its header has the scale {}, whose meaning "
+                                             "programs do not agree on; the values are taken as "
+                                             "they are",
+                                             path, std::abs(scale)));
     return image;
 }
 

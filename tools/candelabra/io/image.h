@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads and writes image files. Floating-point images hold linear values, which no function here
-// changes. Every file is written under a temporary name beside its final one and renamed when it is
-// complete, so that nobody sees an incomplete file. All functions throw ImageError with one
-// sentence that names the file.
+// changes but as the header of a file asks for. Every file is written under a temporary name beside
+// its final one and renamed when it is complete, so that nobody sees an incomplete file. All
+// functions throw ImageError with one sentence that names the file.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,9 @@ struct Image {
     uint32_t width = 0, height = 0; // pixels, 1..16384
     uint32_t channels = 0;          // 1 (grey) or 3 (RGB)
     std::vector<float> pixels;      // width * height * channels, rows from the top
+    // What the header of the file says about the values but a reader did not apply, one sentence
+    // each.
+    std::vector<std::string> warnings = {};
 };
 
 // An image as a display shows it.
@@ -58,7 +61,9 @@ void savePfm(const std::string& path, const Image& image);
 // extensions are errors.
 void saveImageByExtension(const std::string& path, const Image& image);
 
-// Readers. HDR files give RGB images. EXR files must be single-part scanline files without
+// Readers. Colours of other primaries are converted to Rec. 709 (EXR chromaticities, HDR
+// PRIMARIES), and factors that were applied to the values are divided out (HDR EXPOSURE and
+// COLORCORR). HDR files give RGB images. EXR files must be single-part scanline files without
 // subsampling or lossy compression. Their R, G and B are read; if one of the three is missing, the
 // first channel becomes a grey image. What is read must be half or float. Further channels are
 // ignored.

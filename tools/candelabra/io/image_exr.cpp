@@ -11,7 +11,9 @@
 #include <new>
 
 #include <OpenEXR/openexr.h>
+#include <fmt/format.h>
 
+#include "io/chromaticities.h"
 #include "io/image_file.h"
 
 namespace candelabra::app
@@ -198,6 +200,7 @@ private:
     void readHeader();
     void readSize();
     void readChannels();
+    void applyHeader();
     exr_chunk_info_t readBlockInfo(int y);
     void readBlock(const exr_chunk_info_t& block);
     // Where a channel lies in the pixels of the image; -1: the channel is not read.
@@ -310,6 +313,26 @@ void ExrReader::readBlock(const exr_chunk_info_t& block)
     check(exr_decoding_run(stream_.context, 0, &decoder_));
 }
 
+// Applies the attributes that say what the values are, or warns.
+void ExrReader::applyHeader()
+{
+    exr_attr_chromaticities_t c = {};
+    if (exr_attr_get_chromaticities(stream_.context, 0, "chromaticities", &c) == EXR_ERR_SUCCESS &&
+        !convertToRec709(image_, {.red = {c.red_x, c.red_y},
+                                  .green = {c.green_x, c.green_y},
+                                  .blue = {c.blue_x, c.blue_y},
+                                  .white = {c.white_x, c.white_y}}))
+        image_.warnings.push_back(path_ + ": its chromaticities span no colours; its values are "
+                                          "taken for Rec. 709");
+    float white = 1;
+    if (exr_attr_get_float(stream_.context, 0, "whiteLuminance", &white) == EXR_ERR_SUCCESS &&
+        white != 1)
+        image_.warnings.push_back(fmt::format(
+            "{}: its header says that white (1, 1, 1) has {} cd/m^2 (whiteLuminance); its values "
+            "are taken for cd/m^2",
+            path_, white));
+}
+
 Image ExrReader::read()
 {
     readHeader();
@@ -323,6 +346,7 @@ Image ExrReader::read()
                                  : exr_decoding_update(stream_.context, 0, &block, &decoder_));
         readBlock(block);
     }
+    applyHeader();
     return std::move(image_);
 }
 

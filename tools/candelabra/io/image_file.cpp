@@ -132,6 +132,9 @@ std::vector<uint8_t> readImageFile(const std::string& path)
         done += static_cast<size_t>(n);
     }
     close(fd);
+    if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size())
+            .starts_with(lfsPointerStart))
+        failRead(path, std::string(lfsPointerText));
     return bytes;
 }
 

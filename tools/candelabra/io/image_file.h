@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/image.h"
@@ -25,11 +26,18 @@ void writeFileAtomically(const std::string& path, std::span<const uint8_t> bytes
 // Whether there is room for the file remains open. Leaves everything as it is.
 std::string writeRefusal(const std::string& path);
 
-std::vector<uint8_t> readImageFile(const std::string& path); // at most 4 GiB
+// Reads a file of at most 4 GiB. Fails on pointers of Git LFS.
+std::vector<uint8_t> readImageFile(const std::string& path);
 
 // Throws unless both sides of the image are 1..16384, it has 1 or 3 channels, and Image::pixels has
 // the size that follows from them. `path` is the file that is to be written.
 void requireImage(const std::string& path, const Image& image);
+
+// How a pointer of Git LFS begins, which people have who have cloned without it, and what they are
+// told.
+constexpr std::string_view lfsPointerStart = "version https://git-lfs";
+constexpr std::string_view lfsPointerText =
+    "is a pointer of Git LFS, not the file itself; \"git lfs pull\" fetches it";
 
 constexpr uint32_t maxImageSize = 16384; // pixels, of width and of height
 

@@ -6,8 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <string_view>
 
+#include "io/chromaticities.h"
 #include "io/image.h"
 #include "io/image_file.h"
 
@@ -28,6 +30,8 @@ private:
     // Takes the next line of the header and returns it without its newline. Fails if there is none.
     std::string_view line();
     void readHeader();
+    void readVariable(std::string_view text);
+    void applyHeader();
     void readRow(float* row);
     void readRuns(float* row);
     std::span<const uint8_t> take(size_t count);
@@ -36,9 +40,13 @@ private:
     // The format has run-length encoding only for rows of 8 to 32767 pixels.
     bool mayHaveRuns() const { return image_.width >= 8 && image_.width < 32768; }
 
+    void warn(const std::string& text) { image_.warnings.push_back(path_ + ": " + text); }
+
     const std::string& path_;
     std::span<const uint8_t> rest_;
     Image image_{.channels = 3};
+    glm::dvec3 applied_{1}; // factors that were applied to the values
+    std::optional<Chromaticities> primaries_;
     std::vector<uint8_t> row_; // 4 * width: all red, all green, all blue, all exponents
 };
 
@@ -71,6 +79,51 @@ std::string_view HdrReader::line()
     return {begin, newline};
 }
 
+// Reads `count` numbers between white space. Returns nothing if there are others.
+std::vector<double> numbersIn(std::string_view text, size_t count)
+{
+    std::vector<double> out;
+    for (;;) {
+        text.remove_prefix(std::min(text.find_first_not_of(" \t\r"), text.size()));
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (text.empty())
+            return out.size() == count ? out : std::vector<double>();
+        if (error != std::errc() || !std::isfinite(value))
+            return {};
+        out.push_back(value);
+        text.remove_prefix(size_t(end - text.data()));
+    }
+}
+
+// Reads a line of the header that says what the values are. Settings of EXPOSURE and COLORCORR
+// multiply (Ward, "The Radiance picture file format").
+void HdrReader::readVariable(std::string_view text)
+{
+    const std::string_view name = text.substr(0, text.find('='));
+    const std::string_view value = text.substr(std::min(name.size() + 1, text.size()));
+    const bool isColour = name == "COLORCORR", isPrimaries = name == "PRIMARIES";
+    if (name != "EXPOSURE" && !isColour && !isPrimaries)
+        return;
+    const std::vector<double> v = numbersIn(value, isPrimaries ? 8 : isColour ? 3 : 1);
+    const auto isFactor = [](double x) { return x > 1e-30 && x < 1e30; };
+    if (isPrimaries && !v.empty())
+        primaries_ = {{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
+    else if (!isPrimaries && !v.empty() && std::all_of(v.begin(), v.end(), isFactor))
+        applied_ *= isColour ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(v[0]);
+    else
+        warn(std::string(name) + " of its header has no meaning and is ignored");
+}
+
+void HdrReader::applyHeader()
+{
+    if (applied_ != glm::dvec3(1))
+        for (size_t i = 0; i < image_.pixels.size(); ++i)
+            image_.pixels[i] = float(image_.pixels[i] / applied_[int(i % 3)]);
+    if (primaries_ && !convertToRec709(image_, *primaries_))
+        warn("PRIMARIES of its header span no colours; its values are taken for Rec. 709");
+}
+
 void HdrReader::readHeader()
 {
     const auto* begin = reinterpret_cast<const char*>(rest_.data());
@@ -78,8 +131,10 @@ void HdrReader::readHeader()
     if (!start.starts_with("#?RADIANCE\n") && !start.starts_with("#?RGBE\n"))
         failRead(path_, "is not a Radiance HDR file");
     bool rgbe = false;
-    for (std::string_view text = line(); !text.empty(); text = line())
+    for (std::string_view text = line(); !text.empty(); text = line()) {
         rgbe |= text == "FORMAT=32-bit_rle_rgbe";
+        readVariable(text);
+    }
     if (!rgbe)
         failRead(path_, "does not declare FORMAT=32-bit_rle_rgbe");
     const std::string_view size = line(); // "-Y 512 +X 1024"
@@ -160,6 +215,7 @@ Image HdrReader::read()
     image_.pixels.resize(size_t{3} * image_.width * image_.height);
     for (size_t y = 0; y < image_.height; ++y)
         readRow(&image_.pixels[3 * image_.width * y]);
+    applyHeader();
     return std::move(image_);
 }
 

@@ -2,7 +2,10 @@
 #include "load/load.h"
 
 #include <algorithm>
+#include <cfloat>
+#include <cmath>
 #include <filesystem>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -87,6 +90,42 @@ Scene loadWithLights(const std::string& scene, std::optional<SceneEnvironment> e
     return loaded;
 }
 
+// Replaces what is no luminance, in the channels that have it. Returns a sentence about that, or an
+// empty text if there is nothing to replace.
+std::string repairTexels(const std::string& file, Image& image)
+{
+    constexpr float most = CND_ENVIRONMENT_MAX_LUMINANCE;
+    float greatest = 0; // that is finite
+    for (const float x : image.pixels)
+        if (std::isfinite(x))
+            greatest = std::max(greatest, x);
+    greatest = std::min(greatest, most);
+    size_t nan = 0, infinite = 0, negative = 0, large = 0; // texels
+    for (size_t i = 0; i < image.pixels.size(); i += image.channels) {
+        const std::span<float> texel(&image.pixels[i], image.channels);
+        const auto has = [&](auto is) { return std::any_of(texel.begin(), texel.end(), is); };
+        nan += has([](float x) { return std::isnan(x); });
+        infinite += has([](float x) { return x > FLT_MAX; });
+        negative += has([](float x) { return x < 0; });
+        large += has([](float x) { return x > most && x <= FLT_MAX; });
+        for (float& x : texel)
+            x = x > FLT_MAX ? greatest : x > 0 ? std::min(x, most) : 0;
+    }
+    std::vector<std::string> parts;
+    const auto add = [&](size_t count, const std::string& what) {
+        if (count > 0)
+            parts.push_back(fmt::format("{} {}", count, what));
+    };
+    add(nan, "are NaN (0 is used)");
+    add(negative, "negative (0 is used)");
+    add(infinite, fmt::format("infinite ({:g} is used, the greatest of the others)", greatest));
+    add(large, fmt::format("above {:g} cd/m^2 (which is used)", most));
+    return parts.empty()
+               ? ""
+               : fmt::format("environment {}: of its {} texels {}", file,
+                             image.pixels.size() / image.channels, fmt::join(parts, ", "));
+}
+
 SceneEnvironment loadEnvironment(const SceneOptions& options)
 {
     SceneEnvironment out;
@@ -97,6 +136,8 @@ SceneEnvironment loadEnvironment(const SceneOptions& options)
     } catch (const ImageError& error) {
         throw SceneError(std::string("--environment: ") + error.what());
     }
+    if (const std::string text = repairTexels(out.file, out.radiance); !text.empty())
+        out.radiance.warnings.push_back(text);
     if (!options.environmentIlluminance) {
         out.scale = options.environmentScale;
         return out;
@@ -104,8 +145,7 @@ SceneEnvironment loadEnvironment(const SceneOptions& options)
     const double illuminance = groundIlluminance(out);
     if (!(illuminance > 0))
         throw SceneError("--environment-illuminance: " + options.environment +
-                         " gives level ground no light, so no factor makes it brighter; values "
-                         "that are negative, infinite or NaN count as black");
+                         " gives level ground no light, so no factor makes it brighter");
     out.scale = *options.environmentIlluminance / illuminance;
     return out;
 }
@@ -116,6 +156,8 @@ void describeEnvironment(Scene& scene)
 {
     constexpr double different = 100;
     const SceneEnvironment& environment = *scene.environment;
+    for (const std::string& warning : environment.radiance.warnings)
+        scene.warnings.push_back(warning);
     const double illuminance = groundIlluminance(environment);
     std::string note = fmt::format("environment {}: {} lx on level ground", environment.file,
                                    rounded(illuminance));

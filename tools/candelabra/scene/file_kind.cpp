@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "io/image_file.h"
 #include "scene/scene_file.h"
 
 namespace candelabra::app
@@ -48,8 +49,6 @@ constexpr Kind byMagic[] = {
     {"\x7f"
      "ELF",
      0, "a program", notScene},
-    {"version https://git-lfs", 0, "a pointer of Git LFS",
-     ", not the file itself; \"git lfs pull\" fetches it"},
 };
 constexpr Kind byExtension[] = {
     {".usd", 0, "a USD scene", exportGltf},      {".usda", 0, "a USD scene", exportGltf},
@@ -119,6 +118,8 @@ std::string folderText(const std::string& path)
 
 std::string otherFileKind(const std::string& path, std::string_view start)
 {
+    if (start.starts_with(lfsPointerStart))
+        return std::string(lfsPointerText);
     std::optional<Kind> kind = matching(byMagic, start);
     if (!kind)
         kind = named(path);
