@@ -407,10 +407,12 @@ Image readExrOfOneColour(const std::string& path, const glm::vec3& colour, const
     ForeignExr exr{.width = 4, .height = 2};
     Imf::Header header = exr.header();
     addTo(header);
-    Imf::FrameBuffer slices; // strides of 0: all pixels are one value
+    std::vector<glm::vec3> pixels(size_t(exr.width) * size_t(exr.height), colour);
+    Imf::FrameBuffer slices;
     for (int c = 0; c < 3; ++c)
         slices.insert(std::string(1, "RGB"[c]),
-                      Imf::Slice(Imf::FLOAT, (char*)&colour[c], 0, 0)); // NOLINT: is only read
+                      Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(&pixels[0][c]),
+                                 sizeof(glm::vec3), sizeof(glm::vec3) * size_t(exr.width)));
     {
         Imf::OutputFile file(path.c_str(), header, 0);
         file.setFrameBuffer(slices);
