@@ -83,9 +83,9 @@ void LightTable::identify(gpu::LightRecord& packed, const CndLight& light, uint3
     packed.id = slot;
     if (light.type == CND_LIGHT_POLYGON) {
         if (before == noPolygon)
-            before = polygons_.add(*light.polygon, slot);
+            before = polygons_.add(light, slot);
         else
-            polygons_.update(before, *light.polygon, slot);
+            polygons_.update(before, light, slot);
         packed.id = before;
     } else if (before != noPolygon) {
         polygons_.remove(before);

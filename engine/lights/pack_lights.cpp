@@ -157,6 +157,11 @@ void pack(const CndLight& light, uint32_t id, gpu::LightRecord& r)
     } else if (fields & gpu::LIGHT_HAS_AXIS_U && fields & gpu::LIGHT_HAS_RADIUS) {
         axisV.x = light.radius; // read by shapeOf
     }
+    if (fields & gpu::LIGHT_HAS_CORNERS) {
+        const OutlinePolygon polygon = outlinePolygon(light);
+        axisU = polygon.axisU;
+        axisV = polygon.axisV;
+    }
     r.axisU = axisU;
     r.id = id;
     r.axisV = axisV;
@@ -184,13 +189,12 @@ LightSummary validateLights(std::span<const CndLight> lights)
     return out;
 }
 
-gpu::PolygonRecord packPolygon(const CndPolygon& polygon, uint32_t id) noexcept
+gpu::PolygonRecord packPolygon(const CndLight& light, uint32_t id) noexcept
 {
-    gpu::PolygonRecord record{.count = polygon.cornerCount, .id = id};
-    for (uint32_t i = 0; i < gpu::MAX_CORNERS; ++i) {
-        const float(&corner)[2] = polygon.corners[std::min(i, polygon.cornerCount - 1)];
-        record.corners[i] = {corner[0], corner[1]};
-    }
+    const OutlinePolygon polygon = outlinePolygon(light);
+    gpu::PolygonRecord record{.count = polygon.count, .id = id};
+    for (uint32_t i = 0; i < gpu::MAX_RECORD_CORNERS; ++i)
+        record.corners[i] = polygon.corners[std::min(i, polygon.count - 1)];
     return record;
 }
 

@@ -26,8 +26,8 @@ LightSummary validateLights(std::span<const CndLight> lights);
 void packLights(std::span<const CndLight> lights, std::span<gpu::LightRecord> records,
                 uint32_t firstId = 0) noexcept;
 
-// Returns the corners of a valid polygon.
-gpu::PolygonRecord packPolygon(const CndPolygon& polygon, uint32_t id) noexcept;
+// Returns the corners of a polygon light, which must be valid.
+gpu::PolygonRecord packPolygon(const CndLight& light, uint32_t id) noexcept;
 
 // Returns the shape that prepare_lights reads from a record, in the coordinates of the light set.
 gpu::LightShape shapeOf(const gpu::LightRecord& record);

@@ -111,7 +111,120 @@ PlacedPolygon placePolygon(std::span<const glm::dvec3> corners)
     return out;
 }
 
+// Limits of outlinePolygon, relative to the length of the polygon.
+constexpr double largestThinWidth = 0.1;
+constexpr double samePlace = 1e-4; // corners on both sides that are less apart divide them alike
+
+// One of the two sides between the ends of the longest diagonal: corners in the order of x, which
+// goes along the diagonal.
+struct Side {
+    std::array<glm::dvec2, CND_MAX_CORNERS> corners{};
+    uint32_t count = 0;
+
+    bool hasCornerAt(double x, double tolerance) const
+    {
+        return std::any_of(corners.begin(), corners.begin() + count,
+                           [&](const glm::dvec2& c) { return std::abs(c.x - x) < tolerance; });
+    }
+    // x must be within the side.
+    glm::dvec2 at(double x) const
+    {
+        uint32_t i = 1;
+        while (i + 1 < count && corners[i].x < x)
+            ++i;
+        const glm::dvec2 &a = corners[i - 1], &b = corners[i];
+        return {x, a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y)};
+    }
+};
+
+// The ends of the longest diagonal.
+struct Diagonal {
+    uint32_t from = 0, to = 0;
+    double length = 0;
+};
+
+Diagonal longestDiagonal(std::span<const glm::dvec2> corners)
+{
+    Diagonal out;
+    for (uint32_t i = 0; i < corners.size(); ++i)
+        for (uint32_t j = i + 1; j < corners.size(); ++j)
+            if (const double length = glm::distance(corners[i], corners[j]); length > out.length)
+                out = {i, j, length};
+    return out;
+}
+
+// Returns the corners between the ends of a side, and for every such corner of the other side a
+// point next to it, in the order of x.
+uint32_t matchedCorners(const Side& side, const Side& other, double tolerance,
+                        std::span<glm::dvec2> out)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 1; i + 1 < side.count; ++i)
+        out[count++] = side.corners[i];
+    for (uint32_t i = 1; i + 1 < other.count; ++i)
+        if (!side.hasCornerAt(other.corners[i].x, tolerance))
+            out[count++] = side.at(other.corners[i].x);
+    std::sort(out.begin(), out.begin() + count,
+              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x; });
+    return count;
+}
+
 } // namespace
+
+OutlinePolygon outlinePolygon(const CndLight& light) noexcept
+{
+    const CndPolygon& given = *light.polygon;
+    const uint32_t count = given.cornerCount;
+    OutlinePolygon out{
+        glm::vec3(dvec3From(light.axisU)), glm::vec3(dvec3From(light.axisV)), count, {}};
+    for (uint32_t i = 0; i < count; ++i)
+        out.corners[i] = {given.corners[i][0], given.corners[i][1]};
+
+    // In metres along the axes, which are perpendicular.
+    const glm::dvec3 u = dvec3From(light.axisU), v = dvec3From(light.axisV);
+    std::array<glm::dvec2, CND_MAX_CORNERS> metres{};
+    for (uint32_t i = 0; i < count; ++i)
+        metres[i] = cornerOf(given, i) * glm::dvec2(glm::length(u), glm::length(v));
+    const Diagonal diagonal = longestDiagonal({metres.data(), count});
+    const glm::dvec2 along = (metres[diagonal.to] - metres[diagonal.from]) / diagonal.length;
+    glm::dvec2 low(INFINITY), high(-INFINITY);
+    for (uint32_t i = 0; i < count; ++i) {
+        metres[i] = {glm::dot(along, metres[i]), cross(along, metres[i])};
+        low = glm::min(low, metres[i]);
+        high = glm::max(high, metres[i]);
+    }
+    if (!(high.y - low.y < largestThinWidth * diagonal.length))
+        return out;
+
+    Side right, left; // of the diagonal
+    for (uint32_t i = diagonal.from;; i = (i + 1) % count) {
+        right.corners[right.count++] = metres[i];
+        if (i == diagonal.to)
+            break;
+    }
+    for (uint32_t i = diagonal.from;; i = (i + count - 1) % count) {
+        left.corners[left.count++] = metres[i];
+        if (i == diagonal.to)
+            break;
+    }
+    const double tolerance = samePlace * diagonal.length;
+    std::array<glm::dvec2, gpu::MAX_RECORD_CORNERS> matched{};
+    const std::span all(matched);
+    matched[0] = metres[diagonal.from];
+    out.count = 1 + matchedCorners(right, left, tolerance, all.subspan(1));
+    matched[out.count++] = metres[diagonal.to];
+    const uint32_t onLeft = matchedCorners(left, right, tolerance, all.subspan(out.count));
+    std::reverse(matched.begin() + out.count, matched.begin() + out.count + onLeft);
+    out.count += onLeft;
+
+    const glm::dvec2 half = glm::max(glm::abs(low), glm::abs(high));
+    const glm::dvec3 unitU = glm::normalize(u), unitV = glm::normalize(v);
+    out.axisU = glm::vec3(half.x * (along.x * unitU + along.y * unitV));
+    out.axisV = glm::vec3(half.y * (along.x * unitV - along.y * unitU));
+    for (uint32_t i = 0; i < out.count; ++i)
+        out.corners[i] = glm::vec2(matched[i] / half);
+    return out;
+}
 
 const char* whyPolygonInvalid(const CndPolygon* polygon)
 {

@@ -80,24 +80,24 @@ void PolygonTable::clear() noexcept
     changedEnd_ = 0;
 }
 
-uint32_t PolygonTable::add(const CndPolygon& polygon, uint32_t id) noexcept
+uint32_t PolygonTable::add(const CndLight& light, uint32_t id) noexcept
 {
     if (free_.empty()) {
-        polygons_.push_back(packPolygon(polygon, id));
+        polygons_.push_back(packPolygon(light, id));
         const uint32_t index = uint32_t(polygons_.size()) - 1;
         changed(index, index + 1);
         return index;
     }
     const uint32_t index = free_.back();
     free_.pop_back();
-    update(index, polygon, id);
+    update(index, light, id);
     return index;
 }
 
 // A light that only moves keeps its corners, so that nothing is uploaded.
-void PolygonTable::update(uint32_t index, const CndPolygon& polygon, uint32_t id) noexcept
+void PolygonTable::update(uint32_t index, const CndLight& light, uint32_t id) noexcept
 {
-    const gpu::PolygonRecord record = packPolygon(polygon, id);
+    const gpu::PolygonRecord record = packPolygon(light, id);
     if (std::memcmp(&record, &polygons_[index], sizeof record) == 0)
         return;
     polygons_[index] = record;

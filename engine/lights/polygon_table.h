@@ -30,8 +30,8 @@ public:
     void reserveSet(size_t count);
 
     void clear() noexcept;
-    uint32_t add(const CndPolygon& polygon, uint32_t id) noexcept; // returns its index
-    void update(uint32_t index, const CndPolygon& polygon, uint32_t id) noexcept;
+    uint32_t add(const CndLight& light, uint32_t id) noexcept; // returns its index
+    void update(uint32_t index, const CndLight& light, uint32_t id) noexcept;
     void remove(uint32_t index) noexcept { free_.push_back(index); }
 
     // Tells whether there are polygons that no recording has uploaded yet.

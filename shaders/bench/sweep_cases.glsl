@@ -111,7 +111,7 @@ void makeSweepCorners(uint count, inout LightShape shape)
 {
     PolygonRecord polygon;
     polygon.count = count;
-    for (uint i = 0u; i < MAX_CORNERS; ++i)
+    for (uint i = 0u; i < MAX_RECORD_CORNERS; ++i)
         polygon.corners[i] = sweepCorner(min(i, count - 1u), count);
     for (uint i = 0u; i < CORNER_SHAPES; ++i)
         lightShapes[1u + i] = shapeOfCorners(polygon, i, shape.axisU, shape.axisV);

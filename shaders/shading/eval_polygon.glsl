@@ -17,11 +17,19 @@ struct Polygon {
     bool twoSided;
 };
 
-// Returns a corner relative to the centre.
+// Returns a corner relative to the centre, in world coordinates.
 vec3 cornerOf(Polygon polygon, uint i)
 {
     const LightShape pair = lightShapes[polygon.firstShape + (i >> 1u)];
     return polygon.scale * ((i & 1u) == 0u ? pair.axisU : pair.axisV);
+}
+
+// Returns a corner of the widened polygon in the coordinates of the receiver's frame. `wider`: along the
+// shorter axis; its squared length is the factor by which the polygon is widened, minus 1.
+vec3 frameCorner(Receiver r, Polygon polygon, uint i, vec3 wider)
+{
+    const vec3 corner = cornerOf(polygon, i);
+    return toFrame(r.frame, corner + dot(corner, wider) * wider);
 }
 
 // Returns the outline of the polygon.
@@ -29,31 +37,42 @@ WalkedOutline polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
 {
     const vec3 normal = cross(polygon.axisU, polygon.axisV);
     const vec3 centre = toFrame(r.frame, polygon.toCentre);
+    const bool uIsLonger = length2(polygon.axisU) >= length2(polygon.axisV);
+    const vec3 longer = uIsLonger ? polygon.axisU : polygon.axisV;
+    const vec3 shorter = uIsLonger ? polygon.axisV : polygon.axisU;
+    const float factor = widening(r.conic.alpha, polygon.toCentre, longer, shorter);
+    const vec3 wider = sqrt((factor - 1.0) / max(length2(shorter), MIN_LENGTH2)) * shorter;
     const float size2 = polygon.boundingRadius * polygon.boundingRadius;
     // Stretching shortens what is along the normal, at most to nothing.
     const float height = dot(r.p.n, normal) * inversesqrt(max(length2(normal), MIN_LENGTH2));
     Outline k = beginOutline(r.conic, r.frame, polygon.toCentre, centre,
                              size2 * (0.5 + 0.5 * height * height), needs);
     const OutlineExtent extent =
-        extentOf(k, toFrame(r.frame, polygon.axisU), toFrame(r.frame, polygon.axisV), 0.0);
+        extentOf(k, toFrame(r.frame, longer), toFrame(r.frame, factor * shorter), 0.0);
     // The corners are counterclockwise around the side that emits, so a receiver that sees this side
     // looks at them against the sense of the outline.
     const bool front = dot(normal, polygon.toCentre) < 0.0;
+    const float most = abs(dot(r.p.n, polygon.axisU)) + abs(dot(r.p.n, polygon.axisV));
+    const bool below = centre.z + most <= 0.0; // before it is widened
     const bool seen =
-        seesFlatLight(polygon.toCentre, normal, polygon.boundingRadius, polygon.twoSided);
-    vec3 from = toFrame(r.frame, cornerOf(polygon, front ? 0u : polygon.count - 1u));
+        seesFlatLight(polygon.toCentre, normal, polygon.boundingRadius, polygon.twoSided) && !below;
+    vec3 from = frameCorner(r, polygon, front ? 0u : polygon.count - 1u, wider);
     OutlinePoint last = pointAt(k, from);
-    uint i = 0u;
-    do { // a lane that is done may run once more (lens.glsl)
-        if (i < polygon.count) {
-            const uint next = front ? polygon.count - 1u - i : i;
-            addEdgeTo(k, from, last, toFrame(r.frame, cornerOf(polygon, next)));
+    bool walks = true;
+    do {
+        uint i = 0u;
+        if (walks) { // a lane that is done may run once more (lens.glsl)
+            do {
+                if (i < polygon.count) {
+                    const uint next = front ? polygon.count - 1u - i : i;
+                    addEdgeTo(k, from, last, frameCorner(r, polygon, next, wider));
+                }
+                ++i;
+            } while (i < polygon.count);
+            walks = beginUpperBand(k);
         }
-        ++i;
-    } while (i < polygon.count);
-    if (needs.across && k.crosses)
-        addHorizon(k);
-    return WalkedOutline(k, extent, seen, 1.0);
+    } while (walks);
+    return WalkedOutline(k, extent, seen, 1.0, 1.0 / (1.0 + length2(wider)));
 }
 
 // Returns the response at the polygon's point nearest to where the mirror ray meets its plane. As for a

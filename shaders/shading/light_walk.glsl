@@ -48,6 +48,11 @@ struct FoundWord {
 };
 
 #ifdef HAS_OUTLINES
+// Lights have no lower band (lib/outline/bands.glsl) if their height is at least this times their
+// radius. (h - r) / (h + r) >= BAND_HEIGHT leads to 1.5. The ends of a light are at different distances,
+// which takes a little more.
+const float ABOVE_BANDS = 1.6;
+
 // Tells whether no arc of a light's outline needs to be cut (lib/outline/lens.glsl), and no piece of a
 // disc's rim needs to be halved. All w = A (v + l) of the light are within a ball around A (v + c),
 // where c is the direction to its centre, whose squared radius is at most R^2 / (d^2 - R^2). So the
@@ -113,7 +118,8 @@ void testLight(inout FoundWord found, Receiver r, TestedLight light, uint bit, b
 #endif
 #if defined(HAS_OUTLINES) && !defined(LIGHT_FAMILY_ALL)
     const bool easy = !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
-    found.above |= height >= radius && easy ? bit : 0u;
+    precise const float aboveFrom = (BY_OUTLINE ? ABOVE_BANDS : 1.0) * radius;
+    found.above |= height >= aboveFrom && easy ? bit : 0u;
     if (HAS_BUDGET) {
         precise const float pointLimit2 = r.pointLimit * d2;
         found.asPoint |= height >= 2.0 * radius && radius * radius < pointLimit2 ? bit : 0u;

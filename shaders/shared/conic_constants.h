@@ -84,6 +84,10 @@ const float CONIC_ATAN_T11 = 0.05777362f;
 const float CONIC_ATAN_T13 = 0.02304016f;
 const float CONIC_ATAN_T15 = 0.00435541f;
 
+// --- Chosen by trials with thin tubes, rectangles and polygons. Spheres do not use it.
+// How soon the lobe limits the variance of slopes over a light that is longer than the lobe.
+const float CONIC_LINE_LIMIT = 2.0f;
+
 // --- Chosen for the resolution of float32.
 // The lowest NoV; below it the mean slope exceeds what float32 resolves. v is tilted together with
 // it: if only the number were clamped, v . n and NoV would disagree and the cap would be no conic.

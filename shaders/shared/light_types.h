@@ -14,18 +14,19 @@
 //
 // X(index, NAME, iterations). `iterations` is an upper bound of the loop iterations that the
 // evaluation of one light takes, without those of SPECULAR_SAMPLED. It counts the arcs of the
-// light's outline and their pieces (lib/outline/): 4 edges of a rectangle, up to 8 of a polygon,
+// light's outline and their pieces (lib/outline/): 4 edges of a rectangle, up to 14 of a polygon,
 // and 2 sides and up to 16 arcs of a tube across the horizon, with 3 pieces each. The rim of a disc
-// has 6 pieces that may be halved three times, its range of heights takes 8 turns of Newton's
-// method, and its form factor a series of 12 terms.
+// has 6 pieces that may be halved three times, and its form factor a series of 12 terms. A light
+// near the horizon is walked twice. The range of heights of a disc takes 8 turns of Newton's
+// method.
 #define CND_LIGHT_FAMILIES(X)                                                                      \
     X(0, PUNCTUAL, 24)                                                                             \
     X(1, CONIC, 0)                                                                                 \
     X(2, SPHERE, 0)                                                                                \
-    X(3, TUBE, 80)                                                                                 \
-    X(4, RECTANGLE, 24)                                                                            \
-    X(5, DISC, 112)                                                                                \
-    X(6, POLYGON, 40)
+    X(3, TUBE, 160)                                                                                \
+    X(4, RECTANGLE, 48)                                                                            \
+    X(5, DISC, 216)                                                                                \
+    X(6, POLYGON, 128)
 
 // X(id, NAME, family, fields of CndLight that the type uses). The ids are those of CndLightType, so
 // they are stable. Types that are shaded by the specular methods of spheres are in the family

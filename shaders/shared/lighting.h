@@ -23,10 +23,14 @@ struct LightShape {
 };
 GPU_SIZE(LightShape, 32)
 
+// A thin polygon gets additional corners on its edges (engine/lights/polygon.h). This is the most
+// that a polygon of MAX_CORNERS corners can have then.
+const uint MAX_RECORD_CORNERS = 2u * MAX_CORNERS - 2u;
+
 // The corners of a polygon are stored after the shapes of all lights, in CORNER_SHAPES elements of
 // the same array. axisU and axisV of each are two consecutive corners relative to the centre, so
 // that shapes of corners are rotated like all others. Places without a corner repeat the last one.
-const uint CORNER_SHAPES = MAX_CORNERS / 2u;
+const uint CORNER_SHAPES = MAX_RECORD_CORNERS / 2u;
 
 // A light as the CPU sends it, relative to the light set's origin. pack_lights.cpp makes the
 // records in any order. Then they are sorted by type (light_order.h), because each type has its own
@@ -52,11 +56,11 @@ const uint ALL_LAYERS = 0xFFFFu;
 
 // What a polygon has besides its LightRecord.
 struct PolygonRecord {
-    vec2 corners[MAX_CORNERS]; // along axisU and axisV; the last corner fills the rest of the array
-    uint count;                // of corners
-    uint id;                   // low half of the CndLightId
+    vec2 corners[MAX_RECORD_CORNERS]; // along axisU and axisV; the last corner fills the rest
+    uint count;                       // of corners
+    uint id;                          // low half of the CndLightId
 };
-GPU_SIZE(PolygonRecord, 72)
+GPU_SIZE(PolygonRecord, 120)
 
 // Lights as prepare_lights writes them, in view space. Each has two vec4 that every loop reads,
 //   core[2 i]     = position, bounding radius

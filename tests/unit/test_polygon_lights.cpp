@@ -3,12 +3,14 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
 #include "gpu/failure.h"
 #include "lights/pack_lights.h"
+#include "lights/polygon.h"
 #include "scene/polygons.h"
 
 namespace candelabra::test
@@ -55,6 +57,75 @@ std::string refusal(const CndLight& light)
 std::string refusal(const CndPolygon& polygon)
 {
     return refusal(lightOf(&polygon));
+}
+
+// Corners of a polygon as its outline is evaluated, in the plane of the axes that were given.
+std::vector<glm::dvec2> outlineCorners(const CndLight& light)
+{
+    const lighting::OutlinePolygon polygon = lighting::outlinePolygon(light);
+    std::vector<glm::dvec2> out;
+    for (uint32_t i = 0; i < polygon.count; ++i) {
+        const glm::vec3 p =
+            polygon.corners[i].x * polygon.axisU + polygon.corners[i].y * polygon.axisV;
+        EXPECT_EQ(p.z, 0);
+        out.push_back({p.x, p.y});
+    }
+    return out;
+}
+
+double areaOf(const std::vector<glm::dvec2>& corners)
+{
+    double twice = 0;
+    for (size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return twice / 2;
+}
+
+TEST(PolygonLights, WideOnesKeepTheirCorners)
+{
+    for (uint32_t i = 0; i < 12; ++i) {
+        const CndLight light = lightOf(somePolygon(i));
+        const lighting::OutlinePolygon outline = lighting::outlinePolygon(light);
+        ASSERT_EQ(outline.count, light.polygon->cornerCount);
+        EXPECT_EQ(outline.axisU, glm::vec3(2, 0, 0));
+        for (uint32_t k = 0; k < outline.count; ++k)
+            EXPECT_EQ(outline.corners[k],
+                      glm::vec2(light.polygon->corners[k][0], light.polygon->corners[k][1]));
+    }
+}
+
+// Both sides of a thin polygon have corners at the same places along it, and the area stays.
+TEST(PolygonLights, ThinOnesAreDividedAlikeOnBothSides)
+{
+    std::vector<CndLight> lights;
+    for (uint32_t i = 0; i < 12; ++i) {
+        lights.push_back(lightOf(somePolygon(i)));
+        lights.back().axisV[1] = i % 2 ? 1e-2f : 1e-5f;
+    }
+    // A sliver along the diagonal of its axes.
+    const CndPolygon sliver{5,
+                            {{-1, -1}, {0.2f, 0.1999f}, {1, 1}, {0, 0.0002f}, {-0.5f, -0.4999f}}};
+    lights.push_back(lightOf(&sliver));
+    lights.back().axisV[1] = 2;
+    for (const CndLight& light : lights) {
+        ASSERT_EQ(refusal(light), "");
+        const std::vector<glm::dvec2> corners = outlineCorners(light);
+        const double area = lighting::polygonArea(*light.polygon) * light.axisU[0] * light.axisV[1];
+        EXPECT_NEAR(areaOf(corners) / area, 1, 1e-3);
+        const glm::vec3 axis = lighting::outlinePolygon(light).axisU;
+        const glm::dvec2 along = glm::normalize(glm::dvec2(axis.x, axis.y));
+        const double length = glm::length(axis);
+        for (size_t i = 0; i < corners.size(); ++i) {
+            // Every corner has one on the other side, unless it is an end of the polygon.
+            const double x = glm::dot(along, corners[i]);
+            size_t near = 0;
+            for (const glm::dvec2& other : corners)
+                near += std::abs(glm::dot(along, other) - x) < 4e-4 * length;
+            EXPECT_TRUE(near >= 2 || std::abs(x) > 0.5 * length) << i;
+        }
+    }
 }
 
 TEST(PolygonLights, GoodOnesAreAccepted)

@@ -177,7 +177,8 @@ glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, double elo
     const double m2 = 1.0 + o.x2;
     const double partial = 1.0 - k.CONIC_TAIL * o.integral;
     const double discRadius2 = p.a2 * glm::min(o.integral * q * q, MAX_SLOPE_VARIANCE);
-    const double longer = elongation * glm::max(1.0 - 2.0 * o.integral, 0.0);
+    const double unlimited = elongation * glm::max(1.0 - 2.0 * o.integral, 0.0);
+    const double longer = unlimited / (1.0 + gpu::CONIC_LINE_LIMIT * unlimited * o.integral * q);
     const double slopeRadius2 = discRadius2 + longer * discRadius2;
     const double m2p = m2 * partial + k.CONIC_LENGTHENING * slopeRadius2;
     const double lobeAndLight =
@@ -229,8 +230,7 @@ glm::dvec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, double elo
 
     const double slopeLow = meanSlope * (rel + k.CONIC_FRESNEL_STEP * stepLow);
     const double slopeHigh = meanSlope * (rel + k.CONIC_FRESNEL_STEP * stepHigh);
-    const double narrowRadius2 = discRadius2 + (1.0 - wide) * longer * discRadius2;
-    const double mm = m2 + k.CONIC_FRESNEL_LENGTHENING * narrowRadius2 / partial;
+    const double mm = m2 + k.CONIC_FRESNEL_LENGTHENING * slopeRadius2 / partial;
     const double mmLow = glm::max(mm + slopeLow * (2.0 * ds + slopeLow * dd), 1e-6);
     const double mmHigh = glm::max(mm + slopeHigh * (2.0 * ds + slopeHigh * dd), 1e-6);
     const double invMm = 1.0 / (mmLow * mmHigh);

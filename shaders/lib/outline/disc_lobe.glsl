@@ -179,7 +179,7 @@ void addSmallRim(inout Outline k, DiscView d)
     } while (piece < DISC_PIECES);
 }
 
-// Adds the rim above the horizon.
+// Adds the rim above the plane of k.tilt.
 void addRim(inout Outline k, DiscView d, bool across)
 {
     const RimPoints points = makeRimPoints(k, d);

@@ -50,14 +50,15 @@ vec3 discArcIntegrals(float e, float root, vec2 from, vec2 to, float turn)
 struct DiscView {
     vec3 u, v, normal; // normal: u x v / radius^2, away from the receiver
     float radius, D2, e, root;
-    // (cos, sin) of the first and the last phi above the horizon, and the angle between them.
+    // (cos, sin) of the first and the last phi above the plane of Outline::tilt, and the angle between
+    // them.
     vec2 from, to;
     float turn;
-    bool above, below; // the whole rim is above the horizon, or below it
+    bool above, below; // the whole rim is above that plane, or below it
 };
 
-// `normal`: towards the receiver. `across`: whether the disc may cross the horizon.
-DiscView viewDisc(vec3 centre, vec3 normal, float radius, bool across)
+// `normal`: towards the receiver. The result has the whole rim.
+DiscView viewDisc(vec3 centre, vec3 normal, float radius)
 {
     DiscView o;
     const float height = dot(centre, normal);
@@ -81,28 +82,28 @@ DiscView viewDisc(vec3 centre, vec3 normal, float radius, bool across)
     o.turn = 2.0 * PI;
     o.above = true;
     o.below = false;
-    if (across) {
-        // The part above the horizon has its middle at the highest point of the rim.
-        const vec2 tilt = vec2(o.u.z, o.v.z);
-        const float tilt2 = dot(tilt, tilt);
-        const float inv = inversesqrt(max(tilt2, MIN_LENGTH2));
-        const vec2 middle = tilt2 > MIN_LENGTH2 ? tilt * inv : vec2(1.0, 0.0);
-        const float cosine = clamp(-centre.z * inv, -1.0, 1.0);
-        const float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-        o.from = complexProduct(middle, vec2(cosine, -sine));
-        o.to = complexProduct(middle, vec2(cosine, sine));
-        o.turn = 2.0 * atan(sine, cosine);
-        o.above = cosine <= -1.0;
-        o.below = cosine >= 1.0;
-        if (o.above) {
-            o.from = vec2(1.0, 0.0);
-            o.to = o.from;
-        }
-    }
     return o;
 }
 
-// Returns the integral of l x dl along the rim above the horizon, less lc times the difference of its
+// Restricts the rim to the part above the plane of k.tilt.
+void clipRim(inout DiscView o, Outline k)
+{
+    // This part has its middle at the highest point of the rim.
+    const vec3 up = upOf(k);
+    const vec2 tilt = vec2(dot(up, o.u), dot(up, o.v));
+    const float tilt2 = dot(tilt, tilt);
+    const float inv = inversesqrt(max(tilt2, MIN_LENGTH2));
+    const vec2 middle = tilt2 > MIN_LENGTH2 ? tilt * inv : vec2(1.0, 0.0);
+    const float cosine = clamp(-k.distance * dot(up, k.lc) * inv, -1.0, 1.0);
+    const float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    o.above = cosine <= -1.0;
+    o.below = cosine >= 1.0;
+    o.from = o.above ? vec2(1.0, 0.0) : complexProduct(middle, vec2(cosine, -sine));
+    o.to = o.above ? o.from : complexProduct(middle, vec2(cosine, sine));
+    o.turn = 2.0 * atan(sine, cosine);
+}
+
+// Returns the integral of l x dl along the rim above the plane, less lc times the difference of its
 // ends. With the squared distance above it splits into elementary integrals and, for small discs, keeps
 // its digits.
 vec3 discRim(Outline k, DiscView d, vec3 first, vec3 last, bool across)

@@ -20,6 +20,12 @@
 //   (integral of f) e (1 - 16/35 e^2)   and   (integral of f^2) e^2 / 2 (1 - 16/21 e^2),
 // where 1 - x is replaced by 1 / (1 + x), which stays positive.
 //
+// If the control point is nearer to one end, the lens leans towards that end, as seen from the receiver.
+// A shear leads from a lens that does not lean to one that does. It keeps the area and moves the mean
+// direction of a parabola's lens by 2/5 of s / (1 + a) times half the chord, where a is the curve's
+// weight and s the difference of the control point's two shares in the ends. The factor LENS_SKEW is
+// less, because lenses are curved.
+//
 // The formula is good while the lens is not high and not long. Arcs that are long as the lobe sees them
 // are cut into two or three pieces.
 
@@ -35,6 +41,8 @@
 // cancel.
 const float CUT_ONCE = 0.7, CUT_TWICE = 0.2;
 const float CUT_ONCE_RANGE = 0.2, CUT_TWICE_RANGE = 0.2; // blended or growing over this range
+
+const float LENS_SKEW = 0.35;
 
 // The middle control point W1 of an arc, where the end points w0 and w1 have the weight 1, is
 // scale A (v + lc) + dw, in units of Outline::D.
@@ -55,11 +63,14 @@ ArcControl controlOf(Outline k, OutlinePoint a, OutlinePoint b, ArcCircle circle
 void addPiece(inout Outline k, OutlinePoint a, OutlinePoint b, ArcControl control, float weight)
 {
     const vec3 dwA = stretchedOffset(k, a), dwB = stretchedOffset(k, b);
-    const vec3 sum = stretchedDirection(k, a) + stretchedDirection(k, b);
+    const vec3 directionA = stretchedDirection(k, a), directionB = stretchedDirection(k, b);
+    const vec3 sum = directionA + directionB, chord = directionB - directionA;
     const float ii = a.i * b.i;
     const float root = sqrt(ii);
     // What needs the control point comes first, so that it occupies no registers later.
-    const float weight2 = root * dot(control.scale * k.wc + control.dw, sum); // times 2 q2
+    const vec3 middle = control.scale * k.wc + control.dw;
+    const float weight2 = root * dot(middle, sum); // times 2 q2
+    const float skew2 = root * dot(middle, chord);
     const float height = root * ii *
         dot(stretchedPoint(k, dwA), cross(control.dw - control.scale * dwA, dwB - dwA));
 
@@ -84,7 +95,9 @@ void addPiece(inout Outline k, OutlinePoint a, OutlinePoint b, ArcControl contro
     const float e2 = eSine * eSine * invQuarter;
     const float along = share * H * eSine / (1.0 + (16.0 / 35.0) * e2);
     const float across = share * (8.0 / 15.0) * e2 * ii * (1.0 + perSine1) / (1.0 + (16.0 / 21.0) * e2);
-    k.specular += weight * (area + (excess - across) * axb + along * sum);
+    const float skew = LENS_SKEW *
+        clamp(0.5 * skew2 * invQuarter / (1.0 + 0.5 * weight2 * invQ2), -1.0, 1.0);
+    k.specular += weight * (area + (excess - across) * axb + along * (sum + skew * chord));
 }
 
 vec2 unitVector(vec2 a)

@@ -131,10 +131,12 @@ void leaveAt(inout Outline k, vec3 dl)
     k.crosses = true;
 }
 
-// Adds the part above the horizon of the edge between two points that are given by their offsets.
+// Adds the part above the plane of k.tilt of the edge between two points that are given by their offsets.
 void addClippedEdge(inout Outline k, vec3 from, vec3 to)
 {
-    const float za = k.distance * k.lc.z + from.z, zb = k.distance * k.lc.z + to.z;
+    const vec3 up = upOf(k);
+    const float centre = k.distance * dot(up, k.lc);
+    const float za = centre + dot(up, from), zb = centre + dot(up, to);
     if (za >= 0.0 || zb >= 0.0) {
         const float fall = za - zb;
         const vec3 crossing =

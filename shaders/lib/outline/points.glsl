@@ -9,6 +9,13 @@
 // all their digits, and its inverse is finite.
 const float SMALLEST_ANGLE = 1e-36;
 
+// Returns a / |a|, or 0 for a = 0. The squares of the components of a may be too small for a float.
+vec3 unitDirection(vec3 a)
+{
+    const vec3 b = a / max(max(abs(a.x), abs(a.y)), max(abs(a.z), SMALLEST_ANGLE));
+    return b * inversesqrt(max(length2(b), MIN_LENGTH2));
+}
+
 // The frame of a receiver.
 struct OutlineFrame {
     vec3 y, z;    // x is their product
@@ -65,10 +72,14 @@ struct Outline {
     float invD;     // 1 / D; D^2 is |A (v + lc)|^2 plus the typical |A dl|^2 of the outline's points
     float spread2;  // that typical |A dl|^2, in units of D^2
     vec3 wc;        // A (v + lc), in units of D
+    vec2 tilt;      // of the plane above which the light is walked; 0 for the horizon (bands.glsl)
     vec3 diffuse, specular; // sums over arcs: 2 pi f and 2 pi Phi
-    float low, high; // lowest and highest n . l of the points so far
+    float low, high;        // lowest and highest n . l of the points so far
+    // The sums and the lowest n . l of the lower band. Without one, all of them are 0.
+    vec3 lowerDiffuse, lowerSpecular;
+    float lowerLow;
     bool inside;     // n is on the inner side of all arcs so far
-    // Where the outline goes below the horizon and where it comes back, as OutlinePoint::dl.
+    // Where the outline leaves the part that is walked and where it comes back, as OutlinePoint::dl.
     bool crosses;
     vec3 leaves, enters;
 };
@@ -93,8 +104,12 @@ Outline beginOutline(ConicPoint p, OutlineFrame f, vec3 worldCentre, vec3 centre
     k.invD = inversesqrt(max(length2(w) + spread2, MIN_LENGTH2));
     k.wc = k.invD * w;
     k.spread2 = spread2 * k.invD * k.invD;
+    k.tilt = vec2(0.0);
     k.diffuse = vec3(0.0);
     k.specular = vec3(0.0);
+    k.lowerDiffuse = vec3(0.0);
+    k.lowerSpecular = vec3(0.0);
+    k.lowerLow = 0.0;
     k.low = 1.0;
     k.high = 0.0;
     k.inside = true;
@@ -102,6 +117,12 @@ Outline beginOutline(ConicPoint p, OutlineFrame f, vec3 worldCentre, vec3 centre
     k.leaves = vec3(0.0);
     k.enters = vec3(0.0);
     return k;
+}
+
+// Returns the unit normal of the plane above which the light is walked.
+vec3 upOf(Outline k)
+{
+    return vec3(k.tilt, sqrt(max(1.0 - dot(k.tilt, k.tilt), 0.0)));
 }
 
 // Returns A dl of a point.

@@ -35,28 +35,38 @@ void addEdgeTo(inout Outline k, inout vec3 from, inout OutlinePoint last, vec3 t
 WalkedOutline rectangleOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 axisU, vec3 axisV,
                                bool twoSided, OutlineNeeds needs)
 {
-    const vec3 centre = toFrame(f, toCentre), u = toFrame(f, axisU), v = toFrame(f, axisV);
+    const vec3 centre = toFrame(f, toCentre);
+    vec3 u = toFrame(f, axisU), v = toFrame(f, axisV);
+    const bool below = centre.z + abs(u.z) + abs(v.z) <= 0.0; // before it is widened
+    const bool uIsLonger = length2(u) >= length2(v);
+    const float wider = widening(p.alpha, centre, uIsLonger ? u : v, uIsLonger ? v : u);
+    u *= uIsLonger ? 1.0 : wider;
+    v *= uIsLonger ? wider : 1.0;
     const vec3 normal = cross(u, v);
     // The corners are counterclockwise for a receiver that sees the front.
     const vec3 w = dot(normal, centre) < 0.0 ? v : -v;
     const float size2 = max(length2(u), length2(v));
     const float stretched2 = length2(stretched(p.alpha, u)) + length2(stretched(p.alpha, v));
     Outline k = beginOutline(p, f, toCentre, centre, stretched2, needs);
-    const bool seen = seesFlatLight(centre, normal, sqrt(size2), twoSided);
+    const bool seen = seesFlatLight(centre, normal, sqrt(size2), twoSided) && !below;
     vec2 corner = vec2(-1.0, -1.0);
     vec3 from = -u - w;
     OutlinePoint last;
     if (!needs.across)
         last = pointAt(k, from);
-    uint edge = 0u;
+    bool walks = true;
     do {
-        corner = vec2(corner.y, -corner.x);
-        addEdgeTo(k, from, last, corner.x * u + corner.y * w);
-        ++edge;
-    } while (edge < 4u);
-    if (needs.across && k.crosses)
-        addHorizon(k);
-    return WalkedOutline(k, extentOf(k, u, w, 0.0), seen, 1.0);
+        if (walks) { // a lane that is done may run once more (lens.glsl)
+            uint edge = 0u;
+            do {
+                corner = vec2(corner.y, -corner.x);
+                addEdgeTo(k, from, last, corner.x * u + corner.y * w);
+                ++edge;
+            } while (edge < 4u);
+            walks = beginUpperBand(k);
+        }
+    } while (walks);
+    return WalkedOutline(k, extentOf(k, u, w, 0.0), seen, 1.0, 1.0 / wider);
 }
 
 #endif

@@ -117,19 +117,20 @@ struct TubeRanges {
     bool hasFirst, hasSecond;
 };
 
-TubeRanges rangesAboveHorizon(TubeEnd e, float centreHeight)
+TubeRanges rangesAbovePlane(Outline k, TubeEnd e)
 {
     const float limit = atan(e.half1.y, e.half1.x);
     // The height of a point is base + rise cos(angle - top).
-    const float base = centreHeight + e.circle.z;
-    const float acrossZ = e.acrossLength * e.across.z;
-    const float rise = max(sqrt(e.outward.z * e.outward.z + acrossZ * acrossZ), MIN_LENGTH2);
+    const vec3 up = upOf(k);
+    const float base = k.distance * dot(up, k.lc) + dot(up, e.circle);
+    const float acrossZ = e.acrossLength * dot(up, e.across), outwardZ = dot(up, e.outward);
+    const float rise = max(sqrt(outwardZ * outwardZ + acrossZ * acrossZ), MIN_LENGTH2);
     const float cosine = clamp(-base / rise, -1.0, 1.0);
     const float reach = atan(sqrt(max(1.0 - cosine * cosine, 0.0)), cosine);
     // SwiftShader returns 0 for atan(-0.0, x) with x < 0, where pi or -pi is right. So -0 is replaced
     // by 0.
-    const float top = atan(acrossZ == 0.0 ? 0.0 : acrossZ, e.outward.z);
-    // The circle is above the horizon from top - reach to top + reach. Of all turns of this range, two
+    const float top = atan(acrossZ == 0.0 ? 0.0 : acrossZ, outwardZ);
+    // The circle is above the plane from top - reach to top + reach. Of all turns of this range, two
     // can meet the arc.
     const float lower = top > 0.0 ? top - 2.0 * PI : top, upper = lower + 2.0 * PI;
     const vec2 a = vec2(max(-limit, lower - reach), min(limit, lower + reach));
@@ -215,7 +216,7 @@ void addClippedTubeHalf(inout Outline k, TubeView t, float outwards)
         addClippedEdge(k, other - s.side, s.tangent - s.side);
     }
     const TubeEnd e = makeTubeEnd(k, t, outwards);
-    const TubeRanges ranges = rangesAboveHorizon(e, k.distance * k.lc.z);
+    const TubeRanges ranges = rangesAbovePlane(k, e);
     uint range = 0u;
     do { // twice in every lane, so no lane runs it once more (lens.glsl)
         if (range == 0u ? ranges.hasFirst : ranges.hasSecond)
@@ -229,9 +230,14 @@ void addClippedTubeHalf(inout Outline k, TubeView t, float outwards)
 WalkedOutline tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 toEnd, float radius,
                           OutlineNeeds needs)
 {
-    const vec3 centre = toFrame(f, toCentre), axis = toFrame(f, toEnd);
-    const bool below = centre.z + abs(axis.z) + radius <= 0.0;
-    const TubeView t = viewTube(centre, axis, radius);
+    const vec3 centre = toFrame(f, toCentre), given = toFrame(f, toEnd);
+    const float wide = widened(p.alpha, centre, given, radius);
+    // The projected area of a tube seen from the side is 4 r l + pi r^2. A shorter axis l keeps it
+    // proportional to the radius r.
+    const float longer2 = max(length2(given), MIN_LENGTH2);
+    const vec3 axis = given - 0.25 * PI * (wide - radius) * inversesqrt(longer2) * given;
+    const bool below = centre.z + abs(given.z) + radius <= 0.0;
+    const TubeView t = viewTube(centre, axis, wide);
     const float stretched2 = length2(stretched(p.alpha, axis)) + t.r2;
     Outline k = beginOutline(p, f, toCentre, centre, stretched2, needs);
     OutlinePoint last;
@@ -239,24 +245,28 @@ WalkedOutline tubeOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 toEn
         const TubeTangents sides = tubeTangents(t, -1.0);
         last = pointAt(k, sides.tangent + sides.side);
     }
-    uint end = 0u;
+    bool walks = true;
     do {
-        const float outwards = end == 0u ? 1.0 : -1.0;
-        if (needs.across)
-            addClippedTubeHalf(k, t, outwards);
-        else
-            addTubeHalf(k, t, outwards, last);
-        ++end;
-    } while (end < 2u);
-    if (needs.across && k.crosses)
-        addHorizon(k);
+        if (walks) { // a lane that is done may run once more (lens.glsl)
+            uint end = 0u;
+            do {
+                const float outwards = end == 0u ? 1.0 : -1.0;
+                if (needs.across)
+                    addClippedTubeHalf(k, t, outwards);
+                else
+                    addTubeHalf(k, t, outwards, last);
+                ++end;
+            } while (end < 2u);
+            walks = beginUpperBand(k);
+        }
+    } while (walks);
     // The half axis across the tube is the radius, and the one along it is half the length with both
     // ends.
     const vec3 longer = sqrt(t.axisLength * (t.axisLength + 2.0 * sqrt(t.r2))) * t.along;
     // The vector irradiance of a tube of any length is at most that of an endless one. Rounding
     // exceeds it if the receiver almost touches the axis of a thin tube.
     const float most = t.endOn ? 1.0 : sqrt(t.sine2);
-    return WalkedOutline(k, extentOf(k, longer, vec3(0.0), t.r2), !below, most);
+    return WalkedOutline(k, extentOf(k, longer, vec3(0.0), t.r2), !below, most, radius / wide);
 }
 
 #endif

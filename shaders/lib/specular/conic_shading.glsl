@@ -80,9 +80,10 @@ struct HeightNodes {
     float low, high;
 };
 
-HeightNodes heightNodes(CapHeights z)
+// `share`: their squared distance from the mean over (mean - low) (high - mean).
+HeightNodes heightNodes(CapHeights z, float share)
 {
-    const float spread2 = CONIC_LIGHT_SPREAD * (z.mean - z.low) * (z.high - z.mean);
+    const float spread2 = share * (z.mean - z.low) * (z.high - z.mean);
     const float spread = min(sqrt(max(spread2, 0.0)), 0.98 * z.mean); // keeps both above the horizon
     return HeightNodes(z.mean - spread, min(z.mean + spread, 1.0));
 }
@@ -119,7 +120,7 @@ LightHeights weighHeights(ConicPoint p, CapHeights z, HeightNodes nodes, float h
 // region's root.
 LightHeights lightHeights(ConicPoint p, CapHeights z, float v1)
 {
-    const HeightNodes nodes = heightNodes(z);
+    const HeightNodes nodes = heightNodes(z, CONIC_LIGHT_SPREAD);
     const float across = p.vv - v1 * v1;
     const float reachA = v1 + sqrt(max(1.0 - nodes.low * nodes.low, 0.0));
     const float reachB = v1 + sqrt(max(1.0 - nodes.high * nodes.high, 0.0));
@@ -145,8 +146,9 @@ LightHeights lightHeights(ConicPoint p, CapHeights z, float v1)
 //    steps along d.
 // 5. The area gives the geometric mean of the two principal variances of the slopes. `elongation` is
 //    the ratio of their arithmetic mean to it, minus 1, and so the variance is that of a disc times
-//    1 + elongation. A light that holds much of the lobe is cut off by the lobe, which is round. In
-//    wide lobes Fresnel takes all lights as round.
+//    1 + elongation. A light that holds much of the lobe is cut off by the lobe, which is round. A
+//    light longer than the lobe is cut off as well: the squared slope radius of a long thin light tends
+//    to alpha^2 q / CONIC_LINE_LIMIT. (The lobe's variance along a line is alpha^2 q.)
 vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, float elongation)
 {
     // The variance of the slopes is proportional to 1 / partial, because the variance of the whole lobe
@@ -157,7 +159,8 @@ vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, float elongation
     const float m2 = 1.0 + o.x2;
     const float partial = 1.0 - CONIC_TAIL * o.integral;
     const float discRadius2 = p.a2 * min(o.integral * q * q, MAX_SLOPE_VARIANCE);
-    const float longer = elongation * max(1.0 - 2.0 * o.integral, 0.0);
+    const float unlimited = elongation * max(1.0 - 2.0 * o.integral, 0.0);
+    const float longer = unlimited / (1.0 + CONIC_LINE_LIMIT * unlimited * o.integral * q);
     const float slopeRadius2 = discRadius2 + longer * discRadius2;
     const float m2p = m2 * partial + CONIC_LENGTHENING * slopeRadius2; // m . m times `partial`
     const float lobeAndLight = lobeWidth + CONIC_WIDTH_FROM_HEIGHT * p.oneMinusA2 * height * height;
@@ -212,8 +215,7 @@ vec2 shadeTwoNodes(ConicPoint p, ConicRegion o, LightHeights z, float elongation
     const float slopeLow = meanSlope * (rel + CONIC_FRESNEL_STEP * stepLow);
     const float slopeHigh = meanSlope * (rel + CONIC_FRESNEL_STEP * stepHigh);
     // m . m and v . h at the half vectors of both nodes.
-    const float narrowRadius2 = discRadius2 + (1.0 - wide) * longer * discRadius2;
-    const float mm = m2 + CONIC_FRESNEL_LENGTHENING * narrowRadius2 / partial;
+    const float mm = m2 + CONIC_FRESNEL_LENGTHENING * slopeRadius2 / partial;
     const float mmLow = max(mm + slopeLow * (2.0 * ds + slopeLow * dd), 1e-6);
     const float mmHigh = max(mm + slopeHigh * (2.0 * ds + slopeHigh * dd), 1e-6);
     const float invMm = 1.0 / (mmLow * mmHigh);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // candelabra bench accuracy: measures the error and the time of every specular method.
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "io/image.h"
 #include "measure/accuracy/accuracy_page.h"
 #include "measure/accuracy/low_roughness.h"
+#include "measure/accuracy/thin_lights.h"
 #include "render/provenance.h"
 #include "scene/scene_options.h"
 
@@ -75,12 +77,15 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     const Scene scene = budgetScene(images); // loaded first, because the name may be wrong
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("accuracy on {}", context.info().name);
+    const ThinLightSettings thin{.groups = std::max(kernels.groups / 6, 10u), .seed = kernels.seed};
     KernelLevel level;
+    std::vector<ThinLightPoint> thinLights;
     std::vector<ImageScene> scenes;
     BudgetSweep budgets;
     {
-        Progress kernelProgress(kernelLevelSteps(kernels), !program.quiet);
+        Progress kernelProgress(kernelLevelSteps(kernels) + thinLightSteps(thin), !program.quiet);
         level = measureKernelLevel(context, kernels, kernelProgress);
+        thinLights = measureThinLights(context, thin, kernelProgress);
         Progress imageProgress(imageLevelSteps(images), !program.quiet);
         scenes = measureImages(context, images, imageProgress);
         budgets = measureBudgets(context, images, scene, imageProgress);
@@ -95,11 +100,14 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     writeJson(json, {{"schema", "candelabra bench accuracy 1"},
                      {"provenance", origin},
                      {"kernels", kernelJson(kernels, level)},
+                     {"thinLights", thinLightJson(thin, thinLights)},
                      {"images", imageJson(images, scenes, budgets)}});
     if (json != "-")
         writeText(
             "-",
-            textOf(kernelTables(level)) + "\n" + textOf(imageTables(scenes, budgets)) +
+            textOf(kernelTables(level)) + "\n" +
+                textOf(std::vector{thinLightTable(thinLights)}) + "\n" +
+                textOf(imageTables(scenes, budgets)) +
                 fmt::format("\nLook at {} and {} (perceptual roughness 0.01: naive karis, karis, "
                             "conic)\n",
                             html, lowRoughnessPng));

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "io/table.h"
+
 namespace candelabra::app
 {
 namespace
@@ -148,6 +150,13 @@ KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse
             out.leak = std::max(out.leak, double(responses[i].a) / peak[set.samples[i].group]);
     }
     return out;
+}
+
+std::string meanP99Max(const ErrorStatistics& s)
+{
+    return s.count ? fmt::format("{} / {} / {}", threeDigits(100 * s.mean),
+                                 threeDigits(100 * s.p99), threeDigits(100 * s.max))
+                   : "-";
 }
 
 Json toJson(const KernelError& e)

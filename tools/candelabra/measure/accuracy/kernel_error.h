@@ -44,6 +44,8 @@ struct KernelError {
 KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse> responses);
 
 Json toJson(const KernelError& error);
+// Returns "mean / p99 / largest" in percent, or "-" without samples.
+std::string meanP99Max(const ErrorStatistics& s);
 // Describes in words what is special about a sample.
 std::string describeSample(const SampleSet& set, size_t i);
 

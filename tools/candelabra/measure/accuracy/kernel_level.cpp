@@ -179,12 +179,6 @@ std::string percent(double share)
     return threeDigits(100 * share);
 }
 
-std::string meanP99Max(const ErrorStatistics& s)
-{
-    return s.count ? fmt::format("{} / {} / {}", percent(s.mean), percent(s.p99), percent(s.max))
-                   : "-";
-}
-
 const KernelPoint::Class* classOf(const KernelPoint& p, EvaluationClass c)
 {
     for (const KernelPoint::Class& entry : p.classes)

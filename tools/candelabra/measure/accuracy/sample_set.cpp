@@ -94,6 +94,19 @@ CndLight makeLight(uint32_t type, const Group& g, const glm::dvec3& direction)
     return light;
 }
 
+// Returns the light with its lengths multiplied. The radius of a type with axisU is its thickness.
+CndLight scaled(CndLight light, LightScale scale)
+{
+    const uint32_t fields = cndLightFields(light.type);
+    const bool hasLength = (fields & CND_LIGHT_FIELD_AXIS_U_BIT) != 0;
+    light.radius *= float(scale.size * (hasLength ? scale.thickness : 1));
+    for (float& u : light.axisU)
+        u *= float(scale.size);
+    for (float& v : light.axisV)
+        v *= float(scale.size * scale.thickness);
+    return light;
+}
+
 std::vector<glm::dvec3> directionsOf(const Group& g, Random& random)
 {
     const double alpha = double(g.perceptualRoughness) * g.perceptualRoughness;
@@ -162,7 +175,7 @@ double SampleSet::alphaOf(size_t i) const
     return std::max(roughness * roughness, gpu::MIN_ALPHA);
 }
 
-SampleSet makeSamples(uint32_t lightType, uint32_t groups, uint64_t seed)
+SampleSet makeSamples(uint32_t lightType, uint32_t groups, uint64_t seed, LightScale scale)
 {
     SampleSet out{
         .lightType = lightType, .groups = groups, .receivers = {}, .lights = {}, .samples = {}};
@@ -174,7 +187,7 @@ SampleSet makeSamples(uint32_t lightType, uint32_t groups, uint64_t seed)
             out.receivers.push_back({.n = {0, 0, 1},
                                      .v = glm::vec3(g.v),
                                      .perceptualRoughness = g.perceptualRoughness});
-            out.lights.push_back(makeLight(lightType, g, directions[k]));
+            out.lights.push_back(scaled(makeLight(lightType, g, directions[k]), scale));
             out.samples.push_back({.group = i,
                                    .scan = k >= 26 + 14,
                                    .horizon = horizonOf(out.lights.back()),

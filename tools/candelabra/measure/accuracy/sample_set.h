@@ -36,6 +36,12 @@ struct SampleSet {
 
 constexpr uint32_t samplesPerGroup = 26 + 14 + 49;
 
+// Factors of lights that are smaller or thinner than those of the usual set.
+struct LightScale {
+    double size = 1;      // of every length
+    double thickness = 1; // of the shorter side, or of a body's radius, besides
+};
+
 // A group is one roughness (perceptual, stratified on [0.045, 1]), one view angle (uniform 0 to
 // 88.85 degrees) and one emitter size (half angle s, log-uniform: spheres 0.1 to 80 degrees, other
 // shapes 1 to 60), seen from 89 directions: 26 around the mirror direction at angles with the
@@ -43,7 +49,7 @@ constexpr uint32_t samplesPerGroup = 26 + 14 + 49;
 // evenly spaced in the plane of incidence, up to 3 (s + 2 alpha) from the mirror direction where
 // that lies within the visible range. Shapes other than spheres keep their tilt to the direction in
 // a group. The same seed gives the same set.
-SampleSet makeSamples(uint32_t lightType, uint32_t groups, uint64_t seed);
+SampleSet makeSamples(uint32_t lightType, uint32_t groups, uint64_t seed, LightScale scale = {});
 
 // Fills in the truth, to the relative tolerance, on every core. `onDone` hears how many more are
 // done.

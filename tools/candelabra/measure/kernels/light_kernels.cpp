@@ -29,14 +29,14 @@ gpu::Buffer upload(const gpu::Device& device, const std::string& name, std::span
 }
 
 // Adds the corners of polygon i to the shapes, as prepare_lights.comp does with an identity view.
-void addCorners(std::vector<gpu::LightShape>& shapes, size_t i, const CndPolygon& polygon)
+void addCorners(std::vector<gpu::LightShape>& shapes, size_t i, const CndLight& light)
 {
     const glm::vec3 u = shapes[i].axisU, v = shapes[i].axisV;
-    shapes[i].radius = float(polygon.cornerCount);
+    const gpu::PolygonRecord record = lighting::packPolygon(light, 0);
+    shapes[i].radius = float(record.count);
     shapes[i].flags = (shapes[i].flags & gpu::LIGHT_TWO_SIDED) | uint32_t(shapes.size());
-    const gpu::PolygonRecord record = lighting::packPolygon(polygon, 0);
     const auto at = [&](uint32_t k) { return record.corners[k].x * u + record.corners[k].y * v; };
-    for (uint32_t k = 0; k < gpu::MAX_CORNERS; k += 2)
+    for (uint32_t k = 0; k < gpu::MAX_RECORD_CORNERS; k += 2)
         shapes.push_back({.axisU = at(k), .radius = 0, .axisV = at(k + 1), .flags = 0});
 }
 
@@ -70,7 +70,7 @@ DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> l
     }
     for (size_t i = 0; i < lights.size(); ++i)
         if (lights[i].type == CND_LIGHT_POLYGON)
-            addCorners(shapes, i, *lights[i].polygon);
+            addCorners(shapes, i, lights[i]);
     DeviceLights out{
         .core = upload(device, "bench lights", std::span<const glm::vec4>(core)),
         .shapes = upload(device, "bench light shapes", std::span<const gpu::LightShape>(shapes)),
