@@ -24,8 +24,8 @@ vec3 cornerOf(Polygon polygon, uint i)
     return polygon.scale * ((i & 1u) == 0u ? pair.axisU : pair.axisV);
 }
 
-// Returns a corner of the widened polygon in the coordinates of the receiver's frame. `wider`: along the
-// shorter axis; its squared length is the factor by which the polygon is widened, minus 1.
+// Returns a corner of the widened polygon, in the coordinates of the receiver's frame. `wider` points
+// along the shorter axis. Its squared length is the factor by which the polygon is widened, minus 1.
 vec3 frameCorner(Receiver r, Polygon polygon, uint i, vec3 wider)
 {
     const vec3 corner = cornerOf(polygon, i);

@@ -20,11 +20,10 @@
 //   (integral of f) e (1 - 16/35 e^2)   and   (integral of f^2) e^2 / 2 (1 - 16/21 e^2),
 // where 1 - x is replaced by 1 / (1 + x), which stays positive.
 //
-// If the control point is nearer to one end, the lens leans towards that end, as seen from the receiver.
-// A shear leads from a lens that does not lean to one that does. It keeps the area and moves the mean
-// direction of a parabola's lens by 2/5 of s / (1 + a) times half the chord, where a is the curve's
-// weight and s the difference of the control point's two shares in the ends. The factor LENS_SKEW is
-// less, because lenses are curved.
+// If the control point is nearer to one end, the lens leans towards that end. A lens that leans is a
+// sheared one that does not. The shear keeps the area and moves the mean direction of a parabola's lens
+// by 2/5 of s / (1 + a) times half the chord, where a is the curve's weight and s the difference of the
+// control point's two shares in the ends. The factor LENS_SKEW is less, because lenses are curved.
 //
 // The formula is good while the lens is not high and not long. Arcs that are long as the lobe sees them
 // are cut into two or three pieces.

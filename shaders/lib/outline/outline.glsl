@@ -131,7 +131,8 @@ void leaveAt(inout Outline k, vec3 dl)
     k.crosses = true;
 }
 
-// Adds the part above the plane of k.tilt of the edge between two points that are given by their offsets.
+// Adds the part above the plane of k.tilt of the edge between two points, which are given by their
+// offsets.
 void addClippedEdge(inout Outline k, vec3 from, vec3 to)
 {
     const vec3 up = upOf(k);

@@ -109,8 +109,8 @@ struct WalkedOutline {
     float dim;  // share of the response that remains, less than 1 if the light was widened (thin.glsl)
 };
 
-// Returns the elongation of a band. A cut light keeps neither the length nor the width of the whole one.
-// A band is taken for a parallelogram with two horizontal sides, whose area is pi |f|.
+// Returns the elongation of a band, which differs from that of the whole light. A band is taken for a
+// parallelogram with two horizontal sides and the area pi |f|.
 float bandElongation(OutlineBand band, OutlineExtent extent, CapHeights z)
 {
     const float height = max(0.5 * (z.high - z.low), 1e-6);

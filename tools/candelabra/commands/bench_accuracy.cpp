@@ -105,9 +105,8 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     if (json != "-")
         writeText(
             "-",
-            textOf(kernelTables(level)) + "\n" +
-                textOf(std::vector{thinLightTable(thinLights)}) + "\n" +
-                textOf(imageTables(scenes, budgets)) +
+            textOf(kernelTables(level)) + "\n" + textOf(std::vector{thinLightTable(thinLights)}) +
+                "\n" + textOf(imageTables(scenes, budgets)) +
                 fmt::format("\nLook at {} and {} (perceptual roughness 0.01: naive karis, karis, "
                             "conic)\n",
                             html, lowRoughnessPng));

@@ -426,6 +426,10 @@ void addRenderCommand(CLI::App& app, Run& run)
     a->frame.addDebugTo(*command);
     a->frame.addReuseTo(*command, Reuse::None);
     a->device.addTo(*command);
+    command
+        ->add_flag_callback(
+            "--no-cache", [] {}, "has no effect: nothing is cached")
+        ->group(""); // not in --help
     command->footer("Examples:\n"
                     "  candelabra render hall --lights 16000 -o hall.png\n"
                     "  candelabra render field --moving --frames 60 -o last.png --json times.json\n"
