@@ -261,7 +261,10 @@ void Environment::recordCube(const gpu::Frame& f, const CndEnvironmentMap& map) 
     const auto groups = [](uint32_t size) { return divideUp(size, gpu::ENVIRONMENT_GROUP); };
     // Texels around a pole gather from rows up to two diagonals of a texel away from it, the
     // farthest and with a margin of 3 rows.
-    const uint32_t rows = std::max(cubeIterations / (map.width + cubeRowOverhead), 1u);
+    // These rows are divided into parts, as in partsOfTexels() of environment_cube.comp.
+    const uint32_t parts =
+        1 + uint32_t(0.625 * 1.3 * std::numbers::pi * desc_.cubeSize / map.height);
+    const uint32_t rows = std::max(cubeIterations / parts / (map.width + cubeRowOverhead), 1u);
     const uint32_t most =
         uint32_t(2 * std::numbers::sqrt2 * 2 / desc_.cubeSize * map.height / std::numbers::pi) + 3;
     for (uint32_t skipped = 0; skipped < most; skipped += rows) {

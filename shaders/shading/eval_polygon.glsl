@@ -40,7 +40,9 @@ WalkedOutline polygonOutline(Receiver r, Polygon polygon, OutlineNeeds needs)
     const bool uIsLonger = length2(polygon.axisU) >= length2(polygon.axisV);
     const vec3 longer = uIsLonger ? polygon.axisU : polygon.axisV;
     const vec3 shorter = uIsLonger ? polygon.axisV : polygon.axisU;
-    const float factor = widening(r.conic.alpha, polygon.toCentre, longer, shorter);
+    // Corners are widened by their component along the shorter axis. It has an error of about 6e-8 of
+    // their distance, so a larger factor would turn the polygon visibly.
+    const float factor = min(widening(r.conic.alpha, polygon.toCentre, longer, shorter), 1e4);
     const vec3 wider = sqrt((factor - 1.0) / max(length2(shorter), MIN_LENGTH2)) * shorter;
     const float size2 = polygon.boundingRadius * polygon.boundingRadius;
     // Stretching shortens what is along the normal, at most to nothing.

@@ -41,7 +41,9 @@ TEST_F(LightCostsTest, AddUpToWhatTheEngineCounts)
     const FrameOptions frame = frameOf(scene);
     const LightCosts costs = lightCosts(context(), renderer, scene, frame);
     const CndLightingStats stats = countPairs(context(), renderer, frame);
-    EXPECT_NEAR(costs.pairs, double(stats.evaluatedPairs), 1e-4 * double(stats.evaluatedPairs));
+    // The statistics also count lanes whose pixel has no surface, while they wait for others.
+    EXPECT_LE(costs.pairs, double(stats.evaluatedPairs));
+    EXPECT_GE(costs.pairs, 0.99 * double(stats.evaluatedPairs));
     uint64_t covered = 0;
     double sum = 0;
     for (const LightCost& light : costs.lights) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The error of the responses by outline on the GPU, in float32, against quadrature: percent of the
 // highest true response among the light directions of a group (one roughness, view and light).
+#include <cmath>
+
 #include "harness/full_tests.h"
 #include "harness/gpu_fixture.h"
 #include "measure/accuracy/kernel_error.h"
 #include "measure/accuracy/sample_set.h"
 #include "measure/kernels/light_kernels.h"
 #include "scene/light_types.h"
+#include "scene/polygons.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
@@ -76,5 +79,38 @@ TEST_F(OutlineAccuracy, OfSmallLightsIsThatOfLargeOnes)
     for (const uint32_t type : {CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_POLYGON}) {
         const KernelError error = errorOf(type, 20, {.size = 1e-5, .thickness = 1});
         EXPECT_LE(100 * error.mirror.all.max, 0.1) << lightTypeName(type);
+    }
+}
+
+// A light around the normal has no azimuth towards which the plane of its bands could be tilted.
+TEST_F(OutlineAccuracy, OfLargeLightsRightAboveIsSmall)
+{
+    for (const uint32_t type :
+         {CND_LIGHT_TUBE, CND_LIGHT_RECTANGLE, CND_LIGHT_DISC, CND_LIGHT_POLYGON}) {
+        SampleSet set{.lightType = type, .groups = 1, .receivers = {}, .lights = {}, .samples = {}};
+        for (const float x : {0.0f, 1e-7f, 1e-3f, 0.3f}) {
+            CndLight light{.type = type};
+            light.position[0] = x;
+            light.position[2] = 1;
+            for (float& e : light.emission)
+                e = 1;
+            light.radius = type == CND_LIGHT_TUBE ? 0.3f : 6.0f;
+            light.influenceRadius = INFINITY;
+            light.direction[2] = -1;
+            light.axisU[0] = 6;
+            light.axisV[1] = -6;
+            light.polygon = regularPolygon(8);
+            set.lights.push_back(light);
+            set.receivers.push_back(
+                {.n = {0, 0, 1}, .v = {0.6f, 0, 0.8f}, .perceptualRoughness = 0.5f});
+            set.samples.push_back({.group = 0, .scan = false, .horizon = horizonOf(light)});
+        }
+        integrateTruth(set, 1e-6, [](size_t) {});
+        const LightEvaluator evaluator(context(),
+                                       {.lightType = type, .method = {CND_SPECULAR_CONIC}});
+        const KernelError error = kernelError(set, evaluator.evaluate(set.receivers, set.lights));
+        EXPECT_EQ(error.invalid, 0u) << lightTypeName(type);
+        EXPECT_LE(error.mirror.all.max, 0.03) << lightTypeName(type);
+        EXPECT_LE(error.diffuse.all.max, 1e-4) << lightTypeName(type);
     }
 }

@@ -231,10 +231,10 @@ typedef struct CndLightingFrame {
     uint32_t sampleCount;
     // With CND_SPECULAR_SAMPLED: the same seed gives the same image.
     uint32_t sampleSeed;
-    // 0..1. 0: every light is evaluated in full. Otherwise sphere lights with CND_SPECULAR_CONIC
-    // and CND_SPECULAR_CONIC_FULL are evaluated more cheaply wherever the error, estimated
-    // beforehand, is at most about this share of the highest response to the light (0.01: 1%).
-    // Other lights and methods ignore it.
+    // 0..1. 0: every light is evaluated in full. Otherwise area lights with CND_SPECULAR_CONIC and
+    // CND_SPECULAR_CONIC_FULL are evaluated more cheaply wherever the error, estimated beforehand,
+    // is at most about this share of the highest response to the light (0.01: 1%). Other lights and
+    // methods ignore it.
     float errorBudget;
     CndLobeJoining lobes;
     // VK_TRUE: compensate the energy that single-scattering microfacet models lose to multiple

@@ -39,13 +39,17 @@ bool beginUpperBand(inout Outline k)
         k.lowerSpecular -= k.specular;
         return false;
     }
+    // A light around the normal has no azimuth, so the plane sinks to the horizon before.
+    const vec3 towards = unitDirection(k.diffuse);
+    const float across2 = dot(towards.xy, towards.xy);
+    const vec2 azimuth = inversesqrt(max(across2, MIN_LENGTH2)) * towards.xy;
+    const float slanting = smoothstep(0.0, 0.05, sqrt(across2));
     // The plane is above the horizon only at azimuths that differ by less than 90 degrees from that of
     // the light. If the light crosses the horizon elsewhere, a part of it is above the plane but below
-    // the horizon. So the plane sinks to the horizon before that happens.
-    const vec2 azimuth = unitDirection(vec3(k.diffuse.xy, 0.0)).xy;
+    // the horizon. So the plane sinks to the horizon before that happens, too.
     const float nearer = min(dot(azimuth, (k.lc + k.enters).xy), dot(azimuth, (k.lc + k.leaves).xy));
     const float height = BAND_HEIGHT * (k.inside ? 1.0 : clamp(k.high, 0.0, 1.0));
-    const float sine = height * (k.crosses ? smoothstep(0.0, 0.3, nearer) : 1.0);
+    const float sine = height * slanting * (k.crosses ? smoothstep(0.0, 0.3, nearer) : 1.0);
     if (!k.needs.across || !k.needs.lobe || k.low >= sine || sine < 1e-6)
         return false;
     k.tilt = -sine * azimuth;

@@ -19,11 +19,14 @@ WalkedOutline discOutline(ConicPoint p, OutlineFrame f, vec3 toCentre, vec3 faci
     bool seen = seesFlatLight(centre, normal, radius, twoSided);
     if (needs.lobe)
         setRimHeights(k, d);
+    const float lowest = k.low;
     bool walks = true;
     do {
         if (walks) { // a lane that is done may run once more (lens.glsl)
             if (needs.across)
                 clipRim(d, k);
+            if (d.above)
+                k.low = lowest;
             seen = seen && (!d.below || hasLowerBand(k));
             if (needs.lobe) {
                 if (needs.cuts)

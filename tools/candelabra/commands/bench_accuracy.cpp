@@ -77,7 +77,8 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     const Scene scene = budgetScene(images); // loaded first, because the name may be wrong
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("accuracy on {}", context.info().name);
-    const ThinLightSettings thin{.groups = std::max(kernels.groups / 6, 10u), .seed = kernels.seed};
+    const ThinLightSettings thin{.groups = std::clamp(kernels.groups / 6, 10u, 50u),
+                                 .seed = kernels.seed};
     KernelLevel level;
     std::vector<ThinLightPoint> thinLights;
     std::vector<ImageScene> scenes;

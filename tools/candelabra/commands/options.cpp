@@ -326,7 +326,7 @@ void FrameArguments::addTo(CLI::App& command)
     command
         .add_option(
             "--error-budget", errorBudget,
-            "evaluate sphere lights by conic and conic-full more cheaply where the error is at "
+            "evaluate area lights by conic and conic-full more cheaply where the error is at "
             "most about this share of the highest response (0.01: 1%); 0: evaluate every light in "
             "full")
         ->type_name("E")

@@ -471,8 +471,9 @@ void Mender::mendVersion()
             // Files of version 1 may have a number here.
             const std::string text =
                 version->json().is_number() ? version->json().dump() : version->string();
-            const bool isTwo = text.substr(0, 2) == "2.";
-            const bool readable = name == std::string_view("version") ? isTwo : text == "2.0";
+            const bool isTwo = text == "2" || text.starts_with("2.");
+            const bool readable =
+                name == std::string_view("version") ? isTwo : text == "2" || text == "2.0";
             if (!readable)
                 version->fail("is " + printable(version->json().dump(), 20) +
                               "; only glTF 2.0 can be read" +
