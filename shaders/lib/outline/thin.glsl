@@ -30,7 +30,7 @@ float widened(float alpha, vec3 centre, vec3 axis, float halfWidth)
 float widening(float alpha, vec3 centre, vec3 u, vec3 v)
 {
     const float width = sqrt(max(length2(v), MIN_LENGTH2));
-    return widened(alpha, centre, u, width) / width;
+    return max(widened(alpha, centre, u, width) / width, 1.0); // a quotient of equals may be less
 }
 
 #endif
