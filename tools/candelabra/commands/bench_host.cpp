@@ -8,6 +8,7 @@
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
 #include "commands/options.h"
+#include "io/error.h"
 #include "measure/host/host.h"
 #include "render/provenance.h"
 

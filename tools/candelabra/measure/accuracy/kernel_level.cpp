@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/statistics.h"
 #include "io/svg_plot.h"
 #include "io/table.h"
 #include "lights/light_types.h"
