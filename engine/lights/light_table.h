@@ -50,7 +50,7 @@ public:
     // one far light does not make the grid coarse.
     LightExtent extent() const noexcept;
 
-    // What is staged: every record in order, or some whose places are in Staging::places.
+    // Every record is staged in order, or some are, whose places are in Staging::places.
     struct Upload {
         uint32_t records;
         bool all;

@@ -131,7 +131,7 @@ TEST_F(GltfLights, ConesThatTheLibraryRefusesAreReplaced)
         EXPECT_TRUE(warns(s, "lights[0].spot")) << c.inner << " " << c.outer;
         EXPECT_TRUE(warns(s, "used")) << c.inner << " " << c.outer;
     }
-    // What is narrow or hard but valid stays as it is.
+    // A narrow or hard cone that is valid stays as it is.
     const Scene s = load(scene("KHR_lights_punctual", R"([
         {"type": "spot", "spot": {"innerConeAngle": 0, "outerConeAngle": 2e-5}},
         {"type": "spot", "spot": {"innerConeAngle": 0.4999, "outerConeAngle": 0.5}},

@@ -68,7 +68,7 @@ bool convertToRec709(Image& image, const Chromaticities& from)
     for (size_t i = 0; i < image.pixels.size(); i += 3) {
         float* pixel = &image.pixels[i];
         const glm::dvec3 rgb = matrix * glm::dvec3(pixel[0], pixel[1], pixel[2]);
-        // What is negative by rounding alone is 0.
+        // A value that is negative by rounding alone becomes 0.
         const double rounding = 1e-5 * std::max({rgb.r, rgb.g, rgb.b});
         for (int c = 0; c < 3; ++c)
             pixel[c] = std::abs(rgb[c]) <= rounding ? 0 : float(rgb[c]);
