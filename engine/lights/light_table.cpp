@@ -32,7 +32,7 @@ std::string text(CndLightId id)
 // Lights are looked up, packed and staged in blocks. The processor waits for many records at the
 // same time when they are far from each other, and not for the small writes of a record before it
 // copies it.
-constexpr size_t blockSize = 64;
+constexpr size_t tableBlock = 64;
 
 } // namespace
 
@@ -128,8 +128,8 @@ void LightTable::set(std::span<const CndLight> lights, const Staging& staging) n
         places_[i] = {i, 0};
         recordOf_[i] = i;
     }
-    for (size_t first = 0; first < count; first += blockSize) {
-        const auto block = std::span(records_).subspan(first, std::min(blockSize, count - first));
+    for (size_t first = 0; first < count; first += tableBlock) {
+        const auto block = std::span(records_).subspan(first, std::min(tableBlock, count - first));
         packLights(lights.subspan(first, block.size()), block, uint32_t(first));
         for (size_t i = 0; i < block.size(); ++i)
             if (const CndLight& light = lights[first + i]; light.type == CND_LIGHT_POLYGON)
@@ -171,11 +171,11 @@ void LightTable::add(std::span<const CndLight> lights, CndLightId* ids,
 void LightTable::update(std::span<const CndLightId> ids, std::span<const CndLight> lights,
                         const Staging& staging) noexcept
 {
-    for (size_t first = 0; first < ids.size(); first += blockSize) {
-        const size_t count = std::min(blockSize, ids.size() - first);
+    for (size_t first = 0; first < ids.size(); first += tableBlock) {
+        const size_t count = std::min(tableBlock, ids.size() - first);
         struct {
             uint32_t record, polygon;
-        } edits[blockSize];
+        } edits[tableBlock];
         for (size_t i = 0; i < count; ++i) {
             const uint32_t record = recordOf_[slotOf(ids[first + i])];
             edits[i] = {record, polygonOf(record)};

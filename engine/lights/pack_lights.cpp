@@ -175,10 +175,10 @@ void pack(const CndLight& light, uint32_t id, gpu::LightRecord& r)
 // The lights are taken in blocks that stay in the processor's nearest cache.
 LightSummary validateLights(std::span<const CndLight> lights)
 {
-    constexpr size_t blockSize = 64;
+    constexpr size_t lightsPerBlock = 64;
     LightSummary out;
-    for (size_t first = 0; first < lights.size(); first += blockSize) {
-        const auto block = lights.subspan(first, std::min(blockSize, lights.size() - first));
+    for (size_t first = 0; first < lights.size(); first += lightsPerBlock) {
+        const auto block = lights.subspan(first, std::min(lightsPerBlock, lights.size() - first));
         for (size_t i = 0; i < block.size(); ++i) {
             if (const char* why = whyInvalid(block[i]))
                 gpu::failArgument("lights[" + std::to_string(first + i) + "]: " + why);
