@@ -270,7 +270,8 @@ TEST_F(GltfPoseTest, BrokenSkinsAreNamed)
         << error(negative);
     GltfBuilder index = skinnedTriangle();
     index.json["skins"][0]["joints"] = {1, 77};
-    EXPECT_NE(error(index).find("skins[0].joints[1]: is 77"), std::string::npos) << error(index);
+    EXPECT_TRUE(warns(load(index),
+                      "skins[0].joints[1]: is 77, but there are 3 nodes; the skin is left out"));
 }
 
 } // namespace

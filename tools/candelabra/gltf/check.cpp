@@ -10,6 +10,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -135,6 +136,8 @@ public:
     {
     }
     GltfUse mend();
+    // The first fault that may have lost a mesh.
+    const std::optional<SceneError>& lostMesh() const { return lostMesh_; }
 
 private:
     JsonValue at(const Json& value, const std::string& path) const
@@ -142,6 +145,11 @@ private:
         return JsonValue(file_, value, path);
     }
 
+    void noteLostMesh(const SceneError& error)
+    {
+        if (!lostMesh_)
+            lostMesh_ = error;
+    }
     void mendArray(const schema::Array& array);
     void mendElement(const schema::Array& array, Json& element, size_t index);
     void mendObject(Json& value, const std::string& path, std::span<const Field> fields);
@@ -167,6 +175,7 @@ private:
     LoadWarnings& warnings_;
     GltfUse used_;
     std::set<std::pair<std::string_view, size_t>> leftOut_; // array and index
+    std::optional<SceneError> lostMesh_;
 };
 
 void Mender::mendInteger(Json& value, const std::string& path, const NumberRange& range)
@@ -239,6 +248,9 @@ void Mender::mendList(Json& value, const std::string& path, const Field& field)
                   std::to_string(value.size()));
     Json kept = Json::array();
     std::set<size_t> seen;
+    Field item = field;
+    item.kind = field.kind == Kind::Indices ? Kind::Index : Kind::Object;
+    item.fill = nullptr;
     for (size_t i = 0; i < value.size(); ++i) {
         const std::string itemPath = path + "[" + std::to_string(i) + "]";
         if (field.kind == Kind::Numbers) {
@@ -246,10 +258,9 @@ void Mender::mendList(Json& value, const std::string& path, const Field& field)
         } else if (field.kind == Kind::IndexMaps) {
             mendMap(value[i], itemPath, field);
         } else if (field.kind == Kind::Objects) {
-            mendObject(value[i], itemPath, field.fields);
+            if (keeps(value[i], itemPath, item))
+                kept.push_back(value[i]);
         } else if (field.kind == Kind::Indices) {
-            Field item = field;
-            item.kind = Kind::Index;
             if (!keeps(value[i], itemPath, item))
                 continue;
             if (field.instead && !seen.insert(value[i].get<size_t>()).second)
@@ -259,7 +270,7 @@ void Mender::mendList(Json& value, const std::string& path, const Field& field)
                 kept.push_back(value[i]);
         }
     }
-    if (field.kind == Kind::Indices)
+    if (field.kind == Kind::Indices || field.kind == Kind::Objects)
         value = std::move(kept);
 }
 
@@ -300,6 +311,8 @@ bool Mender::keeps(Json& value, const std::string& path, const Field& field)
         if (!field.instead)
             throw;
         warnings_.addInstead(file_, error, field.instead);
+        if (field.fields.data() == schema::primitive)
+            noteLostMesh(error);
     }
     return false;
 }
@@ -309,7 +322,7 @@ void Mender::mendObject(Json& value, const std::string& path, std::span<const Fi
     at(value, path).requireObject();
     for (const Field& field : fields) {
         const std::string key(field.name), memberPath = path.empty() ? key : path + "." + key;
-        const bool isNeeded = field.required && !field.fill;
+        const bool isNeeded = field.required && (!field.fill || field.kind == Kind::Objects);
         const auto instead = [&] { return field.instead ? std::string("; ") + field.instead : ""; };
         const auto member = value.find(key);
         if (member == value.end()) {
@@ -336,6 +349,10 @@ void Mender::mendElement(const schema::Array& array, Json& element, size_t index
 {
     const std::string path = gltfElement(array.path, index);
     const bool isUsed = used_[array.pointer].contains(index);
+    // Lights of other types have no cone, whatever "spot" is.
+    if (array.fields.data() == schema::punctual && element.is_object() &&
+        element.value("type", Json()) != "spot")
+        element.erase("spot");
     try {
         mendObject(element, path, array.fields);
         mendBySpecialRules(array, element, path);
@@ -346,6 +363,9 @@ void Mender::mendElement(const schema::Array& array, Json& element, size_t index
     } catch (const SceneError& error) {
         if (isUsed && !array.instead)
             throw;
+        const std::string_view kind = array.path;
+        if (isUsed && (kind == "bufferViews" || kind == "accessors" || kind == "meshes"))
+            noteLostMesh(error);
         warnings_.addInstead(file_, error,
                              isUsed ? array.instead : "nothing uses it, so it is left out");
     }
@@ -487,9 +507,11 @@ void Mender::mendVersion()
 
 } // namespace
 
-GltfUse mendGltfJson(const std::string& file, nlohmann::json& json, LoadWarnings& warnings)
+void mendGltfJson(GltfDocument& document)
 {
-    return Mender(file, json, warnings).mend();
+    Mender mender(document.file, document.json, document.warnings);
+    document.used = mender.mend();
+    document.lostMesh = mender.lostMesh();
 }
 
 } // namespace candelabra::app

@@ -249,6 +249,15 @@ void GltfDocument::fail(const std::string& element, const std::string& reason) c
     failScene(file, element, reason);
 }
 
+void GltfDocument::failTooLarge(const std::string& element, const std::string& reason) const
+{
+    try {
+        fail(element, reason);
+    } catch (const SceneError& error) {
+        throw SceneTooLarge(error.what());
+    }
+}
+
 std::string GltfDocument::withoutFile(const std::string& message) const
 {
     const std::string start = printable(file, 4096) + ": ";
@@ -315,7 +324,7 @@ GltfDocument openGltf(const std::string& path)
     GltfContainer container = readGltfContainer(path);
     document.json = parseSceneJson(path, container.json);
     container.json.clear();
-    document.used = mendGltfJson(path, document.json, document.warnings);
+    mendGltfJson(document);
     document.missingExtensions = checkGltfExtensions(path, document.json, document.warnings);
     loadBuffers(document, container);
     parseWithTinyGltf(document);

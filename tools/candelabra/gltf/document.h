@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -43,10 +44,14 @@ struct GltfDocument {
     std::vector<std::vector<uint8_t>> buffers;
     std::string missingExtensions; // those that the file requires and the loader does not read
     mutable LoadWarnings warnings;
+    // The first fault for which a mesh, or a part of one, was left out.
+    mutable std::optional<SceneError> lostMesh;
 
     // The message of a failure of this document without the name of the file at its beginning.
     std::string withoutFile(const std::string& message) const;
     [[noreturn]] void fail(const std::string& element, const std::string& reason) const;
+    // Throws SceneTooLarge.
+    [[noreturn]] void failTooLarge(const std::string& element, const std::string& reason) const;
     void warn(const std::string& element, const std::string& reason) const
     {
         warnings.add(element, reason);
@@ -76,8 +81,8 @@ GltfContainer readGltfContainer(const std::string& path);
 
 // Checks types, ranges, array lengths and indices of every property that the loader or tinygltf
 // reads, and the glTF version. Replaces or removes what is wrong and not needed, with warnings
-// (check.cpp), and warns of content that is not used. Returns what the drawn scene uses.
-GltfUse mendGltfJson(const std::string& file, nlohmann::json& json, LoadWarnings& warnings);
+// (check.cpp), and warns of content that is not used. Sets document.used and document.lostMesh.
+void mendGltfJson(GltfDocument& document);
 
 // Reads what a "uri" stands for: base64 data, or a file in the folder of document.file or below
 // that folder. Absolute paths, "..", and schemes other than data: are errors.

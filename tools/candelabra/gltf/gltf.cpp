@@ -55,6 +55,9 @@ private:
                      glm::dmat4 worldFromMesh);
     void addWire(size_t gltfMesh, size_t primitive, const GltfPose& pose,
                  const glm::dmat4& worldFromMesh);
+    // Calls `add`. If it fails, warns that `what` is left out, unless the scene is too large.
+    template <typename Add>
+    void addOrLeaveOut(const char* what, const Add& add);
     void addCamera(const GltfPlacedNode& placed);
     void requireRoom(const std::string& element) const;
     // The index in scene.meshes of a primitive in a pose. It is read when it is first asked for.
@@ -84,10 +87,24 @@ void SceneBuilder::add(const GltfPlacedNode& placed)
 {
     const tinygltf::Node& node = document_.model.nodes[placed.node];
     if (node.mesh >= 0)
-        addMesh(placed);
+        addOrLeaveOut("the mesh of the node", [&] { addMesh(placed); });
     if (node.camera >= 0)
         addCamera(placed);
-    addGltfLights(document_, placed, options_, lights_);
+    addOrLeaveOut("the light", [&] { addGltfLights(document_, placed, options_, lights_); });
+}
+
+template <typename Add>
+void SceneBuilder::addOrLeaveOut(const char* what, const Add& add)
+{
+    try {
+        add();
+    } catch (const SceneTooLarge&) {
+        throw;
+    } catch (const SceneError& error) {
+        if (!document_.lostMesh)
+            document_.lostMesh = error;
+        document_.warnInstead(error, std::string(what) + " is left out");
+    }
 }
 
 int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, const GltfPose& pose, bool mirrored)
@@ -107,8 +124,10 @@ int64_t SceneBuilder::mesh(size_t gltfMesh, size_t primitive, const GltfPose& po
         }
     } else {
         const auto& source = document_.model.meshes[gltfMesh].primitives[primitive];
-        result = readGltfPrimitive(document_, gltfMesh, primitive,
-                                   scene_.materials[material(source)], pose, budget_);
+        addOrLeaveOut("the primitive", [&] {
+            result = readGltfPrimitive(document_, gltfMesh, primitive,
+                                       scene_.materials[material(source)], pose, budget_);
+        });
     }
     if (result) {
         index = static_cast<int64_t>(scene_.meshes.size());
@@ -174,8 +193,8 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, cons
 void SceneBuilder::requireRoom(const std::string& element) const
 {
     if (scene_.instances.size() >= maxInstances)
-        document_.fail(element, "brings the scene above " + std::to_string(maxInstances) +
-                                    " mesh instances");
+        document_.failTooLarge(element, "brings the scene above " + std::to_string(maxInstances) +
+                                            " mesh instances");
 }
 
 void SceneBuilder::addWire(size_t gltfMesh, size_t primitive, const GltfPose& pose,
@@ -244,6 +263,8 @@ void SceneBuilder::addCamera(const GltfPlacedNode& placed)
 void SceneBuilder::finish()
 {
     wires_.finish();
+    if (document_.lostMesh && scene_.instances.empty() && !document_.model.meshes.empty())
+        throw *document_.lostMesh;
     emissive_.warn(document_);
     scene_.lights = std::move(lights_.lights);
     placeLights(scene_, lights_.positions);

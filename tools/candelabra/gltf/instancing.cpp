@@ -43,8 +43,9 @@ std::vector<glm::dmat4> readGltfInstancing(const GltfDocument& document, size_t 
         return {glm::dmat4(1)};
     }
     if (*count > mostInstances)
-        document.fail(element, "has " + std::to_string(*count) + " instances, more than the " +
-                                   std::to_string(mostInstances) + " that the scene has room for");
+        document.failTooLarge(element,
+                              "has " + std::to_string(*count) + " instances, more than the " +
+                                  std::to_string(mostInstances) + " that the scene has room for");
     std::vector<glm::dmat4> out;
     out.reserve(*count);
     for (size_t i = 0; i < *count; ++i) {

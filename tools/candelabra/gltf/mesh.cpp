@@ -521,11 +521,11 @@ void takeGltfBudget(const GltfDocument& document, const std::string& element, ui
                     uint64_t indices, GltfMeshBudget& budget, std::string_view hint)
 {
     if (vertices > budget.vertices)
-        document.fail(element,
-                      fmt::format("brings the scene above {} vertices{}", maxSceneVertices, hint));
+        document.failTooLarge(
+            element, fmt::format("brings the scene above {} vertices{}", maxSceneVertices, hint));
     if (indices > budget.indices)
-        document.fail(element,
-                      fmt::format("brings the scene above {} indices{}", maxSceneIndices, hint));
+        document.failTooLarge(
+            element, fmt::format("brings the scene above {} indices{}", maxSceneIndices, hint));
     budget.vertices -= vertices;
     budget.indices -= indices;
 }

@@ -39,7 +39,7 @@ struct Field {
     const char* target = nullptr; // JSON pointer of the array that an index points into
     std::span<const Field> fields = {};
     // Says what is used instead of a value that is wrong. The member is then removed, or of Indices
-    // the item. nullptr: the object that has the member is wrong.
+    // and Objects the item. nullptr: the object that has the member is wrong.
     const char* instead = nullptr;
     // Numbers beyond an end of their range are replaced by that end.
     bool clamps = false;
@@ -253,9 +253,9 @@ inline constexpr Field primitive[] = {
     integer("mode", 0, 6),
     index("targets", "/accessors", Kind::IndexMaps),
     object("extensions", primitiveExtensions)};
-inline constexpr Field mesh[] = {objects("primitives", primitive).need(),
-                                 anyNumbers("weights", coordinate).orElse("weights of 0 are used"),
-                                 name()};
+inline constexpr Field mesh[] = {
+    objects("primitives", primitive).need().orFill("[]", "the primitive is left out"),
+    anyNumbers("weights", coordinate).orElse("weights of 0 are used"), name()};
 inline constexpr Field skin[] = {index("joints", "/nodes", Kind::Indices).need(),
                                  index("inverseBindMatrices", "/accessors"), name()};
 inline constexpr Field lightReference[] = {
@@ -266,11 +266,11 @@ inline constexpr Field instancing[] = {index("attributes", "/accessors", Kind::I
 inline constexpr Field nodeExtensions[] = {
     object("KHR_lights_punctual", lightReference).orElse("the node has no light"),
     object("KHR_lights_area", areaReference).orElse("the node has no light"),
-    object("EXT_mesh_gpu_instancing", instancing)};
+    object("EXT_mesh_gpu_instancing", instancing).orElse("the mesh is drawn once")};
 inline constexpr Field node[] = {
     index("camera", "/cameras").orElse("the node has no camera"),
     index("mesh", "/meshes").orElse("the node has no mesh"),
-    index("skin", "/skins"),
+    index("skin", "/skins").orElse("the node has no skin"),
     index("children", "/nodes", Kind::Indices).orElse("it is left out"),
     numbers("matrix", 16, coordinate),
     numbers("rotation", 4, coordinate).orElse("no rotation is used"),
@@ -339,23 +339,24 @@ struct Array {
     const char* instead;
     const char* stub; // what takes the place of an element that is wrong
 };
+inline constexpr const char* noUser = "what uses it is left out";
 inline constexpr Array arrays[] = {
     {"/buffers", "buffers", buffer, nullptr, R"({"byteLength": 1, "uri": "data:;base64,AAAA"})"},
-    {"/bufferViews", "bufferViews", bufferView, nullptr, R"({"buffer": 0, "byteLength": 1})"},
-    {"/accessors", "accessors", accessor, nullptr,
+    {"/bufferViews", "bufferViews", bufferView, noUser, R"({"buffer": 0, "byteLength": 1})"},
+    {"/accessors", "accessors", accessor, noUser,
      R"({"componentType": 5126, "count": 1, "type": "SCALAR"})"},
     {"/images", "images", image, noTexture, "{}"},
     {"/samplers", "samplers", sampler, "the default sampler is used", "{}"},
     {"/textures", "textures", texture, noTexture, "{}"},
     {"/materials", "materials", material, "the default material is used", "{}"},
-    {"/meshes", "meshes", mesh, nullptr, R"({"primitives": []})"},
+    {"/meshes", "meshes", mesh, "the mesh is left out", R"({"primitives": []})"},
     {"/cameras", "cameras", camera, "the camera is left out",
      R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}})"},
     {"/extensions/KHR_lights_punctual/lights", "extensions.KHR_lights_punctual.lights", punctual,
      "the light is left out", R"({"type": "point"})"},
     {"/extensions/KHR_lights_area/lights", "extensions.KHR_lights_area.lights", area,
      "the light is left out", R"({"shape": "sphere"})"},
-    {"/skins", "skins", skin, nullptr, R"({"joints": [0]})"},
+    {"/skins", "skins", skin, "the skin is left out", R"({"joints": [0]})"},
     {"/nodes", "nodes", node, nullptr, "{}"},
     {"/scenes", "scenes", sceneFields, nullptr, "{}"}};
 

@@ -12,4 +12,9 @@ struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// Thrown for a scene that exceeds a limit of the program.
+struct SceneTooLarge : SceneError {
+    using SceneError::SceneError;
+};
+
 } // namespace candelabra::app
