@@ -57,8 +57,6 @@ layout(scalar, binding = CLUSTER_LISTS_COUNTERS) buffer Counters
 };
 
 #include "kernels/common/cluster_of_list.glsl"
-#include "kernels/common/count_lanes.glsl"
-
 #include "kernels/common/list_by_group.glsl"
 #include "kernels/common/list_by_lane.glsl"
 #include "kernels/common/lists_together.glsl"

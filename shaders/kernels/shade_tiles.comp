@@ -12,7 +12,6 @@ layout(push_constant, scalar) uniform Push
     ShadeTilesParams params;
 };
 
-#include "kernels/common/count_lanes.glsl"
 #include "kernels/common/tile_walk.glsl"
 // shading/kept_receiver.glsl, which light_walk.glsl includes, declares lanesTogether.
 #define READS_AHEAD lanesTogether

@@ -9,17 +9,12 @@
 // or shared memory. It may define READS_AHEAD as a constant that tells whether the lights of several
 // tests are read at once. GPUs gain from that, because a test waits long for its light, but little
 // longer for several. It may define TILE_HEIGHT, a constant that holds the height of the
-// pixel's tile: ANY_HEIGHT or another (shared/lighting.h). It may also define COUNT_FOUND, which then
-// counts the tests of a block and the lights that it evaluates in each way.
+// pixel's tile: ANY_HEIGHT or another (shared/lighting.h).
 #ifndef CND_SHADING_LIGHT_WALK
 #define CND_SHADING_LIGHT_WALK
 
 #include "shading/kept_receiver.glsl"
 #include "shading/light_eval.glsl"
-
-#ifndef COUNT_FOUND
-#define COUNT_FOUND(tests, found)
-#endif
 
 const uint WALK_BLOCK = 64u; // lights of a block, which are the bits of two words
 
@@ -266,7 +261,6 @@ vec3 total(Sums sums)
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
     const Found found = findLights(readAgain(r), first, count, testInfluence);
-    COUNT_FOUND(count, found)
 #ifdef HAS_AS_POINT
     if (HAS_BUDGET) {
         SHADE_FOUND(sums.asPoint, SUM_AS_POINT, r, first, found.asPoint, evaluateAsPoint)

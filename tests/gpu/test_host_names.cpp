@@ -46,7 +46,7 @@ void append(const std::string& name, std::string& text, std::set<std::string>& d
 std::string sourceWithOurNames()
 {
     std::string text = "#define GPU_BEGIN\n#define GPU_END\n#define GPU_SIZE(Type, bytes)\n"
-                       "#define FORWARD_SET 1\n#define COUNT_FOUND(tests, found)\n";
+                       "#define FORWARD_SET 1\n";
     std::set<std::string> done;
     for (const char* file :
          {"lib/gbuffer.glsl", "lib/outline/shading.glsl", "lib/specular/conic_shading.glsl",

@@ -142,7 +142,6 @@ BAD_OF = {
     ("bench accuracy", "--scene"): ["no_such.glb"], ("compare", "--a"): None, ("compare", "--b"): None,
     ("bench culling", "--lights"): [*COUNTS, "0", "1,,2"], ("bench culling", "--size"): [*SIZES, "8x8,"],
     ("bench host", "--lights"): [*COUNTS, "0", "1,,2"],
-    ("bench lanes", "--lights"): [*COUNTS, "0", "1,,2"], ("bench lanes", "--overlaps"): COUNTS,
     ("bench pipelines", "--kernels"): None,  # tests/program/test_null_device.py
     ("bench culling", "--overlaps"): COUNTS, ("stress", "--lights"): [*COUNTS, "5,5", "5,,6"],
 }
@@ -159,7 +158,6 @@ BASE = {
     "bench accuracy": ["bench", "accuracy", "--groups=10", "--size=8x8", "--out=o", "-q"],
     "bench culling": ["bench", "culling", "--scenes=hall", "--lights=5", "--size=8x8", "--out=o"],
     "bench host": ["bench", "host", "--lights=5", "--rounds=1"],
-    "bench lanes": ["bench", "lanes", "--scenes=hall", "--lights=5", "--size=8x8"],
     "bench pipelines": ["bench", "pipelines"],
     "bench skip": ["bench", "skip", "--lights=5", "--size=8x8", "--out=o"],
     "bench stability": ["bench", "stability", "--configs=1000", "--out=o"],

@@ -71,13 +71,6 @@ def committed_results_are_valid():
         require(faults(results, schema), f"{schema}: results without provenance are valid")
 
 
-def committed_lanes_are_valid():
-    results = json_schema.load(root / "tools/bench/results/lanes.json")
-    require(not faults(results, "bench_lanes"), f"lanes: {faults(results, 'bench_lanes')}")
-    results["points"][0]["dispatches"][0]["loops"][0]["turns"] = -1
-    require(faults(results, "bench_lanes"), "a negative number of turns is valid")
-
-
 def schemas_say_nothing_that_is_not_checked():
     schemas = sorted(SCHEMAS.iterdir())
     require(len(schemas) >= 10, f"{len(schemas)} schemas")
@@ -130,7 +123,6 @@ def reports_hold_the_figures_of_their_commands():
 
 
 committed_results_are_valid()
-committed_lanes_are_valid()
 schemas_say_nothing_that_is_not_checked()
 misspelt_keywords_are_found_at_any_depth()
 figures_have_bounds()

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The form of cluster_lists for GPUs: the lanes of a group make one list together. In each turn a lane
 // tests up to TESTS_PER_LANE lights, which are LANES apart, and the group appends those that touch the
-// cluster in their order. The includer provides bindings and params of cluster_lists, and COUNT_LISTS
-// (count_lanes.glsl).
+// cluster in their order. The includer provides bindings and params of cluster_lists.
 #ifndef CND_COMMON_LIST_BY_GROUP
 #define CND_COMMON_LIST_BY_GROUP
 
@@ -52,12 +51,9 @@ void testLights(inout ListWriter list, ClusterBounds bounds, uvec2 lights, bvec2
 {
     const vec4 first = lightCentre(lights.x), second = lightCentre(lights.y);
     const vec2 reach2 = vec2(lightEmission(lights.x).w, lightEmission(lights.y).w);
-    COUNT_LISTS(exist.x ? 1u : 0u, 0u)
     appendLights(list, lights.x, exist.x && lightTouches(bounds, first.xyz, first.w, reach2.x));
-    if (two) {
-        COUNT_LISTS(exist.y ? 1u : 0u, 0u)
+    if (two)
         appendLights(list, lights.y, exist.y && lightTouches(bounds, second.xyz, second.w, reach2.y));
-    }
 }
 
 // Finds lights in the list that begins with a page. Returns whether all have been tested.
@@ -87,12 +83,9 @@ void testNodes(inout TreeTurn t, ClusterBounds bounds, uint firstNode, uvec2 nod
                bool two)
 {
     const Box first = treeBox(firstNode + nodes.x), second = treeBox(firstNode + nodes.y);
-    COUNT_LISTS(0u, exist.x ? 1u : 0u)
     enqueue(t, nodes.x, exist.x && boxTouches(bounds, first));
-    if (two) {
-        COUNT_LISTS(0u, exist.y ? 1u : 0u)
+    if (two)
         enqueue(t, nodes.y, exist.y && boxTouches(bounds, second));
-    }
 }
 
 // Finds lights in the tree. Returns whether all have been tested. Adds to `steps` the nodes and lights

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The form of cluster_lists for devices whose lanes are a vector of a CPU: each lane makes a list by
-// itself. The includer provides bindings and params of cluster_lists, and COUNT_LISTS
-// (count_lanes.glsl).
+// itself. The includer provides bindings and params of cluster_lists.
 #ifndef CND_COMMON_LIST_BY_LANE
 #define CND_COMMON_LIST_BY_LANE
 
@@ -63,7 +62,6 @@ bool listOfLane(inout ListWriter list, ClusterBounds bounds, uint parent, bool i
             for (uint i = first; i < end; ++i)
                 testLight(list, bounds, entries[from * PAGE_WORDS + 1u + i], tested);
         }
-        COUNT_LISTS(count, 0u)
         expected += count;
         steps += count;
         from = pageAfter(header);
@@ -84,7 +82,6 @@ bool listOfLane(inout ListWriter list, ClusterBounds bounds, uint parent, bool i
     walk.done = walk.done || (byParent && !measure);
     while (!walk.done && steps < params.maxSteps && !(isBlock && isUseless(list))) {
         uint found = 0u;
-        const uint stepsBefore = steps;
         while (!walk.done && found < LEAVES && steps < params.maxSteps) {
             const bool touched = boxTouches(bounds, treeNode(walk));
             if (touched && walk.level == 1u) {
@@ -97,7 +94,6 @@ bool listOfLane(inout ListWriter list, ClusterBounds bounds, uint parent, bool i
                 skipSubtree(params.tree, walk);
             ++steps;
         }
-        COUNT_LISTS(found * TREE_WIDTH, steps - stepsBefore)
         for (uint k = 0u; k < found; ++k) {
             makeRoom(list);
             const uint first = params.tree.firstLight + leaves[k] * TREE_WIDTH;

@@ -13,7 +13,7 @@
 // first list, in the order of the lights, then those of the next list. Each turn tests LANES
 // consecutive pairs, one per lane, whichever lists they belong to.
 //
-// The includer provides bindings and params of cluster_lists, and COUNT_LISTS (count_lanes.glsl).
+// The includer provides bindings and params of cluster_lists.
 #ifndef CND_COMMON_LISTS_TOGETHER
 #define CND_COMMON_LISTS_TOGETHER
 
@@ -115,7 +115,6 @@ uint makeShortLists(uint firstList)
         const uint light = entries[setParent[list] * PAGE_WORDS + 1u + pair - begin];
         const ClusterBounds bounds = makeClusterBounds(clusters[setCluster[list]]);
         const vec4 centre = lightCentre(light);
-        COUNT_LISTS(exists ? 1u : 0u, 0u)
         const bool touched =
             exists && lightTouches(bounds, centre.xyz, centre.w, lightEmission(light).w);
 

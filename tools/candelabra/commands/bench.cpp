@@ -43,12 +43,11 @@ void addBenchCommand(CLI::App& app, Run& run)
 {
     CLI::App* bench =
         app.add_subcommand("bench", "Measure accuracy, stability, culling, skips, CPU time of "
-                                    "lights, compiled code and the use of lanes");
+                                    "lights and compiled code");
     bench->require_subcommand(1);
     addBenchAccuracy(*bench, run);
     addBenchCulling(*bench, run);
     addBenchHost(*bench, run);
-    addBenchLanes(*bench, run);
     addBenchPipelines(*bench, run);
     addBenchSkip(*bench, run);
     addBenchStability(*bench, run);
