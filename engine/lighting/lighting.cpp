@@ -13,8 +13,8 @@ namespace candelabra::lighting
 namespace
 {
 
-constexpr uint32_t allShading = CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT |
-                                CND_SHADING_ERROR_BUDGET_BIT | CND_SHADING_COUNT_PAIRS_BIT;
+constexpr uint32_t allShading =
+    CND_SHADING_CLUSTERED_BIT | CND_SHADING_BRUTE_BIT | CND_SHADING_COUNT_PAIRS_BIT;
 
 // The member shading of the struct `owner`, in which 0 stands for all bits.
 uint32_t checkedShading(const char* owner, uint32_t shading)

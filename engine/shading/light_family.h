@@ -30,14 +30,6 @@ constexpr uint32_t familyOf(uint32_t lightType, CndSpecularMethod method)
                                                        : baseFamilyOf(lightType);
 }
 
-// Tells whether an error budget changes the evaluation. It does for the closed forms of area
-// lights, which know how large the error of cheaper evaluations may be.
-constexpr bool takesBudget(uint32_t lightType, CndSpecularMethod method)
-{
-    return baseFamilyOf(lightType) != gpu::FAMILY_PUNCTUAL &&
-           (method == CND_SPECULAR_CONIC || method == CND_SPECULAR_CONIC_FULL);
-}
-
 // Returns the method by which lights of the type are evaluated if the frame asks for `method`.
 // Spheres know all methods and punctual lights one. The other area lights know three:
 // representative point (KARIS), the closed form (CONIC) and samples (SAMPLED).

@@ -39,8 +39,6 @@ uint32_t shadingOf(const CndLightingFrame& frame)
     uint32_t out = brute ? CND_SHADING_BRUTE_BIT : CND_SHADING_CLUSTERED_BIT;
     if (frame.countPairs && !brute)
         out |= CND_SHADING_COUNT_PAIRS_BIT;
-    if (frame.errorBudget > 0 && isClosedForm(frame.specularMethod))
-        out |= CND_SHADING_ERROR_BUDGET_BIT;
     return out;
 }
 
@@ -136,33 +134,28 @@ void ShadeKernels::addJobs(std::vector<Job>& jobs, uint32_t lightType, CndSpecul
                            uint32_t shading) const
 {
     const auto want = [&](const Job& job) { jobs.push_back(job); };
-    const auto addTiles = [&](CndSpecularMethod method, bool withBudget, uint32_t tileClass) {
+    const auto addTiles = [&](CndSpecularMethod method, uint32_t tileClass) {
         if (shading & CND_SHADING_CLUSTERED_BIT)
-            want({lightType, method, withBudget, Lists, tileClass});
+            want({lightType, method, Lists, tileClass});
         if (shading & CND_SHADING_COUNT_PAIRS_BIT)
-            want({lightType, method, withBudget, Counts, tileClass});
+            want({lightType, method, Counts, tileClass});
     };
     const CndSpecularMethod method = canonicalMethod(lightType, asked);
-    const bool budget = shading & CND_SHADING_ERROR_BUDGET_BIT && takesBudget(lightType, method);
-    for (const bool withBudget : {false, true}) {
-        if (withBudget && !budget)
-            continue;
-        for (const uint32_t tileClass : {gpu::CLASS_ANY, gpu::CLASS_SPECULAR})
-            if (tellsApart(tileClass))
-                addTiles(method, withBudget, tileClass);
-        if (shading & CND_SHADING_BRUTE_BIT)
-            want({lightType, method, withBudget, Brute});
-        if (measures_ && !withBudget && shading & CND_SHADING_CLUSTERED_BIT)
-            want({lightType, method, withBudget, Measure});
-    }
+    for (const uint32_t tileClass : {gpu::CLASS_ANY, gpu::CLASS_SPECULAR})
+        if (tellsApart(tileClass))
+            addTiles(method, tileClass);
+    if (shading & CND_SHADING_BRUTE_BIT)
+        want({lightType, method, Brute});
+    if (measures_ && shading & CND_SHADING_CLUSTERED_BIT)
+        want({lightType, method, Measure});
     if (tellsApart(gpu::CLASS_DIFFUSE))
-        addTiles(CND_SPECULAR_NONE, false, gpu::CLASS_DIFFUSE);
+        addTiles(CND_SPECULAR_NONE, gpu::CLASS_DIFFUSE);
 }
 
 // Returns false if the job has been done, by this or by another thread.
 bool ShadeKernels::run(const Job& job)
 {
-    Slot& slot = slots_[job.lightType][job.method][job.withBudget];
+    Slot& slot = slots_[job.lightType][job.method];
     if (slot.made.load() & job.bit())
         return false;
     Variant made = make(job);
@@ -242,26 +235,23 @@ gpu::Kernel<Params> ShadeKernels::makeKernel(const gpu::Spirv& builtIn, const Jo
                                 {gpu::SPEC_SPECULAR_METHOD, uint32_t(job.method)},
                                 {gpu::SPEC_LIGHT_TYPE, job.lightType},
                                 {gpu::SPEC_GBUFFER, gbuffer_},
-                                {gpu::SPEC_ERROR_BUDGET, job.withBudget},
                                 {gpu::SPEC_TILE_CLASS, job.tileClass},
                                 {gpu::SPEC_TILE_HEIGHT, height},
                                 {gpu::SPEC_LANES_TOGETHER, !device_->lanesAreCpuVector}},
                                host_->setLayout());
 }
 
-const ShadeKernels::Variant& ShadeKernels::variant(uint32_t type, CndSpecularMethod method,
-                                                   bool withBudget) const
+const ShadeKernels::Variant& ShadeKernels::variant(uint32_t type, CndSpecularMethod method) const
 {
-    const CndSpecularMethod m = canonicalMethod(type, method);
-    return slots_[type][m][withBudget && takesBudget(type, m)].kernels;
+    return slots_[type][canonicalMethod(type, method)].kernels;
 }
 
 const ShadeKernels::Tiles& ShadeKernels::tiles(uint32_t type, CndSpecularMethod method,
-                                               bool withBudget, uint32_t tileClass) const
+                                               uint32_t tileClass) const
 {
     if (tileClass == gpu::CLASS_DIFFUSE) // it has no specular lobe, so all methods are the same
-        return slots_[type][CND_SPECULAR_NONE][0].kernels.tiles[tileClass];
-    return variant(type, method, withBudget).tiles[tileClass];
+        return slots_[type][CND_SPECULAR_NONE].kernels.tiles[tileClass];
+    return variant(type, method).tiles[tileClass];
 }
 
 } // namespace candelabra::lighting

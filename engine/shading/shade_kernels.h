@@ -60,14 +60,13 @@ public:
     struct Variant {
         Tiles tiles[gpu::TILE_CLASSES];
         gpu::Kernel<gpu::ShadeBruteParams> brute;
-        // Only with CndLightingDesc::influenceByError, and only in variants without a budget.
+        // Only with CndLightingDesc::influenceByError.
         gpu::Kernel<gpu::MeasureInfluenceParams> measure;
     };
     // These return kernels of a type that is present, for a frame that is allowed.
-    const Variant& variant(uint32_t type, CndSpecularMethod method, bool withBudget) const;
+    const Variant& variant(uint32_t type, CndSpecularMethod method) const;
     // `tileClass`: one for which tellsApart is true.
-    const Tiles& tiles(uint32_t type, CndSpecularMethod method, bool withBudget,
-                       uint32_t tileClass) const;
+    const Tiles& tiles(uint32_t type, CndSpecularMethod method, uint32_t tileClass) const;
     // Tells whether tiles of this class have a work list and kernels of their own.
     bool tellsApart(uint32_t tileClass) const { return tileClasses_ >> tileClass & 1; }
 
@@ -83,7 +82,6 @@ private:
     struct Job {
         uint32_t lightType;
         CndSpecularMethod method; // one of canonicalMethod
-        bool withBudget;
         Part part;
         uint32_t tileClass = gpu::CLASS_ANY;
         uint32_t bit() const { return uint32_t(part) << tileClass; }
@@ -121,7 +119,7 @@ private:
     std::atomic<uint32_t> knownTypes_{0};
     // What frames may ask for, as CndShadingBits by method: all pipelines for it have been made.
     std::atomic<uint32_t> allowed_[CND_SPECULAR_METHOD_COUNT] = {};
-    Slot slots_[CND_LIGHT_TYPE_COUNT][CND_SPECULAR_METHOD_COUNT][2]; // [1]: with an error budget
+    Slot slots_[CND_LIGHT_TYPE_COUNT][CND_SPECULAR_METHOD_COUNT];
 };
 
 } // namespace candelabra::lighting

@@ -17,9 +17,9 @@
 namespace candelabra::surfaces
 {
 
-// Returns the parameters of a frame, apart from errorBudget, sampleCount and sampleSeed, which are
-// 0. `frame` is a CndLightingFrame or a CndEnvironmentFrame, whose camera has passed checkCamera.
-// Throws gpu::Failure if the projection is none that projectionOf takes.
+// Returns the parameters of a frame, apart from sampleCount and sampleSeed, which are 0. `frame` is
+// a CndLightingFrame or a CndEnvironmentFrame, whose camera has passed checkCamera. Throws
+// gpu::Failure if the projection is none that projectionOf takes.
 template <typename Frame>
 gpu::FrameParams frameParams(const Frame& frame, const GBufferSource& gbuffer,
                              VkFormat radianceFormat)

@@ -21,10 +21,9 @@ std::string missingShading(const Module& module, const CndLightingFrame& frame)
                !module.kernels.shade.allows(frame.specularMethod, uint32_t(bit));
     };
     const char* const what =
-        lacks(CND_SHADING_CLUSTERED_BIT)     ? "culling CLUSTERED needs CND_SHADING_CLUSTERED_BIT"
-        : lacks(CND_SHADING_BRUTE_BIT)       ? "culling BRUTE needs CND_SHADING_BRUTE_BIT"
-        : lacks(CND_SHADING_COUNT_PAIRS_BIT) ? "countPairs needs CND_SHADING_COUNT_PAIRS_BIT"
-                                             : "errorBudget needs CND_SHADING_ERROR_BUDGET_BIT";
+        lacks(CND_SHADING_CLUSTERED_BIT) ? "culling CLUSTERED needs CND_SHADING_CLUSTERED_BIT"
+        : lacks(CND_SHADING_BRUTE_BIT)   ? "culling BRUTE needs CND_SHADING_BRUTE_BIT"
+                                         : "countPairs needs CND_SHADING_COUNT_PAIRS_BIT";
     return std::string("CndLightingFrame: ") + what +
            " in CndLightingDesc::shading, or cndAddLightingPipelines for specularMethod " +
            std::to_string(frame.specularMethod);
@@ -73,8 +72,6 @@ CndLightingFrame checkedFrame(const Module& module, const CndLightingViewDesc& v
         gpu::failArgument("CndLightingFrame: sampleCount must be at most " +
                           std::to_string(maxSampleCount) + ", is " +
                           std::to_string(frame.sampleCount));
-    if (!(frame.errorBudget >= 0 && frame.errorBudget <= 1))
-        gpu::failArgument("CndLightingFrame: errorBudget must be 0..1");
     if (frame.lobes != CND_LOBES_CONSERVING && frame.lobes != CND_LOBES_SUM)
         gpu::failArgument("CndLightingFrame: lobes is not a CndLobeJoining");
     if (uint32_t(frame.culling) > CND_CULLING_BRUTE)

@@ -33,7 +33,6 @@ LightTypeCounts typesOf(const LightSet& lights, const CndLightingFrame& frame)
 gpu::FrameParams frameParams(const Module& module, const CndLightingFrame& frame)
 {
     gpu::FrameParams out = surfaces::frameParams(frame, module.gbuffer, module.desc.radianceFormat);
-    out.errorBudget = frame.errorBudget;
     out.sampleCount = frame.sampleCount ? frame.sampleCount : defaultSampleCount;
     out.sampleSeed = frame.sampleSeed;
     return out;

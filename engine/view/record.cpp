@@ -23,8 +23,7 @@ void byClass(const ShadeKernels& kernels, const CndLightingFrame& frame, uint32_
 {
     for (uint32_t tileClass = 0; tileClass < gpu::TILE_CLASSES; ++tileClass)
         if (kernels.tellsApart(tileClass))
-            record(kernels.tiles(type, frame.specularMethod, frame.errorBudget > 0, tileClass),
-                   tileClass);
+            record(kernels.tiles(type, frame.specularMethod, tileClass), tileClass);
 }
 
 gpu::LightBatch allLights(const FramePlan& p, uint32_t type)
@@ -166,9 +165,8 @@ void View::recordInfluence(const gpu::Frame& f, const FramePlan& p) noexcept
         for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type) {
             if (!p.lights[type])
                 continue;
-            // The kernel has no variant with an error budget, so it evaluates lights in full.
             const Influence::MeasureKernel& kernel =
-                module_.kernels.shade.variant(type, p.frame.specularMethod, false).measure;
+                module_.kernels.shade.variant(type, p.frame.specularMethod).measure;
             measured = kernel.name();
             // Each of the lanes of a sample takes only its share of the lights.
             const uint64_t largest =
@@ -315,7 +313,7 @@ void View::recordCountPairs(const gpu::Frame& f, const FramePlan& p, uint32_t ty
 void View::recordBrute(const gpu::Frame& f, const FramePlan& p, uint32_t type) const noexcept
 {
     const ShadeKernels::Variant& kernels =
-        module_.kernels.shade.variant(type, p.frame.specularMethod, p.frame.errorBudget > 0);
+        module_.kernels.shade.variant(type, p.frame.specularMethod);
     glm::uvec2 first(0), end = p.params.size;
     const VkRect2D& r = p.frame.bruteRect;
     if (r.extent.width && r.extent.height) {

@@ -42,8 +42,8 @@ void main()
     const uint above = found & 255u, near = found >> 8 & 255u, general = found >> 16;
     if (found == 0u)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
-                                    frameParams.sampleCount, pixelSeed(pixel));
+    const Receiver r =
+        makeReceiver(readShadingPoint(pixel, depth), frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
     EVALUATE(sums.near, near, evaluateNear)
     EVALUATE(sums.above, above, evaluateAbove)

@@ -53,15 +53,14 @@ void main()
     if (surface) {
         const ShadingPoint p = readShadingPoint(pixel, depth);
         block = beginWalk(pixel, -p.position.z);
-        r = makeReceiver(p, frameParams.errorBudget, 1u, 0u);
+        r = makeReceiver(p, 1u, 0u);
     }
     while (subgroupAny(block.count != 0u)) {
-        Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+        Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u));
         if (block.count != 0u)
             found = findLights(r, block.first, block.count, true);
         listed += block.count;
-        evaluated += turns(found.asPoint) + turns(found.above) + turns(found.near) +
-                     turns(found.general);
+        evaluated += turns(found.above) + turns(found.near) + turns(found.general);
         found3 += uvec3(bits(found.above), bits(found.near), bits(found.general));
         for (uint k = 0u; k < block.count; ++k) {
             const uint light = lightAt(block.first + k);

@@ -22,8 +22,7 @@ void main()
     Block block = beginWalk(pixel, -p.position.z);
     if (block.count == 0u)
         return;
-    const Receiver r =
-        makeReceiver(p, frameParams.errorBudget, frameParams.sampleCount, pixelSeed(pixel));
+    const Receiver r = makeReceiver(p, frameParams.sampleCount, pixelSeed(pixel));
     Sums sums = noLight();
     do { // a lane that is done may run once more (Mesa 22.3); its block is then empty
         shadeBlock(sums, r, block.first, block.count, true);

@@ -44,6 +44,5 @@ BENCH_RECEIVER makeBenchReceiver(BenchReceiver receiver)
         Surface(receiver.n, vec3(0.0), vec3(0.0), 1.0, receiver.perceptualRoughness);
     ShadingPoint p = makeShadingPoint(surface, vec3(0.0), receiver.v);
     separateLobes(p);
-    return FINISH_RECEIVER(
-        makeReceiver(p, params.errorBudget, params.sampleCount, params.sampleSeed));
+    return FINISH_RECEIVER(makeReceiver(p, params.sampleCount, params.sampleSeed));
 }

@@ -50,8 +50,7 @@ uint lightAt(uint k)
 #include "bench/specular_bound.glsl"
 
 // Responses by the closed form have an upper bound. The other methods have none of use, because they
-// are known to be far off. Neither have points that replace lights within an error budget, if the view
-// is so low that the closed form tilts it and points do not.
+// are known to be far off.
 const bool IS_CLOSED_FORM =
     specularMethod == SPECULAR_CONIC || specularMethod == SPECULAR_CONIC_FULL;
 
@@ -71,7 +70,7 @@ vec3 luminanceLimit(ShadingPoint p, LightExtent light)
 {
     LightExtent wider = light;
     wider.solidAngle += SWEEP_OUTLINE_ERROR * light.squared;
-    const float specular = HAS_BUDGET && dot(p.n, p.v) < MIN_CONIC_NOV ? 1.0 :
+    const float specular =
         specularBound(p, wider, MIN_CONIC_NOV) +
         SWEEP_CLOSED_FORM_ERROR * onAxisResponse(p, wider.solidAngle, MIN_CONIC_NOV);
     const float diffuse = min(1.01 * INV_PI * wider.solidAngle, 1.0);
@@ -114,7 +113,7 @@ void main()
     if (recordAll != 0u)
         separateLobes(p);
     const vec3 response = evaluateClassified(
-        makeReceiver(p, params.errorBudget, params.sampleCount, params.sampleSeed ^ index), 0u);
+        makeReceiver(p, params.sampleCount, params.sampleSeed ^ index), 0u);
 
     // The bits are tested, because isnan() and isinf() may be compiled to false.
     const uvec3 magnitude = floatBitsToUint(response) & 0x7FFFFFFFu;

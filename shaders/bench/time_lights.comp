@@ -20,8 +20,6 @@ layout(scalar, binding = BENCH_OUTPUT) writeonly buffer Output
 vec3 evaluate(BENCH_RECEIVER r, uint light)
 {
 #ifdef LIGHT_FAMILY_CONIC
-    if (evaluation == EVALUATE_POINT)
-        return evaluateAsPoint(r, light);
     if (evaluation == EVALUATE_NEAR)
         return evaluateNear(r, light);
 #endif

@@ -66,15 +66,14 @@ void main()
     Block block = surface ? beginWalk(tile, depth) : Block(0u, 0u, 0u);
     Receiver r;
     if (surface)
-        r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget, 1u, 0u);
+        r = makeReceiver(readShadingPoint(pixel, depth), 1u, 0u);
     while (subgroupAny(block.count != 0u)) {
-        Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+        Found found = Found(uvec2(0u), uvec2(0u), uvec2(0u));
         if (block.count != 0u)
             found = findLights(r, block.first, block.count, true);
         listed += block.count;
-        evaluated += turns(found.asPoint) + turns(found.above) + turns(found.near) +
-                     turns(found.general);
-        contributing += bits(found.asPoint | found.above | found.near | found.general);
+        evaluated += turns(found.above) + turns(found.near) + turns(found.general);
+        contributing += bits(found.above | found.near | found.general);
         for (uint k = 0u; k < block.count; ++k) {
             const uint light = lightAt(block.first + k);
             const vec3 toLight = towardsLight(lightCentre(light).xyz, r.p.position);

@@ -106,8 +106,7 @@ void main()
         inside ? texelFetch(depthImage, ivec2(pixel), 0).x : frameParams.clearDepth;
     Receiver r;
     if (depth != frameParams.clearDepth) {
-        r = makeReceiver(readShadingPoint(pixel, depth), 0.0, frameParams.sampleCount,
-                         pixelSeed(pixel));
+        r = makeReceiver(readShadingPoint(pixel, depth), frameParams.sampleCount, pixelSeed(pixel));
         if (gl_LocalInvocationIndex % LANES == 0u)
             keep(r);
     }

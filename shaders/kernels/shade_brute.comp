@@ -35,8 +35,8 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == frameParams.clearDepth)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
-                                    frameParams.sampleCount, pixelSeed(pixel));
+    const Receiver r =
+        makeReceiver(readShadingPoint(pixel, depth), frameParams.sampleCount, pixelSeed(pixel));
     keep(r);
     Sums sums = noLight();
     for (uint first = 0u; first < params.batch.count; first += WALK_BLOCK)

@@ -26,8 +26,7 @@ layout(push_constant, scalar) uniform Push
 
 Receiver receiverAt(uvec2 pixel, float depth)
 {
-    return makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
-                        frameParams.sampleCount, pixelSeed(pixel));
+    return makeReceiver(readShadingPoint(pixel, depth), frameParams.sampleCount, pixelSeed(pixel));
 }
 
 // Each lane evaluates all lights of its pixel.

@@ -49,8 +49,8 @@ void main()
         return;
     if (lists[clusterOf(tile, depth)] != params.listHead)
         return;
-    const Receiver r = makeReceiver(readShadingPoint(pixel, depth), frameParams.errorBudget,
-                                    frameParams.sampleCount, pixelSeed(pixel));
+    const Receiver r =
+        makeReceiver(readShadingPoint(pixel, depth), frameParams.sampleCount, pixelSeed(pixel));
     const uint packedPixel = pixel.y << 16 | pixel.x; // in one register instead of two
     keep(r);
     Sums sums = noLight();

@@ -35,8 +35,7 @@ vec3 discWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     const Light light = atUnitDistance(given, scale);
     const OutlineResponse o = discByOutline(r, light, scale, needs);
     r = readAgain(r);
-    const vec2 specular =
-        BY_OUTLINE ? outlineSpecular(r, light, o, needs) : cheapDiscSpecular(r, light, scale);
+    const vec2 specular = BY_OUTLINE ? o.specular : cheapDiscSpecular(r, light, scale);
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
@@ -44,6 +43,5 @@ OUTLINE_CLASSES(disc)
 
 #ifdef LIGHT_FAMILY_DISC
 #define ABOVE_RESPONSE discAbove
-#define AS_POINT_RESPONSE discAsPoint
 #define GENERAL_RESPONSE discResponse
 #endif

@@ -164,7 +164,7 @@ vec3 polygonWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     r = readAgain(r);
     vec2 specular = vec2(0.0);
     if (BY_OUTLINE)
-        specular = outlineSpecular(r, light, o, needs);
+        specular = o.specular;
     else if (areaMethod == SPECULAR_SAMPLED)
         specular = sampledPolygon(r.p, polygon, r.sampleCount, lightSeed(r, light.index));
     else if (areaMethod != SPECULAR_NONE)
@@ -176,6 +176,5 @@ OUTLINE_CLASSES(polygon)
 
 #ifdef LIGHT_FAMILY_POLYGON
 #define ABOVE_RESPONSE polygonAbove
-#define AS_POINT_RESPONSE polygonAsPoint
 #define GENERAL_RESPONSE polygonResponse
 #endif

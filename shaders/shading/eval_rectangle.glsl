@@ -36,8 +36,7 @@ vec3 rectangleWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     const Light light = atUnitDistance(given, scale);
     const OutlineResponse o = rectangleByOutline(r, light, scale, needs);
     r = readAgain(r);
-    const vec2 specular =
-        BY_OUTLINE ? outlineSpecular(r, light, o, needs) : cheapRectangleSpecular(r, light, scale);
+    const vec2 specular = BY_OUTLINE ? o.specular : cheapRectangleSpecular(r, light, scale);
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
@@ -45,6 +44,5 @@ OUTLINE_CLASSES(rectangle)
 
 #ifdef LIGHT_FAMILY_RECTANGLE
 #define ABOVE_RESPONSE rectangleAbove
-#define AS_POINT_RESPONSE rectangleAsPoint
 #define GENERAL_RESPONSE rectangleResponse
 #endif

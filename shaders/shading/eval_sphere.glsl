@@ -28,7 +28,7 @@ vec2 cheapSphereSpecular(Receiver r, Light light, SphereCap cap)
 #endif
 
 // Returns the response to a sphere above the horizon. The functions after it evaluate spheres across
-// the horizon, spheres near it, and spheres as points.
+// the horizon and near it.
 vec3 sphereAbove(Receiver r, Light light)
 {
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
@@ -62,18 +62,9 @@ vec3 sphereNear(Receiver r, Light light)
     return diffuseResponse(r.p, sphereFormFactor(cap.NoC, cap.s2)) +
            schlick(r.p, conicUnclipped(r.conic, cap, mixed));
 }
-
-vec3 sphereAsPoint(Receiver r, Light light)
-{
-    const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
-    return diffuseResponse(r.p, cap.NoC * cap.s2) + schlick(r.p, pointResponse(r.p, cap));
-}
 #endif
 
 #define ABOVE_RESPONSE sphereAbove
-#ifdef LIGHT_FAMILY_CONIC
-#define AS_POINT_RESPONSE sphereAsPoint
-#endif
 #ifndef LIGHT_FAMILY_ALL
 #define GENERAL_RESPONSE sphereAcross
 #endif

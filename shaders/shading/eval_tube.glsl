@@ -35,8 +35,7 @@ vec3 tubeWithNeeds(Receiver r, Light given, OutlineNeeds needs)
     const Light light = atUnitDistance(given, scale);
     const OutlineResponse o = tubeByOutline(r, light, scale, needs);
     r = readAgain(r);
-    const vec2 specular =
-        BY_OUTLINE ? outlineSpecular(r, light, o, needs) : cheapTubeSpecular(r, light, scale);
+    const vec2 specular = BY_OUTLINE ? o.specular : cheapTubeSpecular(r, light, scale);
     return diffuseResponse(r.p, o.formFactor) + schlick(r.p, specular);
 }
 
@@ -44,6 +43,5 @@ OUTLINE_CLASSES(tube)
 
 #ifdef LIGHT_FAMILY_TUBE
 #define ABOVE_RESPONSE tubeAbove
-#define AS_POINT_RESPONSE tubeAsPoint
 #define GENERAL_RESPONSE tubeResponse
 #endif

@@ -120,7 +120,7 @@ Receiver forwardReceiver(Surface surface, vec3 position)
         joinLobes(p, directionalAlbedo(p.NoV, p.alpha),
                   forwardView.lobes & (COMPENSATE_ENERGY - 1u),
                   forwardView.lobes & COMPENSATE_ENERGY);
-    return makeReceiver(p, 0.0, 1u, 0u);
+    return makeReceiver(p, 1u, 0u);
 }
 
 // Returns the luminance towards the eye, in cd/m^2, that a light of the cursor's type adds.
@@ -187,7 +187,7 @@ vec3 illuminanceTowards(uint light, vec3 position, out vec3 direction)
     surface.F0 = vec3(0.0);
     surface.specularWeight = 0.0;
     surface.perceptualRoughness = 1.0;
-    return evaluateLight(makeReceiver(makeShadingPoint(surface, position, direction), 0.0, 1u, 0u),
+    return evaluateLight(makeReceiver(makeShadingPoint(surface, position, direction), 1u, 0u),
                          light);
 }
 

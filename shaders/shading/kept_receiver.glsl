@@ -13,7 +13,6 @@
 // The sums of a lane, by the way in which lights are evaluated (light_walk.glsl).
 const uint SUM_ABOVE = 0u;
 const uint SUM_GENERAL = 1u;
-const uint SUM_AS_POINT = 2u; // only with an error budget
 
 #ifdef KEPT_RECEIVERS
 // lanesTogether tells whether the kernel runs in the form for GPUs ("Lanes and groups", DESIGN.md).
@@ -34,8 +33,7 @@ const uint KEPT_ALBEDO = 10u;
 const uint KEPT_F0 = 13u;
 const uint KEPT_F90 = 16u;
 const uint KEPT_SUMS = 19u; // three words each
-const uint KEPT_POINT_LIMIT = 28u; // only with an error budget
-const uint KEPT_WORDS = HAS_BUDGET ? 29u : 25u;
+const uint KEPT_WORDS = 25u;
 
 // Words of neighbouring lanes are neighbours, so that lanes never use the same bank of memory.
 shared float keptWords[lanesTogether ? KEPT_WORDS * KEPT_RECEIVERS : 1u];
@@ -71,8 +69,6 @@ void keep(Receiver r)
     keepVector(KEPT_ALBEDO, r.p.albedo);
     keepVector(KEPT_F0, r.p.F0);
     keepVector(KEPT_F90, r.p.F90);
-    if (HAS_BUDGET)
-        keptWords[placeOf(KEPT_POINT_LIMIT)] = r.pointLimit;
 }
 
 // Returns the receiver that this lane keeps, or `given` if lanes keep none. Values that come from it
@@ -94,8 +90,6 @@ Receiver readAgain(Receiver given)
     r.p.F90 = keptVector(KEPT_F90);
     r.conic = makeConicPoint(r.p);
     r.frame = makeOutlineFrame(r.conic);
-    if (HAS_BUDGET)
-        r.pointLimit = keptWords[placeOf(KEPT_POINT_LIMIT)];
     return r;
 }
 

@@ -59,9 +59,6 @@
 #ifdef LIGHT_FAMILY_CONIC
 EVALUATION(evaluateNear, sphereNear)
 #endif
-#ifdef AS_POINT_RESPONSE
-EVALUATION(evaluateAsPoint, AS_POINT_RESPONSE)
-#endif
 #ifdef ABOVE_RESPONSE
 EVALUATION(evaluateAbove, ABOVE_RESPONSE)
 #endif

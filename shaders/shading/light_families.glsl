@@ -26,9 +26,4 @@
 #define HAS_ABOVE
 #endif
 
-// An error budget may let the family's lights be evaluated as points.
-#if defined(LIGHT_FAMILY_CONIC) || defined(HAS_OUTLINES)
-#define HAS_AS_POINT
-#endif
-
 #endif

@@ -31,15 +31,22 @@ const bool NEAR_IS_POSSIBLE = TILE_HEIGHT != ALL_ABOVE;
 const bool NEAR_IS_POSSIBLE = ACROSS_IS_POSSIBLE;
 #endif
 
+// A sphere is evaluated as above the horizon if its centre is at least so many of its radii above it.
+#ifdef LIGHT_FAMILY_CONIC
+const float SPHERE_ABOVE_FROM = ABOVE_FROM;
+#else
+const float SPHERE_ABOVE_FROM = 1.0;
+#endif
+
 // The lights of a block that are to be evaluated in each way, one bit per light.
 struct Found {
-    uvec2 asPoint, above, near, general;
+    uvec2 above, near, general;
 };
 
 // Results of the tests for half a block. `reaching` holds the lights that reach the point. The other
 // masks may also hold lights that do not reach it, and a light may be in several of them.
 struct FoundWord {
-    uint reaching, asPoint, above, near;
+    uint reaching, above, near;
 };
 
 #ifdef HAS_OUTLINES
@@ -108,17 +115,13 @@ void testLight(inout FoundWord found, Receiver r, TestedLight light, uint bit, b
         reaches = reaches && d2 < light.influence2;
     found.reaching |= reaches ? bit : 0u;
 #ifdef HAS_SPHERES
-    precise const float aboveFrom = r.aboveFrom * radius;
+    precise const float aboveFrom = SPHERE_ABOVE_FROM * radius;
     found.above |= height >= aboveFrom ? bit : 0u;
 #endif
 #if defined(HAS_OUTLINES) && !defined(LIGHT_FAMILY_ALL)
     const bool easy = !BY_OUTLINE || isUncut(r, toLight, height, d2, radius * radius);
     precise const float aboveFrom = (BY_OUTLINE ? ABOVE_BANDS : 1.0) * radius;
     found.above |= height >= aboveFrom && easy ? bit : 0u;
-    if (HAS_BUDGET) {
-        precise const float pointLimit2 = r.pointLimit * d2;
-        found.asPoint |= height >= 2.0 * radius && radius * radius < pointLimit2 ? bit : 0u;
-    }
 #endif
 #ifdef LIGHT_FAMILY_CONIC
     // For a point inside the sphere the cap is limited as in makeSphereCap. At the centre both sides of
@@ -126,10 +129,8 @@ void testLight(inout FoundWord found, Receiver r, TestedLight light, uint bit, b
     precise const float smallCap = SMALL_CAP * r.conic.a2;
     precise const float radius2 = min(radius * radius, MAX_SPECULAR_S2 * d2);
     precise const float height2 = height * abs(height);
-    precise const float smallCap2 = smallCap * d2, pointLimit2 = r.pointLimit * d2;
+    precise const float smallCap2 = smallCap * d2;
     found.near |= height2 > radius2 || radius2 < smallCap2 ? bit : 0u;
-    if (HAS_BUDGET)
-        found.asPoint |= height >= 2.0 * radius && radius2 < pointLimit2 ? bit : 0u;
 #endif
 }
 
@@ -137,7 +138,7 @@ void testLight(inout FoundWord found, Receiver r, TestedLight light, uint bit, b
 // lights whose sphere of influence does not hold the point (they would add 0).
 FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 {
-    FoundWord found = FoundWord(0u, 0u, 0u, 0u);
+    FoundWord found = FoundWord(0u, 0u, 0u);
     const uint end = first + count;
     uint bit = 1u;
     uint k = first;
@@ -162,14 +163,13 @@ FoundWord findWord(Receiver r, uint first, uint count, bool testInfluence)
 Found findLights(Receiver r, uint first, uint count, bool testInfluence)
 {
     const FoundWord low = findWord(r, first, min(count, 32u), testInfluence);
-    FoundWord high = FoundWord(0u, 0u, 0u, 0u);
+    FoundWord high = FoundWord(0u, 0u, 0u);
     if (count > 32u)
         high = findWord(r, first + 32u, count - 32u, testInfluence);
     const uvec2 reaching = count == 0u ? uvec2(0u) : uvec2(low.reaching, high.reaching);
     Found found;
-    found.asPoint = uvec2(low.asPoint, high.asPoint) & reaching;
     // Where a way of evaluation is not possible, the lights that are left belong to the way before it.
-    found.above = reaching & ~found.asPoint;
+    found.above = reaching;
     if (NEAR_IS_POSSIBLE)
         found.above &= uvec2(low.above, high.above);
 #ifdef LIGHT_FAMILY_ALL
@@ -180,7 +180,7 @@ Found findLights(Receiver r, uint first, uint count, bool testInfluence)
         return found;
     }
 #endif
-    const uvec2 closer = reaching & ~(found.asPoint | found.above);
+    const uvec2 closer = reaching & ~found.above;
     found.near = closer;
     if (ACROSS_IS_POSSIBLE)
         found.near &= uvec2(low.near, high.near);
@@ -235,16 +235,14 @@ void addLight(inout vec3 sum, uint which, vec3 light)
 
 // Sums over lights, one per way of evaluation.
 struct Sums {
-    vec3 asPoint, above, near, general;
+    vec3 above, near, general;
 };
 
 Sums noLight()
 {
-    Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0));
     setSum(sums.above, SUM_ABOVE, vec3(0.0));
     setSum(sums.general, SUM_GENERAL, vec3(0.0));
-    if (HAS_BUDGET)
-        setSum(sums.asPoint, SUM_AS_POINT, vec3(0.0));
     return sums;
 }
 
@@ -252,20 +250,13 @@ vec3 total(Sums sums)
 {
     sums.above = readSum(sums.above, SUM_ABOVE);
     sums.general = readSum(sums.general, SUM_GENERAL);
-    if (HAS_BUDGET)
-        sums.asPoint = readSum(sums.asPoint, SUM_AS_POINT);
-    return (sums.asPoint + sums.above) + (sums.near + sums.general);
+    return sums.above + (sums.near + sums.general);
 }
 
 // Adds the light of a block to the sums. The parameters are those of findLights.
 void shadeBlock(inout Sums sums, Receiver r, uint first, uint count, bool testInfluence)
 {
     const Found found = findLights(readAgain(r), first, count, testInfluence);
-#ifdef HAS_AS_POINT
-    if (HAS_BUDGET) {
-        SHADE_FOUND(sums.asPoint, SUM_AS_POINT, r, first, found.asPoint, evaluateAsPoint)
-    }
-#endif
 #ifdef HAS_ABOVE
     SHADE_FOUND(sums.above, SUM_ABOVE, r, first, found.above, evaluateAbove)
 #endif

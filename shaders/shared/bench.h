@@ -23,9 +23,8 @@ struct BenchParams {
     uint lightCount;  // time_lights: lights that every lane evaluates
     uint sampleCount; // as in FrameParams
     uint sampleSeed;
-    float errorBudget;
 };
-GPU_SIZE(BenchParams, 20)
+GPU_SIZE(BenchParams, 16)
 
 // A shaded point at the origin, before lights are known.
 struct BenchReceiver {
@@ -45,10 +44,9 @@ GPU_SIZE(BenchResponse, 12)
 // Specialisation constants in addition to those of lighting.h.
 const uint SPEC_BENCH_EVALUATION = 16u; // time_lights: EVALUATE_*
 // The ways in which shading/light_walk.glsl evaluates lights.
-const uint EVALUATE_POINT = 0u;   // sphere whose size is within the error budget
-const uint EVALUATE_ABOVE = 1u;   // sphere above the horizon
-const uint EVALUATE_NEAR = 2u;    // sphere that nearly touches the horizon, or tiny across it
-const uint EVALUATE_GENERAL = 3u; // sphere across the horizon; any light of other types
+const uint EVALUATE_ABOVE = 0u;   // sphere above the horizon
+const uint EVALUATE_NEAR = 1u;    // sphere that nearly touches the horizon, or tiny across it
+const uint EVALUATE_GENERAL = 2u; // sphere across the horizon; any light of other types
 const uint SPEC_BENCH_FORM_FACTOR = 17u;  // time_form_factor: which form
 const uint BENCH_FORM_FACTOR_NONE = 0u;   // the loop alone
 const uint BENCH_FORM_FACTOR_ROBUST = 1u; // lib/lights/sphere.glsl
@@ -87,10 +85,9 @@ struct SweepParams {
     uint firstIndex;
     uint sampleCount; // as in FrameParams
     uint sampleSeed;
-    float errorBudget;
     uint zero; // 0, which compilers cannot know (see opaque() in bench/sweep_cases.glsl)
 };
-GPU_SIZE(SweepParams, 32)
+GPU_SIZE(SweepParams, 28)
 
 // Numbers of responses. above: responses of a closed form that are above an upper bound of the
 // exact response by more than the errors that SWEEP_CLOSED_FORM_ERROR and SWEEP_OUTLINE_ERROR

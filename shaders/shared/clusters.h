@@ -147,7 +147,7 @@ GPU_SIZE(BlockClustersParams, 32)
 const uint CLUSTER_LISTS_GROUP = 32u;
 // Specialisation constant: lanes of a group, 8, 16 or 32. Tests choose fewer than
 // CLUSTER_LISTS_GROUP, so that a group is one subgroup on devices with small ones.
-const uint SPEC_LISTS_LANES = 8u;
+const uint SPEC_LISTS_LANES = 7u;
 const uint CLUSTER_LISTS_CORE = 0u;
 const uint CLUSTER_LISTS_CORE_WORDS = 1u;
 const uint CLUSTER_LISTS_NODES = 2u;

@@ -30,15 +30,14 @@ struct FrameParams {
     float dielectricF0; // F0 of non-metals, for layouts of the G-buffer that do not store F0
     uint lobes;         // LOBES_* (shared/dfg.h), plus COMPENSATE_ENERGY
     // Only the lighting module sets these. In frames of the environment module they are 0.
-    float errorBudget; // relative to the highest response; 0: no light is simplified
-    uint sampleCount;  // SPECULAR_SAMPLED: samples per light
+    uint sampleCount; // SPECULAR_SAMPLED: samples per light
     uint sampleSeed;
     float largestRadiance; // the largest value that the scene radiance image can hold
     // Where a layout of the host has no such channel.
     float constantRoughness; // perceptual
     float constantMetalness;
 };
-GPU_SIZE(FrameParams, 144)
+GPU_SIZE(FrameParams, 140)
 
 GPU_END
 

@@ -98,7 +98,7 @@ const uint ALL_ABOVE = 2u;   // every centre is at least ABOVE_FROM radii above 
 const uint TILE_HEIGHTS = 3u;
 const uint TILE_WORK_LISTS = TILE_HEIGHTS * TILE_CLASSES;
 // The closed form evaluates a sphere as above the horizon if its centre is at least so many of its
-// radii above it, or one if the error budget allows that. All other methods do so from one on.
+// radii above it. All other methods do so from one on.
 const float ABOVE_FROM = 2.0f;
 
 // Counters of one frame, cleared before it and read back after it.
@@ -206,16 +206,15 @@ const uint SPEC_LIGHTS_AS_TEXELS = 0u; // 1: read core and list entries as texel
 const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
 const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
 const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer.h)
-const uint SPEC_ERROR_BUDGET = 4u;     // 1: FrameParams::errorBudget may be > 0
-const uint SPEC_TILE_CLASS = 5u;   // CLASS_* of the tiles: which work list, which lobe is absent
-const uint SPEC_TILE_CLASSES = 6u; // tile_clusters: mask of 1 << CLASS_*, the classes to find
+const uint SPEC_TILE_CLASS = 4u;   // CLASS_* of the tiles: which work list, which lobe is absent
+const uint SPEC_TILE_CLASSES = 5u; // tile_clusters: mask of 1 << CLASS_*, the classes to find
 // Chooses the form of kernels that have two. 1: the lanes of a group share the work on one cluster,
 // node, tile, block or run of lights, for GPUs; 0: each lane has work of its own, for llvmpipe.
-const uint SPEC_LANES_TOGETHER = 7u;
+const uint SPEC_LANES_TOGETHER = 6u;
 // shade_tiles: the height of the tiles that the kernel shades, ANY_HEIGHT or another. The kernel
 // takes tiles from the work list of this height and does not evaluate lights that the height rules
 // out.
-const uint SPEC_TILE_HEIGHT = 9u;
+const uint SPEC_TILE_HEIGHT = 8u;
 
 // The lowest alpha of the specular lobe. Below it a float32 NoH cannot resolve the peak (measured:
 // the relative error of D is up to 7e-5 at 0.002 and grows as 1 / alpha^2).

@@ -324,7 +324,6 @@ CndLightingFrame LightingTest::frameOf(const CpuGBuffer& g, const Images& images
     CndLightingFrame frame = surfaceFrame<CndLightingFrame>(g, images);
     frame.specularMethod = options.specular;
     frame.sampleCount = options.sampleCount;
-    frame.errorBudget = options.errorBudget;
     frame.lobes = options.lobes;
     frame.energyCompensation = options.energyCompensation;
     frame.culling = options.culling;
@@ -387,8 +386,7 @@ static uint32_t shadingOf(const CndLightingFrame& frame)
 {
     const bool brute = frame.culling == CND_CULLING_BRUTE;
     return (brute ? CND_SHADING_BRUTE_BIT : CND_SHADING_CLUSTERED_BIT) |
-           (frame.countPairs && !brute ? CND_SHADING_COUNT_PAIRS_BIT : 0) |
-           (frame.errorBudget > 0 ? CND_SHADING_ERROR_BUDGET_BIT : 0);
+           (frame.countPairs && !brute ? CND_SHADING_COUNT_PAIRS_BIT : 0);
 }
 
 CndLighting LightingTest::lightingFor(const RunOptions& options)

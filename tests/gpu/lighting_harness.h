@@ -91,7 +91,6 @@ struct RunOptions {
     double lightOrigin[3] = {0, 0, 0};
     const CndDeviceLights* deviceLights = nullptr;
     uint32_t sampleCount = 0;
-    float errorBudget = 0;
     CndLobeJoining lobes = CND_LOBES_SUM;
     bool energyCompensation = false;
     CndInfluence influence{};

@@ -97,9 +97,6 @@ TEST_F(AddedPipelines, FramesAskForNothingElseBefore)
                  {{.specular = CND_SPECULAR_CONIC, .countPairs = true},
                   CND_SHADING_COUNT_PAIRS_BIT,
                   "countPairs needs CND_SHADING_COUNT_PAIRS_BIT"},
-                 {{.specular = CND_SPECULAR_CONIC, .errorBudget = 0.01f},
-                  CND_SHADING_ERROR_BUDGET_BIT,
-                  "errorBudget needs CND_SHADING_ERROR_BUDGET_BIT"},
                  {{.specular = CND_SPECULAR_POINT},
                   CND_SHADING_CLUSTERED_BIT,
                   "specularMethod 3 is not among CndLightingDesc::specularMethods"}};
@@ -110,15 +107,6 @@ TEST_F(AddedPipelines, FramesAskForNothingElseBefore)
         EXPECT_EQ(refusal(c.options), "");
         EXPECT_EQ(refusal(plain), "");
     }
-    // What was added one by one works together.
-    EXPECT_EQ(refusal({.specular = CND_SPECULAR_CONIC, .countPairs = true, .errorBudget = 0.1f}),
-              "");
-    EXPECT_EQ(
-        refusal(
-            {.specular = CND_SPECULAR_CONIC, .culling = CND_CULLING_BRUTE, .errorBudget = 0.1f}),
-        "");
-    // An error budget needs no pipelines of methods that ignore it.
-    EXPECT_EQ(refusal({.specular = CND_SPECULAR_POINT, .errorBudget = 0.1f}), "");
 }
 
 // KARIS has a smaller value than the method of creation.
@@ -220,7 +208,7 @@ TEST_F(AddedPipelines, WrongArgumentsAreRefused)
 TEST_F(AddedPipelines, AModuleThatCouldDrawNothingIsRefused)
 {
     const auto created = Lighting::create(
-        deviceDesc(), {.framesInFlight = 2, .shading = CND_SHADING_ERROR_BUDGET_BIT});
+        deviceDesc(), {.framesInFlight = 2, .shading = CND_SHADING_COUNT_PAIRS_BIT});
     ASSERT_FALSE(created);
     EXPECT_STREQ(created.error().message,
                  "CndLightingDesc: shading needs CND_SHADING_CLUSTERED_BIT or "

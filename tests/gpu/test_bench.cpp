@@ -132,7 +132,7 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
     Progress progress(1, false);
     const std::vector<ImageScene> scenes = measureImages(context(), settings, progress);
     ASSERT_EQ(scenes.size(), test::fullTests() ? benchScenes().size() : 3u);
-    const auto json = nlohmann::json::parse(imageJson(settings, scenes, {})["scenes"].dump());
+    const auto json = nlohmann::json::parse(imageJson(settings, scenes)["scenes"].dump());
     EXPECT_EQ(
         test::schemaFaults(json, "bench_accuracy.schema.json", "#/$defs/images/properties/scenes"),
         "");

@@ -103,7 +103,7 @@ TEST_F(LightingTest, TilesUnderHighLightsAreShadedAsOthers)
         }
         for (const CndSpecularMethod method :
              {CND_SPECULAR_NONE, CND_SPECULAR_KARIS, CND_SPECULAR_CONIC, CND_SPECULAR_CONIC_FULL}) {
-            RunOptions options{.specular = method, .errorBudget = 0};
+            RunOptions options{.specular = method};
             const LightingResult clustered = run(g, lights, options);
             options.culling = CND_CULLING_BRUTE;
             EXPECT_TRUE(agree(clustered.radiance, run(g, lights, options).radiance))
@@ -159,34 +159,6 @@ TEST_F(LightingTest, TilesUnderHighLightsHaveWorkListsOfTheirOwn)
         const uint32_t tiles = lit.as<gpu::WorkList>()[height * gpu::TILE_CLASSES].count;
         std::cout << "height " << height << ": " << tiles << " tiles\n";
         EXPECT_EQ(tiles > 10, height == gpu::ANY_HEIGHT || device().lanesAreCpuVector) << height;
-    }
-}
-
-// The second frame uses the lists and heights of the first. With an error budget, spheres near the
-// horizon may be evaluated as above it.
-TEST_F(LightingTest, TilesUnderHighLightsAreShadedWithAnotherErrorBudget)
-{
-    const CpuGBuffer g = bumpyWall(144, 96, 0.7);
-    const std::vector<CndLight> lights = spheresAbove(60);
-    constexpr float budget = 0.3f;
-    for (const bool budgetFirst : {false, true}) {
-        CndLightingFrame* frame = nullptr;
-        int frames = 0;
-        const LightingResult kept =
-            run(g, lights,
-                {.specular = CND_SPECULAR_CONIC,
-                 .errorBudget = budget,
-                 .frames = 2,
-                 .unchanged = true,
-                 .beforeFrame =
-                     [&] { frame->errorBudget = (frames++ == 0) == budgetFirst ? budget : 0; },
-                 .withFrame = [&](CndLightingFrame& f) { frame = &f; }});
-        const LightingResult brute = run(g, lights,
-                                         {.specular = CND_SPECULAR_CONIC,
-                                          .culling = CND_CULLING_BRUTE,
-                                          .errorBudget = budgetFirst ? 0 : budget});
-        EXPECT_EQ(frames, 2);
-        EXPECT_TRUE(agree(kept.radiance, brute.radiance)) << budgetFirst;
     }
 }
 

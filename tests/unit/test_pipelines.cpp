@@ -71,14 +71,10 @@ TEST(Pipelines, VariantsAreNamedByWhatTheyShade)
     };
     const std::map<std::string, uint32_t> shading{{"lightType", CND_LIGHT_SPHERE},
                                                   {"specularMethod", CND_SPECULAR_CONIC},
-                                                  {"errorBudget", 0},
                                                   {"tileClass", gpu::CLASS_ANY},
                                                   {"lightsAsTexels", 1}};
     EXPECT_EQ(variant("shade_tiles", shading), "sphere conic");
     auto changed = shading;
-    changed["errorBudget"] = 1;
-    EXPECT_EQ(variant("shade_tiles", changed), "sphere conic, error budget");
-    changed = shading;
     changed["tileClass"] = gpu::CLASS_SPECULAR;
     EXPECT_EQ(variant("shade_tiles", changed), "sphere conic, specular lobe alone");
     EXPECT_EQ(variant("tone_map", {{"curve", CND_TONEMAP_ACES}}), "aces");

@@ -119,12 +119,9 @@ typedef enum CndMaterialClass {
 // What frames ask of pipelines besides a specular method and light types. Every frame asks for one
 // of the first two bits, to which the others add.
 typedef enum CndShadingBits {
-    CND_SHADING_CLUSTERED_BIT = 1, // CND_CULLING_CLUSTERED
-    CND_SHADING_BRUTE_BIT = 2,     // CND_CULLING_BRUTE
-    // An errorBudget above 0 with CND_SPECULAR_CONIC or CND_SPECULAR_CONIC_FULL, besides frames
-    // without one. It doubles the pipelines of these methods.
-    CND_SHADING_ERROR_BUDGET_BIT = 4,
-    CND_SHADING_COUNT_PAIRS_BIT = 8, // countPairs with CND_CULLING_CLUSTERED
+    CND_SHADING_CLUSTERED_BIT = 1,   // CND_CULLING_CLUSTERED
+    CND_SHADING_BRUTE_BIT = 2,       // CND_CULLING_BRUTE
+    CND_SHADING_COUNT_PAIRS_BIT = 4, // countPairs with CND_CULLING_CLUSTERED
     CND_SHADING_BITS_MAX_ENUM = 0x7FFFFFFF
 } CndShadingBits;
 
@@ -231,11 +228,6 @@ typedef struct CndLightingFrame {
     uint32_t sampleCount;
     // With CND_SPECULAR_SAMPLED: the same seed gives the same image.
     uint32_t sampleSeed;
-    // 0..1. 0: every light is evaluated in full. Otherwise area lights with CND_SPECULAR_CONIC and
-    // CND_SPECULAR_CONIC_FULL are evaluated more cheaply wherever the error, estimated beforehand,
-    // is at most about this share of the highest response to the light (0.01: 1%). Other lights and
-    // methods ignore it.
-    float errorBudget;
     CndLobeJoining lobes;
     // VK_TRUE: compensate the energy that single-scattering microfacet models lose to multiple
     // bounces (Turquin 2019). A white metal then reflects all light at any roughness.

@@ -31,7 +31,7 @@ void main()
     const float depth = texelFetch(depthImage, ivec2(pixel), 0).x;
     if (depth == frameParams.clearDepth)
         return;
-    const LtcReceiver r = makeLtcReceiver(makeReceiver(readShadingPoint(pixel, depth), 0.0, 1u, 0u));
+    const LtcReceiver r = makeLtcReceiver(makeReceiver(readShadingPoint(pixel, depth), 1u, 0u));
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < batch.count; ++k)
         sum += evaluateClassified(r, lightAt(k));

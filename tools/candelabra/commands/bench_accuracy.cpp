@@ -8,7 +8,6 @@
 
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
-#include "generate/generators.h"
 #include "io/error.h"
 #include "io/image.h"
 #include "measure/accuracy/accuracy_page.h"
@@ -26,7 +25,6 @@ struct AccuracyArguments {
     DeviceArguments device;
     std::string groups = "300", rounds = "15", seed = "1", samples = "16";
     std::string size = "192x144", frames = "5";
-    std::string budgetScene = "hall", budgetLights = "4000", budgetSize = "640x360";
     std::string directory = "out", json, html;
 };
 
@@ -56,10 +54,6 @@ ImageLevelSettings imageSettings(const AccuracyArguments& a)
     s.size = sizeOption("--size", a.size);
     s.rounds = unsignedOption("--frames", a.frames, 1, 10'000);
     s.sampleCount = unsignedOption("--samples", a.samples, 1, 4096);
-    s.budgetScene = a.budgetScene;
-    if (isGenerated(a.budgetScene))
-        s.budgetLights = unsignedOption("--lights", a.budgetLights, 1, maxLights);
-    s.budgetSize = sizeOption("--budget-size", a.budgetSize);
     return s;
 }
 
@@ -74,7 +68,6 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     const std::string lowRoughnessPng =
         benchOutput(a.directory, "--out", "", "bench_low_roughness.png");
 
-    const Scene scene = budgetScene(images); // loaded first, because the name may be wrong
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("accuracy on {}", context.info().name);
     const ThinLightSettings thin{.groups = std::clamp(kernels.groups / 6, 10u, 50u),
@@ -82,14 +75,12 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
     KernelLevel level;
     std::vector<ThinLightPoint> thinLights;
     std::vector<ImageScene> scenes;
-    BudgetSweep budgets;
     {
         Progress kernelProgress(kernelLevelSteps(kernels) + thinLightSteps(thin), !program.quiet);
         level = measureKernelLevel(context, kernels, kernelProgress);
         thinLights = measureThinLights(context, thin, kernelProgress);
         Progress imageProgress(imageLevelSteps(images), !program.quiet);
         scenes = measureImages(context, images, imageProgress);
-        budgets = measureBudgets(context, images, scene, imageProgress);
     }
     const Json origin = provenance(context.info(), program.commandLine);
     const auto lowRoughness = measureLowRoughness(context, 256);
@@ -97,17 +88,17 @@ int accuracy(const ProgramContext& program, const AccuracyArguments& a)
             lowRoughnessPicture(lowRoughness));
     writeText(kernelSvg, kernelPlot(level, context.info()));
     writeText(imageSvg, imagePlot(scenes, context.info()));
-    writeText(html, accuracyPage(origin, level, scenes, budgets, context.info()));
+    writeText(html, accuracyPage(origin, level, scenes, context.info()));
     writeJson(json, {{"schema", "candelabra bench accuracy 1"},
                      {"provenance", origin},
                      {"kernels", kernelJson(kernels, level)},
                      {"thinLights", thinLightJson(thin, thinLights)},
-                     {"images", imageJson(images, scenes, budgets)}});
+                     {"images", imageJson(images, scenes)}});
     if (json != "-")
         writeText(
             "-",
             textOf(kernelTables(level)) + "\n" + textOf(std::vector{thinLightTable(thinLights)}) +
-                "\n" + textOf(imageTables(scenes, budgets)) +
+                "\n" + textOf(imageTables(scenes)) +
                 fmt::format("\nLook at {} and {} (perceptual roughness 0.01: naive karis, karis, "
                             "conic)\n",
                             html, lowRoughnessPng));
@@ -126,9 +117,6 @@ void addOptions(CLI::App& command, AccuracyArguments& a)
     add("--size", a.size, "size of the images that are compared with the truth", "WxH");
     add("--frames", a.frames, "timed frames of every method and scene, after one warm-up frame",
         "N");
-    add("--scene", a.budgetScene, "scene of the error-budget sweep", "SCENE");
-    add("--lights", a.budgetLights, "lights of that scene, if it is hall, field or fence", "N");
-    add("--budget-size", a.budgetSize, "size of its image", "WxH");
     add("--seed", a.seed, "seed of the random groups and lights", "N");
     addBenchOutput(command, a.directory, a.json, "bench_accuracy.json");
     command.add_option("--html", a.html, "HTML page with all results (DIR/bench_accuracy.html)")
@@ -146,8 +134,7 @@ void addBenchAccuracy(CLI::App& bench, Run& run)
     addOptions(*command, *a);
     command->footer("Examples:\n"
                     "  candelabra bench accuracy\n"
-                    "  candelabra bench accuracy --groups 1500 --rounds 51 --frames 15\n"
-                    "  candelabra bench accuracy --scene field --lights 20000");
+                    "  candelabra bench accuracy --groups 1500 --rounds 51 --frames 15");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return accuracy(program, *a); }; });
 }

@@ -323,14 +323,6 @@ void FrameArguments::addTo(CLI::App& command)
                     "samples per light and pixel of --specular sampled (1..4096)")
         ->type_name("N")
         ->capture_default_str();
-    command
-        .add_option(
-            "--error-budget", errorBudget,
-            "evaluate area lights by conic and conic-full more cheaply where the error is at "
-            "most about this share of the highest response (0.01: 1%); 0: evaluate every light in "
-            "full")
-        ->type_name("E")
-        ->capture_default_str();
     addChoice(command, "--gbuffer", gbuffer, gbufferChoices, "layout of the G-buffer");
     addChoice(command, "--lod", lod, onOffChoices,
               "draw meshes by coarser levels of detail where that moves their surface by at most a "
@@ -433,11 +425,6 @@ CndSpecularMethod FrameArguments::specularMethod() const
 uint32_t FrameArguments::samples() const
 {
     return unsignedOption("--samples", sampleCount, 1, 4096);
-}
-
-float FrameArguments::budget() const
-{
-    return float(numberOption("--error-budget", errorBudget, 0, 1));
 }
 
 CndCulling FrameArguments::cullingMode() const

@@ -72,7 +72,7 @@ struct SceneArguments {
 struct FrameArguments {
     std::string size, camera, fit;
     std::string gbuffer = "full", specular, culling = "clustered";
-    std::string sampleCount = "64", errorBudget = "0";
+    std::string sampleCount = "64";
     std::string influence = "given", influenceError;
     std::string lightsVisible, reuse, heatMap = "none", lod = "on", cullTriangles = "on";
     std::string exposure = "auto", compensation = "0", metering = "centre", toneMap = "neutral";
@@ -96,7 +96,6 @@ struct FrameArguments {
     CndGBufferLayout gbufferLayout() const;
     CndSpecularMethod specularMethod() const;
     uint32_t samples() const; // per light, of the specular method "sampled"
-    float budget() const;     // CndLightingFrame::errorBudget
     CndCulling cullingMode() const;
     CndInfluence influenceRule() const; // its exposure is set by the renderer
     Reuse reuseMode() const;

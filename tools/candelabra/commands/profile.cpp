@@ -53,7 +53,6 @@ FrameOptions frameOptions(const FrameArguments& frame)
             .cullTriangles = frame.trianglesCulled(),
             .specular = frame.specularMethod(),
             .sampleCount = frame.samples(),
-            .errorBudget = frame.budget(),
             .culling = frame.cullingMode(),
             .influence = frame.influenceRule(),
             .exposure = frame.exposureSettings()};

@@ -169,7 +169,6 @@ RenderPlan plan(const RenderArguments& a)
                       .cullTriangles = a.frame.trianglesCulled(),
                       .specular = a.frame.specularMethod(),
                       .sampleCount = a.frame.samples(),
-                      .errorBudget = a.frame.budget(),
                       .culling = a.frame.cullingMode(),
                       .influence = influence,
                       .reuse = a.frame.reuseMode(),

@@ -190,9 +190,7 @@ void accuracyPart(const Part& part)
                                                "large light at grazing angles",
                                                "a row of metal under five spheres", "showcase"},
                                     .size = {144, 108},
-                                    .rounds = 3,
-                                    .budgetLights = 1000,
-                                    .budgetSize = {320, 180}};
+                                    .rounds = 3};
     Measured& out = part.out;
     {
         Progress progress(kernelLevelSteps(kernels), !part.quiet);
@@ -200,7 +198,6 @@ void accuracyPart(const Part& part)
     }
     Progress progress(imageLevelSteps(images), !part.quiet);
     out.facts.scenes = measureImages(part.context, images, progress);
-    out.facts.budgets = measureBudgets(part.context, images, budgetScene(images), progress);
     out.pictures = accuracyPictures(out.facts.scenes);
     out.sections.push_back(
         {.id = "accuracy",
@@ -211,11 +208,11 @@ void accuracyPart(const Part& part)
                   "that the light is wrong by 1 percent of the brightest reflection that such a "
                   "light has on such a surface.",
          .html = accuracyPlots(out.facts.kernels, out.facts.scenes, part.context.info()),
-         .tables = accuracyTables(out.facts.kernels, out.facts.scenes, out.facts.budgets),
+         .tables = accuracyTables(out.facts.kernels, out.facts.scenes),
          .command = "candelabra report --parts accuracy",
          .details = accuracyDetails(out.facts.kernels, out.facts.scenes)});
     out.document["accuracy"] = {{"kernels", kernelJson(kernels, out.facts.kernels)},
-                                {"images", imageJson(images, out.facts.scenes, out.facts.budgets)}};
+                                {"images", imageJson(images, out.facts.scenes)}};
 }
 
 void cullingPart(const Part& part)

@@ -55,7 +55,6 @@ StressSettings settingsOf(const StressArguments& a)
                       .cullTriangles = a.frame.trianglesCulled(),
                       .specular = a.frame.specularMethod(),
                       .sampleCount = a.frame.samples(),
-                      .errorBudget = a.frame.budget(),
                       .reuse = a.frame.reuseMode(),
                       .exposure = a.frame.exposureSettings()},
             .lightsVisible = a.frame.lightsVisibleOverride(),

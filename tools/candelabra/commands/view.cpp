@@ -34,7 +34,6 @@ ViewerOptions optionsOf(const ViewArguments& a)
                                 .cullTriangles = a.frame.trianglesCulled(),
                                 .specular = a.frame.specularMethod(),
                                 .sampleCount = a.frame.samples(),
-                                .errorBudget = a.frame.budget(),
                                 .culling = a.frame.cullingMode(),
                                 .influence = a.frame.influenceRule(),
                                 .reuse = a.frame.reuseMode(),

@@ -18,7 +18,6 @@ struct Lit {
     bool levels;
     CndSpecularMethod specular;
     uint32_t sampleCount, sampleSeed;
-    float errorBudget;
     CndCulling culling;
     CndInfluenceRule influence;
     float influenceError, influenceExposure; // of CND_INFLUENCE_BY_ERROR

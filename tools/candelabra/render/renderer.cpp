@@ -149,15 +149,13 @@ void useKnownExposure(const Scene& scene, CndExposureSettings& settings)
     settings.manualEv100 = *scene.knownEv100;
 }
 
-// For its lighting frames, as shadingOf of engine/shading/shade_kernels.h. It asks for an error
-// budget with every method, because methods that ignore it get no pipelines for it.
+// For its lighting frames, as shadingOf of engine/shading/shade_kernels.h.
 uint32_t shadingOf(const FrameOptions& options)
 {
     const bool brute = options.culling == CND_CULLING_BRUTE;
     const bool counts = options.countPairs || options.heatMap != HeatMap::None;
     return (brute ? CND_SHADING_BRUTE_BIT : CND_SHADING_CLUSTERED_BIT) |
-           (counts && !brute ? CND_SHADING_COUNT_PAIRS_BIT : 0) |
-           (options.errorBudget > 0 ? CND_SHADING_ERROR_BUDGET_BIT : 0);
+           (counts && !brute ? CND_SHADING_COUNT_PAIRS_BIT : 0);
 }
 
 uint32_t lightTypesOf(const Scene& scene)
@@ -429,7 +427,6 @@ CndLightingFrame Renderer::State::lightingFrame(uint32_t slot, const FrameOption
     out.specularMethod = frame.specular;
     out.sampleCount = frame.sampleCount;
     out.sampleSeed = frame.sampleSeed + frame.sample.index;
-    out.errorBudget = frame.errorBudget;
     out.culling = frame.culling;
     out.influence = influenceOf(slot, frame);
     out.countPairs = frame.countPairs;
@@ -463,9 +460,10 @@ CndInfluence Renderer::State::influenceOf(uint32_t slot, const FrameOptions& fra
 Lit Renderer::State::litBy(uint32_t slot, const FrameOptions& f) const
 {
     const CndInfluence influence = influenceOf(slot, f);
-    return {f.camera,       f.sample,           lightTime,          f.lightsVisible,  f.levels,
-            f.specular,     f.sampleCount,      f.sampleSeed,       f.errorBudget,    f.culling,
-            influence.rule, influence.maxError, influence.exposure, influence.toneMap};
+    return {f.camera,         f.sample,       lightTime,          f.lightsVisible,
+            f.levels,         f.specular,     f.sampleCount,      f.sampleSeed,
+            f.culling,        influence.rule, influence.maxError, influence.exposure,
+            influence.toneMap};
 }
 
 void Renderer::moveLights(double time)

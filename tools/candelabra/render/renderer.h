@@ -71,7 +71,6 @@ struct FrameOptions {
     CndSpecularMethod specular = CND_SPECULAR_CONIC;
     uint32_t sampleCount = 0; // of CND_SPECULAR_SAMPLED; 0: the module's default
     uint32_t sampleSeed = 0;
-    float errorBudget = 0; // as CndLightingFrame::errorBudget
     CndCulling culling = CND_CULLING_CLUSTERED;
     // The renderer fills in the exposure and the tone map. The exposure is the manual one, or that
     // of the previous frame in the same slot; in a slot's first frame no light is cut.

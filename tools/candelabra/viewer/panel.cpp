@@ -85,13 +85,6 @@ void drawTimes(const PanelFigures& figures)
     ImGui::EndTable();
 }
 
-void drawBudget(const char* label, float& budget)
-{
-    float percent = budget * 100;
-    if (ImGui::SliderFloat(label, &percent, 0, 10, "%.1f%%", ImGuiSliderFlags_AlwaysClamp))
-        budget = percent / 100;
-}
-
 void drawWipe(PanelState& state)
 {
     Wipe& wipe = state.wipe;
@@ -100,23 +93,19 @@ void drawWipe(PanelState& state)
         return;
     ImGui::SliderFloat("wipe", &wipe.at, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     combo("specular##other", wipe.specular, specularChoices);
-    drawBudget("error budget##other", wipe.errorBudget);
     combo("culling##other", wipe.culling, cullingChoices);
 }
 
 // Draws the line of the wipe and, at its foot, the names of the two ways of shading.
 void drawWipeLine(const PanelState& state, float bottom)
 {
-    const auto name = [](CndSpecularMethod specular, float budget, CndCulling culling) {
-        std::string out = specularName(specular);
-        if (budget > 0)
-            out += ", " + threeDigits(double(budget) * 100) + "%";
+    const auto name = [](CndSpecularMethod specular, CndCulling culling) {
+        const std::string out = specularName(specular);
         return culling == CND_CULLING_BRUTE ? out + ", brute" : out;
     };
     const Wipe& wipe = state.wipe;
-    const std::string left =
-        name(state.frame.specular, state.frame.errorBudget, state.frame.culling);
-    const std::string right = name(wipe.specular, wipe.errorBudget, wipe.culling);
+    const std::string left = name(state.frame.specular, state.frame.culling);
+    const std::string right = name(wipe.specular, wipe.culling);
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float x = wipe.at * size.x, y = bottom - 1.5f * ImGui::GetFontSize();
     constexpr ImU32 white = IM_COL32(255, 255, 255, 200);
@@ -230,7 +219,6 @@ void drawLights(PanelState& state, const PanelFigures& figures)
     ImGui::Checkbox("show lights as emitters", &state.frame.lightsVisible);
     ImGui::Checkbox("levels of detail", &state.frame.levels);
     combo("specular", state.frame.specular, specularChoices);
-    drawBudget("error budget", state.frame.errorBudget);
     combo("culling", state.frame.culling, cullingChoices);
     if (state.frame.culling == CND_CULLING_CLUSTERED)
         combo("heat map", state.frame.heatMap, heatMapChoices);

@@ -22,7 +22,6 @@ struct Wipe {
     float at = 0.5f; // place of the line, as a fraction of the window's width
     CndSpecularMethod specular = CND_SPECULAR_KARIS;
     CndCulling culling = CND_CULLING_CLUSTERED;
-    float errorBudget = 0;
 };
 
 // What the user has clicked that is not a light.

@@ -44,7 +44,6 @@ RendererOptions rendererOptions(const ViewerOptions& options, const FrameOptions
 struct Shading {
     CndSpecularMethod specular = CND_SPECULAR_CONIC;
     CndCulling culling = CND_CULLING_CLUSTERED;
-    float errorBudget = 0;
     HeatMap heatMap = HeatMap::None;
 
     static Shading of(const FrameOptions& frame);
@@ -137,7 +136,7 @@ private:
     void takeBackLights();
     bool canLight() const;
     // How the user wants the pixels right of the wipe's line to be shaded: with the wipe's specular
-    // method, culling and error budget, and without a heat map.
+    // method and culling, and without a heat map.
     Shading wantedRight() const;
     // Returns how the pixels of column `x` are shaded.
     FrameOptions optionsAt(int32_t x) const;

@@ -14,21 +14,20 @@ namespace candelabra::app
 
 Shading Shading::of(const FrameOptions& frame)
 {
-    return {frame.specular, frame.culling, frame.errorBudget, frame.heatMap};
+    return {frame.specular, frame.culling, frame.heatMap};
 }
 
 FrameOptions Shading::in(FrameOptions frame) const
 {
     frame.specular = specular;
     frame.culling = culling;
-    frame.errorBudget = errorBudget;
     frame.heatMap = heatMap;
     return frame;
 }
 
 Shading Viewer::wantedRight() const
 {
-    return {panel_.wipe.specular, panel_.wipe.culling, panel_.wipe.errorBudget, HeatMap::None};
+    return {panel_.wipe.specular, panel_.wipe.culling, HeatMap::None};
 }
 
 FrameOptions Viewer::optionsAt(int32_t x) const
@@ -125,7 +124,6 @@ void Viewer::startWork()
         takeBack_ = [this] {
             panel_.wipe.specular = shownRight_.specular;
             panel_.wipe.culling = shownRight_.culling;
-            panel_.wipe.errorBudget = shownRight_.errorBudget;
         };
         return compile(other_.get(), wanted);
     }

@@ -114,11 +114,10 @@ std::string accuracyPlots(const KernelLevel& kernels, const std::vector<ImageSce
            plotBox(imagePlot(scenes, device), "error against time of whole images");
 }
 
-std::vector<Table> accuracyTables(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
-                                  const BudgetSweep& budgets)
+std::vector<Table> accuracyTables(const KernelLevel& kernels, const std::vector<ImageScene>& scenes)
 {
     std::vector<Table> out = kernelTables(kernels);
-    for (Table& table : imageTables(scenes, budgets))
+    for (Table& table : imageTables(scenes))
         out.push_back(std::move(table));
     return out;
 }
@@ -133,13 +132,12 @@ std::vector<Table> accuracyDetails(const KernelLevel& kernels,
 }
 
 std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,
-                         const std::vector<ImageScene>& scenes, const BudgetSweep& budgets,
-                         const DeviceInfo& device)
+                         const std::vector<ImageScene>& scenes, const DeviceInfo& device)
 {
     std::string out = pageHead("Candelabra: error against time") + "<h2>Pictures</h2>\n" +
                       accuracyPictures(scenes) + "<h2>Errors and times</h2>\n" +
                       accuracyPlots(kernels, scenes, device);
-    for (const Table& table : accuracyTables(kernels, scenes, budgets))
+    for (const Table& table : accuracyTables(kernels, scenes))
         out += table.html();
     for (const Table& table : accuracyDetails(kernels, scenes))
         out += folded("Table: " + table.title(), table.html());

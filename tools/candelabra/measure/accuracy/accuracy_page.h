@@ -15,15 +15,14 @@ namespace candelabra::app
 std::string accuracyPictures(const std::vector<ImageScene>& scenes);
 std::string accuracyPlots(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
                           const DeviceInfo& device);
-std::vector<Table> accuracyTables(const KernelLevel& kernels, const std::vector<ImageScene>& scenes,
-                                  const BudgetSweep& budgets);
+std::vector<Table> accuracyTables(const KernelLevel& kernels,
+                                  const std::vector<ImageScene>& scenes);
 // The worst samples and pixels, in long tables.
 std::vector<Table> accuracyDetails(const KernelLevel& kernels,
                                    const std::vector<ImageScene>& scenes);
 
 // The whole page of `candelabra bench accuracy`.
 std::string accuracyPage(const Json& provenance, const KernelLevel& kernels,
-                         const std::vector<ImageScene>& scenes, const BudgetSweep& budgets,
-                         const DeviceInfo& device);
+                         const std::vector<ImageScene>& scenes, const DeviceInfo& device);
 
 } // namespace candelabra::app

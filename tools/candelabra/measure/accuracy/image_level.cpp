@@ -2,7 +2,6 @@
 #include "measure/accuracy/image_level.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -12,7 +11,6 @@
 #include "io/statistics.h"
 #include "io/svg_plot.h"
 #include "io/table.h"
-#include "load/load.h"
 #include "measure/accuracy/ltc_frame.h"
 #include "reference/render.h"
 #include "render/camera.h"
@@ -28,8 +26,7 @@ namespace
 
 struct Variants {
     std::vector<FrameTime> times;
-    std::vector<std::vector<double>> lightingMs; // [variant][round]
-    std::vector<Image> images;                   // of the last timed frame
+    std::vector<Image> images; // of the last timed frame
 };
 
 bool evaluatesLights(const char* kernel)
@@ -58,17 +55,12 @@ DrawTimes drawOnce(const VulkanContext& context, Renderer& renderer, const Frame
     return out;
 }
 
-// `brute`: measure bruteForceMs.
-Draw drawByEngine(const VulkanContext& context, Renderer& renderer, const FrameOptions& options,
-                  bool brute)
+Draw drawByEngine(const VulkanContext& context, Renderer& renderer, const FrameOptions& options)
 {
-    return [&context, &renderer, options, brute] {
-        DrawTimes withoutLists;
-        if (brute) {
-            FrameOptions frame = options;
-            frame.culling = CND_CULLING_BRUTE;
-            withoutLists = drawOnce(context, renderer, frame);
-        }
+    return [&context, &renderer, options] {
+        FrameOptions brute = options;
+        brute.culling = CND_CULLING_BRUTE;
+        const DrawTimes withoutLists = drawOnce(context, renderer, brute);
         DrawTimes out = drawOnce(context, renderer, options);
         out.bruteForceMs = withoutLists.shadingMs;
         return out;
@@ -89,15 +81,14 @@ Variants runVariants(const VulkanContext& context, Renderer& renderer,
 {
     Variants out;
     const size_t n = variants.size();
-    std::vector<std::vector<double>> shading(n), bruteForce(n);
-    out.lightingMs.resize(n);
+    std::vector<std::vector<double>> lighting(n), shading(n), bruteForce(n);
     out.images.resize(n);
     for (uint32_t round = 0; round <= rounds; ++round) {
         for (size_t i = 0; i < n; ++i) {
             const DrawTimes times = variants[i]();
             if (round == 0) // the warm-up frame, in which pipelines are compiled
                 continue;
-            out.lightingMs[i].push_back(times.lightingMs);
+            lighting[i].push_back(times.lightingMs);
             shading[i].push_back(times.shadingMs);
             bruteForce[i].push_back(times.bruteForceMs);
             if (round == rounds)
@@ -108,13 +99,9 @@ Variants runVariants(const VulkanContext& context, Renderer& renderer,
     for (size_t i = 0; i < n; ++i) {
         std::vector<double> ratios;
         for (uint32_t round = 0; round < rounds; ++round)
-            ratios.push_back(out.lightingMs[0][round] > 0
-                                 ? out.lightingMs[i][round] / out.lightingMs[0][round]
-                                 : 0);
-        out.times.push_back(
-            {medianOf(out.lightingMs[i]), medianOf(shading[i]), medianOf(ratios),
-             medianOf(bruteForce[i]),
-             isNoisy(medianOf(bruteForce[i]) > 0 ? bruteForce[i] : out.lightingMs[i])});
+            ratios.push_back(lighting[0][round] > 0 ? lighting[i][round] / lighting[0][round] : 0);
+        out.times.push_back({medianOf(lighting[i]), medianOf(shading[i]), medianOf(ratios),
+                             medianOf(bruteForce[i]), isNoisy(bruteForce[i])});
     }
     return out;
 }
@@ -145,23 +132,6 @@ void integrate(const Scene& scene, const ImageLevelSettings& s, Progress& progre
 // In the progress bar a round of frames counts as many steps as so many rows of truth.
 constexpr double stepsPerRound = 30;
 
-void compareToFull(const Image& full, const Image& image, BudgetPoint& out)
-{
-    const double peak = double(*std::max_element(full.pixels.begin(), full.pixels.end()));
-    std::vector<double> relative;
-    for (size_t i = 0; i < full.pixels.size(); ++i) {
-        const double d = std::abs(double(image.pixels[i]) - double(full.pixels[i]));
-        out.maxOverPeak = std::max(out.maxOverPeak, peak > 0 ? d / peak : 0);
-        if (double(full.pixels[i]) > 1e-3 * peak)
-            relative.push_back(d / double(full.pixels[i]));
-    }
-    if (relative.empty())
-        return;
-    std::sort(relative.begin(), relative.end());
-    out.meanRel = std::accumulate(relative.begin(), relative.end(), 0.0) / double(relative.size());
-    out.p99Rel = relative[size_t(std::ceil(0.99 * double(relative.size()))) - 1];
-}
-
 } // namespace
 
 std::vector<MeasuredMethod> imageMethods()
@@ -191,8 +161,7 @@ std::vector<Scene> scenesOf(const ImageLevelSettings& s)
 
 double imageLevelSteps(const ImageLevelSettings& s)
 {
-    return double(scenesOf(s).size()) * (s.size.height + stepsPerRound * (s.rounds + 1)) +
-           stepsPerRound * (s.rounds + 1);
+    return double(scenesOf(s).size()) * (s.size.height + stepsPerRound * (s.rounds + 1));
 }
 
 std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageLevelSettings& s,
@@ -214,7 +183,7 @@ std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageL
             frame.specular = method.specular;
             frame.sampleCount = s.sampleCount;
             variants.push_back(method.rival == Rival::None
-                                   ? drawByEngine(context, renderer, frame, true)
+                                   ? drawByEngine(context, renderer, frame)
                                    : drawByRival(context, renderer, scene, frame, method.rival));
         }
         Variants run = runVariants(context, renderer, variants, s.rounds,
@@ -233,76 +202,8 @@ std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageL
     return out;
 }
 
-Scene budgetScene(const ImageLevelSettings& s)
-{
-    return loadScene(s.budgetScene, {.lights = s.budgetLights});
-}
-
-BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSettings& s,
-                           const Scene& scene, Progress& progress)
-{
-    progress.doing("error budgets: " + s.budgetScene);
-    Renderer renderer(context, scene,
-                      {.size = s.budgetSize,
-                       .specularMethods = 1u << CND_SPECULAR_KARIS | 1u << CND_SPECULAR_CONIC});
-    BudgetSweep out{
-        .scene = scene.name, .lights = scene.lights.size(), .size = s.budgetSize, .points = {}};
-    std::vector<Draw> variants;
-    const auto add = [&](CndSpecularMethod method, double budget) {
-        FrameOptions frame = frameOf(scene);
-        frame.specular = method;
-        frame.errorBudget = float(budget);
-        variants.push_back(drawByEngine(context, renderer, frame, false));
-        out.points.push_back({.method = method, .budget = budget});
-    };
-    add(CND_SPECULAR_KARIS, 0);
-    for (const double budget : {0.0, 0.003, 0.01, 0.03})
-        add(CND_SPECULAR_CONIC, budget);
-    const Variants run = runVariants(context, renderer, variants, s.rounds,
-                                     [&] { progress.advance(stepsPerRound); });
-    for (size_t i = 0; i < variants.size(); ++i) {
-        const size_t full = std::min<size_t>(i, 1);
-        BudgetPoint& point = out.points[i];
-        compareToFull(run.images[full], run.images[i], point);
-        point.time = run.times[i];
-        std::vector<double> ratios;
-        for (uint32_t round = 0; round < s.rounds; ++round)
-            ratios.push_back(run.lightingMs[full][round] > 0
-                                 ? run.lightingMs[i][round] / run.lightingMs[full][round]
-                                 : 0);
-        point.ratioToFull = medianOf(ratios);
-    }
-    return out;
-}
-
 namespace
 {
-
-Table budgetTable(const BudgetSweep& sweep)
-{
-    Table table(
-        {{"method, budget", "",
-          "The method, and the error that lights may have so that small ones are evaluated as "
-          "points."},
-         {"lighting", "ms", "The median time of all lighting passes."},
-         {"/ karis", "paired",
-          "That time divided by the time with karis in the same round, the median of the rounds."},
-         {"/ full", "paired", "The same, divided by the time of the same method without a budget."},
-         {"shading", "ms", "The median time of the passes that evaluate lights."},
-         {"mean error to full", "", "The mean relative difference to the image without a budget."},
-         {"p99", "", "The relative difference that 99% of the values do not exceed."},
-         {"max / peak", "", "The largest difference, as a share of the largest value."}},
-        fmt::format("Error budgets: {}, {}, {}x{}", sweep.scene, counted(sweep.lights, "light"),
-                    sweep.size.width, sweep.size.height));
-    for (const BudgetPoint& p : sweep.points)
-        table.add({fmt::format("{} {:.2g}%", specularName(p.method), 100 * p.budget),
-                   threeDigits(p.time.lightingMs), fmt::format("{:.2f}", p.time.ratio),
-                   fmt::format("{:.2f}", p.ratioToFull), threeDigits(p.time.shadingMs),
-                   threeDigits(p.meanRel), threeDigits(p.p99Rel), threeDigits(p.maxOverPeak)},
-                  {.noisy = p.time.noisy});
-    table.note(pairedLegend());
-    return table;
-}
 
 Json toJson(const FrameTime& t)
 {
@@ -318,7 +219,7 @@ Json timeJson(const ImagePoint& p)
 
 } // namespace
 
-std::vector<Table> imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets)
+std::vector<Table> imageTables(const std::vector<ImageScene>& scenes)
 {
     std::vector<Table> out;
     for (const ImageScene& scene : scenes) {
@@ -348,12 +249,10 @@ std::vector<Table> imageTables(const std::vector<ImageScene>& scenes, const Budg
                       {.noisy = p.time.noisy});
         out.push_back(std::move(table));
     }
-    out.push_back(budgetTable(budgets));
     return out;
 }
 
-Json imageJson(const ImageLevelSettings& s, const std::vector<ImageScene>& scenes,
-               const BudgetSweep& budgets)
+Json imageJson(const ImageLevelSettings& s, const std::vector<ImageScene>& scenes)
 {
     Json list = Json::array();
     for (const ImageScene& scene : scenes) {
@@ -365,26 +264,11 @@ Json imageJson(const ImageLevelSettings& s, const std::vector<ImageScene>& scene
         list.push_back(
             {{"name", scene.name}, {"unconvergedTruths", scene.unconverged}, {"points", points}});
     }
-    Json sweep = Json::array();
-    for (const BudgetPoint& p : budgets.points)
-        sweep.push_back({{"method", specularName(p.method)},
-                         {"budget", p.budget},
-                         {"time", toJson(p.time)},
-                         {"ratioToFull", p.ratioToFull},
-                         {"meanRel", p.meanRel},
-                         {"p99Rel", p.p99Rel},
-                         {"maxOverPeak", p.maxOverPeak}});
     return {{"widthPixels", s.size.width},
             {"heightPixels", s.size.height},
             {"rounds", s.rounds},
             {"truthTolerance", s.truthTolerance},
-            {"scenes", list},
-            {"errorBudget",
-             {{"scene", budgets.scene},
-              {"lights", budgets.lights},
-              {"widthPixels", budgets.size.width},
-              {"heightPixels", budgets.size.height},
-              {"points", sweep}}}};
+            {"scenes", list}};
 }
 
 std::string imagePlot(const std::vector<ImageScene>& scenes, const DeviceInfo& device)

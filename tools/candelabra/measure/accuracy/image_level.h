@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures on whole frames the GPU time of lighting against the image's error, and what an error
-// budget saves and costs. Time and error come from the same frames. The methods are drawn in turn.
+// Measures on whole frames the GPU time of lighting against the image's error. Time and error come
+// from the same frames. The methods are drawn in turn.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +26,6 @@ struct ImageLevelSettings {
     uint32_t rounds = 5; // frames of every variant, after one warm-up frame
     double truthTolerance = 1e-4;
     uint32_t sampleCount = 16; // samples per light of the sampled method
-    // The scene of the error-budget sweep, named as for loadScene, its lights and the image size.
-    std::string budgetScene = "hall";
-    std::optional<uint32_t> budgetLights;
-    PixelSize budgetSize{640, 360};
 };
 
 // GPU times, medians over the rounds. A rival has no lists, so that its only time is bruteForceMs.
@@ -38,9 +33,9 @@ struct FrameTime {
     double lightingMs = 0; // all passes of the lighting module
     double shadingMs = 0;  // the passes that evaluate lights
     double ratio = 0;      // of lightingMs to the first variant's
-    // The passes that evaluate every light at every pixel, of another frame; error budgets: 0.
+    // The passes that evaluate every light at every pixel, of another frame.
     double bruteForceMs = 0;
-    bool noisy = false; // the rounds' times of bruteForceMs or, where that is 0, of lightingMs are
+    bool noisy = false; // the rounds' times of bruteForceMs are
 };
 
 struct ImagePoint {
@@ -57,23 +52,6 @@ struct ImageScene {
     std::vector<ImagePoint> points; // the first is karis
 };
 
-struct BudgetPoint {
-    CndSpecularMethod method;
-    double budget;
-    FrameTime time;         // its ratio is to the full evaluation with karis
-    double ratioToFull = 0; // of the time to that of the same method without a budget
-    // Differences of all channels to the image of the same method without a budget.
-    double meanRel = 0, p99Rel = 0; // over the channels in which that image is lit
-    double maxOverPeak = 0;
-};
-
-struct BudgetSweep {
-    std::string scene;
-    size_t lights = 0;
-    PixelSize size;
-    std::vector<BudgetPoint> points; // karis, then conic with growing budgets
-};
-
 // The benchmark's own scenes of planes and balls, which together hold area lights of every type,
 // and the showcase.
 std::vector<Scene> benchScenes();
@@ -81,15 +59,9 @@ std::vector<Scene> benchScenes();
 double imageLevelSteps(const ImageLevelSettings& settings);
 std::vector<ImageScene> measureImages(const VulkanContext& context,
                                       const ImageLevelSettings& settings, Progress& progress);
-// Loads the scene of the error-budget sweep. Throws SceneError; so call it before the measurements,
-// which take long.
-Scene budgetScene(const ImageLevelSettings& settings);
-BudgetSweep measureBudgets(const VulkanContext& context, const ImageLevelSettings& settings,
-                           const Scene& scene, Progress& progress);
 
-std::vector<Table> imageTables(const std::vector<ImageScene>& scenes, const BudgetSweep& budgets);
-Json imageJson(const ImageLevelSettings& settings, const std::vector<ImageScene>& scenes,
-               const BudgetSweep& budgets);
+std::vector<Table> imageTables(const std::vector<ImageScene>& scenes);
+Json imageJson(const ImageLevelSettings& settings, const std::vector<ImageScene>& scenes);
 // Plots relMSE against milliseconds by brute force, one series per method.
 std::string imagePlot(const std::vector<ImageScene>& scenes, const DeviceInfo& device);
 

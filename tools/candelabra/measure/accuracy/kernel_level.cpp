@@ -122,11 +122,6 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
     const int robust = addForm(gpu::BENCH_FORM_FACTOR_ROBUST, EvaluationClass::General);
     const int naive = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationClass::General);
     const int naiveAbove = addForm(gpu::BENCH_FORM_FACTOR_NAIVE, EvaluationClass::Above);
-    const int asPoint =
-        plan.add({.name = {},
-                  .evaluation = {.method = CND_SPECULAR_CONIC, .errorBudget = 0.01f},
-                  .evaluationClass = EvaluationClass::Point},
-                 -1);
     progress.doing("timing kernels");
     const std::vector<VariantTime> times =
         timeVariants(context, plan.variants, plan.baseline, s.timing,
@@ -149,7 +144,6 @@ void addTimes(const VulkanContext& context, const KernelLevelSettings& s, Progre
     }
     out.formFactor = {difference(robust, loop), difference(naive, loop),
                       difference(naiveAbove, loop)};
-    out.pointBudgetNs = medianAboveNoise(rounds(asPoint));
 }
 
 } // namespace
@@ -301,8 +295,6 @@ Table timeTable(const KernelLevel& level)
                     threeDigits(form.robustNs), threeDigits(form.naiveNs)));
     table.note(fmt::format("form factor above the horizon: none; with acos and atan: {} ns",
                            threeDigits(form.naiveAboveNs)));
-    table.note(fmt::format("sphere as a point within an error budget: {} ns",
-                           threeDigits(level.pointBudgetNs)));
     table.note(pairedLegend());
     return table;
 }
@@ -355,7 +347,6 @@ Json kernelJson(const KernelLevelSettings& s, const KernelLevel& level)
              {{"robust", orNull(level.formFactor.robustNs)},
               {"naive", orNull(level.formFactor.naiveNs)},
               {"naiveAbove", orNull(level.formFactor.naiveAboveNs)}}},
-            {"asPointNs", orNull(level.pointBudgetNs)},
             {"points", points}};
 }
 

@@ -51,8 +51,6 @@ struct FormFactorTime {
 struct KernelLevel {
     std::vector<KernelPoint> points;
     FormFactorTime formFactor;
-    // Sphere evaluated as a point by an error budget; none if that is below the noise.
-    std::optional<double> pointBudgetNs;
     size_t unconvergedTruths = 0; // samples whose quadrature did not reach the tolerance
     size_t samples = 0;
 };

@@ -44,8 +44,8 @@ std::vector<gpu::BenchReceiver> receiversOf(const TimingSettings& s)
 }
 
 // Makes lights of one type for which a class is meant: spheres that cross the horizon (General),
-// lights that end 0.05 to 0.95 radii above it (Near), or lights that are higher (Above, Point, and
-// General of other types).
+// lights that end 0.05 to 0.95 radii above it (Near), or lights that are higher (Above, and General
+// of other types).
 std::vector<CndLight> lightsOf(uint32_t type, EvaluationClass c, const TimingSettings& s)
 {
     Random random(s.seed, 200 + uint64_t(type) * 8 + uint64_t(c));
@@ -111,7 +111,6 @@ public:
             {{gpu::SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
              {gpu::SPEC_SPECULAR_METHOD, v.evaluation.method.specular},
              {gpu::SPEC_LIGHT_TYPE, v.evaluation.lightType},
-             {gpu::SPEC_ERROR_BUDGET, v.evaluation.errorBudget > 0},
              {gpu::SPEC_BENCH_EVALUATION, uint32_t(v.evaluationClass)},
              {gpu::SPEC_BENCH_FORM_FACTOR, v.form},
              {gpu::SPEC_LTC_LOBES, ltcLobes(v.evaluation.method.rival)}});
@@ -125,8 +124,7 @@ public:
     {
         const gpu::BenchParams params{.count = settings_.lanes,
                                       .lightCount = lights,
-                                      .sampleCount = v.evaluation.sampleCount,
-                                      .errorBudget = v.evaluation.errorBudget};
+                                      .sampleCount = v.evaluation.sampleCount};
         context_.submitAndWait([&](VkCommandBuffer cmd) {
             const gpu::Frame frame{context_.device(), cmd, timer_, 0};
             timer_.begin(cmd, 0);
@@ -151,7 +149,7 @@ private:
 
 const char* className(EvaluationClass c)
 {
-    static constexpr const char* names[] = {"point", "above", "near", "general"};
+    static constexpr const char* names[] = {"above", "near", "general"};
     return names[uint32_t(c)];
 }
 

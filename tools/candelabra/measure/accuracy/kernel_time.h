@@ -13,7 +13,6 @@ namespace candelabra::app
 {
 
 enum class EvaluationClass : uint32_t {
-    Point = gpu::EVALUATE_POINT,
     Above = gpu::EVALUATE_ABOVE,
     Near = gpu::EVALUATE_NEAR,
     General = gpu::EVALUATE_GENERAL

@@ -69,7 +69,6 @@ void LtcFrame::add(uint32_t lightType, Rival rival, const std::vector<CndLight>&
                            {SPEC_SPECULAR_METHOD, options_.specular},
                            {SPEC_LIGHT_TYPE, lightType},
                            {SPEC_GBUFFER, gbuffer_.code()},
-                           {SPEC_ERROR_BUDGET, 0},
                            {SPEC_LTC_LOBES, ltcLobes(rival)}}},
                .bindings = {}};
     out.bindings = out.kernel.createBindings(1);

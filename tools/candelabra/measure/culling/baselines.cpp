@@ -61,7 +61,6 @@ Baselines::Kernels::Kernels(const gpu::Device& device)
              {gpu::SPEC_SPECULAR_METHOD, CND_SPECULAR_CONIC},
              {gpu::SPEC_LIGHT_TYPE, CND_LIGHT_SPHERE},
              {gpu::SPEC_GBUFFER, CND_GBUFFER_FULL},
-             {gpu::SPEC_ERROR_BUDGET, 0},
              {gpu::SPEC_BASELINE, baseline}});
     };
     for (uint32_t i : {gpu::BASELINE_OF_TILES, gpu::BASELINE_OF_FROXELS}) {

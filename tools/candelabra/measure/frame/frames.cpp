@@ -226,7 +226,6 @@ Json toJson(const FrameOptions& options, CndGBufferLayout layout)
             {"timeSeconds", options.time},
             {"specular", specularName(options.specular)},
             {"sampleCount", options.sampleCount},
-            {"errorBudget", options.errorBudget},
             {"influence", influenceName(options.influence.rule)},
             {"influenceError", options.influence.maxError},
             {"culling", cullingName(options.culling)},

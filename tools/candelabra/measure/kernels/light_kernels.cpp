@@ -132,7 +132,6 @@ LightEvaluator::LightEvaluator(const VulkanContext& context, const Evaluation& e
               {{gpu::SPEC_LIGHTS_AS_TEXELS, 0},
                {gpu::SPEC_SPECULAR_METHOD, evaluation.method.specular},
                {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
-               {gpu::SPEC_ERROR_BUDGET, evaluation.errorBudget > 0},
                {gpu::SPEC_LTC_LOBES, ltcLobes(evaluation.method.rival)}}),
       bindings_(kernel_.createBindings(1)),
       ltcTable_(uploadLtcTable(context.device()))
@@ -155,8 +154,7 @@ LightEvaluator::evaluateBatch(std::span<const gpu::BenchReceiver> receivers,
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Readback);
     writeBindings(bindings_, onDevice, in, result, isRival_ ? &ltcTable_ : nullptr);
     const gpu::BenchParams params{.count = uint32_t(receivers.size()),
-                                  .sampleCount = evaluation_.sampleCount,
-                                  .errorBudget = evaluation_.errorBudget};
+                                  .sampleCount = evaluation_.sampleCount};
     gpu::Timer timer(device, "bench", 1, false);
     context_.submitAndWait([&](VkCommandBuffer cmd) {
         timer.begin(cmd, 0);

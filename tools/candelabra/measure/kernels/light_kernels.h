@@ -21,7 +21,6 @@ namespace candelabra::app
 struct Evaluation {
     uint32_t lightType = CND_LIGHT_SPHERE;
     MeasuredMethod method = CND_SPECULAR_CONIC;
-    float errorBudget = 0;
     uint32_t sampleCount = 1024; // CND_SPECULAR_SAMPLED
 };
 

@@ -75,9 +75,8 @@ std::string variantOf(const PipelineRequest& request)
     };
     if (constants.contains("lightType")) {
         const uint32_t tileClass = value("tileClass");
-        return fmt::format("{} {}{}{}", lightTypeName(value("lightType")),
+        return fmt::format("{} {}{}", lightTypeName(value("lightType")),
                            specularName(CndSpecularMethod(value("specularMethod"))),
-                           value("errorBudget") ? ", error budget" : "",
                            tileClass == gpu::CLASS_DIFFUSE    ? ", diffuse lobe alone"
                            : tileClass == gpu::CLASS_SPECULAR ? ", specular lobe alone"
                                                               : "");

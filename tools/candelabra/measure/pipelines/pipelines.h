@@ -23,7 +23,7 @@ struct PipelineSettings {
 // does not tell is empty.
 struct PipelineCost {
     std::string kernel;  // "shade_tiles"
-    std::string variant; // "sphere conic, error budget", or the values of its constants
+    std::string variant; // "sphere conic, specular lobe alone", or the values of its constants
     std::string stage;   // "compute", "vertex" or "fragment"
     uint32_t subgroupSize = 0;
     std::optional<uint64_t> vectorRegisters;

@@ -45,10 +45,6 @@ const std::vector<Term> terms = {
      {"culling", "Culling"},
      "Finding, for every pixel, the few lights that can reach it, so that the others are not "
      "evaluated."},
-    {"error budget",
-     {"error budget", "budget", "Error budgets"},
-     "An error that the user allows, within which small lights are evaluated as points to save "
-     "time."},
     {"F = 1",
      {"F = 1", "F0"},
      "F is the share of light that a surface mirrors, and F0 that share seen straight ahead: 1 "

@@ -29,11 +29,9 @@ const char* placeText(EvaluationClass where)
     case EvaluationClass::Near:
         return "near the horizon of the surface";
     case EvaluationClass::General:
-        return "across the horizon of the surface";
-    case EvaluationClass::Point:
         break;
     }
-    return "that is a point";
+    return "across the horizon of the surface";
 }
 
 std::string slowestEvaluation(const KernelLevel& level)
@@ -152,19 +150,6 @@ std::string notFaster(const std::vector<CullingPoint>& points)
     return out;
 }
 
-std::string uselessBudgets(const BudgetSweep& sweep)
-{
-    std::vector<double> ratios;
-    for (const BudgetPoint& p : sweep.points)
-        if (p.budget > 0)
-            ratios.push_back(p.ratioToFull);
-    if (ratios.empty() || *std::min_element(ratios.begin(), ratios.end()) < 1)
-        return "";
-    return fmt::format("allowing an error (error budget) saves no time here: {} times as long as "
-                       "without",
-                       rangeOf(ratios));
-}
-
 std::string missedLimits(const std::vector<SkipRow>& rows)
 {
     size_t limits = 0;
@@ -201,10 +186,10 @@ std::string weaknessSentence(const WeakSideFacts& f)
     if (f.kernels.points.empty() && f.culling.empty() && f.skips.empty())
         return "Weak sides: none of the parts \"accuracy\", \"culling\" and \"skip\" was measured "
                "in this run.";
-    std::vector<std::string> weak{
-        slowestEvaluation(f.kernels), slowerImages(f.scenes),   dearerCulling(f.culling),
-        notFaster(f.culling),         largestErrors(f.kernels), worseImages(f.scenes),
-        uselessBudgets(f.budgets),    effortInVain(f.skips),    missedLimits(f.skips)};
+    std::vector<std::string> weak{slowestEvaluation(f.kernels), slowerImages(f.scenes),
+                                  dearerCulling(f.culling),     notFaster(f.culling),
+                                  largestErrors(f.kernels),     worseImages(f.scenes),
+                                  effortInVain(f.skips),        missedLimits(f.skips)};
     std::erase(weak, "");
     return weak.empty() ? "Weak sides: this run shows none."
                         : fmt::format("Weak sides: {}.", fmt::join(weak, "; "));

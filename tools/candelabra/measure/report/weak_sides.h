@@ -18,7 +18,6 @@ namespace candelabra::app
 struct WeakSideFacts {
     KernelLevel kernels;
     std::vector<ImageScene> scenes;
-    BudgetSweep budgets;
     std::vector<CullingPoint> culling;
     std::vector<SkipRow> skips;
 };

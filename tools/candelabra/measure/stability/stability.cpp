@@ -26,9 +26,6 @@ std::vector<Evaluation> evaluations(const StabilitySettings& s)
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         for (const CndSpecularMethod method : methodsOf(type))
             out.push_back({.lightType = type, .method = method, .sampleCount = s.sampleCount});
-    for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
-        if (lighting::takesBudget(type, CND_SPECULAR_CONIC))
-            out.push_back({.lightType = type, .method = CND_SPECULAR_CONIC, .errorBudget = 0.01f});
     const auto unwanted = [](const auto& wanted, auto value) {
         return !wanted.empty() && std::find(wanted.begin(), wanted.end(), value) == wanted.end();
     };
@@ -51,8 +48,7 @@ bool isClosedForm(const Evaluation& e)
 
 bool hasContinuity(const Evaluation& e)
 {
-    return (lighting::isSphere(e.lightType) || isClosedForm(e)) && hasQuadrature(e) &&
-           e.errorBudget == 0;
+    return (lighting::isSphere(e.lightType) || isClosedForm(e)) && hasQuadrature(e);
 }
 
 // The slices whose lights have a size and a position that float32 resolves.
@@ -213,7 +209,7 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
             for (ContinuityCheck& check :
                  checkContinuity(context, evaluation, settings.sweeps, settings.seed))
                 out.continuity.push_back(std::move(check));
-        if (isClosedForm(evaluation) && evaluation.errorBudget == 0)
+        if (isClosedForm(evaluation))
             out.smallLights.push_back(
                 checkSmallLights(context, evaluation, smallLightSamples, settings.seed));
     }
@@ -225,8 +221,7 @@ namespace
 
 std::string nameOf(const Evaluation& e)
 {
-    return fmt::format("{} {}{}", lightTypeName(e.lightType), methodName(e.method),
-                       e.errorBudget > 0 ? fmt::format(" budget {}", e.errorBudget) : "");
+    return fmt::format("{} {}", lightTypeName(e.lightType), methodName(e.method));
 }
 
 Table countTable(const Stability& stability)

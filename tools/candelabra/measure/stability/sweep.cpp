@@ -32,7 +32,6 @@ gpu::Kernel<gpu::SweepParams> makeKernel(const gpu::Device& device, const Evalua
             spirv,
             {{gpu::SPEC_SPECULAR_METHOD, evaluation.method.specular},
              {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
-             {gpu::SPEC_ERROR_BUDGET, evaluation.errorBudget > 0},
              {gpu::SPEC_SWEEP_RECORD, recording}}};
 }
 
@@ -105,8 +104,7 @@ SweepCount Sweep::count(uint32_t slice, uint32_t first, uint64_t configurations,
                   .slice = slice,
                   .seed = seed_,
                   .firstIndex = first + uint32_t(out.tried),
-                  .sampleCount = evaluation_.sampleCount,
-                  .errorBudget = evaluation_.errorBudget},
+                  .sampleCount = evaluation_.sampleCount},
                  bad_);
         const gpu::SweepCounters& c = counters_.as<gpu::SweepCounters>()[0];
         out.tried += lanes;
@@ -130,8 +128,7 @@ std::vector<gpu::SweepRecord> Sweep::record(uint32_t slice, uint32_t first, uint
               .slice = slice,
               .seed = seed_,
               .firstIndex = first,
-              .sampleCount = evaluation_.sampleCount,
-              .errorBudget = evaluation_.errorBudget},
+              .sampleCount = evaluation_.sampleCount},
              records);
     const auto values = records.as<gpu::SweepRecord>();
     return {values.begin(), values.begin() + configurations};
