@@ -62,14 +62,14 @@ VkDeviceSize workBytes(uint32_t lists, uint32_t items)
 } // namespace
 
 ClusterKernels::ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host,
-                               uint32_t gbuffer, uint32_t tileClasses)
+                               uint32_t gbuffer, bool findsDiffuse)
     : lanesTogether(!device.lanesAreCpuVector),
       lightTree(device, spirv::light_tree_comp,
                 {{gpu::SPEC_LIGHTS_AS_TEXELS, lightsAsTexels(device)},
                  {gpu::SPEC_LANES_TOGETHER, lanesTogether}}),
       tileClusters(device, host.used(spirv::tile_clusters_comp),
                    {{gpu::SPEC_GBUFFER, gbuffer},
-                    {gpu::SPEC_TILE_CLASSES, tileClasses},
+                    {gpu::SPEC_FINDS_DIFFUSE, findsDiffuse},
                     {gpu::SPEC_LANES_TOGETHER, lanesTogether}},
                    host.setLayout()),
       splitTiles(device, host.used(spirv::split_tiles_comp),

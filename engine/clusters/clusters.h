@@ -17,9 +17,9 @@ namespace candelabra::lighting
 {
 
 struct ClusterKernels {
-    // `gbuffer` and `tileClasses`: values of SPEC_GBUFFER and SPEC_TILE_CLASSES.
+    // `gbuffer` and `findsDiffuse`: values of SPEC_GBUFFER and SPEC_FINDS_DIFFUSE.
     ClusterKernels(const gpu::Device& device, const surfaces::HostKernels& host, uint32_t gbuffer,
-                   uint32_t tileClasses);
+                   bool findsDiffuse);
     bool lanesTogether; // value of SPEC_LANES_TOGETHER of all kernels
     gpu::Kernel<gpu::LightTreeParams> lightTree;
     gpu::Kernel<gpu::TileClustersParams> tileClusters, splitTiles;
@@ -38,7 +38,7 @@ constexpr VkDeviceSize workListAt(uint32_t list)
 {
     return list * sizeof(gpu::WorkList);
 }
-// The same in a buffer of tiles, for a height, such as gpu::ANY_HEIGHT, and a material class.
+// The same in a buffer of tiles, for a height, such as gpu::ANY_HEIGHT, and a class.
 constexpr VkDeviceSize tileWorkListAt(uint32_t height, uint32_t tileClass)
 {
     return workListAt(height * gpu::TILE_CLASSES + tileClass);

@@ -42,8 +42,6 @@ CndLightingDesc checked(const gpu::Device& device, CndLightingDesc desc)
     checkSpecularMethods("CndLightingDesc", desc.specularMethods);
     if (desc.influenceByError && desc.hostKernels.count)
         gpu::failArgument("CndLightingDesc: influenceByError cannot measure with hostKernels");
-    if (desc.materialClasses & ~uint32_t(CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY))
-        gpu::failArgument("CndLightingDesc: materialClasses has bits beyond CndMaterialClass");
     if (!desc.specularMethods)
         desc.specularMethods = 1u << CND_SPECULAR_CONIC;
     desc.shading = checkedShading("CndLightingDesc", desc.shading);

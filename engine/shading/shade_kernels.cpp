@@ -19,18 +19,14 @@ static_assert(std::size(spirv::shade_tiles_comp) == gpu::FAMILY_COUNT);
 // pixelOfLane() of shaders/lib/tile_pixels.glsl knows the pixels of such a tile only.
 static_assert(gpu::TILE_SIZE == 8);
 
-uint32_t tileClassesOf(const CndLightingDesc& desc)
+bool findsDiffuseTiles(const CndLightingDesc& desc)
 {
-    static_assert(CND_MATERIAL_DIFFUSE_ONLY << 1 == 1u << gpu::CLASS_DIFFUSE &&
-                  CND_MATERIAL_SPECULAR_ONLY << 1 == 1u << gpu::CLASS_SPECULAR);
     const bool weighsSpecular = desc.gbufferLayout == CND_GBUFFER_FULL ||
                                 desc.gbufferLayout == CND_GBUFFER_CUSTOM ||
                                 (desc.gbufferLayout == CND_GBUFFER_HOST &&
                                  desc.gbuffer.reflectance == CND_REFLECTANCE_SPECULAR &&
                                  desc.gbuffer.f90 != CND_CHANNEL_NONE);
-    const uint32_t stored =
-        desc.materialClasses & ~uint32_t(weighsSpecular ? 0 : CND_MATERIAL_DIFFUSE_ONLY);
-    return 1u << gpu::CLASS_ANY | stored << 1;
+    return desc.diffuseOnlyTiles && weighsSpecular;
 }
 
 uint32_t shadingOf(const CndLightingFrame& frame)
@@ -48,7 +44,7 @@ ShadeKernels::ShadeKernels(const gpu::Device& device, const surfaces::HostKernel
       host_(&host),
       gbuffer_(gbuffer),
       radianceFormat_(desc.radianceFormat),
-      tileClasses_(tileClassesOf(desc)),
+      findsDiffuse_(findsDiffuseTiles(desc)),
       measures_(desc.influenceByError)
 {
     add(desc.lightTypes | 1u << CND_LIGHT_SPHERE, desc.specularMethods, desc.shading);
@@ -141,14 +137,12 @@ void ShadeKernels::addJobs(std::vector<Job>& jobs, uint32_t lightType, CndSpecul
             want({lightType, method, Counts, tileClass});
     };
     const CndSpecularMethod method = canonicalMethod(lightType, asked);
-    for (const uint32_t tileClass : {gpu::CLASS_ANY, gpu::CLASS_SPECULAR})
-        if (tellsApart(tileClass))
-            addTiles(method, tileClass);
+    addTiles(method, gpu::CLASS_ANY);
     if (shading & CND_SHADING_BRUTE_BIT)
         want({lightType, method, Brute});
     if (measures_ && shading & CND_SHADING_CLUSTERED_BIT)
         want({lightType, method, Measure});
-    if (tellsApart(gpu::CLASS_DIFFUSE))
+    if (findsDiffuse_)
         addTiles(CND_SPECULAR_NONE, gpu::CLASS_DIFFUSE);
 }
 

@@ -17,10 +17,9 @@
 namespace candelabra::lighting
 {
 
-// Returns the material classes that tiles are divided into, as a mask of 1 << CLASS_*. CLASS_ANY is
-// always one of them. The others are those that the host asks for
-// (CndLightingDesc::materialClasses) and the layout of the G-buffer can store.
-uint32_t tileClassesOf(const CndLightingDesc& desc);
+// Tells whether tiles without a specular lobe are shaded apart: the host asks for it
+// (CndLightingDesc::diffuseOnlyTiles) and the layout of the G-buffer can store such surfaces.
+bool findsDiffuseTiles(const CndLightingDesc& desc);
 
 // Returns what a frame asks of pipelines, as a mask of CndShadingBits.
 uint32_t shadingOf(const CndLightingFrame& frame);
@@ -50,7 +49,7 @@ public:
     {
         return (allowed_[method].load() & shading) == shading;
     }
-    // The kernels for tiles of one material class.
+    // The kernels for tiles of one class.
     struct Tiles {
         // One per height of tiles, such as gpu::ANY_HEIGHT. Those below tileHeightsOf() exist.
         gpu::Kernel<gpu::ShadeTilesParams> shade[gpu::TILE_HEIGHTS];
@@ -65,10 +64,11 @@ public:
     };
     // These return kernels of a type that is present, for a frame that is allowed.
     const Variant& variant(uint32_t type, CndSpecularMethod method) const;
-    // `tileClass`: one for which tellsApart is true.
+    // `tileClass`: one of tileClasses().
     const Tiles& tiles(uint32_t type, CndSpecularMethod method, uint32_t tileClass) const;
-    // Tells whether tiles of this class have a work list and kernels of their own.
-    bool tellsApart(uint32_t tileClass) const { return tileClasses_ >> tileClass & 1; }
+    // Returns the number of classes that have a work list and kernels: CLASS_ANY has them, and
+    // CLASS_DIFFUSE may have them.
+    uint32_t tileClasses() const { return findsDiffuse_ ? gpu::TILE_CLASSES : 1; }
 
 private:
     // Pipelines that are made together. The value is their bit in Slot::made for CLASS_ANY; Lists
@@ -111,7 +111,7 @@ private:
     const surfaces::HostKernels* host_;
     uint32_t gbuffer_;
     VkFormat radianceFormat_;
-    uint32_t tileClasses_;
+    bool findsDiffuse_;
     bool measures_;
     std::mutex mutex_; // guards the list, and changes of the members after it
     std::list<Request> running_;

@@ -10,7 +10,7 @@ namespace candelabra::lighting
 Kernels::Kernels(const gpu::Device& device, const surfaces::HostKernels& host,
                  const CndLightingDesc& desc, uint32_t gbuffer, bool withIds)
     : prepareLights(device, spirv::prepare_lights_comp, {{gpu::PREPARE_LIGHTS_WITH_IDS, withIds}}),
-      clusters(device, host, gbuffer, tileClassesOf(desc)),
+      clusters(device, host, gbuffer, findsDiffuseTiles(desc)),
       shade(device, host, gbuffer, desc),
       influence(desc.influenceByError ? InfluenceKernels(device, desc.radianceFormat)
                                       : InfluenceKernels()),

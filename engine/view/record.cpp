@@ -15,15 +15,14 @@ namespace
 
 using gpu::divideUp;
 
-// Calls `record` for each material class of tiles, with its kernels and the class. No tile is on
+// Calls `record` for each class of tiles, with its kernels and the class. No tile is on
 // two work lists of a buffer, so the dispatches for these lists need no barriers between them.
 template <typename Record>
 void byClass(const ShadeKernels& kernels, const CndLightingFrame& frame, uint32_t type,
              Record&& record) noexcept
 {
-    for (uint32_t tileClass = 0; tileClass < gpu::TILE_CLASSES; ++tileClass)
-        if (kernels.tellsApart(tileClass))
-            record(kernels.tiles(type, frame.specularMethod, tileClass), tileClass);
+    for (uint32_t tileClass = 0; tileClass < kernels.tileClasses(); ++tileClass)
+        record(kernels.tiles(type, frame.specularMethod, tileClass), tileClass);
 }
 
 gpu::LightBatch allLights(const FramePlan& p, uint32_t type)

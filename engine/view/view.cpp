@@ -49,7 +49,7 @@ View::View(const Module& module, const CndLightingViewDesc& desc)
       timer_(module.device, "lighting", module.desc.framesInFlight, module.desc.timestamps),
       clusters_(module.device, module.kernels.clusters, module.recordings,
                 {.slots = module.desc.framesInFlight,
-                 .tileClasses = module.desc.materialClasses ? gpu::TILE_CLASSES : 1,
+                 .tileClasses = module.kernels.shade.tileClasses(),
                  .maxTiles = {tilesAlong(desc_.maxWidth), tilesAlong(desc_.maxHeight)},
                  .listBudget = desc_.listBudget}),
       uniforms_(module.device, module.desc.framesInFlight),
@@ -146,7 +146,6 @@ CndResult View::stats(uint32_t slot, CndLightingStats& out) const noexcept
     out.rejectedLights = c.rejectedLights;
     out.tileCount = surfaceTileCount(c);
     out.diffuseTileCount = c.surfaceTiles[gpu::CLASS_DIFFUSE];
-    out.specularTileCount = c.surfaceTiles[gpu::CLASS_SPECULAR];
     out.splitTileCount = clusters_.splitTileCount(c.splitTiles);
     out.listEntries = c.listEntries;
     out.maxListLength = c.maxListLength;

@@ -107,21 +107,21 @@ void makeByLane(FrameParams frame, uint tile)
     writeTile(frame, tile, cluster, highest, tileClass);
 }
 
-shared uint classesOfTiles[CLUSTERS_OF_GROUP];
+shared uint diffuseTiles[CLUSTERS_OF_GROUP]; // 1: no surface has a specular lobe
 
 // Finds the classes of the tiles. All lanes of the group must call it.
 void findClassesByRows(FrameParams frame, SamplesOfTile samples)
 {
-    classesOfTiles[clusterOfLane()] = CLASSES_TO_FIND;
+    diffuseTiles[clusterOfLane()] = 1u;
     barrier();
-    uint classes = CLASSES_TO_FIND;
-    for (uint x = 0u; x < TILE_SIZE && classes != 0u; ++x) {
+    bool diffuse = true;
+    for (uint x = 0u; x < TILE_SIZE && diffuse; ++x) {
         uvec2 pixel;
         float depth;
         if (takeSample(frame, samples, x, pixel, depth))
-            classes &= classesWith(pixel);
+            diffuse = isDiffuse(pixel);
     }
-    atomicAnd(classesOfTiles[clusterOfLane()], classes);
+    atomicAnd(diffuseTiles[clusterOfLane()], diffuse ? 1u : 0u);
     barrier();
 }
 
@@ -132,15 +132,14 @@ void makeByRows(FrameParams frame, uint group)
     const SamplesOfTile samples = SamplesOfTile(firstPixelOfTile(tileOfRow, frame.size.x),
                                                 tileOfRow < params.tileCount, 0u, UNSPLIT, 0u);
     findBoundsByRows(frame, tileOfRow, samples);
-    if (CLASSES_TO_FIND != 0u)
+    if (findsDiffuse)
         findClassesByRows(frame, samples);
     const uint lane = gl_LocalInvocationIndex, tile = group * CLUSTERS_OF_GROUP + lane;
     if (lane >= CLUSTERS_OF_GROUP || tile >= params.tileCount)
         return;
     uint highest;
     const Cluster cluster = boundsFound(frame, tile, lane, highest);
-    writeTile(frame, tile, cluster, highest,
-              CLASSES_TO_FIND != 0u ? classOf(classesOfTiles[lane]) : CLASS_ANY);
+    writeTile(frame, tile, cluster, highest, classOf(findsDiffuse && diffuseTiles[lane] != 0u));
 }
 
 void main()

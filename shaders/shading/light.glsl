@@ -7,7 +7,6 @@
 #include "lib/light_shape.glsl"
 #include "lib/specular/sampled.glsl"
 #include "shading/light_type.glsl"
-#include "shading/lobes_of_class.glsl"
 #include "shading/receiver.glsl"
 #ifdef CANDELABRA_VISIBILITY
 #include "lib/shadow_query.glsl"
@@ -62,7 +61,7 @@ uint lightSeed(Receiver r, uint light)
 // Returns the response of the diffuse lobe to a light with this form factor.
 vec3 diffuseResponse(ShadingPoint p, float formFactor)
 {
-    return HAS_DIFFUSE ? p.albedo * formFactor : vec3(0.0);
+    return p.albedo * formFactor;
 }
 
 // Returns the light scaled to a distance of about 1, and the scale. The response to an area light does

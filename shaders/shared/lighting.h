@@ -80,12 +80,11 @@ struct TreeShape {
 };
 GPU_SIZE(TreeShape, 12)
 
-// Classes of tiles by the lobe that all their surfaces lack. Each class has its own work list and
-// kernels. A class that the host did not request (CndLightingDesc::materialClasses) has no tiles.
+// Classes of tiles. Each has its own work list and kernels. If the host did not ask for
+// CLASS_DIFFUSE (CndLightingDesc::diffuseOnlyTiles), all tiles are of CLASS_ANY.
 const uint CLASS_ANY = 0u;
-const uint CLASS_DIFFUSE = 1u;  // no specular lobe
-const uint CLASS_SPECULAR = 2u; // no diffuse lobe
-const uint TILE_CLASSES = 3u;
+const uint CLASS_DIFFUSE = 1u; // no surface has a specular lobe
+const uint TILE_CLASSES = 2u;
 // Tiles are told apart by how high their spheres are. The height of a sphere at a sample is how far
 // its centre is above the sample's tangent plane, the horizon. A tile's height says what holds at
 // every sample of the tile, for every sphere whose light may reach the sample. Each height has a
@@ -117,7 +116,7 @@ struct LightingCounters {
     uvec2 insidePairs;
     uvec2 contributingPairs;
 };
-GPU_SIZE(LightingCounters, 76)
+GPU_SIZE(LightingCounters, 72)
 
 // --- prepare_lights: transforms lights to view space, one lane per light
 const uint PREPARE_LIGHTS_GROUP = 64u;
@@ -206,8 +205,8 @@ const uint SPEC_LIGHTS_AS_TEXELS = 0u; // 1: read core and list entries as texel
 const uint SPEC_SPECULAR_METHOD = 1u;  // SPECULAR_*
 const uint SPEC_LIGHT_TYPE = 2u;       // LIGHT_* of every light in the batch
 const uint SPEC_GBUFFER = 3u;          // layout of the G-buffer (shared/host_gbuffer.h)
-const uint SPEC_TILE_CLASS = 4u;   // CLASS_* of the tiles: which work list, which lobe is absent
-const uint SPEC_TILE_CLASSES = 5u; // tile_clusters: mask of 1 << CLASS_*, the classes to find
+const uint SPEC_TILE_CLASS = 4u;       // CLASS_* of the tiles: which work list
+const uint SPEC_FINDS_DIFFUSE = 5u;    // tile_clusters: 1: find the tiles of CLASS_DIFFUSE
 // Chooses the form of kernels that have two. 1: the lanes of a group share the work on one cluster,
 // node, tile, block or run of lights, for GPUs; 0: each lane has work of its own, for llvmpipe.
 const uint SPEC_LANES_TOGETHER = 6u;

@@ -398,7 +398,7 @@ CndLighting LightingTest::lightingFor(const RunOptions& options)
                                .specularMethods = 1u << options.specular,
                                .shading = CND_SHADING_CLUSTERED_BIT,
                                .gbuffer = options.gbuffer,
-                               .materialClasses = options.materialClasses,
+                               .diffuseOnlyTiles = options.diffuseOnlyTiles,
                                .hostKernels = options.hostKernels,
                                .influenceByError =
                                    options.influence.rule == CND_INFLUENCE_BY_ERROR};

@@ -101,7 +101,7 @@ struct RunOptions {
     CndHostKernels hostKernels{};
     VkDescriptorSet hostSet = VK_NULL_HANDLE;
     bool unchanged = false; // all frames but the first promise unchanged surfaces
-    uint32_t materialClasses = 0;
+    bool diffuseOnlyTiles = false;
     std::function<void()> beforeFrame = [] {};
     std::function<void(CndLightingFrame&)> withFrame = [](CndLightingFrame&) {};
 };

@@ -38,12 +38,12 @@ protected:
         LightingTest::TearDown();
     }
     // Creates a lighting for conic frames with light lists alone, which lives until the test ends.
-    void create(uint32_t materialClasses = 0, const CndHostKernels& hostKernels = {})
+    void create(bool diffuseOnlyTiles = false, const CndHostKernels& hostKernels = {})
     {
         auto created = Lighting::create(deviceDesc(), {.framesInFlight = 2,
                                                        .specularMethods = conic,
                                                        .shading = CND_SHADING_CLUSTERED_BIT,
-                                                       .materialClasses = materialClasses,
+                                                       .diffuseOnlyTiles = diffuseOnlyTiles,
                                                        .hostKernels = hostKernels});
         ASSERT_TRUE(created) << created.error().message;
         lighting_ = std::move(created.value());
@@ -125,7 +125,7 @@ TEST_F(AddedPipelines, LeaveTheDefaultMethodAsItWas)
 
 TEST_F(AddedPipelines, DrawTheBitsOfANewModule)
 {
-    create(CND_MATERIAL_DIFFUSE_ONLY);
+    create(true);
     std::vector<CndLight> lights = lightsOf(CND_LIGHT_SPOT, g_, 20, 7);
     ASSERT_TRUE(lighting_.setLights(lights, {0, 0, 0})); // a type that is new before a method is
     ASSERT_TRUE(lighting_.addPipelines(
@@ -136,7 +136,7 @@ TEST_F(AddedPipelines, DrawTheBitsOfANewModule)
         expectTheBitsOfANewModule(lights, {.specular = CND_SPECULAR_KARIS,
                                            .culling = culling,
                                            .countPairs = true,
-                                           .materialClasses = CND_MATERIAL_DIFFUSE_ONLY});
+                                           .diffuseOnlyTiles = true});
 }
 
 // One thread adds pipelines, another one records frames and sets lights of a type that is new.
@@ -225,7 +225,7 @@ TEST_F(AddedPipelines, ARefusedCallLeavesNoTraceForOthers)
          .specularMethods = conic | 1u << CND_SPECULAR_KARIS});
     ASSERT_TRUE(compiled) << compiled.error().message;
     const std::vector<CndKernelCode> kernels = kernelsOf(compiled.value(), "shade_brute");
-    create(0, {uint32_t(kernels.size()), kernels.data(), VK_NULL_HANDLE});
+    create(false, {uint32_t(kernels.size()), kernels.data(), VK_NULL_HANDLE});
 
     const auto brute = lighting_.addPipelines({.lightTypes = 1u << CND_LIGHT_TUBE,
                                                .specularMethods = conic,
@@ -270,7 +270,7 @@ float candelabraVisibility(CndShadowQuery q) { return shadows[0]; }
         kernels.push_back(code);
     const gpu::Bindings set(device(), "shadows", {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}},
                             VK_SHADER_STAGE_COMPUTE_BIT, 1);
-    create(0, {uint32_t(kernels.size()), kernels.data(), set.layout()});
+    create(false, {uint32_t(kernels.size()), kernels.data(), set.layout()});
     ASSERT_TRUE(lighting_.setLights(spheres_, {0, 0, 0}));
     const RunOptions plainFrame{.specular = CND_SPECULAR_CONIC};
     EXPECT_EQ(refusal(plainFrame), "");

@@ -11,7 +11,7 @@
 
 #include "candelabra_shaders.h"
 #include "clusters/clusters.h"
-#include "gpu/three_classes.h"
+#include "gpu/two_classes.h"
 #include "shared/clusters.h"
 #include "surfaces/frame_uniforms.h"
 #include "surfaces/host_gbuffer.h"
@@ -90,7 +90,7 @@ struct Kernels {
     Kernels(const gpu::Device& device, uint32_t gbuffer, bool together)
         : tile(device, spirv::tile_clusters_comp,
                {{gpu::SPEC_GBUFFER, gbuffer},
-                {gpu::SPEC_TILE_CLASSES, 1u << gpu::CLASS_DIFFUSE | 1u << gpu::CLASS_SPECULAR},
+                {gpu::SPEC_FINDS_DIFFUSE, true},
                 {gpu::SPEC_LANES_TOGETHER, together}}),
           split(device, spirv::split_tiles_comp,
                 {{gpu::SPEC_GBUFFER, gbuffer}, {gpu::SPEC_LANES_TOGETHER, together}}),
@@ -376,7 +376,7 @@ TEST_F(ClusterBoundsTest, GroupsAndLanesMakeTheSameWhereNothingIsSeen)
 
 TEST_F(ClusterBoundsTest, GroupsAndLanesFindTheSameClasses)
 {
-    compare(threeClasses(144, 96), 2);
+    compare(twoClasses(144, 96), 2);
 }
 
 TEST_F(ClusterBoundsTest, GroupsAndLanesMakeTheSameOfOrthographicFrames)

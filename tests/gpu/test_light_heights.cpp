@@ -123,14 +123,13 @@ TEST_F(LightingTest, SplitAndClassedTilesUnderHighLightsAreShadedAsOthers)
     struct Case {
         CpuGBuffer g;
         std::vector<CndLight> lights;
-        uint32_t materialClasses;
+        bool diffuseOnlyTiles;
     };
-    const Case cases[] = {{bumpyWall(144, 96, 0.3), spheresAbove(200, 1.5f), 0},
-                          {bumpyWall(144, 96, 0.3), spheresAbove(60),
-                           CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY},
-                          {stepped, spheresAbove(60), 0}};
+    const Case cases[] = {{bumpyWall(144, 96, 0.3), spheresAbove(200, 1.5f), false},
+                          {bumpyWall(144, 96, 0.3), spheresAbove(60), true},
+                          {stepped, spheresAbove(60), false}};
     for (const Case& c : cases) {
-        RunOptions options{.specular = CND_SPECULAR_CONIC, .materialClasses = c.materialClasses};
+        RunOptions options{.specular = CND_SPECULAR_CONIC, .diffuseOnlyTiles = c.diffuseOnlyTiles};
         const LightingResult clustered = run(c.g, c.lights, options);
         options.culling = CND_CULLING_BRUTE;
         EXPECT_TRUE(agree(clustered.radiance, run(c.g, c.lights, options).radiance)) << &c - cases;

@@ -266,7 +266,7 @@ TEST_F(LightingTest, EveryPipelineIsMadeWithoutValidationMessages)
         .framesInFlight = 1,
         .specularMethods = fullTests() ? gpu::ALL_SPECULAR_METHODS : 1u << CND_SPECULAR_CONIC,
         .shading = 0, // all of it
-        .materialClasses = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY,
+        .diffuseOnlyTiles = VK_TRUE,
         .lightTypes = fullTests() ? allTypes : 1u << CND_LIGHT_SPHERE | 1u << CND_LIGHT_TUBE,
         .influenceByError = VK_TRUE};
     CndLighting lighting{};

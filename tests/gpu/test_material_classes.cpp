@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles whose surfaces all lack a lobe are shaded without it, and must look the same.
+// Tiles without a specular lobe are shaded without it, and must look the same.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 
 #include "gpu/host_gbuffer_harness.h"
 #include "gpu/pixel_difference.h"
-#include "gpu/three_classes.h"
+#include "gpu/two_classes.h"
 #include "harness/full_tests.h"
 
 namespace candelabra::test
@@ -19,7 +19,6 @@ namespace
 // horizon, far outside of its narrow lobe, differs by a part of itself, as it does if its position
 // changes by an ulp, and what is compared is what the engine promises (LightingTest::agree).
 constexpr double classTolerance = 1e-5;
-constexpr uint32_t bothClasses = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
 
 // Converts surfaces to the COMPACT layout: base colour and metalness, normals with 12 bits per
 // component.
@@ -33,11 +32,8 @@ CpuGBuffer compact(CpuGBuffer g)
         const uint32_t roughness = uint32_t(std::lround(255 * storedRoughness(g, i)));
         const glm::uvec2 code = g.normalRoughness[i];
         g.normalRoughness[i] = {coordinate(code.x) | coordinate(code.y) << 12 | roughness << 24, 0};
-        const glm::dvec3 albedo = storedAlbedo(g, i);
-        const bool metal = albedo == glm::dvec3(0);
-        const glm::vec3 base(metal ? glm::dvec3(storedSpecular(g, i)) : albedo);
-        g.albedo[i] = {glm::packHalf2x16({base.r, base.g}),
-                       glm::packHalf2x16({base.b, metal ? 1.0f : 0.0f})};
+        const glm::vec3 base(storedAlbedo(g, i));
+        g.albedo[i] = {glm::packHalf2x16({base.r, base.g}), glm::packHalf2x16({base.b, 0})};
     }
     g.albedoFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
     return g;
@@ -105,7 +101,7 @@ class MaterialClasses : public HostGBufferTest, public ::testing::WithParamInter
 TEST_P(MaterialClasses, LookTheSame)
 {
     RunOptions options = GetParam().options;
-    CpuGBuffer g = threeClasses(72, 48);
+    CpuGBuffer g = twoClasses(72, 48);
     const std::vector<CndLight> lights = lightsOf(GetParam().lights, g, 40, 7);
     HostImages images;
     if (options.layout == CND_GBUFFER_HOST) {
@@ -116,45 +112,43 @@ TEST_P(MaterialClasses, LookTheSame)
         g = compact(std::move(g));
     options.countPairs = true;
     const LightingResult together = run(g, lights, options);
-    options.materialClasses = bothClasses;
+    options.diffuseOnlyTiles = true;
     const LightingResult apart = run(g, lights, options);
     const double difference = maxPixelDifference(apart.radiance, together.radiance);
     std::cout << GetParam().name << ": largest difference of a pixel " << difference << '\n';
     EXPECT_TRUE(device().lanesAreCpuVector ? difference <= classTolerance
                                            : agree(apart.radiance, together.radiance));
     EXPECT_GT(apart.stats.contributingPairs, 0u);
-    // Three columns of six tiles each, without the row that has other pixels; fewer if a tile has
-    // no surface.
+    // Three columns of six tiles, without the row that has other pixels; fewer if a tile has no
+    // surface.
     EXPECT_EQ(apart.stats.diffuseTileCount > 8, GetParam().diffuseClass);
     EXPECT_LE(apart.stats.diffuseTileCount, GetParam().diffuseClass ? 15u : 0u);
-    EXPECT_GT(apart.stats.specularTileCount, 8u);
-    EXPECT_LE(apart.stats.specularTileCount, 15u);
     EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);
 }
 
 INSTANTIATE_TEST_SUITE_P(In, MaterialClasses, ::testing::ValuesIn(cases),
                          [](const auto& test) { return test.param.name; });
 
-TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
+TEST_F(LightingTest, TilesWithoutASpecularLobeAreShadedWithoutIt)
 {
-    const CpuGBuffer g = threeClasses(144, 96);
+    const CpuGBuffer g = twoClasses(144, 96);
     std::vector<uint32_t> types = {CND_LIGHT_SPHERE, CND_LIGHT_TUBE, CND_LIGHT_DIRECTIONAL};
     if (fullTests())
         types.insert(types.end(), {CND_LIGHT_RECTANGLE, CND_LIGHT_DISC, CND_LIGHT_POINT,
                                    CND_LIGHT_SPOT, CND_LIGHT_DISTANT_SPHERE});
-    const auto create = [&](uint32_t classes) {
+    const auto create = [&](bool diffuseOnlyTiles) {
         const CndLightingDesc desc{.structSize = sizeof desc,
                                    .framesInFlight = 2,
                                    .shading =
                                        CND_SHADING_CLUSTERED_BIT | CND_SHADING_COUNT_PAIRS_BIT,
-                                   .materialClasses = classes};
+                                   .diffuseOnlyTiles = diffuseOnlyTiles};
         CndLighting lighting{};
         CndError error{};
         EXPECT_EQ(cndCreateLighting(&deviceDesc(), &desc, &lighting, &error), CND_SUCCESS)
             << error.message;
         return lighting;
     };
-    const CndLighting plain = create(0), classed = create(bothClasses);
+    const CndLighting plain = create(false), classed = create(true);
     const auto compare = [&](uint32_t type, RunOptions options) {
         const std::vector<CndLight> lights = lightsOf(CndLightType(type), g, 60, 5 + type);
         options.specular = CND_SPECULAR_CONIC;
@@ -169,13 +163,10 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
                                                : agree(apart.radiance, together.radiance))
             << type << ": " << difference;
         EXPECT_EQ(together.stats.diffuseTileCount, 0u);
-        EXPECT_EQ(together.stats.specularTileCount, 0u);
         EXPECT_EQ(apart.stats.tileCount, together.stats.tileCount);
-        // Six columns each in 12 rows, without the second row; fewer if a tile has no surface.
+        // Six columns in 12 rows, without the second row; fewer if a tile has no surface.
         EXPECT_GT(apart.stats.diffuseTileCount, 50u);
         EXPECT_LE(apart.stats.diffuseTileCount, 66u);
-        EXPECT_GT(apart.stats.specularTileCount, 50u);
-        EXPECT_LE(apart.stats.specularTileCount, 66u);
         EXPECT_EQ(apart.stats.unlistedClusters > 0, options.listBudget > 0);
         EXPECT_EQ(keptLists(apart.stats), options.unchanged);
         if (!options.listBudget) {
@@ -199,38 +190,15 @@ TEST_F(LightingTest, TilesThatLackALobeAreShadedWithoutIt)
 // with and without lists, as far as the driver compiles pipelines alike.
 TEST_F(LightingTest, ClassesAreAlikeWithoutRoomForLists)
 {
-    const CpuGBuffer g = threeClasses(144, 96);
+    const CpuGBuffer g = twoClasses(144, 96);
     const std::vector<CndLight> lights = randomSpheres(g, 200, 3);
-    RunOptions options{.specular = CND_SPECULAR_CONIC, .materialClasses = bothClasses};
+    RunOptions options{.specular = CND_SPECULAR_CONIC, .diffuseOnlyTiles = true};
     const LightingResult roomy = run(g, lights, options);
     options.listBudget = 8192;
     const LightingResult tight = run(g, lights, options);
     EXPECT_EQ(roomy.stats.unlistedClusters, 0u);
     EXPECT_GT(tight.stats.unlistedClusters, 0u);
     EXPECT_TRUE(agree(roomy.radiance, tight.radiance));
-}
-
-TEST_F(LightingTest, ClassesAreThoseAskedFor)
-{
-    const CpuGBuffer g = threeClasses(144, 96);
-    const std::vector<CndLight> lights = randomSpheres(g, 40, 3);
-    const auto stats = [&](uint32_t classes) {
-        return run(g, lights, {.materialClasses = classes}).stats;
-    };
-    const CndLightingStats diffuse = stats(CND_MATERIAL_DIFFUSE_ONLY);
-    const CndLightingStats specular = stats(CND_MATERIAL_SPECULAR_ONLY);
-    EXPECT_GT(diffuse.diffuseTileCount, 0u);
-    EXPECT_EQ(diffuse.specularTileCount, 0u);
-    EXPECT_EQ(specular.diffuseTileCount, 0u);
-    EXPECT_GT(specular.specularTileCount, 0u);
-
-    CndLighting lighting{};
-    CndError error{};
-    const CndLightingDesc wrong{
-        .structSize = sizeof wrong, .framesInFlight = 1, .materialClasses = 4};
-    EXPECT_EQ(cndCreateLighting(&deviceDesc(), &wrong, &lighting, &error),
-              CND_ERROR_INVALID_ARGUMENT);
-    EXPECT_NE(std::string(error.message).find("materialClasses"), std::string::npos);
 }
 
 } // namespace candelabra::test

@@ -31,13 +31,12 @@ std::string create(const CndDeviceDesc& device, uint32_t module)
 {
     constexpr uint32_t allTypes = (1u << CND_LIGHT_TYPE_COUNT) - 1;
     if (module == L) {
-        auto lighting = Lighting::create(
-            device, {.framesInFlight = 1,
-                     .specularMethods = gpu::ALL_SPECULAR_METHODS,
-                     .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT,
-                     .materialClasses = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY,
-                     .lightTypes = allTypes,
-                     .influenceByError = VK_TRUE});
+        auto lighting = Lighting::create(device, {.framesInFlight = 1,
+                                                  .specularMethods = gpu::ALL_SPECULAR_METHODS,
+                                                  .forwardStages = VK_SHADER_STAGE_FRAGMENT_BIT,
+                                                  .diffuseOnlyTiles = VK_TRUE,
+                                                  .lightTypes = allTypes,
+                                                  .influenceByError = VK_TRUE});
         return lighting ? "" : lighting.error().message;
     }
     if (module == E)

@@ -75,8 +75,8 @@ TEST(Pipelines, VariantsAreNamedByWhatTheyShade)
                                                   {"lightsAsTexels", 1}};
     EXPECT_EQ(variant("shade_tiles", shading), "sphere conic");
     auto changed = shading;
-    changed["tileClass"] = gpu::CLASS_SPECULAR;
-    EXPECT_EQ(variant("shade_tiles", changed), "sphere conic, specular lobe alone");
+    changed["tileClass"] = gpu::CLASS_DIFFUSE;
+    EXPECT_EQ(variant("shade_tiles", changed), "sphere conic, diffuse lobe alone");
     EXPECT_EQ(variant("tone_map", {{"curve", CND_TONEMAP_ACES}}), "aces");
     EXPECT_EQ(variant("mesh", {{"detailed", 1}, {"gbufferLayout", 0}}), "detailed 1");
 }

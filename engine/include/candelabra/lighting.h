@@ -109,13 +109,6 @@ typedef enum CndPixelClass {
     CND_PIXEL_CLASS_MAX_ENUM = 0x7FFFFFFF
 } CndPixelClass;
 
-// Materials that lack one of the two lobes (CndLightingDesc::materialClasses).
-typedef enum CndMaterialClass {
-    CND_MATERIAL_DIFFUSE_ONLY = 1,  // F0 and F90 are 0: no specular lobe
-    CND_MATERIAL_SPECULAR_ONLY = 2, // the diffuse albedo is 0, as for metals
-    CND_MATERIAL_CLASS_MAX_ENUM = 0x7FFFFFFF
-} CndMaterialClass;
-
 // What frames ask of pipelines besides a specular method and light types. Every frame asks for one
 // of the first two bits, to which the others add.
 typedef enum CndShadingBits {
@@ -158,13 +151,12 @@ typedef struct CndLightingDesc {
     // Stages (VK_SHADER_STAGE_VERTEX_BIT, _FRAGMENT_BIT, _COMPUTE_BIT) of the host's own shaders
     // that evaluate lights through cndGetForwardSet; 0: there are none.
     VkShaderStageFlags forwardStages;
-    // Mask of CndMaterialClass, 0: none. 8x8 pixel tiles in which all surfaces belong to the same
-    // class of this mask are shaded by pipelines without the missing lobe; the image differs by
-    // rounding only. Use it only for scenes that have such materials: inspecting the tiles takes
-    // time in every frame, and every class has pipelines of its own for every light type. Layouts
-    // that cannot store an F90 of 0 have no diffuse-only class. With hostKernels the diffuse-only
-    // class also needs the kernels of CND_SPECULAR_NONE.
-    uint32_t materialClasses;
+    // VK_TRUE: 8x8 pixel tiles in which no surface has a specular lobe (F0 and F90 are 0) are
+    // shaded by pipelines without it; the image differs by rounding only. Use it only for scenes
+    // that have such materials: inspecting the tiles takes time in every frame, and these pipelines
+    // are made for every light type. Layouts that cannot store an F90 of 0 have no such tiles. With
+    // hostKernels it also needs the kernels of CND_SPECULAR_NONE.
+    VkBool32 diffuseOnlyTiles;
     // Kernels with functions of the host. If there are any, they must include every kernel that
     // evaluates lights for the light types and methods in use; with CND_GBUFFER_CUSTOM they must
     // include every kernel in use that reads the G-buffer.
@@ -237,7 +229,7 @@ typedef struct CndLightingFrame {
     // because the error is judged on the sum.
     CndInfluence influence;
     // VK_TRUE promises that size, camera, clearDepth, depth and normals are those of the previous
-    // frame recorded with this view, and with materialClasses also albedo and specular. The
+    // frame recorded with this view, and with diffuseOnlyTiles also albedo and specular. The
     // clusters and lists of that frame are then reused if the light set, layers, specularMethod,
     // sampleCount and influence.rule are the same as well and both frames use
     // CND_CULLING_CLUSTERED. With CND_INFLUENCE_BY_ERROR they are never reused.
@@ -314,8 +306,9 @@ typedef struct CndLightingStats {
     uint32_t tileCount; // 8x8 pixel tiles that contain a surface; 0 if no light is in view
     // How many of tileCount are deep: they are split in slices of depth with a list each.
     uint32_t splitTileCount;
-    // How many of tileCount contain one CndMaterialClass only (CndLightingDesc::materialClasses).
-    uint32_t diffuseTileCount, specularTileCount;
+    // How many of tileCount have no surface with a specular lobe
+    // (CndLightingDesc::diffuseOnlyTiles).
+    uint32_t diffuseTileCount;
     uint32_t listEntries;   // sum of the lengths of all lists
     uint32_t maxListLength; // length of the longest list of one cluster and light type
     // Clusters without a list, summed over light types: their list exceeds the list budget, or has

@@ -5,10 +5,11 @@
 #define CND_COMMON_TILE_OF_GROUP
 
 #include "shared/clusters.h"
-#include "shading/lobes_of_class.glsl"
+#include "shared/lighting.h"
 #include "lib/tile_pixels.glsl"
 #include "lib/projection.glsl"
 
+layout(constant_id = SPEC_TILE_CLASS) const uint tileClass = CLASS_ANY;
 layout(scalar, binding = SHADE_TILES) readonly buffer Tiles
 {
     TileClusters tiles[];

@@ -49,7 +49,7 @@ uint32_t methodsOf(const std::string& text)
 
 int pipelines(const ProgramContext& program, const PipelineArguments& a)
 {
-    PipelineSettings settings{.device = a.device, .materialClasses = !a.noClasses};
+    PipelineSettings settings{.device = a.device, .diffuseOnlyTiles = !a.noClasses};
     if (!a.kernels.empty())
         settings.kernels = splitAtCommas(a.kernels);
     if (!a.types.empty())
@@ -86,7 +86,7 @@ void addBenchPipelines(CLI::App& bench, Run& run)
     add("--methods", a->methods, "kernels that shade: compile them for these methods only",
         "NAME,...");
     command->add_flag("--no-classes", a->noClasses,
-                      "leave out the kernels for tiles whose surfaces all lack one lobe");
+                      "leave out the kernels for tiles without a specular lobe");
     add("--device", a->device,
         "Vulkan device by its index or a part of its name; it needs not be able to draw",
         "INDEX|NAME");

@@ -78,7 +78,7 @@ CndLightingDesc lightingDesc(const Scene& scene, const RendererOptions& o)
             .timestamps = VK_TRUE,
             .specularMethods = o.specularMethods,
             .shading = o.shading,
-            .materialClasses = materialClasses(scene, materialsOf(scene, o)),
+            .diffuseOnlyTiles = hasDiffuseOnlySurfaces(scene, materialsOf(scene, o)),
             .lightTypes = o.lightTypes ? *o.lightTypes : lightTypesOf(scene),
             .influenceByError = o.influenceByError};
 }

@@ -46,9 +46,8 @@ glm::vec3 meanOfSrgb(const Texture& texture)
     return glm::vec3(sum / (static_cast<double>(texture.rgba.size()) / 4));
 }
 
-uint32_t materialClasses(const Scene& scene, const std::vector<Material>& materials)
+bool hasDiffuseOnlySurfaces(const Scene& scene, const std::vector<Material>& materials)
 {
-    uint32_t out = 0;
     std::vector<bool> used(materials.size());
     for (const Instance& instance : scene.instances)
         used[instance.material] = true;
@@ -58,14 +57,10 @@ uint32_t materialClasses(const Scene& scene, const std::vector<Material>& materi
         const Material& m = materials[i];
         if (!used[i] || m.unlit)
             continue;
-        // Textures can only lower metalness and base colour. Some texel may leave them as they are,
-        // so the factors alone decide.
-        if (m.metalness == 1 || m.diffuseWeight == 0 || m.baseColor == glm::vec3(0))
-            out |= CND_MATERIAL_SPECULAR_ONLY;
         if (m.specularWeight == 0 && m.dielectricF0 == glm::vec3(0) && m.metalness == 0)
-            out |= CND_MATERIAL_DIFFUSE_ONLY;
+            return true;
     }
-    return out;
+    return false;
 }
 
 Bounds sceneBounds(const Scene& scene)

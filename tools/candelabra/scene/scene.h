@@ -185,9 +185,9 @@ struct Bounds {
 // Axis-aligned bounds of all instances, without analytic objects. {0,0} if there are no instances.
 Bounds sceneBounds(const Scene& scene);
 
-// The mask of CndMaterialClass for all materials in use: which of the two lobes some surface may
-// lack. `materials`: those of the scene, or as many others in their place.
-uint32_t materialClasses(const Scene& scene, const std::vector<Material>& materials);
+// Tells whether some surface has no specular lobe. `materials`: those of the scene, or as many
+// others in their place.
+bool hasDiffuseOnlySurfaces(const Scene& scene, const std::vector<Material>& materials);
 
 // Returns a light of the scene at the place where it is at `time` seconds.
 CndLight lightAtTime(const Scene& scene, size_t light, double time);

@@ -77,9 +77,7 @@ std::string variantOf(const PipelineRequest& request)
         const uint32_t tileClass = value("tileClass");
         return fmt::format("{} {}{}", lightTypeName(value("lightType")),
                            specularName(CndSpecularMethod(value("specularMethod"))),
-                           tileClass == gpu::CLASS_DIFFUSE    ? ", diffuse lobe alone"
-                           : tileClass == gpu::CLASS_SPECULAR ? ", specular lobe alone"
-                                                              : "");
+                           tileClass == gpu::CLASS_DIFFUSE ? ", diffuse lobe alone" : "");
     }
     if (request.kernel == "tone_map")
         return toneMapName(CndToneMap(value("curve")));
@@ -103,7 +101,7 @@ bool isWanted(const PipelineSettings& settings, const PipelineRequest& request)
     const auto& kernels = settings.kernels;
     return (kernels.empty() || std::count(kernels.begin(), kernels.end(), request.kernel)) &&
            allowed("lightType", settings.lightTypes) &&
-           (settings.materialClasses || allowed("tileClass", 1u << gpu::CLASS_ANY));
+           (settings.diffuseOnlyTiles || allowed("tileClass", 1u << gpu::CLASS_ANY));
 }
 
 std::string cell(const std::optional<uint64_t>& value)
@@ -141,11 +139,10 @@ std::vector<PipelineCost> measurePipelines(const PipelineSettings& settings, Dev
     lightsAtTime(showcase, 0, lights);
     std::erase_if(lights,
                   [&](const CndLight& light) { return !(settings.lightTypes >> light.type & 1); });
-    const uint32_t classes = CND_MATERIAL_DIFFUSE_ONLY | CND_MATERIAL_SPECULAR_ONLY;
     Lighting lighting = take(Lighting::create(
         device.desc(), {.framesInFlight = 1,
                         .specularMethods = settings.methods & gpu::ALL_SPECULAR_METHODS,
-                        .materialClasses = classes,
+                        .diffuseOnlyTiles = VK_TRUE,
                         .influenceByError = VK_TRUE}));
     take(lighting.setLights(lights, {0, 0, 0}));
     take(Environment::create(device.desc(), {.framesInFlight = 1}));

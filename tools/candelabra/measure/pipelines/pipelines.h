@@ -16,14 +16,14 @@ struct PipelineSettings {
     std::vector<std::string> kernels; // those to compile; all if it is empty
     uint32_t lightTypes = ~0u;        // mask of 1 << CndLightType
     uint32_t methods = ~0u;           // mask of 1 << CndSpecularMethod
-    bool materialClasses = true;      // also the kernels for tiles without one of the lobes
+    bool diffuseOnlyTiles = true;     // also the kernels for tiles without a specular lobe
 };
 
 // The measures that drivers tell under different names, by one name each. A measure that the driver
 // does not tell is empty.
 struct PipelineCost {
     std::string kernel;  // "shade_tiles"
-    std::string variant; // "sphere conic, specular lobe alone", or the values of its constants
+    std::string variant; // "sphere none, diffuse lobe alone", or the values of its constants
     std::string stage;   // "compute", "vertex" or "fragment"
     uint32_t subgroupSize = 0;
     std::optional<uint64_t> vectorRegisters;
