@@ -180,21 +180,6 @@ TEST_F(SweepShapes, BoundsAreAboveTheTruth)
     }
 }
 
-// A light as small as 0.3% of the lobe's width is a point. The rim of a disc is replaced by arcs,
-// whose area is not quite the disc's if it is seen from the side.
-TEST_F(SweepShapes, SmallLightsArePoints)
-{
-    for (const uint32_t type : areaLightTypes())
-        if (lighting::canonicalMethod(type, CND_SPECULAR_CONIC) == CND_SPECULAR_CONIC) {
-            const SmallLightCheck check = checkSmallLights(
-                context(), {.lightType = type, .method = CND_SPECULAR_CONIC}, 20'000, 1);
-            std::cout << lightTypeName(type) << ": relative error median " << check.median
-                      << ", p99 " << check.p99 << ", max " << check.max << "\n";
-            EXPECT_LE(check.max, type == CND_LIGHT_DISC ? 0.01 : 3e-4)
-                << lightTypeName(type) << ": " << check.worst;
-        }
-}
-
 // The responses follow from the seed, and almost all of them move, by little.
 TEST_F(SweepInexactDivision, MovesResponsesByRounding)
 {

@@ -141,8 +141,6 @@ QuadratureCheck checkQuadrature(Sweep& sweep, const Evaluation& evaluation, uint
     return out;
 }
 
-constexpr uint32_t smallLightSamples = 20'000;
-
 // In the progress bar a quadrature counts as many steps as so many configurations.
 constexpr double stepsPerTruth = 2000;
 
@@ -209,9 +207,6 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
             for (ContinuityCheck& check :
                  checkContinuity(context, evaluation, settings.sweeps, settings.seed))
                 out.continuity.push_back(std::move(check));
-        if (isClosedForm(evaluation))
-            out.smallLights.push_back(
-                checkSmallLights(context, evaluation, smallLightSamples, settings.seed));
     }
     return out;
 }
@@ -287,20 +282,6 @@ Table continuityTable(const Stability& stability)
     return table;
 }
 
-Table smallLightTable(const Stability& stability)
-{
-    Table table({{"light, method", "", "The type of the light, and the method that evaluates it."},
-                 {"samples", "", "How many lights were tried."},
-                 {"median", "", "The median relative error."},
-                 {"p99", "", "The error that 99% of the lights do not exceed."},
-                 {"max", "", "The largest error."}},
-                "Small lights against points, relative error");
-    for (const SmallLightCheck& c : stability.smallLights)
-        table.add({nameOf(c.evaluation), grouped(c.samples), threeDigits(c.median),
-                   threeDigits(c.p99), threeDigits(c.max)});
-    return table;
-}
-
 // A sentence about every kind of input with invalid responses.
 void noteBadResponses(const Stability& stability, Table& table)
 {
@@ -330,8 +311,6 @@ std::vector<Table> stabilityTables(const Stability& stability)
     std::vector<Table> out{countTable(stability), quadratureTable(stability)};
     noteBadResponses(stability, out[0]);
     noteOverBar(stability, out[1]);
-    if (!stability.smallLights.empty())
-        out.push_back(smallLightTable(stability));
     return out;
 }
 
@@ -343,8 +322,7 @@ std::vector<Table> stabilityDetails(const Stability& stability)
 
 Json stabilityJson(const StabilitySettings& settings, const Stability& stability)
 {
-    Json slices = Json::array(), quadrature = Json::array(), continuity = Json::array(),
-         smallLights = Json::array();
+    Json slices = Json::array(), quadrature = Json::array(), continuity = Json::array();
     for (const SweptSlice& s : stability.slices) {
         Json bad = Json::array();
         for (const gpu::SweepRecord& r : s.count.bad)
@@ -373,21 +351,13 @@ Json stabilityJson(const StabilitySettings& settings, const Stability& stability
                               {"through", c.through},
                               {"jumpOverPeak", c.jump},
                               {"worst", c.worst}});
-    for (const SmallLightCheck& c : stability.smallLights)
-        smallLights.push_back({{"evaluation", nameOf(c.evaluation)},
-                               {"samples", c.samples},
-                               {"median", c.median},
-                               {"p99", c.p99},
-                               {"max", c.max},
-                               {"worst", c.worst}});
     return {{"seed", settings.seed},
             {"inexactDivision", settings.inexactDivision},
             {"configurations", stability.tried()},
             {"invalid", stability.invalid()},
             {"slices", slices},
             {"formulaAgainstQuadrature", quadrature},
-            {"continuity", continuity},
-            {"smallLights", smallLights}};
+            {"continuity", continuity}};
 }
 
 } // namespace candelabra::app

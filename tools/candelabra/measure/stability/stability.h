@@ -69,20 +69,10 @@ struct ContinuityCheck {
     std::string worst;
 };
 
-// The errors of a closed form for lights so small that they are points: lights whose size is at
-// most 0.3% of the lobe's width. They are relative to a point light with their solid angle.
-struct SmallLightCheck {
-    Evaluation evaluation;
-    size_t samples = 0;
-    double median = 0, p99 = 0, max = 0;
-    std::string worst;
-};
-
 struct Stability {
     std::vector<SweptSlice> slices;
     std::vector<QuadratureCheck> quadrature;
     std::vector<ContinuityCheck> continuity;
-    std::vector<SmallLightCheck> smallLights;
 
     uint64_t tried() const;
     uint64_t invalid() const;
@@ -96,9 +86,6 @@ Stability measureStability(const VulkanContext& context, const StabilitySettings
 std::vector<ContinuityCheck> checkContinuity(const VulkanContext& context,
                                              const Evaluation& evaluation, uint32_t sweeps,
                                              uint64_t seed);
-
-SmallLightCheck checkSmallLights(const VulkanContext& context, const Evaluation& evaluation,
-                                 uint32_t samples, uint64_t seed);
 
 std::vector<Table> stabilityTables(const Stability& stability);
 // The table of jumps, which is long; none if continuity was not checked.
