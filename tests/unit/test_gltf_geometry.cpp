@@ -215,6 +215,24 @@ TEST_F(GltfGeometry, VertexColoursOutsideTheRangeAreClamped)
     EXPECT_TRUE(warns(scene, "1 vertex colours are not between 0 and 1 and are clamped"));
 }
 
+TEST_F(GltfGeometry, PointsAndLinesAreLeftOutAndCounted)
+{
+    GltfBuilder b = triangleScene();
+    Json& primitives = b.json["meshes"][0]["primitives"];
+    const Json triangle = primitives[0];
+    for (const int mode : {0, 1, 2, 3}) // 3 points; 1, 3 and 2 lines
+        primitives.push_back({{"mode", mode}, {"attributes", triangle["attributes"]}});
+    const Scene scene = load(b);
+    EXPECT_EQ(scene.instances.size(), 1u);
+    EXPECT_TRUE(warns(scene, "has 3 points and 6 lines, which are not drawn"));
+    primitives = Json::array({triangle, {{"mode", 1}, {"attributes", triangle["attributes"]}}});
+    EXPECT_TRUE(warns(load(b), "has 1 line, which is not drawn"));
+    primitives.erase(0);
+    EXPECT_NE(error(b).find("scene.gltf: has only points and lines, which are not drawn"),
+              std::string::npos)
+        << error(b);
+}
+
 } // namespace
 
 } // namespace candelabra::test

@@ -16,7 +16,6 @@
 #include "gltf/mesh.h"
 #include "gltf/nodes.h"
 #include "gltf/pose.h"
-#include "gltf/wires.h"
 #include "scene/light_placement.h"
 #include "scene/scene_error.h"
 #include "scene/scene_file.h"
@@ -31,6 +30,11 @@ namespace
 // all primitives of a mesh.
 constexpr size_t maxInstances = size_t{1} << 22;
 
+bool hasTriangles(const tinygltf::Primitive& primitive)
+{
+    return primitive.mode >= TINYGLTF_MODE_TRIANGLES;
+}
+
 class SceneBuilder
 {
 public:
@@ -39,8 +43,7 @@ public:
           options_(options),
           scene_(scene),
           defaultMaterial_(readGltfMaterials(document, scene)),
-          poses_(document),
-          wires_(document, scene, budget_)
+          poses_(document)
     {
     }
 
@@ -53,11 +56,12 @@ private:
     void addMesh(const GltfPlacedNode& placed);
     void addInstance(const std::string& element, size_t gltfMesh, const GltfPose& pose,
                      glm::dmat4 worldFromMesh);
-    void addWire(size_t gltfMesh, size_t primitive, const GltfPose& pose,
-                 const glm::dmat4& worldFromMesh);
     // Calls `add`. If it fails, warns that `what` is left out, unless the scene is too large.
     template <typename Add>
     void addOrLeaveOut(const char* what, const Add& add);
+    // Counts the points or lines of a primitive that consists of them, and not of triangles.
+    void countLeftOut(const tinygltf::Primitive& primitive);
+    void warnOfLeftOut() const;
     void addCamera(const GltfPlacedNode& placed);
     void requireRoom(const std::string& element) const;
     // The index in scene.meshes of a primitive in a pose. It is read when it is first asked for.
@@ -76,9 +80,8 @@ private:
     GltfMeshBudget budget_;
     GltfPoses poses_;
     std::map<std::tuple<size_t, size_t, int64_t, bool>, int64_t> meshes_;
-    // Points and lines by mesh, primitive and owner of the pose; nothing if they cannot be drawn.
-    std::map<std::tuple<size_t, size_t, int64_t>, std::optional<GltfWire>> readWires_;
-    GltfWires wires_;
+    size_t points_ = 0, lines_ = 0; // left out, of all instances
+    bool foundTriangles_ = false;
     GltfLights lights_;
     GltfEmissiveRectangles emissive_;
 };
@@ -155,13 +158,11 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, cons
                                glm::dmat4 worldFromMesh)
 {
     const auto& primitives = document_.model.meshes[gltfMesh].primitives;
-    for (size_t p = 0; p < primitives.size(); ++p)
-        if (isGltfWire(primitives[p])) {
-            requireRoom(element);
-            addWire(gltfMesh, p, pose, worldFromMesh);
-        }
-    if (std::all_of(primitives.begin(), primitives.end(), isGltfWire))
+    for (const tinygltf::Primitive& primitive : primitives)
+        countLeftOut(primitive);
+    if (std::none_of(primitives.begin(), primitives.end(), hasTriangles))
         return;
+    foundTriangles_ = true;
     const double determinant = glm::determinant(glm::dmat3(worldFromMesh));
     if (determinant == 0 || !std::isfinite(1 / determinant)) {
         document_.warn(element,
@@ -175,7 +176,7 @@ void SceneBuilder::addInstance(const std::string& element, size_t gltfMesh, cons
     if (mirrored)
         worldFromMesh[0] = -worldFromMesh[0];
     for (size_t p = 0; p < primitives.size(); ++p) {
-        if (isGltfWire(primitives[p]))
+        if (!hasTriangles(primitives[p]))
             continue;
         const int64_t index = mesh(gltfMesh, p, pose, mirrored);
         if (index == noMesh)
@@ -197,16 +198,38 @@ void SceneBuilder::requireRoom(const std::string& element) const
                                             " mesh instances");
 }
 
-void SceneBuilder::addWire(size_t gltfMesh, size_t primitive, const GltfPose& pose,
-                           const glm::dmat4& worldFromMesh)
+void SceneBuilder::countLeftOut(const tinygltf::Primitive& primitive)
 {
-    const auto [found, isNew] =
-        readWires_.try_emplace(std::make_tuple(gltfMesh, primitive, pose.owner));
-    if (isNew)
-        found->second = readGltfWire(document_, gltfMesh, primitive, pose, budget_);
-    if (found->second)
-        wires_.add(gltfPrimitive(gltfMesh, primitive), *found->second, worldFromMesh,
-                   material(document_.model.meshes[gltfMesh].primitives[primitive]));
+    if (hasTriangles(primitive))
+        return;
+    const auto positions = primitive.attributes.find("POSITION");
+    const int accessor = primitive.indices >= 0                    ? primitive.indices
+                         : positions != primitive.attributes.end() ? positions->second
+                                                                   : -1;
+    const size_t n =
+        accessor < 0 ? 0 : document_.model.accessors[static_cast<size_t>(accessor)].count;
+    if (primitive.mode == TINYGLTF_MODE_POINTS)
+        points_ += n;
+    else if (n >= 2)
+        lines_ += primitive.mode == TINYGLTF_MODE_LINE        ? n / 2
+                  : primitive.mode == TINYGLTF_MODE_LINE_LOOP ? n
+                                                              : n - 1;
+}
+
+void SceneBuilder::warnOfLeftOut() const
+{
+    if (points_ == 0 && lines_ == 0)
+        return;
+    if (!foundTriangles_ && lights_.lights.empty() && document_.missingExtensions.empty())
+        document_.fail("", "has only points and lines, which are not drawn");
+    const auto counted = [](size_t count, const char* noun) {
+        return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+    };
+    std::string what = points_ ? counted(points_, "point") : "";
+    if (lines_)
+        what += (what.empty() ? "" : " and ") + counted(lines_, "line");
+    document_.warn("", "has " + what + (points_ + lines_ == 1 ? ", which is" : ", which are") +
+                           " not drawn");
 }
 
 // Adds the camera of a node. glTF cameras look along the node's -z axis, and +y is up; the node's
@@ -262,9 +285,9 @@ void SceneBuilder::addCamera(const GltfPlacedNode& placed)
 
 void SceneBuilder::finish()
 {
-    wires_.finish();
     if (document_.lostMesh && scene_.instances.empty() && !document_.model.meshes.empty())
         throw *document_.lostMesh;
+    warnOfLeftOut();
     emissive_.warn(document_);
     scene_.lights = std::move(lights_.lights);
     placeLights(scene_, lights_.positions);

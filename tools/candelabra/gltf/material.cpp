@@ -402,6 +402,30 @@ void MaterialReader::readSpecularGlossiness(const nlohmann::json& extension, Mat
     material.diffuseWeight = 1 - std::max({F0.x, F0.y, F0.z});
 }
 
+// Fails if an emission of the material `index` of the document is not finite.
+void requireFiniteEmission(const GltfDocument& document, size_t index, const Material& material)
+{
+    for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(material.emission[i]))
+            document.fail(gltfElement("materials", index),
+                          "emits more than single precision holds");
+}
+
+// Turns the surface into one that emits light of a colour, where 1 is white, and that lights add
+// nothing to. Its texture of the base colour remains.
+void makeUnlit(Material& material, const glm::vec3& color)
+{
+    material.unlit = true;
+    material.emission = color * unlitLuminance;
+    material.baseColor = glm::vec3(0);
+    material.dielectricF0 = glm::vec3(0);
+    material.specularWeight = 0;
+    material.metalness = 0;
+    material.metallicRoughnessTexture = TextureRef{};
+    material.normalTexture = TextureRef{};
+    material.emissiveTexture = TextureRef{};
+}
+
 Material MaterialReader::read(size_t index)
 {
     element_ = gltfElement("materials", index);
@@ -429,27 +453,6 @@ bool isGltfAlphaUsed(const GltfDocument& document, int material)
 {
     return material >= 0 && alphaModeOf(document.model.materials[static_cast<size_t>(material)]) !=
                                 AlphaMode::Opaque;
-}
-
-void requireFiniteEmission(const GltfDocument& document, size_t index, const Material& material)
-{
-    for (int i = 0; i < 3; ++i)
-        if (!std::isfinite(material.emission[i]))
-            document.fail(gltfElement("materials", index),
-                          "emits more than single precision holds");
-}
-
-void makeUnlit(Material& material, const glm::vec3& color)
-{
-    material.unlit = true;
-    material.emission = color * unlitLuminance;
-    material.baseColor = glm::vec3(0);
-    material.dielectricF0 = glm::vec3(0);
-    material.specularWeight = 0;
-    material.metalness = 0;
-    material.metallicRoughnessTexture = TextureRef{};
-    material.normalTexture = TextureRef{};
-    material.emissiveTexture = TextureRef{};
 }
 
 uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene)

@@ -20,11 +20,4 @@ uint32_t readGltfMaterials(const GltfDocument& document, Scene& scene);
 // which is opaque.
 bool isGltfAlphaUsed(const GltfDocument& document, int material);
 
-// Fails if an emission of the material `index` of the document is not finite.
-void requireFiniteEmission(const GltfDocument& document, size_t index, const Material& material);
-
-// Turns the surface into one that emits light of a colour, where 1 is white, and that lights add
-// nothing to. Its texture of the base colour remains.
-void makeUnlit(Material& material, const glm::vec3& color);
-
 } // namespace candelabra::app

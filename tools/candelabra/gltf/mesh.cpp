@@ -33,6 +33,17 @@ glm::vec3 normalizedOr(const glm::dvec3& v, const glm::vec3& otherwise)
     return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : otherwise;
 }
 
+// Returns some unit tangent that is perpendicular to the unit normal.
+glm::vec4 anyTangent(const glm::vec3& normal)
+{
+    // With the axis that is least aligned with the normal, the cross product is far from zero.
+    const glm::vec3 a = glm::abs(normal);
+    const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
+                           : a.y <= a.z             ? glm::vec3(0, 1, 0)
+                                                    : glm::vec3(0, 0, 1);
+    return glm::vec4(glm::normalize(glm::cross(axis, normal)), 1);
+}
+
 struct UvGradient {
     glm::dvec3 tangent{0}; // points to where u grows; its length is proportional to the area
     bool mirrored = false; // the texture is seen from its back
@@ -164,7 +175,6 @@ public:
     }
 
     std::optional<Mesh> read(const Material& material);
-    std::optional<GltfWire> readWire();
 
 private:
     // Finds out how many vertices there are. Returns false, with a warning, if there are none.
@@ -173,13 +183,10 @@ private:
                                           int maxComponents) const;
     std::vector<uint32_t> readIndices(size_t vertexCount) const;
     std::vector<uint32_t> triangles(const std::vector<uint32_t>& corners) const;
-    std::vector<uint32_t> lineEnds(const std::vector<uint32_t>& corners) const;
     void takeBudget(uint64_t vertices, uint64_t indices) const
     {
-        takeGltfBudget(document_, element_, vertices, indices, budget_,
-                       isGltfWire(primitive_) ? gltfWireHint(isPoints()) : "");
+        takeGltfBudget(document_, element_, vertices, indices, budget_);
     }
-    bool isPoints() const { return primitive_.mode == TINYGLTF_MODE_POINTS; }
     // Renumbers `indices` so that only the vertices that the triangles use are kept: exporters let
     // many primitives share one large vertex buffer. Returns the numbers of these vertices in the
     // file, in increasing order.
@@ -271,29 +278,6 @@ std::vector<uint32_t> PrimitiveReader::triangles(const std::vector<uint32_t>& co
         const uint32_t corner[3] = {corners[a], corners[b], corners[c]};
         if (corner[0] != corner[1] && corner[1] != corner[2] && corner[2] != corner[0])
             out.insert(out.end(), corner, corner + 3);
-    }
-    return out;
-}
-
-// Converts points, lists of lines, loops and strips to pairs of ends. Lines that use a vertex twice
-// have no length and are dropped.
-std::vector<uint32_t> PrimitiveReader::lineEnds(const std::vector<uint32_t>& corners) const
-{
-    const size_t n = corners.size();
-    const bool isList = primitive_.mode == TINYGLTF_MODE_LINE;
-    if (isList && n % 2 != 0)
-        document_.warn(element_, "is a list of lines with " + std::to_string(n) +
-                                     " ends, not a multiple of 2; the last is left out");
-    takeBudget(0, 2 * uint64_t{n});
-    std::vector<uint32_t> out;
-    out.reserve(2 * n);
-    for (size_t i = 0; i < n; i += isList ? 2 : 1) {
-        const bool isLast = i + 1 == n;
-        if (isLast && !isPoints() && primitive_.mode != TINYGLTF_MODE_LINE_LOOP)
-            break;
-        const uint32_t a = corners[i], b = isPoints() ? a : corners[isLast ? 0 : i + 1];
-        if (a != b || isPoints())
-            out.insert(out.end(), {a, b});
     }
     return out;
 }
@@ -472,34 +456,6 @@ std::optional<Mesh> PrimitiveReader::read(const Material& material)
     return mesh;
 }
 
-std::optional<GltfWire> PrimitiveReader::readWire()
-{
-    if (!countVertices())
-        return std::nullopt;
-    GltfWire wire;
-    wire.isPoints = isPoints();
-    wire.ends = lineEnds(readIndices(vertexCount_));
-    if (wire.ends.empty()) {
-        document_.warn(element_, "has no lines and is left out");
-        return std::nullopt;
-    }
-    posed_.emplace(document_, primitive_, element_, pose_, vertexCount_);
-    const std::vector<uint32_t> used = compact(wire.ends);
-    takeBudget(used.size(), 0);
-    Mesh mesh;
-    readVertices(used, mesh);
-    wire.hasNormals = readNormals(used, mesh);
-    if (wire.hasNormals && std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
-                                       [](const Vertex& v) { return v.normal == glm::vec3(0); })) {
-        document_.warn(element_, std::string("has normals of zero length, so its ") +
-                                     (wire.isPoints ? "points" : "lines") +
-                                     " are drawn in their plain colours, whatever the light");
-        wire.hasNormals = false;
-    }
-    wire.vertices = std::move(mesh.vertices);
-    return wire;
-}
-
 } // namespace
 
 std::string gltfPrimitive(size_t mesh, size_t primitive)
@@ -507,25 +463,15 @@ std::string gltfPrimitive(size_t mesh, size_t primitive)
     return gltfElement("meshes", mesh) + "." + gltfElement("primitives", primitive);
 }
 
-glm::vec4 anyTangent(const glm::vec3& normal)
-{
-    // With the axis that is least aligned with the normal, the cross product is far from zero.
-    const glm::vec3 a = glm::abs(normal);
-    const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
-                           : a.y <= a.z             ? glm::vec3(0, 1, 0)
-                                                    : glm::vec3(0, 0, 1);
-    return glm::vec4(glm::normalize(glm::cross(axis, normal)), 1);
-}
-
 void takeGltfBudget(const GltfDocument& document, const std::string& element, uint64_t vertices,
-                    uint64_t indices, GltfMeshBudget& budget, std::string_view hint)
+                    uint64_t indices, GltfMeshBudget& budget)
 {
     if (vertices > budget.vertices)
-        document.failTooLarge(
-            element, fmt::format("brings the scene above {} vertices{}", maxSceneVertices, hint));
+        document.failTooLarge(element,
+                              fmt::format("brings the scene above {} vertices", maxSceneVertices));
     if (indices > budget.indices)
-        document.failTooLarge(
-            element, fmt::format("brings the scene above {} indices{}", maxSceneIndices, hint));
+        document.failTooLarge(element,
+                              fmt::format("brings the scene above {} indices", maxSceneIndices));
     budget.vertices -= vertices;
     budget.indices -= indices;
 }
@@ -537,29 +483,6 @@ std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh,
     PrimitiveReader reader(document, document.model.meshes[mesh].primitives[primitive],
                            gltfPrimitive(mesh, primitive), pose, budget);
     return reader.read(material);
-}
-
-std::string gltfWireHint(bool isPoints)
-{
-    const char* what = isPoints ? "points" : "lines";
-    return fmt::format(
-        "; {} are drawn as boxes, of which a scene has room for at most {}, and each "
-        "instance has boxes of its own: keep fewer {} in the file, such as every "
-        "second one",
-        what, maxSceneVertices / gltfBoxCorners, what);
-}
-
-bool isGltfWire(const tinygltf::Primitive& primitive)
-{
-    return primitive.mode < TINYGLTF_MODE_TRIANGLES;
-}
-
-std::optional<GltfWire> readGltfWire(const GltfDocument& document, size_t mesh, size_t primitive,
-                                     const GltfPose& pose, GltfMeshBudget& budget)
-{
-    PrimitiveReader reader(document, document.model.meshes[mesh].primitives[primitive],
-                           gltfPrimitive(mesh, primitive), pose, budget);
-    return reader.readWire();
 }
 
 Mesh mirroredMesh(const Mesh& mesh)

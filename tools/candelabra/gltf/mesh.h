@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads glTF primitives as triangle meshes, or as points and lines. Internal to the glTF loader.
-// Throws SceneError.
+// Reads glTF primitives as triangle meshes. Internal to the glTF loader. Throws SceneError.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "gltf/document.h"
@@ -30,10 +28,9 @@ struct GltfMeshBudget {
     uint64_t indices = maxSceneIndices;
 };
 
-// Subtracts from the budget. Fails with a message that names `element` and ends with `hint` if the
-// budget is too small.
+// Subtracts from the budget. Fails with a message that names `element` if the budget is too small.
 void takeGltfBudget(const GltfDocument& document, const std::string& element, uint64_t vertices,
-                    uint64_t indices, GltfMeshBudget& budget, std::string_view hint = {});
+                    uint64_t indices, GltfMeshBudget& budget);
 
 // Reads the triangles of one primitive in a pose and fills in all vertex attributes. Missing
 // normals become flat, so that triangles share no vertices; missing tangents follow the UVs of
@@ -41,31 +38,6 @@ void takeGltfBudget(const GltfDocument& document, const std::string& element, ui
 std::optional<Mesh> readGltfPrimitive(const GltfDocument& document, size_t mesh, size_t primitive,
                                       const Material& material, const GltfPose& pose,
                                       GltfMeshBudget& budget);
-
-// Points, or lines between two ends.
-struct GltfWire {
-    std::vector<Vertex> vertices; // without tangents
-    std::vector<uint32_t> ends;   // two of each line; both ends of a point are the same
-    bool isPoints = false;
-    bool hasNormals = false;
-};
-
-// Points and lines are drawn as boxes with so many vertices.
-constexpr uint64_t gltfBoxCorners = 8;
-
-// The end of the message if points or lines do not fit into the budget.
-std::string gltfWireHint(bool isPoints);
-
-// Returns true if the primitive consists of points or lines, and not of triangles.
-bool isGltfWire(const tinygltf::Primitive& primitive);
-
-// Reads the points or lines of such a primitive in a pose. Returns nothing, with a warning, if
-// there are none.
-std::optional<GltfWire> readGltfWire(const GltfDocument& document, size_t mesh, size_t primitive,
-                                     const GltfPose& pose, GltfMeshBudget& budget);
-
-// Returns some unit tangent that is perpendicular to the unit normal.
-glm::vec4 anyTangent(const glm::vec3& normal);
 
 // Returns the mesh with x negated and the winding reversed, so that front faces are
 // counter-clockwise again. Drawn with M * diag(-1, 1, 1), it looks like the original drawn with a
