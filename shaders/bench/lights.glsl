@@ -2,7 +2,7 @@
 // Bindings of the benchmark kernels, and the evaluation of the lights bound there: the shipping one or,
 // with LTC, that of a rival.
 #ifdef LTC
-#define LIGHT_FAMILY_DISC
+#define LIGHT_FAMILY_POLYGON
 #endif
 #include "shared/bench.h"
 #include "lib/gbuffer.glsl"

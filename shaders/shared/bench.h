@@ -52,9 +52,6 @@ const uint BENCH_FORM_FACTOR_NONE = 0u;   // the loop alone
 const uint BENCH_FORM_FACTOR_ROBUST = 1u; // lib/lights/sphere.glsl
 const uint BENCH_FORM_FACTOR_NAIVE = 2u;  // acos and atan
 
-const uint SPEC_LTC_LOBES = 19u; // bench/ltc: under how many lobes a light's form factor is
-                                 // computed; 1, as the method was published, or 2; spheres: 1
-
 // --- sweep_inputs: random and adversarial inputs, generated from a seed and an index
 #define CND_SWEEP_SLICES(X)                                                                        \
     X(0, ANYTHING, "anything: roughness, view, size and direction drawn freely")                   \

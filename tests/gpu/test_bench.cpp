@@ -42,7 +42,7 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
     Progress progress(1, false);
     const KernelLevel level = measureKernelLevel(context(), settings, progress);
     EXPECT_EQ(level.unconvergedTruths, 0u);
-    ASSERT_EQ(level.points.size(), 5u); // karis, conic, sampled, ltc and ltc-one-lobe
+    ASSERT_EQ(level.points.size(), 4u); // karis, conic, sampled and ltc
     for (const KernelPoint& p : level.points) {
         const std::string name = methodName(p.method);
         const ErrorStatistics& all = p.error.mirror.all;
@@ -61,13 +61,8 @@ TEST_F(Bench, KernelLevelMeasuresErrorAndTime)
     };
     EXPECT_LT(mean(Rival::Ltc), mean(CND_SPECULAR_KARIS));
     EXPECT_LT(mean(CND_SPECULAR_CONIC), mean(Rival::Ltc));
-    // With F = 1 the second lobe takes no part. On other drivers two pipelines may round
-    // differently.
-    EXPECT_NEAR(mean(Rival::LtcOneLobe), mean(Rival::Ltc), device().lanesAreCpuVector ? 0 : 1e-6);
-    EXPECT_LT(pointOf(level, Rival::Ltc).error.dielectric.all.mean,
-              pointOf(level, Rival::LtcOneLobe).error.dielectric.all.mean);
     const auto json = nlohmann::json::parse(kernelJson(settings, level).dump());
-    EXPECT_EQ(json["points"].size(), 5u);
+    EXPECT_EQ(json["points"].size(), 4u);
     EXPECT_EQ(test::schemaFaults(json, "bench_accuracy.schema.json", "#/$defs/kernels"), "");
     EXPECT_NE(textOf(kernelTables(level)).find("rectangle ltc"), std::string::npos);
 }
@@ -137,25 +132,29 @@ TEST_F(Bench, FramesByTheClosedFormAreNearTheTruth)
         test::schemaFaults(json, "bench_accuracy.schema.json", "#/$defs/images/properties/scenes"),
         "");
     for (const ImageScene& scene : scenes) {
-        ASSERT_EQ(scene.points.size(), 3u);
-        const ImageDifference& ltc = scene.points[2].error;
+        const bool spheresAlone =
+            scene.name != "tube, rectangle, disc and sun" && scene.name != "showcase";
+        ASSERT_EQ(scene.points.size(), spheresAlone ? 3u : 2u);
         const ImageDifference &karis = scene.points[0].error, &conic = scene.points[1].error;
         std::cout << scene.name << ": closed form: lit relMSE " << conic.litRelMse
                   << ", mean relative error " << conic.litMeanRel << ", relMSE " << conic.relMse
                   << ", FLIP " << conic.flip << "; of the representative point " << karis.relMse
-                  << ", " << karis.flip << "; of transformed cosines " << ltc.relMse << ", "
-                  << ltc.flip << ", energy " << ltc.energy << "\n";
+                  << ", " << karis.flip << "\n";
         EXPECT_EQ(scene.unconverged, 0u);
-        EXPECT_EQ(conic.invalid + karis.invalid + ltc.invalid, 0u);
+        EXPECT_EQ(conic.invalid + karis.invalid, 0u);
         EXPECT_LT(conic.relMse, karis.relMse);
         EXPECT_LT(conic.flip, karis.flip);
-        EXPECT_LT(conic.relMse, ltc.relMse);
-        EXPECT_LE(std::abs(ltc.energy), 0.35);
         EXPECT_GT(scene.points[1].time.lightingMs, 0);
         EXPECT_GT(scene.points[1].time.bruteForceMs, 0);
-        EXPECT_GT(scene.points[2].time.bruteForceMs, 0);
-        // The bars are of scenes that have spheres alone.
-        if (scene.name != "tube, rectangle, disc and sun" && scene.name != "showcase") {
+        // The rival knows spheres, and the bars are of scenes that have them alone.
+        if (spheresAlone) {
+            const ImageDifference& ltc = scene.points[2].error;
+            std::cout << "  transformed cosines: " << ltc.relMse << ", " << ltc.flip << ", energy "
+                      << ltc.energy << "\n";
+            EXPECT_EQ(ltc.invalid, 0u);
+            EXPECT_LT(conic.relMse, ltc.relMse);
+            EXPECT_LE(std::abs(ltc.energy), 0.35);
+            EXPECT_GT(scene.points[2].time.bruteForceMs, 0);
             const bool cut = scene.name == "glossy floor cut by a light";
             const bool grazing = scene.name == "large light at grazing angles";
             EXPECT_LE(conic.litRelMse, cut ? 2.5e-4 : 1e-4) << scene.name;
@@ -172,8 +171,8 @@ TEST_F(Bench, TransformedCosinesAreAsGoodAsTheyWere)
         uint32_t type;
         double mean, dielectricMean; // percent of the peak
     };
-    for (const Case& c : {Case{CND_LIGHT_SPHERE, 2.7, 5.0}, Case{CND_LIGHT_TUBE, 2.5, 3.0},
-                          Case{CND_LIGHT_RECTANGLE, 2.7, 3.2}, Case{CND_LIGHT_DISC, 2.7, 3.4}}) {
+    for (const Case& c : {Case{CND_LIGHT_SPHERE, 2.7, 5.0}, Case{CND_LIGHT_RECTANGLE, 2.7, 4.85},
+                          Case{CND_LIGHT_POLYGON, 2.5, 4.57}}) {
         SampleSet set = makeSamples(c.type, 60, 1);
         integrateTruth(set, 1e-5, [](size_t) {});
         const LightEvaluator evaluator(context(), {.lightType = c.type, .method = Rival::Ltc});
@@ -184,7 +183,7 @@ TEST_F(Bench, TransformedCosinesAreAsGoodAsTheyWere)
                   << dielectric << "%, form factor within " << error.diffuse.all.max << "\n";
         EXPECT_NEAR(mean, c.mean, 0.25 * c.mean);
         EXPECT_NEAR(dielectric, c.dielectricMean, 0.25 * c.dielectricMean);
-        EXPECT_LE(error.diffuse.all.max, c.type == CND_LIGHT_TUBE ? 5e-3 : 1e-5);
+        EXPECT_LE(error.diffuse.all.max, 1e-5);
         EXPECT_EQ(error.invalid, 0u);
     }
 }

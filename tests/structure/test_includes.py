@@ -123,7 +123,7 @@ ROOMS = [
     ("tools/transcription", ["shaders/shared/conic_constants.h"]),
     ("tools/fit", ["tools/transcription", "tools/candelabra/measure/accuracy", "tools/candelabra/render/provenance.h",
                    "tools/candelabra/generate/random.h", "tools/candelabra/io", "engine/reference",
-                   "shaders/shared/ltc.h", "shaders/shared/conic_constants.h"]),
+                   "shaders/shared/conic_constants.h"]),
 
     # Samples are written like projects of their own, which find the installed engine.
     ("samples/common", []),

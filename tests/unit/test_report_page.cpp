@@ -456,6 +456,6 @@ TEST(ReportCommitted, ReadsTheCommittedResults)
     EXPECT_EQ(committed->files.size(), 3u);
     for (const std::string& key :
          {cullingKey("hall", 4000, 8), skipKey("no lights", "as many lights, dark"),
-          kernelTimeKey("sphere", "conic"), kernelErrorKey("disc", "ltc")})
+          kernelTimeKey("sphere", "conic"), kernelErrorKey("rectangle", "ltc")})
         EXPECT_TRUE(committed->figures.contains(key)) << key;
 }

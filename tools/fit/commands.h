@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two fits of candelabra_fit. They print what they find, and throw app::RunError or
-// app::UsageError (io/error.h).
+// The fit of candelabra_fit. It prints what it finds, and throws app::RunError or app::UsageError
+// (io/error.h).
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,6 @@
 
 namespace candelabra::fit
 {
-
-// Makes the table of linearly transformed cosines that the accuracy benchmark reads
-// (ltc_table.inc). Every run makes the same table; it takes some five minutes of one core.
-void runLtc(const std::string& output);
 
 struct ConicSettings {
     TrainingSize training;

@@ -15,17 +15,6 @@ using namespace candelabra;
 namespace
 {
 
-void describeLtc(CLI::App& app, std::string& output)
-{
-    CLI::App* ltc = app.add_subcommand(
-        "ltc", "Make the table of linearly transformed cosines of the accuracy benchmark");
-    ltc->footer("Prints how far the fitted lobes are from the true ones. Every run makes the same\n"
-                "table. Takes some five minutes of one core.\n\n"
-                "Example:\n"
-                "  candelabra_fit ltc tools/candelabra/measure/kernels/ltc_table.inc");
-    ltc->add_option("OUTPUT", output, "file to write the table to")->required();
-}
-
 void describeConic(CLI::App& app, fit::ConicSettings& s)
 {
     CLI::App* conic =
@@ -97,16 +86,11 @@ int main(int argc, char** argv)
 {
     CLI::App app{"Computes the fitted numbers that the shaders contain."};
     app.require_subcommand(1);
-    std::string output;
     fit::ConicSettings conic;
-    describeLtc(app, output);
     describeConic(app, conic);
     try {
         app.parse(argc, argv);
-        if (app.got_subcommand("ltc"))
-            fit::runLtc(output);
-        else
-            fit::runConic(conic, app::commandLine(argc, argv, "candelabra_fit"));
+        fit::runConic(conic, app::commandLine(argc, argv, "candelabra_fit"));
         return app::exitOk;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? app::exitOk : app::exitUsage;

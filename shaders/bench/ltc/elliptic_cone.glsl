@@ -15,16 +15,6 @@ struct DualCone {
     float determinant; // mu nu1 nu2 = det(u, v, c)^2
 };
 
-DualCone dualCone(vec3 c, vec3 u, vec3 v)
-{
-    const float d = dot(c, cross(u, v));
-    return DualCone(u.x * u.x + v.x * v.x - c.x * c.x, u.y * u.y + v.y * v.y - c.y * c.y,
-                    u.z * u.z + v.z * v.z - c.z * c.z, u.x * u.y + v.x * v.y - c.x * c.y,
-                    u.x * u.z + v.x * v.z - c.x * c.z, u.y * u.z + v.y * v.z - c.y * c.z,
-                    length2(u) + length2(v) - length2(c),
-                    length2(cross(u, v)) - length2(cross(u, c)) - length2(cross(v, c)), d * d);
-}
-
 // Returns the root mu of (t - mu)(t + nu1)(t + nu2) = t^3 + trace t^2 + minors t - determinant, where
 // 0 < mu <= |c|^2. It starts from an upper bound of mu. From there Halley's iteration (1694) on a
 // polynomial whose roots are all real comes down without overshooting.

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rival of the engine's closed forms: lights evaluated by linearly transformed cosines. The functions
 // have the names of those in shading/light_eval.glsl and bench/evaluate_classified.glsl, for a receiver
-// of their own. Include it after shading/light_walk.glsl, compiled for the family DISC: the form factor
-// of discs is taken from their outline. That of polygons, rectangles and tubes is the contour integral
-// by which the specular lobe is evaluated, too.
+// of their own. Include it after shading/light_walk.glsl, compiled for the family POLYGON. The form
+// factor of polygons and rectangles is the contour integral by which the specular lobe is evaluated,
+// too.
 #ifndef CND_BENCH_LTC_LIGHTS
 #define CND_BENCH_LTC_LIGHTS
 
 #include "bench/ltc/lobes.glsl"
 #include "lib/lights/sphere.glsl"
 #include "lib/lights/sphere_cap.glsl"
-#include "shading/eval_polygon.glsl"
 
 struct LtcReceiver {
     Receiver base;
@@ -36,26 +35,11 @@ LtcResponse sphereByCosines(LtcReceiver r, Light light, bool above)
     return LtcResponse(formFactor, ltcSphere(r.ltc, cap.c, cap.s2));
 }
 
-LtcResponse tubeByCosines(LtcReceiver r, Light light, vec3 axis, float radius)
-{
-    const TubeOutline tube = makeTubeOutline(light.toLight, axis, radius);
-    return LtcResponse(tubeFormFactor(r.base.p.n, tube), ltcTube(r.ltc, tube));
-}
-
 LtcResponse rectangleByCosines(LtcReceiver r, Light light, vec3 u, vec3 v, bool twoSided)
 {
     const bool seen = facesRectangle(light.toLight, u, v, twoSided);
     const float f = parallelogramFormFactor(r.base.p.n, light.toLight, u, v);
     return LtcResponse(seen ? f : 0.0, ltcRectangle(r.ltc, light.toLight, u, v, twoSided));
-}
-
-LtcResponse discByCosines(LtcReceiver r, Light light, vec3 normal, float radius, bool twoSided)
-{
-    const OutlineNeeds diffuse = OutlineNeeds(true, false, false, false);
-    const WalkedOutline walked = discOutline(r.base.conic, r.base.frame, light.toLight, normal, radius,
-                                             twoSided, diffuse);
-    const float f = outlineResponse(r.base.conic, walked).formFactor;
-    return LtcResponse(f, ltcDisc(r.ltc, light.toLight, normal, radius, twoSided));
 }
 
 // Returns the form factor of a polygon after a linear map.
@@ -77,12 +61,8 @@ LtcResponse polygonByCosines(LtcReceiver r, Polygon polygon)
     if (!facesRectangle(polygon.toCentre, polygon.axisU, polygon.axisV, polygon.twoSided))
         return LtcResponse(0.0, vec2(0.0));
     const vec3 n = r.base.p.n;
-    const float white = polygonFormFactor(LTC_NORMAL, ltcMatrix(r.ltc.white, n), polygon);
-    const float dielectric =
-        ltcLobes == 1u ? white
-                       : polygonFormFactor(LTC_NORMAL, ltcMatrix(r.ltc.dielectric, n), polygon);
-    return LtcResponse(polygonFormFactor(n, mat3(1.0), polygon),
-                       ltcResponse(r.ltc, white, dielectric));
+    const float underLobe = polygonFormFactor(LTC_NORMAL, ltcMatrix(r.ltc.lobe, n), polygon);
+    return LtcResponse(polygonFormFactor(n, mat3(1.0), polygon), ltcResponse(r.ltc, underLobe));
 }
 
 // Returns the response to a light of unit emission. The light's type is a specialisation constant, so
@@ -93,13 +73,8 @@ LtcResponse responseByCosines(LtcReceiver r, Light given, bool above)
     float scale;
     const Light light = atUnitDistance(given, scale);
     const vec3 u = scale * shape.axisU, v = scale * shape.axisV;
-    const float radius = scale * shape.radius;
-    if (lightType == LIGHT_TUBE)
-        return tubeByCosines(r, light, u, radius);
     if (lightType == LIGHT_RECTANGLE)
         return rectangleByCosines(r, light, u, v, isTwoSided(shape));
-    if (lightType == LIGHT_DISC)
-        return discByCosines(r, light, shape.axisU, radius, isTwoSided(shape));
     if (lightType == LIGHT_POLYGON)
         return polygonByCosines(r, Polygon(light.toLight, u, v, scale, light.boundingRadius,
                                            firstCornerShape(shape), cornerCount(shape),

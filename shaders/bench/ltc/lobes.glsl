@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rival of the engine's closed forms: linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt
-// 2016, "Real-time polygonal-light shading with linearly transformed cosines"), with our own fit
-// (tools/fit). Its maps keep the horizon in place. So lights are cut at the true horizon, no light
+// 2016, "Real-time polygonal-light shading with linearly transformed cosines"), with our own fit of the
+// lobe. Its maps keep the horizon in place. So lights are cut at the true horizon, no light
 // leaks from below it, and the response to a light that fills the hemisphere is the lobe's directional
 // albedo.
 #ifndef CND_BENCH_LTC_LOBES
@@ -9,15 +9,13 @@
 
 #include "shared/bench.h"
 #include "shared/ltc.h"
+#include "bench/ltc/contour.glsl"
 #include "bench/ltc/elliptic_cone.glsl"
 #include "bench/ltc/table.glsl"
-#include "bench/ltc/tube.glsl"
 #include "lib/brdf.glsl"
 #include "lib/lights/rectangle.glsl"
 
-layout(constant_id = SPEC_LTC_LOBES) const uint ltcLobes = 2u;
-
-// One lobe, given by a linear map with the rows rowX, rowY and n: w = (rowX.l, rowY.l, n.l).
+// The lobe with F = 1, given by a linear map with the rows rowX, rowY and n: w = (rowX.l, rowY.l, n.l).
 struct LtcLobe {
     vec3 rowX, rowY;
     float albedo;       // directional albedo
@@ -25,18 +23,16 @@ struct LtcLobe {
     float determinant2; // squared determinant of the map
 };
 
-// The lobes of a point, which do not depend on the light. The lobe with Schlick's Fresnel term has
-// another shape and direction than the one with F = 1: it lies far from the mirror direction, and for a
-// dielectric at grazing angles it reflects most of the light.
+// What does not depend on the light.
 struct LtcPoint {
     vec3 n;
-    LtcLobe white;      // F = 1
-    LtcLobe dielectric; // F0 = LTC_DIELECTRIC_F0
+    LtcLobe lobe;
+    float dielectricAlbedo; // directional albedo with F0 = LTC_DIELECTRIC_F0
 };
 
-vec4 ltcEntry(uvec2 low, vec2 f, uint lobe)
+vec4 ltcEntry(uvec2 low, vec2 f, uint texel)
 {
-    const uint index = LTC_TEXELS * (low.y * LTC_TABLE_SIZE + low.x) + lobe;
+    const uint index = LTC_TEXELS * (low.y * LTC_TABLE_SIZE + low.x) + texel;
     const uint row = LTC_TEXELS * LTC_TABLE_SIZE;
     return mix(mix(ltcTexel(index), ltcTexel(index + LTC_TEXELS), f.x),
                mix(ltcTexel(index + row), ltcTexel(index + row + LTC_TEXELS), f.x), f.y);
@@ -59,7 +55,7 @@ LtcLobe makeLtcLobe(vec4 shape, vec3 n, vec3 tangent, float NoV, float invAlpha)
     return q;
 }
 
-// Returns the lobes of a point. A view direction below LTC_MIN_NOV is tilted up to it.
+// Returns the lobe of a point. A view direction below LTC_MIN_NOV is tilted up to it.
 LtcPoint makeLtcPoint(ShadingPoint p)
 {
     const float cosine = dot(p.n, p.v);
@@ -77,8 +73,8 @@ LtcPoint makeLtcPoint(ShadingPoint p)
     const vec2 low = min(floor(at), last - 1.0);
     LtcPoint q;
     q.n = p.n;
-    q.white = makeLtcLobe(ltcEntry(uvec2(low), at - low, 0u), p.n, tangent, NoV, 1.0 / p.alpha);
-    q.dielectric = makeLtcLobe(ltcEntry(uvec2(low), at - low, 1u), p.n, tangent, NoV, 1.0 / p.alpha);
+    q.lobe = makeLtcLobe(ltcEntry(uvec2(low), at - low, 0u), p.n, tangent, NoV, 1.0 / p.alpha);
+    q.dielectricAlbedo = ltcEntry(uvec2(low), at - low, 1u).x;
     return q;
 }
 
@@ -89,26 +85,24 @@ vec3 ltcMap(LtcLobe q, vec3 n, vec3 l)
 
 const vec3 LTC_NORMAL = vec3(0.0, 0.0, 1.0);
 
-// Returns the responses (A, B) with F = 1 and F = (1 - VoH)^5. `white` and `dielectric` are the form
-// factors of the light under both lobes; the response of the dielectric lobe is F0 (A - B) + B. As the
-// method was published, both are the form factor under the white lobe: B / A is then the same as in a
-// uniform environment.
-vec2 ltcResponse(LtcPoint q, float white, float dielectric)
+// Returns the responses (A, B) with F = 1 and F = (1 - VoH)^5 to a light of unit luminance.
+// `formFactor` is that of the light under the lobe. B / A is the same as in a uniform environment; the
+// response of a dielectric is F0 (A - B) + B.
+vec2 ltcResponse(LtcPoint q, float formFactor)
 {
-    const float a = q.white.albedo * white;
-    const float mixed = q.dielectric.albedo * dielectric;
+    const float a = q.lobe.albedo * formFactor;
+    const float mixed = q.dielectricAlbedo * formFactor;
     const float b = (mixed - LTC_DIELECTRIC_F0 * a) / (1.0 - LTC_DIELECTRIC_F0);
     return vec2(a, clamp(b, 0.0, a));
 }
 
-// The functions below return form factors under one lobe (ltc...Lobe) and the responses
-// (F = 1, F = (1 - VoH)^5) to lights of unit luminance.
-
-// A sphere in the unit direction c; s2 is sin^2 of its half angle. In the mapped space its dual cone is
-// s2 M M^T - w w^T, where w is the mapped c, so no axes are needed.
-float ltcSphereLobe(LtcLobe q, vec3 n, vec3 c, float s2)
+// Returns the responses to a sphere in the unit direction c; s2 is sin^2 of its half angle. In the
+// mapped space its dual cone is s2 M M^T - w w^T, where w is the mapped c, so no axes are needed.
+vec2 ltcSphere(LtcPoint point, vec3 c, float sine2)
 {
-    const vec3 w = ltcMap(q, n, c);
+    const LtcLobe q = point.lobe;
+    const float s2 = min(sine2, 0.9999);
+    const vec3 w = ltcMap(q, point.n, c);
     const float w2 = length2(w);
     const float trace = q.xx + q.yy + 1.0;
     const float wGw = q.xx * w.x * w.x + q.yy * w.y * w.y + w.z * w.z + 2.0 * q.xz * w.x * w.z;
@@ -117,69 +111,21 @@ float ltcSphereLobe(LtcLobe q, vec3 n, vec3 c, float s2)
                                    -w.x * w.y, s2 * q.xz - w.x * w.z, -w.y * w.z,
                                    s2 * trace - w2, s2 * (s2 * minors - (trace * w2 - wGw)),
                                    s2 * s2 * (1.0 - s2) * q.determinant2);
-    return ellipticConeFormFactor(cone, w);
-}
-
-// Returns the responses to a sphere by the form factor under the white lobe alone.
-vec2 ltcSphere(LtcPoint q, vec3 c, float s2)
-{
-    return ltcResponse(q, 1.0, 1.0) * ltcSphereLobe(q.white, q.n, c, min(s2, 0.9999));
-}
-
-// An ellipse with the half axes u and v.
-float ltcEllipseLobe(LtcLobe q, vec3 n, vec3 centre, vec3 u, vec3 v)
-{
-    const vec3 c = ltcMap(q, n, centre);
-    return ellipticConeFormFactor(dualCone(c, ltcMap(q, n, u), ltcMap(q, n, v)), c);
-}
-
-vec2 ltcDisc(LtcPoint q, vec3 toCentre, vec3 normal, float radius, bool twoSided)
-{
-    if (!twoSided && dot(normal, toCentre) >= 0.0)
-        return vec2(0.0);
-    // Any two perpendicular radii of the disc will do. At unit distance the coefficients of the cubic
-    // stay in the range of a float.
-    const float scale = inversesqrt(max(length2(toCentre), MIN_LENGTH2));
-    const vec3 u = anyPerpendicular(normal) * (radius * scale);
-    const vec3 v = cross(normal, u);
-    const vec3 c = toCentre * scale;
-    const float white = ltcEllipseLobe(q.white, q.n, c, u, v);
-    return ltcResponse(q, white,
-                       ltcLobes == 1u ? white : ltcEllipseLobe(q.dielectric, q.n, c, u, v));
-}
-
-float ltcParallelogramLobe(LtcLobe q, vec3 n, vec3 centre, vec3 u, vec3 v)
-{
-    return parallelogramFormFactor(LTC_NORMAL, ltcMap(q, n, centre), ltcMap(q, n, u), ltcMap(q, n, v));
+    return ltcResponse(point, ellipticConeFormFactor(cone, w));
 }
 
 vec2 ltcRectangle(LtcPoint q, vec3 toCentre, vec3 axisU, vec3 axisV, bool twoSided)
 {
     if (!facesRectangle(toCentre, axisU, axisV, twoSided))
         return vec2(0.0);
-    const float white = ltcParallelogramLobe(q.white, q.n, toCentre, axisU, axisV);
-    return ltcResponse(q, white,
-                       ltcLobes == 1u
-                           ? white
-                           : ltcParallelogramLobe(q.dielectric, q.n, toCentre, axisU, axisV));
+    return ltcResponse(q, parallelogramFormFactor(LTC_NORMAL, ltcMap(q.lobe, q.n, toCentre),
+                                                  ltcMap(q.lobe, q.n, axisU),
+                                                  ltcMap(q.lobe, q.n, axisV)));
 }
 
 mat3 ltcMatrix(LtcLobe q, vec3 n)
 {
     return transpose(mat3(q.rowX, q.rowY, n));
-}
-
-float ltcTubeLobe(LtcLobe q, vec3 n, TubeOutline tube)
-{
-    return tubeOutlineFormFactor(LTC_NORMAL, ltcMatrix(q, n), tube);
-}
-
-vec2 ltcTube(LtcPoint q, TubeOutline tube)
-{
-    if (tubeIsBelow(q.n, tube))
-        return vec2(0.0);
-    const float white = ltcTubeLobe(q.white, q.n, tube);
-    return ltcResponse(q, white, ltcLobes == 1u ? white : ltcTubeLobe(q.dielectric, q.n, tube));
 }
 
 #endif

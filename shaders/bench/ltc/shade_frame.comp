@@ -2,7 +2,7 @@
 // shade_brute.comp for lights of one type that are evaluated by linearly transformed cosines.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define LIGHT_FAMILY_DISC
+#define LIGHT_FAMILY_POLYGON
 #include "lib/tile_pixels.glsl"
 #include "kernels/common/shade_receiver.glsl"
 #include "shared/bench.h"

@@ -68,9 +68,9 @@ Draw drawByEngine(const VulkanContext& context, Renderer& renderer, const FrameO
 }
 
 Draw drawByRival(const VulkanContext& context, Renderer& renderer, const Scene& scene,
-                 const FrameOptions& options, Rival rival)
+                 const FrameOptions& options)
 {
-    const auto frame = std::make_shared<LtcFrame>(context, renderer, scene, options, rival);
+    const auto frame = std::make_shared<LtcFrame>(context, renderer, scene, options);
     return [frame] { return DrawTimes{.bruteForceMs = frame->draw()}; };
 }
 
@@ -140,12 +140,27 @@ std::vector<MeasuredMethod> imageMethods()
     for (const CndSpecularMethod method : methodsOf(CND_LIGHT_SPHERE))
         if (method != CND_SPECULAR_KARIS)
             out.push_back(method);
-    out.insert(out.end(), {Rival::Ltc, Rival::LtcOneLobe});
+    out.push_back(Rival::Ltc);
     return out;
 }
 
 namespace
 {
+
+// Returns those of the methods that know all area lights of the scene.
+std::vector<MeasuredMethod> methodsFor(const Scene& scene,
+                                       const std::vector<MeasuredMethod>& methods)
+{
+    const bool rival =
+        std::all_of(scene.lights.begin(), scene.lights.end(), [](const CndLight& light) {
+            return cndIsPunctual(light.type) || rivalKnows(light.type);
+        });
+    std::vector<MeasuredMethod> out;
+    for (const MeasuredMethod& method : methods)
+        if (rival || method.rival == Rival::None)
+            out.push_back(method);
+    return out;
+}
 
 std::vector<Scene> scenesOf(const ImageLevelSettings& s)
 {
@@ -173,23 +188,24 @@ std::vector<ImageScene> measureImages(const VulkanContext& context, const ImageL
         progress.doing("truth: " + scene.name);
         integrate(scene, s, progress, measured);
         progress.doing("frames: " + scene.name);
+        const std::vector<MeasuredMethod> methods = methodsFor(scene, s.methods);
         uint32_t mask = 0;
-        for (const MeasuredMethod& method : s.methods)
+        for (const MeasuredMethod& method : methods)
             mask |= 1u << method.specular;
         Renderer renderer(context, scene, {.size = s.size, .specularMethods = mask});
         std::vector<Draw> variants;
-        for (const MeasuredMethod& method : s.methods) {
+        for (const MeasuredMethod& method : methods) {
             FrameOptions frame = frameOf(scene);
             frame.specular = method.specular;
             frame.sampleCount = s.sampleCount;
             variants.push_back(method.rival == Rival::None
                                    ? drawByEngine(context, renderer, frame)
-                                   : drawByRival(context, renderer, scene, frame, method.rival));
+                                   : drawByRival(context, renderer, scene, frame));
         }
         Variants run = runVariants(context, renderer, variants, s.rounds,
                                    [&] { progress.advance(stepsPerRound); });
         for (size_t i = 0; i < variants.size(); ++i) {
-            ImagePoint point{.method = s.methods[i],
+            ImagePoint point{.method = methods[i],
                              .time = run.times[i],
                              .error = imageDifference(run.images[i], measured.truth),
                              .radiance = std::move(run.images[i])};

@@ -112,8 +112,7 @@ public:
              {gpu::SPEC_SPECULAR_METHOD, v.evaluation.method.specular},
              {gpu::SPEC_LIGHT_TYPE, v.evaluation.lightType},
              {gpu::SPEC_BENCH_EVALUATION, uint32_t(v.evaluationClass)},
-             {gpu::SPEC_BENCH_FORM_FACTOR, v.form},
-             {gpu::SPEC_LTC_LOBES, ltcLobes(v.evaluation.method.rival)}});
+             {gpu::SPEC_BENCH_FORM_FACTOR, v.form}});
         out.bindings = out.kernel.createBindings(1);
         writeBindings(out.bindings, lights_.at(key), receivers_, output_,
                       isRival ? &ltcTable_ : nullptr);

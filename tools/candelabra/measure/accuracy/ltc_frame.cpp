@@ -31,7 +31,7 @@ CndLight inView(CndLight light, const glm::dmat4& viewFromWorld, const glm::dvec
 } // namespace
 
 LtcFrame::LtcFrame(const VulkanContext& context, Renderer& renderer, const Scene& scene,
-                   const FrameOptions& options, Rival rival)
+                   const FrameOptions& options)
     : context_(context),
       renderer_(renderer),
       options_(options),
@@ -55,10 +55,10 @@ LtcFrame::LtcFrame(const VulkanContext& context, Renderer& renderer, const Scene
             ofType[light.type].push_back(inView(light, viewFromWorld, scene.lightOrigin));
     for (uint32_t type = 0; type < CND_LIGHT_TYPE_COUNT; ++type)
         if (!ofType[type].empty())
-            add(type, rival, ofType[type]);
+            add(type, ofType[type]);
 }
 
-void LtcFrame::add(uint32_t lightType, Rival rival, const std::vector<CndLight>& lights)
+void LtcFrame::add(uint32_t lightType, const std::vector<CndLight>& lights)
 {
     using namespace gpu;
     const Device& device = context_.device();
@@ -68,8 +68,7 @@ void LtcFrame::add(uint32_t lightType, Rival rival, const std::vector<CndLight>&
                           {{SPEC_LIGHTS_AS_TEXELS, lighting::lightsAsTexels(device)},
                            {SPEC_SPECULAR_METHOD, options_.specular},
                            {SPEC_LIGHT_TYPE, lightType},
-                           {SPEC_GBUFFER, gbuffer_.code()},
-                           {SPEC_LTC_LOBES, ltcLobes(rival)}}},
+                           {SPEC_GBUFFER, gbuffer_.code()}}},
                .bindings = {}};
     out.bindings = out.kernel.createBindings(1);
     out.bindings.write(0,

@@ -18,10 +18,10 @@ namespace candelabra::app
 class LtcFrame
 {
 public:
-    // Prepares for one frame that `renderer` draws of `scene`; both must outlive the object.
-    // `rival` is not Rival::None.
+    // Prepares for one frame that `renderer` draws of `scene`; both must outlive the object. The
+    // area lights of the scene are of types that rivalKnows().
     LtcFrame(const VulkanContext& context, Renderer& renderer, const Scene& scene,
-             const FrameOptions& options, Rival rival);
+             const FrameOptions& options);
 
     // Draws the frame. The radiance ends as after Renderer::record. Returns the GPU time in ms of
     // the kernels that evaluate area lights, 0 on devices without timestamps.
@@ -34,7 +34,7 @@ private:
         gpu::Kernel<gpu::LightBatch> kernel;
         gpu::Bindings bindings;
     };
-    void add(uint32_t lightType, Rival rival, const std::vector<CndLight>& lights);
+    void add(uint32_t lightType, const std::vector<CndLight>& lights);
 
     const VulkanContext& context_;
     Renderer& renderer_;

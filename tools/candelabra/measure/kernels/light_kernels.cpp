@@ -51,11 +51,6 @@ const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
     return *families[lighting::familyOf(evaluation.lightType, evaluation.method.specular)];
 }
 
-uint32_t ltcLobes(Rival rival)
-{
-    return rival == Rival::LtcOneLobe ? 1 : 2;
-}
-
 DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> lights)
 {
     lighting::validateLights(lights);
@@ -87,7 +82,7 @@ gpu::Buffer uploadReceivers(const gpu::Device& device,
 
 gpu::Buffer uploadLtcTable(const gpu::Device& device)
 {
-    gpu::Buffer out = upload(device, "transformed cosines", ltcTable());
+    gpu::Buffer out = upload(device, "transformed cosines", std::span<const glm::vec4>(ltcTable()));
     gpu::createTexelView(device, out);
     return out;
 }
@@ -131,8 +126,7 @@ LightEvaluator::LightEvaluator(const VulkanContext& context, const Evaluation& e
                        : ofFamily(spirv::evaluate_lights_comp, evaluation),
               {{gpu::SPEC_LIGHTS_AS_TEXELS, 0},
                {gpu::SPEC_SPECULAR_METHOD, evaluation.method.specular},
-               {gpu::SPEC_LIGHT_TYPE, evaluation.lightType},
-               {gpu::SPEC_LTC_LOBES, ltcLobes(evaluation.method.rival)}}),
+               {gpu::SPEC_LIGHT_TYPE, evaluation.lightType}}),
       bindings_(kernel_.createBindings(1)),
       ltcTable_(uploadLtcTable(context.device()))
 {

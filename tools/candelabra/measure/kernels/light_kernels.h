@@ -28,8 +28,6 @@ struct Evaluation {
 // of the engine.
 const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
                            const Evaluation& evaluation);
-// The value of SPEC_LTC_LOBES.
-uint32_t ltcLobes(Rival rival);
 
 // Lights of one type in device memory as kernels read them, relative to receivers at the origin.
 struct DeviceLights {

@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/kernels/ltc_table.h"
 
+#include <iterator>
+
+#include "shared/ltc.h"
+
 namespace candelabra::app
 {
 namespace
 {
 
-// The table is generated with: candelabra_fit ltc tools/candelabra/measure/kernels/ltc_table.inc
-constexpr float texels[] = {
+constexpr float rows[][5] = {
 #include "measure/kernels/ltc_table.inc"
 };
-static_assert(sizeof texels ==
-              gpu::LTC_TABLE_SIZE * gpu::LTC_TABLE_SIZE * gpu::LTC_TEXELS * 4 * sizeof(float));
+static_assert(std::size(rows) == gpu::LTC_TABLE_SIZE * gpu::LTC_TABLE_SIZE);
 
 } // namespace
 
-std::span<const float> ltcTable()
+std::vector<glm::vec4> ltcTable()
 {
+    std::vector<glm::vec4> texels;
+    for (const auto& [sharpnessX, sharpnessY, shift, albedo, dielectricAlbedo] : rows) {
+        texels.emplace_back(sharpnessX, sharpnessY, shift, albedo);
+        texels.emplace_back(dielectricAlbedo, 0, 0, 0);
+    }
     return texels;
 }
 

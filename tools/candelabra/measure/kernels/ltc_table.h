@@ -2,14 +2,14 @@
 // The fitted table of linearly transformed cosines; shared/ltc.h describes its contents.
 #pragma once
 
-#include <span>
+#include <vector>
 
-#include "shared/ltc.h"
+#include <glm/glm.hpp>
 
 namespace candelabra::app
 {
 
-// Returns LTC_TABLE_SIZE^2 * LTC_TEXELS texels of 4 floats, laid out as an array of vec4.
-std::span<const float> ltcTable();
+// Returns LTC_TABLE_SIZE^2 * LTC_TEXELS texels.
+std::vector<glm::vec4> ltcTable();
 
 } // namespace candelabra::app

@@ -9,15 +9,7 @@ namespace candelabra::app
 
 std::string methodName(const MeasuredMethod& method)
 {
-    switch (method.rival) {
-    case Rival::Ltc:
-        return "ltc";
-    case Rival::LtcOneLobe:
-        return "ltc-one-lobe";
-    case Rival::None:
-        break;
-    }
-    return specularName(method.specular);
+    return method.rival == Rival::Ltc ? "ltc" : specularName(method.specular);
 }
 
 std::vector<CndSpecularMethod> methodsOf(uint32_t lightType)
@@ -30,16 +22,19 @@ std::vector<CndSpecularMethod> methodsOf(uint32_t lightType)
     return out;
 }
 
+bool rivalKnows(uint32_t lightType)
+{
+    return lighting::isSphere(lightType) || lightType == CND_LIGHT_RECTANGLE ||
+           lightType == CND_LIGHT_POLYGON;
+}
+
 std::vector<MeasuredMethod> comparedMethods(uint32_t lightType)
 {
     std::vector<MeasuredMethod> out;
     for (const CndSpecularMethod method : methodsOf(lightType))
         out.push_back(method);
-    if (lighting::isPunctual(lightType))
-        return out;
-    out.push_back(Rival::Ltc);
-    if (!lighting::isSphere(lightType))
-        out.push_back(Rival::LtcOneLobe);
+    if (rivalKnows(lightType))
+        out.push_back(Rival::Ltc);
     return out;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The methods that the benchmarks compare: the engine's specular methods, and rivals that only the
+// The methods that the benchmarks compare: the engine's specular methods, and a rival that only the
 // benchmarks have.
 #pragma once
 
@@ -11,9 +11,8 @@
 namespace candelabra::app
 {
 
-// Linearly transformed cosines (shaders/bench/ltc). `Ltc` has one lobe for spheres and two for the
-// other area lights. `LtcOneLobe` has one for these too, as the method was published.
-enum class Rival : uint32_t { None, Ltc, LtcOneLobe };
+// Linearly transformed cosines (shaders/bench/ltc).
+enum class Rival : uint32_t { None, Ltc };
 
 // A specular method of the engine, or a rival.
 struct MeasuredMethod {
@@ -30,7 +29,9 @@ std::string methodName(const MeasuredMethod& method);
 // Returns the engine's methods that differ from each other for a type, in the order of the list;
 // NONE is not among them.
 std::vector<CndSpecularMethod> methodsOf(uint32_t lightType);
-// Returns these methods and the rivals that know the type.
+// Tells whether linearly transformed cosines evaluate lights of a type.
+bool rivalKnows(uint32_t lightType);
+// Returns the engine's methods for a type, and the rival if it knows the type.
 std::vector<MeasuredMethod> comparedMethods(uint32_t lightType);
 
 } // namespace candelabra::app

@@ -94,10 +94,9 @@ const std::vector<Term> terms = {
      "The bundle of directions into which a surface mirrors light; the rougher the surface, "
      "the wider."},
     {"LTC",
-     {"LTC", "ltc", "ltc-one-lobe"},
+     {"LTC", "ltc"},
      "Linearly transformed cosines (Heitz et al. 2016), a published approximation for area "
-     "lights that looks its parameters up in a table; ltc-one-lobe is as published, and ltc "
-     "has two lobes for other shapes than spheres."},
+     "lights that looks its parameters up in a table."},
     {"median",
      {"median", "medians"},
      "The value in the middle: half of the measurements are below it."},
