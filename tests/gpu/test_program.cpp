@@ -18,7 +18,7 @@
 
 #include "commands/options.h"
 #include "harness/gpu_fixture.h"
-#include "harness/json_schema.h"
+#include "harness/json_keys.h"
 #include "harness/paths.h"
 #include "harness/xml.h"
 #include "io/image.h"
@@ -109,7 +109,7 @@ TEST_F(ProgramTest, RenderWritesImagesAndFigures)
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const auto json = nlohmann::json::parse(outcome.out);
-    EXPECT_EQ(test::schemaFaults(json, "render.schema.json"), "");
+    EXPECT_EQ(test::keyFaults(json, "render"), "");
     EXPECT_EQ(json["scene"]["lights"], 150);
     EXPECT_EQ(json["image"]["widthPixels"], 96);
     EXPECT_EQ(json["scene"]["lobes"], "conserving");
@@ -170,7 +170,6 @@ TEST_F(ProgramTest, SamplesSmoothEdges)
     EXPECT_NE(text("e.png"), text("f.png"));
     EXPECT_EQ(text("e.pfm"), text("f.pfm"));
     const auto json = nlohmann::json::parse(text("c.json"));
-    EXPECT_EQ(test::schemaFaults(json, "render.schema.json"), "");
     EXPECT_EQ(json["samplesPerFrame"], 4);
     EXPECT_EQ(json["gpuTime"]["frames"], 1);
     EXPECT_EQ(json["exposure"]["invalidPixels"], 0);
@@ -187,7 +186,6 @@ TEST_F(ProgramTest, BloomIsOfPicturesAlone)
     EXPECT_NE(text("a.png"), text("c.png"));
     EXPECT_EQ(text("a.pfm"), text("c.pfm"));
     const auto json = nlohmann::json::parse(text("c.json"));
-    EXPECT_EQ(test::schemaFaults(json, "render.schema.json"), "");
     EXPECT_NEAR(json["settings"]["bloom"], 0.1, 1e-6);
 }
 
@@ -323,6 +321,7 @@ TEST_F(ProgramTest, EnvironmentFilesLightTheScene)
     const auto scene = nlohmann::json::parse(text("lit.json"))["scene"];
     EXPECT_EQ(scene["lobes"], "sum");
     EXPECT_EQ(scene["energyCompensation"], true);
+    EXPECT_EQ(test::keyFaults(scene["environment"], "render-environment"), "");
     EXPECT_EQ(scene["environment"]["file"], "sky.hdr");
     EXPECT_EQ(scene["environment"]["scale"], 2);
     EXPECT_NEAR(scene["environment"]["rotationRadians"], 0.5235988, 1e-6);
@@ -340,7 +339,7 @@ TEST_F(ProgramTest, StressWritesEverythingItPromises)
     for (const char* word : {"shade_tiles", "p95 ms", "entries per tile", "identical", "Try next"})
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
     const auto json = nlohmann::json::parse(text("s.json"));
-    EXPECT_EQ(test::schemaFaults(json, "stress.schema.json"), "");
+    EXPECT_EQ(test::keyFaults(json, "stress"), "");
     EXPECT_EQ(json["warmUpSeconds"], 0.1);
     ASSERT_EQ(json["points"].size(), 2u);
     for (const auto& point : json["points"]) {
@@ -363,7 +362,6 @@ TEST_F(ProgramTest, StressMeasuresNoLightsAndNeedNotCheck)
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("not compared"), std::string::npos) << outcome.out;
     const auto json = nlohmann::json::parse(text("o/stress.json"));
-    EXPECT_EQ(test::schemaFaults(json, "stress.schema.json"), "");
     EXPECT_EQ(json["points"][0]["lights"], 0);
     EXPECT_TRUE(json["points"][1]["twoRunsIdentical"].is_null());
     EXPECT_EQ(readPng(path("o/hall_0.png")).width, 64);
@@ -390,7 +388,7 @@ TEST_F(ProgramTest, ProfileTimesEveryPass)
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("shade_tiles"), std::string::npos) << outcome.out;
     const auto json = nlohmann::json::parse(text("p.json"));
-    EXPECT_EQ(test::schemaFaults(json, "profile.schema.json"), "");
+    EXPECT_EQ(test::keyFaults(json, "profile"), "");
     EXPECT_EQ(json["lightCosts"]["lights"].size(), 5u);
     ASSERT_EQ(json["variants"].size(), 1u);
     const auto& time = json["variants"][0]["time"];
@@ -421,7 +419,6 @@ TEST_F(ProgramTest, ProfileKeepsFramesInFlight)
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto json = nlohmann::json::parse(text("p.json"));
-    EXPECT_EQ(test::schemaFaults(json, "profile.schema.json"), "");
     EXPECT_EQ(json["framesInFlight"], 3);
     EXPECT_EQ(json["warmUp"]["secondsAtLeast"], 0.3);
     EXPECT_EQ(json["variants"][0]["time"]["frames"], 12);
@@ -445,7 +442,7 @@ TEST_F(ProgramTest, ProfileTracesCpuAndGpuInOneTime)
                                 "--trace t.json --json p.json --validate");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto trace = nlohmann::json::parse(text("t.json"));
-    EXPECT_EQ(test::schemaFaults(trace, "trace.schema.json"), "");
+    EXPECT_EQ(test::keyFaults(trace, "trace"), "");
     if (context().getCalibratedTimestamps()) {
         EXPECT_EQ(trace["otherData"]["clocksAlignedBy"], context().calibratedTimestampsExtension());
     }
@@ -503,7 +500,7 @@ TEST_F(ProgramTest, ProfileTellsADifferenceFromNone)
                                 "--ab '' '--specular sampled --samples 256'");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
-    EXPECT_EQ(test::schemaFaults(json, "profile.schema.json"), "");
+    EXPECT_EQ(test::keyFaults(json["comparison"], "profile-comparison"), "");
     EXPECT_EQ(json["variants"][0]["settings"]["specular"], "conic");
     EXPECT_EQ(json["variants"][1]["settings"]["specular"], "sampled");
     bool found = false;
@@ -547,7 +544,7 @@ TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
         EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
     EXPECT_EQ(page.find("://"), std::string::npos);
     const auto json = nlohmann::json::parse(text("r/report.json"));
-    EXPECT_EQ(test::schemaFaults(json, "report.schema.json"), "");
+    EXPECT_EQ(test::keyFaults(json, "report"), "");
     EXPECT_GT(json["profile"]["time"]["gpu"]["medianMs"], 0);
     EXPECT_EQ(run("report --parts profile,colour --out r").exitCode, 2);
     EXPECT_EQ(run("report --parts profile,profile --out r").exitCode, 2);
@@ -587,7 +584,7 @@ TEST_F(ProgramTest, DevicesListsTheOneUnderTest)
     const Outcome outcome = run("devices --json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
-    EXPECT_EQ(test::schemaFaults(json, "devices.schema.json"), "");
+    EXPECT_EQ(test::keyFaults(json, "devices"), "");
     bool found = false;
     for (const auto& device : json["devices"])
         found |= device["name"] == context().info().name && device["missing"] == "";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "harness/gpu_fixture.h"
+#include "harness/json_keys.h"
 #include "measure/stability/stability.h"
 #include "reference/sphere_light.h"
 #include "render/setting_names.h"
@@ -173,6 +174,7 @@ TEST_F(SweepShapes, BoundsAreAboveTheTruth)
                                      .methods = {CND_SPECULAR_KARIS}};
     Progress progress(1, false);
     const Stability stability = measureStability(context(), settings, progress);
+    EXPECT_EQ(test::keyFaults(stabilityJson(settings, stability), "bench-stability"), "");
     ASSERT_EQ(stability.quadrature.size(), settings.lightTypes.size());
     for (const QuadratureCheck& q : stability.quadrature) {
         EXPECT_GE(q.samples, 500u);

@@ -10,7 +10,7 @@
 namespace candelabra::test
 {
 
-// Returns the path of a file or folder of the repository, such as "tools/candelabra/schemas".
+// Returns the path of a file or folder of the repository, such as "tools/bench/results".
 std::string sourcePath(const std::string& name);
 // Returns the path of a file in tests/data.
 std::string dataPath(const std::string& name);
@@ -18,8 +18,8 @@ std::string dataPath(const std::string& name);
 // shell command.
 std::string programWord();
 // Returns the path of the Python interpreter of the build, quoted likewise. Empty if
-// CANDELABRA_TEST_PYTHON is, because a machine lacks Python or its module jsonschema: then what the
-// program writes is not checked by schemas and by Python's XML parser.
+// CANDELABRA_TEST_PYTHON is, because a machine lacks Python: then the XML that the program writes
+// is not parsed.
 std::string pythonWord();
 // Returns any text quoted as one word of a shell command.
 std::string shellWord(const std::string& text);

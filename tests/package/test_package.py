@@ -277,8 +277,6 @@ def program():
     completions = "share/bash-completion/completions/candelabra"
     wanted = {"bin/candelabra", "share/man/man1/candelabra.1", completions,
               "share/fish/vendor_completions.d/candelabra.fish"}
-    wanted |= {f"share/candelabra/schemas/{p.name}"
-               for p in (source / "tools/candelabra/schemas").iterdir()}
     require(files == wanted, f"installed and wanted differ in {files ^ wanted}")
     require(re.match(r"candelabra \d+\.\d+\.\d+\n", run(folder / "bin/candelabra", "--version")),
             "--version")
