@@ -20,7 +20,7 @@ Seeds fuzzSeeds()
             "bench\nskip\n--rounds\n3",
             "render\nhall\n--influence-error\n0.5/255\n--pick\n4,5",
             "devices\n--json",
-            "report\n--parts\nprofile,skip\n--out\nr",
+            "report\n--parts\nprofile,culling\n--out\nr",
             "completions\nbash",
             "render\n--help"};
 }

@@ -531,6 +531,20 @@ TEST_F(ProgramTest, ProfiledRunsCollectAndCompare)
         << text("out.txt");
 }
 
+TEST_F(ProgramTest, BenchSkipComparesFramesOfTheSameImage)
+{
+    const Outcome outcome = run("bench skip --lights 60 --size 64x36 --rounds 2 --json s.json "
+                                "-q --validate");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("lists made again"), std::string::npos) << outcome.out;
+    const auto json = nlohmann::json::parse(text("s.json"));
+    EXPECT_EQ(test::keyFaults(json, "bench-skip"), "");
+    ASSERT_EQ(json["skips"].size(), 3u);
+    EXPECT_EQ(json["skips"][1]["withMs"], 0.0); // the whole image is kept
+    for (const auto& row : json["skips"])
+        EXPECT_GT(row["withoutMs"], 0.0) << row;
+}
+
 TEST_F(ProgramTest, ReportIsOnePageThatNeedsNothingElse)
 {
     const Outcome outcome = run("report --parts profile --lights 60 --size 64x36 "

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra bench skip: measures what a frame saves by skipping what its content does not need.
+// candelabra bench skip: measures what a frame saves by leaving out what its content does not need.
+// Pairs of frames are compared as candelabra profile --ab compares them.
+#include <functional>
 #include <memory>
 
 #include <fmt/format.h>
@@ -8,10 +10,15 @@
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
 #include "commands/options.h"
-#include "generate/generators.h"
 #include "io/error.h"
-#include "measure/skip.h"
+#include "io/progress.h"
+#include "io/statistics.h"
+#include "io/table.h"
+#include "load/load.h"
+#include "measure/profile/profile_frames.h"
+#include "render/camera.h"
 #include "render/provenance.h"
+#include "render/readback.h"
 
 namespace candelabra::app
 {
@@ -20,52 +27,120 @@ namespace
 
 struct SkipArguments {
     DeviceArguments device;
-    std::string scene = "hall", lights = "4000", size = "1280x720";
-    std::string rounds = "7", pointRounds = "50", seed = "1";
+    std::string scene = "hall", lights = "4000", size = "1280x720", rounds = "31";
     std::string directory = "out", json;
 };
 
-SkipSettings settingsOf(const SkipArguments& a)
+bool isExposure(const std::string& pass)
 {
-    if (!isGenerated(a.scene))
-        throw UsageError(fmt::format("--scene \"{}\": choose one of hall, field, fence", a.scene));
-    const auto size = parseSize(a.size);
-    if (!size || size->width > maxSide || size->height > maxSide)
-        throw UsageError(fmt::format("--size \"{}\": expected WIDTHxHEIGHT up to {} pixels a side",
-                                     a.size, maxSide));
-    const SkipSettings s{.scene = a.scene,
-                         .size = *size,
-                         .lights = unsignedOption("--lights", a.lights, 1, 1'000'000),
-                         .rounds = unsignedOption("--rounds", a.rounds, 1, 10'000),
-                         .pointRounds = unsignedOption("--point-rounds", a.pointRounds, 1, 10'000),
-                         .seed = unsignedOption("--seed", a.seed, 0, UINT32_MAX)};
-    a.device.requireRoomFor(s.lights);
-    return s;
+    return pass == "luminance_histogram" || pass == "adapt_exposure" || pass == "tone_map";
+}
+
+bool isLighting(const std::string& pass)
+{
+    const bool isRaster =
+        pass.starts_with("cull_") || pass == "compact_instances" || pass == "gbuffer_raster";
+    return !isRaster && !isExposure(pass);
+}
+
+struct SkipPair {
+    const char *name, *against, *passes;
+    std::function<bool(const std::string& pass)> counts; // whether the pass is one of `passes`
+    FrameOptions with;                                   // the other frame has the usual options
+};
+
+std::vector<SkipPair> pairsOf(const FrameOptions& usual, float ev100)
+{
+    FrameOptions lists = usual, image = usual, manual = usual;
+    lists.reuse = Reuse::Lists;
+    image.reuse = Reuse::Lighting;
+    manual.exposure.manual = VK_TRUE;
+    manual.exposure.manualEv100 = ev100;
+    return {
+        {"lights and surfaces unchanged", "lists made again", "lighting", isLighting, lists},
+        {"nothing changed", "drawn again", "raster and lighting", std::not_fn(isExposure), image},
+        {"manual exposure", "automatic, the same EV", "exposure", isExposure, manual}};
+}
+
+// The radiance and the display image of the second of two frames, which may reuse the first.
+std::vector<float> imageOf(const VulkanContext& context, Renderer& renderer,
+                           const FrameOptions& options)
+{
+    for (int frame = 0; frame < 2; ++frame)
+        context.submitAndWait([&](VkCommandBuffer cmd) { renderer.record(cmd, 0, options); });
+    std::vector<float> out = readRadiance(context, renderer).pixels;
+    const std::vector<uint8_t> display = readDisplay(context, renderer);
+    out.insert(out.end(), display.begin(), display.end());
+    return out;
+}
+
+// The time of the counted passes in each frame.
+std::vector<double> timesOf(const FrameSeries& series, const SkipPair& pair)
+{
+    std::vector<double> out(series.gpuMs.size());
+    for (const FrameSeries::Pass& pass : series.passes)
+        for (size_t i = 0; pair.counts(pass.name) && i < out.size(); ++i)
+            out[i] += pass.ms[i];
+    return out;
 }
 
 int skip(const ProgramContext& program, const SkipArguments& a)
 {
-    const SkipSettings settings = settingsOf(a);
+    const auto size = parseSize(a.size);
+    if (!size || size->width > maxSide || size->height > maxSide)
+        throw UsageError(fmt::format("--size \"{}\": expected WIDTHxHEIGHT up to {} pixels a side",
+                                     a.size, maxSide));
+    const uint32_t lights = unsignedOption("--lights", a.lights, 1, 1'000'000);
+    const uint32_t rounds = unsignedOption("--rounds", a.rounds, 1, 10'000);
+    a.device.requireRoomFor(lights);
     const std::string json = benchOutput(a.directory, "--json", a.json, "bench_skip.json");
+    const Scene scene = loadScene(a.scene, {.lights = lights});
+    const FrameOptions usual{.camera = selectCamera(scene, ""),
+                             .lightsVisible = false,
+                             .exposure = defaultExposureSettings()};
     const VulkanContext context(a.device.contextOptions());
     spdlog::info("skips on {}", context.info().name);
-    std::vector<SkipRow> rows;
-    {
-        Progress progress(skipSteps(settings), !program.quiet);
-        rows = measureSkips(context, settings, progress);
+    Renderer renderer(context, scene, {.size = *size, .framesInFlight = 1, .stamps = true});
+    const std::vector<float> image = imageOf(context, renderer, usual);
+    const std::vector<SkipPair> pairs = pairsOf(usual, renderer.stats(0).exposure.adaptedEv100);
+    Table table({"what is left out", "against", "passes", "with ms", "without ms",
+                 "median of paired ratios [95%]"});
+    Json list = Json::array();
+    bool differs = false;
+    Progress progress(double(pairs.size()) * (rounds + maxWarmUp), !program.quiet);
+    for (const SkipPair& pair : pairs) {
+        progress.doing(pair.name);
+        const bool isSame = imageOf(context, renderer, pair.with) == image;
+        if (!isSame)
+            spdlog::error("candelabra: {}: the image differs", pair.name);
+        differs |= !isSame;
+        const Profile profile =
+            profileFrames(context, renderer, {.variants = {pair.with, usual}, .rounds = rounds},
+                          nullptr, [&] { progress.advance(1); });
+        const std::vector<double> with = timesOf(profile.series[0], pair),
+                                  without = timesOf(profile.series[1], pair);
+        const PairedRatio r = pairedRatio(without, with);
+        table.add({pair.name, pair.against, pair.passes, threeDigits(medianOf(with)),
+                   threeDigits(medianOf(without)),
+                   fmt::format("{:.3f} [{:.3f}, {:.3f}]", r.median, r.low, r.high)});
+        list.push_back({{"name", pair.name},
+                        {"against", pair.against},
+                        {"passes", pair.passes},
+                        {"ratio", r.median},
+                        {"withMs", medianOf(with)},
+                        {"withoutMs", medianOf(without)}});
     }
-    Json document{{"schema", "candelabra bench skip 1"},
-                  {"provenance", provenance(context.info(), program.commandLine)}};
-    document.update(skipJson(settings, rows));
-    writeJson(json, document);
+    writeJson(json, {{"schema", "candelabra bench skip 2"},
+                     {"provenance", provenance(context.info(), program.commandLine)},
+                     {"scene", a.scene},
+                     {"widthPixels", size->width},
+                     {"heightPixels", size->height},
+                     {"lights", lights},
+                     {"rounds", rounds},
+                     {"skips", list}});
     if (json != "-")
-        writeText("-", fmt::format("{}, {}, {}x{}; medians\n{}\nAll figures: {}\n", settings.scene,
-                                   settings.lights, settings.size.width, settings.size.height,
-                                   skipTable(rows).text(), json));
-    const std::vector<std::string> failures = skipFailures(rows);
-    for (const std::string& failure : failures)
-        spdlog::error("candelabra: {}", failure);
-    return printValidationMessages(context) || !failures.empty() ? exitFailed : exitOk;
+        writeText("-", table.text() + "All figures: " + json + "\n");
+    return printValidationMessages(context) || differs ? exitFailed : exitOk;
 }
 
 } // namespace
@@ -78,26 +153,18 @@ void addBenchSkip(CLI::App& bench, Run& run)
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type)->capture_default_str();
     };
-    add("--scene", a->scene, "generated scene to draw", "NAME");
+    add("--scene", a->scene, "scene to draw", "NAME");
     add("--lights", a->lights, "number of sphere lights, up to 1,000,000", "N");
     add("--size", a->size, "image size", "WxH");
-    add("--rounds", a->rounds, "rounds; each draws both frames of a row once", "N");
-    add("--point-rounds", a->pointRounds,
-        "rounds of the row that compares point lights with point lights", "N");
-    add("--seed", a->seed, "seed of the scene and lights", "N");
+    add("--rounds", a->rounds, "rounds; each draws both frames of a pair once", "N");
     addBenchOutput(*command, a->directory, a->json, "bench_skip.json");
     a->device.addTo(*command);
     command->footer(
         "Each row is one skip. It holds the GPU time of the passes concerned with the skip and\n"
-        "without it, from interleaved rounds; what looking for the skip costs in frames that\n"
-        "cannot use it (\"nothing\" if that is known before recording, or if the GPU finds it\n"
-        "anyway); and how much the two images differ.\n"
-        "The exit code is 1 if they differ by more than the row allows: by anything at all; where\n"
-        "sums may change their order, by 1e-6 of the largest radiance; for lights too dim to be\n"
-        "seen, by the display error that they were cut with.\n\n"
-        "Examples:\n"
-        "  candelabra bench skip\n"
-        "  candelabra bench skip --scene field --lights 16000 --rounds 15");
+        "without it, as profile --ab measures them. The exit code is 1 if the images of the two\n"
+        "frames differ.\n\n"
+        "Example:\n"
+        "  candelabra bench skip --scene field --lights 16000");
     command->callback(
         [&run, a] { run = [a](const ProgramContext& program) { return skip(program, *a); }; });
 }

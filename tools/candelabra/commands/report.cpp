@@ -29,7 +29,6 @@
 #include "measure/report/report_page.h"
 #include "measure/report/sentences.h"
 #include "measure/report/weak_sides.h"
-#include "measure/skip.h"
 #include "measure/stability/stability.h"
 #include "render/camera.h"
 #include "render/provenance.h"
@@ -44,7 +43,7 @@ namespace
 
 struct ReportArguments {
     DeviceArguments device;
-    std::string directory = "out/report", parts = "profile,accuracy,culling,skip,stability";
+    std::string directory = "out/report", parts = "profile,accuracy,culling,stability";
     std::string lights = "4000", size = "640x360", frames = "20";
     std::string committed; // empty: committedDirectory, if it is there
 };
@@ -69,7 +68,6 @@ struct Measured {
     std::vector<ReportSection> sections;
     Json document;
     WeakSideFacts facts; // all results but those of stability
-    SkipSettings skipSettings;
     Stability stability;
     std::vector<PartTime> times;
 };
@@ -248,30 +246,6 @@ void cullingPart(const Part& part)
     out.document["culling"] = cullingJson(settings, out.facts.culling);
 }
 
-void skipPart(const Part& part)
-{
-    const SkipSettings settings{
-        .size = {320, 180}, .lights = 1000, .rounds = reportRounds, .pointRounds = 10};
-    Measured& out = part.out;
-    {
-        Progress progress(skipSteps(settings), !part.quiet);
-        out.skipSettings = settings;
-        out.facts.skips = measureSkips(part.context, settings, progress);
-    }
-    out.sections.push_back(
-        {.id = "skip",
-         .title = "What skipping unneeded work saves",
-         .intro = "Each row compares two frames, drawn in turn: one in which the engine finds that "
-                  "some work is not needed and leaves it out, and one that does the work. A ratio "
-                  "near 1 means that the skip saves nothing here.",
-         .html = {},
-         .tables = {skipTable(out.facts.skips)},
-         .command = fmt::format("candelabra bench skip --size 320x180 --lights 1000 --rounds {} "
-                                "--point-rounds {}",
-                                settings.rounds, settings.pointRounds)});
-    out.document["skip"] = skipJson(settings, out.facts.skips);
-}
-
 void stabilityPart(const Part& part)
 {
     // The kernels of polygons and distant spheres, whose code is that of rectangles and spheres,
@@ -312,7 +286,6 @@ struct PartChoice {
 constexpr PartChoice partChoices[] = {{"profile", "the passes of a frame", profilePart},
                                       {"accuracy", "errors against the truth", accuracyPart},
                                       {"culling", "time against the number of lights", cullingPart},
-                                      {"skip", "what skipping work saves", skipPart},
                                       {"stability", "hard inputs", stabilityPart}};
 
 double processorSeconds()
@@ -373,9 +346,8 @@ void addComparison(const std::string& directory, const DeviceInfo& device, const
         return;
     }
     std::vector<ReportedFigure> figures = figuresOf(measured.facts.culling);
-    for (const auto& more : {figuresOf(measured.skipSettings, measured.facts.skips),
-                             figuresOf(measured.facts.kernels)})
-        figures.insert(figures.end(), more.begin(), more.end());
+    const std::vector<ReportedFigure> kernels = figuresOf(measured.facts.kernels);
+    figures.insert(figures.end(), kernels.begin(), kernels.end());
     Comparison comparison = compareWithCommitted(figures, *committed);
     page.notes.push_back(fmt::format(
         "{} of this run can be compared with the committed results of this device and driver ({}); "

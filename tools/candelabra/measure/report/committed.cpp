@@ -37,12 +37,6 @@ std::string cullingConditions(uint32_t width, uint32_t height)
     return fmt::format("{}x{}", width, height);
 }
 
-std::string skipConditions(const std::string& scene, uint32_t width, uint32_t height,
-                           uint32_t lights)
-{
-    return fmt::format("{}x{} of {} with {} lights", width, height, scene, grouped(lights));
-}
-
 // Says which figures are not compared because all committed ones of the same name are of pictures
 // of other conditions.
 std::string omissionText(size_t count, const std::set<std::string>& here,
@@ -76,17 +70,6 @@ std::vector<ReportedFigure> figuresOf(const std::vector<CullingPoint>& points)
     return out;
 }
 
-std::vector<ReportedFigure> figuresOf(const SkipSettings& settings,
-                                      const std::vector<SkipRow>& rows)
-{
-    const std::string conditions =
-        skipConditions(settings.scene, settings.size.width, settings.size.height, settings.lights);
-    std::vector<ReportedFigure> out;
-    for (const SkipRow& row : rows)
-        out.push_back({.key = row.key(), .value = row.interval(), .conditions = conditions});
-    return out;
-}
-
 std::vector<ReportedFigure> figuresOf(const KernelLevel& level)
 {
     std::vector<ReportedFigure> out;
@@ -109,12 +92,6 @@ void addFigures(const Json& document, CommittedFigures& figures)
             figures[cullingKey(p.at("scene"), p.at("lights"), p.at("overlaps"))]
                    [cullingConditions(p.at("widthPixels"), p.at("heightPixels"))] =
                        p.at("ratioToBestBaseline");
-    if (schema.starts_with("candelabra bench skip"))
-        for (const Json& row : document.at("skips"))
-            figures[skipKey(row.at("name"), row.at("against"))]
-                   [skipConditions(document.at("scene"), document.at("widthPixels"),
-                                   document.at("heightPixels"), document.at("lights"))] =
-                       row.at("ratio");
     if (!schema.starts_with("candelabra bench accuracy"))
         return;
     for (const Json& p : document.at("kernels").at("points")) {
@@ -179,8 +156,8 @@ Comparison compareWithCommitted(const std::vector<ReportedFigure>& figures,
         .table =
             Table({{"figure", "",
                     "The ratio or the error, named as in its table. Culling is the engine's time "
-                    "divided by that of the fastest other way, a skip the time with it divided by "
-                    "the time without, and an evaluation its time divided by that of karis."},
+                    "divided by that of the fastest other way, and an evaluation its time divided "
+                    "by that of karis."},
                    {"this run", "", "The median or mean of this run."},
                    {"interval", "95%", "The interval of the figure of this run."},
                    {"committed", "", "The figure of the committed results."}},

@@ -13,7 +13,6 @@
 #include "io/table.h"
 #include "measure/accuracy/kernel_level.h"
 #include "measure/culling/culling.h"
-#include "measure/skip.h"
 
 namespace candelabra::app
 {
@@ -31,8 +30,6 @@ struct ReportedFigure {
     std::string conditions = {}; // of the picture, such as its size; empty if there is none
 };
 std::vector<ReportedFigure> figuresOf(const std::vector<CullingPoint>& points);
-std::vector<ReportedFigure> figuresOf(const SkipSettings& settings,
-                                      const std::vector<SkipRow>& rows);
 std::vector<ReportedFigure> figuresOf(const KernelLevel& level);
 
 // Figures by key, and those of one key by their conditions.

@@ -9,7 +9,6 @@
 #include "measure/accuracy/image_level.h"
 #include "measure/accuracy/kernel_level.h"
 #include "measure/culling/culling.h"
-#include "measure/skip.h"
 #include "measure/stability/stability.h"
 
 namespace candelabra::app

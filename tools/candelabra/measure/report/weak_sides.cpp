@@ -150,46 +150,16 @@ std::string notFaster(const std::vector<CullingPoint>& points)
     return out;
 }
 
-std::string missedLimits(const std::vector<SkipRow>& rows)
-{
-    size_t limits = 0;
-    std::string missed;
-    for (const SkipRow& row : rows) {
-        limits += row.bar > 0;
-        if (row.isOverBar())
-            missed += fmt::format("{}\"{}\" ({:.3f} of {:.2f})", missed.empty() ? "" : ", ",
-                                  row.name, row.interval().median, row.bar);
-    }
-    return missed.empty() ? ""
-                          : fmt::format("of {} that the project has set for what a skip may leave "
-                                        "of the time, this run misses {}",
-                                        counted(limits, "limit"), missed);
-}
-
-// What costs most when it is looked for and not found, if that is worth a word.
-std::string effortInVain(const std::vector<SkipRow>& rows)
-{
-    constexpr double worthAWord = 0.05; // of the frame
-    const SkipRow* worst = nullptr;
-    for (const SkipRow& row : rows)
-        if (row.shareInVain() > (worst ? worst->shareInVain() : worthAWord))
-            worst = &row;
-    return worst ? fmt::format("looking for \"{}\" makes frames that have none {:.0f}% slower",
-                               worst->name, 100 * worst->shareInVain())
-                 : "";
-}
-
 } // namespace
 
 std::string weaknessSentence(const WeakSideFacts& f)
 {
-    if (f.kernels.points.empty() && f.culling.empty() && f.skips.empty())
-        return "Weak sides: none of the parts \"accuracy\", \"culling\" and \"skip\" was measured "
-               "in this run.";
+    if (f.kernels.points.empty() && f.culling.empty())
+        return "Weak sides: neither the part \"accuracy\" nor \"culling\" was measured in this "
+               "run.";
     std::vector<std::string> weak{slowestEvaluation(f.kernels), slowerImages(f.scenes),
                                   dearerCulling(f.culling),     notFaster(f.culling),
-                                  largestErrors(f.kernels),     worseImages(f.scenes),
-                                  effortInVain(f.skips),        missedLimits(f.skips)};
+                                  largestErrors(f.kernels),     worseImages(f.scenes)};
     std::erase(weak, "");
     return weak.empty() ? "Weak sides: this run shows none."
                         : fmt::format("Weak sides: {}.", fmt::join(weak, "; "));

@@ -9,7 +9,6 @@
 #include "measure/accuracy/image_level.h"
 #include "measure/accuracy/kernel_level.h"
 #include "measure/culling/culling.h"
-#include "measure/skip.h"
 
 namespace candelabra::app
 {
@@ -19,7 +18,6 @@ struct WeakSideFacts {
     KernelLevel kernels;
     std::vector<ImageScene> scenes;
     std::vector<CullingPoint> culling;
-    std::vector<SkipRow> skips;
 };
 
 std::string weaknessSentence(const WeakSideFacts& facts);
