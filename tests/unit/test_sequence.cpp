@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests what sequences of pictures are made of: places of samples in a pixel, numbered names, paths
-// of the camera, and the record of finished frames.
+// Tests what sequences of pictures are made of: places of samples in a pixel, numbered names, and
+// paths of the camera.
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "commands/sequence.h"
 #include "io/error.h"
 #include "io/numbered_name.h"
 #include "render/accumulation.h"
@@ -103,8 +102,6 @@ TEST(NumberedName, HasOnePlace)
     EXPECT_EQ(numberedName("-o", "a/f.%04d.png", 7), "a/f.0007.png");
     EXPECT_EQ(numberedName("-o", "%d", 12), "12");
     EXPECT_EQ(numberedName("-o", "50%_%02d%", 123), "50%_123%");
-    EXPECT_EQ(namedInstead("f.%04d.png", "exposure"), "f.exposure.png");
-    EXPECT_EQ(sequenceRecord("a/f.%04d.png"), "a/f.exposure.txt");
     EXPECT_EQ(numberedName("-o", "%0d", 5), "5");
     EXPECT_EQ(numberedName("-o", "%012d", 5), "000000000005");
     for (const char* without : {"f.png", "100%.png", "%s", "%", "%0", "%04"})
@@ -155,35 +152,4 @@ TEST_F(SequenceTest, FaultyPathsAreRefusedWithTheirLine)
     EXPECT_NE(refusal("0,0,0,0,0,1\n1,0,0,1,0,-1\n").find("line 2: looks the opposite way"),
               std::string::npos);
     EXPECT_THROW(CameraPath(sceneWithCamera(), {}, path("none.txt")), SceneError);
-}
-
-TEST_F(SequenceTest, FramesThatAreThereAreKeptWithTheirExposure)
-{
-    const std::vector<std::string> outputs{path("f.%02d.png"), path("f.%02d.exr")};
-    const std::string command = "candelabra render hall -o f.%02d.png";
-    {
-        Sequence first(outputs, 4, command, false);
-        for (uint32_t frame = 0; frame < 3; ++frame) {
-            EXPECT_FALSE(first.has(frame));
-            write("f.0" + std::to_string(frame) + ".png", "x");
-            write("f.0" + std::to_string(frame) + ".exr", "x");
-            first.add(frame, 9.1f + float(frame) / 3);
-            EXPECT_TRUE(first.has(frame));
-        }
-    }
-    std::filesystem::remove(path("f.00.exr"));
-    std::ofstream(path("f.exposure.txt"), std::ios::app) << "3 7.2"; // cut off by a signal
-    Sequence next(outputs, 4, command + " --resume -q", true);
-    EXPECT_FALSE(next.has(0)); // one of its pictures is missing
-    EXPECT_TRUE(next.has(1));
-    EXPECT_TRUE(next.has(2));
-    EXPECT_EQ(next.adaptedEv100(2), 9.1f + float(2) / 3); // every bit
-    write("f.03.png", "x");
-    write("f.03.exr", "x");
-    EXPECT_FALSE(next.has(3)); // there, but not known to be complete
-    EXPECT_THROW(Sequence(outputs, 4, command + " --aa 4", true), UsageError);
-    Sequence anew(outputs, 4, command, false);
-    EXPECT_FALSE(anew.has(1));
-    write("f.exposure.txt", "notes of somebody\n");
-    EXPECT_THROW(Sequence(outputs, 4, command, false), UsageError);
 }

@@ -11,7 +11,6 @@
 
 #include "commands/commands.h"
 #include "commands/messages.h"
-#include "commands/sequence.h"
 #include "io/error.h"
 #include "io/numbered_name.h"
 #include "io/progress.h"
@@ -36,7 +35,7 @@ struct RenderArguments {
     FrameArguments frame;
     std::string samples = "auto", bloom = "0", frames, time = "0", fps = "60", path = "still";
     std::string json, pick;
-    bool explain = false, resume = false, edgeFilter = false;
+    bool explain = false, edgeFilter = false;
     std::vector<std::string> outputs;
 };
 
@@ -64,16 +63,12 @@ std::filesystem::path identity(const std::string& path)
 bool isSequence(const RenderArguments& a)
 {
     const auto numbered = [](const std::string& output) { return isNumbered(output); };
-    if (std::none_of(a.outputs.begin(), a.outputs.end(), numbered)) {
-        if (a.resume)
-            throw UsageError("--resume: needs numbered pictures, such as -o f.%04d.png");
+    if (std::none_of(a.outputs.begin(), a.outputs.end(), numbered))
         return false;
-    }
     for (const std::string& output : a.outputs)
         numberedName("-o", output, 0); // throws if there is no place for a number, or two
     if (a.frames.empty())
         throw UsageError("-o " + a.outputs[0] + ": give --frames N, the number of pictures");
-    requireWritable("-o", sequenceRecord(a.outputs[0]));
     return true;
 }
 
@@ -158,9 +153,6 @@ RenderPlan plan(const RenderArguments& a)
     if (byError && a.frame.specularMethod() == CND_SPECULAR_SAMPLED)
         throw UsageError("--influence-error: cannot be combined with --specular sampled, whose "
                          "noise hides the error");
-    if (byError && a.resume)
-        throw UsageError("--resume: cannot be combined with --influence-error, which looks at some "
-                         "pixels of every frame and so needs the frames that are left out");
     SceneOptions scene = a.scene.options(a.scene.lightCount());
     scene.imageAspect = a.frame.imageAspect();
     return {.scene = scene,
@@ -265,34 +257,29 @@ MeasuredFrames drawFrames(const ProgramContext& program, const RenderArguments& 
                           const RenderPlan& p, const CameraPath& path, bool moving,
                           const VulkanContext& context, Renderer& renderer)
 {
-    std::optional<Sequence> sequence;
-    if (p.sequence)
-        sequence.emplace(a.outputs, p.counts.measured, program.commandLine, a.resume);
     Progress progress(p.counts.warmUp + double(p.counts.measured) * p.counts.samples,
                       !program.quiet);
     progress.doing("rendering");
-    const auto camera = [&](uint32_t frame) { return path.at(frame, p.counts.measured); };
     FrameHooks hooks;
-    if (sequence)
-        hooks = sequenceHooks(context, renderer, *sequence, a.outputs, camera);
-    else
-        hooks.prepare = [&](uint32_t frame, FrameOptions& options) {
-            options.camera = camera(frame);
-            return true;
+    hooks.prepare = [&](uint32_t frame, FrameOptions& options) {
+        options.camera = path.at(frame, p.counts.measured);
+    };
+    if (p.sequence)
+        hooks.finished = [&](uint32_t frame) {
+            for (const std::string& output : a.outputs)
+                saveFrame(context, renderer, numberedName("-o", output, frame));
         };
     return renderFrames(
         context, renderer, p.frame, p.counts, moving, [&] { progress.advance(1); }, hooks,
         p.interval);
 }
 
-// Writes pictures of the last frame, unless the `drawn` frames of a sequence are written already.
-void writePictures(const RenderArguments& a, const RenderPlan& p, size_t drawn,
-                   const VulkanContext& context, const Renderer& renderer)
+// Writes pictures of the last frame, unless the frames of a sequence are written already.
+void writePictures(const RenderArguments& a, const RenderPlan& p, const VulkanContext& context,
+                   const Renderer& renderer)
 {
     if (p.sequence)
-        spdlog::info("wrote {}, {} were there; {} has the exposure of each",
-                     counted(drawn, "frame"), p.counts.measured - drawn,
-                     sequenceRecord(a.outputs[0]));
+        spdlog::info("wrote {}", counted(p.counts.measured, "frame"));
     else
         for (const std::string& output : a.outputs) {
             saveFrame(context, renderer, output);
@@ -334,7 +321,7 @@ int render(const ProgramContext& program, const RenderArguments& a)
     const MeasuredFrames frames = drawFrames(program, a, p, path, moving, context, renderer);
     if (!p.sequence)
         spdlog::info("{}", exposureText(p.frame.exposure, scene, evIsGiven, frames.last.exposure));
-    writePictures(a, p, frames.times.frames(), context, renderer);
+    writePictures(a, p, context, renderer);
     // What follows looks at the last frame.
     p.frame.camera = path.at(p.counts.measured - 1, p.counts.measured);
     p.frame.time += moving ? p.interval * (p.counts.measured - 1) : 0;
@@ -399,9 +386,6 @@ void addRenderCommand(CLI::App& app, Run& run)
                      "frames per second, for lights that move and for eyes that adapt")
         ->type_name("N")
         ->capture_default_str();
-    command->add_flag("--resume", a->resume,
-                      "leave out numbered frames that the same command has written already; the "
-                      "exposure goes on as if they had been drawn");
     command->add_option("--time", a->time, "scene time of the first frame in seconds, for --moving")
         ->type_name("SECONDS")
         ->capture_default_str();

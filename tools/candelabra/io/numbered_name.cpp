@@ -63,10 +63,4 @@ std::string numberedName(const std::string& option, const std::string& name, uin
            name.substr(place->end);
 }
 
-std::string namedInstead(const std::string& name, const std::string& word)
-{
-    const std::optional<Place> place = findPlace(name);
-    return place ? name.substr(0, place->start) + word + name.substr(place->end) : name;
-}
-
 } // namespace candelabra::app

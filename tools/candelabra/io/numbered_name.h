@@ -16,7 +16,4 @@ bool isNumbered(const std::string& name);
 // name has several such places, or none, or one that is neither %d nor %0Nd with N up to 99.
 std::string numberedName(const std::string& option, const std::string& name, uint32_t number);
 
-// Returns the same name with `word` in place of the number.
-std::string namedInstead(const std::string& name, const std::string& word);
-
 } // namespace candelabra::app

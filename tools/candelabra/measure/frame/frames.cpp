@@ -96,16 +96,16 @@ MeasuredFrames renderFrames(const VulkanContext& context, Renderer& renderer,
         FrameOptions drawn = frame;
         if (hooks.finished)
             frames.wait(); // for the warm-up frames
-        const bool wanted = !hooks.prepare || hooks.prepare(i, drawn);
+        if (hooks.prepare)
+            hooks.prepare(i, drawn);
         for (uint32_t sample = 0; sample < counts.samples; ++sample) {
             drawn.sample = {sample, counts.samples};
-            if (wanted)
-                frames.draw(drawn, true);
+            frames.draw(drawn, true);
             onFrame();
         }
-        if (wanted && hooks.finished) {
+        if (hooks.finished) {
             frames.wait();
-            hooks.finished(i, frames.result().last);
+            hooks.finished(i);
         }
         if (moving) {
             frame.time += interval;

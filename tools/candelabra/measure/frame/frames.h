@@ -36,10 +36,10 @@ struct MeasuredFrames {
 
 // What happens before and after each measured frame. Both functions may be empty.
 struct FrameHooks {
-    // Changes the options of the measured frame `index`. Returns false to leave the frame out.
-    std::function<bool(uint32_t index, FrameOptions& options)> prepare;
+    // Changes the options of the measured frame `index`.
+    std::function<void(uint32_t index, FrameOptions& options)> prepare;
     // Is called when the GPU has finished the frame and no other is in flight.
-    std::function<void(uint32_t index, const FrameStats& stats)> finished;
+    std::function<void(uint32_t index)> finished;
 };
 
 // Renders frames through a frame ring with two slots. Warm-up frames and the first measured frame
