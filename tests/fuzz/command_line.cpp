@@ -21,7 +21,6 @@ Seeds fuzzSeeds()
             "render\nhall\n--influence-error\n0.5/255\n--pick\n4,5",
             "devices\n--json",
             "report\n--parts\nprofile,culling\n--out\nr",
-            "completions\nbash",
             "render\n--help"};
 }
 

@@ -270,24 +270,15 @@ def pkg_config():
 
 
 def program():
-    """The component of the program alone: it runs, and what belongs to it is read by its readers."""
+    """The component of the program alone: it runs, and nothing else is installed."""
     folder = clean(work / "program")
     run("cmake", "--install", build, "--component", "program", "--prefix", folder)
     files = {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()}
-    completions = "share/bash-completion/completions/candelabra"
-    wanted = {"bin/candelabra", "share/man/man1/candelabra.1", completions,
-              "share/fish/vendor_completions.d/candelabra.fish"}
-    require(files == wanted, f"installed and wanted differ in {files ^ wanted}")
+    require(files == {"bin/candelabra"}, f"{files} are installed")
     require(re.match(r"candelabra \d+\.\d+\.\d+\n", run(folder / "bin/candelabra", "--version")),
             "--version")
     libraries = run("readelf", "-d", folder / "bin/candelabra")
     require("libcandelabra" not in libraries and not re.search("R(UN)?PATH", libraries), libraries)
-    require((folder / "share/man/man1/candelabra.1").read_text(encoding="utf-8").startswith(".TH CANDELABRA 1"),
-            "the manual page has no title")
-    script = ('source "$0"; COMP_WORDS=(candelabra render --spec); COMP_CWORD=2; _candelabra; '
-              'echo "${COMPREPLY[@]}"')
-    offered = run("bash", "-c", script, folder / completions)
-    require(offered == "--specular\n", f"completed --spec to {offered}")
 
 
 def debian():

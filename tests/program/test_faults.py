@@ -36,7 +36,7 @@ def environment(**more):
 
 def start(arguments, folder, executable=(program,), **options):
     if device and arguments and arguments[0] not in (
-            "compare", "truth", "devices", "help", "manual", "completions", "examples") and "--device" not in arguments:
+            "compare", "truth", "devices", "help", "examples") and "--device" not in arguments:
         arguments = [*arguments, "--device", device]
     options = {"stdout": subprocess.PIPE, "env": environment()} | options
     return subprocess.Popen([*executable, *arguments], cwd=folder, stdin=subprocess.DEVNULL,
@@ -161,14 +161,13 @@ BASE = {
     "bench pipelines": ["bench", "pipelines"],
     "bench skip": ["bench", "skip", "--lights=5", "--size=8x8", "--out=o"],
     "bench stability": ["bench", "stability", "--configs=1000", "--out=o"],
-    "devices": ["devices"], "manual": ["manual"], "completions": ["completions", "bash"],
-    "help": ["help"], "examples": ["examples", "o"],
+    "devices": ["devices"], "help": ["help"], "examples": ["examples", "o"],
 }
 # Command lines that are wrong only as a whole; each single option is right.
 COMBINATIONS = [
     ([], "no command"), (["paint"], "paint"), (["bench"], "no command of bench"), (["bench", "speed"], "speed"), (["bench", "skip", "hall"], "hall"),
     (["render"], "scene"), (["render", "hall"], "nothing to write"), (["render", "village", "-o", "x.png"], "village"),
-    (["render", "hall", "more", "-o", "x.png"], "more"), (["completions"], "shell"), (["completions", "csh"], "csh"),
+    (["render", "hall", "more", "-o", "x.png"], "more"),
     (["render", "hall", "-o", "x.png", "-o", "./x.png"], "twice"), (["render", "hall", "-o"], "-o"),
     (["render", "hall", "-o", "x.png", "--json", "./x.png"], "--json"), (["render", "hall", "--lights"], "--lights"),
     (["render", "hall", "-o", "x.png", "--camera="], "--camera="), (["render", "hall", "-o", "x.png", "--lights", ""], "--lights"),
@@ -225,12 +224,19 @@ def furnish(folder):
 
 def options_of_commands():
     """"render" -> ["--seed", ...]: long names, and whether they take values, of the program's own lists."""
-    bash = subprocess.run([program, "completions", "bash"], capture_output=True, text=True, check=True).stdout
-    fish = subprocess.run([program, "completions", "fish"], capture_output=True, text=True, check=True).stdout
-    values = set(re.findall(r" -l ([\w-]+) -r", fish))
-    return {command: [(o, o[2:] in values) for o in words.split() if o.startswith("--") and o != "--help"]
-            for command, words in re.findall(r'^    " ([\w ]+)"\) words="(.*)" ;;$', bash, re.MULTILINE)
-            if command != "bench"}
+    found = {}
+
+    def add(words):
+        text = subprocess.run([program, *words, "--help"], capture_output=True, text=True, check=True).stdout
+        parts = re.findall(r"^  ([a-z]+) ", text.partition("Subcommands:\n")[2].partition("\n\n")[0], re.MULTILINE)
+        for part in parts:
+            add([*words, part])
+        if not parts:
+            options = re.findall(r"^  (?:-\w,)?(--[\w-]+)( \S)?", text, re.MULTILINE)
+            found[" ".join(words)] = [(name, bool(value)) for name, value in options if name != "--help"]
+
+    add([])
+    return found
 
 
 @contextlib.contextmanager
@@ -373,7 +379,7 @@ WRITERS = [
     (["report", "--parts", "profile", "--lights", "5", "--size", "32x32", "--frames", "2", "-q", "--out", "{}"], "index.html", True),
     (["view", "hall", "--lights", "5", "--size", "64x64", "--frames", "2", "-q", "--screenshot", "{}/x.png"], "x.png", True),
 ]
-PRINTERS = [(["manual"], False), (["completions", "bash"], False), (["--help"], False), (["render", "--help"], False),
+PRINTERS = [(["--help"], False), (["render", "--help"], False),
             (["--version"], False), (["compare", "run.json", "run.json"], False),
             (["compare", "run.json", "run.json", "--json", "-"], False), (["devices"], True), (["devices", "--json"], True),
             (["render", "hall", "--lights", "5", "--size", "8x8", "-q", "--json", "-"], True),

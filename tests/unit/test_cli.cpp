@@ -140,7 +140,6 @@ TEST(Cli, MessagesOfTheParserBecomeSentences)
         {{"truth", "scene.json", "-o", "x.exr", "--no-cache=maybe"}, "--no-cache: takes no value"},
         {{"profile", "hall", "--ab", "x"}, "--ab: needs 2 values"},
         {{"profile", "hall", "--ab", "--lights 4", ""}, "\"--lights\" and \"4\" are not expected"},
-        {{"completions"}, "no shell is given"},
         {{"compare", "a"}, "compare: give results"},
     };
     for (const auto& [arguments, sentence] : cases) {
@@ -430,29 +429,4 @@ TEST(BruteCheck, RectanglesCoverTheImageOnceOrSampleIt)
                     expectSampleWithinBudget(count, covered.size(), lights, sampledPairs);
             }
     EXPECT_TRUE(checkRects({64, 64}, 100, CheckExtent::None).empty());
-}
-
-TEST(Cli, ManualAndCompletionsKnowEveryOptionOfEveryCommand)
-{
-    const std::string manual = runWith({"manual"}).out, bash = runWith({"completions", "bash"}).out,
-                      fish = runWith({"completions", "fish"}).out;
-    EXPECT_EQ(manual.rfind(".TH CANDELABRA 1", 0), 0u) << manual.substr(0, 80);
-    for (const char* command : {"render", "profile", "compare", "report", "truth"}) {
-        const std::string help = runWith({command, "--help"}).out;
-        size_t found = 0;
-        for (size_t at = help.find("\n  -"); at != std::string::npos;
-             at = help.find("\n  -", at + 1)) {
-            const size_t start = help.find("--", at), end = help.find_first_of(" ,\n", start);
-            const std::string option = help.substr(start, end - start);
-            std::string escaped;
-            for (const char c : option)
-                escaped += c == '-' ? "\\-" : std::string(1, c);
-            EXPECT_NE(manual.find("\\fB" + escaped + "\\fR"), std::string::npos) << option;
-            EXPECT_NE(bash.find(" " + option + " "), std::string::npos) << option;
-            EXPECT_NE(fish.find(" -l " + option.substr(2) + " "), std::string::npos) << option;
-            ++found;
-        }
-        EXPECT_GE(found, 5u) << command;
-    }
-    EXPECT_EQ(runWith({"completions", "tcsh"}).exitCode, exitUsage);
 }

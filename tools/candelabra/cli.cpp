@@ -202,6 +202,18 @@ void refuseEmptyValues(const CLI::App& app)
                     throw UsageError(option->get_name() + ": its value is empty");
 }
 
+// The program reads "help WORDS" as "WORDS --help", so this command is never run. It is listed with
+// the others.
+void addHelpCommand(CLI::App& app)
+{
+    CLI::App* help =
+        app.add_subcommand("help", "Print the help of the program or of one of its commands");
+    help->add_option("command")->description("the command, such as render or bench culling");
+    help->footer("Examples:\n"
+                 "  candelabra help\n"
+                 "  candelabra help bench culling");
+}
+
 // Returns the arguments with "help WORDS" replaced by "WORDS --help", so that both print the same
 // and refuse the same.
 std::vector<const char*> withHelpAsOption(int argc, const char* const* argv)
@@ -235,7 +247,7 @@ int parseAndRun(int typedCount, const char* const* typed)
     addBenchCommand(app, run);
     addDevicesCommand(app, run);
     addExamplesCommand(app, run);
-    addManualCommands(app, run);
+    addHelpCommand(app);
     refuseWrongAssignments(app, argc, argv);
     try {
         app.parse(argc, argv);

@@ -18,7 +18,6 @@ void addBenchCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);
 void addDevicesCommand(CLI::App& app, Run& run);
 void addExamplesCommand(CLI::App& app, Run& run);
-void addManualCommands(CLI::App& app, Run& run); // help, manual, completions
 void addProfileCommand(CLI::App& app, Run& run);
 void addRenderCommand(CLI::App& app, Run& run);
 void addReportCommand(CLI::App& app, Run& run);
