@@ -4,7 +4,6 @@
 in its name and with next to nothing in the environment, and its archives become records and tables in a copy
 of the documents. Usage: test_gpu_check.py SOURCE BUILD; everything is written to BUILD/gpu_check."""
 import io
-import json
 import os
 import pathlib
 import shutil
@@ -68,7 +67,7 @@ for name in ("README.md", "tools/update_results", "tools/bench/RESULTS.md"):
     (copy / name).parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(source / name, copy / name)
 shutil.copytree(source / "tools/bench/results", copy / "tools/bench/results")
-committed = set((copy / "tools/bench/results").glob("profile-*.json"))
+committed = set((copy / "tools/bench/results").glob("profile-*.csv"))
 for part in output:
     archive = work / f"results/gpu_check-{part}.tar.gz"
     refused = run(copy / "tools/update_results", archive, status=1)
@@ -79,11 +78,10 @@ for part in output:
             if member.isfile() and not member.name.endswith("/QUICK"):
                 tar.addfile(member, io.BytesIO(quick.extractfile(member).read()))
     run(copy / "tools/update_results", measured)
-profile, = set((copy / "tools/bench/results").glob("profile-*.json")) - committed
-run_record = json.loads(profile.read_text())[0]
-require(run_record["provenance"]["commandLine"].startswith("candelabra profile hall --lights 200 "),
-        f"the record names {run_record['provenance']['commandLine']}")
+profile, = set((copy / "tools/bench/results").glob("profile-*.csv")) - committed
+head = dict(line[2:].split(": ", 1) for line in profile.read_text().splitlines() if line.startswith("# "))
+require(head["command"].startswith("candelabra profile hall --lights 200 "), f"the record names {head['command']}")
 page = (copy / "tools/bench/RESULTS.md").read_text()
-for wanted in (f"### {run_record['provenance']['device']}, ", " GPU tests passed", "| hall, 200, moving | 64x36 |"):
+for wanted in (f"### {head['device']}, ", " GPU tests passed", "| hall, 200, moving | 64x36 |"):
     require(wanted in page, f"RESULTS.md has no {wanted}")
 run(copy / "tools/update_results", "--check")

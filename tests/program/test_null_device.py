@@ -8,13 +8,14 @@ import glob
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True  # the sources may be read-only
 program, root = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
-RECORD = root / "tools/bench/results/pipelines-radv.json"
+RECORD = root / "tools/bench/results/pipelines-radv.csv"
 failures = []
 
 
@@ -84,14 +85,13 @@ with tempfile.TemporaryDirectory() as folder:
     require("tone_map, aces" in table.stdout, table.stdout)
 
     # A rise fails, and what falls does not.
-    record = json.loads(RECORD.read_text(encoding="utf-8"))
-    rows = record["gpus"]["navi21-wave32"]
-    name = next(name for name in rows if name.startswith("cluster_lists"))
+    lines = RECORD.read_text(encoding="utf-8").splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("cluster_lists,"))
+    name, registers, rest = re.fullmatch(r"(\w+,)(\d+)(,.*)", lines[first]).groups()  # of navi21-wave32
     for change, code, said in ((-8, 1, "vectorRegisters rose"), (8, 0, "fell below the record")):
-        planted = json.loads(json.dumps(record))
-        planted["gpus"]["navi21-wave32"][name][record["measures"].index("vectorRegisters")] += change
-        path = pathlib.Path(folder) / "record.json"
-        path.write_text(json.dumps(planted), encoding="utf-8")
+        planted = [*lines[:first], f"{name}{int(registers) + change}{rest}", *lines[first + 1:]]
+        path = pathlib.Path(folder) / "record.csv"
+        path.write_text("\n".join(planted) + "\n", encoding="utf-8")
         outcome = gpu_stats("--gpus", "navi21-wave32", "--kernels", "cluster_lists", "--record", path)
         if outcome.returncode == 77:
             sys.exit(77)

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that the record of the fit (tools/bench/results/conic-fit.json) was made with the constants
+// Tests that the record of the fit (tools/bench/results/conic-*.csv) was made with the constants
 // that the shaders have, that each constant is near its optimum, and that the parts of the fit
 // compute what they should.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
+#include <map>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "fit/conic_objective.h"
 #include "fit/polynomials.h"
 #include "harness/paths.h"
+#include "io/csv.h"
 
 namespace candelabra::test
 {
 namespace
 {
 
-nlohmann::json conicFitRecord()
+app::CsvFile record(const char* table)
 {
-    return nlohmann::json::parse(std::ifstream(sourcePath("tools/bench/results/conic-fit.json")));
+    return app::readCsv(sourcePath(std::string("tools/bench/results/") + table));
 }
 
 const fit::ConicObjective& checkObjective()
@@ -44,41 +44,47 @@ double largestErrorOf(const app::SampleSet& set, uint32_t group)
     return fit::ConicObjective(std::move(alone)).residuals({}).conic.mirror.all.largest;
 }
 
-void expectRecorded(const nlohmann::json& recorded, const fit::ErrorFigures& figures)
+void expectRecorded(const std::map<std::string, std::string>& row, const char* column,
+                    double figure)
 {
     // The truth is integrated to a relative error of 1e-5.
-    EXPECT_NEAR(figures.mean, recorded["meanPercent"], 1e-3 * figures.mean);
-    EXPECT_NEAR(figures.rms, recorded["rmsPercent"], 1e-3 * figures.rms);
-    EXPECT_NEAR(figures.p99, recorded["p99Percent"], 1e-3 * figures.p99);
-    EXPECT_NEAR(figures.largest, recorded["maxPercent"], 1e-3 * figures.largest);
+    EXPECT_NEAR(figure, std::stod(row.at(column)), 1e-3 * figure) << column;
 }
 
 } // namespace
 
 TEST(ConicFit, RecordHoldsTheCommittedConstants)
 {
-    const nlohmann::json constants = conicFitRecord()["committed"]["constants"];
-    EXPECT_EQ(constants.size(), fit::conicConstants().size());
+    std::map<std::string, float> recorded;
+    for (const auto& row : record("conic-constants.csv").rows)
+        recorded[row.at("constant")] = std::stof(row.at("shaders"));
+    EXPECT_EQ(recorded.size(), fit::conicConstants().size());
     for (const fit::ConicConstant& c : fit::conicConstants()) {
-        ASSERT_TRUE(constants.contains(c.name)) << c.name;
-        EXPECT_EQ(float(constants[c.name]), float(c.committed)) << c.name;
+        ASSERT_TRUE(recorded.contains(c.name)) << c.name;
+        EXPECT_EQ(recorded[c.name], float(c.committed)) << c.name;
     }
 }
 
 TEST(ConicFit, RecordHoldsTheirResidualsOnAFewGroups)
 {
-    const nlohmann::json check = conicFitRecord()["check"];
     const fit::ConicResiduals residuals = checkObjective().residuals({});
-    for (const auto& [method, figures] :
-         {std::pair{"conic", &residuals.conic}, {"conic-full", &residuals.conicFull}}) {
-        const nlohmann::json& recorded = check["residuals"][method];
-        expectRecorded(recorded["fresnel1"]["all"], figures->mirror.all);
-        expectRecorded(recorded["fresnel1"]["above"], figures->mirror.above);
-        expectRecorded(recorded["F0_0.04"]["all"], figures->dielectric.all);
-        expectRecorded(recorded["F0_0.04"]["above"], figures->dielectric.above);
-    }
     const double cost = checkObjective().cost({});
-    EXPECT_NEAR(cost, check["cost"], 1e-3 * cost);
+    int compared = 0;
+    for (const auto& row : record("conic-fit.csv").rows) {
+        if (row.at("groups") != "check")
+            continue;
+        const fit::MethodFigures& method =
+            row.at("method") == "conic" ? residuals.conic : residuals.conicFull;
+        const auto& fresnel = row.at("fresnel") == "fresnel1" ? method.mirror : method.dielectric;
+        const fit::ErrorFigures& figures = row.at("where") == "all" ? fresnel.all : fresnel.above;
+        expectRecorded(row, "meanPercent", figures.mean);
+        expectRecorded(row, "rmsPercent", figures.rms);
+        expectRecorded(row, "p99Percent", figures.p99);
+        expectRecorded(row, "maxPercent", figures.largest);
+        expectRecorded(row, "cost", cost);
+        ++compared;
+    }
+    EXPECT_EQ(compared, 8);
 }
 
 // Half or twice the value of any constant, with the others unchanged, changes the cost and lowers

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "harness/paths.h"
@@ -376,30 +377,29 @@ TEST_F(ReportPageTest, RowsThatContradictTheCommittedResultsAreFlagged)
 {
     const DeviceInfo device{.name = "a device", .driver = "a driver"};
     const auto document = [](const char* driver, double ratio, uint32_t width = 480) {
-        return Json{{"schema", "candelabra bench culling 1"},
-                    {"provenance", {{"device", "a device"}, {"driver", driver}}},
-                    {"points", Json::array({Json{{"scene", "hall"},
-                                                 {"widthPixels", width},
-                                                 {"heightPixels", 270},
-                                                 {"lights", 4000},
-                                                 {"overlaps", 8},
-                                                 {"ratioToBestBaseline", ratio}}})}}
-            .dump();
+        return fmt::format(
+            "# device: a device\n# driver: {}\n"
+            "scene,widthPixels,heightPixels,lights,overlaps,ratioToBestBaseline,bestBaseline\n"
+            "hall,{},270,4000,8,{},\"tiles, or froxels\"\n",
+            driver, width, ratio);
     };
     EXPECT_FALSE(readCommitted(dir_ / "missing", device));
-    write("broken.json", "{");
-    write("other.json", document("another driver", 3));
+    write("culling-broken.csv", "# device: a device\n# driver: a driver\nscene,lights\nhall\n");
+    write("culling-columns.csv", "# device: a device\n# driver: a driver\nscene\nhall\n");
+    write("culling-head.csv", "scene\nhall\n");
+    write("culling-word.csv", document("a driver", 3) + "hall,480,270,4000,8,much,froxels\n");
+    write("culling-other.csv", document("another driver", 3));
     EXPECT_TRUE(readCommitted(dir_, device)->figures.empty());
-    write("this.json", document("a driver", 0.66));
+    write("culling-this.csv", document("a driver", 0.66));
     const std::vector<CullingPoint> points{point(1.5)};
     Comparison same = compareWithCommitted(figuresOf(points), *readCommitted(dir_, device));
     EXPECT_EQ(same.compared, 1u);
     EXPECT_TRUE(same.contradictions.empty());
-    write("this.json", document("a driver", 1.5));
+    write("culling-this.csv", document("a driver", 1.5));
     Comparison other = compareWithCommitted(figuresOf(points), *readCommitted(dir_, device));
     ASSERT_EQ(other.contradictions.size(), 1u);
     EXPECT_TRUE(other.omission.empty());
-    write("this.json", document("a driver", 1.5, 1280));
+    write("culling-this.csv", document("a driver", 1.5, 1280));
     const Comparison larger = compareWithCommitted(figuresOf(points), *readCommitted(dir_, device));
     EXPECT_EQ(larger.compared, 0u);
     EXPECT_TRUE(larger.contradictions.empty());
@@ -423,7 +423,7 @@ TEST(ReportCommitted, ReadsTheCommittedResults)
                             .driver = "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"};
     const auto committed = readCommitted(test::sourcePath("tools/bench/results"), device);
     ASSERT_TRUE(committed);
-    EXPECT_EQ(committed->files.size(), 2u);
+    EXPECT_EQ(committed->files.size(), 3u);
     for (const std::string& key : {cullingKey("hall", 4000, 8), kernelTimeKey("sphere", "conic"),
                                    kernelErrorKey("rectangle", "ltc")})
         EXPECT_TRUE(committed->figures.contains(key)) << key;

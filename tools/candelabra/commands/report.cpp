@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// candelabra report: makes every measurement in a short form, and one page of the results that
+// candelabra report: makes the main measurements in a short form, and one page of the results that
 // needs no other file.
 #include <algorithm>
 #include <chrono>
@@ -467,7 +467,7 @@ int report(const ProgramContext& program, const ReportArguments& a)
 void addReportCommand(CLI::App& app, Run& run)
 {
     CLI::App* command = app.add_subcommand(
-        "report", "Make every measurement in a short form, and one HTML page of the results");
+        "report", "Make the main measurements in a short form, and one HTML page of the results");
     const auto a = std::make_shared<ReportArguments>();
     const auto add = [&](const char* name, std::string& value, const char* what, const char* type) {
         command->add_option(name, value, what)->type_name(type)->capture_default_str();
@@ -478,8 +478,9 @@ void addReportCommand(CLI::App& app, Run& run)
     add("--size", a->size, "image size of that frame", "WxH");
     add("--frames", a->frames, "number of times it is drawn", "N");
     add("--committed", a->committed,
-        "folder of results of the same device to compare with; by default tools/bench/results, if "
-        "it is there",
+        "folder of results of the same device to compare with, as CSV files of "
+        "tools/update_results; "
+        "by default tools/bench/results, if it is there",
         "DIR");
     a->device.addTo(*command);
     command->footer(

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <set>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "io/error.h"
+#include "io/parse.h"
 #include "scene/light_types.h"
 
 namespace candelabra::app
@@ -84,24 +86,26 @@ std::vector<ReportedFigure> figuresOf(const KernelLevel& level)
     return out;
 }
 
-void addFigures(const Json& document, CommittedFigures& figures)
+void addFigures(const std::string& table, const CsvFile& file, CommittedFigures& figures)
 {
-    const std::string schema = document.value("schema", "");
-    if (schema.starts_with("candelabra bench culling"))
-        for (const Json& p : document.at("points"))
-            figures[cullingKey(p.at("scene"), p.at("lights"), p.at("overlaps"))]
-                   [cullingConditions(p.at("widthPixels"), p.at("heightPixels"))] =
-                       p.at("ratioToBestBaseline");
-    if (!schema.starts_with("candelabra bench accuracy"))
-        return;
-    for (const Json& p : document.at("kernels").at("points")) {
-        const Json& times = p.at("time");
-        const char* main = times.contains("above") ? "above" : "general";
-        if (times.contains(main))
-            figures[kernelTimeKey(p.at("light"), p.at("method"))][{}] =
-                times.at(main).at("ratioToKaris");
-        const double percent = p.at("error").at("fresnel1").at("all").at("meanPercent");
-        figures[kernelErrorKey(p.at("light"), p.at("method"))][{}] = percent / 100;
+    for (const auto& row : file.rows) {
+        const auto numberAt = [&](const char* column) {
+            if (const auto value = parseNumber(row.at(column)))
+                return *value;
+            throw RunError(fmt::format("\"{}\" is no number", row.at(column)));
+        };
+        if (table == "culling") {
+            const auto count = [&](const char* column) { return uint32_t(numberAt(column)); };
+            figures[cullingKey(row.at("scene"), count("lights"), count("overlaps"))]
+                   [cullingConditions(count("widthPixels"), count("heightPixels"))] =
+                       numberAt("ratioToBestBaseline");
+        } else if (table == "accuracy") {
+            figures[kernelErrorKey(row.at("light"), row.at("method"))][{}] =
+                numberAt("fresnel1.all.meanPercent") / 100;
+        } else if (table == "price") {
+            const char* column = row.at("above").empty() ? "general" : "above";
+            figures[kernelTimeKey(row.at("light"), row.at("method"))][{}] = numberAt(column);
+        }
     }
 }
 
@@ -114,23 +118,21 @@ std::optional<CommittedResults> readCommitted(const std::string& directory,
     CommittedResults out{.directory = directory, .files = {}, .figures = {}};
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::directory_iterator(directory, error))
-        if (entry.path().extension() == ".json")
+        if (entry.path().extension() == ".csv")
             paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
     for (const std::filesystem::path& path : paths) {
-        std::ifstream file(path);
-        const Json document = Json::parse(file, nullptr, false);
-        if (!document.is_object() || !document.contains("provenance"))
-            continue;
         CommittedFigures figures;
         try {
-            const Json& from = document["provenance"];
-            if (from.value("device", "") != device.name ||
-                from.value("driver", "") != device.driver)
+            const CsvFile file = readCsv(path);
+            if (file.head.at("device") != device.name || file.head.at("driver") != device.driver)
                 continue;
-            addFigures(document, figures);
-        } catch (const Json::exception&) {
+            const std::string name = path.filename().string();
+            addFigures(name.substr(0, name.find('-')), file, figures);
+        } catch (const RunError&) {
             continue; // another format
+        } catch (const std::out_of_range&) {
+            continue; // the same: it lacks a column or a line of the head
         }
         if (figures.empty())
             continue;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/report.h"
+#include "io/csv.h"
 #include "io/statistics.h"
 #include "io/table.h"
 #include "measure/accuracy/kernel_level.h"
@@ -40,12 +40,14 @@ struct CommittedResults {
     std::vector<std::string> files; // those of the same device and driver
     CommittedFigures figures;
 };
-// Reads the results of this device and driver from the JSON files in a directory. Files that hold
-// something else are passed over. Returns nothing if there is no such directory.
+// Reads the results of this device and driver from the CSV files in a directory, which
+// tools/update_results writes. Files that hold something else are passed over. Returns nothing if
+// there is no such directory.
 std::optional<CommittedResults> readCommitted(const std::string& directory,
                                               const DeviceInfo& device);
-// Adds the figures of one document, such as the results of `candelabra bench culling`.
-void addFigures(const Json& document, CommittedFigures& figures);
+// Adds the figures of one table: "culling", "accuracy" or "price". Others have none to compare
+// with.
+void addFigures(const std::string& table, const CsvFile& file, CommittedFigures& figures);
 
 bool contradicts(const ReportedFigure& figure, double committed);
 
