@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "candelabra/candelabra.hpp"
 #include "commands/bench_commands.h"
 #include "commands/messages.h"
 #include "commands/options.h"
