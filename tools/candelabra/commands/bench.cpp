@@ -45,6 +45,12 @@ void addBenchCommand(CLI::App& app, Run& run)
         app.add_subcommand("bench", "Measure accuracy, stability, culling, skips, CPU time of "
                                     "lights and compiled code");
     bench->require_subcommand(1);
+    bench->footer(
+        "Examples:\n"
+        "  candelabra bench culling --lights 4000   time and lists against other methods\n"
+        "  candelabra bench accuracy --groups 100   errors against the truth, in a shorter "
+        "run\n"
+        "  candelabra bench culling --help          the options of one benchmark");
     addBenchAccuracy(*bench, run);
     addBenchCulling(*bench, run);
     addBenchHost(*bench, run);

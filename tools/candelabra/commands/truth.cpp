@@ -224,9 +224,8 @@ void addTruthCommand(CLI::App& app, Run& run)
     command->footer(
         "Every pixel is evaluated at its centre, as `candelabra render` does. Differences between "
         "the\n"
-        "two images are errors of the specular method; with conic they are largest for wide "
-        "lights\n"
-        "across the horizon of a surface that is seen at a grazing angle.\n\n"
+        "two images are errors of the specular method; with conic they are largest where a light\n"
+        "crosses the horizon of a surface that is seen at a grazing angle.\n\n"
         "Examples:\n"
         "  candelabra truth scene.json -o truth.exr\n"
         "  candelabra truth scene.json --shard 3/8 -o part3.truth\n"

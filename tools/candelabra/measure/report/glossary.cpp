@@ -40,7 +40,8 @@ const std::vector<Term> terms = {
      "Candelabra's own formula for area lights, and its default method. It adds up exactly how "
      "much of the light lies within the lobe, the bundle of directions that the surface mirrors; "
      "how its bumps hide one another, and how much more it mirrors at grazing angles, are computed "
-     "for one or two directions only. conic-full takes more of them, which takes longer."},
+     "for one or two directions of a light, or of each of two bands of one near the horizon. "
+     "conic-full takes more of them, which takes longer."},
     {"culling",
      {"culling", "Culling"},
      "Finding, for every pixel, the few lights that can reach it, so that the others are not "
