@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evaluates one light as shade_brute.comp does, with separate lobes. Include it after
-// shading/light_walk.glsl.
+// shading/light_walk.glsl and shared/bench.h.
 
 vec3 evaluateClassified(Receiver r, uint light)
 {
     Sums sums = noLight();
     shadeBlock(sums, r, light, 1u, false);
     return total(sums);
+}
+
+// Returns the way in which the light is evaluated (EVALUATE_*).
+uint wayOf(Receiver r, uint light)
+{
+    const Found found = findLights(r, light, 1u, false);
+    const uint closer = found.near.x != 0u ? EVALUATE_NEAR
+        : found.general.x != 0u           ? EVALUATE_GENERAL
+                                          : EVALUATE_NONE;
+    return found.above.x != 0u ? EVALUATE_ABOVE : closer;
 }
 
 // Sets up a material whose response has the channels of BenchResponse: the albedo term in x; with F0 =

@@ -3,8 +3,8 @@
 #ifndef CND_LIB_BRDF
 #define CND_LIB_BRDF
 
-#include "lib/gbuffer.glsl"
 #include "lib/math.glsl"
+#include "lib/surface.glsl"
 #include "shared/lighting.h"
 
 // Everything about a shaded point that does not depend on the light. Directions are unit vectors and

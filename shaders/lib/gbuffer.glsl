@@ -5,15 +5,8 @@
 #define CND_LIB_GBUFFER_GLSL
 
 #include "lib/portable_math.glsl"
+#include "lib/surface.glsl"
 #include "shared/gbuffer.h"
-
-struct Surface {
-    vec3 normal;      // unit, view space
-    vec3 albedo;      // diffuse, 0..1, already scaled by 1 - metalness
-    vec3 F0;          // Fresnel reflectance at normal incidence, 0..1
-    float specularWeight;      // Schlick's F90, 0..1; 0: no specular lobe
-    float perceptualRoughness; // 0..1; alpha is its square
-};
 
 // Maps a direction onto [-1, 1]^2 by way of an octahedron (Meyer et al. 2010, "On floating-point normal
 // vectors"). The same bits on every device. The length of `n` may be anything from 2^-99 to 2^99.

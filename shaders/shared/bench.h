@@ -47,6 +47,7 @@ const uint SPEC_BENCH_EVALUATION = 16u; // time_lights: EVALUATE_*
 const uint EVALUATE_ABOVE = 0u;   // sphere above the horizon
 const uint EVALUATE_NEAR = 1u;    // sphere that nearly touches the horizon, or tiny across it
 const uint EVALUATE_GENERAL = 2u; // sphere across the horizon; any light of other types
+const uint EVALUATE_NONE = 3u;    // light that does not reach the point
 const uint SPEC_BENCH_FORM_FACTOR = 17u;  // time_form_factor: which form
 const uint BENCH_FORM_FACTOR_NONE = 0u;   // the loop alone
 const uint BENCH_FORM_FACTOR_ROBUST = 1u; // lib/lights/sphere.glsl

@@ -111,7 +111,7 @@ with tempfile.TemporaryDirectory() as folder:
                 failures.append(f"{file.relative_to(copies)}: {name} has no prefix for hosts; "
                                 "shaders/host_shaders.cmake does not see its declaration")
     # Hosts read and write members, whose names must stay.
-    for name, struct in {"lib/gbuffer.glsl": "Surface", "lib/shadow_query.glsl": "ShadowQuery",
+    for name, struct in {"lib/surface.glsl": "Surface", "lib/shadow_query.glsl": "ShadowQuery",
                          "shading/forward.glsl": "LightCursor"}.items():
         ours, theirs = members_of(root / "shaders" / name, struct), members_of(copies / name, "Cnd" + struct)
         if ours != theirs:

@@ -67,6 +67,10 @@ ROOMS = [
                                  "shaders/shared/edge_filter.h", "shaders/shared/heat_map.h",
                                  "candelabra_commit.h",
                                  "candelabra_program_shaders.h"]),
+    # The shaders' evaluation of lights in double precision: double_shaders.h holds shaders/shading with all
+    # that it includes.
+    ("tools/formula", ["engine/shading/light_family.h", "shaders/shared/conic_constants.h",
+                       "shaders/shared/light_types.h", "shaders/shared/lighting.h", PUBLIC, "double_shaders.h"]),
     # The rooms that measure compare with the double-precision truth. Some of them may use internals of
     # the engine: their lists name more of the engine than PUBLIC.
     ("tools/candelabra/measure/frame", ["tools/candelabra/render", "tools/candelabra/scene",
@@ -142,8 +146,8 @@ ROOMS = [
 SEARCHED = [
     ("engine", ["engine", "engine/include", "shaders"]),
     ("shaders", ["shaders"]),
-    ("tools/candelabra", ["tools/candelabra", "engine", "engine/include", "shaders"]),
-    ("tools", ["tools", "tools/candelabra", "engine", "shaders"]),
+    ("tools/candelabra", ["tools/candelabra", "tools", "engine", "engine/include", "shaders"]),
+    ("tools", ["tools", "tools/candelabra", "engine", "engine/include", "shaders"]),
     ("samples", ["samples/common", "shaders"]),
     ("tests", ["tests", "tests/data", "tools/candelabra", "tools", "engine", "engine/include", "shaders"]),
 ]

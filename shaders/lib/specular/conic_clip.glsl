@@ -124,7 +124,7 @@ vec3 horizonArc(ConicPoint p, CapFrame f, Chord chord)
 
 // The cone w^T q w <= 0 of a cap, where q is the matrix of conic_region.glsl.
 struct CapCone {
-    float xx, xy, xz, yy, yz, zz; // the elements of q times sg
+    float qxx, qxy, qxz, qyy, qyz, qzz; // the elements of q times sg
     float sg;                     // 1 or -1: see makeCapCone
     float tr, D0, lam;            // t^3 + tr t^2 + m2 t - D0 has lam as its largest root
 };
@@ -158,12 +158,12 @@ CapCone makeCapCone(ConicPoint p, SphereCap cap, CapFrame f)
     q.lam = conicRoot(q.tr, m2, q.D0);
 
     const float invAlpha = 1.0 / p.alpha;
-    q.xx = q.sg * (k - 2.0 * t);
-    q.xy = -q.sg * v2 * cx;
-    q.xz = -q.sg * (v1 * cz + vz * cx) * invAlpha;
-    q.yy = ak;
-    q.yz = -q.sg * v2 * cz * invAlpha;
-    q.zz = q.sg * Z;
+    q.qxx = q.sg * (k - 2.0 * t);
+    q.qxy = -q.sg * v2 * cx;
+    q.qxz = -q.sg * (v1 * cz + vz * cx) * invAlpha;
+    q.qyy = ak;
+    q.qyz = -q.sg * v2 * cz * invAlpha;
+    q.qzz = q.sg * Z;
     return q;
 }
 
@@ -178,15 +178,15 @@ ConeAxes makeConeAxes(CapCone q, vec3 inside)
 {
     // The axis e of the cone. The adjugate of q + lam I is a multiple of e e^T, so it maps `inside` to
     // a vector E along the axis that points into the cone.
-    const float X = q.xx + q.lam;
-    const float Y = q.yy + q.lam;
-    const float W = q.zz + q.lam;
-    const float adjXY = q.yz * q.xz - q.xy * W;
-    const float adjXZ = q.xy * q.yz - q.xz * Y;
-    const float adjYZ = q.xy * q.xz - q.yz * X;
-    const vec3 E = vec3((Y * W - q.yz * q.yz) * inside.x + adjXY * inside.y + adjXZ * inside.z,
-                        adjXY * inside.x + (X * W - q.xz * q.xz) * inside.y + adjYZ * inside.z,
-                        adjXZ * inside.x + adjYZ * inside.y + (X * Y - q.xy * q.xy) * inside.z);
+    const float X = q.qxx + q.lam;
+    const float Y = q.qyy + q.lam;
+    const float W = q.qzz + q.lam;
+    const float adjXY = q.qyz * q.qxz - q.qxy * W;
+    const float adjXZ = q.qxy * q.qyz - q.qxz * Y;
+    const float adjYZ = q.qxy * q.qxz - q.qyz * X;
+    const vec3 E = vec3((Y * W - q.qyz * q.qyz) * inside.x + adjXY * inside.y + adjXZ * inside.z,
+                        adjXY * inside.x + (X * W - q.qxz * q.qxz) * inside.y + adjYZ * inside.z,
+                        adjXZ * inside.x + adjYZ * inside.y + (X * Y - q.qxy * q.qxy) * inside.z);
     // f1, f2, e: a right-handed frame (Duff et al. 2017, "Building an Orthonormal Basis, Revisited"). A
     // rotation about e by half the angle of (de, be) takes f1, f2 to the principal axes e1, e2 of q.
     const float se = E.z < 0.0 ? -1.0 : 1.0;
@@ -198,9 +198,9 @@ ConeAxes makeConeAxes(CapCone q, vec3 inside)
     const float fb = -E.x * E.y * invE;
     const vec3 f1 = vec3(1.0 - se * E.x * E.x * invE, se * fb, -se * o.e.x);
     const vec3 f2 = vec3(fb, se - E.y * E.y * invE, -o.e.y);
-    const vec3 qf1 = vec3(q.xx * f1.x + q.xy * f1.y + q.xz * f1.z,
-                          q.xy * f1.x + q.yy * f1.y + q.yz * f1.z,
-                          q.xz * f1.x + q.yz * f1.y + q.zz * f1.z);
+    const vec3 qf1 = vec3(q.qxx * f1.x + q.qxy * f1.y + q.qxz * f1.z,
+                          q.qxy * f1.x + q.qyy * f1.y + q.qyz * f1.z,
+                          q.qxz * f1.x + q.qyz * f1.y + q.qzz * f1.z);
     const float S = 0.5 * (q.tr + q.lam);
     const float de = dot(f1, qf1) - S;
     const float be = dot(f2, qf1);
@@ -222,9 +222,9 @@ ConeAxes makeConeAxes(CapCone q, vec3 inside)
     // For a narrow lobe the cone is flat, and rounding relative to the length of e1 is not small beside
     // the cone's thickness. The matrix q + lam I maps e to 0 and e1 to a multiple of itself: that takes
     // out what e1 has of e, and makes its small components precise too.
-    const vec3 scaled = vec3(X * e1.x + q.xy * e1.y + q.xz * e1.z,
-                             q.xy * e1.x + Y * e1.y + q.yz * e1.z,
-                             q.xz * e1.x + q.yz * e1.y + W * e1.z);
+    const vec3 scaled = vec3(X * e1.x + q.qxy * e1.y + q.qxz * e1.z,
+                             q.qxy * e1.x + Y * e1.y + q.qyz * e1.z,
+                             q.qxz * e1.x + q.qyz * e1.y + W * e1.z);
     const float length2Scaled = length2(scaled);
     o.e1 = length2Scaled > MIN_LENGTH2 ? scaled * inversesqrt(length2Scaled) : e1;
     return o;
