@@ -3,17 +3,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/area_probe.h"
+#include "shared/bench.h"
 #include "shared/light_types.h"
 #include "shared/lighting.h"
-#include "lib/gbuffer.glsl"
+#include "lib/brdf.glsl"
 #include "lib/lights/sphere.glsl"
 #include "lib/lights/sphere_cap.glsl"
 #include "lib/outline/disc.glsl"
 #include "lib/outline/rectangle.glsl"
 #include "lib/outline/tube.glsl"
-#include "lib/specular/conic.glsl"
 #include "lib/specular/representative.glsl"
 #include "lib/specular/sampled.glsl"
+#include "lib/surface.glsl"
 
 layout(local_size_x = PROBE_GROUP) in;
 layout(push_constant, scalar) uniform Push
@@ -28,6 +29,27 @@ layout(scalar, binding = PROBE_OUTPUT) writeonly buffer Output
 {
     AreaProbeOutput outputs[];
 };
+
+// The sphere that shading evaluates, as light 0.
+vec4 sphere;
+
+vec4 lightCentre(uint light)
+{
+    return sphere;
+}
+
+vec4 lightEmission(uint light)
+{
+    return vec4(1.0, 1.0, 1.0, UNBOUNDED * UNBOUNDED);
+}
+
+uint lightAt(uint k)
+{
+    return k;
+}
+
+#include "shading/light_walk.glsl"
+#include "bench/evaluate_classified.glsl"
 
 // Returns the light scaled to a distance of about 1, as shading does (shading/light.glsl).
 AreaProbeInput atUnitDistance(AreaProbeInput light)
@@ -73,9 +95,13 @@ void main()
     AreaProbeOutput result = AreaProbeOutput(0.0, 0.0, vec2(0.0), vec2(0.0), vec2(0.0));
     if (light.type == LIGHT_SPHERE) {
         const SphereCap cap = makeSphereCap(n, light.toCentre, light.radius);
-        result.formFactor = sphereFormFactor(cap.NoC, cap.s2);
-        result.formFactorAlone = result.formFactor;
-        result.conic = conicResponse(conic, cap);
+        ShadingPoint separate = p;
+        separateLobes(separate);
+        sphere = vec4(light.toCentre, light.radius);
+        const vec3 response = evaluateClassified(makeReceiver(separate, 1u, 0u), 0u);
+        result.formFactor = response.x;
+        result.formFactorAlone = sphereFormFactor(cap.NoC, cap.s2);
+        result.conic = response.yz;
         result.sampled = sampledSphere(p, cap.c, cap.omc, AREA_PROBE_SAMPLES, light.seed);
     } else {
         const OutlineResponse o = byOutline(conic, light, true);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test-only: the specular methods of sphere lights, evaluated on given inputs.
+// Test-only: the specular response to sphere lights by the specialised method, as shading evaluates it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/bench.h"
 #include "shared/lighting.h"
 #include "shared/probes.h"
-#include "lib/gbuffer.glsl"
-#include "lib/specular/conic.glsl"
-#include "lib/specular/kx.glsl"
+#include "lib/brdf.glsl"
+#include "lib/surface.glsl"
 
 layout(local_size_x = PROBE_GROUP) in;
 layout(push_constant, scalar) uniform Push
@@ -22,20 +22,33 @@ layout(scalar, binding = PROBE_OUTPUT) writeonly buffer Output
     ConicProbeOutput outputs[];
 };
 
+vec4 lightCentre(uint light)
+{
+    return vec4(inputs[light].toLight, inputs[light].radius);
+}
+
+vec4 lightEmission(uint light)
+{
+    return vec4(1.0, 1.0, 1.0, UNBOUNDED * UNBOUNDED);
+}
+
+uint lightAt(uint k)
+{
+    return k;
+}
+
+#include "shading/light_walk.glsl"
+#include "bench/evaluate_classified.glsl"
+
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= params.count)
         return;
-    const ConicProbeInput probe = inputs[i];
     const vec3 n = vec3(0.0, 0.0, 1.0);
-    const Surface surface = Surface(n, vec3(1.0), vec3(1.0), 1.0, sqrt(probe.alpha));
-    const ShadingPoint p = makeShadingPoint(surface, vec3(0.0), probe.v);
-    const ConicPoint conic = makeConicPoint(p);
-    const SphereCap cap = makeSphereCap(n, probe.toLight, probe.radius);
-    outputs[i].lightClass = conicClassOf(conic, cap);
-    outputs[i].conic = conicResponse(conic, cap);
-    outputs[i].full = conicFullResponse(conic, cap);
-    outputs[i].kx = kxResponse(p, cap);
-    outputs[i].point = pointResponse(p, cap);
+    const Surface surface = Surface(n, vec3(0.0), vec3(0.0), 1.0, sqrt(inputs[i].alpha));
+    ShadingPoint p = makeShadingPoint(surface, vec3(0.0), inputs[i].v);
+    separateLobes(p);
+    const Receiver r = makeReceiver(p, 1u, 0u);
+    outputs[i] = ConicProbeOutput(wayOf(r, i), evaluateClassified(r, i).yz);
 }

@@ -34,7 +34,7 @@ vec3 sphereAbove(Receiver r, Light light)
     const SphereCap cap = makeSphereCap(r.p.n, light.toLight, light.boundingRadius);
 #ifdef LIGHT_FAMILY_CONIC
     const vec2 specular = specularMethod == SPECULAR_CONIC ? conicAbove(r.conic, cap)
-                                                           : conicFullUnclipped(r.conic, cap);
+                                                           : conicUnclipped(r.conic, cap, false);
 #else
     const vec2 specular = cheapSphereSpecular(r, light, cap);
 #endif

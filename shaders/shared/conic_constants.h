@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every constant of the closed-form specular of area lights (lib/specular/conic*.glsl) that was
-// fitted or chosen. The shaders, their transcription in double precision (tools/transcription) and
-// the program that fits them (tools/fit) read them here. Constants that are derived, or that only
-// protect a quotient or a root from rounding, are in the formulas.
+// fitted or chosen. The shaders and the program that fits them (tools/fit) read them here.
+// Constants that are derived, or that only protect a quotient or a root from rounding, are in the
+// formulas.
 #ifndef CND_SHARED_CONIC_CONSTANTS_H
 #define CND_SHARED_CONIC_CONSTANTS_H
 
@@ -103,13 +103,6 @@ const float SMALL_CAP = 0.003f;
 const float MAX_SLOPE_VARIANCE = 1e6f;
 // Keeps quotients of variances of N.L finite for lights as small as a point.
 const float MIN_VARIANCE = 1e-12f;
-
-// --- Classes of sphere lights by their height above the horizon. The class decides which function
-// of lib/specular/conic.glsl evaluates the light.
-const uint CONIC_BELOW = 0u;   // wholly below the horizon: no response
-const uint CONIC_ABOVE = 1u;   // n . c >= 2 s, about a half angle above the horizon: conicAbove
-const uint CONIC_NEAR = 2u;    // above but nearer, or small and crossing the horizon: conicNear
-const uint CONIC_CLIPPED = 3u; // crossing the horizon: conicClipped
 
 GPU_END
 

@@ -49,12 +49,11 @@ struct ConicProbeInput {
 };
 GPU_SIZE(ConicProbeInput, 32)
 
-// Responses with F = 1 and F = (1 - VoH)^5.
 struct ConicProbeOutput {
-    uint lightClass; // CONIC_*, shared/conic_constants.h
-    vec2 conic, full, kx, point;
+    uint way;      // EVALUATE_* of shared/bench.h
+    vec2 response; // with F = 1 and F = (1 - VoH)^5
 };
-GPU_SIZE(ConicProbeOutput, 36)
+GPU_SIZE(ConicProbeOutput, 12)
 
 GPU_END
 

@@ -16,12 +16,13 @@ protected:
     // Returns one output per input. The probe binds PROBE_INPUT and PROBE_OUTPUT, and takes
     // ProbeParams.
     template <typename Output, typename Input>
-    std::vector<Output> runProbe(const gpu::Spirv& probe, const std::vector<Input>& inputs)
+    std::vector<Output> runProbe(const gpu::Spirv& probe, const std::vector<Input>& inputs,
+                                 std::initializer_list<gpu::SpecConstant> constants = {})
     {
         const uint32_t count = uint32_t(inputs.size());
         const gpu::Buffer in = upload("probe inputs", inputs);
         const gpu::Buffer out = readback("probe outputs", count * sizeof(Output));
-        const gpu::Kernel<gpu::ProbeParams> kernel(device(), probe);
+        const gpu::Kernel<gpu::ProbeParams> kernel(device(), probe, constants);
         const gpu::Bindings bindings = kernel.createBindings(1);
         const auto input = gpu::Binding::of(gpu::PROBE_INPUT, in);
         const auto output = gpu::Binding::of(gpu::PROBE_OUTPUT, out);

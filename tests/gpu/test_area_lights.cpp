@@ -41,7 +41,7 @@ class AreaLights : public ProbeTest
 protected:
     std::vector<gpu::AreaProbeOutput> evaluate(const std::vector<gpu::AreaProbeInput>& inputs)
     {
-        return runProbe<gpu::AreaProbeOutput>(spirv::area_lights_comp, inputs);
+        return runProbe<gpu::AreaProbeOutput>(spirv::area_lights_comp_conic, inputs);
     }
 
     double uniform(double low, double high)

@@ -1,31 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the specular methods of sphere lights on the GPU in float32 with the same formulas in
-// double precision.
-#include <array>
+// double precision (tools/formula).
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <sstream>
 
-#include "candelabra_probes.h"
-#include "gpu/probe.h"
-#include "transcription/conic.h"
+#include "formula/formula.h"
+#include "gpu/conic_probe.h"
+#include "shared/bench.h"
 
 namespace candelabra::test
 {
 namespace
 {
 
-namespace tr = transcription;
-
-class Conic : public ProbeTest
+class Conic : public ConicProbeTest
 {
 protected:
-    std::vector<gpu::ConicProbeOutput> evaluate(const std::vector<gpu::ConicProbeInput>& inputs)
-    {
-        return runProbe<gpu::ConicProbeOutput>(spirv::conic_comp, inputs);
-    }
-
     double uniform(double low, double high)
     {
         return low + (high - low) * double(random_()) / 4294967296.0;
@@ -60,27 +53,20 @@ private:
     std::mt19937 random_{54321};
 };
 
-struct Expected {
-    unsigned lightClass;
-    glm::dvec2 conic, full, kx, point;
-    double peak; // conic response to the same cap in the mirror direction
-};
-
-Expected inDouble(const gpu::ConicProbeInput& in)
+formula::Response inDouble(const gpu::ConicProbeInput& in,
+                           CndSpecularMethod method = CND_SPECULAR_CONIC)
 {
-    const glm::dvec3 n(0, 0, 1);
-    const float roughness = std::sqrt(in.alpha); // the shader squares this value again
-    const tr::ShadingPoint p =
-        tr::makeShadingPoint(n, glm::dvec3(in.v), double(roughness * roughness));
-    const tr::ConicPoint conic = tr::makeConicPoint(p);
-    const tr::SphereCap cap = tr::makeSphereCap(n, glm::dvec3(in.toLight), in.radius);
-    const tr::SphereCap facing = tr::makeSphereCap(n, conic.mirror, cap.s);
-    return {.lightClass = tr::conicClassOf(conic, cap),
-            .conic = tr::conicResponse(conic, cap),
-            .full = tr::conicFullResponse(conic, cap),
-            .kx = tr::kxResponse(p, cap),
-            .point = tr::pointResponse(p, cap),
-            .peak = tr::conicResponse(conic, facing).x};
+    return formula::respond(
+        {.method = method},
+        {.n = {0, 0, 1}, .v = glm::dvec3(in.v), .perceptualRoughness = std::sqrt(double(in.alpha))},
+        {.centre = glm::dvec3(in.toLight), .boundingRadius = in.radius});
+}
+
+// Returns the response to the same light in the mirror direction.
+double peakOf(gpu::ConicProbeInput in)
+{
+    in.toLight = glm::length(in.toLight) * glm::normalize(glm::vec3(-in.v.x, -in.v.y, in.v.z));
+    return inDouble(in).a;
 }
 
 bool sound(glm::vec2 response)
@@ -99,9 +85,10 @@ std::string describe(const gpu::ConicProbeInput& in)
     return text.str();
 }
 
-double largest(glm::dvec2 a, glm::vec2 b)
+double difference(const formula::Response& expected, const gpu::ConicProbeOutput& output)
 {
-    return std::max(std::abs(a.x - double(b.x)), std::abs(a.y - double(b.y)));
+    return std::max(std::abs(expected.a - double(output.response.x)),
+                    std::abs(expected.b - double(output.response.y)));
 }
 
 } // namespace
@@ -114,39 +101,43 @@ TEST_F(Conic, MatchesDouble)
     for (int i = 0; i < 400000; ++i)
         inputs.push_back(randomInput(0.03));
     const auto outputs = evaluate(inputs);
+    const auto fullOutputs = evaluate(inputs, CND_SPECULAR_CONIC_FULL);
+    const auto kxOutputs = evaluate(inputs, CND_SPECULAR_KX);
     struct Slice {
         const char* name;
         double meanBound, largestBound;
         double sum = 0, worst = 0;
         size_t count = 0, worstAt = 0;
     };
-    // Bounds by class; below the horizon both are 0. The largest measured errors are 4e-4, 3e-4 and
-    // 2e-3. The mean of clipped lobes is 1e-6 on llvmpipe. It is 7e-6 on SwiftShader, with any form
-    // of the logarithm; Vulkan allows divisions and roots to be off by a few ULP.
+    // Bounds by EVALUATE_*; below the horizon both are 0. The largest measured errors are 4e-4,
+    // 3e-4 and 2e-3. The mean of clipped lobes is 1e-6 on llvmpipe. It is 7e-6 on SwiftShader, with
+    // any form of the logarithm; Vulkan allows divisions and roots to be off by a few ULP.
     const double clippedMean = device().lanesAreCpuVector ? 3e-6 : 1e-5;
-    std::array<Slice, 4> slices = {{{"below", 0, 0},
-                                    {"above", 1e-6, 2e-3},
-                                    {"near", 1e-6, 2e-3},
-                                    {"clipped", clippedMean, 1e-2}}};
+    std::map<uint32_t, Slice> slices = {{gpu::EVALUATE_NONE, {"below", 0, 0}},
+                                        {gpu::EVALUATE_ABOVE, {"above", 1e-6, 2e-3}},
+                                        {gpu::EVALUATE_NEAR, {"near", 1e-6, 2e-3}},
+                                        {gpu::EVALUATE_GENERAL, {"clipped", clippedMean, 1e-2}}};
     double worstKx = 0;
     size_t moved = 0; // number of lights that rounding moves across a border between classes
     for (size_t i = 0; i < inputs.size(); ++i) {
-        const Expected expected = inDouble(inputs[i]);
-        moved += outputs[i].lightClass != expected.lightClass;
-        const double error = std::max(largest(expected.conic, outputs[i].conic),
-                                      largest(expected.full, outputs[i].full)) /
-                             expected.peak;
-        Slice& slice = slices.at(expected.lightClass);
+        const formula::Response expected = inDouble(inputs[i]);
+        const double peak = peakOf(inputs[i]);
+        moved += outputs[i].way != expected.way;
+        const double error =
+            std::max(difference(expected, outputs[i]),
+                     difference(inDouble(inputs[i], CND_SPECULAR_CONIC_FULL), fullOutputs[i])) /
+            peak;
+        Slice& slice = slices.at(expected.way);
         slice.sum += error;
         ++slice.count;
         if (!(error <= slice.worst)) {
             slice.worst = error;
             slice.worstAt = i;
         }
-        worstKx = std::max(worstKx, largest(expected.kx, outputs[i].kx) /
-                                        (expected.kx.x + 1e-3 * expected.peak));
+        const formula::Response kx = inDouble(inputs[i], CND_SPECULAR_KX);
+        worstKx = std::max(worstKx, difference(kx, kxOutputs[i]) / (kx.a + 1e-3 * peak));
     }
-    for (const Slice& slice : slices) {
+    for (const auto& [way, slice] : slices) {
         std::cout << slice.name << ": " << slice.count
                   << " lights, float32 - double over the peak: "
                   << "mean " << slice.sum / double(slice.count) << " largest " << slice.worst
@@ -188,13 +179,14 @@ TEST_F(Conic, NeverNanNegativeOrAboveOne)
         in.toLight.z = edges[i % 8] * in.radius;
         inputs.push_back(in);
     }
-    const auto outputs = evaluate(inputs);
-    for (size_t i = 0; i < inputs.size(); ++i) {
-        const gpu::ConicProbeOutput& o = outputs[i];
-        ASSERT_TRUE(sound(o.conic) && sound(o.full) && sound(o.kx) && sound(o.point))
-            << i << " class " << o.lightClass << ": conic " << o.conic.x << " " << o.conic.y
-            << " full " << o.full.x << " " << o.full.y << " kx " << o.kx.x << " point " << o.point.x
-            << "; " << describe(inputs[i]);
+    for (const CndSpecularMethod method :
+         {CND_SPECULAR_CONIC, CND_SPECULAR_CONIC_FULL, CND_SPECULAR_KX, CND_SPECULAR_POINT}) {
+        const auto outputs = evaluate(inputs, method);
+        for (size_t i = 0; i < inputs.size(); ++i)
+            ASSERT_TRUE(sound(outputs[i].response))
+                << i << " method " << method << " way " << outputs[i].way << ": "
+                << outputs[i].response.x << " " << outputs[i].response.y << "; "
+                << describe(inputs[i]);
     }
     std::cout << inputs.size() << " configurations: none NaN, infinite, negative or above 1\n";
 }
@@ -222,14 +214,14 @@ TEST_F(Conic, SmallSpheresArePointLights)
         double worstToPoint = 0, worstToFormula = 0;
         size_t worstAt = 0;
         for (size_t i = size * perSize; i < (size + 1) * perSize; ++i) {
-            const Expected expected = inDouble(inputs[i]);
-            const double toPoint = std::abs(outputs[i].conic.x / expected.point.x - 1);
+            const double point = inDouble(inputs[i], CND_SPECULAR_POINT).a;
+            const double toPoint = std::abs(outputs[i].response.x / point - 1);
             if (!(toPoint <= worstToPoint)) {
                 worstToPoint = toPoint;
                 worstAt = i;
             }
-            worstToFormula =
-                std::max(worstToFormula, std::abs(outputs[i].conic.x / expected.conic.x - 1));
+            worstToFormula = std::max(worstToFormula,
+                                      std::abs(outputs[i].response.x / inDouble(inputs[i]).a - 1));
         }
         std::cout << "s " << sines[size] << ": largest relative difference to the point light "
                   << worstToPoint << ", to the same formula in double " << worstToFormula << "\n";

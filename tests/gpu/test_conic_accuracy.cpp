@@ -7,8 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "candelabra_probes.h"
-#include "gpu/probe.h"
+#include "gpu/conic_probe.h"
 #include "harness/constants.h"
 #include "harness/full_tests.h"
 #include "reference/truth.h"
@@ -100,7 +99,7 @@ struct Errors {
 
 } // namespace
 
-class ConicAccuracy : public ProbeTest
+class ConicAccuracy : public ConicProbeTest
 {
 };
 
@@ -127,21 +126,23 @@ TEST_F(ConicAccuracy, AgainstQuadrature)
         d = std::max(d, dielectric(r.a, r.b));
         inputs.push_back(r.input);
     }
-    const auto outputs = runProbe<gpu::ConicProbeOutput>(spirv::conic_comp, inputs);
+    const auto outputs = evaluate(inputs);
+    const auto fullOutputs = evaluate(inputs, CND_SPECULAR_CONIC_FULL);
+    const auto kxOutputs = evaluate(inputs, CND_SPECULAR_KX);
     Errors all, above, fullAbove, dielectricAll, kx;
     for (size_t i = 0; i < records.size(); ++i) {
         const Record& r = records[i];
         const double unit = 100 / peak[size_t(r.group)];
-        const glm::vec2 conic = outputs[i].conic;
+        const glm::vec2 conic = outputs[i].response;
         const double error = std::abs(conic.x - r.a) * unit;
         all.percent.push_back(error);
-        kx.percent.push_back(std::abs(outputs[i].kx.x - r.a) * unit);
+        kx.percent.push_back(std::abs(kxOutputs[i].response.x - r.a) * unit);
         dielectricAll.percent.push_back(
             std::abs(dielectric(conic.x, conic.y) - dielectric(r.a, r.b)) * 100 /
             dielectricPeak[size_t(r.group)]);
         if (r.above) {
             above.percent.push_back(error);
-            fullAbove.percent.push_back(std::abs(outputs[i].full.x - r.a) * unit);
+            fullAbove.percent.push_back(std::abs(fullOutputs[i].response.x - r.a) * unit);
         }
     }
     all.print("conic");

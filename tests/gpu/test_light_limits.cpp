@@ -5,9 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "candelabra_probes.h"
+#include "gpu/conic_probe.h"
 #include "gpu/lighting_harness.h"
-#include "gpu/probe.h"
 #include "measure/stability/stability.h"
 #include "reference/brdf.h"
 #include "reference/light.h"
@@ -18,7 +17,7 @@ namespace candelabra::test
 namespace
 {
 
-class LightLimits : public ProbeTest
+class LightLimits : public ConicProbeTest
 {
 protected:
     double uniform(double low, double high)
@@ -30,10 +29,6 @@ protected:
         const double azimuth = uniform(0, 2 * std::numbers::pi);
         const double sine = std::sqrt(1 - cosine * cosine);
         return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
-    }
-    std::vector<gpu::ConicProbeOutput> evaluate(const std::vector<gpu::ConicProbeInput>& inputs)
-    {
-        return runProbe<gpu::ConicProbeOutput>(spirv::conic_comp, inputs);
     }
 
 private:
@@ -59,7 +54,7 @@ TEST_F(LightLimits, SmallSpheresBecomePoints)
         const auto outputs = evaluate(inputs);
         double worst = 0;
         for (size_t i = 0; i < inputs.size(); ++i)
-            worst = std::max(worst, std::abs(outputs[i].conic.x / expected[i] - 1));
+            worst = std::max(worst, std::abs(outputs[i].response.x / expected[i] - 1));
         std::cout << "s " << s << ": largest relative difference to the point light " << worst
                   << "\n";
         EXPECT_LE(worst, 2.5 * std::pow(s / 0.2, 2)); // 0.2: the smallest alpha
@@ -80,8 +75,8 @@ TEST_F(LightLimits, EyeAndLightAreExchangeable)
     const auto outputs = evaluate(inputs);
     double worst = 0;
     for (size_t i = 0; i < inputs.size(); i += 2) {
-        const double forth = outputs[i].conic.x / inputs[i].toLight.z;
-        const double back = outputs[i + 1].conic.x / inputs[i + 1].toLight.z;
+        const double forth = outputs[i].response.x / inputs[i].toLight.z;
+        const double back = outputs[i + 1].response.x / inputs[i + 1].toLight.z;
         worst = std::max(worst, std::abs(forth / back - 1));
     }
     std::cout << "largest relative difference after exchanging eye and light " << worst << "\n";

@@ -4,22 +4,19 @@
 #include <array>
 #include <cmath>
 
+#include "formula/formula.h"
 #include "harness/gpu_fixture.h"
 #include "harness/json_keys.h"
 #include "measure/stability/stability.h"
-#include "reference/sphere_light.h"
 #include "render/setting_names.h"
 #include "scene/light_types.h"
 #include "shading/light_family.h"
-#include "transcription/conic.h"
 
 using namespace candelabra;
 using namespace candelabra::app;
 
 namespace
 {
-
-namespace tr = candelabra::transcription;
 
 class SweepInDouble : public test::GpuTest
 {
@@ -35,43 +32,27 @@ class SweepInexactDivision : public test::GpuTest
 
 struct InDouble {
     double scale; // response on the mirror axis, to which errors are relative
-    double f, a, b, s2;
+    double s2;    // squared sine of the light's half angle
+    formula::Response response;
 };
 
 InDouble inDouble(const gpu::SweepRecord& r, const Evaluation& evaluation)
 {
     const bool distant = evaluation.lightType == CND_LIGHT_DISTANT_SPHERE;
     const glm::vec3 centre(r.centreRadius);
-    const glm::dvec3 n(r.n), to(distant ? centre : centre - r.position);
-    const float alpha = r.perceptualRoughness * r.perceptualRoughness;
-    const tr::ShadingPoint p = tr::makeShadingPoint(n, glm::dvec3(r.v), double(alpha));
-    const tr::ConicPoint conic = tr::makeConicPoint(p);
-    const double radius = double(r.centreRadius.w);
-    const tr::SphereCap cap = tr::makeSphereCap(n, to, radius);
-    glm::dvec2 response(0);
-    const bool reaches = glm::dot(n, to) > -radius && cap.NoC > -cap.s;
-    if (reaches) {
-        switch (evaluation.method.specular) {
-        case CND_SPECULAR_POINT:
-            response = tr::pointResponse(p, cap);
-            break;
-        case CND_SPECULAR_KX:
-            response = tr::kxResponse(p, cap);
-            break;
-        case CND_SPECULAR_CONIC_FULL:
-            response = tr::conicFullResponse(conic, cap);
-            break;
-        default:
-            response = tr::conicResponse(conic, cap);
-        }
-    }
-    return {.scale = onAxisResponse(cap.s, p.alpha, std::max(p.NoV, 0.02)),
-            .f = reaches ? reference::sphereFormFactor(std::clamp(cap.NoC, -1.0, 1.0),
-                                                       std::sqrt(cap.s2))
-                         : 0,
-            .a = response.x,
-            .b = response.y,
-            .s2 = cap.s2};
+    const double distance = glm::length(glm::dvec3(distant ? centre : centre - r.position));
+    const double s = std::min(double(r.centreRadius.w) / distance, 1.0);
+    const double roughness = r.perceptualRoughness;
+    const glm::dvec3 n(r.n), v(r.v);
+    return {
+        .scale = onAxisResponse(std::min(s, 0.99995),
+                                std::max(roughness * roughness, double(gpu::MIN_ALPHA)),
+                                std::max(glm::dot(n, glm::normalize(v)), 0.02)),
+        .s2 = s * s,
+        .response = formula::respond(
+            {.method = evaluation.method.specular},
+            {.n = n, .v = v, .perceptualRoughness = roughness, .position = r.position},
+            {.type = evaluation.lightType, .centre = centre, .boundingRadius = r.centreRadius.w})};
 }
 
 double distanceOf(const gpu::SweepRecord& r)
@@ -108,14 +89,15 @@ TEST_F(SweepInDouble, EveryInputOfTheSweepIsTheFormulaInDouble)
                         continue;
                     }
                     const InDouble expected = inDouble(r, evaluation);
-                    const double error = std::max(std::abs(double(r.response.y) - expected.a),
-                                                  std::abs(double(r.response.z) - expected.b)) /
-                                         expected.scale;
+                    const double error =
+                        std::max(std::abs(double(r.response.y) - expected.response.a),
+                                 std::abs(double(r.response.z) - expected.response.b)) /
+                        expected.scale;
                     ASSERT_TRUE(std::isfinite(error)) << describeRecord(r);
                     sum += error;
                     above1e3 += error > 1e-3;
                     const double diffuse =
-                        std::abs(double(r.response.x) - expected.f) / expected.s2;
+                        std::abs(double(r.response.x) - expected.response.f) / expected.s2;
                     if (diffuse > worstDiffuse) {
                         worstDiffuse = diffuse;
                         whereDiffuse = std::string(sliceText(slice)) + "; " + describeRecord(r);

@@ -23,7 +23,8 @@ ROOMS = [
     ("shaders/gbuffer", ["shaders/lib", "shaders/shared"]),
     ("shaders/bench", ["shaders/kernels/common", "shaders/shading", "shaders/lib", "shaders/shared"]),
     ("shaders/program", ["shaders/lib", "shaders/shared"]),
-    ("shaders/probes", ["shaders/shading", "shaders/lib/forward.glsl", "shaders/lib", "shaders/shared"]),
+    ("shaders/probes", ["shaders/bench/evaluate_classified.glsl", "shaders/shading", "shaders/lib/forward.glsl",
+                        "shaders/lib", "shaders/shared"]),
 
     (PUBLIC, []),
     # The double-precision reference shares no code with what it judges: no shader, no other room.
@@ -78,11 +79,11 @@ ROOMS = [
                                         "shaders/shared/gbuffer.h"]),
     ("tools/candelabra/measure/profile", ["tools/candelabra/measure/frame", "tools/candelabra/render",
                                           "tools/candelabra/scene", "tools/candelabra/io", PUBLIC]),
-    ("tools/candelabra/measure/kernels", ["tools/candelabra/render", "tools/candelabra/scene", PUBLIC,
+    ("tools/candelabra/measure/kernels", ["tools/formula", "tools/candelabra/render", "tools/candelabra/scene", PUBLIC,
                                           "engine/gpu", "engine/lights", "engine/shading/light_family.h",
                                           "shaders/shared/bench.h", "shaders/shared/ltc.h",
                                           "candelabra_bench_shaders.h"]),
-    ("tools/candelabra/measure/accuracy", ["tools/candelabra/measure/kernels", "tools/candelabra/render",
+    ("tools/candelabra/measure/accuracy", ["tools/candelabra/measure/kernels", "tools/formula", "tools/candelabra/render",
                                            "tools/candelabra/truth", "tools/candelabra/load",
                                            "tools/candelabra/generate", "tools/candelabra/scene",
                                            "tools/candelabra/io", PUBLIC, "engine/reference",
@@ -123,9 +124,8 @@ ROOMS = [
                                    PUBLIC, "engine/reference"]),
     ("tools/candelabra", ["tools/candelabra/commands", "tools/candelabra/render", "tools/candelabra/scene",
                           "tools/candelabra/io"]),
-    # The closed form's shader functions in double precision, for fits and tests.
-    ("tools/transcription", ["shaders/shared/conic_constants.h"]),
-    ("tools/fit", ["tools/transcription", "tools/candelabra/measure/accuracy", "tools/candelabra/render/provenance.h",
+    ("tools/fit", ["tools/formula", "tools/candelabra/measure/accuracy", "tools/candelabra/measure/kernels",
+                   "tools/candelabra/render/provenance.h",
                    "tools/candelabra/generate/random.h", "tools/candelabra/io", "engine/reference",
                    "shaders/shared/conic_constants.h"]),
 
@@ -280,6 +280,10 @@ def test_the_test():
     assert found({low: '#include "nowhere.h"\n'}) == [low]
     assert found({"engine/other/a.h": ""}) == ["engine/other/a.h"]  # in no room
     assert found({}, [("engine/low", ["engine/high"]), ("engine/high", [])]) == ["the list of rooms"]
+    # The truth includes no form of the formulas that it judges.
+    formulas = {"tools/formula/formula.h": "", "shaders/lib/math.glsl": ""}
+    for include in ("formula/formula.h", "../../tools/formula/formula.h", "double_shaders.h", "lib/math.glsl"):
+        assert "engine/reference/a.h" in found({"engine/reference/a.h": f'#include "{include}"\n', **formulas}, ROOMS)
     assert list(check_public({f"{PUBLIC}/a.h": "#include <vulkan/vulkan.h>\n"})) != []
     assert list(check_public({f"{PUBLIC}/a.h": "#include <vulkan/vulkan_core.h>\n"})) == []
 

@@ -6,12 +6,12 @@
 #include <limits>
 #include <numeric>
 
+#include "measure/kernels/in_double.h"
+
 namespace candelabra::fit
 {
 namespace
 {
-
-namespace tr = transcription;
 
 constexpr double truthTolerance = 1e-5; // relative
 constexpr double dielectricF0 = 0.04;
@@ -19,20 +19,6 @@ constexpr double dielectricF0 = 0.04;
 double dielectricResponse(double a, double b)
 {
     return dielectricF0 * (a - b) + b;
-}
-
-// The closed form's response to sample i, with Fresnel 1 (x) and (1 - VoH)^5 (y).
-glm::dvec2 closedForm(const app::SampleSet& set, size_t i, bool twoNodes,
-                      const ConicConstants& constants)
-{
-    const glm::dvec3 n(set.receivers[i].n);
-    const CndLight& light = set.lights[i];
-    const tr::ConicPoint p =
-        tr::makeConicPoint(tr::makeShadingPoint(n, glm::dvec3(set.receivers[i].v), set.alphaOf(i)));
-    const tr::SphereCap cap = tr::makeSphereCap(
-        n, {light.position[0], light.position[1], light.position[2]}, light.radius);
-    return twoNodes ? tr::conicFullResponse(p, cap, constants)
-                    : tr::conicResponse(p, cap, constants);
 }
 
 // The figures, in percent, of errors given as fractions. Reorders the errors.
@@ -85,7 +71,10 @@ std::span<const ConicConstant> conicConstants()
 }
 
 ConicObjective::ConicObjective(app::SampleSet set)
-    : set_(std::move(set)), mirrorPeak_(set_.groups), dielectricPeak_(set_.groups)
+    : set_(std::move(set)),
+      lights_(app::prepareLights(set_.lights)),
+      mirrorPeak_(set_.groups),
+      dielectricPeak_(set_.groups)
 {
     for (const app::LightSample& s : set_.samples) {
         double& mirror = mirrorPeak_[s.group];
@@ -99,14 +88,15 @@ ConicObjective::ConicObjective(app::SampleSet set)
             counted_.push_back(i);
 }
 
-ConicObjective::Error ConicObjective::error(size_t i, bool twoNodes,
-                                            const ConicConstants& constants) const
+ConicObjective::Error ConicObjective::error(size_t i, const formula::Settings& settings) const
 {
     const app::LightSample& s = set_.samples[i];
-    const glm::dvec2 response = closedForm(set_, i, twoNodes, constants);
+    const formula::Response response =
+        formula::respond(settings, app::receiverInDouble(set_.receivers[i]),
+                         app::lightInDouble(CND_LIGHT_SPHERE, lights_, uint32_t(i)));
     const double dielectric =
-        dielectricResponse(response.x, response.y) - dielectricResponse(s.truth.a, s.truth.b);
-    const double mirror = std::abs(response.x - s.truth.a) / mirrorPeak_[s.group];
+        dielectricResponse(response.a, response.b) - dielectricResponse(s.truth.a, s.truth.b);
+    const double mirror = std::abs(response.a - s.truth.a) / mirrorPeak_[s.group];
     const double other = std::abs(dielectric) / dielectricPeak_[s.group];
     constexpr double infinity = std::numeric_limits<double>::infinity(); // NaN cannot be sorted
     return {std::isnan(mirror) ? infinity : mirror, std::isnan(other) ? infinity : other};
@@ -114,10 +104,11 @@ ConicObjective::Error ConicObjective::error(size_t i, bool twoNodes,
 
 ConicResiduals ConicObjective::residuals(const ConicConstants& constants) const
 {
-    const auto ofMethod = [&](bool twoNodes) {
+    const auto ofMethod = [&](CndSpecularMethod method) {
+        const formula::Settings settings{.method = method, .constants = constants};
         std::vector<double> mirror, mirrorAbove, dielectric, dielectricAbove;
         for (const uint32_t i : counted_) {
-            const Error e = error(i, twoNodes, constants);
+            const Error e = error(i, settings);
             mirror.push_back(e.mirror);
             dielectric.push_back(e.dielectric);
             if (set_.samples[i].horizon == app::Horizon::Above) {
@@ -128,7 +119,7 @@ ConicResiduals ConicObjective::residuals(const ConicConstants& constants) const
         return MethodFigures{{figures(mirror), figures(mirrorAbove)},
                              {figures(dielectric), figures(dielectricAbove)}};
     };
-    return {ofMethod(false), ofMethod(true)};
+    return {ofMethod(CND_SPECULAR_CONIC), ofMethod(CND_SPECULAR_CONIC_FULL)};
 }
 
 double ConicObjective::cost(const ConicConstants& constants) const
@@ -146,10 +137,11 @@ double ConicObjective::cost(const ConicConstants& constants) const
 std::vector<uint32_t> ConicObjective::worstGroups(const ConicConstants& constants,
                                                   size_t count) const
 {
+    const formula::Settings settings{.method = CND_SPECULAR_CONIC, .constants = constants};
     std::vector<double> worst(set_.groups);
     for (const uint32_t i : counted_) {
         double& w = worst[set_.samples[i].group];
-        w = std::max(w, error(i, false, constants).mirror);
+        w = std::max(w, error(i, settings).mirror);
     }
     std::vector<uint32_t> groups(set_.groups);
     std::iota(groups.begin(), groups.end(), 0u);

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far the closed form of sphere lights is from quadrature, over a set of lights, as a function
 // of its fitted constants (shaders/shared/conic_constants.h). `candelabra_fit conic` minimises it.
-// The closed form is the transcription of the shaders (tools/transcription); the truth comes from
-// engine/reference, which shares no code with shaders or transcription.
+// The closed form is that of the shaders in double precision (tools/formula); the truth comes from
+// engine/reference, which shares no code with shaders.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "formula/formula.h"
 #include "measure/accuracy/sample_set.h"
-#include "transcription/conic.h"
+#include "measure/kernels/light_kernels.h"
 
 namespace candelabra::fit
 {
 
-using transcription::ConicConstants;
+using formula::ConicConstants;
 
 // One fitted constant: its name, what it weighs, its member, and its value in the shaders.
 struct ConicConstant {
@@ -67,9 +68,10 @@ private:
     struct Error {
         double mirror, dielectric;
     };
-    Error error(size_t i, bool twoNodes, const ConicConstants& constants) const;
+    Error error(size_t i, const formula::Settings& settings) const;
 
     app::SampleSet set_;
+    app::PreparedLights lights_;    // of set_
     std::vector<uint32_t> counted_; // samples that reach above the horizon, of groups with a peak
     std::vector<double> mirrorPeak_, dielectricPeak_; // highest true response, by group
 };

@@ -51,25 +51,29 @@ const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
     return *families[lighting::familyOf(evaluation.lightType, evaluation.method.specular)];
 }
 
-DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> lights)
+PreparedLights prepareLights(std::span<const CndLight> lights)
 {
     lighting::validateLights(lights);
     std::vector<gpu::LightRecord> records(lights.size());
     lighting::packLights(lights, records);
-    std::vector<glm::vec4> core;
-    std::vector<gpu::LightShape> shapes;
+    PreparedLights out;
     for (const gpu::LightRecord& r : records) { // prepare_lights.comp with an identity view
-        core.emplace_back(r.position, r.boundingRadius);
-        core.emplace_back(r.emission, r.influenceRadius * r.influenceRadius);
-        shapes.push_back(lighting::shapeOf(r));
+        out.core.emplace_back(r.position, r.boundingRadius);
+        out.core.emplace_back(r.emission, r.influenceRadius * r.influenceRadius);
+        out.shapes.push_back(lighting::shapeOf(r));
     }
     for (size_t i = 0; i < lights.size(); ++i)
         if (lights[i].type == CND_LIGHT_POLYGON)
-            addCorners(shapes, i, lights[i]);
-    DeviceLights out{
-        .core = upload(device, "bench lights", std::span<const glm::vec4>(core)),
-        .shapes = upload(device, "bench light shapes", std::span<const gpu::LightShape>(shapes)),
-        .count = uint32_t(lights.size())};
+            addCorners(out.shapes, i, lights[i]);
+    return out;
+}
+
+DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> lights)
+{
+    const PreparedLights prepared = prepareLights(lights);
+    DeviceLights out{.core = upload(device, "bench lights", std::span(prepared.core)),
+                     .shapes = upload(device, "bench light shapes", std::span(prepared.shapes)),
+                     .count = uint32_t(lights.size())};
     gpu::createTexelView(device, out.core);
     return out;
 }

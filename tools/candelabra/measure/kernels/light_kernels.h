@@ -29,12 +29,19 @@ struct Evaluation {
 const gpu::Spirv& ofFamily(std::span<const gpu::Spirv* const> families,
                            const Evaluation& evaluation);
 
-// Lights of one type in device memory as kernels read them, relative to receivers at the origin.
+// Lights of one type as kernels read them, relative to receivers at the origin.
+struct PreparedLights {
+    std::vector<glm::vec4> core;
+    std::vector<gpu::LightShape> shapes;
+};
+// Throws gpu::Failure for a light outside its documented range.
+PreparedLights prepareLights(std::span<const CndLight> lights);
+
+// The same in device memory.
 struct DeviceLights {
     gpu::Buffer core, shapes;
     uint32_t count = 0;
 };
-// Throws gpu::Failure for a light outside its documented range.
 DeviceLights uploadLights(const gpu::Device& device, std::span<const CndLight> lights);
 gpu::Buffer uploadReceivers(const gpu::Device& device,
                             std::span<const gpu::BenchReceiver> receivers);

@@ -2,7 +2,7 @@
 // Measures the numerical stability of the shader functions that the engine ships: whether any input
 // gives an invalid response, how far the formulas are from quadrature on such inputs, and whether
 // the response jumps. tests/gpu/test_sweep.cpp measures, on the inputs of the same sweep, how far
-// float32 is from the same formulas in double precision (tools/transcription).
+// float32 is from the same formulas in double precision (tools/formula).
 #pragma once
 
 #include <cstdint>
