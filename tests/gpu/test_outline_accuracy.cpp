@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error of the responses by outline on the GPU, in float32, against quadrature: percent of the
-// highest true response among the light directions of a group (one roughness, view and light).
+// The error of the responses by outline on the GPU, in float32, against quadrature, and its parts,
+// those of the formula and of its rounding: percent of the highest true response among the light
+// directions of a group (one roughness, view and light).
 #include <cmath>
 
 #include "harness/full_tests.h"
 #include "harness/gpu_fixture.h"
 #include "measure/accuracy/kernel_error.h"
 #include "measure/accuracy/sample_set.h"
+#include "measure/kernels/in_double.h"
 #include "measure/kernels/light_kernels.h"
 #include "scene/light_types.h"
 #include "scene/polygons.h"
@@ -25,15 +27,21 @@ protected:
     {
         SampleSet set = makeSamples(type, groups, 3, scale);
         integrateTruth(set, 1e-6, [](size_t) {});
-        const LightEvaluator evaluator(context(),
-                                       {.lightType = type, .method = {CND_SPECULAR_CONIC}});
-        const KernelError error = kernelError(set, evaluator.evaluate(set.receivers, set.lights));
+        const Evaluation evaluation{.lightType = type, .method = CND_SPECULAR_CONIC};
+        const LightEvaluator evaluator(context(), evaluation);
+        const KernelError error =
+            kernelError(set, evaluator.evaluate(set.receivers, set.lights),
+                        respondInDouble(evaluation, set.receivers, set.lights));
         const ErrorStatistics &all = error.mirror.all, &dielectric = error.dielectric.all;
         std::cout << lightTypeName(type) << ", size " << scale.size << ", thickness "
                   << scale.thickness << ": mean " << 100 * all.mean << ", p99 " << 100 * all.p99
                   << ", largest " << 100 * all.max << "; F0 = 0.04: mean " << 100 * dielectric.mean
                   << ", p99 " << 100 * dielectric.p99 << ", largest " << 100 * dielectric.max
-                  << "\n";
+                  << "; formula: mean " << 100 * error.parts->formula.mirror.mean << ", largest "
+                  << 100 * error.parts->formula.mirror.max << "; float32 adds: mean "
+                  << 100 * error.parts->float32.mirror.mean << ", largest "
+                  << 100 * error.parts->float32.mirror.max << ", diffuse "
+                  << 100 * error.parts->float32.diffuse.max << "\n";
         EXPECT_EQ(error.invalid, 0u) << lightTypeName(type);
         return error;
     }
@@ -57,6 +65,9 @@ TEST_F(OutlineAccuracy, AgainstQuadrature)
         EXPECT_LE(100 * error.mirror.all.mean, c.mean) << lightTypeName(c.type);
         EXPECT_LE(100 * error.mirror.all.p99, c.p99) << lightTypeName(c.type);
         EXPECT_LE(100 * error.dielectric.all.p99, c.dielectricP99) << lightTypeName(c.type);
+        // Rounding is a small part of the error.
+        EXPECT_LE(100 * error.parts->float32.mirror.mean, 0.002) << lightTypeName(c.type);
+        EXPECT_LE(100 * error.parts->float32.mirror.max, 0.5) << lightTypeName(c.type);
     }
 }
 

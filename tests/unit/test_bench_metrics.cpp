@@ -89,4 +89,24 @@ TEST(BenchMetrics, KnownErrorsAreReported)
     EXPECT_TRUE(std::isfinite(bad.mirror.all.mean));
 }
 
+// A formula that is 10% too bright, and a result that is 1% below the formula.
+TEST(BenchMetrics, ErrorsOfFormulaAndRoundingAreToldApart)
+{
+    const SampleSet set = sphereSet();
+    auto responses = perfect(set);
+    std::vector<formula::Response> inDouble;
+    for (size_t i = 0; i < responses.size(); ++i) {
+        const reference::LightResponse& t = set.samples[i].truth;
+        inDouble.push_back({.f = t.f, .a = 1.1 * t.a, .b = t.b});
+        responses[i].a = float(0.99 * 1.1 * t.a);
+    }
+    EXPECT_FALSE(kernelError(set, responses).parts);
+    const ErrorParts parts = kernelError(set, responses, inDouble).parts.value();
+    EXPECT_NEAR(parts.formula.mirror.max, 0.1, 1e-6);
+    EXPECT_NEAR(parts.float32.mirror.max, 0.011, 1e-6);
+    EXPECT_EQ(parts.formula.diffuse.max, 0);
+    EXPECT_LE(parts.float32.diffuse.max, 1e-7);
+    EXPECT_EQ(parts.formula.mirror.count, kernelError(set, responses).mirror.all.count);
+}
+
 } // namespace candelabra::app

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -41,52 +40,85 @@ ErrorStatistics statistics(std::vector<Error> errors)
     return out;
 }
 
-// A quantity that both the true response and the shader's response have.
-struct Quantity {
-    std::function<double(const reference::LightResponse&)> truth;
-    std::function<double(const gpu::BenchResponse&)> shader;
+// A true response, a shader's, or that of a formula.
+struct Values {
+    double f, a, b;
 };
+using Quantity = double (*)(const Values&);
 
-const Quantity mirrorQuantity{[](const reference::LightResponse& t) { return t.a; },
-                              [](const gpu::BenchResponse& r) { return double(r.a); }};
-const Quantity dielectricQuantity{
-    [](const reference::LightResponse& t) { return dielectricF0 * (t.a - t.b) + t.b; },
-    [](const gpu::BenchResponse& r) {
-        return dielectricF0 * (double(r.a) - double(r.b)) + double(r.b);
-    }};
-const Quantity diffuseQuantity{[](const reference::LightResponse& t) { return t.f; },
-                               [](const gpu::BenchResponse& r) { return double(r.f); }};
-
-std::vector<double> peaks(const SampleSet& set, const Quantity& quantity)
+double mirrorOf(const Values& r)
 {
-    std::vector<double> out(set.groups, 0.0);
-    for (const LightSample& s : set.samples)
-        out[s.group] = std::max(out[s.group], quantity.truth(s.truth));
+    return r.a;
+}
+
+double dielectricOf(const Values& r)
+{
+    return dielectricF0 * (r.a - r.b) + r.b;
+}
+
+double diffuseOf(const Values& r)
+{
+    return r.f;
+}
+
+template <typename Responses>
+std::vector<Values> valuesOf(const Responses& responses)
+{
+    std::vector<Values> out;
+    for (const auto& r : responses)
+        out.push_back({double(r.f), double(r.a), double(r.b)});
     return out;
 }
 
-bool isValid(const gpu::BenchResponse& r)
+std::vector<Values> truthsOf(const SampleSet& set)
 {
-    const auto good = [](float x) { return std::isfinite(x) && x >= 0; };
+    std::vector<Values> out;
+    for (const LightSample& s : set.samples)
+        out.push_back({s.truth.f, s.truth.a, s.truth.b});
+    return out;
+}
+
+std::vector<double> peaks(const SampleSet& set, Quantity quantity)
+{
+    std::vector<double> out(set.groups, 0.0);
+    for (const LightSample& s : set.samples) {
+        const double value = quantity({s.truth.f, s.truth.a, s.truth.b});
+        out[s.group] = std::max(out[s.group], value);
+    }
+    return out;
+}
+
+template <typename Response>
+bool isValid(const Response& r)
+{
+    const auto good = [](double x) { return std::isfinite(x) && x >= 0; };
     return good(r.f) && good(r.a) && good(r.b);
 }
 
-HorizonStatistics compare(const SampleSet& set, std::span<const gpu::BenchResponse> responses,
-                          const Quantity& quantity)
+HorizonStatistics compare(const SampleSet& set, std::span<const Values> values,
+                          std::span<const Values> expected, Quantity quantity)
 {
     const std::vector<double> peak = peaks(set, quantity);
     std::vector<Error> all, above, crossing;
     for (size_t i = 0; i < set.samples.size(); ++i) {
         const LightSample& s = set.samples[i];
-        if (s.horizon == Horizon::Below || !isValid(responses[i]) || !(peak[s.group] > 0))
+        if (s.horizon == Horizon::Below || !isValid(values[i]) || !(peak[s.group] > 0))
             continue;
-        const double difference = quantity.shader(responses[i]) - quantity.truth(s.truth);
+        const double difference = quantity(values[i]) - quantity(expected[i]);
         const Error e{std::abs(difference) / peak[s.group], i};
         all.push_back(e);
         (s.horizon == Horizon::Above ? above : crossing).push_back(e);
     }
     return {statistics(std::move(all)), statistics(std::move(above)),
             statistics(std::move(crossing))};
+}
+
+LobeStatistics compareLobes(const SampleSet& set, std::span<const Values> values,
+                            std::span<const Values> expected)
+{
+    return {compare(set, values, expected, mirrorOf).all,
+            compare(set, values, expected, dielectricOf).all,
+            compare(set, values, expected, diffuseOf).all};
 }
 
 double scanL1(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
@@ -105,7 +137,7 @@ double scanL1(const SampleSet& set, std::span<const gpu::BenchResponse> response
 
 std::vector<double> groupMeans(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
 {
-    const std::vector<double> peak = peaks(set, mirrorQuantity);
+    const std::vector<double> peak = peaks(set, mirrorOf);
     std::vector<double> sums(set.groups), counts(set.groups), out;
     for (size_t i = 0; i < set.samples.size(); ++i) {
         const LightSample& s = set.samples[i];
@@ -134,16 +166,30 @@ Json toJson(const HorizonStatistics& s)
     return {{"all", toJson(s.all)}, {"above", toJson(s.above)}, {"crossing", toJson(s.crossing)}};
 }
 
+Json toJson(const LobeStatistics& s)
+{
+    return {{"fresnel1", toJson(s.mirror)},
+            {"F0_0.04", toJson(s.dielectric)},
+            {"formFactor", toJson(s.diffuse)}};
+}
+
 } // namespace
 
-KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse> responses)
+KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse> responses,
+                        std::span<const formula::Response> inDouble)
 {
-    KernelError out{.mirror = compare(set, responses, mirrorQuantity),
+    const std::vector<Values> values = valuesOf(responses), truths = truthsOf(set);
+    KernelError out{.mirror = compare(set, values, truths, mirrorOf),
                     .groupMeans = groupMeans(set, responses),
-                    .dielectric = compare(set, responses, dielectricQuantity),
-                    .diffuse = compare(set, responses, diffuseQuantity),
-                    .scanL1 = scanL1(set, responses)};
-    const std::vector<double> peak = peaks(set, mirrorQuantity);
+                    .dielectric = compare(set, values, truths, dielectricOf),
+                    .diffuse = compare(set, values, truths, diffuseOf),
+                    .scanL1 = scanL1(set, responses),
+                    .parts = {}};
+    if (!inDouble.empty()) {
+        const std::vector<Values> formulas = valuesOf(inDouble);
+        out.parts = {compareLobes(set, formulas, truths), compareLobes(set, values, formulas)};
+    }
+    const std::vector<double> peak = peaks(set, mirrorOf);
     for (size_t i = 0; i < set.samples.size(); ++i) {
         out.invalid += !isValid(responses[i]);
         if (set.samples[i].horizon == Horizon::Below && peak[set.samples[i].group] > 0)
@@ -161,9 +207,14 @@ std::string meanP99Max(const ErrorStatistics& s)
 
 Json toJson(const KernelError& e)
 {
-    return {{"fresnel1", toJson(e.mirror)},         {"F0_0.04", toJson(e.dielectric)},
-            {"formFactor", toJson(e.diffuse)},      {"scanRelativeL1Percent", 100 * e.scanL1},
-            {"leakFromBelowPercent", 100 * e.leak}, {"invalid", e.invalid}};
+    Json out{{"fresnel1", toJson(e.mirror)},         {"F0_0.04", toJson(e.dielectric)},
+             {"formFactor", toJson(e.diffuse)},      {"scanRelativeL1Percent", 100 * e.scanL1},
+             {"leakFromBelowPercent", 100 * e.leak}, {"invalid", e.invalid}};
+    if (e.parts) {
+        out["formulaAgainstTruth"] = toJson(e.parts->formula);
+        out["float32AgainstFormula"] = toJson(e.parts->float32);
+    }
+    return out;
 }
 
 std::string describeSample(const SampleSet& set, size_t i)

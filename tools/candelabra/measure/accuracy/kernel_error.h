@@ -2,10 +2,12 @@
 // The errors of one specular method on a sample set.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "formula/formula.h"
 #include "io/report.h"
 #include "measure/accuracy/sample_set.h"
 #include "measure/kernels/light_kernels.h"
@@ -25,6 +27,18 @@ struct HorizonStatistics {
     ErrorStatistics all, above, crossing;
 };
 
+// Statistics over the samples that are not below the horizon: with F = 1, with F0 = 0.04, and of
+// the form factor.
+struct LobeStatistics {
+    ErrorStatistics mirror, dielectric, diffuse;
+};
+
+// The two parts of an error: that of the formula, which is computed in double precision, against
+// the truth; and what float32 adds, the difference between the shader's response and the formula.
+struct ErrorParts {
+    LobeStatistics formula, float32;
+};
+
 struct KernelError {
     HorizonStatistics mirror; // F = 1
     // The mean of `mirror.all` of each group that has such samples. Samples of one group are alike,
@@ -38,10 +52,13 @@ struct KernelError {
     // response of its group.
     double leak = 0;
     size_t invalid = 0; // responses that are NaN, infinite or negative, which no statistic includes
+    std::optional<ErrorParts> parts; // rivals have none
 };
 
-// `responses` holds the shader's response to every sample of the set.
-KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse> responses);
+// `responses` holds the shader's response to every sample of the set; `inDouble` is empty, or holds
+// what it would be without rounding.
+KernelError kernelError(const SampleSet& set, std::span<const gpu::BenchResponse> responses,
+                        std::span<const formula::Response> inDouble = {});
 
 Json toJson(const KernelError& error);
 // Returns "mean / p99 / largest" in percent, or "-" without samples.

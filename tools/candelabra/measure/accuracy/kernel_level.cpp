@@ -9,6 +9,7 @@
 #include "io/svg_plot.h"
 #include "io/table.h"
 #include "lights/light_types.h"
+#include "measure/kernels/in_double.h"
 #include "scene/light_types.h"
 
 namespace candelabra::app
@@ -44,12 +45,16 @@ void addErrors(const VulkanContext& context, const KernelLevelSettings& s, uint3
         size_t(std::count_if(set.samples.begin(), set.samples.end(),
                              [](const LightSample& sample) { return !sample.truth.converged; }));
     for (const MeasuredMethod& method : comparedMethods(lightType)) {
-        const LightEvaluator evaluator(
-            context, {.lightType = lightType, .method = method, .sampleCount = s.sampleCount});
+        const Evaluation evaluation{
+            .lightType = lightType, .method = method, .sampleCount = s.sampleCount};
+        const LightEvaluator evaluator(context, evaluation);
         const auto responses = evaluator.evaluate(set.receivers, set.lights);
+        std::vector<formula::Response> inDouble;
+        if (method.rival == Rival::None)
+            inDouble = respondInDouble(evaluation, set.receivers, set.lights);
         KernelPoint point{.lightType = lightType,
                           .method = method,
-                          .error = kernelError(set, responses),
+                          .error = kernelError(set, responses, inDouble),
                           .worst = {},
                           .classes = {}};
         point.worst = describeSample(set, point.error.mirror.all.worst);
@@ -222,6 +227,12 @@ Table errorTable(const KernelLevel& level)
          {"F0 0.04: all", meanAndMax,
           "The same as the first for a surface such as plastic, which mirrors 4% of the light from "
           "straight ahead; the others are for F = 1."},
+         {"formula", meanAndMax,
+          "The same as the first for the formula in double precision: what is left without "
+          "rounding."},
+         {"float32", meanAndMax,
+          "What rounding adds: the difference between the result and the formula in double "
+          "precision."},
          {"scan L1", "%",
           "The relative error over a scan of directions through the mirror direction."},
          {"diffuse max", "%", "The largest error of the form factor."},
@@ -235,6 +246,8 @@ Table errorTable(const KernelLevel& level)
         type = p.lightType;
         table.add({nameOf(p), meanP99Max(p.error.mirror.all), meanP99Max(p.error.mirror.above),
                    meanP99Max(p.error.mirror.crossing), meanP99Max(p.error.dielectric.all),
+                   p.error.parts ? meanP99Max(p.error.parts->formula.mirror) : "-",
+                   p.error.parts ? meanP99Max(p.error.parts->float32.mirror) : "-",
                    percent(p.error.scanL1), threeDigits(100 * p.error.diffuse.all.max),
                    percent(p.error.leak), grouped(p.error.invalid)},
                   {.key = kernelErrorKey(lightTypeName(p.lightType), methodName(p.method))});

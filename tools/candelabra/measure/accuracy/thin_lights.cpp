@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "measure/kernels/in_double.h"
 #include "scene/light_types.h"
 
 namespace candelabra::app
@@ -37,14 +38,15 @@ std::vector<ThinLightPoint> measureThinLights(const VulkanContext& context,
 {
     std::vector<ThinLightPoint> out;
     for (const uint32_t type : thinTypes) {
-        const LightEvaluator evaluator(context,
-                                       {.lightType = type, .method = {CND_SPECULAR_CONIC}});
+        const Evaluation evaluation{.lightType = type, .method = CND_SPECULAR_CONIC};
+        const LightEvaluator evaluator(context, evaluation);
         for (const LightScale& scale : thinScales()) {
             progress.doing(fmt::format("thin and small lights: {}", lightTypeName(type)));
             SampleSet set = makeSamples(type, s.groups, s.seed, scale);
             integrateTruth(set, s.truthTolerance, [&](size_t n) { progress.advance(double(n)); });
-            out.push_back(
-                {type, scale, kernelError(set, evaluator.evaluate(set.receivers, set.lights))});
+            out.push_back({type, scale,
+                           kernelError(set, evaluator.evaluate(set.receivers, set.lights),
+                                       respondInDouble(evaluation, set.receivers, set.lights))});
         }
     }
     return out;
@@ -61,6 +63,9 @@ Table thinLightTable(const std::vector<ThinLightPoint>& points)
                  {"crossing", meanAndMax, "Lights that are partly below the horizon."},
                  {"F0 0.04: all", meanAndMax,
                   "Both, for a surface such as plastic; the others are for F = 1."},
+                 {"formula", meanAndMax, "Both, for the formula in double precision."},
+                 {"float32", meanAndMax,
+                  "What rounding adds: the difference between the result and that formula."},
                  {"invalid", "", "Responses that are no number, infinite or negative."}},
                 "Thin and small lights: errors in percent of the highest true response over light "
                 "directions");
@@ -70,7 +75,8 @@ Table thinLightTable(const std::vector<ThinLightPoint>& points)
         table.add({lightTypeName(p.lightType), fmt::format("{:.0e}", p.scale.size),
                    fmt::format("{:.0e}", p.scale.thickness), meanP99Max(p.error.mirror.above),
                    meanP99Max(p.error.mirror.crossing), meanP99Max(p.error.dielectric.all),
-                   fmt::format("{}", p.error.invalid)});
+                   meanP99Max(p.error.parts->formula.mirror),
+                   meanP99Max(p.error.parts->float32.mirror), fmt::format("{}", p.error.invalid)});
     }
     return table;
 }
