@@ -30,7 +30,7 @@ std::string bracketed(const MedianInterval& v)
 }
 
 // How the engine compares with another way that takes `ratio` times as long.
-std::string verdict(const PairedRatio& ratio)
+std::string verdictWord(const PairedRatio& ratio)
 {
     if (!ratio.isFaster() && !ratio.isSlower())
         return "not measurably different from it";
@@ -173,7 +173,7 @@ std::string speedSentence(const std::vector<CullingPoint>& points)
                         "brute force takes {} times as long{}; ",
                         p->title(), threeDigits(s.median), threeDigits(s.lowerQuartile),
                         threeDigits(s.upperQuartile), bracketed(r),
-                        r.isKnown() ? ", so Candelabra is " + verdict(r) : "");
+                        r.isKnown() ? ", so Candelabra is " + verdictWord(r) : "");
     } else {
         out += "brute force took too long to be drawn; ";
     }
