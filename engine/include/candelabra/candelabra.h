@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Candelabra: the C ABI of the lighting, environment and exposure modules. This header includes all
-// of it but the optional compiler (candelabra/compiler.h).
+// of it except the optional compiler (candelabra/compiler.h).
 //
 // Conventions
 //   Units: metres, seconds, radians, photometric light units (lm, cd, lx, cd/m^2). Colours are
@@ -9,13 +9,13 @@
 //   Ownership: a module borrows every Vulkan handle it is given and owns only what it created. It
 //   never creates a device or a queue, never submits and never waits. Recording allocates nothing.
 //   Threads: different modules may be used from different threads at the same time. Calls on one
-//   module must not overlap: two views of one CndLighting must not be recorded at the same time.
+//   module must not overlap, so two views of one CndLighting must not be recorded at the same time.
 //   The one exception is cndAddLightingPipelines, which may run beside other calls on its module.
-//   Errors: every function that can fail returns a CndResult. Where it has an `error` parameter
-//   that is not NULL, it also writes one sentence there that names the offending thing. Nothing is
-//   thrown across the ABI.
-//   Versioning: every struct with a `structSize` member must have it set to sizeof(the struct);
-//   another value is refused.
+//   Errors: every function that can fail returns a CndResult. If it has an `error` parameter that
+//   is not NULL, it also writes there one sentence that says what is wrong. No exception crosses
+//   the ABI.
+//   Versioning: every `structSize` member must be set to the size of its struct; any other value is
+//   an error.
 #ifndef CANDELABRA_CANDELABRA_H
 #define CANDELABRA_CANDELABRA_H
 

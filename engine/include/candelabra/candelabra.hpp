@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C++ interface of the C ABI: handles that own their objects, results instead of
-// out-parameters, and structSize filled in. It needs C++17; the examples in the documents use
-// C++20, because they name the members that they initialise. Units, ranges, ownership and thread
-// rules are those of candelabra.h. Nothing throws.
+// out-parameters, and structSize filled in. It needs C++17. The examples in the documents use
+// C++20, because they initialise members by name. Units, ranges, ownership and thread rules are
+// those of candelabra.h. Nothing throws.
 #pragma once
 
 #if __cplusplus < 201703L && (!defined(_MSVC_LANG) || _MSVC_LANG < 201703L)
@@ -31,7 +31,7 @@ namespace candelabra
 template <typename T>
 using Span = std::span<T>;
 #else
-// Elements that lie one after another, borrowed from an array, a std::vector or the like.
+// A view of contiguous elements, of an array, a std::vector or the like.
 template <typename T>
 class Span
 {
@@ -203,8 +203,8 @@ Result<std::optional<Stats>> stats(Function function, H handle, uint32_t frameSl
 
 } // namespace detail
 
-// Returns success, or an error whose message names everything that the modules (a mask of
-// CndModuleBits; 0: all) need and the device lacks. CndDeviceDesc::device is not used.
+// Returns success, or an error whose message names everything that the device lacks of what the
+// modules (a mask of CndModuleBits; 0: all) need. CndDeviceDesc::device is not used.
 inline Result<void> checkDevice(CndDeviceDesc device, uint32_t modules = 0) noexcept
 {
     device.structSize = sizeof device;
@@ -236,7 +236,8 @@ public:
         frame.structSize = sizeof frame;
         return detail::call(cndRecordLighting, handle_, cmd, &frame);
     }
-    // Records a picture of what is read from the G-buffer, with record() or instead of it.
+    // Records a picture of what is read from the G-buffer, in addition to record() or instead of
+    // it.
     Result<void> recordOverlay(VkCommandBuffer cmd, CndLightingFrame frame,
                                CndSurfaceOverlay overlay) const noexcept
     {
@@ -271,14 +272,14 @@ public:
     {
         return detail::createOn<Lighting>(device, cndCreateLighting, desc);
     }
-    // Returns the memory that creation of a Lighting and these views will take; creates nothing.
+    // Returns the memory that a Lighting and these views will take. Creates nothing.
     template <size_t n>
     static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
                                        std::array<CndLightingViewDesc, n> views) noexcept
     {
         return plan(device, desc, Span<CndLightingViewDesc>(views));
     }
-    // As above for any number of views. Fills in their structSize, so they are not const.
+    // The same for any number of views. They are not const because it fills in their structSize.
     static Result<CndMemoryUsage> plan(const CndDeviceDesc& device, const CndLightingDesc& desc,
                                        Span<CndLightingViewDesc> views = {}) noexcept
     {
@@ -291,14 +292,14 @@ public:
     {
         return detail::usage(cndGetLightingMemory, handle_);
     }
-    // As cndAddLightingPipelines: may run on another thread while this object is used, but not
+    // See cndAddLightingPipelines. May run on another thread while this object is used, but not
     // while it is moved or destroyed.
     Result<void> addPipelines(CndLightingPipelines pipelines) const noexcept
     {
         pipelines.structSize = sizeof pipelines;
         return detail::call(cndAddLightingPipelines, handle_, &pipelines);
     }
-    // `origin`: the point in world space that the lights' positions are relative to.
+    // `origin` is the point in world space that the lights' positions are relative to.
     Result<void> setLights(Span<const CndLight> lights, const double (&origin)[3]) noexcept
     {
         return setLights({0,
@@ -438,8 +439,8 @@ inline Result<std::array<float, 3>> luminousPowerOfLight(const CndLight& light) 
     return power;
 }
 
-// Makes `light` a polygon with these corners in space; see cndPolygonFromCorners. `light` then
-// refers to `polygon`.
+// Makes `light` a polygon light with these corners in space; see cndPolygonFromCorners. `light`
+// then points to `polygon`.
 inline Result<void> polygonFromCorners(Span<const std::array<float, 3>> corners, CndLight& light,
                                        CndPolygon& polygon) noexcept
 {
@@ -450,8 +451,8 @@ inline Result<void> polygonFromCorners(Span<const std::array<float, 3>> corners,
     return {};
 }
 
-// Conversions between types of lights; see lights.h. With 0 for radius, sine or distance the
-// library chooses it.
+// Conversions between types of lights; see lights.h. If radius, sine or distance is 0, the library
+// chooses it.
 
 inline Result<CndLight> sphereFromPoint(const CndLight& point, const float (&at)[3],
                                         float radius = 0) noexcept

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles GLSL functions written by the host into the kernels that shade. This is a library of its
-// own, candelabra::compiler (libcandelabra_compiler), so that hosts that don't need it link no
+// Compiles GLSL functions written by the host into the kernels that shade. It is a separate
+// library, candelabra::compiler (libcandelabra_compiler), so hosts that do not need it link no
 // compiler. It needs no device and reads no file. Its output is SPIR-V for CndHostKernels, which
 // the host may store and reuse until the version of Candelabra changes.
 #ifndef CANDELABRA_COMPILER_H
@@ -14,12 +14,12 @@
 extern "C" {
 #endif
 
-// The functions that CndCompileDesc::source defines. A kernel calls them; their signatures must be
+// The functions that CndCompileDesc::source defines. Kernels call them, so their signatures must be
 // exactly these.
 typedef enum CndHostFunctionBits {
-    // `float candelabraVisibility(CndShadowQuery query)`: a shadow term, 0 (in shadow) to 1 (fully
-    // lit), finite, by which every light is multiplied where it is evaluated. Members of the query
-    // are in view space, in metres:
+    // `float candelabraVisibility(CndShadowQuery query)`: a finite shadow term, from 0 (in shadow)
+    // to 1 (fully lit). It multiplies every light where the light is evaluated. Members of the
+    // query are in view space, in metres:
     // - `light` is the low half of the light's CndLightId. It is unique within the set and smaller
     //   than the largest number of lights that the set has ever had, so it can index an array. For
     //   CndDeviceLights it is CND_LIGHT_OF_DEVICE plus the light's index.
@@ -43,30 +43,30 @@ typedef struct CndCompileDesc {
     uint32_t functions; // mask of CndHostFunctionBits, not 0
     // GLSL 4.60 without its version directive, zero terminated: the functions, whatever they call,
     // and bindings in descriptor set 1 (`layout(set = 1, binding = 0) ...`). The source is appended
-    // to each kernel, whose names all begin with cnd, Cnd or CND_; your names may be any others. It
-    // may include the installed shaders of "lib/" and "shared/".
+    // to each kernel. All names in a kernel begin with cnd, Cnd or CND_; your names may be any
+    // others. It may include the installed shaders of "lib/" and "shared/".
     const char* source;
     const char* sourceName; // name of the source in error messages; NULL: "source"
-    // The light types and methods that the lighting module will use. Fewer of them compile faster.
+    // The light types and specular methods that the lighting module will use. Fewer compile faster.
     // `lightTypes` is a mask of 1 << CndLightType, 0 for all types; `specularMethods` is a mask of
     // 1 << CndSpecularMethod, 0 for CND_SPECULAR_CONIC alone.
     uint32_t lightTypes, specularMethods;
-    // The version of Vulkan that the code is for: VK_API_VERSION_1_1 (0 means this), 1_2 or 1_3,
-    // which are SPIR-V 1.3, 1.5 and 1.6. It may be lower than that of the device, and need be
-    // higher than 1.1 only for functions that use something newer. Code for 1.3 needs the feature
+    // The version of Vulkan that the code is for: VK_API_VERSION_1_1 (0 means this), 1_2 or 1_3.
+    // They give SPIR-V 1.3, 1.5 and 1.6. The version may be lower than that of the device. It must
+    // be higher than 1.1 only if the functions use something newer. Code for 1.3 needs the feature
     // maintenance4.
     uint32_t apiVersion;
 } CndCompileDesc;
 
 typedef struct CndCompiledKernels_T* CndCompiledKernels;
 
-// Compiles every kernel that calls one of the functions. A mistake in the source fails with
-// CND_ERROR_INVALID_ARGUMENT and one sentence: the name of the source, the line, and the compiler's
-// message. May be called from several threads at once.
+// Compiles every kernel that calls one of the functions. If the source has a mistake, the call
+// fails with CND_ERROR_INVALID_ARGUMENT and one sentence: the name of the source, the line, and the
+// compiler's message. May be called from several threads at once.
 CND_API CndResult cndCompileKernels(const CndCompileDesc* desc, CndCompiledKernels* kernels,
                                     CndError* error);
-// Returns the compiled kernels, for CndHostKernels, and their number in `count` (not NULL). The
-// array is valid until cndDestroyCompiledKernels.
+// Returns the compiled kernels, for CndHostKernels, and writes their number to `count` (not NULL).
+// The array is valid until cndDestroyCompiledKernels.
 CND_API const CndKernelCode* cndGetKernelCode(CndCompiledKernels kernels, uint32_t* count);
 CND_API void cndDestroyCompiledKernels(CndCompiledKernels kernels);
 

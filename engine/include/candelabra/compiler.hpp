@@ -23,8 +23,8 @@ public:
             return error;
         return CompiledKernels(kernels);
     }
-    // The kernels as a member of CndLightingDesc or CndEnvironmentDesc; `setLayout` is the layout
-    // of descriptor set 1 in them. This object must outlive the call that creates the module.
+    // Returns the kernels, for CndLightingDesc or CndEnvironmentDesc. `setLayout` is the layout of
+    // their descriptor set 1. This object must outlive the call that creates the module.
     CndHostKernels hostKernels(VkDescriptorSetLayout setLayout = VK_NULL_HANDLE) const noexcept
     {
         CndHostKernels out{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every module shares: version, results, the Vulkan device and what it must support, memory,
-// kernel times, pass plans.
+// The parts that all modules share: version, results, the Vulkan device and what it must support,
+// memory, kernel times, pass plans.
 #ifndef CANDELABRA_CORE_H
 #define CANDELABRA_CORE_H
 
@@ -60,12 +60,12 @@ CND_API uint32_t cndGetVersion(void);
 // What a block of device memory is used for.
 typedef enum CndMemoryKind {
     CND_MEMORY_BUFFER = 0, // buffers that only the GPU accesses
-    // Buffers that only the GPU accesses. The host may use their memory for something else between
-    // two recordings and overwrite the contents, except in two cases. A frame with
+    // Buffers that only the GPU accesses. Between two recordings the host may use their memory for
+    // something else and overwrite the contents, except in two cases. First, a frame with
     // CndLightingFrame::surfacesUnchanged reuses what the previous frame of the view has written.
-    // The host's own shaders that use a forward set (cndGetForwardSet) read what the frame of that
-    // set has written. A host that uses the memory in between orders both uses with barriers
-    // (stages COMPUTE_SHADER, DRAW_INDIRECT and ALL_TRANSFER, with all their accesses).
+    // Second, the host's own shaders that use a forward set (cndGetForwardSet) read what the frame
+    // of that set has written. A host that uses the memory in between must order both uses with
+    // barriers (stages COMPUTE_SHADER, DRAW_INDIRECT and ALL_TRANSFER, with all their accesses).
     CND_MEMORY_SCRATCH = 1,
     CND_MEMORY_UPLOAD = 2,   // buffers that the host writes sequentially and the GPU reads
     CND_MEMORY_READBACK = 3, // buffers that the GPU writes and the host reads: statistics
@@ -74,8 +74,8 @@ typedef enum CndMemoryKind {
     CND_MEMORY_KIND_MAX_ENUM = 0x7FFFFFFF
 } CndMemoryKind;
 
-// A request for the memory of one buffer or image. The object exists already; the module binds the
-// memory to it.
+// A request for the memory of one buffer or image. The object already exists, and the module binds
+// the memory to it.
 typedef struct CndMemoryRequest {
     VkMemoryRequirements requirements;
     VkMemoryPropertyFlags required;  // the memory type must have all of these
@@ -96,21 +96,21 @@ typedef struct CndMemory {
 } CndMemory;
 
 // The host's allocator for all device memory of a module. Neither function may throw. They are
-// called in cndCreate..., in calls that set or edit lights, and in cndDestroy..., on the calling
-// thread; never while recording.
+// called on the calling thread, in cndCreate..., in cndDestroy... and in calls that set or edit
+// lights; never while recording.
 typedef struct CndAllocator {
     // Fills in `memory` and returns VK_SUCCESS, or returns an error. The ABI function that needed
     // the memory then fails with that error.
     VkResult (*allocate)(void* user, const CndMemoryRequest* request, CndMemory* memory);
-    // Takes an allocation back. The GPU has finished using it, and its object has been destroyed.
+    // Frees an allocation. The GPU has finished using it, and its object has been destroyed.
     void (*free)(void* user, void* allocation);
     // Passed to both functions as their first argument.
     void* user;
 } CndAllocator;
 
-// Device memory of a module, per CndMemoryKind. A host that suballocates can hold all objects of a
-// kind in one block of `bytes + allocations * alignment` bytes, of a memory type in memoryTypeBits,
-// by placing each object after the previous one at the next multiple of its alignment.
+// Device memory of a module, per CndMemoryKind. A host that suballocates can put all objects of a
+// kind into one block of `bytes + allocations * alignment` bytes, of a memory type in
+// memoryTypeBits. Each object starts after the previous one, at the next multiple of its alignment.
 typedef struct CndMemoryUsage {
     uint32_t structSize;
     // Number of separate allocations.
@@ -128,10 +128,10 @@ typedef enum CndMessageSeverity {
 } CndMessageSeverity;
 
 // Receives one sentence for the host's log about something that is worth knowing but is not an
-// error (errors are returned as results and never sent here). The sentence is valid only until the
-// callback returns. Called in cndCreate..., in calls that set or edit lights and in cndGet...Stats,
-// on the calling thread; never while recording, and not every frame. The callback must not throw
-// and must not call the object that reports.
+// error. (Errors are returned as results and never sent here.) The sentence is valid only until the
+// callback returns. The callback is called on the calling thread, in cndCreate..., in
+// cndGet...Stats and in calls that set or edit lights; never while recording, and not every frame.
+// The callback must not throw and must not call the object that reports.
 typedef void (*CndMessageCallback)(void* user, CndMessageSeverity severity, const char* sentence);
 
 // The Vulkan device that a module uses. All handles are borrowed and must outlive every object
@@ -152,8 +152,8 @@ typedef struct CndDeviceDesc {
     CndMessageCallback message; // may be NULL
     void* messageUser;          // passed to `message` as its first argument
     // VkApplicationInfo::apiVersion of the instance, at least VK_API_VERSION_1_1; a lower version
-    // is CND_ERROR_UNSUPPORTED. 0 means the version of the physical device. With a lower one than
-    // that, nothing is used of later versions.
+    // fails with CND_ERROR_UNSUPPORTED. 0 means the version of the physical device. If this version
+    // is lower than that of the physical device, nothing newer is used.
     uint32_t apiVersion;
 } CndDeviceDesc;
 
@@ -166,22 +166,22 @@ typedef enum CndModuleBits {
 } CndModuleBits;
 
 // Checks whether a physical device has everything that the modules (a mask of CndModuleBits) need:
-// Vulkan 1.1, features, limits, linear filtering of R32G32B32A32_SFLOAT (environment), and memory
-// that the CPU can write. CndDeviceDesc::device is not
-// used and may be VK_NULL_HANDLE. If something is missing, returns CND_ERROR_UNSUPPORTED and names
-// all of it in `error`, which may be NULL. Creation of a module makes the same check.
+// Vulkan 1.1, features, limits, linear filtering of R32G32B32A32_SFLOAT (environment), subgroup
+// operations (lighting), and memory that the CPU can write. CndDeviceDesc::device is not used and
+// may be VK_NULL_HANDLE. If something is missing, returns CND_ERROR_UNSUPPORTED and names all of it
+// in `error`, which may be NULL. Creation of a module makes the same check.
 CND_API CndResult cndCheckDevice(const CndDeviceDesc* device, uint32_t modules, CndError* error);
 
 // Sets to VK_TRUE every feature that the modules (a mask of CndModuleBits) need, in the structs
-// that the host chains into VkDeviceCreateInfo. Other members are left alone. Returns
-// CND_ERROR_INVALID_ARGUMENT and names the struct in `error`, which may be NULL, if the chain lacks
-// the struct of a feature. Lighting and environment need scalarBlockLayout, of
-// VkPhysicalDeviceVulkan12Features or VkPhysicalDeviceScalarBlockLayoutFeatures; exposure needs no
-// feature.
+// that the host chains into VkDeviceCreateInfo. Other members are left alone. If the chain lacks
+// the struct of a feature, returns CND_ERROR_INVALID_ARGUMENT and names the struct in `error`,
+// which may be NULL. Lighting and environment need scalarBlockLayout, a member of
+// VkPhysicalDeviceVulkan12Features and of VkPhysicalDeviceScalarBlockLayoutFeatures. Exposure needs
+// no feature.
 CND_API CndResult cndRequireFeatures(uint32_t modules, VkPhysicalDeviceFeatures2* features,
                                      CndError* error);
 
-// GPU time of one pass in one frame, the sum over its dispatches.
+// GPU time of one pass in one frame, summed over its dispatches.
 typedef struct CndKernelTime {
     const char* name; // as in CndPassPlan; in modules without pass plans the name of the kernel;
                       // static storage
@@ -190,10 +190,10 @@ typedef struct CndKernelTime {
 
 #define CND_MAX_KERNEL_TIMES 16
 
-// One pass of a module and whether it ran in one frame. Passes that have nothing to do are skipped.
-// Usually that is known when the frame is recorded, and a skipped pass has no CndKernelTime. If
-// only the GPU can find it out, the pass has been recorded: then `skipped` gives the reason, and
-// there is a CndKernelTime too.
+// One pass of a module and whether it ran in one frame. A pass that has nothing to do is skipped.
+// Usually this is known when the frame is recorded, and the skipped pass has no CndKernelTime.
+// Sometimes only the GPU can find out. Then the pass has been recorded, `skipped` gives the reason,
+// and there is a CndKernelTime too.
 typedef struct CndPassPlan {
     const char* name;    // static storage
     const char* skipped; // NULL if the pass ran; otherwise the reason why it did not, static

@@ -9,14 +9,13 @@
 extern "C" {
 #endif
 
-// Exposure of one view: it holds the adaptation history, so every view needs its own object.
+// Exposure of one view. It holds the adaptation history, so every view needs its own object.
 typedef struct CndExposure_T* CndExposure;
 
 // The curve that maps exposed values to display values. All curves display the exposed value 0.18
-// (middle grey) as 0.18 of the display's white, which is 118 of 255 after the sRGB encoding:
-// exposed values are multiplied by a constant of the curve first, which toneMap() in
-// shaders/lib/tone_map.glsl has. So another curve changes contrast and highlights, and leaves
-// middle grey as it is.
+// (middle grey) as 0.18 of the display's white, which is 118 of 255 after the sRGB encoding. For
+// this, toneMap() in shaders/lib/tone_map.glsl first multiplies exposed values by a constant of the
+// curve. So another curve changes contrast and highlights, but not middle grey.
 typedef enum CndToneMap {
     CND_TONEMAP_NONE = 0, // clips exposed values to [0,1]
     CND_TONEMAP_REINHARD = 1,
@@ -45,25 +44,26 @@ typedef struct CndExposureDesc {
     // on devices that can write them as storage images without a format in the shader,
     // B8G8R8A8_UNORM, A2B10G10R10_UNORM_PACK32 or A2R10G10B10_UNORM_PACK32. No device writes _SRGB
     // formats as storage images. Create an image of such a format with
-    // VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT and VK_IMAGE_CREATE_EXTENDED_USAGE_BIT and give a _UNORM
-    // view of it: what is written is sRGB-encoded already.
+    // VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT and VK_IMAGE_CREATE_EXTENDED_USAGE_BIT, and pass a _UNORM
+    // view of it. The values that are written are already sRGB-encoded.
     VkFormat displayFormat;
 } CndExposureDesc;
 
 // EV here is EV100 = log2(L * 100 / 12.5) for average luminance L in cd/m^2 (ISO 2720, K = 12.5).
-// The average is the mean of log2 luminance between two percentiles of a histogram with 8 bins per
-// octave from 2^-12 to 2^20 cd/m^2; darker pixels count in the first bin, brighter ones in the
-// last. Pixels without any light (zero or negative luminance, such as an empty background) are
-// counted in the first bin but left out of the mean, unless there are no other pixels.
+// The average is the mean of log2 luminance between two percentiles of a histogram. The histogram
+// has 8 bins per octave from 2^-12 to 2^20 cd/m^2. Darker pixels count in the first bin, brighter
+// ones in the last. Pixels without any light (zero or negative luminance, such as an empty
+// background) also count in the first bin, but are left out of the mean unless there are no other
+// pixels.
 typedef struct CndExposureSettings {
     VkBool32 manual;    // VK_TRUE: use manualEv100 and build no histogram
     float manualEv100;  // -64..64; not limited by minEv100 and maxEv100
     float compensation; // EV, -32..32; added brightness: +1 doubles the exposed values
-    // The calibration: the exposed value of a surface whose luminance is the one that EV100 stands
-    // for, 2^EV100 / 8 cd/m^2. From 0.000001 to 1. With 0.18, a grey card that fills the
-    // metered picture is displayed as middle grey. 0.1042 (12.5 / 120) is the calibration by
-    // saturation (ISO 12232; Lagarde and de Rousiers 2014, eq. 85), in which the exposed value 1 is
-    // 3.26 EV above the metered luminance.
+    // The calibration: the exposed value, from 0.000001 to 1, of a surface with the luminance that
+    // EV100 stands for, 2^EV100 / 8 cd/m^2. With 0.18, a grey card that fills the metered picture
+    // is displayed as middle grey. 0.1042 (12.5 / 120) is the saturation-based calibration (ISO
+    // 12232; Lagarde and de Rousiers 2014, eq. 85), in which the exposed value 1 is 3.26 EV above
+    // the metered luminance.
     float middleGrey;
     float minEv100, maxEv100; // -64..64, min <= max: range of the metered EV100
     // The mean ignores the darkest lowPercentile and the brightest 1 - highPercentile of the
@@ -75,16 +75,15 @@ typedef struct CndExposureSettings {
     float speedUp, speedDown;
     CndMetering metering;
     CndToneMap toneMap;
-    // VK_TRUE: add noise before rounding to the steps of the display, so that the mean is kept. Its
-    // distribution is triangular over two output steps; within half a step of black and of white it
-    // is uniform over one step.
+    // VK_TRUE: add noise before rounding to the steps of the display, so that the mean is kept. The
+    // noise has a triangular distribution over two output steps. Within half a step of black and of
+    // white it is uniform over one step.
     VkBool32 dither;
 } CndExposureSettings;
 
 // Writes the default settings: automatic exposure, no compensation, middle grey 0.18, EV100 range
 // -6..18, percentiles 0.10..0.90, speeds 3 and 1 per second, centre-weighted metering, PBR Neutral,
-// dithered.
-// manualEv100 is 10. `settings` must not be NULL.
+// dithering, and manualEv100 10. `settings` must not be NULL.
 CND_API void cndDefaultExposureSettings(CndExposureSettings* settings);
 
 // Returns the EV100 of camera settings, log2(N^2 / t * 100 / S): `aperture` N in f-stops,
@@ -102,7 +101,7 @@ CND_API float cndExposureFromEv100(float ev100, float middleGrey);
 // mapping. On exit: layouts unchanged; display has been written by COMPUTE_SHADER /
 // SHADER_STORAGE_WRITE and is not yet made visible.
 //
-// Radiance may hold any value: NaN and negative channels are displayed as 0, infinity as white, and
+// Radiance may hold any value. NaN and negative channels are displayed as 0, and infinity as white.
 // NaN pixels are not metered.
 typedef struct CndExposureFrame {
     uint32_t structSize;
@@ -112,13 +111,14 @@ typedef struct CndExposureFrame {
     // Layout of radiance: SHADER_READ_ONLY_OPTIMAL (VK_IMAGE_LAYOUT_UNDEFINED, 0, means this),
     // READ_ONLY_OPTIMAL or GENERAL.
     VkImageLayout radianceImageLayout;
-    // The image that the exposure is metered from, for hosts that display another one: metered
-    // from the radiance without glare, a picture is not darkened by its glare. It has the size and
-    // the layout of `radiance`. VK_NULL_HANDLE: the exposure is metered from `radiance`.
+    // The image from which the exposure is metered, for hosts that display another one. For
+    // example, if it is the radiance without glare, glare does not darken the picture. It has the
+    // size and the layout of `radiance`. VK_NULL_HANDLE: the exposure is metered from `radiance`.
     VkImageView meteredRadiance;
     VkImageView display; // receives sRGB-encoded values; alpha is 1
     float deltaTime;     // seconds since the previous frame, finite and >= 0
-    // VK_TRUE: jump to the converged value. For a first frame, a camera cut, a single image.
+    // VK_TRUE: jump to the converged value. Set it after a camera cut. The first frame always does
+    // so.
     VkBool32 reset;
     uint32_t ditherSeed; // seed of the dithering noise; the same seed gives the same image
     CndExposureSettings settings;
@@ -142,15 +142,15 @@ typedef struct CndExposureStats {
     CndPassPlan passes[CND_MAX_PASSES];
 } CndExposureStats;
 
-// Writes the exact memory that cndCreateExposure will take, without allocating any. Fails with the
-// same errors as creation would.
+// Writes exactly how much memory cndCreateExposure will take, without allocating any. Fails with
+// the same errors as creation would.
 CND_API CndResult cndPlanExposure(const CndDeviceDesc* device, const CndExposureDesc* desc,
                                   CndMemoryUsage* usage, CndError* error);
 CND_API CndResult cndCreateExposure(const CndDeviceDesc* device, const CndExposureDesc* desc,
                                     CndExposure* exposure, CndError* error);
 // The GPU must have finished all work recorded with the object. NULL is ignored.
 CND_API void cndDestroyExposure(CndExposure exposure);
-// Writes the memory that the object holds, which stays the same from creation on.
+// Writes how much memory the object holds. It stays the same from creation on.
 CND_API CndResult cndGetExposureMemory(CndExposure exposure, CndMemoryUsage* usage,
                                        CndError* error);
 // Sets the metering mask: width x height weights 0..15, row by row from the top, at most 64 x 64.
@@ -158,14 +158,14 @@ CND_API CndResult cndGetExposureMemory(CndExposure exposure, CndMemoryUsage* usa
 // row y * height / h, column x * width / w. The GPU must not be using the object.
 CND_API CndResult cndSetExposureMask(CndExposure exposure, const uint8_t* weights, uint32_t width,
                                      uint32_t height, CndError* error);
-// Records metering, adaptation and, if there is a display image, tone mapping. The history lives on
+// Records metering, adaptation and, if there is a display image, tone mapping. The history is on
 // the GPU, so submit frames in the order in which they are to adapt. The first frame always behaves
 // as with `reset`. Changes the compute pipeline, compute descriptor set 0 and the push constants;
 // must be recorded outside a render pass.
 CND_API CndResult cndRecordExposure(CndExposure exposure, VkCommandBuffer cmd,
                                     const CndExposureFrame* frame, CndError* error);
 // Writes statistics of the last frame recorded in frameSlot. Returns CND_NOT_READY until the GPU
-// has finished that frame (never the case for a host that has waited for the slot), and
+// has finished that frame (a host that has waited for the slot never sees this), and
 // CND_ERROR_INVALID_ARGUMENT before the first frame of the slot.
 CND_API CndResult cndGetExposureStats(CndExposure exposure, uint32_t frameSlot,
                                       CndExposureStats* stats);

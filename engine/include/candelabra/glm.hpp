@@ -12,8 +12,8 @@
 namespace candelabra
 {
 
-// Copy three numbers into and out of GLM vectors: positions, axes and emission of lights, origins
-// of light sets.
+// These copy three numbers to and from GLM vectors: positions, axes and emission of lights, and
+// origins of light sets.
 template <typename T, glm::qualifier Q>
 void assign(T (&to)[3], const glm::vec<3, T, Q>& from) noexcept
 {
@@ -34,9 +34,9 @@ void assign(float (&to)[9], const glm::mat<3, 3, float, Q>& from) noexcept
         to[i] = from[i / 3][i % 3];
 }
 
-// Makes a CndCamera. `viewFromWorld`: a rotation and a translation. `clipFromView`: a projection
-// for Vulkan's clip space, with y pointing down (glm::perspective points it up: negate its [1][1])
-// and depth 0..1 (GLM_FORCE_DEPTH_ZERO_TO_ONE).
+// Makes a CndCamera. `viewFromWorld` is a rotation and a translation. `clipFromView` is a
+// projection for Vulkan's clip space, with depth 0..1 (GLM_FORCE_DEPTH_ZERO_TO_ONE) and with y
+// pointing down. In glm::perspective y points up, so negate its [1][1].
 inline CndCamera camera(const glm::dmat4& viewFromWorld, const glm::mat4& clipFromView) noexcept
 {
     CndCamera out{};

@@ -17,11 +17,11 @@ typedef struct CndLighting_T* CndLighting;
 // Buffers of one view: light lists, counters.
 typedef struct CndLightingView_T* CndLightingView;
 
-// How the specular lobe of sphere lights is evaluated; `candelabra bench accuracy` measures time
-// and error of each method. Other lights have fewer methods. With CONIC and CONIC_FULL, area lights
-// of other shapes (tubes, rectangles, discs, polygons) use a closed form along their outlines; with
-// POINT, KARIS and KX a representative point; with SAMPLED, samples. Point, spot and directional
-// lights need no approximation: every method but NONE evaluates them exactly.
+// How the specular lobe of sphere lights is evaluated. `candelabra bench accuracy` measures time
+// and error of each method. Other lights have fewer methods. Area lights of other shapes (tubes,
+// rectangles, discs, polygons) use a closed form along their outlines with CONIC and CONIC_FULL, a
+// representative point with POINT, KARIS and KX, and samples with SAMPLED. Point, spot and
+// directional lights need no approximation: every method but NONE evaluates them exactly.
 typedef enum CndSpecularMethod {
     // In a frame: the method with the smallest value in CndLightingDesc::specularMethods. Masks of
     // methods must not hold it.
@@ -30,11 +30,11 @@ typedef enum CndSpecularMethod {
     CND_SPECULAR_KARIS = 2, // representative point, normalised for a widened lobe (Karis 2013)
     CND_SPECULAR_POINT = 3, // the sphere is treated as a point at its centre
     CND_SPECULAR_KX = 4,    // representative point, normalised for the exact peak of the lobe
-    // Closed form for spheres, derived in slope space, where the sphere is bounded by a conic: the
-    // GGX distribution is integrated exactly. Microfacet shadowing and Fresnel are evaluated at two
-    // directions where the sphere is near the horizon, and at one elsewhere.
+    // Closed form for spheres, derived in slope space, where a conic bounds the sphere. It
+    // integrates the GGX distribution exactly. It evaluates microfacet shadowing and Fresnel at two
+    // directions if the sphere is near the horizon, and at one direction otherwise.
     CND_SPECULAR_CONIC = 5,
-    // The same closed form, with shadowing and Fresnel evaluated at two directions everywhere.
+    // The same closed form. It always evaluates shadowing and Fresnel at two directions.
     CND_SPECULAR_CONIC_FULL = 6,
     CND_SPECULAR_SAMPLED = 7, // Monte Carlo: CndLightingFrame::sampleCount samples per light and
                               // pixel
@@ -45,9 +45,9 @@ typedef enum CndSpecularMethod {
 // How the lights of a pixel are found.
 typedef enum CndCulling {
     // Light lists for clusters of surface samples. A list may hold lights that add nothing to a
-    // sample of its cluster, but no light that adds something is missing.
+    // sample of its cluster. It never lacks a light that does.
     CND_CULLING_CLUSTERED = 0,
-    // Every light at every pixel, without lists and bounds: for checks and as a baseline. Windows
+    // Every light at every pixel, without lists and bounds, for checks and as a baseline. Windows
     // of influenceRadius still apply.
     CND_CULLING_BRUTE = 1,
     CND_CULLING_MAX_ENUM = 0x7FFFFFFF
@@ -55,33 +55,33 @@ typedef enum CndCulling {
 
 // How far lights with a position reach. Distant lights reach everything.
 typedef enum CndInfluenceRule {
-    // Each light reaches CndLight::influenceRadius r; a window takes it smoothly to 0 there: (1 -
+    // Each light reaches CndLight::influenceRadius r. A window fades it smoothly to 0 there: (1 -
     // (d / r)^4)^2 at distance d.
     CND_INFLUENCE_GIVEN = 0,
     // Every light reaches everything, as real light does. influenceRadius must be valid but is
-    // ignored.
+    // ignored. Tiles are not split in depth with this rule.
     CND_INFLUENCE_UNCUT = 1,
     // Each light reaches only so far that cutting all lights there changes the display value of a
     // measured pixel by at most CndInfluence::maxError. influenceRadius must be valid but is
     // ignored.
     //
     // A light of peak intensity I (cd) gets the radius sqrt(I / E) and the window of
-    // CND_INFLUENCE_GIVEN. E is one illuminance for all lights, chosen on the device in every
+    // CND_INFLUENCE_GIVEN. E is one illuminance for all lights, which the device chooses in every
     // frame. The error of a pixel is the change of its display value when all lights are cut and
     // windowed at once.
     //
     // The first frame, and the first frame with another maxError, measures every pixel (in images
     // larger than 1024x1024 at least 260,000 pixels) and takes about as long as brute force. Other
-    // frames measure up to 4096 pixels: one of each NxN, another one in each frame. N is 8, or 16,
-    // 32, 64 ... in images of more than 0.26, 1.0, 4.2 ... million pixels.
+    // frames measure up to 4096 pixels: one of each NxN, and in each frame a different one. N is 8,
+    // or 16, 32, 64 ... in images of more than 0.26, 1.0, 4.2 ... million pixels.
     //
     // E falls at once when a measured pixel demands it. It rises by one step per frame (half an
-    // octave; two octaves for the lowest values), up to the highest value that all pixels allowed
-    // when they were measured in the last full round of N^2 frames. So the error of a few pixels
-    // that have just come into view may be larger until they are measured.
+    // octave; two octaves for the lowest values). It rises at most to the highest value that all
+    // pixels allowed when they were measured in the last full round of N^2 frames. So the error of
+    // a few pixels that have just come into view may be larger until they are measured.
     //
-    // Tiles are not split in depth with this rule, and lists are rebuilt in every frame. Frames
-    // with CND_CULLING_BRUTE ignore the rule: there every light reaches everything.
+    // With this rule, tiles are not split in depth, and lists are rebuilt in every frame. Frames
+    // with CND_CULLING_BRUTE ignore the rule: every light reaches everything there.
     CND_INFLUENCE_BY_ERROR = 2,
     CND_INFLUENCE_RULE_MAX_ENUM = 0x7FFFFFFF
 } CndInfluenceRule;
@@ -89,8 +89,8 @@ typedef enum CndInfluenceRule {
 // The influence rule of a frame. All members but `rule` are read with CND_INFLUENCE_BY_ERROR only.
 typedef struct CndInfluence {
     CndInfluenceRule rule;
-    // Largest error that cut lights may cause on the display, in an sRGB-encoded channel of 0..1: 0
-    // < maxError <= 1. With 0.5 / 255 an 8-bit level changes by at most one.
+    // The largest error that cut lights may cause on the display, in an sRGB-encoded channel of
+    // 0..1: 0 < maxError <= 1. With 0.5 / 255 an 8-bit value changes by at most one step.
     float maxError;
     // CndExposureStats::exposure of an earlier frame, finite and >= 0. 0 means that none is known
     // yet: the frame then behaves as with CND_INFLUENCE_UNCUT.
@@ -98,8 +98,8 @@ typedef struct CndInfluence {
     CndToneMap toneMap; // tone map that displays the frame, as in CndExposureSettings
 } CndInfluence;
 
-// How a pixel finds its lights (CndLightingFrame::pairImage). If its class is not the same for all
-// light types, the class with the highest value counts.
+// How a pixel finds its lights (CndLightingFrame::pairImage). If this differs between light types,
+// the highest value counts.
 typedef enum CndPixelClass {
     CND_PIXEL_NO_SURFACE = 0,
     CND_PIXEL_OF_TILE = 1,  // one light list for all of the 8x8 pixel tile
@@ -109,8 +109,8 @@ typedef enum CndPixelClass {
     CND_PIXEL_CLASS_MAX_ENUM = 0x7FFFFFFF
 } CndPixelClass;
 
-// What frames ask of pipelines besides a specular method and light types. Every frame asks for one
-// of the first two bits, to which the others add.
+// The pipelines that frames need besides those of a specular method and of light types. Every frame
+// needs one of the first two bits. CND_SHADING_COUNT_PAIRS_BIT is in addition to the first.
 typedef enum CndShadingBits {
     CND_SHADING_CLUSTERED_BIT = 1,   // CND_CULLING_CLUSTERED
     CND_SHADING_BRUTE_BIT = 2,       // CND_CULLING_BRUTE
@@ -124,26 +124,26 @@ typedef struct CndLightingDesc {
                              // yet waited for
     CndGBufferLayout gbufferLayout;
     // VK_TRUE: measure the GPU time of every pass. A frame then writes one timestamp at its start
-    // and one at the end of every pass, where the next pass waits for it anyway, so dispatches that
-    // may run at the same time still do. The time of a pass includes its waits for barriers. A
+    // and one at the end of every pass. The next pass waits there anyway, so dispatches that may
+    // run at the same time still do. The time of a pass includes its waits for barriers. A
     // timestamp takes about 50 us on a software device.
     VkBool32 timestamps;
     // Mask of 1 << CndSpecularMethod: the methods that frames may ask for; 0: CND_SPECULAR_CONIC
-    // alone. Pipelines are created for these methods only. The pipelines of a light type are
-    // created in cndCreateLighting for spheres and for the types in lightTypes, and for other types
-    // when a light set first contains the type. cndAddLightingPipelines adds methods and types
-    // later, so a module that begins with few of them is created sooner.
+    // alone. Pipelines are created for these methods only. cndCreateLighting creates the pipelines
+    // of spheres and of the types in lightTypes. Those of any other type are created when a light
+    // set first contains the type. cndAddLightingPipelines adds methods and types later, so a
+    // module that begins with few of them is created sooner.
     uint32_t specularMethods;
-    // Mask of CndShadingBits: what frames may ask for; 0: all of it. With
-    // CND_SHADING_CLUSTERED_BIT alone, creation makes a quarter of the pipelines of
-    // CND_SPECULAR_CONIC that it makes with all bits. cndAddLightingPipelines adds the rest later.
+    // Mask of CndShadingBits: what frames may ask for; 0: all of it. With CND_SHADING_CLUSTERED_BIT
+    // alone, creation makes half of the pipelines of CND_SPECULAR_CONIC that it makes with all bits
+    // (for spheres on llvmpipe, two thirds). cndAddLightingPipelines adds the rest later.
     uint32_t shading;
     CndGBufferDesc gbuffer;
     // Format of the frames' radiance images: R32G32B32A32_SFLOAT (VK_FORMAT_UNDEFINED, 0, means
     // this), R16G16B16A16_SFLOAT or, on devices that can read and write it as a storage image
     // without a format in the shader, B10G11R11_UFLOAT_PACK32. Each light type adds its light with
-    // a rounding to the format. Luminance beyond the range of a format is stored as the largest
-    // value that the format can hold, 65,504 cd/m^2 or 64,512 cd/m^2.
+    // one rounding to the format. Luminance beyond the range of the two smaller formats is stored
+    // as the largest value that they can hold, 65,504 and 64,512 cd/m^2.
     VkFormat radianceFormat;
     // Format of CndSurfaceOverlay::image, one of those of CndExposureDesc::displayFormat;
     // VK_FORMAT_UNDEFINED (0) means R8G8B8A8_UNORM.
@@ -152,25 +152,25 @@ typedef struct CndLightingDesc {
     // that evaluate lights through cndGetForwardSet; 0: there are none.
     VkShaderStageFlags forwardStages;
     // VK_TRUE: 8x8 pixel tiles in which no surface has a specular lobe (F0 and F90 are 0) are
-    // shaded by pipelines without it; the image differs by rounding only. Use it only for scenes
-    // that have such materials: inspecting the tiles takes time in every frame, and these pipelines
-    // are made for every light type. Layouts that cannot store an F90 of 0 have no such tiles. With
-    // hostKernels it also needs the kernels of CND_SPECULAR_NONE.
+    // shaded by pipelines without it. The image differs only by rounding. Use it only for scenes
+    // that have such materials: it takes time to inspect the tiles in every frame, and these
+    // pipelines are made for every light type. Layouts that cannot store an F90 of 0 have no such
+    // tiles. With hostKernels it also needs the kernels of CND_SPECULAR_NONE.
     VkBool32 diffuseOnlyTiles;
     // Kernels with functions of the host. If there are any, they must include every kernel that
     // evaluates lights for the light types and methods in use; with CND_GBUFFER_CUSTOM they must
     // include every kernel in use that reads the G-buffer.
     CndHostKernels hostKernels;
     // Number of lights that creation makes room for; 0: 1024. A larger light set makes the capacity
-    // grow, by half at least. Light sets within lightCapacity and lightTypes need no more memory
+    // grow by at least half. Light sets within lightCapacity and lightTypes need no more memory
     // (except for staging buffers, see cndSetLights) and no more pipelines.
     uint32_t lightCapacity;
     // Light types that creation makes pipelines and list buffers for, a mask of 1 << CndLightType.
     // Spheres have their pipelines in any case.
     uint32_t lightTypes;
-    // VK_TRUE: frames may use CND_INFLUENCE_BY_ERROR. The pipelines that measure it are created,
-    // and each view takes up to 2.1 MB more. Not allowed with hostKernels: the measuring kernels do
-    // not contain the host's functions.
+    // VK_TRUE: frames may use CND_INFLUENCE_BY_ERROR. The pipelines that measure the error are
+    // created, and each view takes up to 2.1 MB more. Not allowed with hostKernels: the measuring
+    // kernels do not contain the host's functions.
     VkBool32 influenceByError;
 } CndLightingDesc;
 
@@ -180,8 +180,8 @@ typedef struct CndLightingViewDesc {
                                   // smaller
     // Bytes for the light lists of a frame, 0: default, 64 MiB (less if the device's
     // maxStorageBufferRange is smaller). Clusters whose lists do not fit are shaded by walking the
-    // light tree, which is slower and gives the same image but for rounding.
-    // CndLightingStats::unlistedClusters counts them.
+    // light tree. This is slower and gives the same image except for rounding.
+    // CndLightingStats::unlistedClusters counts these clusters.
     VkDeviceSize listBudget;
 } CndLightingViewDesc;
 
@@ -198,23 +198,24 @@ typedef struct CndLightingFrame {
     uint32_t frameSlot; // 0..framesInFlight-1; the GPU must have finished the slot's previous frame
     uint32_t width, height; // pixels, 1..maxWidth and 1..maxHeight of the view
     CndCamera camera;
-    // What pixels without a surface hold. With CND_DEPTH_PROJECTED: 0 with reversed depth, else 1;
-    // the depth of the near end of a perspective camera is refused. Otherwise any finite number,
-    // which red (CND_DEPTH_LINEAR) or alpha (positions) is cleared to.
+    // The value of pixels without a surface. With CND_DEPTH_PROJECTED it is 0 with reversed depth,
+    // else 1; the depth of the near end of a perspective camera is refused. Otherwise it is any
+    // finite number, to which red (CND_DEPTH_LINEAR) or alpha (positions) is cleared.
     float clearDepth;
     VkImageView normalRoughness;
     VkImageView albedo;
     VkImageView specular; // may be VK_NULL_HANDLE if the layout does not read it
                           // (CND_GBUFFER_COMPACT)
     VkImageView depth;    // of a depth format a view of the depth aspect; CndGBufferDesc::depthKind
-    // The layouts in which the images are on entry and on exit: of normalRoughness, albedo and
-    // specular, and of depth. VK_IMAGE_LAYOUT_UNDEFINED (0) means SHADER_READ_ONLY_OPTIMAL; also
-    // allowed are READ_ONLY_OPTIMAL and GENERAL, and for depth DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+    // The layouts of the images on entry and on exit: one for normalRoughness, albedo and specular,
+    // and one for depth. VK_IMAGE_LAYOUT_UNDEFINED (0) means SHADER_READ_ONLY_OPTIMAL; also allowed
+    // are READ_ONLY_OPTIMAL and GENERAL, and for depth DEPTH_STENCIL_READ_ONLY_OPTIMAL,
     // DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL and DEPTH_READ_ONLY_OPTIMAL.
     VkImageLayout gbufferImageLayout, depthImageLayout;
     // Storage image of radianceFormat; outgoing luminance (cd/m^2) is ADDED to it.
     VkImageView radiance;
-    // One of CndLightingDesc::specularMethods, or added since; 0: CND_SPECULAR_DEFAULT.
+    // One of CndLightingDesc::specularMethods, or one that was added since; 0:
+    // CND_SPECULAR_DEFAULT.
     CndSpecularMethod specularMethod;
     // With CND_SPECULAR_SAMPLED: samples per light and pixel, 1..4096; 0: 64.
     uint32_t sampleCount;
@@ -225,19 +226,19 @@ typedef struct CndLightingFrame {
     // bounces (Turquin 2019). A white metal then reflects all light at any roughness.
     VkBool32 energyCompensation;
     CndCulling culling;
-    // With CND_INFLUENCE_BY_ERROR, `radiance` must hold on entry all other light of the image,
-    // because the error is judged on the sum.
+    // With CND_INFLUENCE_BY_ERROR, `radiance` must hold all other light of the image on entry,
+    // because the error depends on the sum.
     CndInfluence influence;
-    // VK_TRUE promises that size, camera, clearDepth, depth and normals are those of the previous
-    // frame recorded with this view, and with diffuseOnlyTiles also albedo and specular. The
-    // clusters and lists of that frame are then reused if the light set, layers, specularMethod,
-    // sampleCount and influence.rule are the same as well and both frames use
+    // With VK_TRUE the host promises that size, camera, clearDepth, depth and normals are those of
+    // the previous frame recorded with this view, and with diffuseOnlyTiles also albedo and
+    // specular. The clusters and lists of that frame are then reused if the light set, layers,
+    // specularMethod, sampleCount and influence.rule are also the same and both frames use
     // CND_CULLING_CLUSTERED. With CND_INFLUENCE_BY_ERROR they are never reused.
     VkBool32 surfacesUnchanged;
-    // With CND_CULLING_BRUTE: the pixels to shade; zero extent: all pixels. So that no dispatch
-    // runs for seconds, none evaluates more than 2^28 pairs of pixel and light (with more than four
-    // million lights: the pairs of 64 pixels). Where the system also limits how long a submission
-    // runs, record the frame as several with one rectangle each, and submit each by itself: the
+    // With CND_CULLING_BRUTE: the pixels to shade; zero extent: all pixels. No dispatch evaluates
+    // more than 2^28 pairs of pixel and light (with more than four million lights: the pairs of 64
+    // pixels), so none runs for seconds. If the system also limits how long a submission runs,
+    // record the frame as several frames with one rectangle each, and submit each by itself. The
     // image has the same bits.
     VkRect2D bruteRect;
     // VK_TRUE: also count (pixel, light) pairs, with one more kernel. Ignored with
@@ -247,12 +248,12 @@ typedef struct CndLightingFrame {
     // R32G32B32A32_SFLOAT storage image, with layout and visibility as for radiance. ADDED to it:
     // in r the lights on the pixel's lists, in g the iterations of the loops that evaluate lights
     // (including iterations in which the pixel only waits for others of its subgroup), in b the
-    // lights that contribute. a is raised to the pixel's CndPixelClass; pixels without a surface
-    // are left alone.
+    // lights that contribute. a becomes the pixel's CndPixelClass if that is higher. Pixels without
+    // a surface are left alone.
     VkImageView pairImage;
     // Mask of 1 << layer, layer < CND_LAYER_COUNT; 0: all layers. Lights that share no layer with
-    // this mask do not exist in this frame, and neither for shaders that use its forward set: lists
-    // do not contain them and brute force skips them.
+    // this mask do not exist in this frame, nor for shaders that use its forward set. Lists do not
+    // contain them, and brute force skips them.
     uint32_t layers;
     // The host's descriptor set 1, of layout CndHostKernels::setLayout, if
     // CndLightingDesc::hostKernels use one. The host makes what the set refers to visible to
@@ -268,15 +269,15 @@ typedef enum CndSurfaceQuantity {
     CND_SURFACE_ALBEDO = 3,    // diffuse albedo, sRGB-encoded
     CND_SURFACE_F0 = 4,        // F0, sRGB-encoded
     // World-space position: red, green and blue rise and fall every two metres of x, y and z. The
-    // pattern stays fixed to the surfaces when the camera moves, unless depth or matrices are read
-    // wrongly.
+    // pattern stays fixed to the surfaces when the camera moves, unless depth or matrices are
+    // wrong.
     CND_SURFACE_POSITION = 5,
-    // Grey that darkens towards grazing view angles, with faults marked in colour: magenta, a NaN
-    // or infinite normal, roughness, albedo, F0 or F90; blue, a position that is not finite or not
-    // in front of the eye; yellow, a stored normal whose length differs from 1 by more than 2%;
-    // red, a normal that faces away from the eye by more than 10 degrees; cyan, roughness outside
-    // 0..1; orange, albedo, F0 or F90 outside 0..1. The first fault found in this order is shown.
-    // Yellow and cyan occur with CND_GBUFFER_HOST only.
+    // Grey that darkens towards grazing view angles, with faults marked in colour. Magenta: a NaN
+    // or infinite normal, roughness, albedo, F0 or F90. Blue: a position that is not finite or not
+    // in front of the eye. Yellow: a stored normal whose length differs from 1 by more than 2%.
+    // Red: a normal that faces away from the eye by more than 10 degrees. Cyan: roughness outside
+    // 0..1. Orange: albedo, F0 or F90 outside 0..1. If a pixel has several faults, the first in
+    // this order is shown. Yellow and cyan occur with CND_GBUFFER_HOST only.
     CND_SURFACE_FAULTS = 6,
     CND_SURFACE_QUANTITY_MAX_ENUM = 0x7FFFFFFF
 } CndSurfaceQuantity;
@@ -295,31 +296,32 @@ typedef struct CndSurfaceOverlay {
 // Statistics of one frame of a view.
 typedef struct CndLightingStats {
     uint32_t structSize;
-    // Lights of the set, in all layers; CndDeviceLights counts with its maxCount.
+    // Lights of the set, in all layers; CndDeviceLights counts as its maxCount.
     uint32_t lightCount;
     uint32_t deviceLights; // valid lights read from CndDeviceLights
-    // Lights in CndDeviceLights that give no light, because a member is outside its range or the
+    // Lights in CndDeviceLights that emit nothing, because a member is outside its range or the
     // light is beyond maxCount.
     uint32_t rejectedLights;
     // lightCount by light type. Types without lights have no passes.
     uint32_t lightTypeCounts[CND_LIGHT_TYPE_COUNT];
     uint32_t tileCount; // 8x8 pixel tiles that contain a surface; 0 if no light is in view
-    // How many of tileCount are deep: they are split in slices of depth with a list each.
+    // How many of tileCount are deep, and are therefore split into slices of depth with a list
+    // each.
     uint32_t splitTileCount;
     // How many of tileCount have no surface with a specular lobe
     // (CndLightingDesc::diffuseOnlyTiles).
     uint32_t diffuseTileCount;
     uint32_t listEntries;   // sum of the lengths of all lists
     uint32_t maxListLength; // length of the longest list of one cluster and light type
-    // Clusters without a list, summed over light types: their list exceeds the list budget, or has
+    // Clusters without a list, summed over light types. Their list exceeds the list budget, or has
     // more lights than a loop of the device may take. Their pixels walk the light tree instead.
     uint32_t unlistedClusters;
     // With CND_INFLUENCE_BY_ERROR: illuminance (lx) at which lights are cut; 0: no light is cut.
     float cutBelow;
-    // The next four members count (pixel, light) pairs with countPairs, and are 0 without. A pixel
-    // whose cluster has no list for a light type (unlistedClusters) is not counted for that type.
-    // Lights that the pixels test: those on the pixel's lists, and all distant lights. Distant
-    // lights of other layers count here, but not in the members below.
+    // With countPairs, the next four members count (pixel, light) pairs; otherwise they are 0. A
+    // pixel whose cluster has no list for a light type (unlistedClusters) is not counted for that
+    // type. listedPairs counts the lights that the pixels test: those on the pixel's lists, and all
+    // distant lights. Distant lights of other layers count here, but not in the members below.
     uint64_t listedPairs;
     // Iterations of the loops that evaluate lights, summed over shader invocations, including
     // iterations in which an invocation only waits for others of its subgroup.
@@ -332,7 +334,7 @@ typedef struct CndLightingStats {
     CndPassPlan passes[CND_MAX_PASSES];
 } CndLightingStats;
 
-// Writes the exact memory that cndCreateLighting and cndCreateLightingView for `viewCount` views
+// Writes exactly how much memory cndCreateLighting and cndCreateLightingView for `viewCount` views
 // will take, without allocating any. Light sets within lightCapacity and lightTypes take no more,
 // except for staging buffers. Fails with the same errors as creation would.
 CND_API CndResult cndPlanLighting(const CndDeviceDesc* device, const CndLightingDesc* desc,
@@ -344,57 +346,58 @@ CND_API CndResult cndCreateLighting(const CndDeviceDesc* device, const CndLighti
 // The GPU must have finished all work recorded with the object or its views. Destroy the views
 // first. NULL is ignored.
 CND_API void cndDestroyLighting(CndLighting lighting);
-// Writes the memory that the module and its views hold now. This includes memory that frames in
-// flight may still use and that is no longer needed afterwards: a later call that sets or edits
-// lights frees it.
+// Writes how much memory the module and its views hold now. This includes memory that only frames
+// in flight may still use. A later call that sets or edits lights frees it.
 CND_API CndResult cndGetLightingMemory(CndLighting lighting, CndMemoryUsage* usage,
                                        CndError* error);
 
 // Pipelines that are added to those of a module.
 typedef struct CndLightingPipelines {
     uint32_t structSize;
-    // Mask of 1 << CndLightType: types that light sets may then contain without creating pipelines.
+    // Mask of 1 << CndLightType: types that light sets may then contain without creating more
+    // pipelines.
     uint32_t lightTypes;
     // Mask of 1 << CndSpecularMethod: methods that frames may then ask for, with `shading`, a mask
     // of CndShadingBits (0: all of it). Without methods, `shading` has no effect.
     uint32_t specularMethods, shading;
 } CndLightingPipelines;
 
-// Creates the pipelines of `pipelines` that the module does not have yet, which may take seconds.
-// For the methods it creates the pipelines of all light types that are in
-// CndLightingDesc::lightTypes, were added, or have been in a light set. For the light types it
-// creates those of all methods and shading that frames may ask for. When the call returns, frames
-// and light sets may use them. Until then, frames go on as before.
+// Creates those of `pipelines` that the module does not have yet, which may take seconds. For each
+// method, it creates the pipelines of all light types that are in CndLightingDesc::lightTypes, were
+// added, or have been in a light set. For each light type, it creates those of all methods and
+// shading that frames may ask for. When the call returns, frames and light sets may use the
+// pipelines. Until then, frames go on as before.
 //
 // This is the only call on a module that may run while other calls on the same module run: those
 // that record, read statistics, set or edit lights, create or destroy views, and this call itself.
 // It must not run while cndCreateLighting or cndDestroyLighting does. Both threads then use
-// CndDeviceDesc::pipelineCache, which must not have been created with
-// VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT, and allocationCallbacks, which must be safe
-// to call from both.
+// CndDeviceDesc::pipelineCache and allocationCallbacks. So the cache must not have been created
+// with VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT, and the callbacks must be safe to call
+// from both.
 //
-// On error frames and light sets may use what they could use before, and later calls are not bound
-// to what this one asked for. Pipelines that were created are kept for the next call.
+// On error, frames and light sets may use what they could use before. Later calls do not create
+// what this call asked for. Pipelines that were created are kept for the next call.
 CND_API CndResult cndAddLightingPipelines(CndLighting lighting,
                                           const CndLightingPipelines* pipelines, CndError* error);
 
-// Replaces the light set; takes effect at the next recording. The id of each light is its index;
-// ids of the previous set must not be used any more. On error the previous set stays. Allocates
-// memory when there are more lights than the capacity, and creates pipelines and list buffers when
-// a light type is new. Lights are uploaded through a staging buffer of 68 bytes per light of the
-// capacity; one more is allocated whenever frames in flight still read all existing ones.
+// Replaces the light set. The new set takes effect at the next recording. The id of each light is
+// its index; ids of the previous set must no longer be used. On error the previous set stays.
+// Allocates memory if there are more lights than the capacity, and creates pipelines and list
+// buffers if a light type is new. Lights are uploaded through a staging buffer of 68 bytes per
+// light of the capacity. Another one is allocated whenever frames in flight still read all existing
+// ones.
 CND_API CndResult cndSetLights(CndLighting lighting, const CndLightSet* set, CndError* error);
 
-// Edits of the light set, for sets of which few lights change. Only the edited lights are
-// validated, packed and uploaded (68 bytes each). Edits take effect at the next recording, which
-// sorts the set on the device again. CndDeviceLights are not read again. On error nothing has
-// changed. Memory is allocated when the set grows beyond the capacity, and pipelines are created
-// when a light type is new. The same sequence of calls gives the same image, bit for bit. Setting
-// the same lights at once gives the same image but for rounding: lights of equal place and size are
-// summed in an order that depends on the edits.
+// The three functions below edit the light set. They are for sets in which few lights change. Only
+// the edited lights are validated, packed and uploaded (68 bytes each). Edits take effect at the
+// next recording, which sorts the set again on the device. CndDeviceLights are not read again. On
+// error nothing has changed. Memory is allocated if the set grows beyond the capacity, and
+// pipelines are created if a light type is new. The same sequence of calls gives the same image,
+// bit for bit. Setting the same lights in one call gives the same image except for rounding,
+// because lights of equal place and size are summed in an order that depends on the edits.
 
 // Adds `count` lights to the set, around its origin, and writes their ids to `ids` (`count`
-// elements). Works without a previous cndSetLights; the origin is then (0, 0, 0).
+// elements). It works without a previous cndSetLights; the origin is then (0, 0, 0).
 CND_API CndResult cndAddLights(CndLighting lighting, uint32_t count, const CndLight* lights,
                                CndLightId* ids, CndError* error);
 // Replaces the lights with these ids by `lights`, which may be of another type. No id may occur
@@ -412,9 +415,9 @@ CND_API CndResult cndCreateLightingView(CndLighting lighting, const CndLightingV
 CND_API void cndDestroyLightingView(CndLightingView view);
 
 // Records culling and shading of one frame. Changes the compute pipeline, compute descriptor sets 0
-// and 1 and the push constants; must be recorded outside a render pass. Changed lights are uploaded
-// by the first recording after the change, of whichever view. So recordings of all views of one
-// CndLighting must each be submitted exactly once, in the order in which they were recorded, to one
+// and 1 and the push constants; must be recorded outside a render pass. The first recording after a
+// change uploads the changed lights, whichever view it is of. So each recording of each view of one
+// CndLighting must be submitted exactly once, in the order in which they were recorded, to one
 // queue.
 CND_API CndResult cndRecordLighting(CndLightingView view, VkCommandBuffer cmd,
                                     const CndLightingFrame* frame, CndError* error);
@@ -429,10 +432,10 @@ CND_API CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer 
                                           const CndLightingFrame* frame,
                                           const CndSurfaceOverlay* overlay, CndError* error);
 
-// The functions below are for lights in the host's own shaders: transparent surfaces, particles,
-// volumes. They need CndLightingDesc::forwardStages. The shaders include lib/forward.glsl of the
-// installed shaders, which shades with CND_SPECULAR_CONIC and the lobes of the frame, at any
-// position that the frame's camera can show.
+// The functions below give the host's own shaders access to the lights, for transparent surfaces,
+// particles and volumes. They need CndLightingDesc::forwardStages. The shaders include
+// lib/forward.glsl of the installed shaders. It shades with CND_SPECULAR_CONIC and the lobes of the
+// frame, at any position that the frame's camera can show.
 
 // Writes the layout of the forward set, for pipeline layouts: storage buffers and uniform texel
 // buffers. The layout lives as long as the module. Fails with CND_ERROR_INVALID_ARGUMENT if
@@ -440,16 +443,16 @@ CND_API CndResult cndRecordSurfaceOverlay(CndLightingView view, VkCommandBuffer 
 CND_API CndResult cndGetForwardSetLayout(CndLighting lighting, VkDescriptorSetLayout* layout,
                                          CndError* error);
 // Writes the descriptor set that holds the lights of the last frame recorded in frameSlot. It may
-// be bound in commands submitted after that recording, to the same queue, until the slot or any
-// other frame of the view is recorded again: there is only one copy of the lights. The handle of a
-// slot never changes and lives as long as the view. The host needs no barrier: cndRecordLighting
-// waits for shaders of forwardStages before it writes, and makes what it wrote visible to them.
+// be bound in commands that are submitted after that recording, to the same queue, until any frame
+// of the view is recorded again, because there is only one copy of the lights. The handle of a slot
+// never changes and lives as long as the view. The host needs no barrier. cndRecordLighting waits
+// for shaders of forwardStages before it writes, and makes what it wrote visible to them.
 CND_API CndResult cndGetForwardSet(CndLightingView view, uint32_t frameSlot, VkDescriptorSet* set,
                                    CndError* error);
 
 // Writes statistics of the last frame recorded in frameSlot. Returns CND_NOT_READY until the GPU
-// has finished that frame; if the device is lost before that, it returns CND_NOT_READY for ever.
-// The host notices a lost device by the results of its own submissions and waits. Returns
+// has finished that frame. If the device is lost before that, it returns CND_NOT_READY for ever.
+// The host learns of a lost device from the results of its own submissions and waits. Returns
 // CND_ERROR_INVALID_ARGUMENT before the first frame of the slot.
 CND_API CndResult cndGetLightingStats(CndLightingView view, uint32_t frameSlot,
                                       CndLightingStats* stats);

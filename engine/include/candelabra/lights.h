@@ -29,8 +29,8 @@ typedef enum CndLightType {
 } CndLightType;
 
 // Lights and frames have masks of layers, bits 0 to CND_LAYER_COUNT - 1. A light exists in the
-// frames that share a layer with it. The mask 0 stands for all layers, so that a zeroed struct is
-// in every layer. To hide a light in all frames, remove it (cndRemoveLights).
+// frames that share a layer with it. The mask 0 means all layers, so a zeroed struct is in every
+// layer. To hide a light in all frames, remove it (cndRemoveLights).
 #define CND_LAYER_COUNT 16
 
 // The corners of a polygon light in the coordinates of its axes: corner i is at
@@ -40,15 +40,16 @@ typedef enum CndLightType {
 typedef struct CndPolygon {
     uint32_t cornerCount; // 3..CND_MAX_CORNERS
     // Each coordinate within -1..1, so that the polygon lies in the rectangle with the same axes.
-    // The corners go counterclockwise, which is from axisU to axisV, around a convex outline: none
-    // is more than 1e-6 outside the line through any edge. Neighbours are at least 1e-5 apart, and
-    // the area is at least 1e-4, in these coordinates. What follows cornerCount is ignored.
+    // The corners go counterclockwise (from axisU to axisV) around a convex outline: none is more
+    // than 1e-6 outside the line through any edge. Neighbours are at least 1e-5 apart, and the area
+    // is at least 1e-4, in these coordinates. Elements from cornerCount on are ignored.
     float corners[CND_MAX_CORNERS][2];
 } CndPolygon;
 
-// Radians: the smallest width of the edge of a spot's cone, outerConeAngle - innerConeAngle. Single
-// precision knows directions to 1e-7, so the intensity within an edge of this width is wrong by up
-// to a few percent of the peak; from a width of 1e-4 on, by less than 0.5%.
+// The smallest width of the edge of a spot's cone, outerConeAngle - innerConeAngle, in radians.
+// Directions in single precision are accurate to 1e-7. So the intensity within an edge of this
+// width is wrong by up to a few percent of the peak. If the width is at least 1e-4, it is wrong by
+// less than 0.5%.
 #define CND_MIN_CONE_EDGE 1e-5f
 
 // One light. Fields that its type does not use are ignored.
@@ -63,7 +64,7 @@ typedef struct CndLight {
     // types but directional and distant sphere.
     float position[3];
     // 1e-15..1e15. Sphere, tube, disc: metres. Distant sphere: its radius divided by its distance,
-    // which is the sine of its angular radius, <= 1 (the Sun: 0.00465).
+    // which is the sine of its angular radius, at most 1 (the Sun: 0.00465).
     float radius;
     // Unit vector (length within 1e-3 of 1). Spot, directional, distant sphere: the direction in
     // which the light travels. Disc: its normal, the direction in which it emits.
@@ -84,7 +85,7 @@ typedef struct CndLight {
     // one end of its segment. Rectangle: axisU points from the centre to the middle of one edge,
     // axisV to the middle of an adjacent edge. They must be perpendicular: the cosine of their
     // angle is within 1e-3 of 0. The rectangle faces axisU x axisV. Polygon: the axes of such a
-    // rectangle, in which the polygon lies and whose front is the polygon's.
+    // rectangle. The polygon lies in it and has the same front.
     float axisU[3];
     float axisV[3];
     VkBool32 twoSided; // rectangle, disc, polygon: VK_TRUE if the back emits as well
@@ -117,19 +118,19 @@ CND_API VkBool32 cndIsDistant(uint32_t lightType);
 // Returns VK_TRUE for the types whose lights have no size: point, spot and directional. The
 // emission of all other types is luminance.
 CND_API VkBool32 cndIsPunctual(uint32_t lightType);
-// Returns the radius in metres of the sphere around the centre of `light` that holds its emitter,
-// whose axes are taken to be perpendicular. It is 0 for punctual lights, and for distant spheres it
-// is the sine of the angular radius. `light` must not be NULL, nor the `polygon` of a polygon
-// light; only type and shape are read.
+// Returns the radius, in metres, of the sphere around the centre of `light` that holds its emitter.
+// The axes are assumed to be perpendicular. The radius is 0 for punctual lights. For distant
+// spheres it is the sine of the angular radius. `light` must not be NULL, nor the `polygon` of a
+// polygon light. Only type and shape are read.
 CND_API float cndEmitterBoundingRadius(const CndLight* light);
 
-// Names a light for as long as it is in the set. The id of a light from cndSetLights is its index
-// in the set. cndAddLights returns the ids of its lights; they are at least 2^32 and are never
-// reused. The id of a light that has been removed is refused.
+// Identifies a light for as long as it is in the set. The id of a light from cndSetLights is its
+// index in the set. cndAddLights returns the ids of its lights; they are at least 2^32 and are
+// never reused. The id of a light that has been removed is refused.
 typedef uint64_t CndLightId;
 
-// A light in a device buffer, written for instance by a particle simulation. 32 bytes, two vec4 in
-// GLSL. Ranges are those of CndLight.
+// A light in a device buffer, written for example by a particle simulation. It has 32 bytes, or two
+// vec4 in GLSL. Ranges are those of CndLight.
 typedef struct CndDeviceLight {
     float position[3];     // metres, relative to CndLightSet::origin
     float radius;          // metres; ignored for point lights
@@ -139,18 +140,17 @@ typedef struct CndDeviceLight {
 
 // Lights of one type that are written on the device and never visit the host.
 //
-// The buffers are borrowed. The first recording after cndSetLights reads them; until the GPU has
-// finished that recording they must not change. To pass on lights that were written later, call
+// The buffers are borrowed. The first recording after cndSetLights reads them. They must not change
+// until the GPU has finished that recording. To use lights that were written later, call
 // cndSetLights again with the same values; that allocates at most a staging buffer (see
 // cndSetLights). On entry to the recording the contents are visible to COMPUTE_SHADER /
 // SHADER_STORAGE_READ.
 //
-// The host cannot check these lights: one with a value outside its range gives no light and is
+// The host cannot check these lights. A light with a value outside its range emits nothing and is
 // counted in CndLightingStats::rejectedLights, as are lights beyond maxCount.
 typedef struct CndDeviceLights {
     uint32_t type; // CND_LIGHT_POINT or CND_LIGHT_SPHERE; a CndDeviceLight has no room for more
-    // Capacity of `buffer` in lights, > 0. Time and memory are paid for all of them, present or
-    // not.
+    // Capacity of `buffer` in lights, > 0. All of them cost time and memory, present or not.
     uint32_t maxCount;
     VkBuffer buffer;     // usage STORAGE_BUFFER
     VkDeviceSize offset; // bytes, a multiple of minStorageBufferOffsetAlignment
@@ -158,14 +158,14 @@ typedef struct CndDeviceLights {
     VkBuffer countBuffer;
     VkDeviceSize countOffset; // bytes, a multiple of minStorageBufferOffsetAlignment
     // Where most of the lights are, relative to the origin, and how far most of them reach, in
-    // metres. These members affect speed only.
+    // metres. These members affect only speed.
     float boundsMin[3], boundsMax[3];
     float influenceRadius;
     uint32_t layers; // of all the lights, as CndLight::layers
 } CndDeviceLights;
 
 // A set of lights, with positions relative to an origin. The engine subtracts the camera from the
-// origin in double precision, so precision depends only on the distance of a light from the origin.
+// origin in double precision. So precision depends only on the distance of a light from the origin.
 typedef struct CndLightSet {
     uint32_t structSize;
     uint32_t count;
@@ -181,9 +181,9 @@ CND_API uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits);
 // Conversions of photometric units.
 //
 // Area lights are Lambertian emitters: every point of their surface has the same luminance L in all
-// directions. So a convex emitter of area A emits the luminous power Phi = pi A L, and a surface
-// under it receives the irradiance E = L times the projected solid angle (for a sphere wholly above
-// the horizon: E = pi L s^2 cos, with s = R / d). E, Phi, I and L below are per Rec.709
+// directions. So a convex emitter of area A emits the luminous power Phi = pi A L. A surface under
+// it receives the illuminance E, which is L times the projected solid angle (for a sphere wholly
+// above the horizon: E = pi L s^2 cos, with s = R / d). E, Phi, I and L below are per Rec.709
 // channel.
 //
 // c_light: in rendering, the "colour" of a light often means the luminance of a white Lambertian
@@ -192,10 +192,11 @@ CND_API uint32_t cndMaxLightCount(const VkPhysicalDeviceLimits* limits);
 // and spheres and distant spheres, for which E = pi L s^2, have emission = c_light / s^2.
 //
 // The power functions compute in double precision and round once. The functions that return a float
-// check nothing: radius, width and height must be > 0, and polygons valid.
+// check nothing: radius, width and height must be > 0, and polygons must be valid.
 
 // Returns the luminance (cd/m^2) of a sphere of `radius` metres that emits `luminousPower` lumens
-// evenly: Phi = 4 pi^2 R^2 L. Keeping the power while changing the radius keeps the far field.
+// evenly: Phi = 4 pi^2 R^2 L. If the radius changes and the power stays the same, the far field
+// stays the same.
 CND_API float cndSphereLuminanceFromPower(float luminousPower, float radius);
 // Returns the luminance (cd/m^2) of a sphere of `radius` metres that has the far field of a point
 // light of `intensity` candela: I = pi R^2 L.
@@ -217,9 +218,9 @@ CND_API float cndPolygonLuminanceFromPower(float luminousPower, const CndLight* 
 // Returns the luminous power (lm) of `watts` of radiation at 555 nm: 683 lm/W (SI definition of the
 // candela).
 CND_API float cndLuminousPowerFromWatts(float watts);
-// Writes the luminous power (lm) that `light` emits, ignoring its window: area lights pi A L as
-// above, points 4 pi I, spots 2 pi I (1 - cos inner + (cos inner - cos outer) / 3). Fails with
-// CND_ERROR_INVALID_ARGUMENT for directional and distant lights, which have none.
+// Writes the luminous power (lm) that `light` emits, ignoring its window. It is pi A L as above for
+// area lights, 4 pi I for points, and 2 pi I (1 - cos inner + (cos inner - cos outer) / 3) for
+// spots. Fails with CND_ERROR_INVALID_ARGUMENT for directional and distant lights, which have none.
 CND_API CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousPower[3],
                                           CndError* error);
 
@@ -234,7 +235,7 @@ CND_API CndResult cndLuminousPowerOfLight(const CndLight* light, float luminousP
 CND_API CndResult cndPolygonFromCorners(const float (*corners)[3], uint32_t count, CndLight* light,
                                         CndPolygon* polygon, CndError* error);
 
-// Conversions of one type of light into another that has the same irradiance at a receiver,
+// Conversions of one type of light into another that has the same illuminance at a receiver,
 // whatever the receiver's orientation, as long as the whole emitter is above the receiver's
 // horizon. `at` is the receiver's position in metres, relative to the origin of the light set like
 // CndLight::position. The conversions compute in double precision. influenceRadius and layers are
@@ -245,10 +246,10 @@ CND_API CndResult cndPolygonFromCorners(const float (*corners)[3], uint32_t coun
 
 // Converts a point light into a sphere with the same position and far field, L = I / (pi R^2).
 // `radius` is in metres, smaller than the distance to `at` and smaller than influenceRadius. 0
-// chooses a thousandth of that distance. That is small enough to look like a point and large enough
-// for single precision: the radius is at least 8,000 of its steps at that distance, the luminance
-// is a million times c_light, and s = 1e-3 is well inside the range in which the form factor has
-// been measured (s >= 1e-5). Where a quarter of influenceRadius is smaller, it is chosen instead.
+// chooses a thousandth of that distance, or a quarter of influenceRadius if that is smaller. A
+// thousandth is small enough to look like a point and large enough for single precision: the radius
+// is at least 8,000 of its steps at that distance, the luminance is a million times c_light, and s
+// = 1e-3 is well inside the range in which the form factor has been measured (s >= 1e-5).
 CND_API CndResult cndSphereFromPoint(const CndLight* point, float radius, const float at[3],
                                      CndLight* sphere, CndError* error);
 // Converts a sphere into the limit of that sphere as its radius shrinks, a point light: I = pi R^2
@@ -264,7 +265,7 @@ CND_API CndResult cndDirectionalFromDistantSphere(const CndLight* distantSphere,
                                                   CndLight* directional, CndError* error);
 // Converts a directional light into a sphere at a finite `distance` (metres) from `at`, with radius
 // sine * distance. A receiver x metres nearer to it gets (1 - x / distance)^-2 times the
-// irradiance at `at`. A distance of 0 chooses the larger of 1e6 m (2% more at 10 km) and |at|: a
+// illuminance at `at`. A distance of 0 chooses the larger of 1e6 m (2% more at 10 km) and |at|: a
 // step of single precision there is at most 1.2e-7 rad, 1/40,000 of the Sun's radius, and squared
 // distances stay below 1e38. `sine` is as above, but < 1. influenceRadius becomes INFINITY.
 CND_API CndResult cndSphereFromDirectional(const CndLight* directional, const float at[3],

@@ -11,17 +11,17 @@ extern "C" {
 
 // A camera. The view transform is double; the projection is float. Matrices are column-major.
 typedef struct CndCamera {
-    // A rotation and a translation, whose last row is 0, 0, 0, 1; no scale, no reflection. A
+    // A rotation and a translation, without scale or reflection. The last row is 0, 0, 0, 1. A
     // transposed matrix is refused if it has a translation.
     double viewFromWorld[16];
     // Perspective (finite or infinite, depth reversed or not) or orthographic. Off-centre
     // projections are allowed; shear is not. A perspective projection that is transposed, or that
-    // gives nothing in front of the eye a depth of 0..1, is refused.
-    // Precision: with reversed depth in D32_SFLOAT, perspective positions are exact to 6e-8 of
-    // their distance from the eye, whatever the far plane. Orthographic depth is linear, and
-    // positions are exact to 6e-8 (far - near): 6 cm for a range of 1e6 m, with which a point light
-    // at 1 m is wrong by up to 12%. So put both planes near the scene; a range of 1e4 times the
-    // distance from surfaces to lights keeps 0.1%.
+    // gives nothing in front of the eye a depth of 0..1, is refused. Precision: with reversed depth
+    // in D32_SFLOAT, perspective positions are exact to 6e-8 of their distance from the eye,
+    // whatever the far plane. Orthographic depth is linear, and positions are exact to 6e-8 (far -
+    // near). For a range of 1e6 m that is 6 cm, with which a point light at 1 m is wrong by up to
+    // 12%. So put both planes near the scene. With a range of 1e4 times the distance from surfaces
+    // to lights, the error is 0.1%.
     float clipFromView[16];
 } CndCamera;
 
@@ -30,7 +30,7 @@ typedef struct CndCamera {
 #define CND_MIN_ALPHA 0.002f
 
 // The G-buffer layouts that the modules can read. shaders/lib/gbuffer.glsl has packing functions
-// for the first two layouts and declares their error bounds.
+// for the first two layouts and states their error bounds.
 typedef enum CndGBufferLayout {
     // All three images are R32G32_UINT, with bits that are the same on every device.
     // normalRoughness: view-space octahedral normal in 23+23 bits, perceptual roughness in 18 bits
@@ -71,15 +71,15 @@ typedef enum CndNormalSpace {
 } CndNormalSpace;
 
 // What the image `depth` of a frame holds. Kinds other than CND_DEPTH_PROJECTED need no depth
-// range: of clipFromView only x, y and w then matter. A kernel computes depth from them, once per
-// frame.
+// range: only the x, y and w that clipFromView computes then matter. A kernel computes depth from
+// these kinds, once per frame.
 typedef enum CndDepthKind {
-    // The depth of clipFromView, as the raster pass writes it: clip z / clip w, 0..1, of which one
-    // end is clearDepth.
+    // The depth of clipFromView, as the raster pass writes it: clip z / clip w, 0..1. One end of
+    // this range is clearDepth.
     CND_DEPTH_PROJECTED = 0,
     // Red holds the distance from the eye along the z axis of view space, |z|, in units of
-    // depthUnit; its sign does not matter. The distance from the eye to the position, along the
-    // ray, is something else: store |z|.
+    // depthUnit. Its sign does not matter. Do not store the distance from the eye to the position
+    // along the ray, which is a different number.
     CND_DEPTH_LINEAR = 1,
     // rgb holds the position in view space, in metres; alpha differs from clearDepth.
     CND_DEPTH_POSITION_VIEW = 2,
@@ -129,9 +129,9 @@ typedef enum CndReflectance {
 // The host's own G-buffer: what each channel of the frame's images holds. The members about depth
 // are read with every layout, the others with CND_GBUFFER_HOST only. All images have one sample per
 // pixel (INTEGRATION.md says what to do with multisampled ones). Shaders read all channels as
-// floats, so views must not be UINT or SINT. Colours must be linear when read (give an _SRGB view
-// of images that store encoded colours). The description is checked when the module is created;
-// where formats are given, it is checked against them too.
+// floats, so views must not be UINT or SINT. Colours must be linear when read. If an image stores
+// encoded colours, pass an _SRGB view of it. The description is checked when the module is created.
+// If formats are given, it is checked against them too.
 typedef struct CndGBufferDesc {
     CndNormalEncoding normalEncoding;
     CndNormalSpace normalSpace;
@@ -156,8 +156,8 @@ typedef struct CndGBufferDesc {
                      // example the far plane where |z| / far is stored; 0 means 1
 } CndGBufferDesc;
 
-// SPIR-V of one kernel that contains functions of the host. It must have been made by
-// cndCompileKernels (candelabra/compiler.h) of the same version of Candelabra, at run time or
+// SPIR-V of one kernel that contains functions of the host. cndCompileKernels
+// (candelabra/compiler.h) of the same version of Candelabra must have made it, at run time or
 // earlier.
 typedef struct CndKernelCode {
     const char* name; // name of the kernel that it replaces, for example "shade_tiles:CONIC"
@@ -166,8 +166,8 @@ typedef struct CndKernelCode {
 } CndKernelCode;
 
 // Kernels that replace the module's own. Each must have the bindings and parameters of the kernel
-// that it replaces, which is checked; the host is responsible for what else it does. Kernels that
-// only another module uses are ignored.
+// that it replaces, which is checked. The host is responsible for everything else that it does.
+// Kernels that only another module uses are ignored.
 typedef struct CndHostKernels {
     uint32_t count;               // 0: no kernel is replaced
     const CndKernelCode* kernels; // read before the call returns
@@ -178,11 +178,11 @@ typedef struct CndHostKernels {
 
 // How the diffuse and the specular lobe of a surface share the incoming light.
 typedef enum CndLobeJoining {
-    // Energy-conserving, the default: the diffuse lobe is scaled by 1 - the specular lobe's
-    // directional albedo, so that both together never reflect more light than arrives.
+    // Energy-conserving, the default. The diffuse lobe is scaled by 1 - the specular lobe's
+    // directional albedo, so both together never reflect more light than arrives.
     CND_LOBES_CONSERVING = 0,
-    // The lobes are simply added, which can reflect up to twice the incoming light at grazing
-    // angles. Scene descriptions (.json) and path tracers with two-lobe materials do this.
+    // The lobes are simply added. At grazing angles this can reflect up to twice the incoming
+    // light. Scene descriptions (.json) and path tracers with two-lobe materials do this.
     CND_LOBES_SUM = 1,
     CND_LOBES_MAX_ENUM = 0x7FFFFFFF
 } CndLobeJoining;
