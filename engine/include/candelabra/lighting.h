@@ -135,8 +135,8 @@ typedef struct CndLightingDesc {
     // module that begins with few of them is created sooner.
     uint32_t specularMethods;
     // Mask of CndShadingBits: what frames may ask for; 0: all of it. With CND_SHADING_CLUSTERED_BIT
-    // alone, creation makes half of the pipelines of CND_SPECULAR_CONIC that it makes with all bits
-    // (for spheres on llvmpipe, two thirds). cndAddLightingPipelines adds the rest later.
+    // alone, creation makes about half of the pipelines of CND_SPECULAR_CONIC that it makes with
+    // all bits. cndAddLightingPipelines adds the rest later.
     uint32_t shading;
     CndGBufferDesc gbuffer;
     // Format of the frames' radiance images: R32G32B32A32_SFLOAT (VK_FORMAT_UNDEFINED, 0, means
