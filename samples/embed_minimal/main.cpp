@@ -31,7 +31,6 @@ constexpr ImageUse sampledRead{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 
-// [readme]
 constexpr CndLight lamp{.type = CND_LIGHT_SPHERE,
                         .position = {0, 0, -1}, // metres, relative to the origin of the set
                         .radius = 0.1f,
@@ -47,6 +46,7 @@ CndExposureStats drawFrame(Host& host)
     auto lighting = orExit(candelabra::Lighting::create(device, {.framesInFlight = 1}));
     auto view = orExit(lighting.createView({.maxWidth = host.width, .maxHeight = host.height}));
     auto exposure = orExit(candelabra::Exposure::create(device, {.framesInFlight = 1}));
+    // [readme]
     orExit(lighting.setLights({&lamp, 1}, {0, 0, 0}));
 
     VkCommandBuffer cmd = beginFrame(&host);
@@ -61,6 +61,7 @@ CndExposureStats drawFrame(Host& host)
                              .depth = host.depth.view,
                              .radiance = host.radiance.view,
                              .specularMethod = CND_SPECULAR_CONIC}));
+    // [readme]
     imageBarrier(cmd, &host.radiance, storageWrite, sampledRead);
     orExit(exposure.record(cmd, {.width = host.width,
                                  .height = host.height,
@@ -71,7 +72,6 @@ CndExposureStats drawFrame(Host& host)
     endFrame(&host);
     return *orExit(exposure.stats(0)); // does not wait: endFrame() has waited for this frame
 }
-// [readme]
 
 // Luminance of a Lambertian wall that faces a sphere light at distance d: albedo times luminance
 // times (radius / d)^2, times the window that ends the lamp's influence.
